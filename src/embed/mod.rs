@@ -1,0 +1,1 @@
+//! Layouts of flat metrics and their quality.

@@ -1,0 +1,208 @@
+//! One error type for the whole library, with stable codes that the C face repeats.
+//!
+//! Codes come in blocks per family; a retired number is never given out again.
+
+use crate::mesh::check::Diagnosis;
+
+/// Result of every fallible call of the library.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// What went wrong, where, and what to do. Every variant that concerns an element carries its index (0-based).
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An array does not have the size the call needs.
+    #[error("{what} has {got} entries, {expected} are needed")]
+    Size {
+        /// The array.
+        what: &'static str,
+        /// Entries needed.
+        expected: usize,
+        /// Entries given.
+        got: usize,
+    },
+    /// An option or argument is outside its range.
+    #[error("{what} is {value}: {need}")]
+    Argument {
+        /// The argument.
+        what: &'static str,
+        /// Its value, as text.
+        value: String,
+        /// What it must be.
+        need: &'static str,
+    },
+    /// More elements than a `u32` index can number.
+    #[error("{count} {what} are more than a 32-bit index can number")]
+    TooLarge {
+        /// The kind of element.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+    },
+    /// The caller cancelled through its `Control`.
+    #[error("cancelled by the caller; inputs are unchanged")]
+    Cancelled,
+
+    /// A file could not be read or written.
+    #[error("{path}: {message}")]
+    Io {
+        /// The file.
+        path: String,
+        /// The system's words.
+        message: String,
+    },
+    /// A file's content is not what its format says.
+    #[error("{path}:{line}: {message}")]
+    Parse {
+        /// The file.
+        path: String,
+        /// 1-based line (0: the file as a whole).
+        line: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// No reader or writer for this file name.
+    #[error("{path}: unknown format; known are {known}")]
+    UnknownFormat {
+        /// The file.
+        path: String,
+        /// The extensions that can be handled.
+        known: &'static str,
+    },
+
+    /// The faces do not form the surface that is needed; the diagnosis lists every defect.
+    #[error("{0}")]
+    Defects(Box<Diagnosis>),
+    /// The edge gluing of an intrinsic surface is inconsistent.
+    #[error("face {face}: {message}")]
+    Gluing {
+        /// The face (0-based).
+        face: usize,
+        /// What is wrong and what to do.
+        message: String,
+    },
+    /// A connectivity invariant does not hold (an error of the library or of a caller that built its own arrays).
+    #[error("connectivity of {element} {index}: {message}")]
+    Connectivity {
+        /// The kind of element.
+        element: &'static str,
+        /// Its index.
+        index: usize,
+        /// The broken rule.
+        message: &'static str,
+    },
+
+    /// An edge length is not finite and positive.
+    #[error("edge {edge} has length {length}: lengths must be finite and positive")]
+    EdgeLength {
+        /// The edge.
+        edge: usize,
+        /// Its length.
+        length: f64,
+    },
+    /// A face's lengths break the triangle inequality of the input geometry.
+    #[error("face {face} breaks the triangle inequality by {excess:e}: no such triangle exists")]
+    TriangleInequality {
+        /// The face.
+        face: usize,
+        /// By how much the longest side exceeds the other two (relative to it); in S² the perimeter may exceed 2π.
+        excess: f64,
+    },
+    /// The scheme cannot represent the metric on this edge.
+    #[error("edge {edge}: weight η = {eta} is outside the scheme's range ({need})")]
+    EdgeWeight {
+        /// The edge.
+        edge: usize,
+        /// Its weight.
+        eta: f64,
+        /// The range.
+        need: &'static str,
+    },
+    /// The conformal variables leave the domain of the metric at a vertex.
+    #[error("vertex {vertex}: u = {u} is outside the metric's domain ({need})")]
+    Domain {
+        /// The vertex.
+        vertex: usize,
+        /// Its variable.
+        u: f64,
+        /// The domain.
+        need: &'static str,
+    },
+
+    /// A prescribed curvature is too large at a vertex.
+    #[error("vertex {vertex}: target curvature {curvature} must be below {limit}: too large by {excess:e}")]
+    TargetAtVertex {
+        /// The vertex.
+        vertex: usize,
+        /// The curvature asked for, radians.
+        curvature: f64,
+        /// 2π inside, π on the boundary.
+        limit: f64,
+        /// How much it is too large.
+        excess: f64,
+    },
+    /// The prescribed curvatures do not add up to what Gauss–Bonnet asks for.
+    #[error("target curvatures add up to {sum}, Gauss–Bonnet needs {need}: off by {miss:e}")]
+    TargetTotal {
+        /// Their sum, radians.
+        sum: f64,
+        /// The condition.
+        need: String,
+        /// By how much the sum misses it.
+        miss: f64,
+    },
+    /// This kind of target does not exist here.
+    #[error("target `{target}`: {message}")]
+    TargetKind {
+        /// The target's name.
+        target: &'static str,
+        /// Why not, and what to use.
+        message: String,
+    },
+
+    /// The linear system could not be factorised.
+    #[error("the linear system of {size} unknowns could not be factorised: {message}")]
+    Factorisation {
+        /// Number of unknowns.
+        size: usize,
+        /// Why.
+        message: String,
+    },
+
+    /// The metric has no layout in this space.
+    #[error("layout: {0}")]
+    Layout(String),
+}
+
+impl Error {
+    /// Stable number of the variant: 1–99 calls, 100s files, 200s meshes, 300s metrics, 400s targets, 500s
+    /// solvers, 600s layouts.
+    pub fn code(&self) -> u32 {
+        match self {
+            Error::Size { .. } => 1,
+            Error::Argument { .. } => 2,
+            Error::TooLarge { .. } => 3,
+            Error::Cancelled => 4,
+            Error::Io { .. } => 100,
+            Error::Parse { .. } => 101,
+            Error::UnknownFormat { .. } => 102,
+            Error::Defects(_) => 200,
+            Error::Gluing { .. } => 201,
+            Error::Connectivity { .. } => 202,
+            Error::EdgeLength { .. } => 300,
+            Error::TriangleInequality { .. } => 301,
+            Error::EdgeWeight { .. } => 302,
+            Error::Domain { .. } => 303,
+            Error::TargetAtVertex { .. } => 400,
+            Error::TargetTotal { .. } => 401,
+            Error::TargetKind { .. } => 402,
+            Error::Factorisation { .. } => 500,
+            Error::Layout(_) => 600,
+        }
+    }
+}
+
+/// Error for an array of the wrong size, unless the sizes agree.
+pub fn check_size(what: &'static str, got: usize, expected: usize) -> Result<()> {
+    if got == expected { Ok(()) } else { Err(Error::Size { what, expected, got }) }
+}

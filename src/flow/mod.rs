@@ -1,0 +1,1 @@
+//! Newton and gradient flow to a prescribed curvature.

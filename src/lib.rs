@@ -1,0 +1,29 @@
+//! `ricci`: a geometry kernel for discrete surface Ricci flow.
+//!
+//! Give it a triangle mesh and a target curvature, and it finds the discrete conformal metric that has it.
+//! The floors, bottom to top (a floor imports only floors below it; a test holds this):
+//!
+//! | floor | what lives there |
+//! |---|---|
+//! | [`error`], [`control`], [`parallel`] | error codes, progress and cancel, the thread pool of one call |
+//! | [`geometry`] | pure formulas: spaces, triangles, isometries, predicates |
+//! | [`linalg`] | sparse symmetric matrices with a fixed pattern, Cholesky |
+//! | [`mesh`] | connectivity (half-edge Δ-complex), building, diagnosis, files, generators |
+//! | [`topology`] | spanning trees, homology generators, cut graphs |
+//! | [`metric`] | conformal classes (ε, η), lengths, angles, curvature, targets |
+//! | [`flow`] | Newton and gradient flow |
+//! | [`embed`] | layouts and their quality |
+
+pub mod control;
+pub mod embed;
+pub mod error;
+pub mod flow;
+pub mod geometry;
+pub mod linalg;
+pub mod mesh;
+pub mod metric;
+pub mod parallel;
+pub mod topology;
+
+pub use control::Control;
+pub use error::{Error, Result};

@@ -1,0 +1,1 @@
+//! Building connectivity from index buffers and from gluings.

@@ -1,0 +1,291 @@
+//! Connectivity of an oriented triangulated surface as a half-edge Δ-complex.
+//!
+//! ```text
+//!            c                 h = a→b of face (a, b, c); next(h) = b→c; prev(h) = c→a
+//!           / \                twin(h) = h ^ 1 = b→a, in the neighbouring face or outside
+//!     prev /   \ next          edge(h) = h >> 1
+//!         /  f  \              corner of h: the corner of f at the origin of h
+//!        a ----- b
+//!            h
+//! ```
+//!
+//! Two vertices may share several edges, an edge may be a loop, a face may touch itself: nothing here looks an
+//! edge up by its end vertices. Half-edges outside the surface have no face and are chained by `next` into
+//! boundary loops (which run with the surface on their right).
+
+use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+use crate::error::{Error, Result};
+
+/// "No face": marks the half-edges outside the surface.
+const NONE: u32 = u32::MAX;
+
+/// Connectivity of a triangulated surface; knows no position and no length.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mesh {
+    /// Per half-edge: the next one around its face or boundary loop.
+    next: Vec<u32>,
+    /// Per half-edge: the vertex it starts at.
+    origin: Vec<u32>,
+    /// Per half-edge: its face, or `NONE`.
+    face: Vec<u32>,
+    /// Per vertex: an outgoing half-edge; the one outside the surface if the vertex is on the boundary.
+    out: Vec<u32>,
+    /// Per face: the half-edge of its first corner.
+    first: Vec<u32>,
+}
+
+impl Mesh {
+    /// Assemble from one triple of half-edges per face (corner order) and the origin of every half-edge.
+    ///
+    /// `sides[f]` are the half-edges of face f in order, `n_edges` edges own the half-edges `2e`, `2e + 1`, and
+    /// `origin[h]` is a vertex below `n_vertices` for all `2·n_edges` half-edges. Half-edges in no face become
+    /// boundary. The callers (`build`) have diagnosed their input; a rule broken all the same is an
+    /// [`Error::Connectivity`].
+    pub(crate) fn assemble(n_vertices: usize, origin: Vec<u32>, sides: &[[u32; 3]]) -> Result<Mesh> {
+        let n = origin.len();
+        let (mut next, mut face) = (vec![NONE; n], vec![NONE; n]);
+        for (f, s) in sides.iter().enumerate() {
+            for k in 0..3 {
+                if face[s[k] as usize] != NONE {
+                    return Err(broken("half-edge", s[k] as usize, "is used by two faces"));
+                }
+                face[s[k] as usize] = f as u32;
+                next[s[k] as usize] = s[(k + 1) % 3];
+            }
+        }
+        // Outside: after the boundary half-edge h comes the outside half-edge leaving its tip, found by turning
+        // around the tip through its faces.
+        for h in (0..n).filter(|&h| face[h] == NONE) {
+            let mut around = h ^ 1;
+            while face[around] != NONE {
+                let prev = next[next[around] as usize] as usize;
+                around = prev ^ 1;
+            }
+            next[h] = around as u32;
+        }
+        let mut out = vec![NONE; n_vertices];
+        for h in 0..n {
+            let v = origin[h] as usize;
+            if out[v] == NONE || face[h] == NONE {
+                out[v] = h as u32;
+            }
+        }
+        let first = sides.iter().map(|s| s[0]).collect();
+        let mesh = Mesh { next, origin, face, out, first };
+        mesh.validate()?;
+        Ok(mesh)
+    }
+
+    /// Number of vertices V.
+    pub fn n_vertices(&self) -> usize {
+        self.out.len()
+    }
+    /// Number of edges E.
+    pub fn n_edges(&self) -> usize {
+        self.next.len() / 2
+    }
+    /// Number of half-edges, 2E.
+    pub fn n_halfedges(&self) -> usize {
+        self.next.len()
+    }
+    /// Number of faces F.
+    pub fn n_faces(&self) -> usize {
+        self.first.len()
+    }
+
+    /// All vertices.
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = VertexId> + use<> {
+        (0..self.n_vertices()).map(VertexId::from)
+    }
+    /// All edges.
+    pub fn edges(&self) -> impl ExactSizeIterator<Item = EdgeId> + use<> {
+        (0..self.n_edges()).map(EdgeId::from)
+    }
+    /// All half-edges.
+    pub fn halfedges(&self) -> impl ExactSizeIterator<Item = HalfedgeId> + use<> {
+        (0..self.n_halfedges()).map(HalfedgeId::from)
+    }
+    /// All faces.
+    pub fn faces(&self) -> impl ExactSizeIterator<Item = FaceId> + use<> {
+        (0..self.n_faces()).map(FaceId::from)
+    }
+
+    /// The next half-edge around the face or boundary loop.
+    #[inline]
+    pub fn next(&self, h: HalfedgeId) -> HalfedgeId {
+        HalfedgeId(self.next[h.index()])
+    }
+    /// The previous half-edge around the face (`h` must be inside the surface).
+    #[inline]
+    pub fn prev(&self, h: HalfedgeId) -> HalfedgeId {
+        self.next(self.next(h))
+    }
+    /// The vertex it starts at.
+    #[inline]
+    pub fn origin(&self, h: HalfedgeId) -> VertexId {
+        VertexId(self.origin[h.index()])
+    }
+    /// The vertex it ends at.
+    #[inline]
+    pub fn tip(&self, h: HalfedgeId) -> VertexId {
+        self.origin(h.twin())
+    }
+    /// The face on its left, `None` outside the surface.
+    #[inline]
+    pub fn face(&self, h: HalfedgeId) -> Option<FaceId> {
+        let f = self.face[h.index()];
+        (f != NONE).then_some(FaceId(f))
+    }
+    /// The half-edge of the face's first corner.
+    #[inline]
+    pub fn face_halfedge(&self, f: FaceId) -> HalfedgeId {
+        HalfedgeId(self.first[f.index()])
+    }
+    /// The face's half-edges in corner order: `h[k]` starts at corner k, `h[(k + 1) % 3]` is opposite corner k.
+    #[inline]
+    pub fn face_halfedges(&self, f: FaceId) -> [HalfedgeId; 3] {
+        let h = self.face_halfedge(f);
+        [h, self.next(h), self.prev(h)]
+    }
+    /// The face's vertices in corner order.
+    #[inline]
+    pub fn face_vertices(&self, f: FaceId) -> [VertexId; 3] {
+        self.face_halfedges(f).map(|h| self.origin(h))
+    }
+    /// The edges opposite the face's corners: `[bc, ca, ab]` for the face `(a, b, c)`.
+    #[inline]
+    pub fn opposite_edges(&self, f: FaceId) -> [EdgeId; 3] {
+        let [ab, bc, ca] = self.face_halfedges(f).map(HalfedgeId::edge);
+        [bc, ca, ab]
+    }
+    /// The two ends of an edge, in the direction of its half-edge `2e`.
+    #[inline]
+    pub fn ends(&self, e: EdgeId) -> [VertexId; 2] {
+        [self.origin(e.halfedge()), self.tip(e.halfedge())]
+    }
+    /// An outgoing half-edge: the one outside the surface if `v` is on the boundary.
+    #[inline]
+    pub fn out(&self, v: VertexId) -> HalfedgeId {
+        HalfedgeId(self.out[v.index()])
+    }
+    /// The outgoing half-edges, clockwise from [`Mesh::out`]; each once (a loop edge appears with both halves).
+    pub fn outgoing(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
+        let start = self.out(v);
+        let turn = move |&h: &HalfedgeId| Some(self.next(h.twin())).filter(|&n| n != start);
+        std::iter::successors(Some(start), turn)
+    }
+
+    /// Whether the half-edge lies outside the surface.
+    #[inline]
+    pub fn is_outside(&self, h: HalfedgeId) -> bool {
+        self.face[h.index()] == NONE
+    }
+    /// Whether the edge has a face on one side only.
+    #[inline]
+    pub fn is_boundary_edge(&self, e: EdgeId) -> bool {
+        self.is_outside(e.halfedge()) || self.is_outside(e.halfedge().twin())
+    }
+    /// Whether the vertex lies on the boundary.
+    #[inline]
+    pub fn is_boundary_vertex(&self, v: VertexId) -> bool {
+        self.is_outside(self.out(v))
+    }
+    /// Whether the surface has no boundary.
+    pub fn is_closed(&self) -> bool {
+        !self.face.contains(&NONE)
+    }
+
+    /// The boundary loops, each as its outside half-edges in order.
+    pub fn boundary_loops(&self) -> Vec<Vec<HalfedgeId>> {
+        let mut seen = vec![false; self.n_halfedges()];
+        let mut loops = Vec::new();
+        for start in self.halfedges().filter(|&h| self.is_outside(h)) {
+            let mut walk = Vec::new();
+            let mut h = start;
+            while !seen[h.index()] {
+                seen[h.index()] = true;
+                walk.push(h);
+                h = self.next(h);
+            }
+            if !walk.is_empty() {
+                loops.push(walk);
+            }
+        }
+        loops
+    }
+
+    /// Euler characteristic χ = V − E + F.
+    pub fn euler(&self) -> i64 {
+        self.n_vertices() as i64 - self.n_edges() as i64 + self.n_faces() as i64
+    }
+    /// Genus of a connected surface: (2 − χ − number of boundary loops) / 2.
+    pub fn genus(&self) -> usize {
+        ((2 - self.euler() - self.boundary_loops().len() as i64) / 2).max(0) as usize
+    }
+
+    /// Check every rule of the structure; the first broken one is an [`Error::Connectivity`]. O(V + E + F).
+    pub fn validate(&self) -> Result<()> {
+        let n = self.n_halfedges();
+        if n % 2 != 0 || self.origin.len() != n || self.face.len() != n {
+            return Err(broken("mesh", 0, "half-edge arrays of different or odd size"));
+        }
+        let mut entered = vec![false; n];
+        for h in 0..n {
+            let (next, origin) = (self.next[h] as usize, self.origin[h] as usize);
+            if next >= n || origin >= self.out.len() {
+                return Err(broken("half-edge", h, "next or origin out of range"));
+            }
+            if std::mem::replace(&mut entered[next], true) {
+                return Err(broken("half-edge", next, "follows two half-edges"));
+            }
+            if self.origin[next] != self.origin[h ^ 1] {
+                return Err(broken("half-edge", h, "its tip is not where the next one starts"));
+            }
+            if self.face[next] != self.face[h] {
+                return Err(broken("half-edge", h, "next lies in another face"));
+            }
+            if self.face[h] == NONE && self.face[h ^ 1] == NONE {
+                return Err(broken("edge", h >> 1, "has no face on either side"));
+            }
+        }
+        for (f, &h) in self.first.iter().enumerate() {
+            let h = h as usize;
+            if h >= n || self.face[h] as usize != f {
+                return Err(broken("face", f, "its first half-edge belongs elsewhere"));
+            }
+            let third = self.next[self.next[h] as usize] as usize;
+            if self.next[third] as usize != h || self.next[h] as usize == h {
+                return Err(broken("face", f, "is not a triangle"));
+            }
+        }
+        if self.face.iter().filter(|&&f| f != NONE).count() != 3 * self.n_faces() {
+            return Err(broken("mesh", 0, "half-edges in faces are not three per face"));
+        }
+        let mut reached = 0;
+        for v in self.vertices() {
+            let out = self.out[v.index()] as usize;
+            if out >= n || self.origin[out] as usize != v.index() {
+                return Err(broken("vertex", v.index(), "its outgoing half-edge starts elsewhere"));
+            }
+            let mut outside = 0;
+            for h in self.outgoing(v) {
+                reached += 1;
+                outside += usize::from(self.is_outside(h));
+                if reached > n {
+                    return Err(broken("vertex", v.index(), "turning around it does not end"));
+                }
+            }
+            if outside > 1 || (outside == 1 && !self.is_outside(self.out(v))) {
+                return Err(broken("vertex", v.index(), "boundary passes it twice or is not its first"));
+            }
+        }
+        if reached != n {
+            return Err(broken("mesh", 0, "turning around the vertices misses half-edges"));
+        }
+        Ok(())
+    }
+}
+
+fn broken(element: &'static str, index: usize, message: &'static str) -> Error {
+    Error::Connectivity { element, index, message }
+}

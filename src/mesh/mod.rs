@@ -1,0 +1,16 @@
+//! Connectivity, building from index buffers, diagnosis, files and generators. Nothing here knows a metric.
+
+pub mod attribute;
+pub mod build;
+pub mod check;
+pub mod halfedge;
+pub mod ids;
+pub mod io;
+pub mod shapes;
+
+pub use attribute::{PerEdge, PerFace, PerHalfedge, PerVertex};
+pub use halfedge::Mesh;
+pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+
+/// A point of space, `[x, y, z]`.
+pub type Point = [f64; 3];

@@ -1,0 +1,1 @@
+//! Sample surfaces of every topology.

@@ -1,0 +1,67 @@
+//! The thread pool of one call, and loops whose result does not depend on how many threads run them.
+//!
+//! The library never touches rayon's global pool: each solver owns its own, and everything parallel runs inside
+//! [`Pool::run`]. A loop writes each element from one fixed computation, so results are bit-identical for any
+//! thread count.
+
+use crate::error::{Error, Result};
+use rayon::prelude::*;
+
+/// Elements handed to a thread at a time; fixed, so that it never depends on the number of threads.
+const CHUNK: usize = 1024;
+
+/// Thread pool of one solver or call.
+pub struct Pool(rayon::ThreadPool);
+
+impl Pool {
+    /// A pool of `threads` threads; 0 means one per available core.
+    pub fn new(threads: usize) -> Result<Pool> {
+        let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+        let threads = if threads == 0 { cores } else { threads };
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|i| format!("ricci-{i}"))
+            .build()
+            .map(Pool)
+            .map_err(|_| Error::Argument {
+                what: "threads",
+                value: threads.to_string(),
+                need: "the system could not start that many threads",
+            })
+    }
+
+    /// Number of threads.
+    pub fn threads(&self) -> usize {
+        self.0.current_num_threads()
+    }
+
+    /// Run `work` inside the pool.
+    pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        self.0.install(work)
+    }
+}
+
+/// `out[i] = f(i)` for every i, in parallel when called inside a pool.
+pub fn fill<T: Send>(out: &mut [T], f: impl Fn(usize) -> T + Sync) {
+    if out.len() <= CHUNK {
+        out.iter_mut().enumerate().for_each(|(i, x)| *x = f(i));
+        return;
+    }
+    out.par_chunks_mut(CHUNK).enumerate().for_each(|(c, chunk)| {
+        chunk.iter_mut().enumerate().for_each(|(i, x)| *x = f(c * CHUNK + i));
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fill_reaches_every_element_once_for_any_thread_count() {
+        for threads in [1, 2, 3] {
+            let mut out = vec![0usize; 10_000];
+            Pool::new(threads).unwrap().run(|| fill(&mut out, |i| i * i));
+            assert!(out.iter().enumerate().all(|(i, &x)| x == i * i));
+        }
+    }
+}

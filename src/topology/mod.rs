@@ -1,0 +1,1 @@
+//! Spanning trees, homology generators, cut graphs.
