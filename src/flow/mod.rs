@@ -3,6 +3,7 @@
 
 mod evaluate;
 mod gradient;
+mod jacobian;
 mod newton;
 pub mod options;
 pub mod report;
@@ -10,6 +11,7 @@ mod solver;
 mod spherical;
 mod system;
 
+pub use jacobian::curvature_derivative;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
 pub use report::{Report, Seconds, StopReason, TraceRow};
 pub use solver::Solver;

@@ -47,7 +47,7 @@ impl Run<'_> {
                 break StopReason::IterationLimit;
             }
             self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
-            timed(&mut report.seconds.assemble, || system.assemble(self.mesh, self.class, &state));
+            timed(&mut report.seconds.assemble, || system.jacobian.assemble(self.mesh, self.class, &state));
             self.control.check()?;
             self.factor(system, report)?;
             self.control.check()?;
@@ -79,7 +79,7 @@ impl Run<'_> {
         // Lengths move by |u| ε and a few ulp of their own, curvature by the row sums of ∂K/∂u times that.
         let largest_u = state.u.iter().fold(0.0f64, |m, u| m.max(u.abs()));
         if report.iterations > 0 {
-            report.rounding_floor = 0.5 * f64::EPSILON * (largest_u + 2.0) * system.norm();
+            report.rounding_floor = 0.5 * f64::EPSILON * (largest_u + 2.0) * system.jacobian.matrix().norm();
         }
         if report.stop_reason == StopReason::Stalled {
             if error <= report.tolerance {
@@ -94,14 +94,14 @@ impl Run<'_> {
 
     /// Factorise; a matrix that rounding (or broken triangles, whose rows are zero) has made semidefinite is shifted.
     fn factor(&self, system: &mut System, report: &mut Report) -> Result<()> {
-        let mut shift = SHIFT * system.mean_diagonal().max(f64::MIN_POSITIVE);
+        let mut shift = SHIFT * system.jacobian.mean_diagonal().max(f64::MIN_POSITIVE);
         for attempt in 0..SHIFT_TRIES {
             if timed(&mut report.seconds.factor, || system.factor()).is_ok() {
                 return Ok(());
             }
             self.control.check()?;
             report.shifted += usize::from(attempt == 0);
-            system.add_diagonal(|_| shift);
+            system.jacobian.add_diagonal(|_| shift);
             shift *= SHIFT_GROWTH;
         }
         let message = "it stays indefinite under every shift".into();

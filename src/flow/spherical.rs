@@ -53,8 +53,8 @@ impl Run<'_> {
             self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
             let mass = self.vertex_areas(&state);
             timed(&mut report.seconds.assemble, || {
-                system.assemble(self.mesh, self.class, &state);
-                system.add_diagonal(|v| damping * mass[v]);
+                system.jacobian.assemble(self.mesh, self.class, &state);
+                system.jacobian.add_diagonal(|v| damping * mass[v]);
             });
             report.iterations += 1;
             let solved = timed(&mut report.seconds.factor, || system.factor()).is_ok()

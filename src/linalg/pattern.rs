@@ -87,15 +87,20 @@ pub struct Symmetric<'a> {
 }
 
 impl Symmetric<'_> {
+    /// The stored entries (i, j, value), i ≥ j, by columns.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        (0..self.pattern.size()).flat_map(move |j| {
+            let column = self.pattern.column_start[j] as usize..self.pattern.column_start[j + 1] as usize;
+            column.map(move |k| (self.pattern.row[k] as usize, j, self.values[k]))
+        })
+    }
+
     /// `y = b − A x`.
     pub fn residual(&self, x: &[f64], b: &[f64], y: &mut [f64]) {
         y.copy_from_slice(b);
-        for j in 0..self.pattern.size() {
-            let column = self.pattern.column_start[j] as usize..self.pattern.column_start[j + 1] as usize;
-            y[j] -= self.values[column.start] * x[j];
-            for k in column.start + 1..column.end {
-                let (i, a) = (self.pattern.row[k] as usize, self.values[k]);
-                y[i] -= a * x[j];
+        for (i, j, a) in self.entries() {
+            y[i] -= a * x[j];
+            if i != j {
                 y[j] -= a * x[i];
             }
         }
@@ -104,14 +109,10 @@ impl Symmetric<'_> {
     /// Largest absolute row sum.
     pub fn norm(&self) -> f64 {
         let mut sums = vec![0.0; self.pattern.size()];
-        for j in 0..self.pattern.size() {
-            let column = self.pattern.column_start[j] as usize..self.pattern.column_start[j + 1] as usize;
-            for k in column {
-                let i = self.pattern.row[k] as usize;
-                sums[i] += self.values[k].abs();
-                if i != j {
-                    sums[j] += self.values[k].abs();
-                }
+        for (i, j, a) in self.entries() {
+            sums[i] += a.abs();
+            if i != j {
+                sums[j] += a.abs();
             }
         }
         sums.into_iter().fold(0.0, f64::max)
