@@ -39,7 +39,7 @@ pub fn read(path: &Path) -> Result<Soup> {
     parse(&String::from_utf8_lossy(&bytes), &name)
 }
 
-/// The fan of a polygon from its first corner.
+/// The fan of a polygon from its first corner; nothing for fewer than three corners.
 fn fan(corners: &[u32], faces: &mut Vec<[u32; 3]>) {
     faces.extend(corners.windows(2).skip(1).map(|w| [corners[0], w[0], w[1]]));
 }

@@ -43,10 +43,7 @@ pub fn parse_obj(text: &str, path: &str) -> Result<Soup> {
                 for token in tokens {
                     corners.push(corner(place, token, soup.positions.len())?);
                 }
-                if corners.len() < 3 {
-                    return place
-                        .error(format!("a face needs three corners, this one has {}", corners.len()));
-                }
+                // Faces of one or two corners occur in the wild; they are no part of the surface.
                 fan(&corners, &mut soup.faces);
             }
             _ => {}

@@ -52,9 +52,7 @@ pub fn parse_off(text: &str, path: &str) -> Result<Soup> {
         }
         tokens.end_line();
         // Points and segments are legal in OFF and no part of the surface.
-        if size >= 3 {
-            fan(&corners, &mut soup.faces);
-        }
+        fan(&corners, &mut soup.faces);
     }
     Ok(soup)
 }
