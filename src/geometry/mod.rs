@@ -1,5 +1,8 @@
 //! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
 
+pub mod isometry;
+pub mod predicates;
 pub mod space;
 
+pub use isometry::PlaneIsometry;
 pub use space::Space;
