@@ -1,5 +1,7 @@
 //! A plane triangle from its side lengths.
 
+use crate::geometry::triangle::half_differences;
+
 /// Angles and area of the triangle with given sides; corner k lies opposite side k.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Triangle {
@@ -13,31 +15,23 @@ impl Triangle {
     /// From positive side lengths. `Err` holds by how much the longest side exceeds the sum of the others, relative to
     /// it. A degenerate triangle is one: angles (π, 0, 0), area 0.
     ///
-    /// Sums are formed from the sorted sides so that nothing cancels [Kah14, §2]: with `a ≥ b ≥ c`,
-    /// `2(s−a) = c − (a−b)`. Then `cos θ_k = (s(s−l_k) − (s−l_i)(s−l_j)) / (l_i l_j)` (half-angle law), and
-    /// `sin θ_k = 2·area / (l_i l_j)`.
+    /// With `s` and `r_k = s − l_k` formed without cancellation ([`half_differences`]), `cos θ_k ∝ s r_k − r_i r_j` and
+    /// `sin θ_k ∝ 2·area` with the same factor `1/(l_i l_j)` (half-angle law).
     pub(crate) fn from_sides(sides: [f64; 3]) -> Result<Triangle, f64> {
-        let mut order = [0, 1, 2];
-        order.sort_by(|&i, &j| sides[j].total_cmp(&sides[i]));
-        let unit = sides[order[0]];
-        let [a, b, c] = order.map(|k| sides[k] / unit);
-        let perimeter = a + (b + c);
-        let mut deficit = [0.0; 3]; // 2(s − l_k)
-        deficit[order[0]] = c - (a - b);
-        deficit[order[1]] = c + (a - b);
-        deficit[order[2]] = a + (b - c);
-        if deficit[order[0]] < 0.0 {
-            return Err(-deficit[order[0]]);
+        let unit = sides.into_iter().fold(0.0, f64::max);
+        let (s, r) = half_differences(sides.map(|l| l / unit));
+        if let Some(deficit) = r.into_iter().find(|&x| x < 0.0) {
+            return Err(-2.0 * deficit);
         }
-        let root = deficit.map(f64::sqrt);
-        let four_areas = perimeter.sqrt() * root[0] * root[1] * root[2];
+        let root = r.map(f64::sqrt);
+        let area = s.sqrt() * root[0] * root[1] * root[2]; // the roots first: r_i r_j may underflow
         let direction = std::array::from_fn(|k| {
-            let (far, near) = (perimeter * deficit[k], deficit[(k + 1) % 3] * deficit[(k + 2) % 3]);
-            let (x, y) = (far - near, 2.0 * four_areas);
+            let (far, near) = (s * r[k], r[(k + 1) % 3] * r[(k + 2) % 3]);
+            let (x, y) = (far - near, 2.0 * area);
             let norm = x.hypot(y);
             if norm > 0.0 { [x / norm, y / norm] } else { [1.0, 0.0] }
         });
-        Ok(Triangle { direction, area: 0.25 * four_areas * unit * unit })
+        Ok(Triangle { direction, area: area * unit * unit })
     }
 }
 

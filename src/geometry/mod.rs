@@ -3,6 +3,7 @@
 pub mod isometry;
 pub mod predicates;
 pub mod space;
+pub mod triangle;
 
 pub use isometry::PlaneIsometry;
 pub use space::Space;

@@ -2,10 +2,12 @@
 //! repeated edges of a Δ-complex are no special cases.
 
 pub mod cut;
+pub mod farthest;
 pub mod homology;
 pub mod spanning;
 
 pub use cut::{CutGraph, cut_graph};
+pub use farthest::farthest_vertices;
 pub use homology::homology_generators;
 pub use spanning::{Forest, shortest_paths};
 
