@@ -19,6 +19,8 @@ pub(crate) struct Development {
     pub direction: PerHalfedge<[f64; 2]>,
     /// Sum of the triangles' areas.
     pub area: f64,
+    /// Faces that break the triangle inequality, ascending.
+    pub broken: Vec<FaceId>,
 }
 
 /// Develop the faces in order of their distance from the smallest one, which lies at the origin.
@@ -42,6 +44,7 @@ pub(crate) fn develop(
     let mut direction = PerHalfedge::filled(mesh.n_halfedges(), [0.0; 2]);
     let mut done = vec![false; mesh.n_faces()];
     let mut area = 0.0;
+    let mut broken = Vec::new();
 
     let size = |f: FaceId| mesh.opposite_edges(f).map(|e| lengths[e]).into_iter().fold(0.0, f64::max);
     let Some(first) = mesh.faces().min_by(|&f, &g| size(f).total_cmp(&size(g))) else {
@@ -62,8 +65,10 @@ pub(crate) fn develop(
 
         let sides = [base, mesh.next(base), mesh.prev(base)];
         let [l_base, l_right, l_left] = sides.map(|h| lengths[h.edge()]);
-        let triangle = Triangle::from_sides([l_right, l_left, l_base])
-            .map_err(|excess| Error::TriangleInequality { face: f.index(), excess })?;
+        let triangle = Triangle::from_sides([l_right, l_left, l_base]);
+        if triangle.excess > 0.0 {
+            broken.push(f);
+        }
         area += triangle.area;
         let along = if base == root { [1.0, 0.0] } else { direction[base.twin()].map(|x| -x) };
         let [at_origin, at_tip, _] = triangle.direction;
@@ -92,7 +97,8 @@ pub(crate) fn develop(
             }
         }
     }
-    Ok(Development { coordinates, direction, area })
+    broken.sort_unstable();
+    Ok(Development { coordinates, direction, area, broken })
 }
 
 /// Distance from a face's centroid to the midpoint of its side `h`: a third of the median.

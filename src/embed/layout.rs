@@ -25,6 +25,9 @@ pub struct Layout {
     pub seams: Vec<Seam>,
     /// Faces that are not counterclockwise in these coordinates: clockwise or without area, by exact arithmetic.
     pub flipped: Vec<FaceId>,
+    /// Faces whose lengths break the triangle inequality: no such triangle exists, they are laid out with angles
+    /// (π, 0, 0), and the layout does not represent the metric there.
+    pub broken: Vec<FaceId>,
     /// Largest disagreement between an edge vector derived in its face and the one between the placed vertices,
     /// relative to `diameter`. It measures how far the metric is from flat off the cones, and rounding.
     pub consistency: f64,
@@ -41,10 +44,11 @@ pub struct Layout {
 /// Lay a flat cone metric out in the plane, O(E log E).
 ///
 /// `lengths`: one per edge, flat at every vertex that is inside the opened surface; what is missing to that shows in
-/// [`Layout::consistency`]. `cut` opens the surface into a disk ([`crate::topology::cut_graph`]).
+/// [`Layout::consistency`] and [`Layout::broken`]. `cut` opens the surface into a disk
+/// ([`crate::topology::cut_graph`]).
 ///
-/// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`], [`Error::Layout`] if the cut
-/// does not leave a disk, [`Error::Cancelled`].
+/// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk,
+/// [`Error::Cancelled`].
 pub fn layout(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Control) -> Result<Layout> {
     check_lengths(mesh, lengths)?;
     check_size("is_cut", cut.is_cut.len(), mesh.n_edges())?;
@@ -52,7 +56,7 @@ pub fn layout(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Con
         return Err(Error::Layout("the cut does not open the surface into a disk".into()));
     }
     let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
-    let Development { coordinates, direction, area } =
+    let Development { coordinates, direction, area, broken } =
         develop(mesh, lengths, &cut.is_cut, &corner_index, n_corners, control)?;
     let at = |h: HalfedgeId| coordinates[corner_index[h] as usize];
     let diameter = bounding_diagonal(&coordinates);
@@ -78,6 +82,7 @@ pub fn layout(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Con
     let mut layout = Layout {
         seams: cut.segments.iter().map(fit).collect(),
         flipped: Vec::new(),
+        broken,
         consistency: worst / diameter,
         local_consistency: worst_local,
         diameter,

@@ -44,8 +44,10 @@ pub fn quality(mesh: &Mesh, input_lengths: &PerEdge<f64>, layout: &Layout) -> Re
     let mut areas = PerFace::filled(mesh.n_faces(), [0.0; 2]);
     for f in mesh.faces() {
         let sides = mesh.opposite_edges(f).map(|e| input_lengths[e] / unit);
-        let triangle = Triangle::from_sides(sides)
-            .map_err(|excess| Error::TriangleInequality { face: f.index(), excess })?;
+        let triangle = Triangle::from_sides(sides);
+        if triangle.excess > 0.0 {
+            return Err(Error::TriangleInequality { face: f.index(), excess: triangle.excess });
+        }
         let image = layout.face_uv(mesh, f).map(|p| p.map(|x| x / layout.diameter));
         let image_area = 0.5 * cross(minus(image[1], image[0]), minus(image[2], image[0])).abs();
         areas[f] = [triangle.area, image_area];
