@@ -294,6 +294,9 @@ fn what_cannot_be_laid_out_is_refused_by_name() {
     let mut open = good.clone();
     open.is_cut.fill(false);
     assert!(matches!(layout(&mesh, &lengths, &open, &Control::new()), Err(Error::Layout(_))));
+    open.is_cut = good.is_cut.clone();
+    open.segments[0].push(mesh.edges().find(|&e| !good.is_cut[e]).unwrap().halfedge());
+    assert!(matches!(layout(&mesh, &lengths, &open, &Control::new()), Err(Error::Layout(_))));
     let control = Control::new();
     control.cancel();
     assert_eq!(layout(&mesh, &lengths, &good, &control), Err(Error::Cancelled));

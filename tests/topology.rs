@@ -7,8 +7,8 @@ use ricci::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
 use ricci::topology::{CutGraph, cut_graph, homology_generators};
 use surfaces::*;
 
-/// Poincaré dual cochain of a closed loop: how often each half-edge crosses the loop, pushed to its left, from right
-/// to left. A boundary loop counts as filled.
+/// Poincaré dual cochain of a closed loop: how often each half-edge crosses the loop, pushed to its left,
+/// from right to left. A boundary loop counts as filled.
 fn dual_cochain(mesh: &Mesh, walk: &[HalfedgeId]) -> PerHalfedge<i64> {
     let mut crossing = PerHalfedge::filled(mesh.n_halfedges(), 0);
     for (k, &enter) in walk.iter().enumerate() {
@@ -131,7 +131,8 @@ fn sphere_and_disk_have_no_homology() {
     assert!(homology_generators(&mesh, &plane_lengths(&mesh, &positions)).unwrap().is_empty());
 }
 
-/// Euler characteristic of the opened surface, its vertices counted as classes of corners; `None` if disconnected.
+/// Euler characteristic of the opened surface, its vertices counted as classes of corners; `None` if
+/// disconnected.
 fn opened_euler(mesh: &Mesh, cut: &CutGraph) -> Option<i64> {
     fn find(parent: &mut [usize], mut i: usize) -> usize {
         while parent[i] != i {
@@ -235,8 +236,9 @@ fn cut_of_a_disk_is_empty_and_reaches_interior_cones_only() {
 
 #[test]
 fn cut_of_a_flat_torus_is_about_as_short_as_two_closed_geodesics() {
-    // Any cut graph of a torus contains two independent loops. On this grid those along the edges have length 1 each,
-    // and a cut along edges cannot be shorter than the systole 1 twice minus what two loops may share.
+    // Any cut graph of a torus contains two independent loops. On this grid those along the edges have length
+    // 1 each, and a cut along edges cannot be shorter than the systole 1 twice minus what two loops may
+    // share.
     let (mesh, lengths) = flat_torus(24, 24, [0.0, 1.0]);
     let cut = check_cut("torus", &mesh, &lengths, &[]);
     assert!(cut.length(&lengths) < 2.0 + 1e-12, "{}", cut.length(&lengths));

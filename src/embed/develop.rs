@@ -27,10 +27,10 @@ pub(crate) struct Development {
 ///
 /// Each face inherits the *direction* of the edge it is entered through, not the difference of two rounded
 /// positions, so an edge of any length passes a direction on to the same accuracy, and what a direction loses
-/// grows with the number of faces crossed alone. A position loses `ε·|largest position on the way|`. Ways of least
-/// length from the smallest face never go farther out than where they lead: positions are as accurate as
-/// doubles of their size can be, and the origin is where doubles are dense. (Entering through the largest edges
-/// first would lead from one small face to the next by way of large ones, and round there.)
+/// grows with the number of faces crossed alone. A position loses `ε·|largest position on the way|`. Ways of
+/// least length from the smallest face never go farther out than where they lead: positions are as accurate
+/// as doubles of their size can be, and the origin is where doubles are dense. (Entering through the largest
+/// edges first would lead from one small face to the next by way of large ones, and round there.)
 pub(crate) fn develop(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,

@@ -14,10 +14,11 @@ pub(crate) struct Triangle {
 }
 
 impl Triangle {
-    /// From positive side lengths. A triangle that is degenerate or breaks the inequality has angles (π, 0, 0), area 0.
+    /// From positive side lengths. A triangle that is degenerate or breaks the inequality has angles (π, 0,
+    /// 0), area 0.
     ///
-    /// With `s` and `r_k = s − l_k` formed without cancellation ([`half_differences`]), `cos θ_k ∝ s r_k − r_i r_j` and
-    /// `sin θ_k ∝ 2·area` with the same factor `1/(l_i l_j)` (half-angle law).
+    /// With `s` and `r_k = s − l_k` formed without cancellation ([`half_differences`]), `cos θ_k ∝ s r_k −
+    /// r_i r_j` and `sin θ_k ∝ 2·area` with the same factor `1/(l_i l_j)` (half-angle law).
     pub(crate) fn from_sides(sides: [f64; 3]) -> Triangle {
         let unit = sides.into_iter().fold(0.0, f64::max);
         let (s, r) = half_differences(sides.map(|l| l / unit));

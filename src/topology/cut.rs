@@ -13,8 +13,8 @@ pub struct CutGraph {
     pub is_cut: PerEdge<bool>,
     /// Where segments end, ascending: cones, boundary vertices that the cut reaches, and branch points.
     pub nodes: Vec<VertexId>,
-    /// The cut as directed chains of half-edges from node to node that pass no other node; each cut edge is in
-    /// exactly one.
+    /// The cut as directed chains of half-edges from node to node that pass no other node; each cut edge is
+    /// in exactly one.
     pub segments: Vec<Vec<HalfedgeId>>,
 }
 
@@ -27,17 +27,17 @@ impl CutGraph {
 
 /// A cut graph through all cones: a short set of interior edges that opens the surface into a disk.
 ///
-/// The boundary and the cones together are the sources of a shortest-path forest; the edges that the forest and a
-/// maximum spanning tree of the dual graph leave over, with their paths to the sources, are the cut (tree–cotree,
-/// [EW05]). So cones are joined to each other, to the boundary and to the handles by short arcs. Then segments
-/// are pulled and their ends slid across triangles while that makes the cut shorter.
+/// The boundary and the cones together are the sources of a shortest-path forest; the edges that the forest
+/// and a maximum spanning tree of the dual graph leave over, with their paths to the sources, are the cut
+/// (tree–cotree, [EW05]). So cones are joined to each other, to the boundary and to the handles by short
+/// arcs. Then segments are pulled and their ends slid across triangles while that makes the cut shorter.
 ///
-/// `lengths`: finite and positive, one per edge. `cones`: vertices that have to lie on the cut, in any order; those on
-/// the boundary change nothing. A disk without interior cones has an empty cut.
+/// `lengths`: finite and positive, one per edge. `cones`: vertices that have to lie on the cut, in any order;
+/// those on the boundary change nothing. A disk without interior cones has an empty cut.
 ///
 /// Errors: [`Error::EdgeLength`]; [`Error::Argument`] for a cone that is no vertex; [`Error::Layout`] for a
-/// closed surface of genus 0 with fewer than two cones (a sphere has no plane layout) and for a surface of several
-/// components.
+/// closed surface of genus 0 with fewer than two cones (a sphere has no plane layout) and for a surface of
+/// several components.
 pub fn cut_graph(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Result<CutGraph> {
     let fixed = fixed_vertices(mesh, lengths, cones)?;
     let sources: Vec<_> = mesh.vertices().filter(|&v| fixed[v]).collect();
@@ -215,8 +215,8 @@ fn prune(mesh: &Mesh, cut: &mut Cut) {
     }
 }
 
-/// A move must save this fraction of the length it replaces. Far above the rounding of a sum of lengths, so no
-/// sequence of moves comes back to where it was.
+/// A move must save this fraction of the length it replaces. Far above the rounding of a sum of lengths, so
+/// no sequence of moves comes back to where it was.
 const LEAST_SAVING: f64 = 1e-12;
 
 /// Moves allowed per face of the mesh. Paths from a shortest-path forest need far fewer; the bound keeps the
@@ -226,11 +226,12 @@ const MOVES_PER_FACE: usize = 8;
 /// Shorten the cut by sliding edges across fans of triangles.
 ///
 /// ```text
-///      x1 --- x2             triangles at v between two neighbouring cut edges vu and vw: slide the end of vu along
-///     / \    / \             vw to w, so that u x1 x2 w takes the place of vu. The fan, a disk that hung on
-///    /   \  /   \            the link, then hangs on vu instead, so the opened surface stays a disk if x1, x2 are
-///   u ---- v --- w           distinct and free of cuts, cones and boundary. If nothing else ends at v, vw
-///                            dangles then and goes too: a segment is pulled straight.
+///      x1 --- x2         triangles at v between two neighbouring cut edges vu and vw: the end of vu
+///     / \    / \         slides along vw to w, so that u x1 x2 w takes the place of vu. The fan, a
+///    /   \  /   \        disk that hung on the path u x1 x2 w, then hangs on vu instead: the opened
+///   u ---- v --- w       surface stays a disk if x1, x2 are distinct and free of cuts, cones and
+///                        boundary. If nothing else ends at v, vw dangles then and goes too: a
+///                        segment is pulled straight.
 /// ```
 fn shorten(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &mut Cut) {
     let mut waiting: VecDeque<_> = mesh.vertices().filter(|&v| cut.degree[v] > 1).collect();
@@ -280,8 +281,8 @@ fn best_slide(
     best
 }
 
-/// The edges opposite v in the fan counterclockwise from outgoing half-edge `a` to `b`, with their length; `None` if
-/// that reaches `limit` or the fan cannot be swept.
+/// The edges opposite v in the fan counterclockwise from outgoing half-edge `a` to `b`, with their length;
+/// `None` if that reaches `limit` or the fan cannot be swept.
 fn link(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,

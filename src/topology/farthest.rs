@@ -3,8 +3,8 @@
 use super::spanning::shortest_paths;
 use crate::mesh::{Mesh, PerEdge, VertexId};
 
-/// `count` vertices (at most V): `first`, then again and again the vertex farthest along edges from those chosen
-/// (the smallest index among equals). Deterministic; O(count · E log V).
+/// `count` vertices (at most V): `first`, then again and again the vertex farthest along edges from those
+/// chosen (the smallest index among equals). Deterministic; O(count · E log V).
 pub fn farthest_vertices(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,

@@ -5,6 +5,7 @@ use ricci::mesh::{Mesh, PerEdge, VertexId, io};
 use std::path::{Path, PathBuf};
 
 /// The good meshes of the corpus, or a plain word on stderr that they are absent.
+#[allow(clippy::print_stderr)]
 pub fn corpus() -> Vec<PathBuf> {
     let root = std::env::var("RICCI_MESHES")
         .unwrap_or_else(|_| concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/meshes").into());
@@ -39,8 +40,8 @@ pub fn plane_lengths(mesh: &Mesh, positions: &[[f64; 2]]) -> PerEdge<f64> {
     })
 }
 
-/// The flat torus ℂ/(ℤ + τℤ) as an n × m grid of parallelograms, each halved; legal down to 1 × 1. Face 2(i + n j) is
-/// (z, z + 1/n, z + 1/n + τ/m).
+/// The flat torus ℂ/(ℤ + τℤ) as an n × m grid of parallelograms, each halved; legal down to 1 × 1. Face 2(i +
+/// n j) is (z, z + 1/n, z + 1/n + τ/m).
 pub fn flat_torus(n: usize, m: usize, tau: [f64; 2]) -> (Mesh, PerEdge<f64>) {
     let vertex = |i: usize, j: usize| (i % n) + n * (j % m);
     let edge = |kind: usize, i: usize, j: usize| (3 * vertex(i, j) + kind + 1) as i32;
@@ -61,8 +62,8 @@ pub fn flat_torus(n: usize, m: usize, tau: [f64; 2]) -> (Mesh, PerEdge<f64>) {
     (mesh, lengths)
 }
 
-/// The regular Euclidean octagon of side 1 with its sides glued by a b a⁻¹ b⁻¹ c d c⁻¹ d⁻¹: genus 2, one vertex, whose
-/// cone angle is 6π.
+/// The regular Euclidean octagon of side 1 with its sides glued by a b a⁻¹ b⁻¹ c d c⁻¹ d⁻¹: genus 2, one
+/// vertex, whose cone angle is 6π.
 pub fn octagon() -> (Mesh, PerEdge<f64>) {
     let sides = [1, 2, -1, -2, 3, 4, -3, -4];
     // Edges 5…9 are the diagonals from corner 0 to corners 2…6.
