@@ -141,6 +141,18 @@ pub enum Error {
         /// How much it is too large.
         excess: f64,
     },
+    /// A prescribed curvature is too small for the angles that the vertex can have.
+    #[error("vertex {vertex}: target curvature {curvature} must be above {limit}: too small by {excess:e}")]
+    TargetBelow {
+        /// The vertex.
+        vertex: usize,
+        /// The curvature asked for, radians.
+        curvature: f64,
+        /// The least value, not attained.
+        limit: f64,
+        /// Curvature minus limit (≤ 0).
+        excess: f64,
+    },
     /// The prescribed curvatures do not add up to what Gauss–Bonnet asks for.
     #[error("target curvatures add up to {sum}, Gauss–Bonnet needs {need}: off by {miss:e}")]
     TargetTotal {
@@ -196,6 +208,7 @@ impl Error {
             Error::TargetAtVertex { .. } => 400,
             Error::TargetTotal { .. } => 401,
             Error::TargetKind { .. } => 402,
+            Error::TargetBelow { .. } => 403,
             Error::Factorisation { .. } => 500,
             Error::Layout(_) => 600,
         }

@@ -1,1 +1,7 @@
-//! Sparse symmetric positive definite systems.
+//! Sparse symmetric positive definite systems: a fixed pattern, refilled and refactorised.
+
+pub mod cholesky;
+pub mod pattern;
+
+pub use cholesky::Cholesky;
+pub use pattern::{Pattern, Symmetric};

@@ -226,7 +226,7 @@ impl Mesh {
     /// Check every rule of the structure; the first broken one is an [`Error::Connectivity`]. O(V + E + F).
     pub fn validate(&self) -> Result<()> {
         let n = self.n_halfedges();
-        if n % 2 != 0 || self.origin.len() != n || self.face.len() != n {
+        if !n.is_multiple_of(2) || self.origin.len() != n || self.face.len() != n {
             return Err(broken("mesh", 0, "half-edge arrays of different or odd size"));
         }
         let mut entered = vec![false; n];

@@ -1,1 +1,13 @@
-//! Metrics in a conformal class.
+//! Metrics in a conformal class: one formula for five schemes, mixed types and three geometries.
+
+pub mod curvature;
+pub mod initial;
+pub mod lengths;
+pub mod scheme;
+pub mod target;
+
+pub use curvature::{Curvature, curvature};
+pub use initial::{Initial, initial_metric};
+pub use lengths::{Metric, lengths_from_positions};
+pub use scheme::Scheme;
+pub use target::Target;

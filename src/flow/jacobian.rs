@@ -1,0 +1,119 @@
+//! The derivative ∂K/∂u on a fixed pattern, filled from per-face weights.
+//!
+//! With the edge weights `W_e = Σ w` over the two triangles at e and `c = 1, cosh l, cos l`
+//!
+//! ```text
+//! (∂K/∂u)_ij = −Σ W_e over the edges e from i to j,     (∂K/∂u)_ii = Σ W_e c(l_e) over the half-edges leaving i
+//! ```
+//!
+//! (a loop adds `2 W (c − 1)` to its vertex). Symmetric; semidefinite in E², definite in H², indefinite in S².
+
+use super::evaluate::State;
+use crate::error::{Error, Result};
+use crate::linalg::{Pattern, Symmetric};
+use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::metric::Metric;
+use crate::parallel::fill;
+
+/// No unknown, no entry.
+const NONE: u32 = u32::MAX;
+
+/// The matrix over the vertices that are not fixed.
+pub(super) struct Jacobian {
+    pub pattern: Pattern,
+    /// Per vertex: its unknown, or `NONE`.
+    unknown: Vec<u32>,
+    /// Per edge: the position of its off-diagonal entry, or `NONE`.
+    entry: Vec<u32>,
+    /// Per face: ∂θ/∂u weights of the edges opposite its corners.
+    weights: Vec<[f64; 3]>,
+    values: Vec<f64>,
+}
+
+impl Jacobian {
+    /// Pattern and scatter positions for the unknowns {v : !fixed[v]}.
+    pub fn new(mesh: &Mesh, fixed: &[bool]) -> Result<Jacobian> {
+        let mut unknown = vec![NONE; mesh.n_vertices()];
+        let mut n = 0u32;
+        for (unknown, _) in unknown.iter_mut().zip(fixed).filter(|(_, fixed)| !**fixed) {
+            *unknown = n;
+            n += 1;
+        }
+        let ends = |e| mesh.ends(e).map(|v| unknown[v.index()]);
+        let pair = |[i, j]: [u32; 2]| (i != NONE && j != NONE && i != j).then_some((i, j));
+        let pairs: Vec<(u32, u32)> = mesh.edges().map(ends).filter_map(pair).collect();
+        let pattern = Pattern::new(n as usize, &pairs)?;
+        let position = |(i, j): (u32, u32)| pattern.position(i as usize, j as usize);
+        let entry = |e| pair(ends(e)).and_then(position).map_or(NONE, |p| p as u32);
+        Ok(Jacobian {
+            entry: mesh.edges().map(entry).collect(),
+            weights: vec![[0.0; 3]; mesh.n_faces()],
+            values: vec![0.0; pattern.entries()],
+            unknown,
+            pattern,
+        })
+    }
+
+    /// Fill at a state.
+    pub fn assemble(&mut self, mesh: &Mesh, class: &Metric, state: &State) {
+        fill(&mut self.weights, |f| state.weights(mesh, class.space, FaceId::from(f)));
+        self.values.fill(0.0);
+        for f in mesh.faces() {
+            let opposite = mesh.opposite_edges(f);
+            let rows = mesh.face_vertices(f).map(|v| self.unknown[v.index()]);
+            for k in 0..3 {
+                let (e, w) = (opposite[k].index(), self.weights[f.index()][k]);
+                let (i, j) = (rows[(k + 1) % 3], rows[(k + 2) % 3]);
+                // c(l) = 1 − 2 λ q²
+                let diagonal = w * (1.0 - 2.0 * class.space.curvature() * state.edges[e].q2);
+                for row in [i, j].into_iter().filter(|&row| row != NONE) {
+                    self.values[self.pattern.diagonal(row as usize)] += diagonal;
+                }
+                if self.entry[e] != NONE {
+                    self.values[self.entry[e] as usize] -= w;
+                } else if i == j && i != NONE {
+                    self.values[self.pattern.diagonal(i as usize)] -= 2.0 * w;
+                }
+            }
+        }
+    }
+
+    /// Add `mass[v]` to the diagonal.
+    pub fn add_diagonal(&mut self, mass: impl Fn(usize) -> f64) {
+        for (v, &row) in self.unknown.iter().enumerate().filter(|(_, row)| **row != NONE) {
+            self.values[self.pattern.diagonal(row as usize)] += mass(v);
+        }
+    }
+
+    pub fn mean_diagonal(&self) -> f64 {
+        let n = self.pattern.size();
+        (0..n).map(|j| self.values[self.pattern.diagonal(j)].abs()).sum::<f64>() / n.max(1) as f64
+    }
+
+    pub fn matrix(&self) -> Symmetric<'_> {
+        Symmetric { pattern: &self.pattern, values: &self.values }
+    }
+
+    /// Vertices that are unknowns, with their row, ascending in both.
+    pub fn rows(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let row = |(v, &row): (usize, &u32)| (row != NONE).then_some((v, row as usize));
+        self.unknown.iter().enumerate().filter_map(row)
+    }
+}
+
+/// ∂K/∂u at `metric`: V×V, symmetric, entries (i, j, value) with i ≥ j, the diagonal included; (i, j) once.
+///
+/// Off-diagonal entries are minus the edge weights ([`crate::geometry::triangle::weights`]). A broken triangle
+/// contributes nothing.
+pub fn curvature_derivative(mesh: &Mesh, metric: &Metric) -> Result<Vec<(VertexId, VertexId, f64)>> {
+    metric.check(mesh)?;
+    let mut state = State::new(mesh, metric);
+    if !state.evaluate(mesh, metric) {
+        // The first edge without a length is named by this call.
+        metric.lengths(mesh)?;
+        return Err(Error::Argument { what: "metric", value: "u".into(), need: "inside its domain" });
+    }
+    let mut jacobian = Jacobian::new(mesh, &vec![false; mesh.n_vertices()])?;
+    jacobian.assemble(mesh, metric, &state);
+    Ok(jacobian.matrix().entries().map(|(i, j, x)| (i.into(), j.into(), x)).collect())
+}

@@ -1,0 +1,191 @@
+//! Newton's method on the convex energy (E², H²): full steps with a line search on the slope.
+
+use super::evaluate::State;
+use super::report::{Report, StopReason, timed};
+use super::solver::{Run, center};
+use super::system::System;
+use crate::control::Stage;
+use crate::error::{Error, Result};
+
+/// Below this max |K − K̄| a smaller residual also accepts a step. Far from the solution only the slope does: mixing
+/// the two there cycles.
+const NEAR: f64 = 1e-2;
+/// Halvings of a step before the line search gives up: 2⁻⁵⁰ of a step is below the rounding of u.
+const HALVINGS: usize = 50;
+/// First shift of a matrix that is not positive definite, relative to its mean diagonal; grows by `SHIFT_GROWTH`.
+const SHIFT: f64 = 1e-12;
+const SHIFT_GROWTH: f64 = 100.0;
+const SHIFT_TRIES: usize = 9;
+/// The floor estimate counts every rounding once; a stalled residual within this factor of it is at the floor.
+const FLOOR_SLACK: f64 = 8.0;
+/// Iterations without a new best residual (by a tenth) after which a small residual counts as stalled.
+const PATIENCE: usize = 8;
+/// Once converged, the last factor is reused to bring the error down to this, each step at least halving it.
+const POLISH_TO: f64 = 1e-13;
+const POLISH_STEPS: usize = 3;
+
+impl Run<'_> {
+    pub(super) fn newton(
+        &self,
+        system: &mut Option<System>,
+        mut state: State,
+        report: &mut Report,
+    ) -> Result<State> {
+        let n = self.mesh.n_vertices();
+        let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
+        let mut trial = State::new(self.mesh, self.class);
+        let mut error = state.residual(self.target, self.pinned, &mut residual);
+        let (first, mut best, mut since_best) = (error, error, 0);
+        report.residuals.push(error);
+        self.control.step(Stage::Flow, 0.0)?;
+        let system = self.prepare(system, report)?;
+        report.stop_reason = loop {
+            if error <= report.tolerance {
+                break StopReason::Converged;
+            }
+            if report.iterations >= self.options.iteration_limit() {
+                break StopReason::IterationLimit;
+            }
+            self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
+            timed(&mut report.seconds.assemble, || system.jacobian.assemble(self.mesh, self.class, &state));
+            self.control.check()?;
+            self.factor(system, report)?;
+            self.control.check()?;
+            if !timed(&mut report.seconds.solve, || system.solve(&residual, &mut step)) {
+                break StopReason::Stalled;
+            }
+            if self.free_scale {
+                center(&mut step);
+            }
+            report.iterations += 1;
+            let accepted = self.line_search(&state, &mut trial, &mut residual, &step, error, report)?;
+            let Some(now) = accepted else {
+                state.residual(self.target, self.pinned, &mut residual);
+                break StopReason::Stalled;
+            };
+            std::mem::swap(&mut state, &mut trial);
+            error = now;
+            report.residuals.push(error);
+            since_best = if error < 0.9 * best { 0 } else { since_best + 1 };
+            best = best.min(error);
+            if since_best >= PATIENCE && error < NEAR * NEAR {
+                break StopReason::Stalled;
+            }
+        };
+        if report.stop_reason != StopReason::IterationLimit && report.iterations > 0 && error > POLISH_TO {
+            self.polish(system, &mut state, &mut trial, &mut residual, &mut step, report, &mut error)?;
+        }
+        report.max_curvature_error = error;
+        // Lengths move by |u| ε and a few ulp of their own, curvature by the row sums of ∂K/∂u times that.
+        let largest_u = state.u.iter().fold(0.0f64, |m, u| m.max(u.abs()));
+        if report.iterations > 0 {
+            report.rounding_floor = 0.5 * f64::EPSILON * (largest_u + 2.0) * system.jacobian.matrix().norm();
+        }
+        if report.stop_reason == StopReason::Stalled {
+            if error <= report.tolerance {
+                report.stop_reason = StopReason::Converged;
+            } else if error <= FLOOR_SLACK * report.rounding_floor {
+                report.stop_reason = StopReason::RoundingFloor;
+                report.tolerance = FLOOR_SLACK * report.rounding_floor;
+            }
+        }
+        Ok(state)
+    }
+
+    /// Factorise; a matrix that rounding (or broken triangles, whose rows are zero) has made semidefinite is shifted.
+    fn factor(&self, system: &mut System, report: &mut Report) -> Result<()> {
+        let mut shift = SHIFT * system.jacobian.mean_diagonal().max(f64::MIN_POSITIVE);
+        for attempt in 0..SHIFT_TRIES {
+            if timed(&mut report.seconds.factor, || system.factor()).is_ok() {
+                return Ok(());
+            }
+            self.control.check()?;
+            report.shifted += usize::from(attempt == 0);
+            system.jacobian.add_diagonal(|_| shift);
+            shift *= SHIFT_GROWTH;
+        }
+        let message = "it stays indefinite under every shift".into();
+        Err(Error::Factorisation { size: system.unknowns(), message })
+    }
+
+    /// The largest of `step`, `step/2`, `step/4`, … (after the cap) that is accepted, in `trial`; its error.
+    ///
+    /// Accepted: the energy still falls along the step at its end, `step·(K̄ − K) ≥ 0`; near the solution a smaller
+    /// residual will do.
+    fn line_search(
+        &self,
+        state: &State,
+        trial: &mut State,
+        residual: &mut [f64],
+        step: &[f64],
+        error: f64,
+        report: &mut Report,
+    ) -> Result<Option<f64>> {
+        let largest = step.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let mut t = (self.options.max_step / largest).min(1.0);
+        for _ in 0..HALVINGS {
+            self.control.check()?;
+            let inside = timed(&mut report.seconds.assemble, || {
+                trial.u.iter_mut().zip(state.u.iter().zip(step)).for_each(|(x, (u, d))| *x = u + t * d);
+                trial.evaluate(self.mesh, self.class)
+            });
+            if inside {
+                let now = trial.residual(self.target, self.pinned, residual);
+                let slope: f64 = step.iter().zip(residual.iter()).map(|(d, r)| d * r).sum();
+                if (error < NEAR && now < error) || slope >= 0.0 {
+                    return Ok(Some(now));
+                }
+            }
+            t *= 0.5;
+        }
+        Ok(None)
+    }
+
+    /// Steps with the last factor, as long as they at least halve the error: iterative refinement of the nonlinear
+    /// system at the price of a solve.
+    fn polish(
+        &self,
+        system: &mut System,
+        state: &mut State,
+        trial: &mut State,
+        residual: &mut [f64],
+        step: &mut [f64],
+        report: &mut Report,
+        error: &mut f64,
+    ) -> Result<()> {
+        for _ in 0..POLISH_STEPS {
+            self.control.check()?;
+            state.residual(self.target, self.pinned, residual);
+            if !timed(&mut report.seconds.solve, || system.solve(residual, step)) {
+                return Ok(());
+            }
+            if self.free_scale {
+                center(step);
+            }
+            let inside = timed(&mut report.seconds.assemble, || {
+                trial.u.iter_mut().zip(state.u.iter().zip(step.iter())).for_each(|(x, (u, d))| *x = u + d);
+                trial.evaluate(self.mesh, self.class)
+            });
+            if !inside {
+                return Ok(());
+            }
+            let now = trial.residual(self.target, self.pinned, residual);
+            if now < *error && trial.broken() <= state.broken() {
+                std::mem::swap(state, trial);
+            } else {
+                return Ok(());
+            }
+            let halved = now <= 0.5 * *error;
+            *error = now;
+            if !halved || now <= POLISH_TO {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Fraction of the way from `first` to `goal` on a logarithmic scale.
+pub(super) fn progress(first: f64, now: f64, goal: f64) -> f64 {
+    if first > goal && now > 0.0 { (first / now).ln() / (first / goal).ln() } else { 1.0 }
+}

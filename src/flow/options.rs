@@ -1,0 +1,103 @@
+//! What a flow can be asked.
+
+use crate::error::{Error, Result};
+
+/// How the target is reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Newton with a line search (E², H²); in S², where the energy is not convex, damped Newton.
+    #[default]
+    Newton,
+    /// The flow itself, explicit in time.
+    Gradient,
+}
+
+/// Whether edges may be flipped inside the conformal class.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Flips {
+    /// As often as needed. Means `Never` in this version, which keeps the triangulation of the input.
+    #[default]
+    Auto,
+    /// The triangulation stays as it is.
+    Never,
+}
+
+/// Step size of the gradient flow.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum StepRule {
+    /// Barzilai–Borwein steps [BB88]: far fewer steps; visits other metrics on the way than the continuous flow.
+    #[default]
+    BarzilaiBorwein,
+    /// The largest step for which the explicit scheme is stable by Gershgorin's bound on ∂K/∂u.
+    Stable,
+    /// Always the same step.
+    Fixed(f64),
+}
+
+/// Options of the gradient flow.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Gradient {
+    /// Step size rule.
+    pub step: StepRule,
+    /// Keep the total area of the start (E²; in S² the area is always kept, in H² curvature fixes it).
+    pub area_normalised: bool,
+}
+
+/// Options of a flow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Default Newton.
+    pub method: Method,
+    /// Largest |K − K̄| of a converged metric, radians. Default 1e-10.
+    pub tolerance: f64,
+    /// Iterations before giving up; 0 (default) means 200 for Newton, 200 000 for the gradient flow.
+    pub max_iterations: usize,
+    /// Largest change of any u in one Newton step. Default 3: lengths change by at most e³ at a time.
+    pub max_step: f64,
+    /// Default `Auto`.
+    pub flips: Flips,
+    /// Threads of this flow's own pool; 0 (default) is one per core. The result does not depend on it.
+    pub threads: usize,
+    /// Options of [`Method::Gradient`].
+    pub gradient: Gradient,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            method: Method::Newton,
+            tolerance: 1e-10,
+            max_iterations: 0,
+            max_step: 3.0,
+            flips: Flips::Auto,
+            threads: 0,
+            gradient: Gradient::default(),
+        }
+    }
+}
+
+impl Options {
+    /// Every number finite and in its range.
+    pub fn check(&self) -> Result<()> {
+        let positive = |what, value: f64| {
+            if value > 0.0 && value.is_finite() {
+                return Ok(());
+            }
+            Err(Error::Argument { what, value: value.to_string(), need: "a positive finite number" })
+        };
+        positive("tolerance", self.tolerance)?;
+        positive("max_step", self.max_step)?;
+        match self.gradient.step {
+            StepRule::Fixed(step) => positive("gradient.step", step),
+            _ => Ok(()),
+        }
+    }
+
+    pub(super) fn iteration_limit(&self) -> usize {
+        match (self.max_iterations, self.method) {
+            (0, Method::Newton) => 200,
+            (0, Method::Gradient) => 200_000,
+            (n, _) => n,
+        }
+    }
+}

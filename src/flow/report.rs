@@ -1,0 +1,136 @@
+//! What a flow did.
+
+use std::time::{Duration, Instant};
+
+/// Why a flow stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StopReason {
+    /// The tolerance is reached and every triangle is whole.
+    Converged,
+    /// No step reduces the error further and the error is within the rounding floor of the mesh, which is above the
+    /// tolerance; every triangle is whole. `Report::tolerance` holds the floor.
+    RoundingFloor,
+    /// The extended energy is at its minimum there, but some triangles break: no metric of this class on this
+    /// triangulation has the target curvature.
+    BrokenTriangles,
+    /// No step reduces the error, which is above the rounding floor.
+    Stalled,
+    /// The iteration limit came first.
+    IterationLimit,
+}
+
+impl StopReason {
+    /// The name used in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            StopReason::Converged => "converged",
+            StopReason::RoundingFloor => "rounding_floor",
+            StopReason::BrokenTriangles => "broken_triangles",
+            StopReason::Stalled => "stalled",
+            StopReason::IterationLimit => "iteration_limit",
+        }
+    }
+}
+
+impl std::fmt::Display for StopReason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Seconds by phase.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Seconds {
+    /// Lengths, angles, curvature, derivative.
+    pub assemble: f64,
+    /// Ordering and symbolic analysis.
+    pub analyse: f64,
+    /// Numeric factorisations.
+    pub factor: f64,
+    /// Triangular solves.
+    pub solve: f64,
+    /// Edge flips.
+    pub flip: f64,
+    /// The whole call.
+    pub total: f64,
+}
+
+/// Adds its lifetime to a phase.
+pub(super) fn timed<R>(phase: &mut f64, work: impl FnOnce() -> R) -> R {
+    let start = Instant::now();
+    let result = work();
+    *phase += start.elapsed().max(Duration::ZERO).as_secs_f64();
+    result
+}
+
+/// One step of the gradient flow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TraceRow {
+    /// Step number; 0 is the start.
+    pub step: usize,
+    /// `∫ Σ (K − K̄) du` along the steps so far (trapezoidal rule), 0 at the start.
+    pub energy: f64,
+    /// max |K − K̄|, radians.
+    pub max_curvature_error: f64,
+    /// Total area.
+    pub area: f64,
+    /// Step size that led here.
+    pub step_size: f64,
+}
+
+/// Result of a flow, with everything needed to judge it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// The curvature error is within `tolerance` and no triangle is broken.
+    pub converged: bool,
+    /// Why it stopped.
+    pub stop_reason: StopReason,
+    /// Newton steps, or time steps.
+    pub iterations: usize,
+    /// Edge flips.
+    pub flips: usize,
+    /// max |K − K̄| over the vertices that are not pinned, radians.
+    pub max_curvature_error: f64,
+    /// The tolerance it is held against: the one asked for, or the rounding floor (see [`StopReason::RoundingFloor`]).
+    pub tolerance: f64,
+    /// Curvature error that rounding u to double precision can cause at the final metric.
+    pub rounding_floor: f64,
+    /// Faces that break the triangle inequality.
+    pub broken_triangles: usize,
+    /// |Σ K + λ·area − 2πχ| of the final metric (meaningless while triangles are broken).
+    pub gauss_bonnet: f64,
+    /// max |K − K̄| at the start and after each Newton step.
+    pub residuals: Vec<f64>,
+    /// The gradient flow's steps.
+    pub trace: Vec<TraceRow>,
+    /// Newton matrices that had to be shifted to be positive definite.
+    pub shifted: usize,
+    /// Unknowns of the linear system and entries of its Cholesky factor (0 for the gradient flow).
+    pub unknowns: usize,
+    /// Entries of the Cholesky factor.
+    pub factor_entries: usize,
+    /// Seconds by phase.
+    pub seconds: Seconds,
+}
+
+impl Report {
+    pub(super) fn new(tolerance: f64) -> Report {
+        Report {
+            converged: false,
+            stop_reason: StopReason::IterationLimit,
+            iterations: 0,
+            flips: 0,
+            max_curvature_error: f64::INFINITY,
+            tolerance,
+            rounding_floor: 0.0,
+            broken_triangles: 0,
+            gauss_bonnet: 0.0,
+            residuals: Vec::new(),
+            trace: Vec::new(),
+            shifted: 0,
+            unknowns: 0,
+            factor_entries: 0,
+            seconds: Seconds::default(),
+        }
+    }
+}

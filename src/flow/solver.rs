@@ -1,0 +1,160 @@
+//! A surface, a conformal class and a factorisation that serves many targets.
+
+use super::evaluate::State;
+use super::options::{Method, Options};
+use super::report::{Report, StopReason, timed};
+use super::system::System;
+use crate::control::Control;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::Space;
+use crate::mesh::{Mesh, PerVertex, VertexId};
+use crate::metric::Metric;
+use crate::parallel::Pool;
+use std::f64::consts::PI;
+
+/// Solver for one surface. The symbolic analysis is kept between targets; each solve starts from the last metric.
+///
+/// The solver owns its mesh because edge flips change it.
+pub struct Solver {
+    pub(super) mesh: Mesh,
+    pub(super) metric: Metric,
+    pub(super) options: Options,
+    pub(super) pinned: Vec<bool>,
+    pub(super) system: Option<System>,
+    pool: Pool,
+}
+
+/// What the methods share during one solve.
+pub(super) struct Run<'a> {
+    pub mesh: &'a Mesh,
+    pub class: &'a Metric,
+    pub options: &'a Options,
+    pub target: &'a [f64],
+    pub pinned: &'a [bool],
+    /// E² without pinned vertices: u is determined up to a constant, and Σ u = 0 is kept.
+    pub free_scale: bool,
+    pub control: &'a Control,
+}
+
+impl Solver {
+    /// A solver for `metric` on `mesh`. Errors: wrong sizes, variables outside the metric's domain, bad options.
+    pub fn new(mesh: Mesh, metric: Metric, options: Options) -> Result<Solver> {
+        options.check()?;
+        let pool = Pool::new(options.threads)?;
+        pool.run(|| metric.lengths(&mesh).map(|_| ()))?;
+        let pinned = vec![false; mesh.n_vertices()];
+        Ok(Solver { mesh, metric, options, pinned, system: None, pool })
+    }
+
+    /// Hold u at these vertices (Dirichlet); replaces earlier pins. Their curvature is then free.
+    pub fn pin(&mut self, vertices: &[VertexId]) -> Result<()> {
+        let n = self.mesh.n_vertices();
+        if let Some(v) = vertices.iter().find(|v| v.index() >= n) {
+            let value = v.to_string();
+            return Err(Error::Argument { what: "pinned vertex", value, need: "an existing vertex" });
+        }
+        self.pinned = vec![false; n];
+        vertices.iter().for_each(|v| self.pinned[v.index()] = true);
+        self.system = None;
+        Ok(())
+    }
+
+    /// Set u (V entries): the start of the next solve, and the values held at pinned vertices.
+    pub fn set_u(&mut self, u: PerVertex<f64>) -> Result<()> {
+        let metric = Metric { u, ..self.metric.clone() };
+        self.pool.run(|| metric.lengths(&self.mesh).map(|_| ()))?;
+        self.metric = metric;
+        Ok(())
+    }
+
+    /// The surface's connectivity.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The current metric: the start, or the result of the last solve.
+    pub fn metric(&self) -> &Metric {
+        &self.metric
+    }
+
+    /// Flow to curvature `target` (V entries, radians; ignored at pinned vertices).
+    ///
+    /// Not reaching it is reported, not an error. Errors: wrong size, a target that is not finite, cancelled, out
+    /// of memory; the metric is then unchanged.
+    pub fn solve(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<Report> {
+        check_size("target", target.len(), self.mesh.n_vertices())?;
+        if let Some(vertex) = target.iter().position(|k| !k.is_finite()) {
+            let curvature = target[VertexId::from(vertex)];
+            return Err(Error::TargetBelow { vertex, curvature, limit: f64::MIN, excess: f64::MIN });
+        }
+        let mut report = Report::new(self.options.tolerance);
+        let mut seconds = 0.0;
+        let free_scale = self.metric.space == Space::E2 && !self.pinned.contains(&true);
+        let run = Run {
+            mesh: &self.mesh,
+            class: &self.metric,
+            options: &self.options,
+            target,
+            pinned: &self.pinned,
+            free_scale,
+            control,
+        };
+        let system = &mut self.system;
+        let state = timed(&mut seconds, || self.pool.run(|| run.solve(system, &mut report)))?;
+        report.seconds.total = seconds;
+        self.metric.u = state.u;
+        Ok(report)
+    }
+}
+
+impl Run<'_> {
+    fn solve(&self, system: &mut Option<System>, report: &mut Report) -> Result<State> {
+        let mut state = State::new(self.mesh, self.class);
+        if self.free_scale && !self.options.gradient.area_normalised {
+            center(&mut state.u);
+        }
+        if !state.evaluate(self.mesh, self.class) {
+            return Err(Error::Argument { what: "u", value: "start".into(), need: "in the metric's domain" });
+        }
+        let state = match (self.options.method, self.class.space) {
+            (Method::Gradient, _) => self.gradient(state, report)?,
+            (Method::Newton, Space::S2) => self.spherical(system, state, report)?,
+            (Method::Newton, _) => self.newton(system, state, report)?,
+        };
+        report.broken_triangles = state.broken();
+        let sum: f64 = state.curvature.iter().sum();
+        let area = state.area(self.mesh, self.class);
+        report.gauss_bonnet =
+            (sum + self.class.space.curvature() * area - 2.0 * PI * self.mesh.euler() as f64).abs();
+        if report.broken_triangles > 0 && report.stop_reason != StopReason::IterationLimit {
+            report.stop_reason = StopReason::BrokenTriangles;
+        }
+        report.converged = matches!(report.stop_reason, StopReason::Converged | StopReason::RoundingFloor);
+        Ok(state)
+    }
+
+    /// The system for this run's unknowns: analysed now, or kept from the last solve.
+    pub(super) fn prepare<'s>(
+        &self,
+        system: &'s mut Option<System>,
+        report: &mut Report,
+    ) -> Result<&'s mut System> {
+        if system.is_none() {
+            let mut fixed = self.pinned.to_vec();
+            if self.free_scale {
+                fixed[0] = true;
+            }
+            *system = Some(timed(&mut report.seconds.analyse, || System::new(self.mesh, &fixed))?);
+        }
+        let system = system.as_mut().ok_or(Error::Cancelled)?;
+        report.unknowns = system.unknowns();
+        report.factor_entries = system.factor_entries();
+        Ok(system)
+    }
+}
+
+/// Subtract the mean.
+pub(super) fn center(x: &mut [f64]) {
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    x.iter_mut().for_each(|x| *x -= mean);
+}

@@ -1,0 +1,120 @@
+//! Symmetric sparse matrices as their lower triangle, with a pattern that outlives the values.
+
+use crate::error::{Error, Result};
+
+/// Sparsity pattern of a symmetric n×n matrix: its lower triangle by columns, the diagonal first in each column,
+/// rows ascending, no entry twice.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pattern {
+    pub(super) column_start: Vec<u32>,
+    pub(super) row: Vec<u32>,
+}
+
+impl Pattern {
+    /// The pattern with a full diagonal and the off-diagonal entries (i, j) of `pairs` (either order; repeated
+    /// pairs are one entry; pairs with i = j are on the diagonal anyway). All indices must be below `n`.
+    pub fn new(n: usize, pairs: &[(u32, u32)]) -> Result<Pattern> {
+        let pairs = pairs.iter().filter(|(i, j)| i != j).map(|&(i, j)| (i.max(j), i.min(j)));
+        let total = n + pairs.clone().count();
+        if total >= u32::MAX as usize {
+            return Err(Error::TooLarge { what: "matrix entries", count: total });
+        }
+        // Counting sort by column, then sort and deduplicate each column.
+        let mut start = vec![0u32; n + 1];
+        pairs.clone().for_each(|(_, j)| start[j as usize + 1] += 1);
+        for j in 0..n {
+            start[j + 1] += start[j] + 1;
+        }
+        let mut row = vec![0u32; total];
+        let mut end: Vec<u32> = start[..n].to_vec();
+        for j in 0..n {
+            row[end[j] as usize] = j as u32;
+            end[j] += 1;
+        }
+        for (i, j) in pairs {
+            row[end[j as usize] as usize] = i;
+            end[j as usize] += 1;
+        }
+        let mut kept = 0usize;
+        for j in 0..n {
+            let column = start[j] as usize..end[j] as usize;
+            row[column.clone()].sort_unstable();
+            start[j] = kept as u32;
+            for k in column.clone() {
+                if k == column.start || row[k] != row[k - 1] {
+                    row[kept] = row[k];
+                    kept += 1;
+                }
+            }
+        }
+        start[n] = kept as u32;
+        row.truncate(kept);
+        row.shrink_to_fit();
+        Ok(Pattern { column_start: start, row })
+    }
+
+    /// Number of rows.
+    pub fn size(&self) -> usize {
+        self.column_start.len() - 1
+    }
+
+    /// Number of stored entries.
+    pub fn entries(&self) -> usize {
+        self.row.len()
+    }
+
+    /// Position of the diagonal entry (j, j) among the stored values.
+    pub fn diagonal(&self, j: usize) -> usize {
+        self.column_start[j] as usize
+    }
+
+    /// Position of the entry (i, j) = (j, i) among the stored values, if it is stored.
+    pub fn position(&self, i: usize, j: usize) -> Option<usize> {
+        let (i, j) = (i.max(j), i.min(j));
+        let start = *self.column_start.get(j)? as usize;
+        let end = *self.column_start.get(j + 1)? as usize;
+        self.row[start..end].binary_search(&(i as u32)).ok().map(|k| start + k)
+    }
+}
+
+/// A symmetric matrix: the stored values of a pattern.
+#[derive(Debug, Clone, Copy)]
+pub struct Symmetric<'a> {
+    /// The pattern.
+    pub pattern: &'a Pattern,
+    /// One value per stored entry.
+    pub values: &'a [f64],
+}
+
+impl Symmetric<'_> {
+    /// The stored entries (i, j, value), i ≥ j, by columns.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        (0..self.pattern.size()).flat_map(move |j| {
+            let column = self.pattern.column_start[j] as usize..self.pattern.column_start[j + 1] as usize;
+            column.map(move |k| (self.pattern.row[k] as usize, j, self.values[k]))
+        })
+    }
+
+    /// `y = b − A x`.
+    pub fn residual(&self, x: &[f64], b: &[f64], y: &mut [f64]) {
+        y.copy_from_slice(b);
+        for (i, j, a) in self.entries() {
+            y[i] -= a * x[j];
+            if i != j {
+                y[j] -= a * x[i];
+            }
+        }
+    }
+
+    /// Largest absolute row sum.
+    pub fn norm(&self) -> f64 {
+        let mut sums = vec![0.0; self.pattern.size()];
+        for (i, j, a) in self.entries() {
+            sums[i] += a.abs();
+            if i != j {
+                sums[j] += a.abs();
+            }
+        }
+        sums.into_iter().fold(0.0, f64::max)
+    }
+}

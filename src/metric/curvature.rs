@@ -1,0 +1,51 @@
+//! Curvature, area and the Gauss–Bonnet residual of a metric given by its edge lengths.
+
+use super::lengths::{check_lengths, face_lengths};
+use crate::error::Result;
+use crate::geometry::{Space, triangle};
+use crate::mesh::{FaceId, Mesh, PerEdge, PerVertex};
+use crate::parallel;
+use std::f64::consts::PI;
+
+/// Discrete curvature of a metric.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curvature {
+    /// K_i, radians: 2π − Σθ inside, π − Σθ on the boundary.
+    pub at: PerVertex<f64>,
+    /// Faces that break the triangle inequality (their angles are the extension (π, 0, 0)).
+    pub broken: Vec<FaceId>,
+    /// Total area, by formulas that use no angle.
+    pub area: f64,
+    /// |Σ K + λ·area − 2πχ|; zero to rounding when no face is broken.
+    pub gauss_bonnet: f64,
+}
+
+/// Curvature of the metric with these edge lengths (E entries).
+pub fn curvature(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> Result<Curvature> {
+    check_lengths(mesh, lengths)?;
+    let mut angles = vec![triangle::Angles { at: [0.0; 3], broken: false }; mesh.n_faces()];
+    parallel::fill(&mut angles, |f| triangle::angles(space, face_lengths(mesh, lengths, f.into())));
+    let at = curvature_from_angles(mesh, angles.iter().map(|a| a.at));
+    let broken = mesh.faces().filter(|f| angles[f.index()].broken).collect();
+    let area = mesh.faces().map(|f| triangle::area(space, face_lengths(mesh, lengths, f))).sum::<f64>();
+    let total: f64 = at.iter().sum();
+    let gauss_bonnet = (total + space.curvature() * area - 2.0 * PI * mesh.euler() as f64).abs();
+    Ok(Curvature { at, broken, area, gauss_bonnet })
+}
+
+/// K from the corner angles of each face, in face order.
+pub fn curvature_from_angles(mesh: &Mesh, angles: impl Iterator<Item = [f64; 3]>) -> PerVertex<f64> {
+    let flat = |v| if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI };
+    let mut at = PerVertex::from_fn(mesh.n_vertices(), flat);
+    for (f, angles) in angles.enumerate() {
+        for (v, angle) in mesh.face_vertices(FaceId::from(f)).into_iter().zip(angles) {
+            at[v] -= angle;
+        }
+    }
+    at
+}
+
+/// Total area of the metric.
+pub fn area(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> f64 {
+    mesh.faces().map(|f| triangle::area(space, face_lengths(mesh, lengths, f))).sum()
+}

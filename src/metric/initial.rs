@@ -1,0 +1,226 @@
+//! The initial metric of a scheme from the edge lengths of the input surface.
+
+use super::curvature::area;
+use super::lengths::{Metric, check_lengths, face_lengths};
+use super::scheme::Scheme;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::{Space, triangle};
+use crate::mesh::{Mesh, PerEdge, PerVertex};
+use std::f64::consts::PI;
+
+/// The initial metric with what is needed to read the result of a flow against it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Initial {
+    /// (ε, η, u) in the target space.
+    pub metric: Metric,
+    /// Geometry in which the input lengths were read.
+    pub input_geometry: Space,
+    /// Radii γ(0) in the input geometry; 1 at vertices with ε = 0.
+    pub radii: PerVertex<f64>,
+    /// `u` of those radii in the input geometry (0 at vertices with ε = 0).
+    pub input_u: PerVertex<f64>,
+    /// Edges whose η was moved into the scheme's range.
+    pub clamped_edges: usize,
+    /// Largest relative change of an edge length by that.
+    pub max_length_change: f64,
+}
+
+/// The initial metric of `scheme` for input `lengths` (E entries, read in `input_geometry`), carried into `space`.
+///
+/// η is computed once, in the geometry of the input. Radii from the corners' tangent lengths
+/// `γ_i^{jk} = (l_ij + l_ki − l_jk)/2` [JKLLG08, §4.1]: their mean for Thurston's and tangential packings, their
+/// minimum for inversive distance and virtual radius (then η ≥ 1 and nothing is clamped). When the
+/// target space differs from the input geometry, u is shifted by one constant that brings the area near the one
+/// Gauss–Bonnet asks for; a shift stays in the class.
+///
+/// Errors: a length that is not positive, a face that breaks the triangle inequality of the input geometry.
+pub fn initial_metric(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    input_geometry: Space,
+    scheme: Scheme,
+    space: Space,
+) -> Result<Initial> {
+    check_triangles(mesh, lengths, input_geometry)?;
+    let epsilon = PerVertex::filled(mesh.n_vertices(), scheme.epsilon());
+    let radii = match scheme {
+        Scheme::Yamabe => PerVertex::filled(mesh.n_vertices(), 1.0),
+        Scheme::Tangential | Scheme::Thurston => corner_radii(mesh, lengths).mean,
+        Scheme::Inversive | Scheme::Virtual => corner_radii(mesh, lengths).min,
+    };
+    let mut initial = initial_mixed(mesh, lengths, input_geometry, epsilon, radii, space)?;
+    let clamp = match scheme {
+        Scheme::Thurston => |eta: f64| eta.clamp(0.0, 1.0),
+        Scheme::Tangential => |_| 1.0,
+        _ => return Ok(initial),
+    };
+    let start = Metric { space: input_geometry, u: initial.input_u.clone(), ..initial.metric.clone() };
+    let start = {
+        let mut m = start;
+        m.eta.iter_mut().for_each(|eta| *eta = clamp(*eta));
+        m
+    };
+    let moved = start.lengths(mesh)?;
+    for e in mesh.edges() {
+        let change = (moved[e] / lengths[e] - 1.0).abs();
+        initial.clamped_edges += usize::from(start.eta[e] != initial.metric.eta[e]);
+        initial.max_length_change = initial.max_length_change.max(change);
+    }
+    initial.metric.eta = start.eta;
+    let shift = start_shift(mesh, &moved, &initial, space);
+    set_start(&mut initial, space, shift);
+    Ok(initial)
+}
+
+/// Like [`initial_metric`] with given types ε (V entries) and radii γ (V entries, positive; unused where ε = 0):
+/// the input lengths are represented exactly.
+///
+/// Errors: [`Error::EdgeWeight`] where two circles of ε = 1 would need η ≤ −1, or two of ε = −1 η ≤ 1.
+pub fn initial_mixed(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    input_geometry: Space,
+    epsilon: PerVertex<i8>,
+    radii: PerVertex<f64>,
+    space: Space,
+) -> Result<Initial> {
+    check_triangles(mesh, lengths, input_geometry)?;
+    check_size("epsilon", epsilon.len(), mesh.n_vertices())?;
+    check_size("radii", radii.len(), mesh.n_vertices())?;
+    let radii = PerVertex::from_fn(radii.len(), |v| if epsilon[v] == 0 { 1.0 } else { radii[v] });
+    let input_u = PerVertex::from_fn(radii.len(), |v| {
+        if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) }
+    });
+    if let Some(v) = mesh.vertices().find(|&v| !input_u[v].is_finite()) {
+        return Err(Error::Domain { vertex: v.index(), u: input_u[v], need: "a positive radius" });
+    }
+    let mut eta = PerEdge::filled(mesh.n_edges(), 0.0);
+    for e in mesh.edges() {
+        let [i, j] = mesh.ends(e);
+        eta[e] =
+            weight_of_length(input_geometry, lengths[e], [epsilon[i], epsilon[j]], [input_u[i], input_u[j]]);
+        let need = match (epsilon[i], epsilon[j]) {
+            (1, 1) if eta[e] <= -1.0 => "above −1: the circles would contain each other; use smaller radii",
+            (-1, -1) if eta[e] <= 1.0 => "above 1 between imaginary circles",
+            _ if !eta[e].is_finite() => "finite",
+            _ => continue,
+        };
+        return Err(Error::EdgeWeight { edge: e.index(), eta: eta[e], need });
+    }
+    let metric = Metric { space, epsilon, eta, u: input_u.clone() };
+    let mut initial =
+        Initial { metric, input_geometry, radii, input_u, clamped_edges: 0, max_length_change: 0.0 };
+    let shift = start_shift(mesh, lengths, &initial, space);
+    set_start(&mut initial, space, shift);
+    Ok(initial)
+}
+
+impl Initial {
+    /// The conformal factor λ of [JKLLG08, Eqns 2–5] between the input and `metric`, per vertex: `u − u(0)` where
+    /// ε = 0, `log(γ/γ(0))` elsewhere.
+    pub fn conformal_factor(&self, metric: &Metric) -> PerVertex<f64> {
+        let radii = metric.radii();
+        PerVertex::from_fn(metric.u.len(), |v| {
+            if metric.epsilon[v] == 0 {
+                metric.u[v] - self.input_u[v]
+            } else {
+                (radii[v] / self.radii[v]).ln()
+            }
+        })
+    }
+}
+
+/// `log γ`, `log tanh(γ/2)`, `log tan(γ/2)`.
+fn log_radius(space: Space, radius: f64) -> f64 {
+    match space {
+        Space::E2 => radius.ln(),
+        Space::H2 => (0.5 * radius).tanh().ln(),
+        Space::S2 => (0.5 * radius).tan().ln(),
+    }
+}
+
+/// η from a length: the length formulas solved for it.
+fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) -> f64 {
+    let lambda = space.curvature();
+    let e = u.map(f64::exp);
+    let p = [f64::from(epsilon[0]) * e[0] * e[0], f64::from(epsilon[1]) * e[1] * e[1]];
+    let d = p.map(|p| 1.0 + lambda * p);
+    let n = match space {
+        Space::E2 => length * length,
+        Space::H2 => (0.5 * length).sinh().powi(2) * d[0] * d[1],
+        Space::S2 => (0.5 * length).sin().powi(2) * d[0] * d[1],
+    };
+    (n - p[0] - p[1]) / (2.0 * e[0] * e[1])
+}
+
+struct CornerRadii {
+    mean: PerVertex<f64>,
+    min: PerVertex<f64>,
+}
+
+/// Mean and minimum over the corners of each vertex of the tangent length `(l_ij + l_ki − l_jk)/2`.
+fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> CornerRadii {
+    let n = mesh.n_vertices();
+    let (mut mean, mut min) = (PerVertex::filled(n, 0.0), PerVertex::filled(n, f64::INFINITY));
+    let mut corners = PerVertex::filled(n, 0u32);
+    for f in mesh.faces() {
+        let (_, r) = triangle::half_differences(face_lengths(mesh, lengths, f));
+        for (v, r) in mesh.face_vertices(f).into_iter().zip(r) {
+            mean[v] += r;
+            min[v] = min[v].min(r);
+            corners[v] += 1;
+        }
+    }
+    for v in mesh.vertices() {
+        mean[v] /= f64::from(corners[v]);
+    }
+    CornerRadii { mean, min }
+}
+
+/// Largest edge allowed by the start in a curved target space, so that the flow starts from a moderate metric.
+const MAX_START_HALF_CHORD: f64 = 0.5;
+/// Largest start variable of an ε = 1 vertex in H² (the domain is u < 0).
+const MAX_START_U: f64 = -0.1;
+
+/// The common shift of u that carries the class from the input geometry to a good start in `space`.
+fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, initial: &Initial, space: Space) -> f64 {
+    if initial.input_geometry == space || space == Space::E2 {
+        return 0.0;
+    }
+    // N = l² in E²; in the curved spaces N ≈ (l/2)² for short edges: halving, then scaling to the wanted area.
+    let wanted = match space {
+        Space::H2 if mesh.euler() < 0 => -2.0 * PI * mesh.euler() as f64,
+        Space::H2 => 1.0,
+        _ => 4.0 * PI,
+    };
+    let area = area(mesh, initial.input_geometry, lengths);
+    let longest = lengths.iter().fold(0.0f64, |m, &l| m.max(l));
+    let mut shift = (0.25 * wanted / area).sqrt().ln();
+    shift = shift.min((MAX_START_HALF_CHORD / longest).ln());
+    if space == Space::H2 {
+        for v in mesh.vertices().filter(|&v| initial.metric.epsilon[v] == 1) {
+            shift = shift.min(MAX_START_U - initial.input_u[v]);
+        }
+    }
+    shift
+}
+
+fn set_start(initial: &mut Initial, space: Space, shift: f64) {
+    initial.metric.space = space;
+    initial.metric.u = PerVertex::from_fn(initial.input_u.len(), |v| initial.input_u[v] + shift);
+}
+
+/// Every length positive, every face a triangle of the input geometry.
+fn check_triangles(mesh: &Mesh, lengths: &PerEdge<f64>, geometry: Space) -> Result<()> {
+    check_lengths(mesh, lengths)?;
+    for f in mesh.faces() {
+        let l = face_lengths(mesh, lengths, f);
+        if triangle::angles(geometry, l).broken {
+            let (s, r) = triangle::half_differences(l);
+            let worst = r.into_iter().fold(f64::INFINITY, f64::min);
+            let excess = if worst <= 0.0 { -2.0 * worst / s } else { 2.0 * s - 2.0 * PI };
+            return Err(Error::TriangleInequality { face: f.index(), excess });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,163 @@
+//! Target curvatures and their admissibility.
+
+use super::scheme::Scheme;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::Space;
+use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use crate::topology;
+use std::f64::consts::PI;
+
+/// Gauss–Bonnet must hold for a given target to this, relative to `2π + Σ|K̄|`: targets written with ten digits
+/// pass, and what remains moves no curvature by more than the flow's own tolerance.
+pub const TOTAL_TOLERANCE: f64 = 1e-10;
+
+/// A prescribed curvature (radians per vertex), by rule or by value.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Target {
+    /// E² closed: 2πχ/V everywhere. H², S²: 0 everywhere, boundary included.
+    Uniform,
+    /// E² open: 0 inside, 2πχ shared over the boundary in proportion to the adjacent boundary length (in equal
+    /// shares where a share would reach π).
+    Boundary,
+    /// E²: all of 2πχ at one vertex, 0 elsewhere.
+    Single(VertexId),
+    /// The given curvatures, 0 at every other vertex.
+    Cones(Vec<(VertexId, f64)>),
+    /// The curvature of every vertex (V entries).
+    All(PerVertex<f64>),
+}
+
+impl Target {
+    /// What is asked for when nothing is: `Boundary` on open surfaces in E², four cones of π on closed surfaces of
+    /// genus 0 in E² (vertex 0 and then, three times, the vertex farthest from those chosen, along edges),
+    /// `Uniform` otherwise.
+    pub fn default_for(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space) -> Target {
+        match space {
+            Space::H2 | Space::S2 => Target::Uniform,
+            Space::E2 if !mesh.is_closed() => Target::Boundary,
+            Space::E2 if mesh.euler() == 2 => {
+                let cones = topology::farthest_vertices(mesh, lengths, VertexId(0), 4);
+                Target::Cones(cones.into_iter().map(|v| (v, PI)).collect())
+            }
+            Space::E2 => Target::Uniform,
+        }
+    }
+
+    /// The rule's name on the command line.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Target::Uniform => "uniform",
+            Target::Boundary => "boundary",
+            Target::Single(_) => "single",
+            Target::Cones(_) => "cones",
+            Target::All(_) => "file",
+        }
+    }
+
+    /// The curvature of every vertex, checked to be admissible: see [`check_admissible`].
+    pub fn resolve(
+        &self,
+        mesh: &Mesh,
+        lengths: &PerEdge<f64>,
+        space: Space,
+        scheme: Scheme,
+    ) -> Result<PerVertex<f64>> {
+        let n = mesh.n_vertices();
+        let kind = |message: &str| Error::TargetKind { target: self.name(), message: message.into() };
+        let vertex = |v: VertexId| {
+            if v.index() < n {
+                return Ok(v);
+            }
+            Err(kind(&format!("vertex {v} does not exist, the surface has vertices 0 to {}", n - 1)))
+        };
+        let total = 2.0 * PI * mesh.euler() as f64;
+        let target = match self {
+            Target::Uniform if space != Space::E2 => PerVertex::filled(n, 0.0),
+            Target::Uniform if !mesh.is_closed() => {
+                return Err(kind("exists in E² on closed surfaces only; use `boundary`"));
+            }
+            Target::Uniform => PerVertex::filled(n, total / n as f64),
+            Target::Boundary if space != Space::E2 || mesh.is_closed() => {
+                return Err(kind("exists in E² on surfaces with boundary only; use `uniform`"));
+            }
+            Target::Boundary => boundary_target(mesh, lengths),
+            Target::Single(_) if space != Space::E2 => return Err(kind("exists in E² only; use `cones`")),
+            Target::Single(v) => {
+                let mut target = PerVertex::filled(n, 0.0);
+                target[vertex(*v)?] = total;
+                target
+            }
+            Target::Cones(cones) => {
+                let mut target = PerVertex::filled(n, 0.0);
+                for &(v, curvature) in cones {
+                    target[vertex(v)?] = curvature;
+                }
+                target
+            }
+            Target::All(values) => values.clone(),
+        };
+        check_admissible(mesh, space, scheme, &target)?;
+        Ok(target)
+    }
+}
+
+/// Necessary conditions on a target; for vertex scaling and inversive distance with flips they are sufficient.
+///
+/// - `K̄ < 2π` inside, `K̄ < π` on the boundary;
+/// - E²: `Σ K̄ = 2πχ`; H²: `Σ K̄ > 2πχ`; S²: `Σ K̄ < 2πχ`;
+/// - Thurston's and tangential packings, which never flip: each of the d angles at a vertex is below π, so
+///   `K̄ > (2 − d)π` inside, `(1 − d)π` on the boundary. (Thurston's conditions on larger vertex sets are not
+///   checked: they show as broken or vanishing triangles.)
+pub fn check_admissible(mesh: &Mesh, space: Space, scheme: Scheme, target: &PerVertex<f64>) -> Result<()> {
+    check_size("target", target.len(), mesh.n_vertices())?;
+    for v in mesh.vertices() {
+        let limit = if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI };
+        let curvature = target[v];
+        if curvature >= limit || curvature.is_nan() {
+            let excess = curvature - limit;
+            return Err(Error::TargetAtVertex { vertex: v.index(), curvature, limit, excess });
+        }
+        let least = match scheme {
+            Scheme::Thurston | Scheme::Tangential => {
+                limit - PI * mesh.outgoing(v).filter(|&h| !mesh.is_outside(h)).count() as f64
+            }
+            _ => f64::NEG_INFINITY,
+        };
+        if curvature <= least {
+            let excess = curvature - least;
+            return Err(Error::TargetBelow { vertex: v.index(), curvature, limit: least, excess });
+        }
+    }
+    let sum: f64 = target.iter().sum();
+    let scale = 2.0 * PI + target.iter().map(|k| k.abs()).sum::<f64>();
+    let miss = sum - 2.0 * PI * mesh.euler() as f64;
+    let (holds, relation) = match space {
+        Space::E2 => (miss.abs() <= TOTAL_TOLERANCE * scale, "exactly"),
+        Space::H2 => (miss > TOTAL_TOLERANCE * scale, "more than"),
+        Space::S2 => (miss < -TOTAL_TOLERANCE * scale, "less than"),
+    };
+    if holds {
+        return Ok(());
+    }
+    let need = format!("{relation} 2πχ = {} in {space}", 2.0 * PI * mesh.euler() as f64);
+    Err(Error::TargetTotal { sum, need, miss })
+}
+
+/// 2πχ over the boundary vertices in proportion to the boundary length adjacent to each.
+fn boundary_target(mesh: &Mesh, lengths: &PerEdge<f64>) -> PerVertex<f64> {
+    let total = 2.0 * PI * mesh.euler() as f64;
+    let mut share = PerVertex::filled(mesh.n_vertices(), 0.0);
+    let mut boundary = Vec::new();
+    for h in mesh.boundary_loops().into_iter().flatten() {
+        share[mesh.origin(h)] += lengths[h.edge()];
+        share[mesh.tip(h)] += lengths[h.edge()];
+        boundary.push(mesh.origin(h));
+    }
+    let length: f64 = boundary.iter().map(|&v| share[v]).sum();
+    let largest = boundary.iter().map(|&v| share[v]).fold(0.0, f64::max);
+    let equal = total * largest / length >= PI;
+    for &v in &boundary {
+        share[v] = if equal { total / boundary.len() as f64 } else { total * share[v] / length };
+    }
+    share
+}
