@@ -11,7 +11,6 @@ use crate::status::ricci_status;
 use ricci::Control;
 use ricci::flow::{Flips, Gradient, Method, Options, Report, Solver, StepRule};
 use ricci::mesh::PerVertex;
-use ricci::metric::target::Target;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 

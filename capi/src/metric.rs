@@ -34,6 +34,7 @@ pub(crate) struct Origin {
     pub(crate) positions: Option<Arc<Vec<Point>>>,
     pub(crate) mesh: Arc<Mesh>,
     pub(crate) lengths: Arc<PerEdge<f64>>,
+    pub(crate) scheme: Scheme,
     pub(crate) initial: Initial,
 }
 
@@ -59,7 +60,7 @@ impl ricci_metric {
             Shape::Positions(positions) => Some(positions.clone()),
             Shape::Lengths(..) => None,
         };
-        let origin = Origin { positions, mesh: connectivity.clone(), lengths, initial };
+        let origin = Origin { positions, mesh: connectivity.clone(), lengths, scheme, initial };
         ricci_metric::at(connectivity, metric, Arc::new(origin))
     }
 
@@ -203,7 +204,7 @@ pub unsafe extern "C" fn ricci_metric_summarise(
             size,
             space: name(metric.metric.space)?,
             input_geometry: name(initial.input_geometry)?,
-            scheme: name(initial.scheme)?,
+            scheme: name(metric.origin.scheme)?,
             reserved: 0,
             n_vertices: metric.mesh.n_vertices(),
             n_edges: metric.mesh.n_edges(),

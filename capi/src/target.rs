@@ -24,7 +24,7 @@ impl ricci_metric {
 
     fn resolve(&self, target: &Target) -> Outcome<PerVertex<f64>> {
         let origin = &self.origin;
-        Ok(target.resolve(&origin.mesh, &origin.lengths, self.metric.space, origin.initial.scheme)?)
+        Ok(target.resolve(&origin.mesh, &origin.lengths, self.metric.space, origin.scheme)?)
     }
 
     /// An admissible target from a caller's array.

@@ -1,4 +1,5 @@
-/* Results are the same bit for bit for 1, 2 and 3 threads, and for a solver as for a single call. */
+/* Results are the same bit for bit for 1, 2 and 3 threads, and for a solver as for a single call.
+ * Usage: test_threads [COLUMNS ROWS] */
 #include "torus.h"
 
 /* Lengths of the metric for this target, by this method and number of threads; 0 threads: a solver with 2. */
@@ -86,8 +87,8 @@ static void a_solver_serves_many_targets(const torus *t, const double *target, c
     free(after);
 }
 
-int main(void) {
-    torus t = torus_new(60, 40);
+int main(int argc, char **argv) {
+    torus t = torus_new(argc > 2 ? strtoul(argv[1], NULL, 10) : 60, argc > 2 ? strtoul(argv[2], NULL, 10) : 40);
     double *target = (double *)calloc(t.n_vertices, sizeof *target);
     const size_t bytes = 3 * t.n_vertices * sizeof(double);
     const ricci_method methods[2] = {RICCI_METHOD_NEWTON, RICCI_METHOD_GRADIENT};
