@@ -1,5 +1,7 @@
 //! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
 
+pub mod circle;
+pub mod modulus;
 pub mod space;
 pub mod triangle;
 
