@@ -21,8 +21,8 @@ pub fn modulus(periods: [[f64; 2]; 2]) -> Option<[f64; 2]> {
         return None;
     }
     (a, b) = (a.map(|x| x / largest), b.map(|x| x / largest));
-    let parallel = (a[0] * b[1] - a[1] * b[0]).abs() <= ROUNDING * (dot(a, a) * dot(b, b)).sqrt();
-    if parallel {
+    let sine = (a[0] * b[1] - a[1] * b[0]).abs() / (dot(a, a) * dot(b, b)).sqrt();
+    if sine.is_nan() || sine <= ROUNDING {
         return None;
     }
     for _ in 0..ROUNDS {
