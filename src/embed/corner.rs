@@ -2,11 +2,11 @@
 
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge};
 
-/// Number the vertices of the opened surface: corners around a vertex with no cut or boundary edge between them
-/// get one number. Returns the number per half-edge (the corner at its origin) and how many there are.
+/// Number the vertices of the opened surface: corners around a vertex with no cut or boundary edge between
+/// them get one number. Returns the number per half-edge (the corner at its origin) and how many there are.
 ///
-/// Numbers follow the first corner in face order. A half-edge outside the surface has the number of the corner at
-/// its origin in the face across the edge.
+/// Numbers follow the first corner in face order. A half-edge outside the surface has the number of the
+/// corner at its origin in the face across the edge.
 pub(crate) fn number_corners(mesh: &Mesh, is_cut: &PerEdge<bool>) -> (PerHalfedge<u32>, usize) {
     const UNSET: u32 = u32::MAX;
     let mut number = PerHalfedge::filled(mesh.n_halfedges(), UNSET);

@@ -19,16 +19,18 @@ pub(crate) struct Development {
     pub direction: PerHalfedge<[f64; 2]>,
     /// Sum of the triangles' areas.
     pub area: f64,
+    /// Faces that break the triangle inequality, ascending.
+    pub broken: Vec<FaceId>,
 }
 
 /// Develop the faces in order of their distance from the smallest one, which lies at the origin.
 ///
 /// Each face inherits the *direction* of the edge it is entered through, not the difference of two rounded
 /// positions, so an edge of any length passes a direction on to the same accuracy, and what a direction loses
-/// grows with the number of faces crossed alone. A position loses `ε·|largest position on the way|`. Ways of least
-/// length from the smallest face never go farther out than where they lead: positions are as accurate as
-/// doubles of their size can be, and the origin is where doubles are dense. (Entering through the largest edges
-/// first would lead from one small face to the next by way of large ones, and round there.)
+/// grows with the number of faces crossed alone. A position loses `ε·|largest position on the way|`. Ways of
+/// least length from the smallest face never go farther out than where they lead: positions are as accurate
+/// as doubles of their size can be, and the origin is where doubles are dense. (Entering through the largest
+/// edges first would lead from one small face to the next by way of large ones, and round there.)
 pub(crate) fn develop(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -42,6 +44,7 @@ pub(crate) fn develop(
     let mut direction = PerHalfedge::filled(mesh.n_halfedges(), [0.0; 2]);
     let mut done = vec![false; mesh.n_faces()];
     let mut area = 0.0;
+    let mut broken = Vec::new();
 
     let size = |f: FaceId| mesh.opposite_edges(f).map(|e| lengths[e]).into_iter().fold(0.0, f64::max);
     let Some(first) = mesh.faces().min_by(|&f, &g| size(f).total_cmp(&size(g))) else {
@@ -62,8 +65,10 @@ pub(crate) fn develop(
 
         let sides = [base, mesh.next(base), mesh.prev(base)];
         let [l_base, l_right, l_left] = sides.map(|h| lengths[h.edge()]);
-        let triangle = Triangle::from_sides([l_right, l_left, l_base])
-            .map_err(|excess| Error::TriangleInequality { face: f.index(), excess })?;
+        let triangle = Triangle::from_sides([l_right, l_left, l_base]);
+        if triangle.excess > 0.0 {
+            broken.push(f);
+        }
         area += triangle.area;
         let along = if base == root { [1.0, 0.0] } else { direction[base.twin()].map(|x| -x) };
         let [at_origin, at_tip, _] = triangle.direction;
@@ -92,7 +97,8 @@ pub(crate) fn develop(
             }
         }
     }
-    Ok(Development { coordinates, direction, area })
+    broken.sort_unstable();
+    Ok(Development { coordinates, direction, area, broken })
 }
 
 /// Distance from a face's centroid to the midpoint of its side `h`: a third of the median.

@@ -14,19 +14,24 @@ use std::cmp::Ordering;
 /// A surface, opened along a cut, in the plane E²: counterclockwise where the mesh is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
-    /// Per half-edge, the index into `coordinates` of the corner at its origin, in its face. Corners around a vertex share
-    /// an index unless cut or boundary edges separate them. A half-edge outside the surface has the index of
-    /// the corner at its origin in the face across the edge.
+    /// Per half-edge, the index into `coordinates` of the corner at its origin, in its face. Corners around a
+    /// vertex share an index unless cut or boundary edges separate them. A half-edge outside the surface has
+    /// the index of the corner at its origin in the face across the edge.
     pub corner_index: PerHalfedge<u32>,
-    /// Plane coordinates of the vertices of the opened surface, in units of the lengths. The smallest triangle
-    /// lies at the origin.
+    /// Plane coordinates of the vertices of the opened surface, in units of the lengths. The smallest
+    /// triangle lies at the origin.
     pub coordinates: Vec<[f64; 2]>,
     /// One seam per segment of the cut, in the same order.
     pub seams: Vec<Seam>,
-    /// Faces that are not counterclockwise in these coordinates: clockwise or without area, by exact arithmetic.
+    /// Faces that are not counterclockwise in these coordinates: clockwise or without area, by exact
+    /// arithmetic.
     pub flipped: Vec<FaceId>,
-    /// Largest disagreement between an edge vector derived in its face and the one between the placed vertices,
-    /// relative to `diameter`. It measures how far the metric is from flat off the cones, and rounding.
+    /// Faces whose lengths break the triangle inequality: no such triangle exists, they are laid out with
+    /// angles (π, 0, 0), and the layout does not represent the metric there.
+    pub broken: Vec<FaceId>,
+    /// Largest disagreement between an edge vector derived in its face and the one between the placed
+    /// vertices, relative to `diameter`. It measures how far the metric is from flat off the cones, and
+    /// rounding.
     pub consistency: f64,
     /// The same disagreement relative to the length of the edge itself.
     pub local_consistency: f64,
@@ -40,19 +45,24 @@ pub struct Layout {
 
 /// Lay a flat cone metric out in the plane, O(E log E).
 ///
-/// `lengths`: one per edge, flat at every vertex that is inside the opened surface; what is missing to that shows in
-/// [`Layout::consistency`]. `cut` opens the surface into a disk ([`crate::topology::cut_graph`]).
+/// `lengths`: one per edge, flat at every vertex that is inside the opened surface; what is missing to that
+/// shows in [`Layout::consistency`] and [`Layout::broken`]. `cut` opens the surface into a disk
+/// ([`crate::topology::cut_graph`]).
 ///
-/// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`], [`Error::Layout`] if the cut
-/// does not leave a disk, [`Error::Cancelled`].
+/// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk,
+/// [`Error::Cancelled`].
 pub fn layout(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Control) -> Result<Layout> {
     check_lengths(mesh, lengths)?;
     check_size("is_cut", cut.is_cut.len(), mesh.n_edges())?;
     if !cut::is_disk(mesh, &cut.is_cut) {
         return Err(Error::Layout("the cut does not open the surface into a disk".into()));
     }
+    let is_cut = |h: &HalfedgeId| h.index() < mesh.n_halfedges() && cut.is_cut[h.edge()];
+    if !cut.segments.iter().flatten().all(is_cut) {
+        return Err(Error::Layout("a segment of the cut has an edge that is not cut".into()));
+    }
     let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
-    let Development { coordinates, direction, area } =
+    let Development { coordinates, direction, area, broken } =
         develop(mesh, lengths, &cut.is_cut, &corner_index, n_corners, control)?;
     let at = |h: HalfedgeId| coordinates[corner_index[h] as usize];
     let diameter = bounding_diagonal(&coordinates);
@@ -78,6 +88,7 @@ pub fn layout(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Con
     let mut layout = Layout {
         seams: cut.segments.iter().map(fit).collect(),
         flipped: Vec::new(),
+        broken,
         consistency: worst / diameter,
         local_consistency: worst_local,
         diameter,
@@ -102,8 +113,8 @@ impl Layout {
         mesh.face_halfedges(f).map(|h| self.corner_uv(h))
     }
 
-    /// Change of frame from the face of `h` to the face across: carries the image of `h` in the one onto its image
-    /// in the other. The identity unless the edge is cut.
+    /// Change of frame from the face of `h` to the face across: carries the image of `h` in the one onto its
+    /// image in the other. The identity unless the edge is cut.
     pub fn transition(&self, h: HalfedgeId) -> PlaneIsometry {
         let side = self.side[h];
         let seam = self.seams.get((side.unsigned_abs() as usize).wrapping_sub(1)).map(Seam::isometry);
@@ -114,8 +125,8 @@ impl Layout {
         }
     }
 
-    /// Holonomy of a walk from face to face: the composition of the transitions across `crossed`, first one first.
-    /// Each half-edge lies in the face that the walk leaves.
+    /// Holonomy of a walk from face to face: the composition of the transitions across `crossed`, first one
+    /// first. Each half-edge lies in the face that the walk leaves.
     pub fn holonomy(&self, crossed: impl IntoIterator<Item = HalfedgeId>) -> PlaneIsometry {
         let mut total = PlaneIsometry::IDENTITY;
         for h in crossed {
@@ -126,16 +137,16 @@ impl Layout {
         total
     }
 
-    /// Holonomy of one counterclockwise turn around an interior vertex; its rotation is the curvature there mod 2π. `None`
-    /// on the boundary.
+    /// Holonomy of one counterclockwise turn around an interior vertex; its rotation is the curvature there
+    /// mod 2π. `None` on the boundary.
     pub fn vertex_holonomy(&self, mesh: &Mesh, v: VertexId) -> Option<PlaneIsometry> {
         let mut turn: Vec<_> = mesh.outgoing(v).collect();
         turn.reverse();
         (!mesh.is_boundary_vertex(v)).then(|| self.holonomy(turn.into_iter().map(|h| mesh.prev(h))))
     }
 
-    /// Scale the layout so that its triangles' areas add up to `area` (finite, positive); returns the factor on
-    /// lengths.
+    /// Scale the layout so that its triangles' areas add up to `area` (finite, positive); returns the factor
+    /// on lengths.
     pub fn scale_to_area(&mut self, mesh: &Mesh, area: f64) -> Result<f64> {
         let factor = (area / self.area).sqrt();
         if !(factor.is_finite() && factor > 0.0) {

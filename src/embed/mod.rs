@@ -1,5 +1,5 @@
-//! Layouts of metrics: developing a cut surface, the isometries between the sides of its seams, and how much the map
-//! distorts.
+//! Layouts of metrics: developing a cut surface, the isometries between the sides of its seams, and how much
+//! the map distorts.
 
 mod corner;
 mod develop;

@@ -12,9 +12,11 @@ pub const DILATATION_CAP: f64 = 1.0 / f64::EPSILON;
 /// How the linear maps from the input triangles to the layout's triangles distort. Every number is finite.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quality {
-    /// Quasi-conformal dilatation K ≥ 1 per face: largest over smallest singular value; [`DILATATION_CAP`] at most.
+    /// Quasi-conformal dilatation K ≥ 1 per face: largest over smallest singular value; [`DILATATION_CAP`] at
+    /// most.
     pub qc: PerFace<f64>,
-    /// Area in the layout over area in the input, both relative to their totals; 1 for a degenerate input face.
+    /// Area in the layout over area in the input, both relative to their totals; 1 for a degenerate input
+    /// face.
     pub area_ratio: PerFace<f64>,
     /// Mean of `qc`, weighed with the input areas.
     pub qc_mean: f64,
@@ -44,8 +46,10 @@ pub fn quality(mesh: &Mesh, input_lengths: &PerEdge<f64>, layout: &Layout) -> Re
     let mut areas = PerFace::filled(mesh.n_faces(), [0.0; 2]);
     for f in mesh.faces() {
         let sides = mesh.opposite_edges(f).map(|e| input_lengths[e] / unit);
-        let triangle = Triangle::from_sides(sides)
-            .map_err(|excess| Error::TriangleInequality { face: f.index(), excess })?;
+        let triangle = Triangle::from_sides(sides);
+        if triangle.excess > 0.0 {
+            return Err(Error::TriangleInequality { face: f.index(), excess: triangle.excess });
+        }
         let image = layout.face_uv(mesh, f).map(|p| p.map(|x| x / layout.diameter));
         let image_area = 0.5 * cross(minus(image[1], image[0]), minus(image[2], image[0])).abs();
         areas[f] = [triangle.area, image_area];
@@ -76,10 +80,10 @@ pub fn quality(mesh: &Mesh, input_lengths: &PerEdge<f64>, layout: &Layout) -> Re
 
 /// Dilatation of the linear map from the triangle with these sides onto the triangle `image`.
 ///
-/// With edge vectors P, P′ from one corner and their images Q, Q′ as complex numbers, the map is `z ↦ αz + βz̄` where
-/// `α ∝ Q P̄′ − Q′ P̄` and `β ∝ Q P′ − Q′ P`, and `K = (|α| + |β|) / ||α| − |β|| = (|α| + |β|)² / (16 A A′)`: the areas
-/// are formed directly, so nothing cancels where K is large. The corner is the one opposite the longest side, where a
-/// needle's edge vectors are far from parallel.
+/// With edge vectors P, P′ from one corner and their images Q, Q′ as complex numbers, the map is `z ↦ αz +
+/// βz̄` where `α ∝ Q P̄′ − Q′ P̄` and `β ∝ Q P′ − Q′ P`, and `K = (|α| + |β|) / ||α| − |β|| = (|α| + |β|)² /
+/// (16 A A′)`: the areas are formed directly, so nothing cancels where K is large. The corner is the one
+/// opposite the longest side, where a needle's edge vectors are far from parallel.
 fn dilatation(sides: [f64; 3], triangle: &Triangle, image: [[f64; 2]; 3]) -> f64 {
     let k = (0..3).max_by(|&i, &j| sides[i].total_cmp(&sides[j])).unwrap_or(0);
     let [i, j] = [(k + 1) % 3, (k + 2) % 3];

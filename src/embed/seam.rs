@@ -3,7 +3,8 @@
 use crate::geometry::PlaneIsometry;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge};
 
-/// A segment of the cut and the plane isometry `z ↦ e^{iθ} z + t` that carries its left side onto its right side.
+/// A segment of the cut and the plane isometry `z ↦ e^{iθ} z + t` that carries its left side onto its right
+/// side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seam {
     /// The segment's half-edges in order; their faces lie on the left side, their twins' on the right.
@@ -12,7 +13,8 @@ pub struct Seam {
     pub rotation: f64,
     /// Translation t, in units of the layout.
     pub translation: [f64; 2],
-    /// Largest distance between the image of a left vertex and its right partner, relative to the layout's diameter.
+    /// Largest distance between the image of a left vertex and its right partner, relative to the layout's
+    /// diameter.
     pub residual: f64,
 }
 
@@ -24,9 +26,9 @@ impl Seam {
 
     /// Fit the isometry of one segment.
     ///
-    /// `direction`: unit direction of each half-edge in its own face's frame. The rotation is fitted to these,
-    /// weighed with the edge lengths, so that it keeps its accuracy on seams that are tiny against their
-    /// coordinates; the translation is then the least-squares one over the segment's vertices.
+    /// `direction`: unit direction of each half-edge in its own face's frame. The rotation is fitted to
+    /// these, weighed with the edge lengths, so that it keeps its accuracy on seams that are tiny against
+    /// their coordinates; the translation is then the least-squares one over the segment's vertices.
     pub(crate) fn fit(
         mesh: &Mesh,
         lengths: &PerEdge<f64>,

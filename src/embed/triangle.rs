@@ -1,5 +1,7 @@
 //! A plane triangle from its side lengths.
 
+use crate::geometry::triangle::half_differences;
+
 /// Angles and area of the triangle with given sides; corner k lies opposite side k.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Triangle {
@@ -7,37 +9,30 @@ pub(crate) struct Triangle {
     pub direction: [[f64; 2]; 3],
     /// Area.
     pub area: f64,
+    /// By how much the longest side exceeds the sum of the others, relative to it; 0 if it does not.
+    pub excess: f64,
 }
 
 impl Triangle {
-    /// From positive side lengths. `Err` holds by how much the longest side exceeds the sum of the others, relative to
-    /// it. A degenerate triangle is one: angles (π, 0, 0), area 0.
+    /// From positive side lengths. A triangle that is degenerate or breaks the inequality has angles (π, 0,
+    /// 0), area 0.
     ///
-    /// Sums are formed from the sorted sides so that nothing cancels [Kah14, §2]: with `a ≥ b ≥ c`,
-    /// `2(s−a) = c − (a−b)`. Then `cos θ_k = (s(s−l_k) − (s−l_i)(s−l_j)) / (l_i l_j)` (half-angle law), and
-    /// `sin θ_k = 2·area / (l_i l_j)`.
-    pub(crate) fn from_sides(sides: [f64; 3]) -> Result<Triangle, f64> {
-        let mut order = [0, 1, 2];
-        order.sort_by(|&i, &j| sides[j].total_cmp(&sides[i]));
-        let unit = sides[order[0]];
-        let [a, b, c] = order.map(|k| sides[k] / unit);
-        let perimeter = a + (b + c);
-        let mut deficit = [0.0; 3]; // 2(s − l_k)
-        deficit[order[0]] = c - (a - b);
-        deficit[order[1]] = c + (a - b);
-        deficit[order[2]] = a + (b - c);
-        if deficit[order[0]] < 0.0 {
-            return Err(-deficit[order[0]]);
-        }
-        let root = deficit.map(f64::sqrt);
-        let four_areas = perimeter.sqrt() * root[0] * root[1] * root[2];
+    /// With `s` and `r_k = s − l_k` formed without cancellation ([`half_differences`]), `cos θ_k ∝ s r_k −
+    /// r_i r_j` and `sin θ_k ∝ 2·area` with the same factor `1/(l_i l_j)` (half-angle law).
+    pub(crate) fn from_sides(sides: [f64; 3]) -> Triangle {
+        let unit = sides.into_iter().fold(0.0, f64::max);
+        let (s, r) = half_differences(sides.map(|l| l / unit));
+        let excess = r.into_iter().fold(0.0, |m, x| f64::max(m, -2.0 * x));
+        let r = r.map(|x| x.max(0.0));
+        let root = r.map(f64::sqrt);
+        let area = s.sqrt() * root[0] * root[1] * root[2]; // the roots first: r_i r_j may underflow
         let direction = std::array::from_fn(|k| {
-            let (far, near) = (perimeter * deficit[k], deficit[(k + 1) % 3] * deficit[(k + 2) % 3]);
-            let (x, y) = (far - near, 2.0 * four_areas);
+            let (far, near) = (s * r[k], r[(k + 1) % 3] * r[(k + 2) % 3]);
+            let (x, y) = (far - near, 2.0 * area);
             let norm = x.hypot(y);
             if norm > 0.0 { [x / norm, y / norm] } else { [1.0, 0.0] }
         });
-        Ok(Triangle { direction, area: 0.25 * four_areas * unit * unit })
+        Triangle { direction, area: area * unit * unit, excess }
     }
 }
 
@@ -47,7 +42,7 @@ mod tests {
     use std::f64::consts::PI;
 
     fn angles(sides: [f64; 3]) -> [f64; 3] {
-        Triangle::from_sides(sides).unwrap().direction.map(|[c, s]| s.atan2(c))
+        Triangle::from_sides(sides).direction.map(|[c, s]| s.atan2(c))
     }
 
     #[test]
@@ -57,7 +52,7 @@ mod tests {
             let [a, b, c] = angles(sides);
             assert!((a - 0.6_f64.asin()).abs() < 1e-15 && (b - 0.8_f64.asin()).abs() < 1e-15);
             assert!((c - PI / 2.0).abs() < 1e-15);
-            let area = Triangle::from_sides([sides[2], sides[0], sides[1]]).unwrap().area;
+            let area = Triangle::from_sides([sides[2], sides[0], sides[1]]).area;
             assert!((area / (6.0 * scale * scale) - 1.0).abs() < 1e-15);
         }
     }
@@ -72,8 +67,10 @@ mod tests {
     }
 
     #[test]
-    fn degenerate_triangle_is_flat_and_a_broken_one_is_refused_with_its_excess() {
+    fn degenerate_and_broken_triangles_are_flat_and_only_the_broken_one_has_an_excess() {
         assert_eq!(angles([2.0, 1.0, 1.0]), [PI, 0.0, 0.0]);
-        assert_eq!(Triangle::from_sides([1.0, 4.0, 1.0]).unwrap_err(), 0.5);
+        assert_eq!(Triangle::from_sides([2.0, 1.0, 1.0]).excess, 0.0);
+        assert_eq!(angles([1.0, 4.0, 1.0]), [0.0, PI, 0.0]);
+        assert_eq!(Triangle::from_sides([1.0, 4.0, 1.0]).excess, 0.5);
     }
 }

@@ -46,9 +46,10 @@ impl PlaneIsometry {
 
     /// The isometry that best carries each `p` to its `q`.
     ///
-    /// `vectors`: pairs of corresponding directions; the rotation maximises Σ ⟨R p, q⟩, so each pair counts with
-    /// the product of its norms. `points`: pairs of corresponding points; the translation is the least-squares one
-    /// for that rotation. Without vectors the rotation is 0, without points the translation.
+    /// `vectors`: pairs of corresponding directions; the rotation maximises Σ ⟨R p, q⟩, so each pair counts
+    /// with the product of its norms. `points`: pairs of corresponding points; the translation is the
+    /// least-squares one for that rotation. Without vectors the rotation is 0, without points the
+    /// translation.
     pub fn fit(
         vectors: impl IntoIterator<Item = ([f64; 2], [f64; 2])>,
         points: impl IntoIterator<Item = ([f64; 2], [f64; 2])>,

@@ -7,8 +7,8 @@ use std::cmp::Ordering;
 const TINY: f64 = 1.0e-120;
 const LIFT: f64 = f64::from_bits((1023 + 512) << 52);
 
-/// On which side of the directed line ab the point c lies: `Greater` left (a, b, c counterclockwise), `Equal` on the
-/// line, `Less` right [She97, ORIENT2D].
+/// On which side of the directed line ab the point c lies: `Greater` left (a, b, c counterclockwise), `Equal`
+/// on the line, `Less` right [She97, ORIENT2D].
 ///
 /// Exact for finite coordinates as long as products of coordinate differences neither overflow nor underflow;
 /// triangles that are tiny as a whole (all coordinates below 1e-120) are scaled by a power of two first.

@@ -39,8 +39,8 @@ impl Forest {
 /// Shortest-path forest along edges (Dijkstra), O(E log V).
 ///
 /// `lengths` are positive, one per edge. Equal distances are settled in order of vertex id and the first path
-/// found stays, so the forest depends on the input alone. A component without a source gets one: its vertex of
-/// lowest id.
+/// found stays, so the forest depends on the input alone. A component without a source gets one: its vertex
+/// of lowest id.
 pub fn shortest_paths(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -78,9 +78,9 @@ pub fn shortest_paths(
 /// The edges left over by a shortest-path forest and a maximum spanning tree of the dual graph, shortest arcs
 /// first.
 ///
-/// The arc of an edge `e = uv` runs from a source to u, along e, and from v to a source; its length
-/// `σ(e) = d(u) + d(v) + |e|` is the weight in the dual tree, so what is left over are the shortest arcs
-/// [EW05, §3.4]. Edges of the forest and those with `wall` are in neither the dual tree nor the result; a boundary
+/// The arc of an edge `e = uv` runs from a source to u, along e, and from v to a source; its length `σ(e) =
+/// d(u) + d(v) + |e|` is the weight in the dual tree, so what is left over are the shortest arcs [EW05,
+/// §3.4]. Edges of the forest and those with `wall` are in neither the dual tree nor the result; a boundary
 /// edge that is no wall joins its face to the outside, which is one node of the dual graph.
 pub(crate) fn leftover(
     mesh: &Mesh,
