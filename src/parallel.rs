@@ -1,49 +1,75 @@
 //! The thread pool of one call, and loops whose result does not depend on how many threads run them.
 //!
-//! The library never touches rayon's global pool: each solver owns its own, and everything parallel runs inside
-//! [`Pool::run`]. A loop writes each element from one fixed computation, so results are bit-identical for any
-//! thread count.
+//! The library never touches rayon's global pool: each solver owns its own, and everything parallel runs
+//! inside [`Pool::run`]. A loop writes each element from one fixed computation, so results are bit-identical
+//! for any thread count.
 
 use crate::error::{Error, Result};
 use rayon::prelude::*;
+use std::thread::JoinHandle;
 
 /// Elements handed to a thread at a time; fixed, so that it never depends on the number of threads.
 const CHUNK: usize = 1024;
 
-/// Thread pool of one solver or call.
-pub struct Pool(rayon::ThreadPool);
+/// Thread pool of one solver or call. Its threads have ended when it is dropped: a host that unloads the
+/// library then leaves nothing behind.
+pub struct Pool {
+    /// Taken by `drop` only.
+    pool: Option<rayon::ThreadPool>,
+    workers: Vec<JoinHandle<()>>,
+    threads: usize,
+}
 
 impl Pool {
     /// A pool of `threads` threads; 0 means one per available core.
     pub fn new(threads: usize) -> Result<Pool> {
         let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
         let threads = if threads == 0 { cores } else { threads };
-        rayon::ThreadPoolBuilder::new()
+        let mut workers = Vec::new();
+        let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
-            .thread_name(|i| format!("ricci-{i}"))
+            .spawn_handler(|worker| {
+                let name = format!("ricci-{}", worker.index());
+                workers.push(std::thread::Builder::new().name(name).spawn(|| worker.run())?);
+                Ok(())
+            })
             .build()
-            .map(Pool)
             .map_err(|_| Error::Argument {
                 what: "threads",
                 value: threads.to_string(),
                 need: "the system could not start that many threads",
-            })
+            })?;
+        Ok(Pool { threads: pool.current_num_threads(), pool: Some(pool), workers })
     }
 
     /// Number of threads.
     pub fn threads(&self) -> usize {
-        self.0.current_num_threads()
+        self.threads
     }
 
     /// Run `work` inside the pool.
     pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        self.0.install(work)
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
     }
 }
 
-/// `out[i] = f(i)` for every i, in parallel when called inside a pool.
+impl Drop for Pool {
+    fn drop(&mut self) {
+        self.pool = None;
+        for worker in self.workers.drain(..) {
+            // A worker that panicked has told so to the call it worked for.
+            let _ = worker.join();
+        }
+    }
+}
+
+/// `out[i] = f(i)` for every i, in parallel when called inside a pool, one after the other outside: rayon
+/// would start its global pool there.
 pub fn fill<T: Send>(out: &mut [T], f: impl Fn(usize) -> T + Sync) {
-    if out.len() <= CHUNK {
+    if out.len() <= CHUNK || rayon::current_thread_index().is_none() {
         out.iter_mut().enumerate().for_each(|(i, x)| *x = f(i));
         return;
     }

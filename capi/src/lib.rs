@@ -1,1 +1,56 @@
+//! The C face of `ricci`: `include/ricci/ricci.h` is generated from this crate. All `unsafe` of the project
+//! is here.
+//!
+//! Names are those of C. One file per concept, mirroring the library; underneath them:
+//!
+//! | file | what it keeps |
+//! |---|---|
+//! | `guard` | nothing unwinds into C; handles are checked, and poisoned after a panic |
+//! | `environment` | the host's floating-point environment |
+//! | `arrays`, `sized`, `choice` | arrays, structs and enum values that come from C |
+//! | `failure`, `status`, `last_error` | what went wrong |
+//!
+//! # Safety
+//! Every function here is called from C, so each has the same contract, which the header states and no
+//! function repeats: a pointer is NULL or points to what its argument line says, a handle came from this
+//! library and was not freed, and a `T *` is in use by one thread only.
 
+#![allow(non_camel_case_types)]
+#![allow(clippy::missing_safety_doc)]
+
+mod arrays;
+mod choice;
+mod environment;
+mod failure;
+mod guard;
+mod sized;
+
+pub mod status;
+
+pub mod last_error;
+
+pub mod version;
+
+pub mod log;
+
+pub mod control;
+
+pub mod space;
+
+pub mod mesh;
+
+pub mod diagnosis;
+
+pub mod scheme;
+
+pub mod metric;
+
+pub mod target;
+
+pub mod report;
+
+pub mod flow;
+
+pub mod layout;
+
+pub mod debug;

@@ -1,0 +1,322 @@
+//! The flow, once or repeatedly.
+
+use crate::choice::{Choice, choose, name};
+use crate::control::{self, ricci_control};
+use crate::failure::{Failure, Outcome};
+use crate::guard::{self, Handle, Poison, output};
+use crate::metric::{Origin, ricci_metric};
+use crate::report::ricci_report;
+use crate::sized::{self, Sized64};
+use crate::status::ricci_status;
+use ricci::Control;
+use ricci::flow::{Flips, Gradient, Method, Options, Report, Solver, StepRule};
+use ricci::mesh::PerVertex;
+use std::mem::MaybeUninit;
+use std::sync::Arc;
+
+/// How the flow is solved.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ricci_method {
+    /// Newton's method on the convex energy.
+    RICCI_METHOD_NEWTON = 0,
+    /// The gradient flow du/dt = target - K, explicit in time, with a trace.
+    RICCI_METHOD_GRADIENT = 1,
+}
+
+impl Choice for ricci_method {
+    const NAME: &'static str = "method";
+    type Value = Method;
+    const ALL: &'static [(Self, Method)] = &[
+        (ricci_method::RICCI_METHOD_NEWTON, Method::Newton),
+        (ricci_method::RICCI_METHOD_GRADIENT, Method::Gradient),
+    ];
+    fn number(self) -> i32 {
+        self as i32
+    }
+}
+
+/// Whether edges may be flipped while the metric flows.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ricci_flips {
+    /// As often as needed. This version keeps the triangulation all the same.
+    RICCI_FLIPS_AUTO = 0,
+    /// The triangulation stays as it is.
+    RICCI_FLIPS_NEVER = 1,
+}
+
+impl Choice for ricci_flips {
+    const NAME: &'static str = "flips";
+    type Value = Flips;
+    const ALL: &'static [(Self, Flips)] =
+        &[(ricci_flips::RICCI_FLIPS_AUTO, Flips::Auto), (ricci_flips::RICCI_FLIPS_NEVER, Flips::Never)];
+    fn number(self) -> i32 {
+        self as i32
+    }
+}
+
+/// Step size of the gradient flow.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ricci_step {
+    /// Barzilai-Borwein steps: far fewer steps, by other metrics than the continuous flow.
+    RICCI_STEP_BARZILAI_BORWEIN = 0,
+    /// The largest step that is stable by Gershgorin's bound.
+    RICCI_STEP_STABLE = 1,
+    /// Always `step_size`.
+    RICCI_STEP_FIXED = 2,
+}
+
+impl Choice for ricci_step {
+    const NAME: &'static str = "step";
+    type Value = ricci_step;
+    const ALL: &'static [(Self, ricci_step)] = &[
+        (ricci_step::RICCI_STEP_BARZILAI_BORWEIN, ricci_step::RICCI_STEP_BARZILAI_BORWEIN),
+        (ricci_step::RICCI_STEP_STABLE, ricci_step::RICCI_STEP_STABLE),
+        (ricci_step::RICCI_STEP_FIXED, ricci_step::RICCI_STEP_FIXED),
+    ];
+    fn number(self) -> i32 {
+        self as i32
+    }
+}
+
+/// How a flow is done. Let ricci_flow_options_init fill it, then change fields.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct ricci_flow_options {
+    /// Bytes of this struct that are filled.
+    pub size: usize,
+    /// How it is solved; default RICCI_METHOD_NEWTON.
+    pub method: MaybeUninit<ricci_method>,
+    /// Whether edges may be flipped; default RICCI_FLIPS_AUTO.
+    pub flips: MaybeUninit<ricci_flips>,
+    /// Largest |K - target| of a converged metric, radians, positive; default 1e-10.
+    pub tolerance: f64,
+    /// Steps before giving up; default 0: 200 for Newton, 200,000 for the gradient flow.
+    pub max_iterations: usize,
+    /// Threads of this flow, in a pool of its own; default 0: one per core. The result does not depend on it.
+    pub threads: usize,
+    /// Largest change of any u in one Newton step, positive; default 3.
+    pub max_step: f64,
+    /// Step rule of the gradient flow; default RICCI_STEP_BARZILAI_BORWEIN.
+    pub step: MaybeUninit<ricci_step>,
+    /// Gradient flow in E2: 1 keeps the total area of the start; default 0.
+    pub area_normalised: i32,
+    /// The step of RICCI_STEP_FIXED, positive; default 0.
+    pub step_size: f64,
+}
+
+// SAFETY: numbers and `MaybeUninit` enums: any bytes are valid; 8-byte alignment, size first.
+unsafe impl Sized64 for ricci_flow_options {
+    const NAME: &'static str = "options";
+    fn with_size(self, size: usize) -> Self {
+        Self { size, ..self }
+    }
+}
+
+fn defaults() -> Outcome<ricci_flow_options> {
+    let options = Options::default();
+    Ok(ricci_flow_options {
+        size: size_of::<ricci_flow_options>(),
+        method: MaybeUninit::new(name(options.method)?),
+        flips: MaybeUninit::new(name(options.flips)?),
+        tolerance: options.tolerance,
+        max_iterations: options.max_iterations,
+        threads: options.threads,
+        max_step: options.max_step,
+        step: MaybeUninit::new(ricci_step::RICCI_STEP_BARZILAI_BORWEIN),
+        area_normalised: options.gradient.area_normalised.into(),
+        step_size: 0.0,
+    })
+}
+
+/// The library's options; NULL gives the defaults.
+fn read_options(options: *const ricci_flow_options) -> Outcome<Options> {
+    let options = sized::read(defaults()?, options)?;
+    let step = match choose(options.step)? {
+        ricci_step::RICCI_STEP_BARZILAI_BORWEIN => StepRule::BarzilaiBorwein,
+        ricci_step::RICCI_STEP_STABLE => StepRule::Stable,
+        ricci_step::RICCI_STEP_FIXED => StepRule::Fixed(options.step_size),
+    };
+    Ok(Options {
+        method: choose(options.method)?,
+        flips: choose(options.flips)?,
+        tolerance: options.tolerance,
+        max_iterations: options.max_iterations,
+        threads: options.threads,
+        max_step: options.max_step,
+        gradient: Gradient { step, area_normalised: options.area_normalised != 0 },
+    })
+}
+
+/// Fill options with their defaults.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+///
+/// @param options  out: the defaults.
+/// @param size     sizeof *options.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_flow_options_init(
+    options: *mut ricci_flow_options,
+    size: usize,
+) -> ricci_status {
+    guard::call(|_| sized::write(defaults()?, options, size))
+}
+
+/// Deform a metric in its conformal class to a prescribed curvature.
+///
+/// Whether it came that far is in the report: a flow that stops early is RICCI_OK and `converged` is 0.
+/// Inputs are never changed.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT, RICCI_STRUCT_SIZE,
+/// RICCI_TARGET_AT_VERTEX, RICCI_TARGET_TOTAL, RICCI_FACTORISATION, RICCI_CANCELLED.
+///
+/// @param metric      where the flow starts.
+/// @param target      n_vertices curvatures, radians.
+/// @param n_vertices  number of vertices.
+/// @param options     how; NULL for the defaults.
+/// @param control     progress and cancellation; NULL for neither.
+/// @param result      out: the metric at the end, to be released by ricci_metric_free.
+/// @param report      out: what was done, to be released by ricci_report_free; NULL if not wanted.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_flow(
+    metric: *const ricci_metric,
+    target: *const f64,
+    n_vertices: usize,
+    options: *const ricci_flow_options,
+    control: *const ricci_control,
+    result: *mut *mut ricci_metric,
+    report: *mut *mut ricci_report,
+) -> ricci_status {
+    guard::call(|door| {
+        let result = output("result", result)?;
+        let metric = door.shared(metric)?;
+        let target = metric.target(target, n_vertices)?;
+        let options = read_options(options)?;
+        let mut solver = Solver::new((*metric.mesh).clone(), metric.metric.clone(), options)?;
+        let (end, done) = advance(&mut solver, &target, &control::of(control), &metric.origin)?;
+        if let Ok(report) = output("report", report) {
+            report.hand_over(ricci_report::new(done));
+        }
+        result.hand_over(end);
+        Ok(())
+    })
+}
+
+/// Solve, and the metric that the solver has come to.
+fn advance(
+    solver: &mut Solver,
+    target: &PerVertex<f64>,
+    control: &Control,
+    origin: &Arc<Origin>,
+) -> Outcome<(ricci_metric, Report)> {
+    let report = solver.solve(target, control)?;
+    let end = ricci_metric::at(Arc::new(solver.mesh().clone()), solver.metric().clone(), origin.clone())?;
+    Ok((end, report))
+}
+
+/// A solver for many targets on one metric: it keeps its analysis, its threads and the last solution, from
+/// which the next solve starts.
+pub struct ricci_solver {
+    poison: Poison,
+    solver: Solver,
+    origin: Arc<Origin>,
+}
+
+impl Handle for ricci_solver {
+    const NAME: &'static str = "solver";
+    fn poison(&self) -> &Poison {
+        &self.poison
+    }
+}
+
+/// A solver for many targets.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT, RICCI_STRUCT_SIZE, RICCI_FACTORISATION.
+///
+/// @param metric   where the first solve starts; it is copied.
+/// @param options  how; NULL for the defaults.
+/// @param solver   out: the new handle, to be released by ricci_solver_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_solver_new(
+    metric: *const ricci_metric,
+    options: *const ricci_flow_options,
+    solver: *mut *mut ricci_solver,
+) -> ricci_status {
+    guard::call(|door| {
+        let solver = output("solver", solver)?;
+        let metric = door.shared(metric)?;
+        let inner = Solver::new((*metric.mesh).clone(), metric.metric.clone(), read_options(options)?)?;
+        let origin = metric.origin.clone();
+        solver.hand_over(ricci_solver { poison: Poison::default(), solver: inner, origin });
+        Ok(())
+    })
+}
+
+/// Release a solver.
+///
+/// @param solver  the handle, or NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_solver_free(solver: *mut ricci_solver) {
+    guard::free(solver);
+}
+
+/// Hold u fixed at some vertices in the following solves; their curvature is then free.
+///
+/// Replaces the vertices that were pinned before.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex).
+///
+/// @param solver      the solver.
+/// @param vertices    n_vertices vertices; NULL if there are none.
+/// @param n_vertices  number of vertices; 0 releases all.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_solver_pin(
+    solver: *mut ricci_solver,
+    vertices: *const u32,
+    n_vertices: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let solver = door.exclusive(solver)?;
+        let n = solver.solver.mesh().n_vertices();
+        let vertices = crate::arrays::array("vertices", vertices, n_vertices)?;
+        if let Some(v) = vertices.iter().find(|&&v| v as usize >= n) {
+            return Err(Failure::argument(format!("vertex {v} does not exist: there are {n}")));
+        }
+        let vertices: Vec<_> = vertices.into_iter().map(ricci::mesh::VertexId).collect();
+        Ok(solver.solver.pin(&vertices)?)
+    })
+}
+
+/// ricci_flow from where the last solve ended, reusing what the solver has kept.
+///
+/// After RICCI_CANCELLED or another failure the solver is where it was before the call.
+/// @return as ricci_flow.
+///
+/// @param solver      the solver.
+/// @param target      n_vertices curvatures, radians; those of pinned vertices are ignored.
+/// @param n_vertices  number of vertices.
+/// @param control     progress and cancellation; NULL for neither.
+/// @param result      out: the metric at the end, to be released by ricci_metric_free.
+/// @param report      out: what was done, to be released by ricci_report_free; NULL if not wanted.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_solver_solve(
+    solver: *mut ricci_solver,
+    target: *const f64,
+    n_vertices: usize,
+    control: *const ricci_control,
+    result: *mut *mut ricci_metric,
+    report: *mut *mut ricci_report,
+) -> ricci_status {
+    guard::call(|door| {
+        let result = output("result", result)?;
+        let solver = door.exclusive(solver)?;
+        let n = solver.solver.mesh().n_vertices();
+        let target = PerVertex::from(crate::arrays::array_of("target", target, n_vertices, n)?);
+        let (end, done) = advance(&mut solver.solver, &target, &control::of(control), &solver.origin)?;
+        if let Ok(report) = output("report", report) {
+            report.hand_over(ricci_report::new(done));
+        }
+        result.hand_over(end);
+        Ok(())
+    })
+}

@@ -1,0 +1,366 @@
+//! Layouts in the plane.
+
+use crate::arrays::{self, copy_out};
+use crate::control::{self, ricci_control};
+use crate::failure::{Failure, Outcome};
+use crate::guard::{self, Handle, Poison, output};
+use crate::mesh::signed_edge;
+use crate::metric::ricci_metric;
+use crate::sized::{self, Sized64};
+use crate::status::ricci_status;
+use ricci::embed::{Layout, Quality, layout, quality};
+use ricci::geometry::space::Space;
+use ricci::mesh::{Mesh, Point, VertexId, io};
+use ricci::metric::curvature::curvature;
+use ricci::topology::cut_graph;
+use std::ffi::c_char;
+use std::sync::Arc;
+
+/// A flat metric unrolled into the plane along a cut.
+pub struct ricci_layout {
+    poison: Poison,
+    mesh: Arc<Mesh>,
+    positions: Option<Arc<Vec<Point>>>,
+    layout: Layout,
+    quality: Quality,
+}
+
+impl Handle for ricci_layout {
+    const NAME: &'static str = "layout";
+    fn poison(&self) -> &Poison {
+        &self.poison
+    }
+}
+
+/// Figures of a layout.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_layout_summary {
+    /// Bytes of this struct that are filled.
+    pub size: usize,
+    /// F.
+    pub n_faces: usize,
+    /// Number of points in the plane: vertices count once per piece of their star between cuts.
+    pub n_points: usize,
+    /// Number of seams.
+    pub n_seams: usize,
+    /// Number of edges on all seams.
+    pub n_seam_edges: usize,
+    /// Faces that are not counterclockwise, by exact arithmetic.
+    pub n_flipped: usize,
+    /// Largest disagreement of an edge vector with the placed points, relative to `diameter`.
+    pub consistency: f64,
+    /// Diagonal of the bounding box.
+    pub diameter: f64,
+    /// Area; that of the input surface where its lengths are Euclidean.
+    pub area: f64,
+    /// Quasi-conformal dilatation, at least 1: mean over the input's area.
+    pub qc_mean: f64,
+    /// Largest quasi-conformal dilatation.
+    pub qc_max: f64,
+    /// Smallest area distortion: share of the layout's area over share of the input's.
+    pub area_ratio_min: f64,
+    /// Largest area distortion.
+    pub area_ratio_max: f64,
+}
+
+// SAFETY: only ever written by the library; 8-byte alignment, size first.
+unsafe impl Sized64 for ricci_layout_summary {
+    const NAME: &'static str = "summary";
+    fn with_size(self, size: usize) -> Self {
+        Self { size, ..self }
+    }
+}
+
+fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &ricci::Control) -> Outcome<ricci_layout> {
+    if metric.metric.space != Space::E2 {
+        return Err(Failure::new(
+            ricci_status::RICCI_LAYOUT,
+            format!("layouts exist in e2, this metric lives in {}", metric.metric.space),
+        ));
+    }
+    let (mesh, origin) = (&metric.mesh, &metric.origin);
+    let cut = cut_graph(mesh, metric.lengths(), cones)?;
+    let mut layout = layout(mesh, metric.lengths(), &cut, control)?;
+    if origin.initial.input_geometry == Space::E2 {
+        layout.scale_to_area(mesh, curvature(&origin.mesh, Space::E2, &origin.lengths)?.area)?;
+    }
+    let quality = quality(mesh, &origin.lengths, &layout)?;
+    let positions = origin.positions.clone();
+    Ok(ricci_layout { poison: Poison::default(), mesh: mesh.clone(), positions, layout, quality })
+}
+
+/// Unroll a Euclidean metric into the plane.
+///
+/// The surface is cut open along its homology generators and through every interior vertex whose target is
+/// not 0; the metric should be flat at all others, and `consistency` says how far it is. Triangles are
+/// counterclockwise where the mesh's are.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_TRIANGLE_INEQUALITY, RICCI_LAYOUT (not E2),
+/// RICCI_CANCELLED.
+///
+/// @param metric      the metric, in E2.
+/// @param target      the n_vertices curvatures it was made for.
+/// @param n_vertices  number of vertices.
+/// @param control     progress and cancellation; NULL for neither.
+/// @param layout      out: the new handle, to be released by ricci_layout_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_new(
+    metric: *const ricci_metric,
+    target: *const f64,
+    n_vertices: usize,
+    control: *const ricci_control,
+    layout: *mut *mut ricci_layout,
+) -> ricci_status {
+    guard::call(|door| {
+        let layout = output("layout", layout)?;
+        let metric = door.shared(metric)?;
+        let mesh = &metric.mesh;
+        let target = arrays::array_of("target", target, n_vertices, mesh.n_vertices())?;
+        let cone = |v: &VertexId| target[v.index()] != 0.0 && !mesh.is_boundary_vertex(*v);
+        let cones: Vec<VertexId> = mesh.vertices().filter(cone).collect();
+        layout.hand_over(unroll(metric, &cones, &control::of(control))?);
+        Ok(())
+    })
+}
+
+/// Release a layout.
+///
+/// @param layout  the handle, or NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_free(layout: *mut ricci_layout) {
+    guard::free(layout);
+}
+
+/// The figures of a layout.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+///
+/// @param layout   the layout.
+/// @param summary  out: the figures.
+/// @param size     sizeof *summary.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_summarise(
+    layout: *const ricci_layout,
+    summary: *mut ricci_layout_summary,
+    size: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let ricci_layout { mesh, layout, quality, .. } = door.shared(layout)?;
+        let figures = ricci_layout_summary {
+            size,
+            n_faces: mesh.n_faces(),
+            n_points: layout.coordinates.len(),
+            n_seams: layout.seams.len(),
+            n_seam_edges: layout.seams.iter().map(|seam| seam.halfedges.len()).sum(),
+            n_flipped: layout.flipped.len(),
+            consistency: layout.consistency,
+            diameter: layout.diameter,
+            area: layout.area,
+            qc_mean: quality.qc_mean,
+            qc_max: quality.qc_max,
+            area_ratio_min: quality.area_ratio_min,
+            area_ratio_max: quality.area_ratio_max,
+        };
+        sized::write(figures, summary, size)
+    })
+}
+
+/// The points of the layout.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param points    out: n_points x 2.
+/// @param capacity  entries of `points`, at least 2 n_points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_points(
+    layout: *const ricci_layout,
+    points: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        copy_out("points", door.shared(layout)?.layout.coordinates.as_flattened(), points, capacity)
+    })
+}
+
+/// The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param corners   out: n_faces x 3 indices of points.
+/// @param capacity  entries of `corners`, at least 3 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_corners(
+    layout: *const ricci_layout,
+    corners: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let layout = door.shared(layout)?;
+        copy_out("corners", layout.corners().as_flattened(), corners, capacity)
+    })
+}
+
+/// The coordinates of every corner of every face.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param uv        out: n_faces x 3 x 2.
+/// @param capacity  entries of `uv`, at least 6 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_uv(
+    layout: *const ricci_layout,
+    uv: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let ricci_layout { mesh, layout, .. } = door.shared(layout)?;
+        let corners: Vec<[[f64; 2]; 3]> = mesh.faces().map(|f| layout.face_uv(mesh, f)).collect();
+        copy_out("uv", corners.as_flattened().as_flattened(), uv, capacity)
+    })
+}
+
+/// The motion of the plane that carries the left side of every seam onto its right side.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param seams     out: n_seams x 4: rotation (radians), translation x, y, residual relative to the
+///                  diameter.
+/// @param capacity  entries of `seams`, at least 4 n_seams.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_seams(
+    layout: *const ricci_layout,
+    seams: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let rows: Vec<[f64; 4]> = door
+            .shared(layout)?
+            .layout
+            .seams
+            .iter()
+            .map(|seam| [seam.rotation, seam.translation[0], seam.translation[1], seam.residual])
+            .collect();
+        copy_out("seams", rows.as_flattened(), seams, capacity)
+    })
+}
+
+/// The edges of every seam, in order.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout           the layout.
+/// @param edges            out: n_seam_edges edge numbers, 1-based, negative where the seam runs against the
+///                         edge's direction; seam after seam.
+/// @param edges_capacity   entries of `edges`.
+/// @param starts           out: n_seams + 1 offsets: seam i is edges[starts[i] .. starts[i + 1]).
+/// @param starts_capacity  entries of `starts`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_seam_edges(
+    layout: *const ricci_layout,
+    edges: *mut i32,
+    edges_capacity: usize,
+    starts: *mut usize,
+    starts_capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let seams = &door.shared(layout)?.layout.seams;
+        let (mut numbers, mut offsets) = (Vec::new(), vec![0]);
+        for seam in seams {
+            numbers.extend(seam.halfedges.iter().map(|&h| signed_edge(h)));
+            offsets.push(numbers.len());
+        }
+        arrays::copy_rows("edges", &numbers, edges, edges_capacity, &offsets, starts, starts_capacity)
+    })
+}
+
+/// The faces that are not counterclockwise, by exact arithmetic.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param faces     out: n_flipped face indices.
+/// @param capacity  entries of `faces`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_flipped(
+    layout: *const ricci_layout,
+    faces: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let flipped: Vec<u32> = door.shared(layout)?.layout.flipped.iter().map(|f| f.0).collect();
+        copy_out("faces", &flipped, faces, capacity)
+    })
+}
+
+/// The quasi-conformal dilatation of every face: 1 is conformal.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param qc        out: n_faces values, at least 1.
+/// @param capacity  entries of `qc`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_qc(
+    layout: *const ricci_layout,
+    qc: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| copy_out("qc", &door.shared(layout)?.quality.qc, qc, capacity))
+}
+
+/// The area distortion of every face: its share of the layout's area over its share of the input's.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param ratio     out: n_faces values.
+/// @param capacity  entries of `ratio`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_area_ratio(
+    layout: *const ricci_layout,
+    ratio: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| copy_out("ratio", &door.shared(layout)?.quality.area_ratio, ratio, capacity))
+}
+
+/// Write the mesh with the layout as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
+///
+/// A file of that name is replaced only once the new one is complete.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
+///
+/// @param layout  the layout.
+/// @param path    file name, NUL-terminated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_write_obj(
+    layout: *const ricci_layout,
+    path: *const c_char,
+) -> ricci_status {
+    guard::call(|door| {
+        let layout = door.shared(layout)?;
+        let path = arrays::path("path", path)?;
+        let positions = layout.positions.as_ref().ok_or_else(|| {
+            Failure::argument("the layout is of an intrinsic mesh: it has no positions to write")
+        })?;
+        let mesh = &layout.mesh;
+        let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+        let data = io::ObjData {
+            positions,
+            faces: &faces,
+            texcoords: &layout.layout.coordinates,
+            face_texcoords: &layout.corners(),
+        };
+        Ok(io::write_obj(&path, &data)?)
+    })
+}
+
+impl ricci_layout {
+    fn corners(&self) -> Vec<[u32; 3]> {
+        let index = &self.layout.corner_index;
+        self.mesh.faces().map(|f| self.mesh.face_halfedges(f).map(|h| index[h])).collect()
+    }
+}

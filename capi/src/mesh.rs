@@ -1,0 +1,415 @@
+//! Meshes: connectivity with positions in space, or with edge lengths alone.
+
+use crate::arrays::{self, copy_out, copy_rows};
+use crate::choice::choose;
+use crate::failure::{Failure, Outcome};
+use crate::guard::{self, Handle, Poison, output};
+use crate::sized::{self, Sized64};
+use crate::space::ricci_space;
+use crate::status::ricci_status;
+use ricci::geometry::space::Space;
+use ricci::mesh::{HalfedgeId, Mesh, PerEdge, Point, io};
+use ricci::metric::lengths::lengths_from_positions;
+use std::ffi::c_char;
+use std::mem::MaybeUninit;
+use std::sync::Arc;
+
+/// A connected oriented triangulated surface with the lengths of its edges. It never changes.
+pub struct ricci_mesh {
+    poison: Poison,
+    pub(crate) connectivity: Arc<Mesh>,
+    pub(crate) shape: Shape,
+}
+
+/// Where the edge lengths come from.
+#[derive(Clone)]
+pub(crate) enum Shape {
+    /// A surface in space.
+    Positions(Arc<Vec<Point>>),
+    /// An intrinsic surface: one length per edge, in this geometry.
+    Lengths(Arc<PerEdge<f64>>, Space),
+}
+
+impl Handle for ricci_mesh {
+    const NAME: &'static str = "mesh";
+    fn poison(&self) -> &Poison {
+        &self.poison
+    }
+}
+
+impl ricci_mesh {
+    pub(crate) fn new(connectivity: Arc<Mesh>, shape: Shape) -> ricci_mesh {
+        ricci_mesh { poison: Poison::default(), connectivity, shape }
+    }
+
+    fn from_soup(positions: Vec<Point>, faces: &[[u32; 3]]) -> Outcome<ricci_mesh> {
+        let connectivity = Mesh::from_faces(positions.len(), faces)?;
+        Ok(ricci_mesh::new(Arc::new(connectivity), Shape::Positions(Arc::new(positions))))
+    }
+
+    fn positions(&self) -> Outcome<&[Point]> {
+        match &self.shape {
+            Shape::Positions(positions) => Ok(positions),
+            Shape::Lengths(..) => {
+                Err(Failure::argument("this mesh is intrinsic: it has lengths, no positions"))
+            }
+        }
+    }
+
+    pub(crate) fn lengths(&self) -> Outcome<(Arc<PerEdge<f64>>, Space)> {
+        match &self.shape {
+            Shape::Positions(positions) => {
+                Ok((Arc::new(lengths_from_positions(&self.connectivity, positions)?), Space::E2))
+            }
+            Shape::Lengths(lengths, space) => Ok((lengths.clone(), *space)),
+        }
+    }
+}
+
+/// Counts of a mesh.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_mesh_summary {
+    /// Bytes of this struct that are filled.
+    pub size: usize,
+    /// V.
+    pub n_vertices: usize,
+    /// E.
+    pub n_edges: usize,
+    /// F.
+    pub n_faces: usize,
+    /// Number of boundary loops; 0 for a closed surface.
+    pub n_boundary_loops: usize,
+    /// Number of vertices on the boundary.
+    pub n_boundary_vertices: usize,
+    /// V - E + F.
+    pub euler: i64,
+    /// (2 - euler - boundary loops) / 2.
+    pub genus: usize,
+}
+
+// SAFETY: integers of 8 bytes, size first.
+unsafe impl Sized64 for ricci_mesh_summary {
+    const NAME: &'static str = "summary";
+    fn with_size(self, size: usize) -> Self {
+        Self { size, ..self }
+    }
+}
+
+/// A mesh from positions and faces.
+///
+/// Both arrays are copied; vertices, faces and corners keep their order and numbers.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride), RICCI_TOO_LARGE, RICCI_DEFECTS (ask
+/// ricci_diagnose_arrays for the list).
+///
+/// @param positions   n_vertices points: x, y, z as double; finite.
+/// @param stride      bytes from one point to the next, at least 24; 0 means 24. Need not be a multiple of 8.
+/// @param n_vertices  number of points.
+/// @param faces       n_faces x 3 vertex indices, 0-based, consistently oriented.
+/// @param n_faces     number of triangles, at least 1.
+/// @param mesh        out: the new handle, to be released by ricci_mesh_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_from_arrays(
+    positions: *const f64,
+    stride: usize,
+    n_vertices: usize,
+    faces: *const u32,
+    n_faces: usize,
+    mesh: *mut *mut ricci_mesh,
+) -> ricci_status {
+    guard::call(|_| {
+        let mesh = output("mesh", mesh)?;
+        let positions = arrays::points(positions, stride, n_vertices)?;
+        mesh.hand_over(ricci_mesh::from_soup(positions, &arrays::faces(faces, n_faces)?)?);
+        Ok(())
+    })
+}
+
+/// ricci_mesh_from_arrays for faces of int32_t. A negative index is refused by face and corner.
+///
+/// @return as ricci_mesh_from_arrays; RICCI_ARGUMENT also for a negative index.
+///
+/// @param positions   n_vertices points: x, y, z as double; finite.
+/// @param stride      bytes from one point to the next, at least 24; 0 means 24. Need not be a multiple of 8.
+/// @param n_vertices  number of points.
+/// @param faces       n_faces x 3 vertex indices, 0-based, consistently oriented.
+/// @param n_faces     number of triangles, at least 1.
+/// @param mesh        out: the new handle, to be released by ricci_mesh_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_from_arrays_i32(
+    positions: *const f64,
+    stride: usize,
+    n_vertices: usize,
+    faces: *const i32,
+    n_faces: usize,
+    mesh: *mut *mut ricci_mesh,
+) -> ricci_status {
+    guard::call(|_| {
+        let mesh = output("mesh", mesh)?;
+        let positions = arrays::points(positions, stride, n_vertices)?;
+        mesh.hand_over(ricci_mesh::from_soup(positions, &arrays::faces_i32(faces, n_faces)?)?);
+        Ok(())
+    })
+}
+
+/// An intrinsic surface: triangles glued along numbered edges, and a length for every edge.
+///
+/// Two vertices may share several edges, an edge may be a loop, a face may be glued to itself. Edge number e
+/// (1-based in `face_edges`) is edge e - 1 of every per-edge array.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE (`n_edges` is not the number of edges),
+/// RICCI_GLUING, RICCI_EDGE_LENGTH, RICCI_ARGUMENT, RICCI_TOO_LARGE.
+///
+/// @param n_vertices  number of vertices.
+/// @param faces       n_faces x 3 vertex indices (a, b, c), 0-based.
+/// @param face_edges  n_faces x 3 edge numbers (bc, ca, ab): 1-based, negative where the face runs against
+///                    the edge's direction; each edge once with either sign, or once only (boundary).
+/// @param n_faces     number of triangles, at least 1.
+/// @param lengths     n_edges lengths, finite and positive.
+/// @param n_edges     number of edges.
+/// @param geometry    the geometry in which the lengths are meant.
+/// @param mesh        out: the new handle, to be released by ricci_mesh_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_from_gluing(
+    n_vertices: usize,
+    faces: *const u32,
+    face_edges: *const i32,
+    n_faces: usize,
+    lengths: *const f64,
+    n_edges: usize,
+    geometry: MaybeUninit<ricci_space>,
+    mesh: *mut *mut ricci_mesh,
+) -> ricci_status {
+    guard::call(|_| {
+        let mesh = output("mesh", mesh)?;
+        let geometry = choose(geometry)?;
+        let faces = arrays::faces(faces, n_faces)?;
+        let face_edges: Vec<[i32; 3]> = arrays::array("face_edges", face_edges.cast(), n_faces)?;
+        let connectivity = Mesh::from_gluing(n_vertices, &faces, &face_edges)?;
+        let lengths = arrays::array_of("lengths", lengths, n_edges, connectivity.n_edges())?;
+        for (edge, &length) in lengths.iter().enumerate() {
+            if !(length.is_finite() && length > 0.0) {
+                return Err(ricci::Error::EdgeLength { edge, length }.into());
+            }
+        }
+        let shape = Shape::Lengths(Arc::new(lengths.into()), geometry);
+        mesh.hand_over(ricci_mesh::new(Arc::new(connectivity), shape));
+        Ok(())
+    })
+}
+
+/// A mesh from a file.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS (ask
+/// ricci_diagnose_file for the list).
+///
+/// @param path  file name ending in .obj or .off, NUL-terminated.
+/// @param mesh  out: the new handle, to be released by ricci_mesh_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_read(path: *const c_char, mesh: *mut *mut ricci_mesh) -> ricci_status {
+    guard::call(|_| {
+        let mesh = output("mesh", mesh)?;
+        let soup = io::read(&arrays::path("path", path)?)?;
+        mesh.hand_over(ricci_mesh::from_soup(soup.positions, &soup.faces)?);
+        Ok(())
+    })
+}
+
+/// Write a mesh as OBJ, with 17 significant digits.
+///
+/// A file of that name is replaced only once the new one is complete.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
+///
+/// @param mesh  the mesh.
+/// @param path  file name, NUL-terminated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_write_obj(mesh: *const ricci_mesh, path: *const c_char) -> ricci_status {
+    guard::call(|door| {
+        let mesh = door.shared(mesh)?;
+        let faces = face_vertices(&mesh.connectivity);
+        let data =
+            io::ObjData { positions: mesh.positions()?, faces: &faces, texcoords: &[], face_texcoords: &[] };
+        io::write_obj(&arrays::path("path", path)?, &data)?;
+        Ok(())
+    })
+}
+
+/// Release a mesh. Metrics made from it live on.
+///
+/// @param mesh  the handle, or NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_free(mesh: *mut ricci_mesh) {
+    guard::free(mesh);
+}
+
+/// Counts, Euler characteristic, genus and boundary loops.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+///
+/// @param mesh     the mesh.
+/// @param summary  out: the counts.
+/// @param size     sizeof *summary.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_summarise(
+    mesh: *const ricci_mesh,
+    summary: *mut ricci_mesh_summary,
+    size: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let mesh = &door.shared(mesh)?.connectivity;
+        let counts = ricci_mesh_summary {
+            size,
+            n_vertices: mesh.n_vertices(),
+            n_edges: mesh.n_edges(),
+            n_faces: mesh.n_faces(),
+            n_boundary_loops: mesh.boundary_loops().len(),
+            n_boundary_vertices: mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).count(),
+            euler: mesh.euler(),
+            genus: mesh.genus(),
+        };
+        sized::write(counts, summary, size)
+    })
+}
+
+/// The positions a mesh was made from.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (the mesh is intrinsic).
+///
+/// @param mesh       the mesh.
+/// @param positions  out: n_vertices x 3.
+/// @param capacity   entries of `positions`, at least 3 n_vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_positions(
+    mesh: *const ricci_mesh,
+    positions: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let mesh = door.shared(mesh)?;
+        copy_out("positions", mesh.positions()?.as_flattened(), positions, capacity)
+    })
+}
+
+/// The vertices of every face, in corner order.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param mesh      the mesh.
+/// @param faces     out: n_faces x 3 vertex indices (a, b, c).
+/// @param capacity  entries of `faces`, at least 3 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_faces(
+    mesh: *const ricci_mesh,
+    faces: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let mesh = door.shared(mesh)?;
+        copy_out("faces", face_vertices(&mesh.connectivity).as_flattened(), faces, capacity)
+    })
+}
+
+/// The edges opposite the corners of every face: how the triangles are glued, and where in a per-edge array a
+/// face finds its sides.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param mesh        the mesh.
+/// @param face_edges  out: n_faces x 3 edge numbers (bc, ca, ab): 1-based, negative where the face runs
+///                    against the edge's direction.
+/// @param capacity    entries of `face_edges`, at least 3 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_face_edges(
+    mesh: *const ricci_mesh,
+    face_edges: *mut i32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let mesh = &door.shared(mesh)?.connectivity;
+        let signed: Vec<[i32; 3]> = mesh
+            .faces()
+            .map(|f| {
+                let [ab, bc, ca] = mesh.face_halfedges(f).map(signed_edge);
+                [bc, ca, ab]
+            })
+            .collect();
+        copy_out("face_edges", signed.as_flattened(), face_edges, capacity)
+    })
+}
+
+/// The two ends of every edge, in the edge's direction.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param mesh      the mesh.
+/// @param edges     out: n_edges x 2 vertex indices.
+/// @param capacity  entries of `edges`, at least 2 n_edges.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_edges(
+    mesh: *const ricci_mesh,
+    edges: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let mesh = &door.shared(mesh)?.connectivity;
+        let ends: Vec<[u32; 2]> = mesh.edges().map(|e| mesh.ends(e).map(|v| v.0)).collect();
+        copy_out("edges", ends.as_flattened(), edges, capacity)
+    })
+}
+
+/// The length of every edge, in space or as given.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_EDGE_LENGTH (two positions coincide).
+///
+/// @param mesh      the mesh.
+/// @param lengths   out: n_edges lengths.
+/// @param capacity  entries of `lengths`, at least n_edges.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_lengths(
+    mesh: *const ricci_mesh,
+    lengths: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let (values, _) = door.shared(mesh)?.lengths()?;
+        copy_out("lengths", &values, lengths, capacity)
+    })
+}
+
+/// The vertices of every boundary loop, each loop with the surface on its left.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param mesh               the mesh.
+/// @param vertices           out: n_boundary_vertices vertex indices, loop after loop.
+/// @param vertices_capacity  entries of `vertices`.
+/// @param starts             out: n_boundary_loops + 1 offsets: loop i is vertices[starts[i] .. starts[i +
+///                           1]).
+/// @param starts_capacity    entries of `starts`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_boundary(
+    mesh: *const ricci_mesh,
+    vertices: *mut u32,
+    vertices_capacity: usize,
+    starts: *mut usize,
+    starts_capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let mesh = &door.shared(mesh)?.connectivity;
+        let (mut order, mut offsets) = (Vec::new(), vec![0]);
+        for walk in mesh.boundary_loops() {
+            order.extend(walk.iter().rev().map(|&h| mesh.origin(h).0));
+            offsets.push(order.len());
+        }
+        copy_rows("vertices", &order, vertices, vertices_capacity, &offsets, starts, starts_capacity)
+    })
+}
+
+/// The 1-based number of an edge, negative against its direction.
+pub(crate) fn signed_edge(h: HalfedgeId) -> i32 {
+    let number = h.edge().0 as i32 + 1;
+    if h == h.edge().halfedge() { number } else { -number }
+}
+
+fn face_vertices(mesh: &Mesh) -> Vec<[u32; 3]> {
+    mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect()
+}

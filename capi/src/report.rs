@@ -1,0 +1,223 @@
+//! What a flow did.
+
+use crate::arrays::copy_out;
+use crate::choice::{Choice, name};
+use crate::guard::{self, Handle, Poison};
+use crate::sized::{self, Sized64};
+use crate::status::ricci_status;
+use ricci::flow::{Report, StopReason};
+use std::ffi::c_char;
+use std::mem::MaybeUninit;
+
+/// What a flow did: why it stopped, how far it came, how long it took.
+pub struct ricci_report {
+    poison: Poison,
+    report: Report,
+}
+
+impl Handle for ricci_report {
+    const NAME: &'static str = "report";
+    fn poison(&self) -> &Poison {
+        &self.poison
+    }
+}
+
+impl ricci_report {
+    pub(crate) fn new(report: Report) -> ricci_report {
+        ricci_report { poison: Poison::default(), report }
+    }
+}
+
+/// Why a flow stopped.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ricci_stop_reason {
+    /// The curvature error is within the tolerance and no triangle is broken.
+    RICCI_STOP_CONVERGED = 0,
+    /// The error is as small as rounding allows on this mesh, which is above the tolerance asked for.
+    RICCI_STOP_ROUNDING_FLOOR = 1,
+    /// A minimum of the energy with broken triangles: no metric.
+    RICCI_STOP_BROKEN_TRIANGLES = 2,
+    /// No step lowers the error any more.
+    RICCI_STOP_STALLED = 3,
+    /// max_iterations were done.
+    RICCI_STOP_ITERATION_LIMIT = 4,
+}
+
+use ricci_stop_reason::*;
+
+impl Choice for ricci_stop_reason {
+    const NAME: &'static str = "stop_reason";
+    type Value = StopReason;
+    const ALL: &'static [(Self, StopReason)] = &[
+        (RICCI_STOP_CONVERGED, StopReason::Converged),
+        (RICCI_STOP_ROUNDING_FLOOR, StopReason::RoundingFloor),
+        (RICCI_STOP_BROKEN_TRIANGLES, StopReason::BrokenTriangles),
+        (RICCI_STOP_STALLED, StopReason::Stalled),
+        (RICCI_STOP_ITERATION_LIMIT, StopReason::IterationLimit),
+    ];
+    fn number(self) -> i32 {
+        self as i32
+    }
+}
+
+/// Figures of a report.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_report_summary {
+    /// Bytes of this struct that are filled.
+    pub size: usize,
+    /// 1 if the curvature error is within `tolerance` and no triangle is broken, else 0.
+    pub converged: i32,
+    /// Why it stopped.
+    pub stop_reason: ricci_stop_reason,
+    /// Number of steps.
+    pub iterations: usize,
+    /// Number of edges flipped.
+    pub flips: usize,
+    /// Number of triangles whose lengths break the triangle inequality.
+    pub broken_triangles: usize,
+    /// Largest |K - target| over the vertices, radians.
+    pub max_curvature_error: f64,
+    /// The tolerance that was used: the one asked for, or the rounding floor of the mesh where that is
+    /// larger.
+    pub tolerance: f64,
+    /// Curvature error that rounding u to double precision can cause on the final metric, radians.
+    pub rounding_floor: f64,
+    /// |sum of curvatures + lambda area - 2 pi chi| of the result.
+    pub gauss_bonnet: f64,
+    /// Seconds in the assembly of curvature and its derivative.
+    pub seconds_assemble: f64,
+    /// Seconds in the symbolic analysis.
+    pub seconds_analyse: f64,
+    /// Seconds in numeric factorisations.
+    pub seconds_factor: f64,
+    /// Seconds in solves.
+    pub seconds_solve: f64,
+    /// Seconds in edge flips.
+    pub seconds_flip: f64,
+    /// Seconds in all.
+    pub seconds_total: f64,
+    /// Entries of ricci_report_residuals.
+    pub n_residuals: usize,
+    /// Rows of ricci_report_trace.
+    pub n_trace: usize,
+}
+
+// SAFETY: only ever written by the library; 8-byte alignment, size first.
+unsafe impl Sized64 for ricci_report_summary {
+    const NAME: &'static str = "summary";
+    fn with_size(self, size: usize) -> Self {
+        Self { size, ..self }
+    }
+}
+
+/// The name of a stop reason as reports spell it, such as "rounding_floor".
+///
+/// Never fails: a number that is no stop reason gives "unknown".
+/// @return a NUL-terminated string; not to be freed.
+///
+/// @param reason  the reason.
+#[unsafe(no_mangle)]
+pub extern "C" fn ricci_stop_reason_text(reason: MaybeUninit<ricci_stop_reason>) -> *const c_char {
+    let number = guard::raw(reason);
+    let known = ricci_stop_reason::ALL.iter().find(|(known, _)| *known as i32 == number);
+    known
+        .map_or(c"unknown", |(known, _)| match known {
+            RICCI_STOP_CONVERGED => c"converged",
+            RICCI_STOP_ROUNDING_FLOOR => c"rounding_floor",
+            RICCI_STOP_BROKEN_TRIANGLES => c"broken_triangles",
+            RICCI_STOP_STALLED => c"stalled",
+            RICCI_STOP_ITERATION_LIMIT => c"iteration_limit",
+        })
+        .as_ptr()
+}
+
+/// Release a report.
+///
+/// @param report  the handle, or NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_report_free(report: *mut ricci_report) {
+    guard::free(report);
+}
+
+/// The figures of a report.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+///
+/// @param report   the report.
+/// @param summary  out: the figures.
+/// @param size     sizeof *summary.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_report_summarise(
+    report: *const ricci_report,
+    summary: *mut ricci_report_summary,
+    size: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let report = &door.shared(report)?.report;
+        let seconds = &report.seconds;
+        let figures = ricci_report_summary {
+            size,
+            converged: report.converged.into(),
+            stop_reason: name(report.stop_reason)?,
+            iterations: report.iterations,
+            flips: report.flips,
+            broken_triangles: report.broken_triangles,
+            max_curvature_error: report.max_curvature_error,
+            tolerance: report.tolerance,
+            rounding_floor: report.rounding_floor,
+            gauss_bonnet: report.gauss_bonnet,
+            seconds_assemble: seconds.assemble,
+            seconds_analyse: seconds.analyse,
+            seconds_factor: seconds.factor,
+            seconds_solve: seconds.solve,
+            seconds_flip: seconds.flip,
+            seconds_total: seconds.total,
+            n_residuals: report.residuals.len(),
+            n_trace: report.trace.len(),
+        };
+        sized::write(figures, summary, size)
+    })
+}
+
+/// Largest |K - target| at the start and after every step.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param report     the report.
+/// @param residuals  out: n_residuals values, radians.
+/// @param capacity   entries of `residuals`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_report_residuals(
+    report: *const ricci_report,
+    residuals: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| copy_out("residuals", &door.shared(report)?.report.residuals, residuals, capacity))
+}
+
+/// The trace of a gradient flow.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param report    the report.
+/// @param trace     out: n_trace x 5: step, energy, largest |K - target|, area, step size.
+/// @param capacity  entries of `trace`, at least 5 n_trace.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_report_trace(
+    report: *const ricci_report,
+    trace: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let rows: Vec<[f64; 5]> = door
+            .shared(report)?
+            .report
+            .trace
+            .iter()
+            .map(|row| [row.step as f64, row.energy, row.max_curvature_error, row.area, row.step_size])
+            .collect();
+        copy_out("trace", rows.as_flattened(), trace, capacity)
+    })
+}

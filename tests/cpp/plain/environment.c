@@ -1,0 +1,54 @@
+/* The host's floating-point environment does not change a result, and a call does not change the environment: traps
+ * on, another rounding mode. */
+#define _GNU_SOURCE
+#include "torus.h"
+#include <fenv.h>
+
+/* u of the flat metric; NULL where anything fails. */
+static double *solve(const torus *t, ricci_space space, const double *target) {
+    ricci_mesh *mesh = torus_mesh(t);
+    ricci_metric *metric = NULL, *end = NULL;
+    double *u = (double *)malloc(t->n_vertices * sizeof *u);
+    CHECK(u);
+    OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, space, &metric));
+    OK(ricci_flow(metric, target, t->n_vertices, NULL, NULL, &end, NULL));
+    OK(ricci_metric_u(end, u, t->n_vertices));
+    ricci_metric_free(end);
+    ricci_metric_free(metric);
+    ricci_mesh_free(mesh);
+    return u;
+}
+
+int main(void) {
+    torus t = torus_new(40, 30);
+    const size_t bytes = t.n_vertices * sizeof(double);
+    double *target = (double *)calloc(t.n_vertices, sizeof *target);
+    CHECK(target);
+    double *expected = solve(&t, RICCI_SPACE_E2, target);
+
+#ifdef __GLIBC__
+    feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+    double *trapped = solve(&t, RICCI_SPACE_E2, target);
+    CHECK(fegetexcept() == (FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW));
+    fedisableexcept(FE_ALL_EXCEPT);
+    CHECK(memcmp(trapped, expected, bytes) == 0);
+    free(trapped);
+#endif
+
+    feclearexcept(FE_ALL_EXCEPT);
+    double *again = solve(&t, RICCI_SPACE_E2, target);
+    CHECK(fetestexcept(FE_ALL_EXCEPT) == 0);
+    free(again);
+
+    fesetround(FE_UPWARD);
+    double *upward = solve(&t, RICCI_SPACE_E2, target);
+    CHECK(fegetround() == FE_UPWARD);
+    fesetround(FE_TONEAREST);
+    CHECK(memcmp(upward, expected, bytes) == 0);
+    free(upward);
+
+    free(expected);
+    free(target);
+    torus_free(&t);
+    return 0;
+}
