@@ -68,26 +68,16 @@ const COMPLETIONS_EXAMPLE: &str = "\
 Example
     ricci completions bash > ~/.local/share/bash-completion/completions/ricci";
 
-/// Options of every command that works on a surface.
-#[derive(Args, Debug, Clone)]
-pub struct Common {
-    /// Write all numbers of the run as JSON
-    #[arg(long, value_name = "R.json")]
-    pub report: Option<PathBuf>,
-    /// No progress bar, no summary
-    #[arg(long)]
-    pub quiet: bool,
-    /// Threads, 0 for one per core; results do not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
-    pub threads: u16,
-}
-
 #[derive(Args, Debug)]
 pub struct InfoArgs {
     /// Mesh file (.obj, .off) or intrinsic metric (.json)
     pub mesh: PathBuf,
-    #[command(flatten)]
-    pub common: Common,
+    /// Write everything as JSON
+    #[arg(long, value_name = "R.json")]
+    pub report: Option<PathBuf>,
+    /// No summary
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 #[derive(Args, Debug)]
@@ -133,8 +123,20 @@ pub struct FlowArgs {
     /// Charts of several discs: not in this version.
     #[arg(long, hide = true)]
     pub charts: bool,
-    #[command(flatten)]
-    pub common: Common,
+    /// Write all numbers of the run as JSON
+    #[arg(long, value_name = "R.json")]
+    pub report: Option<PathBuf>,
+    /// No progress bar, no summary
+    #[arg(long)]
+    pub quiet: bool,
+    /// Threads, 0 for one per core; results do not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads())]
+    pub threads: u16,
+}
+
+/// More threads than this help nobody and can exhaust the system.
+fn threads() -> impl clap::builder::TypedValueParser<Value = u16> {
+    clap::value_parser!(u16).range(..=1024)
 }
 
 const TARGET_HELP: &str = "\
@@ -154,7 +156,7 @@ pub struct DemoArgs {
     #[arg(long)]
     pub quiet: bool,
     /// Threads, 0 for one per core
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads())]
     pub threads: u16,
 }
 

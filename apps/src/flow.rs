@@ -36,7 +36,7 @@ pub struct Done {
 /// Run the command and say what came out.
 pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
     let done = execute(args, control)?;
-    if !args.common.quiet {
+    if !args.quiet {
         say::flow(&done);
     }
     Ok(done.exit_code)
@@ -46,7 +46,7 @@ pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
 pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     let start = Instant::now();
     check_request(args)?;
-    let progress = Progress::watch(control, args.common.quiet);
+    let progress = Progress::watch(control, args.quiet);
     let mut input = input::read(&args.mesh, control)?;
     if let Some(geometry) = args.input_geometry {
         input.geometry = geometry.into();
@@ -79,7 +79,7 @@ fn options(args: &FlowArgs) -> Options {
             FlipsChoice::Auto => Flips::Auto,
             FlipsChoice::Never => Flips::Never,
         },
-        threads: args.common.threads.into(),
+        threads: args.threads.into(),
         ..Options::default()
     }
 }
@@ -99,7 +99,7 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     if let Some(path) = &args.picture {
         check_extension("--picture", path, &["png", "svg"])?;
     }
-    let files = [&args.metric, &args.uv, &args.circles, &args.picture, &args.trace, &args.common.report];
+    let files = [&args.metric, &args.uv, &args.circles, &args.picture, &args.trace, &args.report];
     let mut seen: Vec<&Path> = Vec::new();
     for path in files.into_iter().flatten() {
         if seen.contains(&path.as_path()) {
@@ -176,7 +176,7 @@ fn write(
         Ok(())
     })?;
     control.step(Stage::Write, 0.5)?;
-    if let Some(path) = &args.common.report {
+    if let Some(path) = &args.report {
         seconds.total = start.elapsed().as_secs_f64();
         let asked = Asked::new(args, input.geometry);
         outputs.add_json(path, &report(input, outcome, asked, seconds))?;
@@ -215,7 +215,7 @@ impl Asked {
             flips: args.flips,
             tolerance: args.tolerance,
             input_geometry: geometry.name(),
-            threads: args.common.threads,
+            threads: args.threads,
             metric: text(&args.metric),
             uv: text(&args.uv),
             circles: text(&args.circles),

@@ -37,7 +37,7 @@ pub fn read(path: &Path, control: &Control) -> Result<Input, Failure> {
         let soup = timed(&mut seconds_read, || io::read(path))?;
         control.step(Stage::Build, 0.0)?;
         let build = || -> Result<_, Failure> {
-            let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces)?;
+            let mesh = Mesh::from_soup(&soup)?;
             let lengths = lengths_from_positions(&mesh, &soup.positions)?;
             Ok((mesh, lengths))
         };

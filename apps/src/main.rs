@@ -6,6 +6,7 @@ mod csv;
 mod failure;
 mod flow;
 mod glb;
+mod info;
 mod input;
 mod job;
 mod laid;
@@ -38,6 +39,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
     let control = progress::cancellable();
     match command {
         Command::Flow(args) => flow::run(args, &control),
+        Command::Info(args) => info::run(args, &control),
         _ => Ok(9),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -5,7 +5,7 @@
 
 use crate::failure::Failure;
 use ricci::geometry::Space;
-use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex};
+use ricci::mesh::{Mesh, PerEdge, PerVertex};
 use ricci::metric::{Metric, Scheme};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -22,7 +22,7 @@ pub struct MetricFile<'a> {
     scheme: &'static str,
     faces: Vec<[u32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    face_edges: Option<Vec<[i64; 3]>>,
+    face_edges: Option<Vec<[i32; 3]>>,
     eta: Vec<[f64; 3]>,
     lengths: Vec<[f64; 3]>,
     u: &'a [f64],
@@ -66,7 +66,7 @@ pub struct LengthsFile {
     input_geometry: &'static str,
     faces: Vec<[u32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    face_edges: Option<Vec<[i64; 3]>>,
+    face_edges: Option<Vec<[i32; 3]>>,
     lengths: Vec<[f64; 3]>,
 }
 
@@ -86,16 +86,8 @@ fn faces_of(mesh: &Mesh) -> Vec<[u32; 3]> {
 }
 
 /// 1-based edge numbers with the direction as sign, where edges are not determined by their ends.
-fn face_edges_of(mesh: &Mesh) -> Option<Vec<[i64; 3]>> {
-    let signed = |h: HalfedgeId| {
-        let number = i64::from(h.edge().0) + 1;
-        if h == h.edge().halfedge() { number } else { -number }
-    };
-    let of_face = |f: FaceId| {
-        let [ab, bc, ca] = mesh.face_halfedges(f).map(signed);
-        [bc, ca, ab]
-    };
-    (!mesh.is_simplicial()).then(|| mesh.faces().map(of_face).collect())
+fn face_edges_of(mesh: &Mesh) -> Option<Vec<[i32; 3]>> {
+    (!mesh.is_simplicial()).then(|| mesh.faces().map(|f| mesh.face_edges(f)).collect())
 }
 
 /// What is read: `faces` and `lengths` suffice. `input_geometry` (default e2) says how the lengths are read. A conformal
