@@ -100,7 +100,7 @@ pub struct FlowArgs {
     #[arg(long, value_enum, default_value_t = FlipsChoice::Auto)]
     pub flips: FlipsChoice,
     /// Largest |K − K̄| of a converged metric, radians
-    #[arg(long, value_name = "T", default_value_t = 1e-10, value_parser = positive)]
+    #[arg(long, value_name = "T", default_value = "1e-10", value_parser = positive)]
     pub tolerance: f64,
     /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
     #[arg(long, value_enum, value_name = "GEOMETRY")]

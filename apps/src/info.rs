@@ -140,10 +140,10 @@ fn text(summary: &InputSummary, info: &Info) -> String {
     );
     let q = &info.quality;
     text += &format!(
-        "area {:.6e}, smallest angle {}°, longest over shortest edge {}\nobtuse faces {}, non-Delaunay edges {}\n",
+        "area {:.6e}, smallest angle {}, longest over shortest edge {}\nobtuse faces {}, non-Delaunay edges {}\n",
         q.area,
-        figure(q.min_angle_degrees),
-        figure(q.edge_ratio),
+        q.min_angle_degrees.map_or("undefined".into(), |x| format!("{x:.4}°")),
+        q.edge_ratio.map_or("undefined".into(), |x| format!("{x:.4}")),
         percent(q.obtuse_fraction),
         percent(q.non_delaunay_fraction),
     );
@@ -168,10 +168,6 @@ fn text(summary: &InputSummary, info: &Info) -> String {
 
 fn known(n: Option<usize>) -> String {
     n.map_or("undefined".into(), |n| n.to_string())
-}
-
-fn figure(x: Option<f64>) -> String {
-    x.map_or("undefined".into(), |x| format!("{x:.4}"))
 }
 
 fn percent(x: Option<f64>) -> String {

@@ -66,9 +66,13 @@ pub fn check_writable(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
         return refuse("is a directory".into());
     }
-    match temporary(directory_of(path)) {
+    let directory = directory_of(path);
+    if !directory.is_dir() {
+        return refuse(format!("the directory {} does not exist", directory.display()));
+    }
+    match temporary(directory) {
         Ok(_) => Ok(()),
-        Err(e) => refuse(format!("cannot be written: {e}")),
+        Err(e) => refuse(format!("cannot be written: {}", e.kind())),
     }
 }
 

@@ -13,7 +13,7 @@ pub struct ShapeQuality {
     pub min_angle_degrees: Option<f64>,
     /// Fraction of the faces with an angle above 90°.
     pub obtuse_fraction: Option<f64>,
-    /// Longest over shortest edge; null if an edge has length 0.
+    /// Longest over shortest edge; null if an edge has length 0 or there is none.
     pub edge_ratio: Option<f64>,
     /// Fraction of the interior edges whose opposite angles add up to more than π.
     pub non_delaunay_fraction: Option<f64>,
@@ -66,7 +66,7 @@ fn of_sides(geometry: Space, faces: impl Iterator<Item = [f64; 3]>) -> ShapeQual
         area,
         min_angle_degrees: (n > 0).then(|| smallest.to_degrees()),
         obtuse_fraction: fraction(obtuse, n),
-        edge_ratio: Some(longest / shortest).filter(|r| r.is_finite()),
+        edge_ratio: Some(longest / shortest).filter(|r| n > 0 && r.is_finite()),
         non_delaunay_fraction: None,
     }
 }
