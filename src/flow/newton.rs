@@ -5,7 +5,7 @@ use super::report::{Report, StopReason, timed};
 use super::solver::{Run, center};
 use super::system::System;
 use crate::control::Stage;
-use crate::error::{Error, Result};
+use crate::error::Result;
 
 /// Below this max |K − K̄| a smaller residual also accepts a step. Far from the solution only the slope does: mixing
 /// the two there cycles.
@@ -15,11 +15,16 @@ const HALVINGS: usize = 50;
 /// First shift of a matrix that is not positive definite, relative to its mean diagonal; grows by `SHIFT_GROWTH`.
 const SHIFT: f64 = 1e-12;
 const SHIFT_GROWTH: f64 = 100.0;
-const SHIFT_TRIES: usize = 9;
+const SHIFT_TRIES: usize = 12;
 /// The floor estimate counts every rounding once; a stalled residual within this factor of it is at the floor.
 const FLOOR_SLACK: f64 = 8.0;
 /// Iterations without a new best residual (by a tenth) after which a small residual counts as stalled.
 const PATIENCE: usize = 8;
+/// The same while the residual is large.
+const FAR_PATIENCE: usize = 40;
+/// Lengths within one metric that differ by more than e^MAX_RANGE mean that there is no solution to run to: solutions
+/// of the test corpus stay below e^350, and doubles end at e^700.
+const MAX_RANGE: f64 = 500.0;
 /// Once converged, the last factor is reused to bring the error down to this, each step at least halving it.
 const POLISH_TO: f64 = 1e-13;
 const POLISH_STEPS: usize = 3;
@@ -35,7 +40,7 @@ impl Run<'_> {
         let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
         let mut trial = State::new(self.mesh, self.class);
         let mut error = state.residual(self.target, self.pinned, &mut residual);
-        let (first, mut best, mut since_best) = (error, error, 0);
+        let (first, mut best, mut since_best, mut shift) = (error, error, 0, 0.0);
         report.residuals.push(error);
         self.control.step(Stage::Flow, 0.0)?;
         let system = self.prepare(system, report)?;
@@ -49,13 +54,8 @@ impl Run<'_> {
             self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
             timed(&mut report.seconds.assemble, || system.jacobian.assemble(self.mesh, self.class, &state));
             self.control.check()?;
-            self.factor(system, report)?;
-            self.control.check()?;
-            if !timed(&mut report.seconds.solve, || system.solve(&residual, &mut step)) {
+            if !self.direction(system, &state, &residual, &mut step, &mut shift, report)? {
                 break StopReason::Stalled;
-            }
-            if self.free_scale {
-                center(&mut step);
             }
             report.iterations += 1;
             let accepted = self.line_search(&state, &mut trial, &mut residual, &step, error, report)?;
@@ -66,16 +66,24 @@ impl Run<'_> {
             std::mem::swap(&mut state, &mut trial);
             error = now;
             report.residuals.push(error);
-            since_best = if error < 0.9 * best { 0 } else { since_best + 1 };
-            best = best.min(error);
-            if since_best >= PATIENCE && error < NEAR * NEAR {
+            since_best += 1;
+            if error < 0.9 * best {
+                (best, since_best) = (error, 0);
+            }
+            if since_best >= if error < NEAR * NEAR { PATIENCE } else { FAR_PATIENCE } {
                 break StopReason::Stalled;
+            }
+            if range(&state.u) > MAX_RANGE {
+                break StopReason::Diverged;
             }
         };
         if report.stop_reason != StopReason::IterationLimit && report.iterations > 0 && error > POLISH_TO {
             self.polish(system, &mut state, &mut trial, &mut residual, &mut step, report, &mut error)?;
         }
         report.max_curvature_error = error;
+        if report.stop_reason == StopReason::Stalled {
+            timed(&mut report.seconds.assemble, || system.jacobian.assemble(self.mesh, self.class, &state));
+        }
         // Lengths move by |u| ε and a few ulp of their own, curvature by the row sums of ∂K/∂u times that.
         let largest_u = state.u.iter().fold(0.0f64, |m, u| m.max(u.abs()));
         if report.iterations > 0 {
@@ -92,20 +100,50 @@ impl Run<'_> {
         Ok(state)
     }
 
-    /// Factorise; a matrix that rounding (or broken triangles, whose rows are zero) has made semidefinite is shifted.
-    fn factor(&self, system: &mut System, report: &mut Report) -> Result<()> {
-        let mut shift = SHIFT * system.jacobian.mean_diagonal().max(f64::MIN_POSITIVE);
-        for attempt in 0..SHIFT_TRIES {
-            if timed(&mut report.seconds.factor, || system.factor()).is_ok() {
-                return Ok(());
-            }
-            self.control.check()?;
-            report.shifted += usize::from(attempt == 0);
-            system.jacobian.add_diagonal(|_| shift);
-            shift *= SHIFT_GROWTH;
+    /// The Newton direction into `step`; false when there is none.
+    ///
+    /// A vertex whose triangles all break has a zero row, and rounding can make the matrix indefinite. The diagonal is
+    /// then raised at the vertices of broken triangles (at all, where none is broken), so far that no u moves further
+    /// than `max_step`: capping the step instead would hold back the sound vertices for the sake of the loose ones.
+    /// `shift` remembers by how much, for the next iteration.
+    fn direction(
+        &self,
+        system: &mut System,
+        state: &State,
+        residual: &[f64],
+        step: &mut [f64],
+        shift: &mut f64,
+        report: &mut Report,
+    ) -> Result<bool> {
+        let mut loose = vec![0.0; residual.len()];
+        for f in self.mesh.faces().filter(|f| state.angles[f.index()].broken) {
+            self.mesh.face_vertices(f).into_iter().for_each(|v| loose[v.index()] = 1.0);
         }
-        let message = "it stays indefinite under every shift".into();
-        Err(Error::Factorisation { size: system.unknowns(), message })
+        if !loose.contains(&1.0) {
+            loose.fill(1.0);
+            *shift = 0.0;
+        }
+        let first = SHIFT * system.jacobian.mean_diagonal();
+        let mut added = if *shift > SHIFT_GROWTH * first { *shift / SHIFT_GROWTH } else { 0.0 };
+        system.jacobian.add_diagonal(|v| added * loose[v]);
+        for _ in 0..SHIFT_TRIES {
+            self.control.check()?;
+            let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
+            if factored && timed(&mut report.seconds.solve, || system.solve(residual, step)) {
+                if self.free_scale {
+                    center(step);
+                }
+                if added == 0.0 || norm(step) <= self.options.max_step {
+                    *shift = added;
+                    report.shifted += usize::from(added > 0.0);
+                    return Ok(true);
+                }
+            }
+            let more = if added == 0.0 { first } else { added * SHIFT_GROWTH };
+            system.jacobian.add_diagonal(|v| more * loose[v]);
+            added += more;
+        }
+        Ok(false)
     }
 
     /// The largest of `step`, `step/2`, `step/4`, … (after the cap) that is accepted, in `trial`; its error.
@@ -121,8 +159,7 @@ impl Run<'_> {
         error: f64,
         report: &mut Report,
     ) -> Result<Option<f64>> {
-        let largest = step.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        let mut t = (self.options.max_step / largest).min(1.0);
+        let mut t = (self.options.max_step / norm(step)).min(1.0);
         for _ in 0..HALVINGS {
             self.control.check()?;
             let inside = timed(&mut report.seconds.assemble, || {
@@ -183,6 +220,17 @@ impl Run<'_> {
         }
         Ok(())
     }
+}
+
+/// Maximum norm.
+fn norm(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |m, x| m.max(x.abs()))
+}
+
+/// Largest minus smallest.
+fn range(x: &[f64]) -> f64 {
+    let (low, high) = x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+    high - low
 }
 
 /// Fraction of the way from `first` to `goal` on a logarithmic scale.

@@ -13,6 +13,9 @@ pub enum StopReason {
     /// The extended energy is at its minimum there, but some triangles break: no metric of this class on this
     /// triangulation has the target curvature.
     BrokenTriangles,
+    /// The variables run away without limit: the target violates an existence condition of the scheme on this
+    /// triangulation (for circle packings an inequality over some set of vertices).
+    Diverged,
     /// No step reduces the error, which is above the rounding floor.
     Stalled,
     /// The iteration limit came first.
@@ -26,6 +29,7 @@ impl StopReason {
             StopReason::Converged => "converged",
             StopReason::RoundingFloor => "rounding_floor",
             StopReason::BrokenTriangles => "broken_triangles",
+            StopReason::Diverged => "diverged",
             StopReason::Stalled => "stalled",
             StopReason::IterationLimit => "iteration_limit",
         }

@@ -1,6 +1,9 @@
 //! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
 
+pub mod isometry;
+pub mod predicates;
 pub mod space;
 pub mod triangle;
 
+pub use isometry::PlaneIsometry;
 pub use space::Space;

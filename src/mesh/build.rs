@@ -1,1 +1,177 @@
 //! Building connectivity from index buffers and from gluings.
+
+use super::check::{diagnose, diagnose_incidence};
+use super::halfedge::Mesh;
+use super::ids::{FaceId, HalfedgeId};
+use super::incidence::{Incidence, NONE, UnionFind};
+use super::io::Soup;
+use crate::error::{Error, Result, check_size};
+
+impl Mesh {
+    /// The surface of an indexed triangle list (0-based, counterclockwise).
+    ///
+    /// Vertices, faces and corners keep their numbers; edges are numbered in the order in which the faces' sides
+    /// (first to second corner, second to third, third to first) first name them, and half-edge `2e` runs in the
+    /// direction of that first side. Every defect is found first: see [`Error::Defects`].
+    pub fn from_faces(n_vertices: usize, faces: &[[u32; 3]]) -> Result<Mesh> {
+        check_counts(n_vertices, faces.len())?;
+        let incidence = Incidence::new(n_vertices, faces);
+        let diagnosis = diagnose_incidence(faces, &incidence);
+        if !diagnosis.defects.is_empty() {
+            return Err(Error::Defects(Box::new(diagnosis)));
+        }
+        let partner = incidence.partners(faces.len());
+        drop(incidence);
+        let mut origin = Vec::with_capacity(2 * diagnosis.edges);
+        let mut sides = vec![[NONE; 3]; faces.len()];
+        for side in 0..3 * faces.len() {
+            let (f, k) = (side / 3, side % 3);
+            let other = partner[side] as usize;
+            sides[f][k] = if partner[side] != NONE && other < side {
+                sides[other / 3][other % 3] ^ 1
+            } else {
+                origin.extend([faces[f][k], faces[f][(k + 1) % 3]]);
+                origin.len() as u32 - 2
+            };
+        }
+        Mesh::assemble(n_vertices, origin, &sides)
+    }
+
+    /// The surface of a triangle list in space, diagnosed with its positions (zero-area faces, coordinates that are
+    /// not finite).
+    pub fn from_soup(soup: &Soup) -> Result<Mesh> {
+        let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces);
+        let diagnosis = diagnose(&soup.positions, &soup.faces);
+        if diagnosis.defects.is_empty() { mesh } else { Err(Error::Defects(Box::new(diagnosis))) }
+    }
+
+    /// The surface of triangles glued along numbered edges: a Δ-complex, whose edges need not be determined by
+    /// their ends.
+    ///
+    /// `face_edges[f] = [±e_bc, ±e_ca, ±e_ab]` for the face (a, b, c): edges are numbered from 1 without gaps, the sign
+    /// says whether the side (b to c, c to a, a to b) runs along the edge's direction; half-edge `2(e − 1)` is that
+    /// direction. Each edge is named once (boundary) or twice, with opposite signs.
+    pub fn from_gluing(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Result<Mesh> {
+        check_counts(n_vertices, faces.len())?;
+        check_size("face_edges", face_edges.len(), faces.len())?;
+        let n_edges = face_edges.iter().flatten().map(|e| e.unsigned_abs() as usize).max().unwrap_or(0);
+        if n_edges > 3 * faces.len() {
+            let f = face_edges.iter().position(|e| e.iter().any(|e| e.unsigned_abs() as usize == n_edges));
+            return Err(gluing(
+                f.unwrap_or(0),
+                format!(
+                    "edge number {n_edges} exceeds the number of sides; number edges from 1 without gaps"
+                ),
+            ));
+        }
+        let mut origin = vec![NONE; 2 * n_edges];
+        let mut used = vec![false; 2 * n_edges];
+        let mut sides = vec![[NONE; 3]; faces.len()];
+        for (f, (corners, edges)) in faces.iter().zip(face_edges).enumerate() {
+            if let Some(v) = corners.iter().find(|&&v| v as usize >= n_vertices) {
+                return Err(gluing(f, format!("vertex {v} does not exist")));
+            }
+            for k in 0..3 {
+                // The side from corner k is opposite corner k + 2.
+                let edge = edges[(k + 2) % 3];
+                if edge == 0 {
+                    return Err(gluing(f, "edge number 0: edges are numbered from 1".into()));
+                }
+                let h = 2 * (edge.unsigned_abs() as usize - 1) + usize::from(edge < 0);
+                if std::mem::replace(&mut used[h], true) {
+                    return Err(gluing(
+                        f,
+                        format!(
+                            "edge {} is named twice in this direction; the two faces of an edge run along it in opposite directions",
+                            edge.unsigned_abs()
+                        ),
+                    ));
+                }
+                for (h, v) in [(h, corners[k]), (h ^ 1, corners[(k + 1) % 3])] {
+                    if origin[h] != NONE && origin[h] != v {
+                        return Err(gluing(
+                            f,
+                            format!(
+                                "edge {} starts or ends at vertex {v} here, at vertex {} in another face",
+                                edge.unsigned_abs(),
+                                origin[h]
+                            ),
+                        ));
+                    }
+                    origin[h] = v;
+                }
+                sides[f][k] = h as u32;
+            }
+        }
+        if let Some(e) = (0..n_edges).find(|e| !used[2 * e] && !used[2 * e + 1]) {
+            return Err(gluing(0, format!("no face names edge {}; number edges from 1 without gaps", e + 1)));
+        }
+        check_one_fan_each(n_vertices, &origin, &sides)?;
+        Mesh::assemble(n_vertices, origin, &sides)
+    }
+
+    /// `[±e_bc, ±e_ca, ±e_ab]` of a face, as [`Mesh::from_gluing`] takes them.
+    pub fn face_edges(&self, f: FaceId) -> [i32; 3] {
+        let number = |h: HalfedgeId| (h.edge().0 as i32 + 1) * if h.0 & 1 == 0 { 1 } else { -1 };
+        let [ab, bc, ca] = self.face_halfedges(f).map(number);
+        [bc, ca, ab]
+    }
+
+    /// Whether every edge is determined by its two different ends.
+    pub fn is_simplicial(&self) -> bool {
+        let mut ends: Vec<_> =
+            self.edges().map(|e| self.ends(e)).map(|[a, b]| (a.min(b), a.max(b))).collect();
+        ends.sort_unstable();
+        ends.iter().all(|(a, b)| a != b) && ends.windows(2).all(|w| w[0] != w[1])
+    }
+}
+
+/// One component, every vertex the centre of exactly one fan.
+fn check_one_fan_each(n_vertices: usize, origin: &[u32], sides: &[[u32; 3]]) -> Result<()> {
+    if sides.is_empty() {
+        return Err(gluing(0, "there are no faces".into()));
+    }
+    // Half-edges leaving a vertex are in one fan when a corner or a gluing joins them: h and the half-edge opposite
+    // the previous one of its face.
+    let mut fans = UnionFind::new(origin.len());
+    let mut pieces = UnionFind::new(n_vertices);
+    for s in sides {
+        for k in 0..3 {
+            fans.join(s[k], s[(k + 2) % 3] ^ 1, false);
+            pieces.join(origin[s[k] as usize], origin[s[(k + 1) % 3] as usize], false);
+        }
+    }
+    let mut count = vec![0u32; n_vertices];
+    for h in 0..origin.len() as u32 {
+        count[origin[h as usize] as usize] += u32::from(fans.root(h).0 == h);
+    }
+    for (v, &count) in count.iter().enumerate() {
+        if count != 1 {
+            let message = format!(
+                "vertex {v} is the centre of {count} fans of faces; give each its own vertex, and use every vertex"
+            );
+            return Err(gluing(0, message));
+        }
+        if pieces.root(v as u32).0 != 0 {
+            return Err(gluing(
+                0,
+                format!("vertices 0 and {v} are in different components; glue one surface at a time"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn check_counts(n_vertices: usize, n_faces: usize) -> Result<()> {
+    // Sides are numbered in u32, edges from 1 in i32.
+    for (what, count) in [("vertices", n_vertices), ("sides of faces", n_faces.saturating_mul(3))] {
+        if count >= i32::MAX as usize {
+            return Err(Error::TooLarge { what, count });
+        }
+    }
+    Ok(())
+}
+
+fn gluing(face: usize, message: String) -> Error {
+    Error::Gluing { face, message }
+}

@@ -5,6 +5,7 @@ pub mod build;
 pub mod check;
 pub mod halfedge;
 pub mod ids;
+mod incidence;
 pub mod io;
 pub mod shapes;
 

@@ -33,15 +33,20 @@ pub fn curvature(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> Result<Cu
     Ok(Curvature { at, broken, area, gauss_bonnet })
 }
 
+/// π − (π rounded to a double). Without it every vertex is off by twice this, always to the same side, and the
+/// total curvature of a large closed surface by V times as much.
+const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
+
 /// K from the corner angles of each face, in face order.
 pub fn curvature_from_angles(mesh: &Mesh, angles: impl Iterator<Item = [f64; 3]>) -> PerVertex<f64> {
-    let flat = |v| if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI };
-    let mut at = PerVertex::from_fn(mesh.n_vertices(), flat);
+    let halves = |v| if mesh.is_boundary_vertex(v) { 1.0 } else { 2.0 };
+    let mut at = PerVertex::from_fn(mesh.n_vertices(), |v| halves(v) * PI);
     for (f, angles) in angles.enumerate() {
         for (v, angle) in mesh.face_vertices(FaceId::from(f)).into_iter().zip(angles) {
             at[v] -= angle;
         }
     }
+    mesh.vertices().for_each(|v| at[v] += halves(v) * PI_LOW);
     at
 }
 

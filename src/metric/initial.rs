@@ -5,7 +5,7 @@ use super::lengths::{Metric, check_lengths, face_lengths};
 use super::scheme::Scheme;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::{Space, triangle};
-use crate::mesh::{Mesh, PerEdge, PerVertex};
+use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
 use std::f64::consts::PI;
 
 /// The initial metric with what is needed to read the result of a flow against it.
@@ -48,28 +48,12 @@ pub fn initial_metric(
         Scheme::Tangential | Scheme::Thurston => corner_radii(mesh, lengths).mean,
         Scheme::Inversive | Scheme::Virtual => corner_radii(mesh, lengths).min,
     };
-    let mut initial = initial_mixed(mesh, lengths, input_geometry, epsilon, radii, space)?;
-    let clamp = match scheme {
-        Scheme::Thurston => |eta: f64| eta.clamp(0.0, 1.0),
-        Scheme::Tangential => |_| 1.0,
-        _ => return Ok(initial),
+    let range = match scheme {
+        Scheme::Thurston => Range::Clamp(0.0, 1.0),
+        Scheme::Tangential => Range::Clamp(1.0, 1.0),
+        _ => Range::Refuse,
     };
-    let start = Metric { space: input_geometry, u: initial.input_u.clone(), ..initial.metric.clone() };
-    let start = {
-        let mut m = start;
-        m.eta.iter_mut().for_each(|eta| *eta = clamp(*eta));
-        m
-    };
-    let moved = start.lengths(mesh)?;
-    for e in mesh.edges() {
-        let change = (moved[e] / lengths[e] - 1.0).abs();
-        initial.clamped_edges += usize::from(start.eta[e] != initial.metric.eta[e]);
-        initial.max_length_change = initial.max_length_change.max(change);
-    }
-    initial.metric.eta = start.eta;
-    let shift = start_shift(mesh, &moved, &initial, space);
-    set_start(&mut initial, space, shift);
-    Ok(initial)
+    represent(mesh, lengths, input_geometry, epsilon, radii, space, range)
 }
 
 /// Like [`initial_metric`] with given types ε (V entries) and radii γ (V entries, positive; unused where ε = 0):
@@ -87,32 +71,72 @@ pub fn initial_mixed(
     check_triangles(mesh, lengths, input_geometry)?;
     check_size("epsilon", epsilon.len(), mesh.n_vertices())?;
     check_size("radii", radii.len(), mesh.n_vertices())?;
-    let radii = PerVertex::from_fn(radii.len(), |v| if epsilon[v] == 0 { 1.0 } else { radii[v] });
-    let input_u = PerVertex::from_fn(radii.len(), |v| {
-        if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) }
-    });
+    represent(mesh, lengths, input_geometry, epsilon, radii, space, Range::Refuse)
+}
+
+/// What happens to an η that the scheme does not allow.
+#[derive(Clone, Copy)]
+enum Range {
+    Refuse,
+    Clamp(f64, f64),
+}
+
+fn represent(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    input_geometry: Space,
+    epsilon: PerVertex<i8>,
+    radii: PerVertex<f64>,
+    space: Space,
+    range: Range,
+) -> Result<Initial> {
+    let n = mesh.n_vertices();
+    let radii = PerVertex::from_fn(n, |v| if epsilon[v] == 0 { 1.0 } else { radii[v] });
+    let log = |v| if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) };
+    let input_u = PerVertex::from_fn(n, log);
     if let Some(v) = mesh.vertices().find(|&v| !input_u[v].is_finite()) {
         return Err(Error::Domain { vertex: v.index(), u: input_u[v], need: "a positive radius" });
     }
-    let mut eta = PerEdge::filled(mesh.n_edges(), 0.0);
+    let mut metric = Metric {
+        space: input_geometry,
+        epsilon,
+        eta: PerEdge::filled(mesh.n_edges(), 0.0),
+        u: input_u.clone(),
+    };
+    let mut clamped_edges = 0;
     for e in mesh.edges() {
         let [i, j] = mesh.ends(e);
-        eta[e] =
-            weight_of_length(input_geometry, lengths[e], [epsilon[i], epsilon[j]], [input_u[i], input_u[j]]);
-        let need = match (epsilon[i], epsilon[j]) {
-            (1, 1) if eta[e] <= -1.0 => "above −1: the circles would contain each other; use smaller radii",
-            (-1, -1) if eta[e] <= 1.0 => "above 1 between imaginary circles",
-            _ if !eta[e].is_finite() => "finite",
-            _ => continue,
+        let epsilon = [metric.epsilon[i], metric.epsilon[j]];
+        let eta = weight_of_length(input_geometry, lengths[e], epsilon, [input_u[i], input_u[j]]);
+        metric.eta[e] = match range {
+            Range::Clamp(low, high) => eta.clamp(low, high),
+            Range::Refuse => allowed_weight(epsilon, e, eta)?,
         };
-        return Err(Error::EdgeWeight { edge: e.index(), eta: eta[e], need });
+        clamped_edges += usize::from(metric.eta[e] != eta);
     }
-    let metric = Metric { space, epsilon, eta, u: input_u.clone() };
-    let mut initial =
-        Initial { metric, input_geometry, radii, input_u, clamped_edges: 0, max_length_change: 0.0 };
-    let shift = start_shift(mesh, lengths, &initial, space);
-    set_start(&mut initial, space, shift);
-    Ok(initial)
+    let mut max_length_change = 0.0f64;
+    let mut start = lengths.clone();
+    if clamped_edges > 0 {
+        start = metric.lengths(mesh)?;
+        for e in mesh.edges() {
+            max_length_change = max_length_change.max((start[e] / lengths[e] - 1.0).abs());
+        }
+    }
+    let shift = start_shift(mesh, &start, &metric, space);
+    metric.space = space;
+    metric.u.iter_mut().for_each(|u| *u += shift);
+    Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
+}
+
+/// η, if two vertices of these types can have it.
+fn allowed_weight(epsilon: [i8; 2], edge: EdgeId, eta: f64) -> Result<f64> {
+    let need = match epsilon {
+        [1, 1] if eta <= -1.0 => "above −1: the circles would contain each other; use smaller radii",
+        [-1, -1] if eta <= 1.0 => "above 1 between imaginary circles",
+        _ if !eta.is_finite() => "finite",
+        _ => return Ok(eta),
+    };
+    Err(Error::EdgeWeight { edge: edge.index(), eta, need })
 }
 
 impl Initial {
@@ -182,9 +206,10 @@ const MAX_START_HALF_CHORD: f64 = 0.5;
 /// Largest start variable of an ε = 1 vertex in H² (the domain is u < 0).
 const MAX_START_U: f64 = -0.1;
 
-/// The common shift of u that carries the class from the input geometry to a good start in `space`.
-fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, initial: &Initial, space: Space) -> f64 {
-    if initial.input_geometry == space || space == Space::E2 {
+/// The common shift of u that carries a metric (with edge `lengths`) from the input geometry to a good start in
+/// `space`.
+fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, input: &Metric, space: Space) -> f64 {
+    if input.space == space || space == Space::E2 {
         return 0.0;
     }
     // N = l² in E²; in the curved spaces N ≈ (l/2)² for short edges: halving, then scaling to the wanted area.
@@ -193,21 +218,16 @@ fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, initial: &Initial, space: Sp
         Space::H2 => 1.0,
         _ => 4.0 * PI,
     };
-    let area = area(mesh, initial.input_geometry, lengths);
+    let area = area(mesh, input.space, lengths);
     let longest = lengths.iter().fold(0.0f64, |m, &l| m.max(l));
     let mut shift = (0.25 * wanted / area).sqrt().ln();
     shift = shift.min((MAX_START_HALF_CHORD / longest).ln());
     if space == Space::H2 {
-        for v in mesh.vertices().filter(|&v| initial.metric.epsilon[v] == 1) {
-            shift = shift.min(MAX_START_U - initial.input_u[v]);
+        for v in mesh.vertices().filter(|&v| input.epsilon[v] == 1) {
+            shift = shift.min(MAX_START_U - input.u[v]);
         }
     }
     shift
-}
-
-fn set_start(initial: &mut Initial, space: Space, shift: f64) {
-    initial.metric.space = space;
-    initial.metric.u = PerVertex::from_fn(initial.input_u.len(), |v| initial.input_u[v] + shift);
 }
 
 /// Every length positive, every face a triangle of the input geometry.

@@ -1,0 +1,76 @@
+//! A plane triangle from its side lengths.
+
+use crate::geometry::triangle::half_differences;
+
+/// Angles and area of the triangle with given sides; corner k lies opposite side k.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Triangle {
+    /// `[cos, sin]` of the angle at each corner.
+    pub direction: [[f64; 2]; 3],
+    /// Area.
+    pub area: f64,
+    /// By how much the longest side exceeds the sum of the others, relative to it; 0 if it does not.
+    pub excess: f64,
+}
+
+impl Triangle {
+    /// From positive side lengths. A triangle that is degenerate or breaks the inequality has angles (π, 0,
+    /// 0), area 0.
+    ///
+    /// With `s` and `r_k = s − l_k` formed without cancellation ([`half_differences`]), `cos θ_k ∝ s r_k −
+    /// r_i r_j` and `sin θ_k ∝ 2·area` with the same factor `1/(l_i l_j)` (half-angle law).
+    pub(crate) fn from_sides(sides: [f64; 3]) -> Triangle {
+        let unit = sides.into_iter().fold(0.0, f64::max);
+        let (s, r) = half_differences(sides.map(|l| l / unit));
+        let excess = r.into_iter().fold(0.0, |m, x| f64::max(m, -2.0 * x));
+        let r = r.map(|x| x.max(0.0));
+        let root = r.map(f64::sqrt);
+        let area = s.sqrt() * root[0] * root[1] * root[2]; // the roots first: r_i r_j may underflow
+        let direction = std::array::from_fn(|k| {
+            let (far, near) = (s * r[k], r[(k + 1) % 3] * r[(k + 2) % 3]);
+            let (x, y) = (far - near, 2.0 * area);
+            let norm = x.hypot(y);
+            if norm > 0.0 { [x / norm, y / norm] } else { [1.0, 0.0] }
+        });
+        Triangle { direction, area: area * unit * unit, excess }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn angles(sides: [f64; 3]) -> [f64; 3] {
+        Triangle::from_sides(sides).direction.map(|[c, s]| s.atan2(c))
+    }
+
+    #[test]
+    fn right_triangle_has_its_angles_and_area_in_any_order_and_scale() {
+        for scale in [1.0, 1e-12, 1e12] {
+            let sides = [3.0 * scale, 4.0 * scale, 5.0 * scale];
+            let [a, b, c] = angles(sides);
+            assert!((a - 0.6_f64.asin()).abs() < 1e-15 && (b - 0.8_f64.asin()).abs() < 1e-15);
+            assert!((c - PI / 2.0).abs() < 1e-15);
+            let area = Triangle::from_sides([sides[2], sides[0], sides[1]]).area;
+            assert!((area / (6.0 * scale * scale) - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn needle_keeps_its_small_angle_to_full_relative_precision() {
+        for c in [1e-8, 1e-15, 1e-300] {
+            let [a, b, small] = angles([1.0, 1.0, c]);
+            assert!((small / c - 1.0).abs() < 1e-15, "{small}");
+            assert!((a - PI / 2.0).abs() < 1e-8 && (b - PI / 2.0).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn degenerate_and_broken_triangles_are_flat_and_only_the_broken_one_has_an_excess() {
+        assert_eq!(angles([2.0, 1.0, 1.0]), [PI, 0.0, 0.0]);
+        assert_eq!(Triangle::from_sides([2.0, 1.0, 1.0]).excess, 0.0);
+        assert_eq!(angles([1.0, 4.0, 1.0]), [0.0, PI, 0.0]);
+        assert_eq!(Triangle::from_sides([1.0, 4.0, 1.0]).excess, 0.5);
+    }
+}

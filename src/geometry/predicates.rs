@@ -1,0 +1,51 @@
+//! Exact geometric predicates (Shewchuk's adaptive arithmetic, crate `robust`).
+
+use robust::{Coord, orient2d};
+use std::cmp::Ordering;
+
+/// Powers of two that move products of coordinates out of the range where they underflow.
+const TINY: f64 = 1.0e-120;
+const LIFT: f64 = f64::from_bits((1023 + 512) << 52);
+
+/// On which side of the directed line ab the point c lies: `Greater` left (a, b, c counterclockwise), `Equal`
+/// on the line, `Less` right [She97, ORIENT2D].
+///
+/// Exact for finite coordinates as long as products of coordinate differences neither overflow nor underflow;
+/// triangles that are tiny as a whole (all coordinates below 1e-120) are scaled by a power of two first.
+pub fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
+    let largest = [a, b, c].as_flattened().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let scale = if largest < TINY { LIFT } else { 1.0 };
+    let [a, b, c] = [a, b, c].map(|p| Coord { x: scale * p[0], y: scale * p[1] });
+    let signed = orient2d(a, b, c);
+    if signed > 0.0 {
+        Ordering::Greater
+    } else if signed < 0.0 {
+        Ordering::Less
+    } else {
+        Ordering::Equal
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orientation_is_exact_one_ulp_off_a_line() {
+        let (a, b) = ([0.5, 0.5], [12.0, 12.0]);
+        let on = [24.0, 24.0];
+        let above = [24.0, 24.0_f64.next_up()];
+        let below = [24.0, 24.0_f64.next_down()];
+        assert_eq!(orientation(a, b, on), Ordering::Equal);
+        assert_eq!(orientation(a, b, above), Ordering::Greater);
+        assert_eq!(orientation(a, b, below), Ordering::Less);
+    }
+
+    #[test]
+    fn orientation_survives_products_that_underflow() {
+        let s = 1e-200;
+        assert_eq!(orientation([0.0, 0.0], [s, 0.0], [0.0, s]), Ordering::Greater);
+        assert_eq!(orientation([0.0, 0.0], [0.0, s], [s, 0.0]), Ordering::Less);
+        assert_eq!(orientation([0.0, 0.0], [-0.0, s], [0.0, -s]), Ordering::Equal);
+    }
+}

@@ -1,0 +1,116 @@
+//! Wavefront OBJ. Our own reader, because the contract needs the file's vertex numbering, which the OBJ crates
+//! replace by one of their own.
+
+use super::scan::Place;
+use super::{Point, Soup, fan, write_atomically};
+use crate::error::{Error, Result};
+use std::io::Write;
+use std::path::Path;
+
+/// Parse OBJ text: `v` and `f` (polygons, negative indices, `v/vt/vn` corners), line continuations; everything else
+/// is skipped. `path` is used in errors.
+pub fn parse_obj(text: &str, path: &str) -> Result<Soup> {
+    let mut soup = Soup::default();
+    let mut corners = Vec::new();
+    let mut lines = text.lines().enumerate();
+    let mut joined = String::new();
+    while let Some((number, line)) = lines.next() {
+        let place = Place { path, line: number + 1 };
+        let mut line = line;
+        if line.trim_end().ends_with('\\') {
+            joined.clear();
+            let mut part = line;
+            while let Some(head) = part.trim_end().strip_suffix('\\') {
+                joined.push_str(head);
+                joined.push(' ');
+                part = lines.next().map_or("", |(_, next)| next);
+            }
+            joined.push_str(part);
+            line = &joined;
+        }
+        let line = line.split('#').next().unwrap_or("");
+        let mut tokens = line.split_ascii_whitespace();
+        match tokens.next() {
+            Some("v") => {
+                let mut point: Point = [0.0; 3];
+                for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
+                    *x = place.number(tokens.next(), name)?;
+                }
+                soup.positions.push(point);
+            }
+            Some("f") => {
+                corners.clear();
+                for token in tokens {
+                    corners.push(corner(place, token, soup.positions.len())?);
+                }
+                // Faces of one or two corners occur in the wild; they are no part of the surface.
+                fan(&corners, &mut soup.faces);
+            }
+            _ => {}
+        }
+    }
+    Ok(soup)
+}
+
+/// The vertex of a corner `v`, `v/vt`, `v//vn`, `v/vt/vn`: 1-based, or negative from the last vertex so far.
+fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
+    let index = token.split('/').next().unwrap_or("");
+    let Ok(number) = index.parse::<i64>() else {
+        return place.error(format!("corner `{token}` does not start with a vertex number"));
+    };
+    let zero_based = match number {
+        0 => return place.error("vertex number 0: OBJ counts from 1".into()),
+        n if n < 0 => vertices as i64 + n,
+        n => n - 1,
+    };
+    match u32::try_from(zero_based) {
+        Ok(v) => Ok(v),
+        Err(_) => place.error(format!("corner `{token}` is outside the vertices that can be numbered")),
+    }
+}
+
+/// What [`write_obj`] writes.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ObjData<'a> {
+    /// Comment lines at the top.
+    pub comments: &'a [String],
+    /// `v` lines.
+    pub positions: &'a [Point],
+    /// `vt` lines; empty for none.
+    pub texcoords: &'a [[f64; 2]],
+    /// Corners of the faces, 0-based into `positions`.
+    pub faces: &'a [[u32; 3]],
+    /// Corners of the faces, 0-based into `texcoords`; as many as faces, or empty for none.
+    pub face_texcoords: &'a [[u32; 3]],
+}
+
+/// Write an OBJ file with 17 significant digits (which read back to the same doubles), atomically.
+pub fn write_obj(path: &Path, data: &ObjData<'_>) -> Result<()> {
+    if !data.face_texcoords.is_empty() {
+        crate::error::check_size("face_texcoords", data.face_texcoords.len(), data.faces.len())?;
+    }
+    let bad = |x: &[f64]| x.iter().any(|x| !x.is_finite());
+    if data.positions.iter().any(|p| bad(p)) || data.texcoords.iter().any(|t| bad(t)) {
+        let path = path.display().to_string();
+        return Err(Error::Io { path, message: "a coordinate to be written is not finite".into() });
+    }
+    write_atomically(path, |out| {
+        for line in data.comments {
+            writeln!(out, "# {line}")?;
+        }
+        for [x, y, z] in data.positions {
+            writeln!(out, "v {x:.16e} {y:.16e} {z:.16e}")?;
+        }
+        for [s, t] in data.texcoords {
+            writeln!(out, "vt {s:.16e} {t:.16e}")?;
+        }
+        for (f, corners) in data.faces.iter().enumerate() {
+            let [a, b, c] = corners.map(|v| v + 1);
+            match data.face_texcoords.get(f).map(|t| t.map(|t| t + 1)) {
+                Some([s, t, u]) => writeln!(out, "f {a}/{s} {b}/{t} {c}/{u}")?,
+                None => writeln!(out, "f {a} {b} {c}")?,
+            }
+        }
+        Ok(())
+    })
+}

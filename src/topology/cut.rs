@@ -1,0 +1,386 @@
+//! Cut graphs: edges along which a surface opens into a disk.
+
+use super::check_lengths;
+use super::spanning::{DisjointSets, leftover, shortest_paths};
+use crate::error::{Error, Result};
+use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
+use std::collections::VecDeque;
+
+/// Interior edges whose removal leaves a disk, as chains between nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutGraph {
+    /// Whether an edge is cut. Boundary edges are open anyway and never marked.
+    pub is_cut: PerEdge<bool>,
+    /// Where segments end, ascending: cones, boundary vertices that the cut reaches, and branch points.
+    pub nodes: Vec<VertexId>,
+    /// The cut as directed chains of half-edges from node to node that pass no other node; each cut edge is
+    /// in exactly one.
+    pub segments: Vec<Vec<HalfedgeId>>,
+}
+
+impl CutGraph {
+    /// Total length of the cut.
+    pub fn length(&self, lengths: &PerEdge<f64>) -> f64 {
+        self.segments.iter().flatten().fold(0.0, |sum, h| sum + lengths[h.edge()])
+    }
+}
+
+/// A cut graph through all cones: a short set of interior edges that opens the surface into a disk.
+///
+/// The boundary and the cones together are the sources of a shortest-path forest; the edges that the forest
+/// and a maximum spanning tree of the dual graph leave over, with their paths to the sources, are the cut
+/// (tree–cotree, [EW05]). So cones are joined to each other, to the boundary and to the handles by short
+/// arcs. Then segments are pulled and their ends slid across triangles while that makes the cut shorter.
+///
+/// `lengths`: finite and positive, one per edge. `cones`: vertices that have to lie on the cut, in any order;
+/// those on the boundary change nothing. A disk without interior cones has an empty cut.
+///
+/// Errors: [`Error::EdgeLength`]; [`Error::Argument`] for a cone that is no vertex; [`Error::Layout`] for a
+/// closed surface of genus 0 with fewer than two cones (a sphere has no plane layout) and for a surface of
+/// several components.
+pub fn cut_graph(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Result<CutGraph> {
+    let fixed = fixed_vertices(mesh, lengths, cones)?;
+    let sources: Vec<_> = mesh.vertices().filter(|&v| fixed[v]).collect();
+    let open = |sources: &[VertexId]| {
+        let (mut cut, shortest_arc) = tree_cotree_cut(mesh, lengths, &fixed, sources);
+        shorten(mesh, lengths, &mut cut);
+        (cut, shortest_arc)
+    };
+    let cut = if sources.is_empty() {
+        // Any vertex may be the source: go on from the shortest loop through the last one while that helps.
+        let (mut cut, mut arc) = open(&[VertexId(0)]);
+        for _ in 0..MAX_ROOTS {
+            let Some(e) = arc else { break };
+            let (next, next_arc) = open(&[mesh.tip(e.halfedge())]);
+            if next.length(lengths) >= cut.length(lengths) {
+                break;
+            }
+            (cut, arc) = (next, next_arc);
+        }
+        cut
+    } else {
+        open(&sources).0
+    };
+    debug_assert!(is_disk(mesh, &cut.is_cut));
+    Ok(cut.into_graph(mesh))
+}
+
+/// Sources tried on a closed surface without cones, besides the first. Two or three are usual.
+const MAX_ROOTS: usize = 8;
+
+/// Whether the surface opened along the marked edges is a disk: connected with Euler characteristic 1. O(E).
+pub fn is_disk(mesh: &Mesh, is_cut: &PerEdge<bool>) -> bool {
+    let n_cut = is_cut.iter().filter(|&&c| c).count();
+    // A vertex opens into as many as it has cut edges, and one more on the boundary.
+    let sectors: usize = mesh
+        .vertices()
+        .map(|v| {
+            let degree = mesh.outgoing(v).filter(|h| is_cut[h.edge()]).count();
+            if mesh.is_boundary_vertex(v) { degree + 1 } else { degree.max(1) }
+        })
+        .sum();
+    let euler = sectors as i64 - (mesh.n_edges() + n_cut) as i64 + mesh.n_faces() as i64;
+    euler == 1 && is_connected(mesh, |e| is_cut[e])
+}
+
+/// Whether all faces hang together through interior edges that are not walls.
+fn is_connected(mesh: &Mesh, wall: impl Fn(EdgeId) -> bool) -> bool {
+    let mut joined = DisjointSets::new(mesh.n_faces());
+    let mut components = mesh.n_faces();
+    for e in mesh.edges().filter(|&e| !wall(e)) {
+        if let (Some(f), Some(g)) = (mesh.face(e.halfedge()), mesh.face(e.halfedge().twin())) {
+            components -= usize::from(joined.union(f.index(), g.index()));
+        }
+    }
+    components == 1
+}
+
+/// A cut in the making: marked edges, and per vertex how many half-edges of marked edges leave it.
+struct Cut {
+    is_cut: PerEdge<bool>,
+    degree: PerVertex<u32>,
+    /// Vertices a segment may not be pulled away from or across: cones and the boundary.
+    fixed: PerVertex<bool>,
+}
+
+impl Cut {
+    fn set(&mut self, mesh: &Mesh, e: EdgeId, cut: bool) {
+        if std::mem::replace(&mut self.is_cut[e], cut) != cut {
+            for v in mesh.ends(e) {
+                self.degree[v] = if cut { self.degree[v] + 1 } else { self.degree[v] - 1 };
+            }
+        }
+    }
+
+    fn length(&self, lengths: &PerEdge<f64>) -> f64 {
+        let cut = self.is_cut.iter().zip(lengths).filter(|(cut, _)| **cut);
+        cut.fold(0.0, |sum, (_, l)| sum + l)
+    }
+
+    /// Whether a segment passes through `v`.
+    fn is_inner(&self, v: VertexId) -> bool {
+        self.degree[v] == 2 && !self.fixed[v]
+    }
+
+    fn into_graph(self, mesh: &Mesh) -> CutGraph {
+        let nodes: Vec<_> = mesh.vertices().filter(|&v| self.degree[v] > 0 && !self.is_inner(v)).collect();
+        let mut walked = PerEdge::filled(mesh.n_edges(), false);
+        let mut segments = Vec::new();
+        for &node in &nodes {
+            for start in mesh.outgoing(node).filter(|h| self.is_cut[h.edge()]) {
+                if std::mem::replace(&mut walked[start.edge()], true) {
+                    continue;
+                }
+                let mut segment = vec![start];
+                let mut h = start;
+                while self.is_inner(mesh.tip(h)) {
+                    let onwards =
+                        mesh.outgoing(mesh.tip(h)).find(|&o| self.is_cut[o.edge()] && o != h.twin());
+                    let Some(o) = onwards else { break };
+                    h = o;
+                    walked[h.edge()] = true;
+                    segment.push(h);
+                }
+                segments.push(segment);
+            }
+        }
+        CutGraph { is_cut: self.is_cut, nodes, segments }
+    }
+}
+
+/// The vertices that stay where they are: cones and the boundary. Checks the input of [`cut_graph`].
+fn fixed_vertices(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Result<PerVertex<bool>> {
+    check_lengths(mesh, lengths)?;
+    if let Some(v) = cones.iter().find(|v| v.index() >= mesh.n_vertices()) {
+        return Err(Error::Argument {
+            what: "cone vertex",
+            value: v.to_string(),
+            need: "it must be below the number of vertices",
+        });
+    }
+    if !is_connected(mesh, |_| false) {
+        return Err(Error::Layout(
+            "the surface is empty or has several components: lay out each alone".into(),
+        ));
+    }
+    let mut fixed = PerVertex::from_fn(mesh.n_vertices(), |v| mesh.is_boundary_vertex(v));
+    for &v in cones {
+        fixed[v] = true;
+    }
+    if mesh.euler() == 2 && fixed.iter().filter(|&&f| f).count() < 2 {
+        let message = "a closed surface of genus 0 needs at least two cones: a sphere has no plane layout";
+        return Err(Error::Layout(message.into()));
+    }
+    Ok(fixed)
+}
+
+/// The cut of tree and cotree with the given sources, and its shortest leftover edge.
+fn tree_cotree_cut(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    fixed: &PerVertex<bool>,
+    sources: &[VertexId],
+) -> (Cut, Option<EdgeId>) {
+    let forest = shortest_paths(mesh, lengths, sources.iter().copied());
+    let arcs = leftover(mesh, lengths, &forest, |e| mesh.is_boundary_edge(e));
+    let mut cut = Cut {
+        is_cut: PerEdge::filled(mesh.n_edges(), false),
+        degree: PerVertex::filled(mesh.n_vertices(), 0),
+        fixed: fixed.clone(),
+    };
+    for &e in &arcs {
+        cut.set(mesh, e, true);
+        for v in mesh.ends(e) {
+            for h in forest.path(mesh, v) {
+                if cut.is_cut[h.edge()] {
+                    break;
+                }
+                cut.set(mesh, h.edge(), true);
+            }
+        }
+    }
+    prune(mesh, &mut cut);
+    (cut, arcs.first().copied())
+}
+
+/// Close the branches that end nowhere: not at a cone and not on the boundary.
+fn prune(mesh: &Mesh, cut: &mut Cut) {
+    for v in mesh.vertices() {
+        let mut v = v;
+        while cut.degree[v] == 1 && !cut.fixed[v] {
+            let Some(h) = mesh.outgoing(v).find(|h| cut.is_cut[h.edge()]) else { break };
+            cut.set(mesh, h.edge(), false);
+            v = mesh.tip(h);
+        }
+    }
+}
+
+/// A move must save this fraction of the length it replaces. Far above the rounding of a sum of lengths, so
+/// no sequence of moves comes back to where it was.
+const LEAST_SAVING: f64 = 1e-12;
+
+/// Moves allowed per face of the mesh. Paths from a shortest-path forest need far fewer; the bound keeps the
+/// worst case linear.
+const MOVES_PER_FACE: usize = 8;
+
+/// Shorten the cut by sliding edges across fans of triangles.
+///
+/// ```text
+///      x1 --- x2         triangles at v between two neighbouring cut edges vu and vw: the end of vu
+///     / \    / \         slides along vw to w, so that u x1 x2 w takes the place of vu. The fan, a
+///    /   \  /   \        disk that hung on the path u x1 x2 w, then hangs on vu instead: the opened
+///   u ---- v --- w       surface stays a disk if x1, x2 are distinct and free of cuts, cones and
+///                        boundary. If nothing else ends at v, vw dangles then and goes too: a
+///                        segment is pulled straight.
+/// ```
+fn shorten(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &mut Cut) {
+    let mut waiting: VecDeque<_> = mesh.vertices().filter(|&v| cut.degree[v] > 1).collect();
+    let mut seen = PerVertex::filled(mesh.n_vertices(), false);
+    let mut budget = MOVES_PER_FACE * mesh.n_faces();
+    while let (Some(v), 1..) = (waiting.pop_front(), budget) {
+        let Some((closed, opened)) = best_slide(mesh, lengths, cut, &mut seen, v) else { continue };
+        budget -= 1;
+        for (edges, open) in [(closed, false), (opened, true)] {
+            for h in edges {
+                cut.set(mesh, h.edge(), open);
+                waiting.extend([mesh.origin(h), mesh.tip(h)]);
+            }
+        }
+    }
+}
+
+/// The slide at `v` that saves most: the cut edges it closes and those it opens.
+fn best_slide(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    cut: &Cut,
+    seen: &mut PerVertex<bool>,
+    v: VertexId,
+) -> Option<(Vec<HalfedgeId>, Vec<HalfedgeId>)> {
+    let clockwise: Vec<_> = mesh.outgoing(v).filter(|h| cut.is_cut[h.edge()]).collect();
+    let n = clockwise.len();
+    let pairs = if n < 2 || mesh.is_boundary_vertex(v) { n.saturating_sub(1) } else { n };
+    let (mut best, mut saving) = (None, 0.0);
+    for i in 0..pairs {
+        let (b, a) = (clockwise[i], clockwise[(i + 1) % n]);
+        if mesh.tip(a) == v || mesh.tip(b) == v {
+            continue;
+        }
+        let closed = match lengths[a.edge()] >= lengths[b.edge()] {
+            _ if cut.is_inner(v) => vec![a, b],
+            true => vec![a],
+            false => vec![b],
+        };
+        let old: f64 = closed.iter().map(|h| lengths[h.edge()]).sum();
+        let limit = old * (1.0 - LEAST_SAVING) - saving;
+        if let Some((opened, new)) = link(mesh, lengths, cut, seen, a, b, limit) {
+            saving = old - new;
+            best = Some((closed, opened));
+        }
+    }
+    best
+}
+
+/// The edges opposite v in the fan counterclockwise from outgoing half-edge `a` to `b`, with their length;
+/// `None` if that reaches `limit` or the fan cannot be swept.
+fn link(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    cut: &Cut,
+    seen: &mut PerVertex<bool>,
+    a: HalfedgeId,
+    b: HalfedgeId,
+    limit: f64,
+) -> Option<(Vec<HalfedgeId>, f64)> {
+    let mut way = Vec::new();
+    let mut length = 0.0;
+    let mut h = a;
+    let mut free = true;
+    while free && h != b {
+        let (opposite, on) = (mesh.next(h), mesh.prev(h).twin());
+        length += lengths[opposite.edge()];
+        free = length < limit && !cut.is_cut[opposite.edge()] && !mesh.is_boundary_edge(opposite.edge());
+        if free && on != b {
+            let x = mesh.tip(on);
+            free = cut.degree[x] == 0 && !cut.fixed[x] && !std::mem::replace(&mut seen[x], true);
+        }
+        way.push(opposite);
+        h = on;
+    }
+    for h in &way {
+        seen[mesh.tip(*h)] = false;
+    }
+    free.then_some((way, length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An n × n grid of squares with diagonals, opposite sides glued: a torus, legal down to n = 1.
+    fn torus(n: usize) -> Mesh {
+        let vertex = |i: usize, j: usize| (i % n + n * (j % n)) as u32;
+        let half = |kind: u32, i: usize, j: usize| 2 * (3 * vertex(i, j) + kind);
+        let (mut origin, mut sides) = (vec![0; 6 * n * n], Vec::new());
+        for j in 0..n {
+            for i in 0..n {
+                for (kind, tip) in [(0, vertex(i + 1, j)), (1, vertex(i, j + 1)), (2, vertex(i + 1, j + 1))] {
+                    let h = half(kind, i, j) as usize;
+                    (origin[h], origin[h + 1]) = (vertex(i, j), tip);
+                }
+                sides.push([half(0, i, j), half(1, i + 1, j), half(2, i, j) + 1]);
+                sides.push([half(2, i, j), half(0, i, j + 1) + 1, half(1, i, j) + 1]);
+            }
+        }
+        Mesh::assemble(n * n, origin, &sides).unwrap()
+    }
+
+    #[test]
+    fn a_shortened_cut_is_never_longer_and_still_opens_a_disk() {
+        let mut shorter = 0;
+        for seed in 1..200_usize {
+            let mesh = torus(1 + seed % 9);
+            let lengths = PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| {
+                1.0 + ((e.index() * 7919 + seed * 104_729) % 1009) as f64 / 1009.0
+            });
+            let cones: Vec<_> = (0..seed % 4).map(|k| VertexId::from(k * 37 % mesh.n_vertices())).collect();
+            let fixed = fixed_vertices(&mesh, &lengths, &cones).unwrap();
+            let sources = if cones.is_empty() { &[VertexId(0)] } else { &cones[..] };
+            let (mut cut, _) = tree_cotree_cut(&mesh, &lengths, &fixed, sources);
+            assert!(is_disk(&mesh, &cut.is_cut));
+            let before = cut.length(&lengths);
+            shorten(&mesh, &lengths, &mut cut);
+            assert!(is_disk(&mesh, &cut.is_cut));
+            assert!(cut.length(&lengths) <= before);
+            shorter += usize::from(cut.length(&lengths) < before);
+        }
+        assert!(shorter > 20, "only {shorter} cuts became shorter");
+    }
+
+    #[test]
+    fn a_detour_is_pulled_straight() {
+        // Row 0 is shorter than the others, and the cut leaves it for a stretch of row 1.
+        let n = 8;
+        let mesh = torus(n);
+        let lengths =
+            PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| match (e.index() % 3, e.index() / 3 / n) {
+                (0, 0) => 0.9,
+                (2, _) => 1.3,
+                _ => 1.0,
+            });
+        let edge = |kind: usize, i: usize, j: usize| EdgeId::from(3 * (i + n * j) + kind);
+        let mut cut = Cut {
+            is_cut: PerEdge::filled(mesh.n_edges(), false),
+            degree: PerVertex::filled(mesh.n_vertices(), 0),
+            fixed: PerVertex::filled(mesh.n_vertices(), false),
+        };
+        let column = (0..n).map(|j| edge(1, 0, j));
+        let row = (0..n).filter(|i| ![3, 4].contains(i)).map(|i| edge(0, i, 0));
+        let detour = [edge(1, 3, 0), edge(0, 3, 1), edge(0, 4, 1), edge(1, 5, 0)];
+        column.chain(row).chain(detour).for_each(|e| cut.set(&mesh, e, true));
+        assert!(is_disk(&mesh, &cut.is_cut));
+        shorten(&mesh, &lengths, &mut cut);
+        assert!(is_disk(&mesh, &cut.is_cut));
+        assert!((0..n).all(|i| cut.is_cut[edge(0, i, 0)] && cut.is_cut[edge(1, 0, i)]));
+    }
+}

@@ -1,0 +1,33 @@
+//! Homology generators by tree and cotree.
+
+use super::check_lengths;
+use super::spanning::{leftover, shortest_paths};
+use crate::error::Result;
+use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
+
+/// A basis of the first homology: closed loops of half-edges, each starting where the one before it ends.
+///
+/// There are 2g loops on a closed surface of genus g and 2g + b − 1 on one with b > 0 boundary loops. Let T
+/// be the shortest-path tree of vertex 0 and C a maximum spanning tree of the dual graph, weighed by the
+/// length of an edge's loop through vertex 0 [EW05]; the edges in neither of them close the loops. With
+/// a boundary the outside is a node of the dual graph, so the surface collapses onto T and those edges. The
+/// way to vertex 0 and back that a loop starts and ends with is removed. Shortest loops come first. O(E log E
+/// + total length).
+///
+/// `lengths` are finite and positive, one per edge ([`crate::Error::EdgeLength`] otherwise).
+pub fn homology_generators(mesh: &Mesh, lengths: &PerEdge<f64>) -> Result<Vec<Vec<HalfedgeId>>> {
+    check_lengths(mesh, lengths)?;
+    let root = (mesh.n_vertices() > 0).then_some(VertexId(0));
+    let tree = shortest_paths(mesh, lengths, root);
+    let close = |h: HalfedgeId| {
+        let mut there: Vec<_> = tree.path(mesh, mesh.origin(h)).collect();
+        let mut back: Vec<_> = tree.path(mesh, mesh.tip(h)).collect();
+        while there.last().is_some() && there.last() == back.last() {
+            there.pop();
+            back.pop();
+        }
+        let there = there.into_iter().rev();
+        there.chain([h]).chain(back.into_iter().map(HalfedgeId::twin)).collect()
+    };
+    Ok(leftover(mesh, lengths, &tree, |_| false).into_iter().map(|e| close(e.halfedge())).collect())
+}

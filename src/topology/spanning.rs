@@ -1,0 +1,146 @@
+//! Shortest-path forests, and the edges that a tree and a dual tree leave over.
+
+use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+/// A real priority-queue key in the total order of `f64`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Key(pub f64);
+
+impl Eq for Key {}
+impl Ord for Key {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+impl PartialOrd for Key {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Shortest paths along edges from a set of sources.
+#[derive(Debug, Clone)]
+pub struct Forest {
+    /// Distance to the nearest source.
+    pub distance: PerVertex<f64>,
+    /// The half-edge that enters the vertex on its path from the source; `None` at a source.
+    pub parent: PerVertex<Option<HalfedgeId>>,
+}
+
+impl Forest {
+    /// The path from `v` up to its source, as the half-edges that lead down: the last one leaves the source.
+    pub fn path<'a>(&'a self, mesh: &'a Mesh, v: VertexId) -> impl Iterator<Item = HalfedgeId> + 'a {
+        std::iter::successors(self.parent[v], |&h| self.parent[mesh.origin(h)])
+    }
+}
+
+/// Shortest-path forest along edges (Dijkstra), O(E log V).
+///
+/// `lengths` are positive, one per edge. Equal distances are settled in order of vertex id and the first path
+/// found stays, so the forest depends on the input alone. A component without a source gets one: its vertex
+/// of lowest id.
+pub fn shortest_paths(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    sources: impl IntoIterator<Item = VertexId>,
+) -> Forest {
+    let mut distance = PerVertex::filled(mesh.n_vertices(), f64::INFINITY);
+    let mut parent = PerVertex::filled(mesh.n_vertices(), None);
+    let mut settled = PerVertex::filled(mesh.n_vertices(), false);
+    let mut queue = BinaryHeap::new();
+    for v in sources {
+        distance[v] = 0.0;
+        queue.push(Reverse((Key(0.0), v)));
+    }
+    let mut roots = mesh.vertices();
+    loop {
+        while let Some(Reverse((Key(d), v))) = queue.pop() {
+            if std::mem::replace(&mut settled[v], true) {
+                continue;
+            }
+            for h in mesh.outgoing(v) {
+                let (w, through) = (mesh.tip(h), d + lengths[h.edge()]);
+                if through < distance[w] {
+                    (distance[w], parent[w]) = (through, Some(h));
+                    queue.push(Reverse((Key(through), w)));
+                }
+            }
+        }
+        let Some(v) = roots.find(|&v| !settled[v]) else { break };
+        distance[v] = 0.0;
+        queue.push(Reverse((Key(0.0), v)));
+    }
+    Forest { distance, parent }
+}
+
+/// The edges left over by a shortest-path forest and a maximum spanning tree of the dual graph, shortest arcs
+/// first.
+///
+/// The arc of an edge `e = uv` runs from a source to u, along e, and from v to a source; its length `σ(e) =
+/// d(u) + d(v) + |e|` is the weight in the dual tree, so what is left over are the shortest arcs [EW05,
+/// §3.4]. Edges of the forest and those with `wall` are in neither the dual tree nor the result; a boundary
+/// edge that is no wall joins its face to the outside, which is one node of the dual graph.
+pub(crate) fn leftover(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    forest: &Forest,
+    wall: impl Fn(EdgeId) -> bool,
+) -> Vec<EdgeId> {
+    let mut in_forest = PerEdge::filled(mesh.n_edges(), false);
+    for h in forest.parent.iter().flatten() {
+        in_forest[h.edge()] = true;
+    }
+    let arc = |e: EdgeId| {
+        let [u, v] = mesh.ends(e);
+        forest.distance[u] + forest.distance[v] + lengths[e]
+    };
+    let mut arcs: Vec<(Key, EdgeId)> =
+        mesh.edges().filter(|&e| !in_forest[e] && !wall(e)).map(|e| (Key(arc(e)), e)).collect();
+    arcs.sort_unstable_by(|a, b| b.cmp(a));
+    let outside = mesh.n_faces();
+    let node = |h: HalfedgeId| mesh.face(h).map_or(outside, |f| f.index());
+    let mut joined = DisjointSets::new(outside + 1);
+    let mut left: Vec<EdgeId> = arcs
+        .into_iter()
+        .map(|(_, e)| e)
+        .filter(|e| !joined.union(node(e.halfedge()), node(e.halfedge().twin())))
+        .collect();
+    left.reverse();
+    left
+}
+
+/// Disjoint sets of 0…n−1 with path halving and union by size.
+pub(crate) struct DisjointSets {
+    parent: Vec<u32>,
+    size: Vec<u32>,
+}
+
+impl DisjointSets {
+    pub(crate) fn new(n: usize) -> Self {
+        DisjointSets { parent: (0..n as u32).collect(), size: vec![1; n] }
+    }
+
+    pub(crate) fn find(&mut self, mut i: usize) -> usize {
+        while self.parent[i] as usize != i {
+            self.parent[i] = self.parent[self.parent[i] as usize];
+            i = self.parent[i] as usize;
+        }
+        i
+    }
+
+    /// Merge the sets of `i` and `j`; false if they were one already.
+    pub(crate) fn union(&mut self, i: usize, j: usize) -> bool {
+        let (mut i, mut j) = (self.find(i), self.find(j));
+        if i == j {
+            return false;
+        }
+        if self.size[i] < self.size[j] {
+            std::mem::swap(&mut i, &mut j);
+        }
+        self.parent[j] = i as u32;
+        self.size[i] += self.size[j];
+        true
+    }
+}

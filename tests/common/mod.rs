@@ -1,0 +1,40 @@
+//! What several tests share: the mesh corpus and its index.
+#![allow(dead_code)]
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+
+/// The folder `kind` (`good`, `bad`) of the mesh corpus, or `None` (said on stderr) where the corpus is absent. It is
+/// looked for in `RICCI_MESHES`, by default `../shared/meshes`.
+pub fn corpus(kind: &str) -> Option<PathBuf> {
+    let root = std::env::var_os("RICCI_MESHES")
+        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/meshes"), PathBuf::from);
+    let folder = root.join(kind);
+    if folder.join("INDEX.csv").exists() {
+        return Some(folder);
+    }
+    eprintln!("mesh corpus absent: {} has no INDEX.csv; set RICCI_MESHES to run this test", folder.display());
+    None
+}
+
+/// The rows of `INDEX.csv`, by column name.
+pub fn index(kind: &str) -> Option<(PathBuf, Vec<HashMap<String, String>>)> {
+    let folder = corpus(kind)?;
+    let text = std::fs::read_to_string(folder.join("INDEX.csv")).unwrap();
+    let mut rows = text.lines().map(fields);
+    let header = rows.next().unwrap();
+    Some((folder, rows.map(|row| header.iter().cloned().zip(row).collect()).collect()))
+}
+
+/// Fields of a CSV line with quoted fields.
+fn fields(line: &str) -> Vec<String> {
+    let (mut fields, mut quoted) = (vec![String::new()], false);
+    for c in line.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            ',' if !quoted => fields.push(String::new()),
+            c => fields.last_mut().unwrap().push(c),
+        }
+    }
+    fields
+}
