@@ -72,8 +72,6 @@ fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
 /// What [`write_obj`] writes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ObjData<'a> {
-    /// Comment lines at the top.
-    pub comments: &'a [String],
     /// `v` lines.
     pub positions: &'a [Point],
     /// `vt` lines; empty for none.
@@ -95,9 +93,6 @@ pub fn write_obj(path: &Path, data: &ObjData<'_>) -> Result<()> {
         return Err(Error::Io { path, message: "a coordinate to be written is not finite".into() });
     }
     write_atomically(path, |out| {
-        for line in data.comments {
-            writeln!(out, "# {line}")?;
-        }
         for [x, y, z] in data.positions {
             writeln!(out, "v {x:.16e} {y:.16e} {z:.16e}")?;
         }
