@@ -5,12 +5,14 @@ use crate::failure::{Failure, Outcome};
 use crate::guard::{self, Handle, Poison, output};
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
-use ricci::mesh::{Point, check, io};
+use ricci::mesh::check::{self, Diagnosis};
+use ricci::mesh::{Point, io};
 use std::ffi::{CString, c_char};
 
 /// Every defect of a triangle list.
 pub struct ricci_diagnosis {
     poison: Poison,
+    diagnosis: Diagnosis,
     defects: Vec<Record>,
 }
 
@@ -19,13 +21,46 @@ struct Record {
     code: CString,
     message: CString,
     remedy: CString,
-    elements: Vec<u32>,
+    vertices: Vec<u32>,
+    faces: Vec<u32>,
 }
 
 impl Handle for ricci_diagnosis {
     const NAME: &'static str = "diagnosis";
     fn poison(&self) -> &Poison {
         &self.poison
+    }
+}
+
+/// Counts of a triangle list.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_diagnosis_summary {
+    /// Bytes of this struct that are filled.
+    pub size: usize,
+    /// Number of defects.
+    pub n_defects: usize,
+    /// Vertices given.
+    pub n_vertices: usize,
+    /// Distinct edges.
+    pub n_edges: usize,
+    /// Faces given.
+    pub n_faces: usize,
+    /// Connected pieces.
+    pub n_components: usize,
+    /// V - E + F over the vertices in use.
+    pub euler: i64,
+    /// Boundary loops; -1 where the surface is not a manifold.
+    pub n_boundary_loops: i64,
+    /// Genus; -1 where the surface is not a connected, oriented manifold.
+    pub genus: i64,
+}
+
+// SAFETY: integers of 8 bytes, size first.
+unsafe impl Sized64 for ricci_diagnosis_summary {
+    const NAME: &'static str = "summary";
+    fn with_size(self, size: usize) -> Self {
+        Self { size, ..self }
     }
 }
 
@@ -41,10 +76,14 @@ pub struct ricci_defect {
     pub message: *const c_char,
     /// What to do about it.
     pub remedy: *const c_char,
-    /// The elements concerned: n_elements 0-based indices; the message says of what.
-    pub elements: *const u32,
-    /// Number of elements.
-    pub n_elements: usize,
+    /// The vertices concerned: n_vertices 0-based indices.
+    pub vertices: *const u32,
+    /// Number of vertices.
+    pub n_vertices: usize,
+    /// The faces concerned: n_faces 0-based indices.
+    pub faces: *const u32,
+    /// Number of faces.
+    pub n_faces: usize,
 }
 
 // SAFETY: pointers and integers of 8 bytes, size first.
@@ -57,21 +96,24 @@ unsafe impl Sized64 for ricci_defect {
 
 fn diagnose(positions: &[Point], faces: &[[u32; 3]]) -> ricci_diagnosis {
     let text = |words: String| CString::new(words.replace('\0', "\u{fffd}")).unwrap_or_default();
-    let defects = check::diagnose(positions, faces)
+    let diagnosis = check::diagnose(positions, faces);
+    let defects = diagnosis
         .defects
         .iter()
         .map(|defect| Record {
             code: text(defect.code().to_string()),
             message: text(defect.to_string()),
             remedy: text(defect.remedy().to_string()),
-            elements: defect.elements(),
+            vertices: defect.vertices(),
+            faces: defect.faces(),
         })
         .collect();
-    ricci_diagnosis { poison: Poison::default(), defects }
+    ricci_diagnosis { poison: Poison::default(), diagnosis, defects }
 }
 
 /// Every defect of positions and faces; defects are a result, not an error.
 ///
+/// Faces of int32_t may be passed through a cast: a negative index shows as one that is out of range.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride), RICCI_TOO_LARGE.
 ///
 /// @param positions   n_vertices points: x, y, z as double.
@@ -124,21 +166,34 @@ pub unsafe extern "C" fn ricci_diagnosis_free(diagnosis: *mut ricci_diagnosis) {
     guard::free(diagnosis);
 }
 
-/// Number of defects; 0: a mesh can be built.
+/// Counts of the triangle list, and the number of its defects; without any, a mesh can be built.
 ///
-/// @return RICCI_OK, RICCI_NULL_POINTER.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
 ///
 /// @param diagnosis  the diagnosis.
-/// @param count      out: number of defects.
+/// @param summary    out: the counts.
+/// @param size       sizeof *summary.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_diagnosis_count(
+pub unsafe extern "C" fn ricci_diagnosis_summarise(
     diagnosis: *const ricci_diagnosis,
-    count: *mut usize,
+    summary: *mut ricci_diagnosis_summary,
+    size: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let count = output("count", count)?;
-        count.set(door.shared(diagnosis)?.defects.len());
-        Ok(())
+        let found = &door.shared(diagnosis)?.diagnosis;
+        let count = |n: Option<usize>| n.map_or(-1, |n| n as i64);
+        let counts = ricci_diagnosis_summary {
+            size,
+            n_defects: found.defects.len(),
+            n_vertices: found.vertices,
+            n_edges: found.edges,
+            n_faces: found.faces,
+            n_components: found.components,
+            euler: found.euler,
+            n_boundary_loops: count(found.boundary_loops),
+            genus: count(found.genus),
+        };
+        sized::write(counts, summary, size)
     })
 }
 
@@ -147,7 +202,7 @@ pub unsafe extern "C" fn ricci_diagnosis_count(
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (index), RICCI_STRUCT_SIZE.
 ///
 /// @param diagnosis  the diagnosis.
-/// @param index      which one, below the count.
+/// @param index      which one, below n_defects.
 /// @param defect     out: the defect.
 /// @param size       sizeof *defect.
 #[unsafe(no_mangle)]
@@ -164,8 +219,10 @@ pub unsafe extern "C" fn ricci_diagnosis_defect(
             code: record.code.as_ptr(),
             message: record.message.as_ptr(),
             remedy: record.remedy.as_ptr(),
-            elements: record.elements.as_ptr(),
-            n_elements: record.elements.len(),
+            vertices: record.vertices.as_ptr(),
+            n_vertices: record.vertices.len(),
+            faces: record.faces.as_ptr(),
+            n_faces: record.faces.len(),
         };
         sized::write(view, defect, size)
     })

@@ -26,6 +26,7 @@ impl Environment {
     /// Save the host's environment and go over to the default one.
     pub fn enter() -> Environment {
         let mut host = Environment(Fenv([0; 256]));
+        // Elsewhere than on Linux flush-to-zero stays as the host has it.
         // SAFETY: the buffer is large enough and aligned for `fenv_t`; `FE_DFL_ENV` is the pointer −1 in
         // glibc and musl, whose `fesetenv` also clears flush-to-zero.
         unsafe {

@@ -147,8 +147,8 @@ fn keep_panics_quiet() {
     ONCE.call_once(|| {
         let previous = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |info| {
-            let worker = std::thread::current().name().is_some_and(|name| name.starts_with("ricci-"));
-            if !worker && !INSIDE.try_with(Cell::get).unwrap_or(false) {
+            let worker = || std::thread::current().name().is_some_and(|name| name.starts_with("ricci-"));
+            if !INSIDE.try_with(Cell::get).unwrap_or(false) && !worker() {
                 previous(info);
             }
         }));

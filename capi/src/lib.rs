@@ -9,6 +9,7 @@
 //! | `environment` | the host's floating-point environment |
 //! | `arrays`, `sized`, `choice` | arrays, structs and enum values that come from C |
 //! | `failure`, `status`, `last_error` | what went wrong |
+//! | `debug` | a panic on request, for tests |
 //!
 //! # Safety
 //! Every function here is called from C, so each has the same contract, which the header states and no

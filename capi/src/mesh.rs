@@ -8,6 +8,7 @@ use crate::sized::{self, Sized64};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::geometry::space::Space;
+use ricci::mesh::io::Soup;
 use ricci::mesh::{HalfedgeId, Mesh, PerEdge, Point, io};
 use ricci::metric::lengths::lengths_from_positions;
 use std::ffi::c_char;
@@ -42,9 +43,9 @@ impl ricci_mesh {
         ricci_mesh { poison: Poison::default(), connectivity, shape }
     }
 
-    fn from_soup(positions: Vec<Point>, faces: &[[u32; 3]]) -> Outcome<ricci_mesh> {
-        let connectivity = Mesh::from_faces(positions.len(), faces)?;
-        Ok(ricci_mesh::new(Arc::new(connectivity), Shape::Positions(Arc::new(positions))))
+    fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {
+        let connectivity = Mesh::from_soup(&soup)?;
+        Ok(ricci_mesh::new(Arc::new(connectivity), Shape::Positions(Arc::new(soup.positions))))
     }
 
     fn positions(&self) -> Outcome<&[Point]> {
@@ -120,7 +121,8 @@ pub unsafe extern "C" fn ricci_mesh_from_arrays(
     guard::call(|_| {
         let mesh = output("mesh", mesh)?;
         let positions = arrays::points(positions, stride, n_vertices)?;
-        mesh.hand_over(ricci_mesh::from_soup(positions, &arrays::faces(faces, n_faces)?)?);
+        let faces = arrays::faces(faces, n_faces)?;
+        mesh.hand_over(ricci_mesh::from_soup(Soup { positions, faces })?);
         Ok(())
     })
 }
@@ -147,7 +149,8 @@ pub unsafe extern "C" fn ricci_mesh_from_arrays_i32(
     guard::call(|_| {
         let mesh = output("mesh", mesh)?;
         let positions = arrays::points(positions, stride, n_vertices)?;
-        mesh.hand_over(ricci_mesh::from_soup(positions, &arrays::faces_i32(faces, n_faces)?)?);
+        let faces = arrays::faces_i32(faces, n_faces)?;
+        mesh.hand_over(ricci_mesh::from_soup(Soup { positions, faces })?);
         Ok(())
     })
 }
@@ -208,8 +211,7 @@ pub unsafe extern "C" fn ricci_mesh_from_gluing(
 pub unsafe extern "C" fn ricci_mesh_read(path: *const c_char, mesh: *mut *mut ricci_mesh) -> ricci_status {
     guard::call(|_| {
         let mesh = output("mesh", mesh)?;
-        let soup = io::read(&arrays::path("path", path)?)?;
-        mesh.hand_over(ricci_mesh::from_soup(soup.positions, &soup.faces)?);
+        mesh.hand_over(ricci_mesh::from_soup(io::read(&arrays::path("path", path)?)?)?);
         Ok(())
     })
 }
@@ -226,8 +228,7 @@ pub unsafe extern "C" fn ricci_mesh_write_obj(mesh: *const ricci_mesh, path: *co
     guard::call(|door| {
         let mesh = door.shared(mesh)?;
         let faces = face_vertices(&mesh.connectivity);
-        let data =
-            io::ObjData { positions: mesh.positions()?, faces: &faces, texcoords: &[], face_texcoords: &[] };
+        let data = io::ObjData { positions: mesh.positions()?, faces: &faces, ..Default::default() };
         io::write_obj(&arrays::path("path", path)?, &data)?;
         Ok(())
     })

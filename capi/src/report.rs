@@ -1,12 +1,11 @@
 //! What a flow did.
 
 use crate::arrays::copy_out;
-use crate::choice::{Choice, name};
 use crate::guard::{self, Handle, Poison};
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::flow::{Report, StopReason};
-use std::ffi::c_char;
+use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
 
 /// What a flow did: why it stopped, how far it came, how long it took.
@@ -38,26 +37,36 @@ pub enum ricci_stop_reason {
     RICCI_STOP_ROUNDING_FLOOR = 1,
     /// A minimum of the energy with broken triangles: no metric.
     RICCI_STOP_BROKEN_TRIANGLES = 2,
+    /// The variables run away: the target violates a condition of the scheme on this triangulation.
+    RICCI_STOP_DIVERGED = 3,
     /// No step lowers the error any more.
-    RICCI_STOP_STALLED = 3,
-    /// max_iterations were done.
-    RICCI_STOP_ITERATION_LIMIT = 4,
+    RICCI_STOP_STALLED = 4,
+    /// The iteration limit came first.
+    RICCI_STOP_ITERATION_LIMIT = 5,
 }
 
 use ricci_stop_reason::*;
 
-impl Choice for ricci_stop_reason {
-    const NAME: &'static str = "stop_reason";
-    type Value = StopReason;
-    const ALL: &'static [(Self, StopReason)] = &[
-        (RICCI_STOP_CONVERGED, StopReason::Converged),
-        (RICCI_STOP_ROUNDING_FLOOR, StopReason::RoundingFloor),
-        (RICCI_STOP_BROKEN_TRIANGLES, StopReason::BrokenTriangles),
-        (RICCI_STOP_STALLED, StopReason::Stalled),
-        (RICCI_STOP_ITERATION_LIMIT, StopReason::IterationLimit),
-    ];
-    fn number(self) -> i32 {
-        self as i32
+/// Every reason with the name that reports use.
+const NAMES: &[(ricci_stop_reason, &CStr)] = &[
+    (RICCI_STOP_CONVERGED, c"converged"),
+    (RICCI_STOP_ROUNDING_FLOOR, c"rounding_floor"),
+    (RICCI_STOP_BROKEN_TRIANGLES, c"broken_triangles"),
+    (RICCI_STOP_DIVERGED, c"diverged"),
+    (RICCI_STOP_STALLED, c"stalled"),
+    (RICCI_STOP_ITERATION_LIMIT, c"iteration_limit"),
+];
+
+impl From<StopReason> for ricci_stop_reason {
+    fn from(reason: StopReason) -> ricci_stop_reason {
+        match reason {
+            StopReason::Converged => RICCI_STOP_CONVERGED,
+            StopReason::RoundingFloor => RICCI_STOP_ROUNDING_FLOOR,
+            StopReason::BrokenTriangles => RICCI_STOP_BROKEN_TRIANGLES,
+            StopReason::Diverged => RICCI_STOP_DIVERGED,
+            StopReason::Stalled => RICCI_STOP_STALLED,
+            StopReason::IterationLimit => RICCI_STOP_ITERATION_LIMIT,
+        }
     }
 }
 
@@ -121,16 +130,8 @@ unsafe impl Sized64 for ricci_report_summary {
 #[unsafe(no_mangle)]
 pub extern "C" fn ricci_stop_reason_text(reason: MaybeUninit<ricci_stop_reason>) -> *const c_char {
     let number = guard::raw(reason);
-    let known = ricci_stop_reason::ALL.iter().find(|(known, _)| *known as i32 == number);
-    known
-        .map_or(c"unknown", |(known, _)| match known {
-            RICCI_STOP_CONVERGED => c"converged",
-            RICCI_STOP_ROUNDING_FLOOR => c"rounding_floor",
-            RICCI_STOP_BROKEN_TRIANGLES => c"broken_triangles",
-            RICCI_STOP_STALLED => c"stalled",
-            RICCI_STOP_ITERATION_LIMIT => c"iteration_limit",
-        })
-        .as_ptr()
+    let name = NAMES.iter().find(|(known, _)| *known as i32 == number);
+    name.map_or(c"unknown", |(_, name)| name).as_ptr()
 }
 
 /// Release a report.
@@ -160,7 +161,7 @@ pub unsafe extern "C" fn ricci_report_summarise(
         let figures = ricci_report_summary {
             size,
             converged: report.converged.into(),
-            stop_reason: name(report.stop_reason)?,
+            stop_reason: report.stop_reason.into(),
             iterations: report.iterations,
             flips: report.flips,
             broken_triangles: report.broken_triangles,
@@ -181,7 +182,7 @@ pub unsafe extern "C" fn ricci_report_summarise(
     })
 }
 
-/// Largest |K - target| at the start and after every step.
+/// Largest |K - target| at the start and after every Newton step.
 ///
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
 ///
@@ -220,4 +221,26 @@ pub unsafe extern "C" fn ricci_report_trace(
             .collect();
         copy_out("trace", rows.as_flattened(), trace, capacity)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reasons_are_spelt_as_in_the_library() {
+        for reason in [
+            StopReason::Converged,
+            StopReason::RoundingFloor,
+            StopReason::BrokenTriangles,
+            StopReason::Diverged,
+            StopReason::Stalled,
+            StopReason::IterationLimit,
+        ] {
+            let number = ricci_stop_reason::from(reason);
+            let name =
+                NAMES.iter().find(|(known, _)| *known == number).map(|(_, name)| name.to_str().unwrap());
+            assert_eq!(name, Some(reason.name()));
+        }
+    }
 }

@@ -20,7 +20,7 @@ pub unsafe trait Sized64: Copy {
 
 fn check<S: Sized64>(size: usize) -> Outcome {
     const { assert!(align_of::<S>() == 8 && size_of::<usize>() == 8) };
-    if size < 16 || size % 8 != 0 {
+    if size < 16 || !size.is_multiple_of(8) {
         return Err(Failure::new(
             ricci_status::RICCI_STRUCT_SIZE,
             format!("{} has size {size}: pass sizeof, and let its init function fill it", S::NAME),

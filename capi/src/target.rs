@@ -118,7 +118,7 @@ pub unsafe extern "C" fn ricci_target_single(
 /// Given curvatures at given vertices, 0 at every other one.
 ///
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such vertex),
-/// RICCI_TARGET_AT_VERTEX, RICCI_TARGET_TOTAL.
+/// RICCI_TARGET_AT_VERTEX, RICCI_TARGET_BELOW, RICCI_TARGET_TOTAL.
 ///
 /// @param metric      the metric that will flow.
 /// @param vertices    n_cones vertices.

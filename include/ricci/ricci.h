@@ -18,7 +18,9 @@
  *     RICCI_POISONED from then on; they can only be freed.
  *   - Calls compute under the default floating-point environment and give the caller its own back: floating-point
  *     traps, rounding mode and flush-to-zero of the host neither disturb a call nor change its result.
- *   - Results are identical bit for bit for any number of threads.
+ *   - Results are identical bit for bit for any number of threads. Threads are the call's own and have ended when it
+ *     returns (a ricci_solver keeps its threads until it is freed). Nothing is printed.
+ *   - Platforms: 64-bit Linux (tested on x86-64, glibc); written for macOS too, not tested there.
  */
 
 
@@ -275,13 +277,17 @@ typedef enum {
      */
     RICCI_STOP_BROKEN_TRIANGLES = 2,
     /**
+     * The variables run away: the target violates a condition of the scheme on this triangulation.
+     */
+    RICCI_STOP_DIVERGED = 3,
+    /**
      * No step lowers the error any more.
      */
-    RICCI_STOP_STALLED = 3,
+    RICCI_STOP_STALLED = 4,
     /**
-     * max_iterations were done.
+     * The iteration limit came first.
      */
-    RICCI_STOP_ITERATION_LIMIT = 4,
+    RICCI_STOP_ITERATION_LIMIT = 5,
 } ricci_stop_reason;
 
 /**
@@ -413,6 +419,48 @@ typedef struct {
 } ricci_mesh_summary;
 
 /**
+ * Counts of a triangle list.
+ */
+typedef struct {
+    /**
+     * Bytes of this struct that are filled.
+     */
+    size_t size;
+    /**
+     * Number of defects.
+     */
+    size_t n_defects;
+    /**
+     * Vertices given.
+     */
+    size_t n_vertices;
+    /**
+     * Distinct edges.
+     */
+    size_t n_edges;
+    /**
+     * Faces given.
+     */
+    size_t n_faces;
+    /**
+     * Connected pieces.
+     */
+    size_t n_components;
+    /**
+     * V - E + F over the vertices in use.
+     */
+    int64_t euler;
+    /**
+     * Boundary loops; -1 where the surface is not a manifold.
+     */
+    int64_t n_boundary_loops;
+    /**
+     * Genus; -1 where the surface is not a connected, oriented manifold.
+     */
+    int64_t genus;
+} ricci_diagnosis_summary;
+
+/**
  * One defect. The pointers are views into the diagnosis and live as long as it does.
  */
 typedef struct {
@@ -433,13 +481,21 @@ typedef struct {
      */
     const char *remedy;
     /**
-     * The elements concerned: n_elements 0-based indices; the message says of what.
+     * The vertices concerned: n_vertices 0-based indices.
      */
-    const uint32_t *elements;
+    const uint32_t *vertices;
     /**
-     * Number of elements.
+     * Number of vertices.
      */
-    size_t n_elements;
+    size_t n_vertices;
+    /**
+     * The faces concerned: n_faces 0-based indices.
+     */
+    const uint32_t *faces;
+    /**
+     * Number of faces.
+     */
+    size_t n_faces;
 } ricci_defect;
 
 /**
@@ -971,6 +1027,7 @@ ricci_status ricci_mesh_boundary(const ricci_mesh *mesh,
 /**
  * Every defect of positions and faces; defects are a result, not an error.
  *
+ * Faces of int32_t may be passed through a cast: a negative index shows as one that is out of range.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride), RICCI_TOO_LARGE.
  *
  * @param positions   n_vertices points: x, y, z as double.
@@ -1005,14 +1062,17 @@ ricci_status ricci_diagnose_file(const char *path, ricci_diagnosis **diagnosis);
 void ricci_diagnosis_free(ricci_diagnosis *diagnosis);
 
 /**
- * Number of defects; 0: a mesh can be built.
+ * Counts of the triangle list, and the number of its defects; without any, a mesh can be built.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
  *
  * @param diagnosis  the diagnosis.
- * @param count      out: number of defects.
+ * @param summary    out: the counts.
+ * @param size       sizeof *summary.
  */
-ricci_status ricci_diagnosis_count(const ricci_diagnosis *diagnosis, size_t *count);
+ricci_status ricci_diagnosis_summarise(const ricci_diagnosis *diagnosis,
+                                       ricci_diagnosis_summary *summary,
+                                       size_t size);
 
 /**
  * One defect.
@@ -1020,7 +1080,7 @@ ricci_status ricci_diagnosis_count(const ricci_diagnosis *diagnosis, size_t *cou
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (index), RICCI_STRUCT_SIZE.
  *
  * @param diagnosis  the diagnosis.
- * @param index      which one, below the count.
+ * @param index      which one, below n_defects.
  * @param defect     out: the defect.
  * @param size       sizeof *defect.
  */
@@ -1227,7 +1287,7 @@ ricci_status ricci_target_single(const ricci_metric *metric,
  * Given curvatures at given vertices, 0 at every other one.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such vertex),
- * RICCI_TARGET_AT_VERTEX, RICCI_TARGET_TOTAL.
+ * RICCI_TARGET_AT_VERTEX, RICCI_TARGET_BELOW, RICCI_TARGET_TOTAL.
  *
  * @param metric      the metric that will flow.
  * @param vertices    n_cones vertices.
@@ -1289,7 +1349,7 @@ ricci_status ricci_report_summarise(const ricci_report *report,
                                     size_t size);
 
 /**
- * Largest |K - target| at the start and after every step.
+ * Largest |K - target| at the start and after every Newton step.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
@@ -1546,7 +1606,7 @@ ricci_status ricci_layout_write_obj(const ricci_layout *layout,
                                     const char *path);
 
 /**
- * For tests: an internal error inside the library while it uses this mesh.
+ * For tests: an internal error inside the library, on one of its threads, while it uses this mesh.
  *
  * @return RICCI_PANIC, and RICCI_POISONED from every later call on the mesh; RICCI_NULL_POINTER.
  *

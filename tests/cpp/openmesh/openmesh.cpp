@@ -212,6 +212,7 @@ void check_layout(const Mesh &input, const ricci_metric *end, const std::vector<
             const Real expected = scale * lengths[std::abs(surface.face_edges[f][k]) - 1];
             worst = std::max(worst, std::abs(std::sqrt(Real(CGAL::squared_distance(p, q))) - expected));
         }
+    CHECK(summary.consistency <= 1e-7);
     CHECK(worst <= 2 * (summary.consistency + 1e-13L) * summary.diameter);
 
     // A seam's motion carries its left side onto its right: checked on the distances it must keep.

@@ -1,5 +1,5 @@
 /* The host's floating-point environment does not change a result, and a call does not change the environment: traps
- * on, another rounding mode. */
+ * on, another rounding mode. Usage: test_environment [emulated]; valgrind does not emulate traps. */
 #define _GNU_SOURCE
 #include "torus.h"
 #include <fenv.h>
@@ -19,8 +19,9 @@ static double *solve(const torus *t, ricci_space space, const double *target) {
     return u;
 }
 
-int main(void) {
-    torus t = torus_new(40, 30);
+int main(int argc, char **argv) {
+    const int emulated = argc > 1 && strcmp(argv[1], "emulated") == 0;
+    torus t = torus_new(emulated ? 20 : 40, emulated ? 15 : 30);
     const size_t bytes = t.n_vertices * sizeof(double);
     double *target = (double *)calloc(t.n_vertices, sizeof *target);
     CHECK(target);
@@ -29,7 +30,7 @@ int main(void) {
 #ifdef __GLIBC__
     feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
     double *trapped = solve(&t, RICCI_SPACE_E2, target);
-    CHECK(fegetexcept() == (FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW));
+    CHECK(emulated || fegetexcept() == (FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW));
     fedisableexcept(FE_ALL_EXCEPT);
     CHECK(memcmp(trapped, expected, bytes) == 0);
     free(trapped);

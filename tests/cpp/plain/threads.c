@@ -31,7 +31,7 @@ static double *solve(const torus *t, const double *target, ricci_method method, 
         double residuals[64];
         CHECK(done.n_residuals == done.iterations + 1 && done.n_residuals <= 64);
         OK(ricci_report_residuals(report, residuals, 64));
-        CHECK(residuals[done.n_residuals - 1] == done.max_curvature_error);
+        CHECK(done.max_curvature_error <= residuals[done.n_residuals - 1]);
     } else {
         double *trace = (double *)malloc(5 * done.n_trace * sizeof *trace);
         CHECK(trace && done.n_trace == done.iterations + 1);

@@ -1,0 +1,91 @@
+// C++ ownership and errors for the C face: handles that free themselves, statuses that throw.
+//
+//     ricci::mesh mesh = ricci::make<ricci_mesh>(ricci_mesh_read, "bunny.obj");
+//     ricci::metric metric = ricci::make<ricci_metric>(ricci_metric_new, mesh.get(), RICCI_SCHEME_YAMABE,
+//                                                      RICCI_SPACE_E2);
+//     auto counts = ricci::summary(ricci_mesh_summarise, mesh);
+//
+// C++11; nothing is hidden: every function of ricci.h takes the handles by .get().
+//
+// SPDX-License-Identifier: MIT OR Apache-2.0
+#ifndef RICCI_HPP
+#define RICCI_HPP
+
+#include <ricci/ricci.h>
+
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace ricci {
+
+// A call that failed: its status, and as what() the detail message.
+class error : public std::runtime_error {
+public:
+    explicit error(ricci_status status) : std::runtime_error(ricci_last_error()), status(status) {}
+    const ricci_status status;
+};
+
+// Throws unless the call succeeded.
+inline void check(ricci_status status) {
+    if (status != RICCI_OK) throw error(status);
+}
+
+struct deleter {
+    void operator()(ricci_mesh *p) const { ricci_mesh_free(p); }
+    void operator()(ricci_diagnosis *p) const { ricci_diagnosis_free(p); }
+    void operator()(ricci_metric *p) const { ricci_metric_free(p); }
+    void operator()(ricci_report *p) const { ricci_report_free(p); }
+    void operator()(ricci_solver *p) const { ricci_solver_free(p); }
+    void operator()(ricci_layout *p) const { ricci_layout_free(p); }
+    void operator()(ricci_control *p) const { ricci_control_free(p); }
+};
+
+template <class Handle>
+using owned = std::unique_ptr<Handle, deleter>;
+
+using mesh = owned<ricci_mesh>;
+using diagnosis = owned<ricci_diagnosis>;
+using metric = owned<ricci_metric>;
+using report = owned<ricci_report>;
+using solver = owned<ricci_solver>;
+using layout = owned<ricci_layout>;
+using control = owned<ricci_control>;
+
+// The handle that a function of ricci.h hands out through its last parameter.
+template <class Handle, class Function, class... Arguments>
+owned<Handle> make(Function function, Arguments &&...arguments) {
+    Handle *handle = nullptr;
+    check(function(std::forward<Arguments>(arguments)..., &handle));
+    return owned<Handle>(handle);
+}
+
+// The struct that a _summarise function fills.
+template <class Handle, class Summary>
+Summary summary(ricci_status (*function)(const Handle *, Summary *, size_t), const owned<Handle> &handle) {
+    Summary filled;
+    check(function(handle.get(), &filled, sizeof filled));
+    return filled;
+}
+
+// Options with their defaults.
+inline ricci_flow_options flow_options() {
+    ricci_flow_options options;
+    check(ricci_flow_options_init(&options, sizeof options));
+    return options;
+}
+
+// ricci_flow; `done`, if given, receives the report.
+inline metric flow(const metric &start, const double *target, size_t n_vertices,
+                   const ricci_flow_options &options = flow_options(), report *done = nullptr,
+                   const ricci_control *control = nullptr) {
+    ricci_metric *end = nullptr;
+    ricci_report *what = nullptr;
+    check(ricci_flow(start.get(), target, n_vertices, &options, control, &end, done ? &what : nullptr));
+    if (done) done->reset(what);
+    return metric(end);
+}
+
+} // namespace ricci
+
+#endif

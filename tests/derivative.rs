@@ -1,0 +1,242 @@
+//! One shared test of the derivative, for every space × scheme and for mixed types: against central differences,
+//! against automatic differentiation of plain cosine laws (an independent implementation), and as an exact 1-form.
+
+mod common;
+
+use common::Random;
+use num_dual::{Dual64, DualNum};
+use ricci::flow::curvature_derivative;
+use ricci::geometry::Space;
+use ricci::mesh::{Mesh, PerEdge, PerVertex};
+use ricci::metric::initial::initial_mixed;
+use ricci::metric::{Metric, Scheme, curvature, initial_metric};
+
+const SPACES: [Space; 3] = [Space::E2, Space::H2, Space::S2];
+
+/// An octahedron, a disk of six triangles around a vertex, and the torus with one vertex (loops and multi-edges).
+fn surfaces() -> Vec<(&'static str, Mesh)> {
+    let octahedron = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1], [5, 2, 1], [5, 3, 2], [5, 4, 3], [5, 1, 4]];
+    let disk: Vec<[u32; 3]> = (0..6).map(|i| [6, i, (i + 1) % 6]).collect();
+    let torus = Mesh::from_gluing(1, &[[0; 3]; 2], &[[2, -3, 1], [-1, -2, 3]]);
+    vec![
+        ("octahedron", Mesh::from_faces(6, &octahedron).unwrap()),
+        ("disk", Mesh::from_faces(7, &disk).unwrap()),
+        ("one-vertex torus", torus.unwrap()),
+    ]
+}
+
+/// A random metric near the equilateral one: of a scheme, or (`None`) with mixed types. The torus has a single
+/// vertex and so a single type.
+fn random_metric(mesh: &Mesh, space: Space, scheme: Option<Scheme>, random: &mut Random) -> Metric {
+    let size = if space == Space::S2 { 0.5 } else { 0.8 };
+    let lengths = PerEdge::from_fn(mesh.n_edges(), |_| size * (1.0 + 0.1 * random.symmetric()));
+    let mut metric = match scheme {
+        Some(scheme) => initial_metric(mesh, &lengths, space, scheme, space).unwrap().metric,
+        None => {
+            let epsilon = PerVertex::from_fn(mesh.n_vertices(), |_| (3.0 * random.unit()) as i8 - 1);
+            let radii = PerVertex::from_fn(mesh.n_vertices(), |_| size * (0.2 + 0.2 * random.unit()));
+            initial_mixed(mesh, &lengths, space, epsilon, radii, space).unwrap().metric
+        }
+    };
+    metric.u.iter_mut().for_each(|u| *u += 0.05 * random.symmetric());
+    metric
+}
+
+fn all_metrics(mut test: impl FnMut(&str, &Mesh, &Metric)) {
+    let mut random = Random::new(7);
+    for (name, mesh) in surfaces() {
+        for space in SPACES {
+            for scheme in Scheme::ALL.into_iter().map(Some).chain([None, None, None]) {
+                let metric = random_metric(&mesh, space, scheme, &mut random);
+                test(&format!("{name} {space} {scheme:?}"), &mesh, &metric);
+            }
+        }
+    }
+}
+
+fn curvatures(mesh: &Mesh, metric: &Metric, u: Vec<f64>) -> Vec<f64> {
+    let metric = Metric { u: u.into(), ..metric.clone() };
+    let k = curvature(mesh, metric.space, &metric.lengths(mesh).unwrap()).unwrap();
+    assert!(k.broken.is_empty());
+    assert!(k.gauss_bonnet < 1e-12, "Gauss–Bonnet residual {}", k.gauss_bonnet);
+    k.at.into_vec()
+}
+
+/// The matrix as a dense one.
+fn matrix(mesh: &Mesh, metric: &Metric) -> Vec<Vec<f64>> {
+    let n = mesh.n_vertices();
+    let mut dense = vec![vec![0.0; n]; n];
+    for (i, j, x) in curvature_derivative(mesh, metric).unwrap() {
+        dense[i.index()][j.index()] = x;
+        dense[j.index()][i.index()] = x;
+    }
+    dense
+}
+
+fn scale(matrix: &[Vec<f64>]) -> f64 {
+    matrix.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()))
+}
+
+#[test]
+fn derivative_of_curvature_agrees_with_central_differences() {
+    let h = 1e-5;
+    all_metrics(|name, mesh, metric| {
+        let ours = matrix(mesh, metric);
+        for j in 0..mesh.n_vertices() {
+            let moved = |h: f64| {
+                let mut u = metric.u.to_vec();
+                u[j] += h;
+                curvatures(mesh, metric, u)
+            };
+            let (plus, minus) = (moved(h), moved(-h));
+            for i in 0..mesh.n_vertices() {
+                let difference = (plus[i] - minus[i]) / (2.0 * h);
+                // On the flat torus with one vertex everything is zero; lengths are of order one.
+                assert!(
+                    (ours[i][j] - difference).abs() <= 1e-6 * scale(&ours).max(1e-3),
+                    "{name} ({i}, {j})"
+                );
+            }
+        }
+    });
+}
+
+/// ∂K/∂u by dual numbers through the formulas of notation.md §2 and the cosine laws, as printed.
+fn automatic(mesh: &Mesh, metric: &Metric) -> Vec<Vec<f64>> {
+    let n = mesh.n_vertices();
+    let mut dense = vec![vec![0.0; n]; n];
+    for j in 0..n {
+        let u: Vec<Dual64> =
+            (0..n).map(|i| Dual64::new(metric.u[i.into()], if i == j { 1.0 } else { 0.0 })).collect();
+        let length = |e| {
+            let [a, b] = mesh.ends(e);
+            let ea = f64::from(metric.epsilon[a]);
+            let eb = f64::from(metric.epsilon[b]);
+            let (xa, xb) = ((u[a.index()] * 2.0).exp() * ea, (u[b.index()] * 2.0).exp() * eb);
+            let cross = (u[a.index()] + u[b.index()]).exp() * metric.eta[e];
+            match metric.space {
+                Space::E2 => (cross * 2.0 + xa + xb).sqrt(),
+                Space::H2 => {
+                    let cosh = (cross * 4.0 + (xa + 1.0) * (xb + 1.0)) / ((-xa + 1.0) * (-xb + 1.0));
+                    (cosh + (cosh * cosh - 1.0).sqrt()).ln()
+                }
+                Space::S2 => ((cross * -4.0 + (-xa + 1.0) * (-xb + 1.0)) / ((xa + 1.0) * (xb + 1.0))).acos(),
+            }
+        };
+        for f in mesh.faces() {
+            let l = mesh.opposite_edges(f).map(length);
+            for (k, v) in mesh.face_vertices(f).into_iter().enumerate() {
+                let (a, b, c) = (l[(k + 1) % 3], l[(k + 2) % 3], l[k]);
+                let cos = match metric.space {
+                    Space::E2 => (a * a + b * b - c * c) / (a * b * 2.0),
+                    Space::H2 => (a.cosh() * b.cosh() - c.cosh()) / (a.sinh() * b.sinh()),
+                    Space::S2 => (c.cos() - a.cos() * b.cos()) / (a.sin() * b.sin()),
+                };
+                dense[v.index()][j] -= cos.acos().eps;
+            }
+        }
+    }
+    dense
+}
+
+#[test]
+fn derivative_of_curvature_is_symmetric_and_agrees_with_automatic_differentiation() {
+    all_metrics(|name, mesh, metric| {
+        let (ours, theirs) = (matrix(mesh, metric), automatic(mesh, metric));
+        let bound = 1e-12 * scale(&theirs).max(1.0);
+        for i in 0..mesh.n_vertices() {
+            for j in 0..mesh.n_vertices() {
+                assert!((theirs[i][j] - theirs[j][i]).abs() <= bound, "{name}: not symmetric");
+                // The plain cosine laws lose a digit or two themselves.
+                assert!((ours[i][j] - theirs[i][j]).abs() <= 10.0 * bound, "{name} ({i}, {j})");
+            }
+        }
+    });
+}
+
+#[test]
+fn derivative_is_semidefinite_in_the_plane_and_definite_in_the_hyperbolic_plane() {
+    let mut random = Random::new(3);
+    all_metrics(|name, mesh, metric| {
+        let ours = matrix(mesh, metric);
+        let n = ours.len();
+        for _ in 0..20 {
+            let x: Vec<f64> = (0..n).map(|_| random.symmetric()).collect();
+            let form: f64 = (0..n).map(|i| (0..n).map(|j| x[i] * ours[i][j] * x[j]).sum::<f64>()).sum();
+            let square: f64 = x.iter().map(|x| x * x).sum();
+            match metric.space {
+                Space::E2 => assert!(form >= -1e-13, "{name}: {form}"),
+                Space::H2 => assert!(form >= 1e-3 * square, "{name}: {form}"),
+                Space::S2 => {}
+            }
+        }
+        if metric.space == Space::E2 {
+            for row in &ours {
+                assert!(row.iter().sum::<f64>().abs() < 1e-13, "{name}: constants are in the kernel");
+            }
+        }
+    });
+}
+
+/// Gauss–Legendre nodes and weights on [0, 1].
+const GAUSS: [(f64, f64); 5] = [
+    (0.046_910_077_030_668, 0.118_463_442_528_094_5),
+    (0.230_765_344_947_158_45, 0.239_314_335_249_683_24),
+    (0.5, 0.284_444_444_444_444_4),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_24),
+    (0.953_089_922_969_332, 0.118_463_442_528_094_5),
+];
+
+/// `∫ Σ (K − K̄) du` along the straight line from `metric.u` to `end`.
+fn energy(mesh: &Mesh, metric: &Metric, target: &[f64], end: &[f64]) -> f64 {
+    let start = metric.u.to_vec();
+    let along = |(t, w): &(f64, f64)| {
+        let u = start.iter().zip(end).map(|(a, b)| a + t * (b - a)).collect();
+        let k = curvatures(mesh, metric, u);
+        let form = |i: usize| (k[i] - target[i]) * (end[i] - start[i]);
+        w * (0..k.len()).map(form).sum::<f64>()
+    };
+    GAUSS.iter().map(along).sum()
+}
+
+#[test]
+fn gradient_of_the_energy_is_the_curvature_error() {
+    let mut random = Random::new(11);
+    all_metrics(|name, mesh, metric| {
+        let n = mesh.n_vertices();
+        let target: Vec<f64> = (0..n).map(|_| random.symmetric()).collect();
+        let end: Vec<f64> = metric.u.iter().map(|u| u + 0.05 * random.symmetric()).collect();
+        let k = curvatures(mesh, metric, end.clone());
+        let h = 1e-4;
+        for i in 0..n {
+            let moved = |h: f64| {
+                let mut end = end.clone();
+                end[i] += h;
+                energy(mesh, metric, &target, &end)
+            };
+            let difference = (moved(h) - moved(-h)) / (2.0 * h);
+            let gradient = k[i] - target[i];
+            assert!((difference - gradient).abs() <= 1e-6 * gradient.abs().max(1.0), "{name} vertex {i}");
+        }
+    });
+}
+
+#[test]
+fn curvature_evolves_by_its_derivative_along_the_flow() {
+    // dK/dt = (∂K/∂u)(K̄ − K)
+    let mut random = Random::new(5);
+    all_metrics(|name, mesh, metric| {
+        let n = mesh.n_vertices();
+        let k = curvatures(mesh, metric, metric.u.to_vec());
+        let speed: Vec<f64> = k.iter().map(|k| k * 0.1 + 0.1 * random.symmetric() - k).collect();
+        let h = 1e-6;
+        let moved =
+            |h: f64| curvatures(mesh, metric, metric.u.iter().zip(&speed).map(|(u, s)| u + h * s).collect());
+        let (plus, minus, ours) = (moved(h), moved(-h), matrix(mesh, metric));
+        for i in 0..n {
+            let rate = (plus[i] - minus[i]) / (2.0 * h);
+            let predicted: f64 = (0..n).map(|j| ours[i][j] * speed[j]).sum();
+            assert!((rate - predicted).abs() <= 1e-6 * scale(&ours).max(1.0) * 10.0, "{name} vertex {i}");
+        }
+    });
+}
