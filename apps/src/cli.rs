@@ -30,7 +30,8 @@ pub enum Command {
     #[command(after_help = FLOW_EXAMPLE)]
     Flow(FlowArgs),
     /// Make a sample surface
-    Make,
+    #[command(after_help = crate::make::HELP)]
+    Make(crate::make::MakeArgs),
     /// Run the flow on a torus, a genus-2 surface and a disk, with pictures and reports
     #[command(after_help = DEMO_EXAMPLE)]
     Demo(DemoArgs),

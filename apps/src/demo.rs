@@ -2,10 +2,11 @@
 
 use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
-use crate::{flow, make, say};
+use crate::flow::{self, Done};
+use crate::report::path_text;
+use crate::{make, say};
 use clap::Parser;
 use ricci::Control;
-use std::path::Path;
 
 /// A surface, what `ricci make` and `ricci flow` are given for it, and what there is to see.
 struct Example {
@@ -48,7 +49,7 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
     let mut notes = String::new();
     let mut exit_code = 0;
     for example in &EXAMPLES {
-        let done = run_example(example, out, args, control)?;
+        let (line, done) = run_example(example, args, control)?;
         let laid = done.outcome.layout.as_ref().ok();
         table += &format!(
             "{:<8} {:>8} {:>6} {:>6} {:>12.1e} {:>8} {:>10} {:>8.2}\n",
@@ -61,11 +62,40 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
             laid.map_or("–".into(), |l| format!("{:.4}", l.quality.qc_mean)),
             done.seconds,
         );
-        notes += &format!("\n{}: {}\n  ricci {}\n", example.name, example.about, done.command);
+        notes += &format!("\n{}: {}\n  ricci {}\n", example.name, example.about, line);
         exit_code = exit_code.max(done.exit_code);
     }
     if !args.quiet {
         say::lines(&format!("{table}{notes}"));
     }
     Ok(exit_code)
+}
+
+/// Make one surface and run the flow on it; returns the flow's command line with what came out.
+fn run_example(example: &Example, args: &DemoArgs, control: &Control) -> Result<(String, Done), Failure> {
+    let path = |suffix: &str| path_text(&args.out.join(format!("{}{suffix}", example.name)));
+    let mut make = vec!["make".to_string()];
+    make.extend(example.make.iter().map(ToString::to_string));
+    make.extend(["-o".into(), path(".obj"), "--quiet".into()]);
+    if let Command::Make(make) = parse(make)? {
+        make::run(&make)?;
+    }
+    let mut flow = vec!["flow".to_string(), path(".obj")];
+    flow.extend(example.flow.iter().map(ToString::to_string));
+    for (option, suffix) in [("--uv", "_uv.obj"), ("--metric", "_metric.json"), ("--report", "_report.json")]
+    {
+        flow.extend([option.into(), path(suffix)]);
+    }
+    let line = flow.join(" ");
+    flow.push(format!("--threads={}", args.threads));
+    flow.extend(args.quiet.then(|| "--quiet".into()));
+    match parse(flow)? {
+        Command::Flow(flow) => Ok((line, flow::execute(&flow, control)?)),
+        other => Err(Failure::Failed(format!("{other:?} is no flow"))),
+    }
+}
+
+fn parse(line: Vec<String>) -> Result<Command, Failure> {
+    let words = std::iter::once("ricci".to_string()).chain(line);
+    Cli::try_parse_from(words).map(|cli| cli.command).map_err(|e| Failure::Usage(e.to_string()))
 }

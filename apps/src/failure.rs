@@ -1,6 +1,7 @@
 //! Why a command ends early, and with which exit code.
 
 use ricci::Error;
+use ricci::mesh::check::Diagnosis;
 
 /// A command that ends without a result.
 #[derive(Debug)]
@@ -11,6 +12,8 @@ pub enum Failure {
     Usage(String),
     /// The input is not what the command needs (exit 3).
     Input(String),
+    /// The input's faces do not form the surface that is needed (exit 3).
+    Defects(Box<Diagnosis>),
     /// Ctrl-C (exit 4).
     Cancelled,
 }
@@ -20,7 +23,7 @@ impl Failure {
         match self {
             Failure::Failed(_) => 1,
             Failure::Usage(_) => 2,
-            Failure::Input(_) => 3,
+            Failure::Input(_) | Failure::Defects(_) => 3,
             Failure::Cancelled => 4,
         }
     }
@@ -32,6 +35,7 @@ impl std::fmt::Display for Failure {
             Failure::Failed(message) | Failure::Usage(message) | Failure::Input(message) => {
                 f.write_str(message)
             }
+            Failure::Defects(diagnosis) => diagnosis.fmt(f),
             Failure::Cancelled => f.write_str("cancelled; nothing was written"),
         }
     }
@@ -41,6 +45,7 @@ impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
             Error::Cancelled => Failure::Cancelled,
+            Error::Defects(diagnosis) => Failure::Defects(diagnosis),
             Error::Argument { .. } | Error::TargetKind { .. } => Failure::Usage(error.to_string()),
             Error::Factorisation { .. } | Error::Layout(_) => Failure::Failed(error.to_string()),
             _ => Failure::Input(error.to_string()),

@@ -2,14 +2,17 @@
 
 use crate::cli::InfoArgs;
 use crate::failure::Failure;
-use crate::input;
+use crate::input::{self, Input};
 use crate::output::{Outputs, check_writable, extension};
 use crate::report::{InputSummary, Report, Seconds, path_text, peak_bytes, timed};
 use crate::say::{self, count};
 use crate::shape_quality::{self, ShapeQuality};
 use ricci::Control;
+use ricci::geometry::{Space, triangle};
 use ricci::mesh::check::{Defect, Diagnosis, diagnose};
-use ricci::mesh::{Mesh, io};
+use ricci::mesh::io::{self, Soup};
+use ricci::mesh::{FaceId, Mesh};
+use ricci::metric::lengths_from_positions;
 use serde::Serialize;
 use std::time::Instant;
 
@@ -63,23 +66,23 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     }
     let mut seconds = Seconds::default();
     let (summary, info) = if extension(&args.mesh) == "json" {
-        let surface = input::read(&args.mesh, control)?;
-        (seconds.read, seconds.build) = (surface.seconds_read, surface.seconds_build);
-        let quality = shape_quality::of_surface(&surface.mesh, surface.geometry, &surface.lengths);
-        let info = Info { admissible: true, quality, defect_counts: Vec::new(), defects: Vec::new() };
-        (InputSummary::of(&surface), info)
+        match input::read(&args.mesh, control) {
+            Ok(surface) => {
+                (seconds.read, seconds.build) = (surface.seconds_read, surface.seconds_build);
+                (InputSummary::of(&surface), Info::of_metric(&surface))
+            }
+            Err(Failure::Defects(diagnosis)) => {
+                let quality = shape_quality::of_triangles(&[], &[]);
+                (summary_of(&diagnosis, path_text(&args.mesh)), Info::new(&diagnosis, quality))
+            }
+            Err(failure) => return Err(failure),
+        }
     } else {
         let soup = timed(&mut seconds.read, || io::read(&args.mesh))?;
         let (diagnosis, quality) = timed(&mut seconds.build, || {
-            let diagnosis = diagnose(&soup.positions, &soup.faces);
-            let lengths = || {
-                let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces).ok()?;
-                let lengths = ricci::metric::lengths_from_positions(&mesh, &soup.positions).ok()?;
-                Some(shape_quality::of_surface(&mesh, ricci::geometry::Space::E2, &lengths))
-            };
-            let of_triangles = || shape_quality::of_triangles(&soup.positions, &soup.faces);
-            let quality = lengths().unwrap_or_else(of_triangles);
-            (diagnosis, quality)
+            let quality =
+                shape_of(&soup).unwrap_or_else(|| shape_quality::of_triangles(&soup.positions, &soup.faces));
+            (diagnose(&soup.positions, &soup.faces), quality)
         });
         (summary_of(&diagnosis, path_text(&args.mesh)), Info::new(&diagnosis, quality))
     };
@@ -99,6 +102,29 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
 }
 
 impl Info {
+    /// An intrinsic metric is a surface already; its lengths may still form no triangles.
+    fn of_metric(surface: &Input) -> Self {
+        let Input { mesh, lengths, geometry, .. } = surface;
+        let broken =
+            |f: &FaceId| triangle::angles(*geometry, mesh.opposite_edges(*f).map(|e| lengths[e])).broken;
+        let defect = |f: FaceId| DefectFigures {
+            code: "triangle_inequality",
+            message: format!("face {f} breaks the triangle inequality of {geometry}"),
+            vertices: mesh.face_vertices(f).map(|v| v.0).to_vec(),
+            faces: vec![f.0],
+            remedy: "give the face three lengths of which none reaches the sum of the others (S²: nor all together 2π)",
+        };
+        let defects: Vec<_> = mesh.faces().filter(broken).map(defect).collect();
+        let counted = (!defects.is_empty())
+            .then_some(DefectCount { code: "triangle_inequality", count: defects.len() });
+        Info {
+            admissible: defects.is_empty(),
+            quality: shape_quality::of_surface(mesh, *geometry, lengths),
+            defect_counts: counted.into_iter().collect(),
+            defects,
+        }
+    }
+
     fn new(diagnosis: &Diagnosis, quality: ShapeQuality) -> Self {
         let counts = diagnosis.counts().into_iter();
         Info {
@@ -108,6 +134,13 @@ impl Info {
             defects: diagnosis.defects.iter().map(DefectFigures::from).collect(),
         }
     }
+}
+
+/// Quality of a triangle list that is a surface.
+fn shape_of(soup: &Soup) -> Option<ShapeQuality> {
+    let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces).ok()?;
+    let lengths = lengths_from_positions(&mesh, &soup.positions).ok()?;
+    Some(shape_quality::of_surface(&mesh, Space::E2, &lengths))
 }
 
 fn summary_of(diagnosis: &Diagnosis, path: String) -> InputSummary {

@@ -3,6 +3,7 @@
 mod circles;
 mod cli;
 mod csv;
+mod demo;
 mod failure;
 mod flow;
 mod glb;
@@ -10,6 +11,7 @@ mod info;
 mod input;
 mod job;
 mod laid;
+mod make;
 mod metric_file;
 mod output;
 mod progress;
@@ -40,7 +42,8 @@ fn run(command: &Command) -> Result<u8, Failure> {
     match command {
         Command::Flow(args) => flow::run(args, &control),
         Command::Info(args) => info::run(args, &control),
-        _ => Ok(9),
+        Command::Make(args) => make::run(args),
+        Command::Demo(args) => demo::run(args, &control),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "ricci", &mut script);

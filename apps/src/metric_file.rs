@@ -85,9 +85,12 @@ fn faces_of(mesh: &Mesh) -> Vec<[u32; 3]> {
     mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect()
 }
 
-/// 1-based edge numbers with the direction as sign, where edges are not determined by their ends.
+/// 1-based edge numbers with the direction as sign, where the faces' vertices alone do not give the surface: where edges
+/// are not determined by their ends, or two faces have the same vertices.
 fn face_edges_of(mesh: &Mesh) -> Option<Vec<[i32; 3]>> {
-    (!mesh.is_simplicial()).then(|| mesh.faces().map(|f| mesh.face_edges(f)).collect())
+    let faces = faces_of(mesh);
+    let determined = mesh.is_simplicial() && Mesh::from_faces(mesh.n_vertices(), &faces).is_ok();
+    (!determined).then(|| mesh.faces().map(|f| mesh.face_edges(f)).collect())
 }
 
 /// What is read: `faces` and `lengths` suffice. `input_geometry` (default e2) says how the lengths are read. A conformal

@@ -47,6 +47,15 @@ fn defects_are_a_result_with_their_elements_and_remedy() {
             assert!(ended.out.contains(code));
         }
     }
+    for (text, code) in [
+        (r#"{"faces": [[0,1,2]], "lengths": [[1,1,5]]}"#, "triangle_inequality"),
+        (r#"{"faces": [[0,1,2],[0,1,2]], "lengths": [[1,1,1],[1,1,1]]}"#, "duplicate_face"),
+    ] {
+        place.put("m.json", text);
+        place.expect(0, "info m.json --report r.json");
+        let result = &place.json("r.json")["result"];
+        assert_eq!((&result["admissible"], &result["defects"][0]["code"]), (&false.into(), &code.into()));
+    }
     place.expect(3, "info missing.obj");
     place.put("m.obj", "v 0 0\n");
     place.expect(3, "info m.obj");

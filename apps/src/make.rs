@@ -1,0 +1,274 @@
+//! `ricci make`: sample surfaces of every topology.
+
+use crate::failure::Failure;
+use crate::metric_file::LengthsFile;
+use crate::output::{Outputs, check_extension, check_writable, extension};
+use crate::say::{self, count};
+use clap::{Args, Subcommand};
+use ricci::geometry::Space;
+use ricci::mesh::io::{self, ObjData, Soup};
+use ricci::mesh::shapes::{self, Intrinsic};
+use ricci::mesh::{Mesh, PerEdge};
+use ricci::metric::lengths_from_positions;
+use std::path::{Path, PathBuf};
+
+pub const HELP: &str = "\
+Example: a torus, and a hyperbolic surface given by its edge lengths alone
+    ricci make torus --big 3 --small 1 -o torus.obj
+    ricci make bolza -o bolza.json && ricci flow bolza.json
+
+`ricci make SHAPE --help` shows the options of a shape.";
+
+#[derive(Args, Debug)]
+#[command(
+    subcommand_value_name = "SHAPE",
+    subcommand_help_heading = "Shapes",
+    disable_help_subcommand = true
+)]
+pub struct MakeArgs {
+    #[command(subcommand)]
+    pub shape: Shape,
+}
+
+#[derive(Subcommand, Debug)]
+pub enum Shape {
+    /// The unit sphere: an icosahedron with each edge cut into N
+    #[command(alias = "icosphere")]
+    Sphere {
+        #[arg(short, long, default_value_t = 16)]
+        n: usize,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// An ellipsoid: the sphere scaled along x, y, z
+    Ellipsoid {
+        /// Half axes
+        #[arg(long, num_args = 3, value_names = ["A", "B", "C"], default_values_t = [3.0, 2.0, 1.0])]
+        axes: Vec<f64>,
+        #[arg(short, long, default_value_t = 16)]
+        n: usize,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// A torus of revolution
+    Torus {
+        /// Radius of the centre circle
+        #[arg(long, default_value_t = 2.0)]
+        big: f64,
+        /// Radius of the tube
+        #[arg(long, default_value_t = 1.0)]
+        small: f64,
+        /// Vertices along the centre circle
+        #[arg(short, long, default_value_t = 64)]
+        n: usize,
+        /// Vertices around the tube [default: in proportion to the radii]
+        #[arg(short, long)]
+        m: Option<usize>,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// The unit disk, flat or with a hill and a hollow
+    Disk {
+        /// Rings
+        #[arg(short, long, default_value_t = 24)]
+        n: usize,
+        /// Height of the hill
+        #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+        height: f64,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// A plane ring, flat or with a hill and a hollow
+    Annulus {
+        /// Inner radius
+        #[arg(long, default_value_t = 0.3)]
+        inner: f64,
+        /// Outer radius
+        #[arg(long, default_value_t = 1.0)]
+        outer: f64,
+        /// Steps from the inner to the outer radius
+        #[arg(short, long, default_value_t = 16)]
+        n: usize,
+        /// Vertices around [default: so that triangles are nearly equilateral]
+        #[arg(short, long)]
+        m: Option<usize>,
+        /// Height of the hill
+        #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+        height: f64,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// A smooth closed surface of genus G ≥ 1: tori in a row
+    Genus {
+        /// Number of handles
+        #[arg(short, long, default_value_t = 2)]
+        genus: usize,
+        /// Edges per side of a block; about (20 G + 14) N² vertices
+        #[arg(short, long, default_value_t = 6)]
+        n: usize,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// The flat torus with periods 1 and τ, as edge lengths
+    FlatTorus {
+        /// τ, Im τ > 0
+        #[arg(long, num_args = 2, value_names = ["RE", "IM"], default_values_t = [0.0, 1.0], allow_negative_numbers = true)]
+        tau: Vec<f64>,
+        /// Parallelograms along 1
+        #[arg(short, long, default_value_t = 16)]
+        n: usize,
+        /// Parallelograms along τ
+        #[arg(short, long, default_value_t = 16)]
+        m: usize,
+        #[command(flatten)]
+        to: ToMetric,
+    },
+    /// The Bolza surface: a regular hyperbolic octagon with opposite sides glued, as edge lengths
+    Bolza {
+        /// Times that every triangle is cut into four
+        #[arg(short, long, default_value_t = 3)]
+        level: usize,
+        #[command(flatten)]
+        to: ToMetric,
+    },
+    /// A regular polygon with sides a1 b1 a1⁻¹ b1⁻¹ … glued, cut by diagonals: one vertex, as edge lengths
+    OneVertex {
+        #[arg(short, long, default_value_t = 2)]
+        genus: usize,
+        #[command(flatten)]
+        to: ToMetric,
+    },
+    /// The same polygon, cut from its centre: two vertices, as edge lengths
+    TwoVertex {
+        #[arg(short, long, default_value_t = 2)]
+        genus: usize,
+        #[command(flatten)]
+        to: ToMetric,
+    },
+    /// Two equilateral triangles glued along their sides, as edge lengths
+    TwoTriangles {
+        #[command(flatten)]
+        to: ToMetric,
+    },
+}
+
+/// Where a surface in space goes.
+#[derive(Args, Debug)]
+pub struct ToMesh {
+    /// Mesh (.obj), or its edge lengths (.json)
+    #[arg(short = 'o', long = "out", value_name = "OUT")]
+    pub out: PathBuf,
+    /// Move every vertex by up to this fraction of the mean edge length in each coordinate
+    #[arg(long, default_value_t = 0.0, value_name = "A")]
+    pub noise: f64,
+    /// Seed of the noise
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// No summary
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Where a surface that is given by its edge lengths goes.
+#[derive(Args, Debug)]
+pub struct ToMetric {
+    /// Edge lengths (.json)
+    #[arg(short = 'o', long = "out", value_name = "M.json")]
+    pub out: PathBuf,
+    /// No summary
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Run the command.
+pub fn run(args: &MakeArgs) -> Result<u8, Failure> {
+    match &args.shape {
+        Shape::Sphere { n, to } => write_mesh(shapes::icosphere(*n), to),
+        Shape::Ellipsoid { axes, n, to } => {
+            write_mesh(shapes::ellipsoid([axes[0], axes[1], axes[2]], *n), to)
+        }
+        Shape::Torus { big, small, n, m, to } => {
+            let m = m.unwrap_or_else(|| around(*n, small / big));
+            write_mesh(shapes::torus(*big, *small, *n, m), to)
+        }
+        Shape::Disk { n, height, to } => write_mesh(shapes::disk(*n).map(|s| raise(s, *height)), to),
+        Shape::Annulus { inner, outer, n, m, height, to } => {
+            // Steps in geometric progression: log(outer/inner)/n each, and 2π/m around in rows of height √3/2.
+            let step = (outer / inner).ln() / *n as f64;
+            let m = m.unwrap_or_else(|| around(1, std::f64::consts::TAU * 0.75f64.sqrt() / step));
+            write_mesh(shapes::annulus(*inner, *outer, *n, m).map(|s| raise(s, *height)), to)
+        }
+        Shape::Genus { genus, n, to } => write_mesh(shapes::genus(*genus, *n), to),
+        Shape::FlatTorus { tau, n, m, to } => write_metric(shapes::flat_torus([tau[0], tau[1]], *n, *m), to),
+        Shape::Bolza { level, to } => write_metric(shapes::bolza(*level), to),
+        Shape::OneVertex { genus, to } => write_metric(shapes::one_vertex(*genus), to),
+        Shape::TwoVertex { genus, to } => write_metric(shapes::two_vertex(*genus), to),
+        Shape::TwoTriangles { to } => write_metric(Ok(shapes::two_triangle_sphere()), to),
+    }
+}
+
+/// A count in proportion to another, at least 3.
+fn around(n: usize, ratio: f64) -> usize {
+    (n as f64 * ratio).round().clamp(3.0, 1e6) as usize
+}
+
+/// Raise a plane piece to a hill of this height and a hollow of half the depth.
+fn raise(mut soup: Soup, height: f64) -> Soup {
+    let bump = |x: f64, y: f64| (-7.0 * (x * x + y * y)).exp();
+    for [x, y, z] in &mut soup.positions {
+        *z += height * (bump(*x - 0.25, *y - 0.15) - 0.5 * bump(*x + 0.4, *y + 0.35));
+    }
+    soup
+}
+
+fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh) -> Result<u8, Failure> {
+    check_extension("-o", &to.out, &["obj", "json"])?;
+    check_writable(&to.out)?;
+    let mut soup = soup?;
+    if to.noise != 0.0 {
+        shapes::noise(&mut soup, to.noise, to.seed)?;
+    }
+    let mesh = Mesh::from_soup(&soup)?;
+    if extension(&to.out) == "json" {
+        let lengths = lengths_from_positions(&mesh, &soup.positions)?;
+        write_lengths(&to.out, &mesh, Space::E2, &lengths)?;
+    } else {
+        let data = ObjData { positions: &soup.positions, faces: &soup.faces, ..ObjData::default() };
+        io::write_obj(&to.out, &data).map_err(|e| Failure::Failed(e.to_string()))?;
+    }
+    say_made(&to.out, &mesh, to.quiet)
+}
+
+fn write_metric(surface: ricci::Result<Intrinsic>, to: &ToMetric) -> Result<u8, Failure> {
+    if extension(&to.out) != "json" {
+        let out = to.out.display();
+        return Err(Failure::Usage(format!(
+            "-o {out}: this surface has no positions; write its lengths, .json"
+        )));
+    }
+    check_writable(&to.out)?;
+    let surface = surface?;
+    let (mesh, lengths) = surface.build()?;
+    write_lengths(&to.out, &mesh, surface.geometry, &lengths)?;
+    say_made(&to.out, &mesh, to.quiet)
+}
+
+fn write_lengths(path: &Path, mesh: &Mesh, geometry: Space, lengths: &PerEdge<f64>) -> Result<(), Failure> {
+    let mut outputs = Outputs::default();
+    outputs.add_json(path, &LengthsFile::new(mesh, geometry, lengths))?;
+    outputs.commit().map(drop)
+}
+
+fn say_made(path: &Path, mesh: &Mesh, quiet: bool) -> Result<u8, Failure> {
+    if !quiet {
+        say::lines(&format!(
+            "{}: {}, {}, genus {}, {}\n",
+            path.display(),
+            count(mesh.n_vertices(), "vertex", "vertices"),
+            count(mesh.n_faces(), "face", "faces"),
+            mesh.genus(),
+            count(mesh.boundary_loops().len(), "boundary loop", "boundary loops"),
+        ));
+    }
+    Ok(0)
+}
