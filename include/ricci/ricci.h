@@ -165,19 +165,19 @@ typedef enum {
      */
     RICCI_LOG_OFF = 0,
     /**
-     * What went wrong.
+     * Internal errors.
      */
     RICCI_LOG_ERROR = 1,
     /**
-     * What is suspicious.
+     * Calls that fail, with their detail message.
      */
     RICCI_LOG_WARN = 2,
     /**
-     * What was done.
+     * What was done: how each flow ended.
      */
     RICCI_LOG_INFO = 3,
     /**
-     * Each iteration.
+     * Steps on the way.
      */
     RICCI_LOG_DEBUG = 4,
     /**

@@ -1,10 +1,10 @@
-/* The host's floating-point environment does not change a result, and a call does not change the environment: traps
- * on, another rounding mode. Usage: test_environment [emulated]; valgrind does not emulate traps. */
+/* The host's floating-point environment does not change a result, and a call does not change the environment:
+ * traps on, another rounding mode. Usage: test_environment [emulated]; valgrind does not emulate traps. */
 #define _GNU_SOURCE
 #include "torus.h"
 #include <fenv.h>
 
-/* u of the flat metric; NULL where anything fails. */
+/* u of the flat metric. */
 static double *solve(const torus *t, ricci_space space, const double *target) {
     ricci_mesh *mesh = torus_mesh(t);
     ricci_metric *metric = NULL, *end = NULL;
