@@ -1,1 +1,51 @@
-fn main() {}
+//! The `ricci` command.
+
+mod circles;
+mod cli;
+mod csv;
+mod failure;
+mod flow;
+mod glb;
+mod info;
+mod input;
+mod job;
+mod laid;
+mod metric_file;
+mod output;
+mod progress;
+mod report;
+mod say;
+mod shape_quality;
+mod uv;
+
+use clap::{CommandFactory, Parser};
+use cli::{Cli, Command};
+use failure::Failure;
+use std::io::Write;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match run(&cli.command) {
+        Ok(code) => ExitCode::from(code),
+        Err(failure) => {
+            let _ = writeln!(std::io::stderr(), "ricci: {failure}");
+            ExitCode::from(failure.exit_code())
+        }
+    }
+}
+
+fn run(command: &Command) -> Result<u8, Failure> {
+    let control = progress::cancellable();
+    match command {
+        Command::Flow(args) => flow::run(args, &control),
+        Command::Info(args) => info::run(args, &control),
+        _ => Ok(9),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Cli::command(), "ricci", &mut script);
+            say::lines(&String::from_utf8_lossy(&script));
+            Ok(0)
+        }
+    }
+}

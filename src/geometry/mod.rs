@@ -1,6 +1,8 @@
 //! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
 
+pub mod circle;
 pub mod isometry;
+pub mod modulus;
 pub mod predicates;
 pub mod space;
 pub mod triangle;

@@ -1,0 +1,313 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use ricci::geometry::Space;
+use ricci::metric::Scheme;
+use serde::{Serialize, Serializer};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// Conformal metrics of prescribed curvature on triangle meshes, by discrete surface Ricci flow.
+#[derive(Parser, Debug)]
+#[command(name = "ricci", version, arg_required_else_help = true, after_help = EXIT_CODES)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes: 0 done and every check of the report holds; 1 not converged or a check failed (the files are still
+written, the report says what failed); 2 usage; 3 bad input; 4 cancelled.
+
+`ricci help COMMAND` shows the options of a command and an example.";
+
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// What a mesh is: counts, topology, quality; each defect with its elements and its remedy
+    #[command(after_help = INFO_EXAMPLE)]
+    Info(InfoArgs),
+    /// The conformal metric with a prescribed curvature, and its layout
+    #[command(after_help = FLOW_EXAMPLE)]
+    Flow(FlowArgs),
+    /// Make a sample surface
+    Make,
+    /// Run the flow on a torus, a genus-2 surface and a disk, with pictures and reports
+    #[command(after_help = DEMO_EXAMPLE)]
+    Demo(DemoArgs),
+    /// Completions for a shell, on stdout
+    #[command(after_help = COMPLETIONS_EXAMPLE)]
+    Completions {
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
+}
+
+const INFO_EXAMPLE: &str = "\
+Example: every defect of a scan, machine-readable
+    ricci info scan.obj --report scan.json";
+
+const FLOW_EXAMPLE: &str = "\
+Example: a flat torus, its layout as texture coordinates and a picture of both
+    ricci make torus -o torus.obj
+    ricci flow torus.obj --uv flat.obj --picture flat.png --report flat.json
+
+Files
+    --target cones:FILE.csv    rows `vertex,curvature` in radians; 0 at every vertex that is not named
+    --metric M.json            faces, lengths, eta (per face, opposite the corners: bc, ca, ab), u,
+                               conformal_factor, epsilon, target, boundary; `input_geometry` is the
+                               geometry that `lengths` are in, so the file can be read back as a MESH
+    --uv OUT.obj | OUT.glb     the surface with the layout as texture coordinates, scaled to its area
+    --circles C.json           vertex circles and the circles orthogonal to them, in the layout's coordinates
+    --trace T.csv              step,energy,max_curvature_error,area,step_size (gradient flow)";
+
+const DEMO_EXAMPLE: &str = "\
+Example
+    ricci demo out && ls out";
+
+const COMPLETIONS_EXAMPLE: &str = "\
+Example
+    ricci completions bash > ~/.local/share/bash-completion/completions/ricci";
+
+#[derive(Args, Debug)]
+pub struct InfoArgs {
+    /// Mesh file (.obj, .off) or intrinsic metric (.json)
+    pub mesh: PathBuf,
+    /// Write everything as JSON
+    #[arg(long, value_name = "R.json")]
+    pub report: Option<PathBuf>,
+    /// No summary
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct FlowArgs {
+    /// Mesh file (.obj, .off) or intrinsic metric (.json: `faces` and `lengths` suffice)
+    pub mesh: PathBuf,
+    /// Background geometry; auto is h2 on closed surfaces of genus ≥ 2 and e2 elsewhere
+    #[arg(long, value_enum, default_value_t = SpaceChoice::Auto)]
+    pub space: SpaceChoice,
+    /// Discrete conformal structure
+    #[arg(long, value_enum, default_value_t = SchemeChoice::Yamabe)]
+    pub scheme: SchemeChoice,
+    /// Curvature: uniform, boundary, single:V, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
+    #[arg(long, value_name = "TARGET", long_help = TARGET_HELP)]
+    pub target: Option<TargetChoice>,
+    /// Newton's method, or the flow itself
+    #[arg(long, value_enum, default_value_t = MethodChoice::Newton)]
+    pub method: MethodChoice,
+    /// Edge flips inside the conformal class; auto is never in this version
+    #[arg(long, value_enum, default_value_t = FlipsChoice::Auto)]
+    pub flips: FlipsChoice,
+    /// Largest |K − K̄| of a converged metric, radians
+    #[arg(long, value_name = "T", default_value = "1e-10", value_parser = positive)]
+    pub tolerance: f64,
+    /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
+    #[arg(long, value_enum, value_name = "GEOMETRY")]
+    pub input_geometry: Option<GeometryChoice>,
+    /// Write the metric
+    #[arg(long, value_name = "M.json")]
+    pub metric: Option<PathBuf>,
+    /// Write the surface with its layout as texture coordinates (E²), .obj or .glb
+    #[arg(long, value_name = "OUT.obj")]
+    pub uv: Option<PathBuf>,
+    /// Write the vertex circles and dual circles of the layout (circle schemes, E²)
+    #[arg(long, value_name = "C.json")]
+    pub circles: Option<PathBuf>,
+    /// Write a picture of the surface beside its layout, .png or .svg
+    #[arg(long, value_name = "P.png")]
+    pub picture: Option<PathBuf>,
+    /// Write the steps of the gradient flow
+    #[arg(long, value_name = "T.csv")]
+    pub trace: Option<PathBuf>,
+    /// Charts of several discs: not in this version.
+    #[arg(long, hide = true)]
+    pub charts: bool,
+    /// Write all numbers of the run as JSON
+    #[arg(long, value_name = "R.json")]
+    pub report: Option<PathBuf>,
+    /// No progress bar, no summary
+    #[arg(long)]
+    pub quiet: bool,
+    /// Threads, 0 for one per core; results do not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads())]
+    pub threads: u16,
+}
+
+/// More threads than this help nobody and can exhaust the system.
+fn threads() -> impl clap::builder::TypedValueParser<Value = u16> {
+    clap::value_parser!(u16).range(..=1024)
+}
+
+const TARGET_HELP: &str = "\
+Prescribed curvature in radians:
+  uniform         2πχ/V at every vertex of a closed surface in E²; 0 everywhere in H² and S²
+  boundary        0 inside, 2πχ shared over the boundary in proportion to its length (E², open surfaces)
+  single:V        all of 2πχ at vertex V, 0 elsewhere (E²)
+  cones:FILE.csv  the curvatures of the file's rows `vertex,curvature`, 0 elsewhere
+  file:FILE.csv   the curvature of every vertex
+[default: boundary on open surfaces in E²; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere]";
+
+#[derive(Args, Debug)]
+pub struct DemoArgs {
+    /// Directory to write into; made if it does not exist
+    pub out: PathBuf,
+    /// No progress bar, no table
+    #[arg(long)]
+    pub quiet: bool,
+    /// Threads, 0 for one per core
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads())]
+    pub threads: u16,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("must be a positive number".into()),
+    }
+}
+
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum SpaceChoice {
+    Auto,
+    E2,
+    H2,
+    S2,
+}
+
+impl SpaceChoice {
+    /// The space asked for; `None` is auto.
+    pub fn space(self) -> Option<Space> {
+        match self {
+            SpaceChoice::Auto => None,
+            SpaceChoice::E2 => Some(Space::E2),
+            SpaceChoice::H2 => Some(Space::H2),
+            SpaceChoice::S2 => Some(Space::S2),
+        }
+    }
+}
+
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+pub enum GeometryChoice {
+    E2,
+    H2,
+    S2,
+}
+
+impl From<GeometryChoice> for Space {
+    fn from(choice: GeometryChoice) -> Space {
+        match choice {
+            GeometryChoice::E2 => Space::E2,
+            GeometryChoice::H2 => Space::H2,
+            GeometryChoice::S2 => Space::S2,
+        }
+    }
+}
+
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+pub enum SchemeChoice {
+    Yamabe,
+    Inversive,
+    Thurston,
+    Tangential,
+    Virtual,
+}
+
+impl From<SchemeChoice> for Scheme {
+    fn from(choice: SchemeChoice) -> Scheme {
+        match choice {
+            SchemeChoice::Yamabe => Scheme::Yamabe,
+            SchemeChoice::Inversive => Scheme::Inversive,
+            SchemeChoice::Thurston => Scheme::Thurston,
+            SchemeChoice::Tangential => Scheme::Tangential,
+            SchemeChoice::Virtual => Scheme::Virtual,
+        }
+    }
+}
+
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum MethodChoice {
+    Newton,
+    Gradient,
+}
+
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+pub enum FlipsChoice {
+    Auto,
+    Never,
+}
+
+/// A target as it is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TargetChoice {
+    Uniform,
+    Boundary,
+    Single(u32),
+    Cones(PathBuf),
+    File(PathBuf),
+}
+
+impl FromStr for TargetChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once(':') {
+            None if text == "uniform" => Ok(TargetChoice::Uniform),
+            None if text == "boundary" => Ok(TargetChoice::Boundary),
+            Some(("single", v)) => {
+                v.parse().map(TargetChoice::Single).map_err(|_| format!("`{v}` is not a vertex number"))
+            }
+            Some(("cones", file)) if !file.is_empty() => Ok(TargetChoice::Cones(file.into())),
+            Some(("file", file)) if !file.is_empty() => Ok(TargetChoice::File(file.into())),
+            Some(("auto", _)) => {
+                Err("placing cones automatically is not in this version; name them with cones:FILE.csv"
+                    .into())
+            }
+            _ => Err("must be uniform, boundary, single:V, cones:FILE.csv or file:FILE.csv".into()),
+        }
+    }
+}
+
+impl std::fmt::Display for TargetChoice {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            TargetChoice::Uniform => f.write_str("uniform"),
+            TargetChoice::Boundary => f.write_str("boundary"),
+            TargetChoice::Single(v) => write!(f, "single:{v}"),
+            TargetChoice::Cones(file) => write!(f, "cones:{}", file.display()),
+            TargetChoice::File(file) => write!(f, "file:{}", file.display()),
+        }
+    }
+}
+
+impl Serialize for TargetChoice {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn targets_read_back_as_written() {
+        for text in ["uniform", "boundary", "single:7", "cones:a:b.csv", "file:/x/y.csv"] {
+            assert_eq!(text.parse::<TargetChoice>().unwrap().to_string(), text);
+        }
+        for text in ["", "single", "single:-1", "cones:", "auto:4", "Uniform"] {
+            assert!(text.parse::<TargetChoice>().is_err(), "{text}");
+        }
+    }
+}

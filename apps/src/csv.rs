@@ -1,0 +1,112 @@
+//! CSV files: curvatures per vertex in, the steps of a gradient flow out.
+
+use crate::failure::Failure;
+use ricci::flow::TraceRow;
+use ricci::mesh::{PerVertex, VertexId};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Read `vertex,curvature` rows (radians): each vertex below `n_vertices` and at most once.
+///
+/// Empty lines, lines that begin with `#` and a first line `vertex,curvature` are passed over.
+pub fn read_curvatures(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, f64)>, Failure> {
+    let refuse = |line: usize, why: String| Failure::Input(format!("{}:{line}: {why}", path.display()));
+    let text =
+        std::fs::read_to_string(path).map_err(|e| Failure::Input(format!("{}: {e}", path.display())))?;
+    let mut rows = Vec::new();
+    let mut named = vec![false; n_vertices];
+    let lines = text.lines().enumerate().map(|(i, l)| (i + 1, l.trim()));
+    for (i, row) in lines.filter(|(_, l)| !l.is_empty() && !l.starts_with('#')) {
+        let fields: Vec<_> = row.split(',').map(str::trim).collect();
+        if rows.is_empty() && fields == ["vertex", "curvature"] {
+            continue;
+        }
+        let &[vertex, curvature] = fields.as_slice() else {
+            return Err(refuse(i, format!("`{row}` is not `vertex,curvature`")));
+        };
+        let vertex: usize =
+            vertex.parse().map_err(|_| refuse(i, format!("`{vertex}` is not a vertex number")))?;
+        let curvature: f64 = curvature
+            .parse()
+            .ok()
+            .filter(|k: &f64| k.is_finite())
+            .ok_or_else(|| refuse(i, format!("`{curvature}` is not a curvature in radians")))?;
+        match named.get_mut(vertex) {
+            None => {
+                let last = n_vertices.saturating_sub(1);
+                return Err(refuse(
+                    i,
+                    format!("vertex {vertex} does not exist, the surface has vertices 0 to {last}"),
+                ));
+            }
+            Some(named) if *named => return Err(refuse(i, format!("vertex {vertex} is named twice"))),
+            Some(named) => *named = true,
+        }
+        rows.push((VertexId::from(vertex), curvature));
+    }
+    Ok(rows)
+}
+
+/// Read a curvature for every vertex.
+pub fn read_all_curvatures(path: &Path, n_vertices: usize) -> Result<PerVertex<f64>, Failure> {
+    let mut curvature = PerVertex::filled(n_vertices, f64::NAN);
+    for (v, k) in read_curvatures(path, n_vertices)? {
+        curvature[v] = k;
+    }
+    match curvature.iter().position(|k| k.is_nan()) {
+        None => Ok(curvature),
+        Some(v) => Err(Failure::Input(format!(
+            "{}: vertex {v} is missing; `file:` needs every vertex, `cones:` takes the missing ones as 0",
+            path.display()
+        ))),
+    }
+}
+
+/// Write the steps of a gradient flow.
+pub fn write_trace(out: &mut impl Write, trace: &[TraceRow]) -> io::Result<()> {
+    writeln!(out, "step,energy,max_curvature_error,area,step_size")?;
+    for row in trace {
+        let TraceRow { step, energy, max_curvature_error, area, step_size } = row;
+        writeln!(out, "{step},{energy:e},{max_curvature_error:e},{area:e},{step_size:e}")?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str, n: usize) -> Result<Vec<(VertexId, f64)>, String> {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        read_curvatures(file.path(), n).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn rows_comments_and_header_are_understood() {
+        let rows = read("# cones\nvertex,curvature\n\n3, 1.5\r\n0,-2e-1\n", 4).unwrap();
+        assert_eq!(rows, [(VertexId(3), 1.5), (VertexId(0), -0.2)]);
+    }
+
+    #[test]
+    fn a_bad_row_is_named_by_its_line() {
+        for (text, line) in [
+            ("1,1\n4,1\n", ":2: vertex 4 does not exist"),
+            ("1,1\n1,2\n", ":2: vertex 1 is named twice"),
+            ("0,NaN\n", ":1: `NaN`"),
+            ("\n-1,0\n", ":2: `-1`"),
+            ("0;1\n", ":1: `0;1`"),
+        ] {
+            let message = read(text, 4).unwrap_err();
+            assert!(message.contains(line), "{message}");
+        }
+    }
+
+    #[test]
+    fn a_full_target_names_every_vertex() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), "0,1\n2,1\n").unwrap();
+        let message = read_all_curvatures(file.path(), 3).unwrap_err().to_string();
+        assert!(message.contains("vertex 1 is missing"), "{message}");
+    }
+}

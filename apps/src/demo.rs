@@ -1,0 +1,71 @@
+//! `ricci demo`: makes three surfaces and runs the flow on each, through the same command lines that a user would type.
+
+use crate::cli::{Cli, Command, DemoArgs};
+use crate::failure::Failure;
+use crate::{flow, make, say};
+use clap::Parser;
+use ricci::Control;
+use std::path::Path;
+
+/// A surface, what `ricci make` and `ricci flow` are given for it, and what there is to see.
+struct Example {
+    name: &'static str,
+    make: &'static [&'static str],
+    flow: &'static [&'static str],
+    about: &'static str,
+}
+
+const EXAMPLES: [Example; 3] = [
+    Example {
+        name: "torus",
+        make: &["torus"],
+        flow: &[],
+        about: "a torus becomes flat: the layout is a parallelogram up to its seams",
+    },
+    Example {
+        name: "genus2",
+        make: &["genus", "--genus", "2"],
+        flow: &["--space", "e2", "--target", "single:0"],
+        about: "all curvature of a genus-2 surface, −4π, gathered at vertex 0; flat elsewhere",
+    },
+    Example {
+        name: "disk",
+        make: &["disk", "--height", "0.4"],
+        flow: &[],
+        about: "a bumpy disk flattened, its curvature spread over the boundary",
+    },
+];
+
+/// Run the command; the exit code is the worst of its flows.
+pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
+    let out = &args.out;
+    std::fs::create_dir_all(out)
+        .map_err(|e| Failure::Usage(format!("{}: cannot be made: {e}", out.display())))?;
+    let mut table = format!(
+        "{:<8} {:>8} {:>6} {:>6} {:>12} {:>8} {:>10} {:>8}\n",
+        "surface", "vertices", "genus", "steps", "max |K − K̄|", "flipped", "dilatation", "seconds"
+    );
+    let mut notes = String::new();
+    let mut exit_code = 0;
+    for example in &EXAMPLES {
+        let done = run_example(example, out, args, control)?;
+        let laid = done.outcome.layout.as_ref().ok();
+        table += &format!(
+            "{:<8} {:>8} {:>6} {:>6} {:>12.1e} {:>8} {:>10} {:>8.2}\n",
+            example.name,
+            done.input.mesh.n_vertices(),
+            done.input.mesh.genus(),
+            done.outcome.report.iterations,
+            done.outcome.report.max_curvature_error,
+            laid.map_or("–".into(), |l| l.layout.flipped.len().to_string()),
+            laid.map_or("–".into(), |l| format!("{:.4}", l.quality.qc_mean)),
+            done.seconds,
+        );
+        notes += &format!("\n{}: {}\n  ricci {}\n", example.name, example.about, done.command);
+        exit_code = exit_code.max(done.exit_code);
+    }
+    if !args.quiet {
+        say::lines(&format!("{table}{notes}"));
+    }
+    Ok(exit_code)
+}

@@ -1,0 +1,327 @@
+//! `ricci flow`.
+
+use crate::circles::circles;
+use crate::cli::{FlipsChoice, FlowArgs, MethodChoice, SchemeChoice, SpaceChoice, TargetChoice};
+use crate::csv;
+use crate::failure::Failure;
+use crate::input::{self, Input};
+use crate::job::{self, Job, Outcome, default_space};
+use crate::metric_file::MetricFile;
+use crate::output::{Outputs, check_extension, check_writable};
+use crate::progress::Progress;
+use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes, timed};
+use crate::say;
+use crate::uv;
+use ricci::Control;
+use ricci::control::Stage;
+use ricci::flow::{Flips, Method, Options};
+use ricci::geometry::Space;
+use ricci::mesh::VertexId;
+use ricci::metric::{Scheme, Target};
+use serde::Serialize;
+use std::path::Path;
+use std::time::Instant;
+
+/// A finished run.
+pub struct Done {
+    pub input: Input,
+    pub outcome: Outcome,
+    pub checks: Checks,
+    /// Files written.
+    pub files: Vec<String>,
+    pub seconds: f64,
+    pub exit_code: u8,
+}
+
+/// Run the command and say what came out.
+pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
+    let done = execute(args, control)?;
+    if !args.quiet {
+        say::flow(&done);
+    }
+    Ok(done.exit_code)
+}
+
+/// Run the command; the exit code is 1 if a check fails or a file that was asked for has nothing to hold.
+pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
+    let start = Instant::now();
+    check_request(args)?;
+    let progress = Progress::watch(control, args.quiet);
+    let mut input = input::read(&args.mesh, control)?;
+    if let Some(geometry) = args.input_geometry {
+        input.geometry = geometry.into();
+    }
+    let space = args.space.space().unwrap_or_else(|| default_space(&input.mesh));
+    check_outputs(args, &input, space)?;
+    let job = Job {
+        space,
+        scheme: args.scheme.into(),
+        target: args.target.as_ref().map(|t| target(t, &input)).transpose()?,
+        options: options(args),
+    };
+    let outcome = job::run(&input, job, control)?;
+    let files = write(args, &input, &outcome, control, start)?;
+    drop(progress);
+    let checks = outcome.checks();
+    let missing = outcome.layout.is_err() && (args.uv.is_some() || args.circles.is_some());
+    let exit_code = if missing { 1 } else { checks.exit_code() };
+    Ok(Done { input, outcome, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
+}
+
+fn options(args: &FlowArgs) -> Options {
+    Options {
+        method: match args.method {
+            MethodChoice::Newton => Method::Newton,
+            MethodChoice::Gradient => Method::Gradient,
+        },
+        tolerance: args.tolerance,
+        flips: match args.flips {
+            FlipsChoice::Auto => Flips::Auto,
+            FlipsChoice::Never => Flips::Never,
+        },
+        threads: args.threads.into(),
+        ..Options::default()
+    }
+}
+
+/// What can be refused before anything is read.
+fn check_request(args: &FlowArgs) -> Result<(), Failure> {
+    let usage = |message: &str| Err(Failure::Usage(message.into()));
+    if args.charts {
+        return usage("--charts is not in this version");
+    }
+    if args.trace.is_some() && args.method != MethodChoice::Gradient {
+        return usage("--trace records the gradient flow; add --method gradient");
+    }
+    if let Some(path) = &args.uv {
+        check_extension("--uv", path, &["obj", "glb"])?;
+    }
+    if let Some(path) = &args.picture {
+        check_extension("--picture", path, &["png", "svg"])?;
+    }
+    let files = [&args.metric, &args.uv, &args.circles, &args.picture, &args.trace, &args.report];
+    let mut seen: Vec<&Path> = Vec::new();
+    for path in files.into_iter().flatten() {
+        if seen.contains(&path.as_path()) {
+            return Err(Failure::Usage(format!("{} is named for two outputs", path.display())));
+        }
+        seen.push(path);
+        check_writable(path)?;
+    }
+    Ok(())
+}
+
+/// What can be refused once the surface is known.
+fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
+    for (option, path) in [("--uv", &args.uv), ("--circles", &args.circles)] {
+        if path.is_some() && space != Space::E2 {
+            return Err(Failure::Usage(format!(
+                "{option}: layouts in {space} are not in this version; use --space e2 (with --target single:V or \
+                 cones:FILE.csv where the surface needs cones)"
+            )));
+        }
+    }
+    let scheme: Scheme = args.scheme.into();
+    if args.circles.is_some() && scheme.epsilon() == 0 {
+        return Err(Failure::Usage(format!(
+            "--circles: scheme {scheme} has no circles; use inversive, thurston, tangential or virtual"
+        )));
+    }
+    for (option, path) in [("--uv", &args.uv), ("--picture", &args.picture)] {
+        if path.is_some() && input.positions.is_none() {
+            return Err(Failure::Usage(format!("{option}: an intrinsic metric has no positions in space")));
+        }
+    }
+    Ok(())
+}
+
+fn target(choice: &TargetChoice, input: &Input) -> Result<Target, Failure> {
+    let n = input.mesh.n_vertices();
+    Ok(match choice {
+        TargetChoice::Uniform => Target::Uniform,
+        TargetChoice::Boundary => Target::Boundary,
+        TargetChoice::Single(v) => Target::Single(VertexId(*v)),
+        TargetChoice::Cones(path) => Target::Cones(csv::read_curvatures(path, n)?),
+        TargetChoice::File(path) => Target::All(csv::read_all_curvatures(path, n)?),
+    })
+}
+
+/// Write every file that was asked for, the report last; returns their names.
+fn write(
+    args: &FlowArgs,
+    input: &Input,
+    outcome: &Outcome,
+    control: &Control,
+    start: Instant,
+) -> Result<Vec<String>, Failure> {
+    control.step(Stage::Write, 0.0)?;
+    let mut outputs = Outputs::default();
+    let mut seconds = outcome.seconds;
+    timed(&mut seconds.write, || -> Result<(), Failure> {
+        if let Some(path) = &args.metric {
+            let factor = outcome.initial.conformal_factor(&outcome.metric);
+            let Outcome { mesh, scheme, metric, lengths, target, .. } = outcome;
+            outputs.add_json(path, &MetricFile::new(mesh, *scheme, metric, lengths, &factor, target))?;
+        }
+        if let Some(path) = &args.trace {
+            outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace))?;
+        }
+        if let (Some(path), Ok(laid), Some(positions)) = (&args.uv, &outcome.layout, &input.positions) {
+            uv::write(&mut outputs, path, positions, &outcome.mesh, &laid.layout)?;
+        }
+        if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
+            let Outcome { mesh, metric, scheme, .. } = outcome;
+            outputs.add_json(path, &circles(mesh, metric, scheme.name(), &laid.layout, laid.scale))?;
+        }
+        Ok(())
+    })?;
+    control.step(Stage::Write, 0.5)?;
+    if let Some(path) = &args.report {
+        seconds.total = start.elapsed().as_secs_f64();
+        let asked = Asked::new(args, input.geometry);
+        outputs.add_json(path, &report(input, outcome, asked, seconds))?;
+    }
+    control.check()?;
+    Ok(outputs.commit()?.iter().map(|p| path_text(p)).collect())
+}
+
+/// What was asked, defaults included.
+#[derive(Serialize)]
+pub struct Asked {
+    pub space: SpaceChoice,
+    pub scheme: SchemeChoice,
+    /// `default`, or the rule.
+    pub target: String,
+    pub method: MethodChoice,
+    pub flips: FlipsChoice,
+    pub tolerance: f64,
+    pub input_geometry: &'static str,
+    pub threads: u16,
+    pub metric: Option<String>,
+    pub uv: Option<String>,
+    pub circles: Option<String>,
+    pub picture: Option<String>,
+    pub trace: Option<String>,
+}
+
+impl Asked {
+    fn new(args: &FlowArgs, geometry: Space) -> Self {
+        let text = |path: &Option<std::path::PathBuf>| path.as_deref().map(path_text);
+        Asked {
+            space: args.space,
+            scheme: args.scheme,
+            target: args.target.as_ref().map_or("default".into(), ToString::to_string),
+            method: args.method,
+            flips: args.flips,
+            tolerance: args.tolerance,
+            input_geometry: geometry.name(),
+            threads: args.threads,
+            metric: text(&args.metric),
+            uv: text(&args.uv),
+            circles: text(&args.circles),
+            picture: text(&args.picture),
+            trace: text(&args.trace),
+        }
+    }
+}
+
+/// The figures of a flow. Those of the layout are null where there is none.
+#[derive(Serialize)]
+pub struct FlowResult {
+    space: &'static str,
+    scheme: &'static str,
+    target: &'static str,
+    converged: bool,
+    stop_reason: &'static str,
+    iterations: usize,
+    flips: usize,
+    max_curvature_error: f64,
+    /// What the error is held against: the tolerance, or the rounding floor of the mesh.
+    tolerance: f64,
+    rounding_floor: f64,
+    broken_triangles: usize,
+    /// Newton matrices that had to be shifted to be positive definite.
+    shifted: usize,
+    /// Edges whose weight had to be moved into the scheme's range, and the largest relative change of length by that.
+    clamped_edges: usize,
+    max_length_change: f64,
+    area: f64,
+    flipped_triangles: Option<usize>,
+    qc_mean: Option<f64>,
+    qc_max: Option<f64>,
+    area_ratio_min: Option<f64>,
+    area_ratio_max: Option<f64>,
+    /// Faces without area in the input or the layout; the qc figures leave them out.
+    degenerate_pieces: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    modulus: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seams: Option<Vec<SeamFigures>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_layout: Option<String>,
+    residuals: Vec<f64>,
+}
+
+/// The plane isometry `z ↦ e^{iθ} z + t` from the left side of a seam to its right side, in the layout's coordinates.
+#[derive(Serialize)]
+struct SeamFigures {
+    rotation: f64,
+    translation: [f64; 2],
+    /// Relative to the diameter of the layout.
+    residual: f64,
+    edges: usize,
+}
+
+impl FlowResult {
+    pub fn new(outcome: &Outcome) -> Self {
+        let Outcome { report, initial, layout, .. } = outcome;
+        let laid = layout.as_ref().ok();
+        let seam = |s: &ricci::embed::Seam| SeamFigures {
+            rotation: s.rotation,
+            translation: s.translation,
+            residual: s.residual,
+            edges: s.halfedges.len(),
+        };
+        FlowResult {
+            space: outcome.metric.space.name(),
+            scheme: outcome.scheme.name(),
+            target: outcome.target_name,
+            converged: report.converged,
+            stop_reason: report.stop_reason.name(),
+            iterations: report.iterations,
+            flips: report.flips,
+            max_curvature_error: report.max_curvature_error,
+            tolerance: report.tolerance,
+            rounding_floor: report.rounding_floor,
+            broken_triangles: report.broken_triangles,
+            shifted: report.shifted,
+            clamped_edges: initial.clamped_edges,
+            max_length_change: initial.max_length_change,
+            area: outcome.curvature.area,
+            flipped_triangles: laid.map(|l| l.layout.flipped.len()),
+            qc_mean: laid.map(|l| l.quality.qc_mean),
+            qc_max: laid.map(|l| l.quality.qc_max),
+            area_ratio_min: laid.map(|l| l.quality.area_ratio_min),
+            area_ratio_max: laid.map(|l| l.quality.area_ratio_max),
+            degenerate_pieces: laid.map(|l| l.quality.degenerate.len()),
+            modulus: laid.and_then(|l| l.modulus),
+            seams: laid.map(|l| l.layout.seams.iter().map(seam).collect()),
+            no_layout: layout.as_ref().err().cloned(),
+            residuals: report.residuals.clone(),
+        }
+    }
+}
+
+/// The report of a flow.
+pub fn report<O: Serialize>(
+    input: &Input,
+    outcome: &Outcome,
+    asked: O,
+    seconds: Seconds,
+) -> Report<O, FlowResult> {
+    let mut report = Report::new("flow", InputSummary::of(input), asked, FlowResult::new(outcome));
+    report.checks = outcome.checks();
+    report.seconds = seconds;
+    report.peak_bytes = peak_bytes();
+    report
+}

@@ -1,0 +1,175 @@
+//! `ricci info`.
+
+use crate::cli::InfoArgs;
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{Outputs, check_writable, extension};
+use crate::report::{InputSummary, Report, Seconds, path_text, peak_bytes, timed};
+use crate::say::{self, count};
+use crate::shape_quality::{self, ShapeQuality};
+use ricci::Control;
+use ricci::mesh::check::{Defect, Diagnosis, diagnose};
+use ricci::mesh::{Mesh, io};
+use serde::Serialize;
+use std::time::Instant;
+
+/// What a surface is.
+#[derive(Serialize)]
+struct Info {
+    /// The other commands accept the file as it is.
+    admissible: bool,
+    quality: ShapeQuality,
+    /// Number of defects by kind.
+    defect_counts: Vec<DefectCount>,
+    defects: Vec<DefectFigures>,
+}
+
+#[derive(Serialize)]
+struct DefectCount {
+    code: &'static str,
+    count: usize,
+}
+
+/// One defect; vertices and faces as the file numbers them, from 0.
+#[derive(Serialize)]
+struct DefectFigures {
+    code: &'static str,
+    message: String,
+    vertices: Vec<u32>,
+    faces: Vec<u32>,
+    remedy: &'static str,
+}
+
+impl From<&Defect> for DefectFigures {
+    fn from(defect: &Defect) -> Self {
+        DefectFigures {
+            code: defect.code(),
+            message: defect.to_string(),
+            vertices: defect.vertices(),
+            faces: defect.faces(),
+            remedy: defect.remedy(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Asked {}
+
+/// Run the command: 0 on every file that can be read, whatever its defects.
+pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
+    let start = Instant::now();
+    if let Some(path) = &args.report {
+        check_writable(path)?;
+    }
+    let mut seconds = Seconds::default();
+    let (summary, info) = if extension(&args.mesh) == "json" {
+        let surface = input::read(&args.mesh, control)?;
+        (seconds.read, seconds.build) = (surface.seconds_read, surface.seconds_build);
+        let quality = shape_quality::of_surface(&surface.mesh, surface.geometry, &surface.lengths);
+        let info = Info { admissible: true, quality, defect_counts: Vec::new(), defects: Vec::new() };
+        (InputSummary::of(&surface), info)
+    } else {
+        let soup = timed(&mut seconds.read, || io::read(&args.mesh))?;
+        let (diagnosis, quality) = timed(&mut seconds.build, || {
+            let diagnosis = diagnose(&soup.positions, &soup.faces);
+            let lengths = || {
+                let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces).ok()?;
+                let lengths = ricci::metric::lengths_from_positions(&mesh, &soup.positions).ok()?;
+                Some(shape_quality::of_surface(&mesh, ricci::geometry::Space::E2, &lengths))
+            };
+            let of_triangles = || shape_quality::of_triangles(&soup.positions, &soup.faces);
+            let quality = lengths().unwrap_or_else(of_triangles);
+            (diagnosis, quality)
+        });
+        (summary_of(&diagnosis, path_text(&args.mesh)), Info::new(&diagnosis, quality))
+    };
+    if !args.quiet {
+        say::lines(&text(&summary, &info));
+    }
+    if let Some(path) = &args.report {
+        let mut report = Report::new("info", summary, Asked {}, info);
+        seconds.total = start.elapsed().as_secs_f64();
+        report.seconds = seconds;
+        report.peak_bytes = peak_bytes();
+        let mut outputs = Outputs::default();
+        outputs.add_json(path, &report)?;
+        outputs.commit()?;
+    }
+    Ok(0)
+}
+
+impl Info {
+    fn new(diagnosis: &Diagnosis, quality: ShapeQuality) -> Self {
+        let counts = diagnosis.counts().into_iter();
+        Info {
+            admissible: diagnosis.defects.is_empty(),
+            quality,
+            defect_counts: counts.map(|(code, count)| DefectCount { code, count }).collect(),
+            defects: diagnosis.defects.iter().map(DefectFigures::from).collect(),
+        }
+    }
+}
+
+fn summary_of(diagnosis: &Diagnosis, path: String) -> InputSummary {
+    InputSummary {
+        path,
+        vertices: diagnosis.vertices,
+        edges: diagnosis.edges,
+        faces: diagnosis.faces,
+        components: diagnosis.components,
+        euler: diagnosis.euler,
+        genus: diagnosis.genus,
+        boundary_loops: diagnosis.boundary_loops,
+    }
+}
+
+/// Defects of one kind that are printed one by one; the report has them all.
+const PRINTED: usize = 8;
+
+fn text(summary: &InputSummary, info: &Info) -> String {
+    let mut text = format!(
+        "{}\n{}, {}, {}, {}\nEuler characteristic {}, genus {}, boundary loops {}\n",
+        summary.path,
+        count(summary.vertices, "vertex", "vertices"),
+        count(summary.edges, "edge", "edges"),
+        count(summary.faces, "face", "faces"),
+        count(summary.components, "component", "components"),
+        summary.euler,
+        known(summary.genus),
+        known(summary.boundary_loops),
+    );
+    let q = &info.quality;
+    text += &format!(
+        "area {:.6e}, smallest angle {}, longest over shortest edge {}\nobtuse faces {}, non-Delaunay edges {}\n",
+        q.area,
+        q.min_angle_degrees.map_or("undefined".into(), |x| format!("{x:.4}°")),
+        q.edge_ratio.map_or("undefined".into(), |x| format!("{x:.4}")),
+        percent(q.obtuse_fraction),
+        percent(q.non_delaunay_fraction),
+    );
+    if info.admissible {
+        text += "no defects\n";
+    }
+    for DefectCount { code, count } in &info.defect_counts {
+        let of_kind = || info.defects.iter().filter(|d| d.code == *code);
+        text += &format!("\n{code}: {count}\n");
+        for defect in of_kind().take(PRINTED) {
+            text += &format!("  {}\n", defect.message);
+        }
+        if *count > PRINTED {
+            text += &format!("  … and {} more (all are in the report)\n", count - PRINTED);
+        }
+        if let Some(defect) = of_kind().next() {
+            text += &format!("  remedy: {}\n", defect.remedy);
+        }
+    }
+    text
+}
+
+fn known(n: Option<usize>) -> String {
+    n.map_or("undefined".into(), |n| n.to_string())
+}
+
+fn percent(x: Option<f64>) -> String {
+    x.map_or("undefined".into(), |x| format!("{:.2} %", 100.0 * x))
+}

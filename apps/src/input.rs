@@ -1,0 +1,54 @@
+//! The surface that a command works on.
+
+use crate::failure::Failure;
+use crate::metric_file::{self, Intrinsic};
+use crate::output::extension;
+use crate::report::timed;
+use ricci::Control;
+use ricci::control::Stage;
+use ricci::geometry::Space;
+use ricci::mesh::{Mesh, PerEdge, Point, io};
+use ricci::metric::lengths_from_positions;
+use std::path::{Path, PathBuf};
+
+/// A connected oriented surface with edge lengths.
+pub struct Input {
+    pub path: PathBuf,
+    pub mesh: Mesh,
+    pub lengths: PerEdge<f64>,
+    /// The geometry in which the lengths are read.
+    pub geometry: Space,
+    /// Positions in space; none for an intrinsic metric.
+    pub positions: Option<Vec<Point>>,
+    pub seconds_read: f64,
+    pub seconds_build: f64,
+}
+
+/// Read a mesh file or, from a name that ends in `.json`, an intrinsic metric.
+pub fn read(path: &Path, control: &Control) -> Result<Input, Failure> {
+    let (mut seconds_read, mut seconds_build) = (0.0, 0.0);
+    control.step(Stage::Read, 0.0)?;
+    let (mesh, lengths, geometry, positions) = if extension(path) == "json" {
+        let text = timed(&mut seconds_read, || read_text(path))?;
+        let Intrinsic { mesh, lengths, geometry } =
+            timed(&mut seconds_build, || metric_file::parse(path, &text))?;
+        (mesh, lengths, geometry, None)
+    } else {
+        let soup = timed(&mut seconds_read, || io::read(path))?;
+        control.step(Stage::Build, 0.0)?;
+        let build = || -> Result<_, Failure> {
+            let mesh = Mesh::from_soup(&soup)?;
+            let lengths = lengths_from_positions(&mesh, &soup.positions)?;
+            Ok((mesh, lengths))
+        };
+        let (mesh, lengths) = timed(&mut seconds_build, build)?;
+        (mesh, lengths, Space::E2, Some(soup.positions))
+    };
+    control.check()?;
+    Ok(Input { path: path.into(), mesh, lengths, geometry, positions, seconds_read, seconds_build })
+}
+
+/// The text of a file, with the file's name in the error.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|e| Failure::Input(format!("{}: {e}", path.display())))
+}

@@ -1,0 +1,110 @@
+//! One flow from input to layout: what `ricci flow` and `ricci demo` run.
+
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::laid::{self, Laid};
+use crate::report::{Checks, Seconds, timed};
+use ricci::Control;
+use ricci::flow::{self, Solver};
+use ricci::geometry::Space;
+use ricci::mesh::{Mesh, PerEdge, PerVertex};
+use ricci::metric::{Curvature, Initial, Metric, Scheme, Target, curvature, initial_metric};
+use std::f64::consts::PI;
+
+/// What to compute.
+pub struct Job {
+    pub space: Space,
+    pub scheme: Scheme,
+    /// `None`: the default of the surface's topology.
+    pub target: Option<Target>,
+    pub options: flow::Options,
+}
+
+/// The metric that a flow reached, with its layout where it has one.
+pub struct Outcome {
+    pub scheme: Scheme,
+    pub target_name: &'static str,
+    pub target: PerVertex<f64>,
+    pub initial: Initial,
+    pub mesh: Mesh,
+    pub metric: Metric,
+    pub lengths: PerEdge<f64>,
+    pub curvature: Curvature,
+    pub report: flow::Report,
+    /// The layout, or why there is none.
+    pub layout: Result<Laid, String>,
+    pub seconds: Seconds,
+}
+
+/// The space of a surface when none is asked for.
+pub fn default_space(mesh: &Mesh) -> Space {
+    if mesh.is_closed() && mesh.euler() < 0 { Space::H2 } else { Space::E2 }
+}
+
+pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failure> {
+    let space = job.space;
+    let rule = job.target.unwrap_or_else(|| Target::default_for(&input.mesh, &input.lengths, space));
+    let target = rule.resolve(&input.mesh, &input.lengths, space, job.scheme)?;
+    let initial = initial_metric(&input.mesh, &input.lengths, input.geometry, job.scheme, space)?;
+
+    let mut solver = Solver::new(input.mesh.clone(), initial.metric.clone(), job.options)?;
+    let report = solver.solve(&target, control)?;
+    let (mesh, metric) = (solver.mesh().clone(), solver.metric().clone());
+    drop(solver);
+
+    let lengths = metric.lengths(&mesh)?;
+    let curvature = curvature(&mesh, space, &lengths)?;
+    let mut seconds = Seconds {
+        read: input.seconds_read,
+        build: input.seconds_build,
+        assemble: report.seconds.assemble,
+        analyse: report.seconds.analyse,
+        factor: report.seconds.factor,
+        solve: report.seconds.solve,
+        flip: report.seconds.flip,
+        ..Seconds::default()
+    };
+    let layout = timed(&mut seconds.layout, || {
+        laid::lay_out(input, &mesh, &lengths, &curvature, &target, space, control)
+    })?;
+    Ok(Outcome {
+        scheme: job.scheme,
+        target_name: rule.name(),
+        target,
+        initial,
+        mesh,
+        metric,
+        lengths,
+        curvature,
+        report,
+        layout,
+        seconds,
+    })
+}
+
+/// Gauss–Bonnet must hold to this, relative to the curvature and area that are added up. Each of the 3F angles is off
+/// by a few ulp, which add up like a random walk: 1e-12 for a million faces.
+const GAUSS_BONNET: f64 = 1e-10;
+
+impl Outcome {
+    /// max |K − K̄| of the metric as it is written.
+    pub fn curvature_error(&self) -> f64 {
+        self.curvature.at.iter().zip(&self.target).fold(0.0, |m, (k, t)| f64::max(m, (k - t).abs()))
+    }
+
+    /// What the result is held against.
+    pub fn checks(&self) -> Checks {
+        let mut checks = Checks::default();
+        let total: f64 = self.curvature.at.iter().map(|k| k.abs()).sum();
+        let scale =
+            f64::max(1.0, (total + self.curvature.area * self.metric.space.curvature().abs()) / (2.0 * PI));
+        checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET * scale);
+        checks.add("max_curvature_error", self.curvature_error(), self.report.tolerance);
+        checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
+        if let Ok(laid) = &self.layout {
+            checks.add("layout_consistency", laid.consistency(), laid.consistency_limit);
+            checks.add("flipped_triangles", laid.layout.flipped.len() as f64, 0.0);
+        }
+        checks
+    }
+}

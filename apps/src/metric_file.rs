@@ -1,0 +1,184 @@
+//! Intrinsic metrics as JSON files: what `--metric` writes, and what is read in place of a mesh.
+//!
+//! Per-face triples are ordered opposite the corners: `[bc, ca, ab]` for the face `[a, b, c]`. Numbers are written so
+//! that they read back as the same doubles.
+
+use crate::failure::Failure;
+use ricci::geometry::Space;
+use ricci::mesh::{Mesh, PerEdge, PerVertex};
+use ricci::metric::{Metric, Scheme};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// The two faces at an edge must give it the same length to this, relative: other programs compute it per face.
+const LENGTHS_AGREE: f64 = 1e-12;
+
+/// What is written: the metric on its final triangulation.
+#[derive(Serialize)]
+pub struct MetricFile<'a> {
+    space: &'static str,
+    /// The geometry in which `lengths` are to be read: `space`.
+    input_geometry: &'static str,
+    scheme: &'static str,
+    faces: Vec<[u32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    face_edges: Option<Vec<[i32; 3]>>,
+    eta: Vec<[f64; 3]>,
+    lengths: Vec<[f64; 3]>,
+    u: &'a [f64],
+    conformal_factor: &'a [f64],
+    epsilon: &'a [i8],
+    target: &'a [f64],
+    boundary: Vec<bool>,
+}
+
+impl<'a> MetricFile<'a> {
+    pub fn new(
+        mesh: &Mesh,
+        scheme: Scheme,
+        metric: &'a Metric,
+        lengths: &PerEdge<f64>,
+        conformal_factor: &'a PerVertex<f64>,
+        target: &'a PerVertex<f64>,
+    ) -> Self {
+        let per_face =
+            |values: &PerEdge<f64>| mesh.faces().map(|f| mesh.opposite_edges(f).map(|e| values[e])).collect();
+        MetricFile {
+            space: metric.space.name(),
+            input_geometry: metric.space.name(),
+            scheme: scheme.name(),
+            faces: faces_of(mesh),
+            face_edges: face_edges_of(mesh),
+            eta: per_face(&metric.eta),
+            lengths: per_face(lengths),
+            u: &metric.u,
+            conformal_factor,
+            epsilon: &metric.epsilon,
+            target,
+            boundary: mesh.vertices().map(|v| mesh.is_boundary_vertex(v)).collect(),
+        }
+    }
+}
+
+/// A surface of given edge lengths, without a conformal class: what `ricci make` writes.
+#[derive(Serialize)]
+pub struct LengthsFile {
+    input_geometry: &'static str,
+    faces: Vec<[u32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    face_edges: Option<Vec<[i32; 3]>>,
+    lengths: Vec<[f64; 3]>,
+}
+
+impl LengthsFile {
+    pub fn new(mesh: &Mesh, geometry: Space, lengths: &PerEdge<f64>) -> Self {
+        LengthsFile {
+            input_geometry: geometry.name(),
+            faces: faces_of(mesh),
+            face_edges: face_edges_of(mesh),
+            lengths: mesh.faces().map(|f| mesh.opposite_edges(f).map(|e| lengths[e])).collect(),
+        }
+    }
+}
+
+fn faces_of(mesh: &Mesh) -> Vec<[u32; 3]> {
+    mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect()
+}
+
+/// 1-based edge numbers with the direction as sign, where edges are not determined by their ends.
+fn face_edges_of(mesh: &Mesh) -> Option<Vec<[i32; 3]>> {
+    (!mesh.is_simplicial()).then(|| mesh.faces().map(|f| mesh.face_edges(f)).collect())
+}
+
+/// What is read: `faces` and `lengths` suffice. `input_geometry` (default e2) says how the lengths are read. A conformal
+/// class in the file (`eta`, `u`, `epsilon`) is passed over: the lengths are the metric.
+#[derive(Deserialize)]
+struct Given {
+    faces: Vec<[u32; 3]>,
+    lengths: Vec<[f64; 3]>,
+    #[serde(default)]
+    lengths_lo: Option<Vec<[f64; 3]>>,
+    #[serde(default)]
+    face_edges: Option<Vec<[i32; 3]>>,
+    #[serde(default)]
+    input_geometry: Option<String>,
+}
+
+/// A surface read from its faces and lengths.
+pub struct Intrinsic {
+    pub mesh: Mesh,
+    pub lengths: PerEdge<f64>,
+    pub geometry: Space,
+}
+
+/// Read the text of a metric file.
+pub fn parse(path: &Path, text: &str) -> Result<Intrinsic, Failure> {
+    let refuse = |why: String| Failure::Input(format!("{}: {why}", path.display()));
+    let given: Given = serde_json::from_str(text).map_err(|e| refuse(e.to_string()))?;
+    let n_faces = given.faces.len();
+    let sizes = [
+        ("lengths", Some(given.lengths.len())),
+        ("lengths_lo", given.lengths_lo.as_ref().map(Vec::len)),
+        ("face_edges", given.face_edges.as_ref().map(Vec::len)),
+    ];
+    if let Some((what, Some(n))) = sizes.into_iter().find(|(_, n)| n.is_some_and(|n| n != n_faces)) {
+        return Err(refuse(format!(
+            "`{what}` has {n} entries, one is needed for each of the {n_faces} faces"
+        )));
+    }
+    let geometry = match given.input_geometry.as_deref() {
+        None => Space::E2,
+        Some(name) => name.parse().map_err(|e: ricci::Error| refuse(format!("input_geometry: {e}")))?,
+    };
+    let n_vertices = n_vertices(&given.faces).map_err(refuse)?;
+    let mesh = match &given.face_edges {
+        Some(edges) => Mesh::from_gluing(n_vertices, &given.faces, edges)?,
+        None => Mesh::from_faces(n_vertices, &given.faces)?,
+    };
+    let sides = given
+        .lengths
+        .into_iter()
+        .zip(given.lengths_lo.into_iter().flatten().chain(std::iter::repeat([0.0; 3])));
+    let sides: Vec<[f64; 3]> = sides.map(|(hi, lo)| std::array::from_fn(|k| hi[k] + lo[k])).collect();
+    let lengths = edge_lengths(&mesh, &sides).map_err(refuse)?;
+    Ok(Intrinsic { mesh, lengths, geometry })
+}
+
+/// One more than the largest vertex, which may not exceed the number of corners: the numbers in the file are not
+/// trusted with memory.
+fn n_vertices(faces: &[[u32; 3]]) -> Result<usize, String> {
+    let largest = faces.iter().flatten().max().map_or(0, |&v| v as usize + 1);
+    if largest > 3 * faces.len() {
+        return Err(format!(
+            "vertex {} is named, but {} faces have at most {} vertices: number the vertices from 0 without gaps",
+            largest - 1,
+            faces.len(),
+            3 * faces.len()
+        ));
+    }
+    Ok(largest)
+}
+
+/// Lengths per edge from lengths per face.
+fn edge_lengths(mesh: &Mesh, sides: &[[f64; 3]]) -> Result<PerEdge<f64>, String> {
+    let mut lengths = PerEdge::filled(mesh.n_edges(), f64::NAN);
+    for (f, sides) in mesh.faces().zip(sides) {
+        let corners = mesh.face_vertices(f);
+        for (k, (e, &side)) in mesh.opposite_edges(f).into_iter().zip(sides).enumerate() {
+            let (a, b) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
+            if !(side.is_finite() && side > 0.0) {
+                return Err(format!("face {f}: side {a}–{b} has length {side}, it must be positive"));
+            }
+            let known = lengths[e];
+            if known.is_nan() {
+                lengths[e] = side;
+            } else if (known - side).abs() > LENGTHS_AGREE * known {
+                return Err(format!(
+                    "face {f}: side {a}–{b} has length {side}, the face across it says {known}: \
+                     the two sides of an edge must agree to {LENGTHS_AGREE:e}"
+                ));
+            }
+        }
+    }
+    Ok(lengths)
+}

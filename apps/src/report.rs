@@ -1,0 +1,131 @@
+//! The report: one JSON object with all numbers of a run.
+
+use crate::input::Input;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Instant;
+
+/// What every command's report has in common.
+#[derive(Serialize)]
+pub struct Report<O, R> {
+    pub ricci: &'static str,
+    pub version: &'static str,
+    pub command: &'static str,
+    pub input: InputSummary,
+    pub options: O,
+    pub result: R,
+    pub checks: Checks,
+    pub seconds: Seconds,
+    pub peak_bytes: Option<u64>,
+}
+
+impl<O, R> Report<O, R> {
+    pub fn new(command: &'static str, input: InputSummary, options: O, result: R) -> Self {
+        Report {
+            ricci: env!("CARGO_PKG_VERSION"),
+            version: env!("CARGO_PKG_VERSION"),
+            command,
+            input,
+            options,
+            result,
+            checks: Checks::default(),
+            seconds: Seconds::default(),
+            peak_bytes: None,
+        }
+    }
+}
+
+/// The surface that a command worked on. What a defective list of triangles does not have is null.
+#[derive(Serialize, Clone)]
+pub struct InputSummary {
+    pub path: String,
+    pub vertices: usize,
+    pub edges: usize,
+    pub faces: usize,
+    pub components: usize,
+    pub euler: i64,
+    pub genus: Option<usize>,
+    pub boundary_loops: Option<usize>,
+}
+
+impl InputSummary {
+    pub fn of(input: &Input) -> Self {
+        let mesh = &input.mesh;
+        InputSummary {
+            path: path_text(&input.path),
+            vertices: mesh.n_vertices(),
+            edges: mesh.n_edges(),
+            faces: mesh.n_faces(),
+            components: 1,
+            euler: mesh.euler(),
+            genus: Some(mesh.genus()),
+            boundary_loops: Some(mesh.boundary_loops().len()),
+        }
+    }
+}
+
+pub fn path_text(path: &Path) -> String {
+    path.to_string_lossy().into_owned()
+}
+
+/// A measured value against what it must not exceed.
+#[derive(Serialize, Clone, Copy)]
+pub struct Check {
+    pub value: f64,
+    pub limit: f64,
+    pub holds: bool,
+}
+
+/// Checks by name.
+#[derive(Serialize, Default)]
+#[serde(transparent)]
+pub struct Checks(pub BTreeMap<&'static str, Check>);
+
+impl Checks {
+    /// Hold `value ≤ limit`; NaN does not.
+    pub fn add(&mut self, name: &'static str, value: f64, limit: f64) {
+        self.0.insert(name, Check { value, limit, holds: value <= limit });
+    }
+
+    pub fn failed(&self) -> Vec<&'static str> {
+        self.0.iter().filter(|(_, c)| !c.holds).map(|(name, _)| *name).collect()
+    }
+
+    /// Exit code of a run with these checks.
+    pub fn exit_code(&self) -> u8 {
+        u8::from(!self.failed().is_empty())
+    }
+}
+
+/// Wall-clock seconds by phase; `write` ends before the report itself is written.
+#[derive(Serialize, Default, Clone, Copy)]
+pub struct Seconds {
+    pub total: f64,
+    pub read: f64,
+    pub build: f64,
+    pub assemble: f64,
+    pub analyse: f64,
+    pub factor: f64,
+    pub solve: f64,
+    pub flip: f64,
+    pub refine: f64,
+    pub layout: f64,
+    pub write: f64,
+}
+
+/// Run `work` and add its seconds to a phase.
+pub fn timed<T>(phase: &mut f64, work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let result = work();
+    *phase += start.elapsed().as_secs_f64();
+    result
+}
+
+/// The largest memory this process has held; known on Linux.
+pub fn peak_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
+    let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024 * kib)
+}

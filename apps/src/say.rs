@@ -1,0 +1,80 @@
+//! What is said on stdout: a few lines for people. All numbers are in the report.
+
+use crate::flow::Done;
+use crate::laid::Laid;
+use std::io::{self, Write};
+
+/// Print lines; a reader that has gone away is no error.
+pub fn lines(text: &str) {
+    let _ = io::stdout().lock().write_all(text.as_bytes());
+}
+
+/// `1 vertex`, `2 vertices`.
+pub fn count(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+/// The summary of a flow.
+pub fn flow(done: &Done) {
+    let (outcome, mesh) = (&done.outcome, &done.input.mesh);
+    let report = &outcome.report;
+    let mut text = format!(
+        "surface  {}: {}, {}, genus {}, {}\n",
+        done.input.path.display(),
+        count(mesh.n_vertices(), "vertex", "vertices"),
+        count(mesh.n_faces(), "face", "faces"),
+        mesh.genus(),
+        match mesh.boundary_loops().len() {
+            0 => "closed".into(),
+            n => count(n, "boundary loop", "boundary loops"),
+        }
+    );
+    text += &format!(
+        "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}\n",
+        outcome.metric.space,
+        outcome.scheme,
+        outcome.target_name,
+        report.stop_reason,
+        count(report.iterations, "step", "steps"),
+        report.max_curvature_error,
+        match report.broken_triangles {
+            0 => String::new(),
+            n => format!(", {}", count(n, "broken triangle", "broken triangles")),
+        }
+    );
+    text += &match &outcome.layout {
+        Ok(laid) => format!("layout   {}\n", layout(laid)),
+        Err(why) => format!("layout   none: {why}\n"),
+    };
+    text += &match done.checks.failed().as_slice() {
+        [] => "checks   all hold\n".into(),
+        failed => {
+            let named = failed.iter().map(|name| {
+                let c = done.checks.0[name];
+                format!("{name} = {:.3e}, limit {:.3e}", c.value, c.limit)
+            });
+            format!("checks   FAILED: {}\n", named.collect::<Vec<_>>().join("; "))
+        }
+    };
+    if !done.files.is_empty() {
+        text += &format!("wrote    {}\n", done.files.join(", "));
+    }
+    text += &format!("{:.2} s\n", done.seconds);
+    lines(&text);
+}
+
+fn layout(laid: &Laid) -> String {
+    let q = &laid.quality;
+    let mut text = format!(
+        "{}, dilatation mean {:.4} max {:.3}, area ratio {:.2e} to {:.2e}",
+        count(laid.layout.flipped.len(), "triangle flipped", "triangles flipped"),
+        q.qc_mean,
+        q.qc_max,
+        q.area_ratio_min,
+        q.area_ratio_max
+    );
+    if let Some([re, im]) = laid.modulus {
+        text += &format!(", modulus {re:.6} {} {:.6} i", if im < 0.0 { '-' } else { '+' }, im.abs());
+    }
+    text
+}

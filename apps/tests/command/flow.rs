@@ -1,0 +1,329 @@
+//! `ricci flow`: what is written is a metric with the curvature asked for, and its layout.
+
+use crate::files::{curvature_error, parse_obj};
+use crate::run::{Place, numbers, triples};
+use crate::surfaces::{genus_two, hill, octahedron, one_vertex_torus, torus};
+use serde_json::Value;
+use std::f64::consts::PI;
+
+/// Angles by the law of cosines lose half the digits near 0 and π; these surfaces stay far from that.
+const RECOMPUTED: f64 = 1e-9;
+
+#[test]
+fn the_written_metric_has_the_target_curvature_in_every_space_and_scheme() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(16, 12).obj()).put("disk.obj", &hill(8).obj());
+    place.put("two.obj", &genus_two(12).obj()).put("ball.obj", &octahedron().obj());
+    for (mesh, space) in [("torus", "e2"), ("disk", "e2"), ("two", "h2"), ("two", "e2"), ("ball", "s2")] {
+        for scheme in ["yamabe", "inversive", "tangential"] {
+            if (space, scheme) == ("s2", "tangential") {
+                continue;
+            }
+            let line =
+                format!("flow {mesh}.obj --space {space} --scheme {scheme} --metric m.json --report r.json");
+            let ended = place.run(&line);
+            let (metric, report) = (place.json("m.json"), place.json("r.json"));
+            assert_eq!(report["result"]["converged"], true, "{line}\n{}{}", ended.out, ended.err);
+            assert_eq!(metric["space"], space);
+            assert_eq!(metric["scheme"], scheme);
+            let error = curvature_error(&metric);
+            assert!(error <= RECOMPUTED, "{line}: recomputed |K − K̄| = {error:e}");
+            assert_eq!(ended.code, Some(0), "{line}\n{}", ended.out);
+        }
+    }
+}
+
+#[test]
+fn the_report_has_the_fields_of_the_contract() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(12, 8).obj());
+    place.expect(0, "flow torus.obj --report r.json --uv o.obj --quiet --threads 1");
+    let report = place.json("r.json");
+    let text = |at: &Value| assert!(at.is_string(), "{at}");
+    let number = |at: &Value| assert!(at.is_f64() || at.is_u64() || at.is_i64(), "{at}");
+    for key in ["ricci", "command"] {
+        text(&report[key]);
+    }
+    assert_eq!(report["command"], "flow");
+    assert_eq!(report["input"]["path"], "torus.obj");
+    for (key, value) in [
+        ("vertices", 96),
+        ("edges", 288),
+        ("faces", 192),
+        ("components", 1),
+        ("euler", 0),
+        ("genus", 1),
+        ("boundary_loops", 0),
+    ] {
+        assert_eq!(report["input"][key], value, "{key}");
+    }
+    for (key, value) in [("space", "auto"), ("scheme", "yamabe"), ("method", "newton"), ("flips", "auto")] {
+        assert_eq!(report["options"][key], value);
+    }
+    assert_eq!(report["options"]["tolerance"], 1e-10);
+    let result = &report["result"];
+    for (key, value) in [("space", "e2"), ("scheme", "yamabe"), ("stop_reason", "converged")] {
+        assert_eq!(result[key], value);
+    }
+    assert_eq!(result["converged"], true);
+    for key in [
+        "iterations",
+        "flips",
+        "max_curvature_error",
+        "flipped_triangles",
+        "qc_mean",
+        "qc_max",
+        "area_ratio_min",
+        "area_ratio_max",
+        "area",
+        "broken_triangles",
+    ] {
+        number(&result[key]);
+    }
+    assert_eq!(numbers(&result["modulus"]).len(), 2);
+    for seam in result["seams"].as_array().unwrap() {
+        number(&seam["rotation"]);
+        number(&seam["residual"]);
+        assert_eq!(numbers(&seam["translation"]).len(), 2);
+    }
+    for check in
+        ["gauss_bonnet", "max_curvature_error", "layout_consistency", "flipped_triangles", "broken_triangles"]
+    {
+        let check = &report["checks"][check];
+        assert_eq!(check["holds"], true);
+        assert!(check["value"].as_f64().unwrap() <= check["limit"].as_f64().unwrap());
+    }
+    for phase in [
+        "total", "read", "build", "assemble", "analyse", "factor", "solve", "flip", "refine", "layout",
+        "write",
+    ] {
+        assert!(report["seconds"][phase].as_f64().unwrap() >= 0.0, "{phase}");
+    }
+    if cfg!(target_os = "linux") {
+        assert!(report["peak_bytes"].as_u64().unwrap() > 1 << 20);
+    }
+}
+
+#[test]
+fn a_written_metric_read_back_is_a_fixed_point() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(12, 8).obj()).put("two.obj", &genus_two(12).obj());
+    for (mesh, options) in [("torus", ""), ("two", ""), ("two", "--space e2 --target single:30")] {
+        place.expect(0, &format!("flow {mesh}.obj {options} --metric first.json"));
+        place.expect(0, &format!("flow first.json {options} --metric second.json --report r.json"));
+        assert_eq!(place.json("r.json")["result"]["iterations"], 0, "{mesh} {options}");
+        let (first, second) = (place.json("first.json"), place.json("second.json"));
+        for (a, b) in
+            triples(&first["lengths"]).iter().flatten().zip(triples(&second["lengths"]).iter().flatten())
+        {
+            assert!((a / b - 1.0).abs() < 1e-14, "{a} {b}");
+        }
+        assert!(numbers(&second["conformal_factor"]).iter().all(|u| u.abs() < 1e-12));
+        assert_eq!(first["faces"], second["faces"]);
+        assert_eq!(first["target"], second["target"]);
+    }
+}
+
+#[test]
+fn euclidean_variables_have_mean_zero_and_rebuild_the_lengths() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(12, 8).obj());
+    for scheme in ["yamabe", "inversive"] {
+        place.expect(0, &format!("flow torus.obj --scheme {scheme} --metric m.json"));
+        let metric = place.json("m.json");
+        let (u, epsilon) = (numbers(&metric["u"]), numbers(&metric["epsilon"]));
+        assert!(u.iter().sum::<f64>().abs() < 1e-12 * u.len() as f64);
+        let (eta, lengths) = (triples(&metric["eta"]), triples(&metric["lengths"]));
+        for (f, corners) in triples(&metric["faces"]).into_iter().enumerate() {
+            for k in 0..3 {
+                let (i, j) = (corners[(k + 1) % 3] as usize, corners[(k + 2) % 3] as usize);
+                let (x, y) = (u[i].exp(), u[j].exp());
+                let square = 2.0 * eta[f][k] * x * y + epsilon[i] * x * x + epsilon[j] * y * y;
+                assert!((square.sqrt() / lengths[f][k] - 1.0).abs() < 1e-13);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_layout_is_the_metric_scaled_to_the_area_of_the_surface() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(16, 12).obj()).put("disk.obj", &hill(10).obj());
+    place.put("two.obj", &genus_two(12).obj()).put("ball.obj", &octahedron().obj());
+    for (mesh, options) in [
+        ("torus", ""),
+        ("disk", ""),
+        ("ball", ""),
+        ("two", "--space e2"),
+        ("two", "--space e2 --target single:7"),
+    ] {
+        place.expect(0, &format!("flow {mesh}.obj {options} --uv o.obj --metric m.json --report r.json"));
+        let (input, uv) = (place.text(&format!("{mesh}.obj")), parse_obj(&place.text("o.obj")));
+        let lengths = triples(&place.json("m.json")["lengths"]);
+        let positions = input.lines().filter_map(|l| l.strip_prefix("v "));
+        for (given, written) in positions.zip(&uv.v) {
+            let given: Vec<f64> = given.split_whitespace().map(|x| x.parse().unwrap()).collect();
+            assert_eq!(given, written);
+        }
+        assert_eq!(uv.faces.len(), lengths.len());
+        let areas: Vec<f64> = (0..uv.faces.len()).map(|f| uv.area(f)).collect();
+        assert!(areas.iter().all(|&a| a > 0.0), "{mesh}: flipped");
+        assert!((areas.iter().sum::<f64>() / uv.surface_area() - 1.0).abs() < 1e-9);
+        let scale = uv.sides(0)[0] / lengths[0][0];
+        for (f, lengths) in lengths.iter().enumerate() {
+            for (side, length) in uv.sides(f).iter().zip(lengths) {
+                assert!((side / (scale * length) - 1.0).abs() < 1e-7, "{mesh} face {f}: {side} {length}");
+            }
+        }
+        // A texture coordinate belongs to one vertex.
+        let mut owner = vec![None; uv.vt.len()];
+        for (v, t) in uv.faces.iter().flatten().zip(uv.corners.iter().flatten()) {
+            assert_eq!(*owner[*t].get_or_insert(*v), *v);
+        }
+        assert!(owner.iter().all(Option::is_some));
+    }
+}
+
+#[test]
+fn a_torus_of_revolution_has_nearly_its_known_modulus() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(48, 32).obj());
+    place.expect(0, "flow torus.obj --report r.json");
+    let modulus = numbers(&place.json("r.json")["result"]["modulus"]);
+    // Radii 2 and 1: i·1/√3, equivalent to i√3; the mesh is off by O(h²).
+    assert!(modulus[0].abs() < 0.02 && (modulus[1] - 3f64.sqrt()).abs() < 0.02, "{modulus:?}");
+}
+
+#[test]
+fn a_torus_of_one_vertex_is_its_own_flat_metric() {
+    let place = Place::new();
+    place.put("t.json", &one_vertex_torus(1.0, 1.0, 2f64.sqrt()));
+    place.expect(0, "info t.json");
+    place.expect(0, "flow t.json --metric m.json --report r.json");
+    let (metric, report) = (place.json("m.json"), place.json("r.json"));
+    assert_eq!(report["input"]["vertices"], 1);
+    assert_eq!(report["input"]["genus"], 1);
+    assert_eq!(report["result"]["iterations"], 0);
+    let modulus = numbers(&report["result"]["modulus"]);
+    assert!(modulus[0].abs() < 1e-14 && (modulus[1] - 1.0).abs() < 1e-14, "{modulus:?}");
+    assert!(metric["face_edges"].is_array());
+    place.expect(0, "flow m.json --metric again.json");
+    assert_eq!(place.json("again.json")["lengths"], metric["lengths"]);
+}
+
+#[test]
+fn cones_are_where_the_file_puts_them() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(12, 8).obj());
+    place.put("cones.csv", &format!("vertex,curvature\n5,{}\n50,{}\n", PI / 2.0, -PI / 2.0));
+    place.expect(0, "flow torus.obj --target cones:cones.csv --uv o.obj --metric m.json --report r.json");
+    let target = numbers(&place.json("m.json")["target"]);
+    assert_eq!((target[5], target[50]), (PI / 2.0, -PI / 2.0));
+    assert_eq!(target.iter().filter(|k| **k != 0.0).count(), 2);
+    assert!(curvature_error(&place.json("m.json")) <= RECOMPUTED);
+    // Around a cone the layout turns by its curvature: some seam has that rotation, and there is no modulus.
+    let result = &place.json("r.json")["result"];
+    let quarter = |s: &Value| (s["rotation"].as_f64().unwrap().abs() - PI / 2.0).abs() < 1e-9;
+    assert!(result["seams"].as_array().unwrap().iter().any(quarter));
+    assert!(result.get("modulus").is_none());
+
+    let all: String = target.iter().enumerate().map(|(v, k)| format!("{v},{k:?}\n")).collect();
+    place.put("all.csv", &all);
+    place.expect(0, "flow torus.obj --target file:all.csv --metric again.json");
+    assert_eq!(place.json("again.json")["lengths"], place.json("m.json")["lengths"]);
+}
+
+#[test]
+fn dual_circles_are_orthogonal_to_the_vertex_circles() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(12, 8).obj());
+    for scheme in ["inversive", "tangential", "thurston"] {
+        place.run(&format!("flow torus.obj --scheme {scheme} --circles c.json --uv o.obj"));
+        let (circles, uv) = (place.json("c.json"), parse_obj(&place.text("o.obj")));
+        let vertex_circles = circles["vertex_circles"].as_array().unwrap();
+        assert_eq!(vertex_circles.len(), uv.vt.len());
+        for (t, circle) in vertex_circles.iter().enumerate() {
+            assert_eq!(circle["uv"], t);
+            assert_eq!(numbers(&circle["center"]), uv.vt[t]);
+            assert!(circle["radius"].as_f64().unwrap() > 0.0);
+        }
+        let dual = circles["dual_circles"].as_array().unwrap();
+        assert_eq!(dual.len(), uv.faces.len());
+        for circle in dual {
+            let center = numbers(&circle["center"]);
+            let power = circle["power"].as_f64().unwrap();
+            for t in uv.corners[circle["face"].as_u64().unwrap() as usize] {
+                let r = vertex_circles[t]["radius"].as_f64().unwrap();
+                let d2 = (center[0] - uv.vt[t][0]).powi(2) + (center[1] - uv.vt[t][1]).powi(2);
+                assert!((d2 - power - r * r).abs() < 1e-9 * d2);
+            }
+            match circle["radius"].as_f64() {
+                Some(r) => assert!((r * r - power).abs() < 1e-12 * (1.0 + power)),
+                None => assert!(power < 0.0),
+            }
+        }
+    }
+}
+
+#[test]
+fn the_gradient_flow_agrees_with_newton_and_leaves_a_trace() {
+    let place = Place::new();
+    place.put("disk.obj", &hill(6).obj());
+    place.expect(0, "flow disk.obj --metric newton.json");
+    place.expect(0, "flow disk.obj --method gradient --metric gradient.json --trace t.csv --report r.json");
+    let (a, b) = (numbers(&place.json("newton.json")["u"]), numbers(&place.json("gradient.json")["u"]));
+    assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-8));
+    let text = place.text("t.csv");
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("step,energy,max_curvature_error,area,step_size"));
+    let rows: Vec<Vec<f64>> =
+        lines.map(|l| l.split(',').map(|x| x.parse::<f64>().unwrap()).collect()).collect();
+    let steps = place.json("r.json")["result"]["iterations"].as_u64().unwrap() as usize;
+    assert_eq!(rows.len(), steps + 1);
+    assert!(rows.iter().enumerate().all(|(i, r)| r.len() == 5 && r[0] == i as f64));
+    assert!(rows[steps][2] <= 1e-10 && rows[steps][1] < 0.0);
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(40, 32).obj());
+    for threads in [1, 2, 3] {
+        place.expect(
+            0,
+            &format!("flow torus.obj --threads {threads} --metric m{threads}.json --uv o{threads}.obj"),
+        );
+    }
+    for threads in [2, 3] {
+        assert!(place.text("m1.json") == place.text(&format!("m{threads}.json")));
+        assert!(place.text("o1.obj") == place.text(&format!("o{threads}.obj")));
+    }
+}
+
+#[test]
+fn gltf_holds_the_surface_its_layout_and_a_texture() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(12, 8).obj());
+    place.expect(0, "flow torus.obj --uv o.obj");
+    place.expect(0, "flow torus.obj --uv o.glb");
+    let bytes = std::fs::read(place.path("o.glb")).unwrap();
+    let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+    assert_eq!(&bytes[..4], b"glTF");
+    assert_eq!((word(4), word(8)), (2, bytes.len()));
+    assert_eq!(&bytes[16..20], b"JSON");
+    let document: Value = serde_json::from_slice(&bytes[20..20 + word(12)]).unwrap();
+    let binary = 20 + word(12);
+    assert_eq!(&bytes[binary + 4..binary + 8], b"BIN\0");
+    assert_eq!(binary + 8 + word(binary), bytes.len());
+    let uv = parse_obj(&place.text("o.obj"));
+    let count = |k: usize| document["accessors"][k]["count"].as_u64().unwrap() as usize;
+    assert_eq!((count(0), count(1), count(2)), (uv.vt.len(), uv.vt.len(), 3 * uv.faces.len()));
+    let view = |k: usize| {
+        let start = binary + 8 + document["bufferViews"][k]["byteOffset"].as_u64().unwrap() as usize;
+        &bytes[start..start + document["bufferViews"][k]["byteLength"].as_u64().unwrap() as usize]
+    };
+    let indices: Vec<usize> =
+        view(2).chunks(4).map(|b| u32::from_le_bytes(b.try_into().unwrap()) as usize).collect();
+    assert!(indices.iter().eq(uv.corners.iter().flatten()));
+    assert!(view(3).starts_with(b"\x89PNG"));
+}

@@ -1,0 +1,53 @@
+//! `ricci info`: every readable file is described, defects and all.
+
+use crate::run::Place;
+use crate::surfaces::{hill, moebius, octahedron, torus};
+
+#[test]
+fn counts_and_topology_are_reported() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(12, 8).obj()).put("disk.obj", &hill(4).obj());
+    place.expect(0, "info torus.obj --report r.json");
+    let report = place.json("r.json");
+    for (key, value) in [("vertices", 96), ("edges", 288), ("faces", 192), ("components", 1), ("genus", 1)] {
+        assert_eq!(report["input"][key], value);
+    }
+    assert_eq!(report["result"]["admissible"], true);
+    assert_eq!(report["result"]["defects"].as_array().unwrap().len(), 0);
+    let quality = &report["result"]["quality"];
+    for key in ["area", "min_angle_degrees", "obtuse_fraction", "edge_ratio", "non_delaunay_fraction"] {
+        assert!(quality[key].is_f64(), "{key}");
+    }
+    place.expect(0, "info disk.obj --report r.json --quiet");
+    assert_eq!(place.json("r.json")["input"]["boundary_loops"], 1);
+}
+
+#[test]
+fn defects_are_a_result_with_their_elements_and_remedy() {
+    let place = Place::new();
+    let two = octahedron().beside(octahedron());
+    let repeated = octahedron().obj() + "f 1 2 5\nf 1 1 2\nv 0 0 7\nf 1 2 99\n";
+    for (text, codes) in [
+        (two.obj(), vec!["several_components"]),
+        (moebius(12).obj(), vec!["non_orientable"]),
+        (repeated, vec!["duplicate_face", "degenerate_face", "isolated_vertex", "index_out_of_range"]),
+        ("# nothing\n".into(), vec!["empty"]),
+        (octahedron().obj().replacen("v 1 ", "v nan ", 1), vec!["non_finite_coordinate"]),
+    ] {
+        place.put("m.obj", &text);
+        let ended = place.expect(0, "info m.obj --report r.json");
+        let result = &place.json("r.json")["result"];
+        assert_eq!(result["admissible"], false);
+        let defects = result["defects"].as_array().unwrap();
+        for code in codes {
+            let defect = defects.iter().find(|d| d["code"] == code);
+            let defect = defect.unwrap_or_else(|| panic!("{code} not among {defects:?}"));
+            assert!(!defect["remedy"].as_str().unwrap().is_empty());
+            assert!(defect["vertices"].is_array() && defect["faces"].is_array());
+            assert!(ended.out.contains(code));
+        }
+    }
+    place.expect(3, "info missing.obj");
+    place.put("m.obj", "v 0 0\n");
+    place.expect(3, "info m.obj");
+}

@@ -1,0 +1,9 @@
+//! The `ricci` command as its users see it: exit codes, the files of the contract, and what is in them, recomputed here
+//! with formulas of our own.
+
+mod files;
+mod flow;
+mod info;
+mod run;
+mod surfaces;
+mod usage;

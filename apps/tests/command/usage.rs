@@ -1,0 +1,171 @@
+//! Exit codes, refusals that say why, and that nothing half-done is left behind.
+
+use crate::run::Place;
+use crate::surfaces::{genus_two, hill, moebius, octahedron, torus};
+use std::process::Stdio;
+use std::time::Duration;
+
+fn surfaces() -> Place {
+    let place = Place::new();
+    place.put("torus.obj", &torus(12, 8).obj()).put("disk.obj", &hill(6).obj());
+    place.put("two.obj", &genus_two(12).obj()).put("ball.obj", &octahedron().obj());
+    place
+}
+
+#[test]
+fn requests_that_do_not_exist_are_exit_2() {
+    let place = surfaces();
+    let before = place.files();
+    for (line, says) in [
+        ("", "Usage"),
+        ("unknown", "unrecognized"),
+        ("flow", "required"),
+        ("flow torus.obj --space e3", "invalid value"),
+        ("flow torus.obj --tolerance 0", "positive"),
+        ("flow torus.obj --threads 100000", "1024"),
+        ("flow torus.obj --target auto:4", "not in this version"),
+        ("flow torus.obj --charts", "not in this version"),
+        ("flow torus.obj --target boundary", "uniform"),
+        ("flow disk.obj --target uniform", "boundary"),
+        ("flow torus.obj --target single:96", "0 to 95"),
+        ("flow two.obj --uv o.obj", "--space e2"),
+        ("flow ball.obj --space s2 --uv o.obj", "s2"),
+        ("flow torus.obj --circles c.json", "yamabe has no circles"),
+        ("flow torus.obj --trace t.csv", "--method gradient"),
+        ("flow torus.obj --uv o.stl", ".obj or .glb"),
+        ("flow torus.obj --uv o.obj --report o.obj", "two outputs"),
+        ("flow torus.obj --uv missing/o.obj --report r.json", "missing does not exist"),
+        ("flow torus.obj --report .", "directory"),
+        ("completions klingon", "invalid value"),
+    ] {
+        let ended = place.expect(2, line);
+        assert!((ended.err + &ended.out).contains(says), "{line}");
+    }
+    assert_eq!(place.files(), before);
+}
+
+#[test]
+fn surfaces_that_cannot_be_are_exit_3() {
+    let place = surfaces();
+    place.put("pair.obj", &octahedron().beside(torus(6, 6)).obj()).put("band.obj", &moebius(12).obj());
+    place.put("none.obj", "").put("torn.off", "OFF\n3 1 0\n0 0 0\n");
+    place.put("far.csv", "200,1\n").put("total.csv", "0,0.5\n").put("steep.csv", "0,6.5\n1,-6.5\n");
+    for (line, says) in [
+        ("flow pair.obj", "repair --component"),
+        ("flow band.obj", "non-orientable"),
+        ("flow none.obj", "no faces"),
+        ("flow torn.off", "torn.off:"),
+        ("flow missing.obj", "missing.obj"),
+        ("flow disk.stl", "unknown format"),
+        ("flow torus.obj --target cones:missing.csv", "missing.csv"),
+        ("flow torus.obj --target cones:far.csv", "far.csv:1: vertex 200"),
+        ("flow torus.obj --target file:total.csv", "vertex 1 is missing"),
+        ("flow torus.obj --target cones:total.csv", "off by 5e-1"),
+        ("flow torus.obj --target cones:steep.csv", "too large by 2.16"),
+        ("flow ball.obj --target single:3", "vertex 3"),
+    ] {
+        let ended = place.expect(3, line);
+        assert!(ended.err.contains(says), "{line}: {}", ended.err);
+    }
+}
+
+#[test]
+fn metric_files_are_not_trusted() {
+    let place = Place::new();
+    let tetrahedron = "[[0,1,2],[0,3,1],[0,2,3],[1,3,2]]";
+    let unit = "[[1,1,1],[1,1,1],[1,1,1],[1,1,1]]";
+    let file = |faces: &str, lengths: &str, more: &str| {
+        format!(r#"{{"faces": {faces}, "lengths": {lengths}{more}}}"#)
+    };
+    place.put("m.json", &file(tetrahedron, unit, ""));
+    place.expect(0, "flow m.json");
+    for (text, says) in [
+        ("{".to_string(), "EOF"),
+        (file(tetrahedron, "[[1,1,1]]", ""), "1 entries"),
+        (file("[[0,1,-2]]", "[[1,1,1]]", ""), "invalid value"),
+        (file("[[0,1,4294967296]]", "[[1,1,1]]", ""), "4294967296"),
+        (file("[[0,1,4294967294]]", "[[1,1,1]]", ""), "at most 3 vertices"),
+        (file("[[0,1]]", "[[1,1,1]]", ""), "invalid length"),
+        (file(tetrahedron, "[[1,1,1],[1,1,1],[1,1,1],[1,1,1.5]]", ""), "face 3: side 1–3"),
+        (file(tetrahedron, "[[1,1,1],[1,1,0],[1,1,1],[1,1,1]]", ""), "face 1: side 0–3"),
+        (file("[[0,1,2]]", "[[1,1,5]]", ""), "face 0 breaks the triangle inequality"),
+        (file("[[0,1,2]]", "[[1,1,null]]", ""), "invalid type"),
+        (file("[[0,1,2]]", "[[1,1,1e999]]", ""), "out of range"),
+        (file("[]", "[]", ""), "no faces"),
+        (file(tetrahedron, unit, r#", "input_geometry": "e4""#), "input_geometry"),
+        (file(tetrahedron, unit, r#", "face_edges": [[1,2,3]]"#), "face_edges"),
+        (file("[[0,0,0]]", "[[1,1,1]]", r#", "face_edges": [[1,1,1]]"#), "face 0"),
+        (file("[[0,1,2]]", "[[1,1,1]]", r#", "face_edges": [[1,2,2147483647]]"#), "face 0"),
+        (file("[[0,1,2]]", "[[1,1,1]]", r#", "face_edges": [[1,2,-2147483648]]"#), "face 0"),
+    ] {
+        place.put("m.json", &text);
+        let ended = place.expect(3, "flow m.json");
+        assert!(ended.err.contains(says), "{text}: {}", ended.err);
+        place.expect(3, "info m.json");
+    }
+}
+
+#[test]
+fn a_flow_that_breaks_is_exit_1_and_says_so() {
+    let place = Place::new();
+    // Noise leaves slivers that no vertex scaling of this triangulation makes flat.
+    let mut noisy = torus(24, 16);
+    let mut state = 1u64;
+    for p in &mut noisy.positions {
+        for x in p {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            *x += 0.35 * ((state >> 11) as f64 / (1u64 << 53) as f64 - 0.5);
+        }
+    }
+    place.put("noisy.obj", &noisy.obj());
+    let ended = place.expect(1, "flow noisy.obj --flips never --report r.json --metric m.json --uv o.obj");
+    assert!(ended.out.contains("FAILED"), "{}", ended.out);
+    let report = place.json("r.json");
+    assert_eq!(report["result"]["converged"], false);
+    assert_ne!(report["result"]["stop_reason"], "converged");
+    assert!(report["result"]["broken_triangles"].as_u64().unwrap() > 0);
+    assert_eq!(report["checks"]["broken_triangles"]["holds"], false);
+    assert!(report["result"]["no_layout"].as_str().unwrap().contains("break"));
+    assert!(place.exists("m.json") && !place.exists("o.obj"));
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_is_exit_4_and_leaves_nothing() {
+    let place = surfaces();
+    let before = place.files();
+    // Out of reach: the flow ends only when it is told to.
+    let line = "flow torus.obj --method gradient --tolerance 1e-300 --trace t.csv --report r.json";
+    let child = place.command(line).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(kill.success());
+    let ended = child.wait_with_output().unwrap();
+    assert_eq!(ended.status.code(), Some(4), "{}", String::from_utf8_lossy(&ended.stderr));
+    assert_eq!(place.files(), before);
+}
+
+#[test]
+fn every_command_has_help_with_an_example_and_completions_exist() {
+    let place = Place::new();
+    let help = place.expect(0, "help").out;
+    for command in ["info", "flow", "make", "demo", "completions"] {
+        assert!(help.contains(&format!("\n  {command} ")), "{command}");
+        let one = place.expect(0, &format!("help {command}")).out;
+        assert!(one.contains("Example") && one.contains(&format!("ricci {command}")), "{command}");
+    }
+    for later in ["repair", "uniformize", "cover", "harmonic", "forms", "match", "structure", "spline"] {
+        assert!(!help.contains(&format!("\n  {later}")), "{later}");
+        place.expect(2, later);
+    }
+    for shell in ["bash", "zsh", "fish"] {
+        assert!(place.expect(0, &format!("completions {shell}")).out.contains("tolerance"));
+    }
+}
+
+#[test]
+fn quiet_says_nothing() {
+    let place = surfaces();
+    let ended = place.expect(0, "flow torus.obj --quiet --metric m.json");
+    assert!(ended.out.is_empty() && ended.err.is_empty());
+}

@@ -1,0 +1,112 @@
+//! The modulus of a flat torus: the shape of its lattice, independent of the basis and of the scale.
+
+/// Rounding of periods, relative: below this sine of their angle they count as parallel, and within this of the border of
+/// the fundamental domain a modulus lies on it. Periods developed over thousands of triangles are good to about this.
+const ROUNDING: f64 = 1e-12;
+
+/// The modulus `τ = ω₂/ω₁` `[Re τ, Im τ]` of the lattice spanned by two periods, reduced under SL(2, ℤ).
+///
+/// `|Re τ| ≤ 1/2`, `|τ| ≥ 1`, `Im τ > 0`. On the border of that domain, where two values are equivalent, the one
+/// with `Re τ ≥ 0` is returned. Orientation counts: a torus and its mirror image have moduli τ and −τ̄.
+///
+/// `periods`: any two vectors that generate the lattice, in any order and with any signs. `None` when they are parallel
+/// (or not finite): they span no lattice.
+///
+/// Reduction by Lagrange and Gauss: the longer vector is shortened by multiples of the shorter one. Each round at least
+/// halves the squared length of the longer one until it is within a factor √3 of the shorter, so rounds are few.
+pub fn modulus(periods: [[f64; 2]; 2]) -> Option<[f64; 2]> {
+    let [mut a, mut b] = periods;
+    let largest = periods.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    if !(largest > 0.0 && largest.is_finite()) {
+        return None;
+    }
+    (a, b) = (a.map(|x| x / largest), b.map(|x| x / largest));
+    let sine = (a[0] * b[1] - a[1] * b[0]).abs() / (dot(a, a) * dot(b, b)).sqrt();
+    if sine.is_nan() || sine <= ROUNDING {
+        return None;
+    }
+    for _ in 0..ROUNDS {
+        if dot(a, a) > dot(b, b) {
+            (a, b) = (b, a);
+        }
+        let times = (dot(a, b) / dot(a, a)).round();
+        if times == 0.0 {
+            break;
+        }
+        b = [b[0] - times * a[0], b[1] - times * a[1]];
+    }
+    if dot(a, a) > dot(b, b) {
+        (a, b) = (b, a);
+    }
+    let norm = dot(a, a);
+    let tau = [dot(a, b) / norm, (a[0] * b[1] - a[1] * b[0]).abs() / norm];
+    // A basis of the other orientation becomes one of this by reversing b.
+    let re = if a[0] * b[1] < a[1] * b[0] { -tau[0] } else { tau[0] };
+    let on_border = re.abs() >= 0.5 - ROUNDING || re.hypot(tau[1]) <= 1.0 + ROUNDING;
+    let re = if on_border { re.abs() } else { re };
+    Some([re, tau[1]])
+}
+
+/// More rounds than doubles with their exponents can need (squared lengths halve each time).
+const ROUNDS: usize = 4096;
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn combine(m: [[i32; 2]; 2], [a, b]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+        m.map(|[p, q]| {
+            let (p, q) = (f64::from(p), f64::from(q));
+            [p * a[0] + q * b[0], p * a[1] + q * b[1]]
+        })
+    }
+
+    #[test]
+    fn every_basis_of_a_lattice_has_the_same_modulus() {
+        let periods = [[1.3, 0.2], [0.4, 1.9]];
+        let tau = modulus(periods).unwrap();
+        assert!(tau[0].abs() <= 0.5 && tau[0].hypot(tau[1]) >= 1.0 && tau[1] > 0.0);
+        for m in
+            [[[2, 1], [1, 1]], [[0, -1], [1, 0]], [[1, 0], [37, 1]], [[-5, 2], [3, -1]], [[0, 1], [1, 0]]]
+        {
+            let other = modulus(combine(m, periods)).unwrap();
+            assert!(
+                (other[0] - tau[0]).abs() < 1e-12 && (other[1] - tau[1]).abs() < 1e-12,
+                "{m:?}: {other:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn rotation_and_scale_leave_the_modulus_and_a_mirror_reflects_it() {
+        let periods = [[1.0, 0.0], [0.3, 1.4]];
+        let tau = modulus(periods).unwrap();
+        assert!((tau[0] - 0.3).abs() < 1e-15 && (tau[1] - 1.4).abs() < 1e-15);
+        let (s, c) = (2.0f64.sin() * 1e-3, 2.0f64.cos() * 1e-3);
+        let turned = modulus(periods.map(|[x, y]| [c * x - s * y, s * x + c * y])).unwrap();
+        assert!((turned[0] - 0.3).abs() < 1e-14 && (turned[1] - 1.4).abs() < 1e-14);
+        let mirrored = modulus(periods.map(|[x, y]| [-x, y])).unwrap();
+        assert!((mirrored[0] + 0.3).abs() < 1e-15 && (mirrored[1] - 1.4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn square_and_hexagonal_lattices_are_the_corners_of_the_domain() {
+        let h = 0.75f64.sqrt();
+        assert_eq!(modulus([[0.0, 2.0], [-2.0, 0.0]]).unwrap(), [0.0, 1.0]);
+        for sign in [1.0, -1.0] {
+            let tau = modulus([[1.0, 0.0], [0.5 * sign, h]]).unwrap();
+            assert!((tau[0] - 0.5).abs() < 1e-15 && (tau[1] - h).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn parallel_periods_span_no_lattice() {
+        for periods in [[[1.0, 2.0], [2.0, 4.0]], [[0.0, 0.0], [1.0, 0.0]], [[f64::NAN, 0.0], [1.0, 0.0]]] {
+            assert_eq!(modulus(periods), None);
+        }
+    }
+}

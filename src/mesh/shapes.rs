@@ -1,1 +1,0 @@
-//! Sample surfaces of every topology.

@@ -1,0 +1,211 @@
+//! Surfaces given by glued triangles and edge lengths alone.
+
+use super::check_count;
+use crate::error::{Error, Result};
+use crate::geometry::{Space, triangle};
+use crate::mesh::{Mesh, PerEdge};
+use std::f64::consts::PI;
+
+/// Triangles of one geometry, glued along numbered edges (see [`Mesh::from_gluing`]).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Intrinsic {
+    /// Number of vertices.
+    pub n_vertices: usize,
+    /// Vertices (a, b, c) of each face.
+    pub faces: Vec<[u32; 3]>,
+    /// `[±e_bc, ±e_ca, ±e_ab]` of each face, edges numbered from 1.
+    pub face_edges: Vec<[i32; 3]>,
+    /// Length of each edge.
+    pub lengths: Vec<f64>,
+    /// Geometry of the triangles.
+    pub geometry: Space,
+}
+
+impl Intrinsic {
+    /// Connectivity and edge lengths.
+    pub fn build(&self) -> Result<(Mesh, PerEdge<f64>)> {
+        let mesh = Mesh::from_gluing(self.n_vertices, &self.faces, &self.face_edges)?;
+        crate::error::check_size("lengths", self.lengths.len(), mesh.n_edges())?;
+        Ok((mesh, self.lengths.clone().into()))
+    }
+
+    /// Each triangle cut into four at the midpoints of its sides, in its own geometry.
+    ///
+    /// Edge e becomes 2e − 1 and 2e, in its direction; vertex V + e − 1 is its midpoint; then come three edges per face.
+    pub fn subdivide(&self) -> Intrinsic {
+        let (n, edges) = (self.n_vertices as u32, self.lengths.len());
+        let mut fine = Intrinsic {
+            n_vertices: self.n_vertices + edges,
+            faces: Vec::with_capacity(4 * self.faces.len()),
+            face_edges: Vec::with_capacity(4 * self.faces.len()),
+            lengths: self.lengths.iter().flat_map(|l| [0.5 * l, 0.5 * l]).collect(),
+            geometry: self.geometry,
+        };
+        for (f, (corners, edge)) in self.faces.iter().zip(&self.face_edges).enumerate() {
+            let l = edge.map(|e| self.lengths[e.unsigned_abs() as usize - 1]);
+            let angles = triangle::angles(self.geometry, l).at;
+            // Side k runs from corner k to corner k + 1 and is opposite corner k + 2.
+            let side = |k: usize| edge[(k + 2) % 3];
+            let middle = |k: usize| n + side(k % 3).unsigned_abs() - 1;
+            let half = |k: usize, second: bool| {
+                let e = 2 * side(k % 3);
+                // Against the edge's direction its second half comes first.
+                let later = second != (e < 0);
+                if later { e } else { e - e.signum() }
+            };
+            // The inner edge near corner k, from the middle of side k to the middle of side k + 2.
+            let inner = |k: usize| (2 * edges + 3 * f + k % 3 + 1) as i32;
+            for k in 0..3 {
+                fine.lengths.push(midline(self.geometry, l[(k + 1) % 3], l[(k + 2) % 3], l[k], angles[k]));
+                fine.faces.push([corners[k], middle(k), middle(k + 2)]);
+                fine.face_edges.push([inner(k), half(k + 2, true), half(k, false)]);
+            }
+            fine.faces.push([middle(0), middle(1), middle(2)]);
+            fine.face_edges.push([-inner(2), -inner(0), -inner(1)]);
+        }
+        fine
+    }
+}
+
+/// Distance of the midpoints of two sides b, c that meet at `angle` (a: the third side): the cosine law for half the
+/// sides, in half-chord form.
+fn midline(geometry: Space, b: f64, c: f64, a: f64, angle: f64) -> f64 {
+    let (b, c) = (0.5 * b, 0.5 * c);
+    let sine = (0.5 * angle).sin();
+    match geometry {
+        Space::E2 => 0.5 * a,
+        Space::H2 => {
+            let q2 = (0.5 * (b - c)).sinh().powi(2) + b.sinh() * c.sinh() * sine * sine;
+            2.0 * q2.sqrt().asinh()
+        }
+        Space::S2 => {
+            let q2 = (0.5 * (b - c)).sin().powi(2) + b.sin() * c.sin() * sine * sine;
+            2.0 * q2.sqrt().asin()
+        }
+    }
+}
+
+/// The flat torus ℂ/(ℤ + τℤ), Im τ > 0, as an n × m grid of parallelograms, each halved by its diagonal from z to
+/// z + 1/n + τ/m; legal down to 1 × 1 (one vertex). Vertex (i, j) is i + n j.
+pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
+    if !(tau[0].is_finite() && tau[1].is_finite() && tau[1] > 0.0) {
+        let value = format!("{} + {} i", tau[0], tau[1]);
+        return Err(Error::Argument { what: "τ", value, need: "in the upper half plane" });
+    }
+    let vertices = n as f64 * m as f64;
+    check_count("steps along 1", n, 1, vertices)?;
+    check_count("steps along τ", m, 1, vertices)?;
+    let vertex = |i: usize, j: usize| (i % n) + n * (j % m);
+    let edge = |kind: usize, i: usize, j: usize| (3 * vertex(i, j) + kind + 1) as i32;
+    let (x, y) = ([1.0 / n as f64, 0.0], [tau[0] / m as f64, tau[1] / m as f64]);
+    let sides = [x[0], y[0].hypot(y[1]), (x[0] + y[0]).hypot(y[1])];
+    let (mut faces, mut face_edges, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
+    for j in 0..m {
+        for i in 0..n {
+            let [a, b, c, d] =
+                [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| vertex(i, j) as u32);
+            faces.extend([[a, b, c], [a, c, d]]);
+            face_edges.push([edge(1, i + 1, j), -edge(2, i, j), edge(0, i, j)]);
+            face_edges.push([-edge(0, i, j + 1), -edge(1, i, j), edge(2, i, j)]);
+            lengths.extend(sides);
+        }
+    }
+    Ok(Intrinsic { n_vertices: n * m, faces, face_edges, lengths, geometry: Space::E2 })
+}
+
+/// The Bolza surface: the regular hyperbolic octagon with angles π/4, opposite sides identified, as eight triangles
+/// around its centre, subdivided `level` times. Every vertex has curvature 0; the area is 4π.
+pub fn bolza(level: usize) -> Result<Intrinsic> {
+    check_count("level", level, 0, 8.0 * 4f64.powi(level.min(60) as i32))?;
+    // Side i and side i + 4 are the same edge, run through in opposite directions.
+    let sides: Vec<i32> = (1..=4).chain((1..=4).map(|e| -e)).collect();
+    let mut surface = centre_fan(&sides, 2);
+    for _ in 0..level {
+        surface = surface.subdivide();
+    }
+    Ok(surface)
+}
+
+/// The regular 4g-gon with sides `a1 b1 a1⁻¹ b1⁻¹ …` glued (all corners are one vertex of curvature 0), as a fan around
+/// its centre: two vertices, 6g edges. Hyperbolic with angles 2π/4g for g ≥ 2, the unit square for g = 1.
+pub fn two_vertex(genus: usize) -> Result<Intrinsic> {
+    check_count("genus", genus, 1, 8.0 * genus as f64)?;
+    Ok(centre_fan(&commutators(genus), genus))
+}
+
+/// The polygon of [`two_vertex`] as a fan of diagonals from one corner: one vertex, 6g − 3 edges, every edge a loop.
+pub fn one_vertex(genus: usize) -> Result<Intrinsic> {
+    check_count("genus", genus, 1, 8.0 * genus as f64)?;
+    let sides = commutators(genus);
+    let n = sides.len();
+    let chord = polygon_chord(genus, n);
+    let n_sides = n as i32 / 2;
+    // The diagonal from corner 0 to corner k, 2 ≤ k ≤ n − 2; the first and last are sides.
+    let from_corner = |k: usize| match k {
+        1 => sides[0],
+        k if k == n - 1 => -sides[n - 1],
+        k => n_sides + k as i32 - 1,
+    };
+    let face_edges = (1..n - 1).map(|k| [sides[k], -from_corner(k + 1), from_corner(k)]).collect();
+    let mut lengths = vec![chord(1); n / 2];
+    lengths.extend((2..n - 1).map(chord));
+    Ok(Intrinsic {
+        n_vertices: 1,
+        faces: vec![[0; 3]; n - 2],
+        face_edges,
+        lengths,
+        geometry: polygon_space(genus),
+    })
+}
+
+/// Two equilateral triangles of side 1 glued along their boundary: a flat sphere with three cones of 4π/3.
+pub fn two_triangle_sphere() -> Intrinsic {
+    Intrinsic {
+        n_vertices: 3,
+        faces: vec![[0, 1, 2], [0, 2, 1]],
+        face_edges: vec![[2, 3, 1], [-2, -1, -3]],
+        lengths: vec![1.0; 3],
+        geometry: Space::E2,
+    }
+}
+
+/// Signed edge numbers of the sides `a1 b1 a1⁻¹ b1⁻¹ a2 …`.
+fn commutators(genus: usize) -> Vec<i32> {
+    (0..genus as i32).flat_map(|k| [2 * k + 1, 2 * k + 2, -(2 * k + 1), -(2 * k + 2)]).collect()
+}
+
+fn polygon_space(genus: usize) -> Space {
+    if genus == 1 { Space::E2 } else { Space::H2 }
+}
+
+/// Radius of the polygon's corners: `cosh ρ = cot²(π/n)` for angles 2π/n in H²; √½ for the unit square.
+fn polygon_radius(genus: usize, n: usize) -> f64 {
+    let cot = 1.0 / (PI / n as f64).tan();
+    if genus == 1 { 0.5f64.sqrt() } else { (cot * cot).acosh() }
+}
+
+/// Distance of corners k apart: `sinh(d/2) = sinh ρ sin(πk/n)`.
+fn polygon_chord(genus: usize, n: usize) -> impl Fn(usize) -> f64 {
+    let radius = polygon_radius(genus, n);
+    move |k| {
+        let sine = (PI * k as f64 / n as f64).sin();
+        if genus == 1 { 2.0 * radius * sine } else { 2.0 * (radius.sinh() * sine).asinh() }
+    }
+}
+
+/// The polygon with these glued sides as a fan around its centre (vertex 0; the corners are vertex 1).
+fn centre_fan(sides: &[i32], genus: usize) -> Intrinsic {
+    let n = sides.len();
+    let n_sides = n as i32 / 2;
+    let spoke = |k: usize| n_sides + (k % n) as i32 + 1;
+    let face_edges = (0..n).map(|k| [sides[k], -spoke(k + 1), spoke(k)]).collect();
+    let mut lengths = vec![polygon_chord(genus, n)(1); n / 2];
+    lengths.extend(vec![polygon_radius(genus, n); n]);
+    Intrinsic {
+        n_vertices: 2,
+        faces: vec![[0, 1, 1]; n],
+        face_edges,
+        lengths,
+        geometry: polygon_space(genus),
+    }
+}

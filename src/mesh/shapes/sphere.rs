@@ -1,0 +1,88 @@
+//! Spheres and ellipsoids from the subdivided icosahedron.
+
+use super::{check_count, check_size};
+use crate::error::Result;
+use crate::mesh::Point;
+use crate::mesh::io::Soup;
+use std::collections::HashMap;
+
+/// The unit sphere: each face of the icosahedron cut into n² triangles, radially projected. 10n² + 2 vertices, 20n²
+/// faces; the icosahedron's twelve corners come first. n ≥ 1.
+pub fn icosphere(n: usize) -> Result<Soup> {
+    check_count("frequency", n, 1, 10.0 * (n as f64).powi(2))?;
+    let golden = 0.5 * (1.0 + 5.0f64.sqrt());
+    let mut positions: Vec<Point> = Vec::new();
+    for (a, b) in [(1.0, golden), (-1.0, golden), (1.0, -golden), (-1.0, -golden)] {
+        positions.extend([[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
+    }
+    let corners = icosahedron_faces(&positions);
+    // A point of an edge or face by its weights at the corners, smallest corner first: shared by all its faces.
+    let mut known: HashMap<[(u32, u32); 3], u32> = HashMap::new();
+    let base = positions.clone();
+    let mut vertex = |face: [u32; 3], weights: [u32; 3]| {
+        let mut key = [0, 1, 2].map(|i| if weights[i] == 0 { (u32::MAX, 0) } else { (face[i], weights[i]) });
+        key.sort_unstable();
+        if key[1].1 == 0 {
+            return key[0].0;
+        }
+        *known.entry(key).or_insert_with(|| {
+            let mut p = [0.0; 3];
+            for (corner, weight) in key.iter().filter(|(_, w)| *w > 0) {
+                (0..3).for_each(|k| p[k] += f64::from(*weight) * base[*corner as usize][k]);
+            }
+            positions.push(p);
+            positions.len() as u32 - 1
+        })
+    };
+    let mut faces = Vec::new();
+    let n = n as u32;
+    for face in corners {
+        for i in 0..n {
+            for j in 0..n - i {
+                let mut at = |i: u32, j: u32| vertex(face, [n - i - j, i, j]);
+                let (a, b, c) = (at(i, j), at(i + 1, j), at(i, j + 1));
+                faces.push([a, b, c]);
+                if i + j + 1 < n {
+                    faces.push([b, at(i + 1, j + 1), c]);
+                }
+            }
+        }
+    }
+    for p in &mut positions {
+        let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+        p.iter_mut().for_each(|x| *x /= length);
+    }
+    Ok(Soup { positions, faces })
+}
+
+/// The ellipsoid with half axes a, b, c along x, y, z: the icosphere, scaled.
+pub fn ellipsoid(axes: [f64; 3], n: usize) -> Result<Soup> {
+    for (what, axis) in ["first half axis", "second half axis", "third half axis"].into_iter().zip(axes) {
+        check_size(what, axis)?;
+    }
+    let mut soup = icosphere(n)?;
+    for p in &mut soup.positions {
+        (0..3).for_each(|k| p[k] *= axes[k]);
+    }
+    Ok(soup)
+}
+
+/// The twenty faces: triples of corners at the least distance, counterclockwise from outside.
+fn icosahedron_faces(p: &[Point]) -> Vec<[u32; 3]> {
+    let near = |a: usize, b: usize| (0..3).map(|k| (p[a][k] - p[b][k]).powi(2)).sum::<f64>() < 5.0;
+    let mut faces = Vec::new();
+    for a in 0..12 {
+        for b in a + 1..12 {
+            for c in b + 1..12 {
+                if near(a, b) && near(b, c) && near(c, a) {
+                    let [x, y, z] = [p[a], p[b], p[c]];
+                    let volume = x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0])
+                        + x[2] * (y[0] * z[1] - y[1] * z[0]);
+                    let [a, b, c] = [a as u32, b as u32, c as u32];
+                    faces.push(if volume > 0.0 { [a, b, c] } else { [a, c, b] });
+                }
+            }
+        }
+    }
+    faces
+}

@@ -1,0 +1,44 @@
+//! The torus of revolution.
+
+use super::{check_count, check_size};
+use crate::error::{Error, Result};
+use crate::mesh::io::Soup;
+use std::f64::consts::TAU;
+
+/// The torus of revolution about z with centre circle of radius `big` and tube radius `small` < `big`:
+/// `((R + r cos v) cos u, (R + r cos v) sin u, r sin v)` on a regular grid of `n_u` × `n_v` angles, each cell halved
+/// by its diagonal from (u, v) to the next (u, v). Vertex (i, j) is `i + n_u j`. Both counts ≥ 3.
+///
+/// Its flat metric has the modulus `i r/√(R² − r²)` up to SL(2, ℤ).
+pub fn torus(big: f64, small: f64, n_u: usize, n_v: usize) -> Result<Soup> {
+    check_size("radius of the centre circle", big)?;
+    check_size("radius of the tube", small)?;
+    if small >= big {
+        let value = small.to_string();
+        return Err(Error::Argument {
+            what: "radius of the tube",
+            value,
+            need: "below that of the centre circle",
+        });
+    }
+    let vertices = n_u as f64 * n_v as f64;
+    check_count("steps around the axis", n_u, 3, vertices)?;
+    check_count("steps around the tube", n_v, 3, vertices)?;
+    let mut soup = Soup::default();
+    for j in 0..n_v {
+        let (sin_v, cos_v) = (TAU * j as f64 / n_v as f64).sin_cos();
+        for i in 0..n_u {
+            let (sin_u, cos_u) = (TAU * i as f64 / n_u as f64).sin_cos();
+            let radius = big + small * cos_v;
+            soup.positions.push([radius * cos_u, radius * sin_u, small * sin_v]);
+        }
+    }
+    let at = |i: usize, j: usize| ((i % n_u) + n_u * (j % n_v)) as u32;
+    for j in 0..n_v {
+        for i in 0..n_u {
+            let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+            soup.faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    Ok(soup)
+}

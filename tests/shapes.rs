@@ -1,0 +1,154 @@
+//! The generators: topology, geometry and known totals.
+
+use ricci::geometry::{Space, triangle};
+use ricci::mesh::io::Soup;
+use ricci::mesh::shapes::{self, Intrinsic};
+use ricci::mesh::{Mesh, Point};
+use ricci::metric::{curvature, lengths_from_positions};
+use std::f64::consts::PI;
+
+fn topology(soup: &Soup) -> (usize, usize) {
+    let mesh = Mesh::from_soup(soup).unwrap();
+    (mesh.genus(), mesh.boundary_loops().len())
+}
+
+/// Smallest angle in degrees.
+fn min_angle(soup: &Soup) -> f64 {
+    let mesh = Mesh::from_soup(soup).unwrap();
+    let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
+    let corner = |f| triangle::angles(Space::E2, mesh.opposite_edges(f).map(|e| lengths[e])).at;
+    mesh.faces().flat_map(corner).fold(PI, f64::min).to_degrees()
+}
+
+fn volume(soup: &Soup) -> f64 {
+    let det = |[a, b, c]: [Point; 3]| {
+        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
+    };
+    soup.faces.iter().map(|f| det(f.map(|v| soup.positions[v as usize]))).sum::<f64>() / 6.0
+}
+
+#[test]
+fn every_shape_has_its_topology_and_faces_outwards() {
+    for n in [1, 2, 5] {
+        let sphere = shapes::icosphere(n).unwrap();
+        assert_eq!((sphere.positions.len(), sphere.faces.len()), (10 * n * n + 2, 20 * n * n));
+        assert_eq!(topology(&sphere), (0, 0));
+        assert!(volume(&sphere) > 2.0);
+        assert_eq!(topology(&shapes::disk(n).unwrap()), (0, 1));
+        assert_eq!(shapes::disk(n).unwrap().faces.len(), 6 * n * n);
+    }
+    assert_eq!(topology(&shapes::torus(2.0, 0.5, 7, 5).unwrap()), (1, 0));
+    assert!(volume(&shapes::torus(2.0, 0.5, 40, 20).unwrap()) > 9.0);
+    assert_eq!(topology(&shapes::annulus(1.0, 2.0, 4, 9).unwrap()), (0, 2));
+    for genus in 1..=4 {
+        for n in [2, 3, 5] {
+            let soup = shapes::genus(genus, n).unwrap();
+            assert_eq!(topology(&soup), (genus, 0), "genus {genus}, n {n}");
+            assert!(volume(&soup) > 0.0);
+        }
+    }
+    assert_eq!(topology(&shapes::genus(10, 3).unwrap()), (10, 0));
+    // Plane shapes face up: their signed area in the plane is positive, face by face.
+    for soup in [shapes::disk(6).unwrap(), shapes::annulus(0.5, 2.0, 5, 12).unwrap()] {
+        for f in &soup.faces {
+            let [a, b, c] = f.map(|v| soup.positions[v as usize]);
+            assert!((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0);
+        }
+    }
+}
+
+#[test]
+fn triangles_are_well_shaped() {
+    assert!(min_angle(&shapes::icosphere(12).unwrap()) > 50.0);
+    assert!(min_angle(&shapes::disk(12).unwrap()) > 40.0);
+    for (genus, n) in [(1, 4), (2, 4), (2, 8), (3, 6), (5, 4)] {
+        let angle = min_angle(&shapes::genus(genus, n).unwrap());
+        assert!(angle > 20.0, "genus {genus}, n {n}: {angle}°");
+    }
+}
+
+#[test]
+fn area_of_the_icosphere_tends_to_four_pi_quadratically() {
+    let area = |n| {
+        let soup = shapes::icosphere(n).unwrap();
+        let mesh = Mesh::from_soup(&soup).unwrap();
+        let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
+        curvature(&mesh, Space::E2, &lengths).unwrap().area
+    };
+    let errors = [8, 16, 32].map(|n| 4.0 * PI - area(n));
+    for pair in errors.windows(2) {
+        assert!((pair[0] / pair[1] - 4.0).abs() < 0.1, "{errors:?}");
+    }
+}
+
+fn check_flat(surface: &Intrinsic, genus: usize, area: f64) {
+    let (mesh, lengths) = surface.build().unwrap();
+    assert!(mesh.is_closed());
+    assert_eq!(mesh.genus(), genus);
+    let k = curvature(&mesh, surface.geometry, &lengths).unwrap();
+    assert!(k.broken.is_empty());
+    assert!(k.at.iter().all(|k| k.abs() < 1e-12), "{:?}", k.at.iter().map(|k| k.abs()).fold(0.0, f64::max));
+    assert!((k.area - area).abs() < 1e-11 * area.max(1.0), "area {}", k.area);
+}
+
+#[test]
+fn intrinsic_surfaces_have_curvature_zero() {
+    for level in 0..=4 {
+        check_flat(&shapes::bolza(level).unwrap(), 2, 4.0 * PI);
+    }
+    for genus in 2..=5 {
+        let area = 4.0 * PI * (genus as f64 - 1.0);
+        check_flat(&shapes::one_vertex(genus).unwrap(), genus, area);
+        check_flat(&shapes::two_vertex(genus).unwrap(), genus, area);
+        check_flat(&shapes::two_vertex(genus).unwrap().subdivide().subdivide(), genus, area);
+    }
+    check_flat(&shapes::one_vertex(1).unwrap(), 1, 1.0);
+    check_flat(&shapes::two_vertex(1).unwrap(), 1, 1.0);
+    check_flat(&shapes::flat_torus([0.3, 1.2], 1, 1).unwrap(), 1, 1.2);
+    check_flat(&shapes::flat_torus([0.3, 1.2], 5, 4).unwrap().subdivide(), 1, 1.2);
+}
+
+#[test]
+fn level_zero_of_bolza_is_a_complex_of_two_vertices() {
+    let (mesh, lengths) = shapes::bolza(0).unwrap().build().unwrap();
+    assert_eq!((mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()), (2, 12, 8));
+    // The side of the octagon: cosh(s/2) = cos(π/8)/sin(π/8).
+    let side = lengths.iter().copied().fold(f64::INFINITY, f64::min).max(lengths[0usize.into()]);
+    assert!(((side / 2.0).cosh() - 1.0 / (PI / 8.0).tan()).abs() < 1e-13);
+}
+
+#[test]
+fn doubled_triangle_is_a_sphere_with_three_cones() {
+    let (mesh, lengths) = shapes::two_triangle_sphere().build().unwrap();
+    assert_eq!(mesh.euler(), 2);
+    let k = curvature(&mesh, Space::E2, &lengths).unwrap();
+    assert!(k.at.iter().all(|k| (k - 4.0 * PI / 3.0).abs() < 1e-14));
+}
+
+#[test]
+fn noise_depends_on_its_seed_alone() {
+    let noisy = |seed| {
+        let mut soup = shapes::icosphere(4).unwrap();
+        shapes::noise(&mut soup, 0.1, seed).unwrap();
+        soup
+    };
+    assert_eq!(noisy(1), noisy(1));
+    assert_ne!(noisy(1), noisy(2));
+    assert_eq!(topology(&noisy(1)), (0, 0));
+    // First outputs of SplitMix64 for seed 1234567, as its authors publish them.
+    let mut random = shapes::SplitMix64::new(1_234_567);
+    assert_eq!([random.bits(), random.bits()], [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]);
+}
+
+#[test]
+fn impossible_shapes_are_refused() {
+    assert!(shapes::icosphere(0).is_err());
+    assert!(shapes::icosphere(usize::MAX).is_err());
+    assert!(shapes::torus(1.0, 1.0, 5, 5).is_err());
+    assert!(shapes::torus(2.0, f64::NAN, 5, 5).is_err());
+    assert!(shapes::torus(2.0, 1.0, 2, 5).is_err());
+    assert!(shapes::genus(0, 4).is_err());
+    assert!(shapes::bolza(60).is_err());
+    assert!(shapes::flat_torus([0.0, -1.0], 1, 1).is_err());
+}
