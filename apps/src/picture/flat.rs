@@ -1,6 +1,6 @@
 //! The layout in the plane.
 
-use super::checker::{Checker, check_sizes, doubled_area};
+use super::checker::{Checker, Checks, doubled_area};
 use super::raster::{Paint, Primitive, Rgb, dot, line};
 use super::{Circle, Fit, Flat, LINE, cone_color, seam_color};
 
@@ -16,11 +16,15 @@ const DUAL_CIRCLE: Rgb = [0.02, 0.15, 0.55];
 pub fn primitives(flat: &Flat<'_>) -> Vec<Primitive> {
     let fit = Fit::new(flat.corner_uv.iter().flatten().copied());
     let areas: Vec<f64> = flat.corner_uv.iter().map(|uv| 0.5 * doubled_area(*uv).abs()).collect();
-    let sizes = check_sizes(&areas, &areas);
+    let size = Checks::new(&areas, &areas).size;
     let mut out = Vec::new();
-    for (uv, size) in flat.corner_uv.iter().zip(sizes) {
+    for uv in flat.corner_uv {
         let xy = uv.map(|p| fit.apply(p));
-        out.push(Primitive { xy, z: [0.0; 3], paint: Paint::Tiled { checker: Checker::new(*uv, size, xy) } });
+        out.push(Primitive {
+            xy,
+            z: [0.0; 3],
+            paint: Paint::Tiled { checker: Checker::new(*uv, size, [0.0; 3], xy) },
+        });
     }
     if flat.corner_uv.len() <= WIRE_FACES && flat.circles.is_empty() {
         for uv in flat.corner_uv {
