@@ -4,6 +4,7 @@
 mod files;
 mod flow;
 mod info;
+mod make;
 mod run;
 mod surfaces;
 mod usage;
