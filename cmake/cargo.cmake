@@ -9,7 +9,8 @@ endif()
 
 find_program(CARGO cargo HINTS $ENV{CARGO_HOME}/bin $ENV{HOME}/.cargo/bin)
 if(NOT CARGO)
-  message(FATAL_ERROR "ricci: building needs a Rust toolchain (https://rustup.rs); using an installed ricci does not")
+  message(FATAL_ERROR "ricci: building needs a Rust toolchain (https://rustup.rs); "
+                      "using an installed ricci does not")
 endif()
 
 set(RICCI_CARGO_PROFILE release CACHE STRING "cargo profile: release or dev")

@@ -211,6 +211,13 @@ fn advance(
     origin: &Arc<Origin>,
 ) -> Outcome<(ricci_metric, Report)> {
     let report = solver.solve(target, control)?;
+    log::info!(
+        "flow: {} after {} iterations and {:.3} s, max |K - target| = {:.1e}",
+        report.stop_reason,
+        report.iterations,
+        report.seconds.total,
+        report.max_curvature_error
+    );
     let end = ricci_metric::at(Arc::new(solver.mesh().clone()), solver.metric().clone(), origin.clone())?;
     Ok((end, report))
 }

@@ -102,11 +102,13 @@ pub fn call(body: impl FnOnce(&Door) -> Outcome) -> ricci_status {
     match guarded(|| body(&door)) {
         Ok(Ok(())) => ricci_status::RICCI_OK,
         Ok(Err(failure)) => {
+            log::warn!("{}", failure.message);
             last_error::set(&failure.message);
             failure.status
         }
         Err(message) => {
             door.poison_all();
+            log::error!("{message}");
             last_error::set(&message);
             ricci_status::RICCI_PANIC
         }

@@ -353,7 +353,6 @@ pub unsafe extern "C" fn ricci_layout_write_obj(
             faces: &faces,
             texcoords: &layout.layout.coordinates,
             face_texcoords: &layout.corners(),
-            ..Default::default()
         };
         Ok(io::write_obj(&path, &data)?)
     })

@@ -14,13 +14,13 @@ use std::sync::{PoisonError, RwLock};
 pub enum ricci_log_level {
     /// Nothing.
     RICCI_LOG_OFF = 0,
-    /// What went wrong.
+    /// Internal errors.
     RICCI_LOG_ERROR = 1,
-    /// What is suspicious.
+    /// Calls that fail, with their detail message.
     RICCI_LOG_WARN = 2,
-    /// What was done.
+    /// What was done: how each flow ended.
     RICCI_LOG_INFO = 3,
-    /// Each iteration.
+    /// Steps on the way.
     RICCI_LOG_DEBUG = 4,
     /// Everything.
     RICCI_LOG_TRACE = 5,

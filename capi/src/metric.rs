@@ -55,6 +55,13 @@ impl ricci_metric {
     ) -> Outcome<ricci_metric> {
         let connectivity = mesh.connectivity.clone();
         let initial = initial_metric(&connectivity, &lengths, geometry, scheme, space)?;
+        if initial.clamped_edges > 0 {
+            log::info!(
+                "metric: {scheme} keeps {} edge weights at a bound, lengths change by up to {:.2} %",
+                initial.clamped_edges,
+                100.0 * initial.max_length_change
+            );
+        }
         let metric = initial.metric.clone();
         let positions = match &mesh.shape {
             Shape::Positions(positions) => Some(positions.clone()),

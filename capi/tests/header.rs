@@ -13,7 +13,7 @@ fn committed_header_is_what_the_source_gives() {
         .generate()
         .expect("cbindgen reads the crate")
         .write(&mut text);
-    let text = String::from_utf8(text).unwrap();
+    let text = compact(&String::from_utf8(text).unwrap());
     let committed = here.join("../include/ricci/ricci.h");
     if std::env::var_os("RICCI_BLESS").is_some() {
         std::fs::create_dir_all(committed.parent().unwrap()).unwrap();
@@ -25,4 +25,26 @@ fn committed_header_is_what_the_source_gives() {
         "include/ricci/ricci.h is not what capi/src gives; run \
          RICCI_BLESS=1 cargo test -p ricci-capi --test header and commit it"
     );
+}
+
+/// A comment of one line on one line.
+fn compact(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().collect();
+    let mut out = String::new();
+    let mut i = 0;
+    while i < lines.len() {
+        let body = lines.get(i + 1).and_then(|line| line.trim_start().strip_prefix("* "));
+        match body {
+            Some(body) if lines[i].trim() == "/**" && lines.get(i + 2).is_some_and(|l| l.trim() == "*/") => {
+                out += &format!("{} {body} */\n", lines[i]);
+                i += 3;
+            }
+            _ => {
+                out += lines[i];
+                out.push('\n');
+                i += 1;
+            }
+        }
+    }
+    out
 }

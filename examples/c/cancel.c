@@ -1,5 +1,5 @@
-/* Cancels a flow from another thread: starts it on a large torus, waits until it is under way, and says how long the
- * call took to come back. Usage: example_cancel [COLUMNS ROWS]; 400 x 250 is 100,000 vertices. */
+/* Cancels a flow from another thread: starts it on a large torus, waits until it is under way, and says how
+ * long the call took to come back. Usage: example_cancel [COLUMNS ROWS]; 400 x 250 is 100,000 vertices. */
 #define _POSIX_C_SOURCE 200112L
 #include <math.h>
 #include <pthread.h>
@@ -52,7 +52,8 @@ static void *cancel_when_running(void *control) {
 }
 
 int main(int argc, char **argv) {
-    const size_t n = argc > 2 ? strtoul(argv[1], NULL, 10) : 400, m = argc > 2 ? strtoul(argv[2], NULL, 10) : 250;
+    const size_t n = argc > 2 ? strtoul(argv[1], NULL, 10) : 400;
+    const size_t m = argc > 2 ? strtoul(argv[2], NULL, 10) : 250;
     ricci_mesh *mesh = make_torus(n, m);
     ricci_metric *metric, *result = NULL;
     ricci_control *control;

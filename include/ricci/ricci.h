@@ -16,10 +16,10 @@
  *   - Angles are radians; a curvature is the angle defect of a vertex.
  *   - No call unwinds into C: an internal error is RICCI_PANIC, and the handles it was using answer
  *     RICCI_POISONED from then on; they can only be freed.
- *   - Calls compute under the default floating-point environment and give the caller its own back: floating-point
- *     traps, rounding mode and flush-to-zero of the host neither disturb a call nor change its result.
- *   - Results are identical bit for bit for any number of threads. Threads are the call's own and have ended when it
- *     returns (a ricci_solver keeps its threads until it is freed). Nothing is printed.
+ *   - Calls compute under the default floating-point environment and give the caller its own back: the host's
+ *     floating-point traps, rounding mode and flush-to-zero neither disturb a call nor change its result.
+ *   - Results are identical bit for bit for any number of threads. Threads are the call's own and have ended when
+ *     it returns (a ricci_solver keeps its threads until it is freed). Nothing is printed.
  *   - Platforms: 64-bit Linux (tested on x86-64, glibc); written for macOS too, not tested there.
  */
 
@@ -30,19 +30,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/**
- * Version of this header: incompatible changes.
- */
+/** Version of this header: incompatible changes. */
 #define RICCI_VERSION_MAJOR 0
 
-/**
- * Version of this header: additions.
- */
+/** Version of this header: additions. */
 #define RICCI_VERSION_MINOR 1
 
-/**
- * Version of this header: corrections.
- */
+/** Version of this header: corrections. */
 #define RICCI_VERSION_PATCH 0
 
 /**
@@ -50,289 +44,155 @@
  * of metrics, 400s of targets, 500s of solvers, 600s of layouts. A number is never given out again.
  */
 typedef enum {
-    /**
-     * Done.
-     */
+    /** Done. */
     RICCI_OK = 0,
-    /**
-     * An array does not have the size the call needs.
-     */
+    /** An array does not have the size the call needs. */
     RICCI_WRONG_SIZE = 1,
-    /**
-     * An argument or option is outside its range.
-     */
+    /** An argument or option is outside its range. */
     RICCI_ARGUMENT = 2,
-    /**
-     * More elements than a 32-bit index can number.
-     */
+    /** More elements than a 32-bit index can number. */
     RICCI_TOO_LARGE = 3,
-    /**
-     * Cancelled through the ricci_control; inputs are unchanged.
-     */
+    /** Cancelled through the ricci_control; inputs are unchanged. */
     RICCI_CANCELLED = 4,
-    /**
-     * A pointer that must not be NULL is NULL.
-     */
+    /** A pointer that must not be NULL is NULL. */
     RICCI_NULL_POINTER = 10,
-    /**
-     * An internal error, a defect of the library; the handles the call was using are poisoned.
-     */
+    /** An internal error, a defect of the library; the handles the call was using are poisoned. */
     RICCI_PANIC = 11,
-    /**
-     * An earlier call on this handle ended in RICCI_PANIC; it can only be freed.
-     */
+    /** An earlier call on this handle ended in RICCI_PANIC; it can only be freed. */
     RICCI_POISONED = 12,
-    /**
-     * The caller's buffer is too small; the message says how many entries are needed.
-     */
+    /** The caller's buffer is too small; the message says how many entries are needed. */
     RICCI_BUFFER_TOO_SMALL = 13,
-    /**
-     * A struct has a size that no version of the library knows.
-     */
+    /** A struct has a size that no version of the library knows. */
     RICCI_STRUCT_SIZE = 14,
-    /**
-     * A file could not be read or written.
-     */
+    /** A file could not be read or written. */
     RICCI_IO = 100,
-    /**
-     * A file's content is not what its format says.
-     */
+    /** A file's content is not what its format says. */
     RICCI_PARSE = 101,
-    /**
-     * No reader or writer for this file name.
-     */
+    /** No reader or writer for this file name. */
     RICCI_UNKNOWN_FORMAT = 102,
-    /**
-     * The faces do not form a connected oriented surface; ricci_diagnose_arrays lists every defect.
-     */
+    /** The faces do not form a connected oriented surface; ricci_diagnose_arrays lists every defect. */
     RICCI_DEFECTS = 200,
-    /**
-     * The gluing of an intrinsic surface is inconsistent.
-     */
+    /** The gluing of an intrinsic surface is inconsistent. */
     RICCI_GLUING = 201,
-    /**
-     * A rule of the connectivity does not hold.
-     */
+    /** A rule of the connectivity does not hold. */
     RICCI_CONNECTIVITY = 202,
-    /**
-     * An edge length is not finite and positive.
-     */
+    /** An edge length is not finite and positive. */
     RICCI_EDGE_LENGTH = 300,
-    /**
-     * Edge lengths break the triangle inequality.
-     */
+    /** Edge lengths break the triangle inequality. */
     RICCI_TRIANGLE_INEQUALITY = 301,
-    /**
-     * The scheme cannot represent the metric on an edge.
-     */
+    /** The scheme cannot represent the metric on an edge. */
     RICCI_EDGE_WEIGHT = 302,
-    /**
-     * A conformal variable is outside the metric's domain.
-     */
+    /** A conformal variable is outside the metric's domain. */
     RICCI_DOMAIN = 303,
-    /**
-     * A target curvature is too large at a vertex.
-     */
+    /** A target curvature is too large at a vertex. */
     RICCI_TARGET_AT_VERTEX = 400,
-    /**
-     * The target curvatures do not add up to what Gauss-Bonnet asks for.
-     */
+    /** The target curvatures do not add up to what Gauss-Bonnet asks for. */
     RICCI_TARGET_TOTAL = 401,
-    /**
-     * This kind of target does not exist here.
-     */
+    /** This kind of target does not exist here. */
     RICCI_TARGET_KIND = 402,
-    /**
-     * A target curvature is too small at a vertex.
-     */
+    /** A target curvature is too small at a vertex. */
     RICCI_TARGET_BELOW = 403,
-    /**
-     * A linear system could not be factorised.
-     */
+    /** A linear system could not be factorised. */
     RICCI_FACTORISATION = 500,
-    /**
-     * The metric has no layout in this space.
-     */
+    /** The metric has no layout in this space. */
     RICCI_LAYOUT = 600,
 } ricci_status;
 
-/**
- * How much is logged; a message's own level is never RICCI_LOG_OFF.
- */
+/** How much is logged; a message's own level is never RICCI_LOG_OFF. */
 typedef enum {
-    /**
-     * Nothing.
-     */
+    /** Nothing. */
     RICCI_LOG_OFF = 0,
-    /**
-     * What went wrong.
-     */
+    /** Internal errors. */
     RICCI_LOG_ERROR = 1,
-    /**
-     * What is suspicious.
-     */
+    /** Calls that fail, with their detail message. */
     RICCI_LOG_WARN = 2,
-    /**
-     * What was done.
-     */
+    /** What was done: how each flow ended. */
     RICCI_LOG_INFO = 3,
-    /**
-     * Each iteration.
-     */
+    /** Steps on the way. */
     RICCI_LOG_DEBUG = 4,
-    /**
-     * Everything.
-     */
+    /** Everything. */
     RICCI_LOG_TRACE = 5,
 } ricci_log_level;
 
-/**
- * What a long call is doing.
- */
+/** What a long call is doing. */
 typedef enum {
-    /**
-     * Nothing has started.
-     */
+    /** Nothing has started. */
     RICCI_STAGE_IDLE = 0,
-    /**
-     * Reading a file.
-     */
+    /** Reading a file. */
     RICCI_STAGE_READ = 1,
-    /**
-     * Building connectivity.
-     */
+    /** Building connectivity. */
     RICCI_STAGE_BUILD = 2,
-    /**
-     * Solving for the metric.
-     */
+    /** Solving for the metric. */
     RICCI_STAGE_FLOW = 3,
-    /**
-     * Laying the metric out.
-     */
+    /** Laying the metric out. */
     RICCI_STAGE_LAYOUT = 4,
-    /**
-     * Writing a file.
-     */
+    /** Writing a file. */
     RICCI_STAGE_WRITE = 5,
 } ricci_stage;
 
-/**
- * Background geometry.
- */
+/** Background geometry. */
 typedef enum {
-    /**
-     * The Euclidean plane.
-     */
+    /** The Euclidean plane. */
     RICCI_SPACE_E2 = 0,
-    /**
-     * The hyperbolic plane, curvature -1.
-     */
+    /** The hyperbolic plane, curvature -1. */
     RICCI_SPACE_H2 = 1,
-    /**
-     * The unit sphere, curvature +1.
-     */
+    /** The unit sphere, curvature +1. */
     RICCI_SPACE_S2 = 2,
 } ricci_space;
 
-/**
- * How edge lengths depend on one variable u per vertex.
- */
+/** How edge lengths depend on one variable u per vertex. */
 typedef enum {
-    /**
-     * Vertex scaling (discrete Yamabe); represents any input metric exactly.
-     */
+    /** Vertex scaling (discrete Yamabe); represents any input metric exactly. */
     RICCI_SCHEME_YAMABE = 0,
-    /**
-     * Inversive distance circle packing; represents any input metric exactly.
-     */
+    /** Inversive distance circle packing; represents any input metric exactly. */
     RICCI_SCHEME_INVERSIVE = 1,
-    /**
-     * Thurston's circle packing: circles meet at angles in [0, pi/2]; changes lengths at the start.
-     */
+    /** Thurston's circle packing: circles meet at angles in [0, pi/2]; changes lengths at the start. */
     RICCI_SCHEME_THURSTON = 2,
-    /**
-     * Tangential (combinatorial) circle packing: ignores lengths but for the initial radii.
-     */
+    /** Tangential (combinatorial) circle packing: ignores lengths but for the initial radii. */
     RICCI_SCHEME_TANGENTIAL = 3,
-    /**
-     * Virtual radius circle packing: imaginary circles.
-     */
+    /** Virtual radius circle packing: imaginary circles. */
     RICCI_SCHEME_VIRTUAL = 4,
 } ricci_scheme;
 
-/**
- * Why a flow stopped.
- */
+/** Why a flow stopped. */
 typedef enum {
-    /**
-     * The curvature error is within the tolerance and no triangle is broken.
-     */
+    /** The curvature error is within the tolerance and no triangle is broken. */
     RICCI_STOP_CONVERGED = 0,
-    /**
-     * The error is as small as rounding allows on this mesh, which is above the tolerance asked for.
-     */
+    /** The error is as small as rounding allows on this mesh, which is above the tolerance asked for. */
     RICCI_STOP_ROUNDING_FLOOR = 1,
-    /**
-     * A minimum of the energy with broken triangles: no metric.
-     */
+    /** A minimum of the energy with broken triangles: no metric. */
     RICCI_STOP_BROKEN_TRIANGLES = 2,
-    /**
-     * The variables run away: the target violates a condition of the scheme on this triangulation.
-     */
+    /** The variables run away: the target violates a condition of the scheme on this triangulation. */
     RICCI_STOP_DIVERGED = 3,
-    /**
-     * No step lowers the error any more.
-     */
+    /** No step lowers the error any more. */
     RICCI_STOP_STALLED = 4,
-    /**
-     * The iteration limit came first.
-     */
+    /** The iteration limit came first. */
     RICCI_STOP_ITERATION_LIMIT = 5,
 } ricci_stop_reason;
 
-/**
- * How the flow is solved.
- */
+/** How the flow is solved. */
 typedef enum {
-    /**
-     * Newton's method on the convex energy.
-     */
+    /** Newton's method on the convex energy. */
     RICCI_METHOD_NEWTON = 0,
-    /**
-     * The gradient flow du/dt = target - K, explicit in time, with a trace.
-     */
+    /** The gradient flow du/dt = target - K, explicit in time, with a trace. */
     RICCI_METHOD_GRADIENT = 1,
 } ricci_method;
 
-/**
- * Whether edges may be flipped while the metric flows.
- */
+/** Whether edges may be flipped while the metric flows. */
 typedef enum {
-    /**
-     * As often as needed. This version keeps the triangulation all the same.
-     */
+    /** As often as needed. This version keeps the triangulation all the same. */
     RICCI_FLIPS_AUTO = 0,
-    /**
-     * The triangulation stays as it is.
-     */
+    /** The triangulation stays as it is. */
     RICCI_FLIPS_NEVER = 1,
 } ricci_flips;
 
-/**
- * Step size of the gradient flow.
- */
+/** Step size of the gradient flow. */
 typedef enum {
-    /**
-     * Barzilai-Borwein steps: far fewer steps, by other metrics than the continuous flow.
-     */
+    /** Barzilai-Borwein steps: far fewer steps, by other metrics than the continuous flow. */
     RICCI_STEP_BARZILAI_BORWEIN = 0,
-    /**
-     * The largest step that is stable by Gershgorin's bound.
-     */
+    /** The largest step that is stable by Gershgorin's bound. */
     RICCI_STEP_STABLE = 1,
-    /**
-     * Always `step_size`.
-     */
+    /** Always `step_size`. */
     RICCI_STEP_FIXED = 2,
 } ricci_step;
 
@@ -342,19 +202,13 @@ typedef enum {
  */
 typedef struct ricci_control ricci_control;
 
-/**
- * Every defect of a triangle list.
- */
+/** Every defect of a triangle list. */
 typedef struct ricci_diagnosis ricci_diagnosis;
 
-/**
- * A flat metric unrolled into the plane along a cut.
- */
+/** A flat metric unrolled into the plane along a cut. */
 typedef struct ricci_layout ricci_layout;
 
-/**
- * A connected oriented triangulated surface with the lengths of its edges. It never changes.
- */
+/** A connected oriented triangulated surface with the lengths of its edges. It never changes. */
 typedef struct ricci_mesh ricci_mesh;
 
 /**
@@ -363,9 +217,7 @@ typedef struct ricci_mesh ricci_mesh;
  */
 typedef struct ricci_metric ricci_metric;
 
-/**
- * What a flow did: why it stopped, how far it came, how long it took.
- */
+/** What a flow did: why it stopped, how far it came, how long it took. */
 typedef struct ricci_report ricci_report;
 
 /**
@@ -380,362 +232,192 @@ typedef struct ricci_solver ricci_solver;
  */
 typedef void (*ricci_log_callback)(ricci_log_level level, const char *message, void *user_data);
 
-/**
- * Counts of a mesh.
- */
+/** Counts of a mesh. */
 typedef struct {
-    /**
-     * Bytes of this struct that are filled.
-     */
+    /** Bytes of this struct that are filled. */
     size_t size;
-    /**
-     * V.
-     */
+    /** V. */
     size_t n_vertices;
-    /**
-     * E.
-     */
+    /** E. */
     size_t n_edges;
-    /**
-     * F.
-     */
+    /** F. */
     size_t n_faces;
-    /**
-     * Number of boundary loops; 0 for a closed surface.
-     */
+    /** Number of boundary loops; 0 for a closed surface. */
     size_t n_boundary_loops;
-    /**
-     * Number of vertices on the boundary.
-     */
+    /** Number of vertices on the boundary. */
     size_t n_boundary_vertices;
-    /**
-     * V - E + F.
-     */
+    /** V - E + F. */
     int64_t euler;
-    /**
-     * (2 - euler - boundary loops) / 2.
-     */
+    /** (2 - euler - boundary loops) / 2. */
     size_t genus;
 } ricci_mesh_summary;
 
-/**
- * Counts of a triangle list.
- */
+/** Counts of a triangle list. */
 typedef struct {
-    /**
-     * Bytes of this struct that are filled.
-     */
+    /** Bytes of this struct that are filled. */
     size_t size;
-    /**
-     * Number of defects.
-     */
+    /** Number of defects. */
     size_t n_defects;
-    /**
-     * Vertices given.
-     */
+    /** Vertices given. */
     size_t n_vertices;
-    /**
-     * Distinct edges.
-     */
+    /** Distinct edges. */
     size_t n_edges;
-    /**
-     * Faces given.
-     */
+    /** Faces given. */
     size_t n_faces;
-    /**
-     * Connected pieces.
-     */
+    /** Connected pieces. */
     size_t n_components;
-    /**
-     * V - E + F over the vertices in use.
-     */
+    /** V - E + F over the vertices in use. */
     int64_t euler;
-    /**
-     * Boundary loops; -1 where the surface is not a manifold.
-     */
+    /** Boundary loops; -1 where the surface is not a manifold. */
     int64_t n_boundary_loops;
-    /**
-     * Genus; -1 where the surface is not a connected, oriented manifold.
-     */
+    /** Genus; -1 where the surface is not a connected, oriented manifold. */
     int64_t genus;
 } ricci_diagnosis_summary;
 
-/**
- * One defect. The pointers are views into the diagnosis and live as long as it does.
- */
+/** One defect. The pointers are views into the diagnosis and live as long as it does. */
 typedef struct {
-    /**
-     * Bytes of this struct that are filled.
-     */
+    /** Bytes of this struct that are filled. */
     size_t size;
-    /**
-     * Stable name of the kind of defect, such as "non_manifold_edge".
-     */
+    /** Stable name of the kind of defect, such as "non_manifold_edge". */
     const char *code;
-    /**
-     * One sentence with the elements concerned.
-     */
+    /** One sentence with the elements concerned. */
     const char *message;
-    /**
-     * What to do about it.
-     */
+    /** What to do about it. */
     const char *remedy;
-    /**
-     * The vertices concerned: n_vertices 0-based indices.
-     */
+    /** The vertices concerned: n_vertices 0-based indices. */
     const uint32_t *vertices;
-    /**
-     * Number of vertices.
-     */
+    /** Number of vertices. */
     size_t n_vertices;
-    /**
-     * The faces concerned: n_faces 0-based indices.
-     */
+    /** The faces concerned: n_faces 0-based indices. */
     const uint32_t *faces;
-    /**
-     * Number of faces.
-     */
+    /** Number of faces. */
     size_t n_faces;
 } ricci_defect;
 
-/**
- * Figures of a metric.
- */
+/** Figures of a metric. */
 typedef struct {
-    /**
-     * Bytes of this struct that are filled.
-     */
+    /** Bytes of this struct that are filled. */
     size_t size;
-    /**
-     * The geometry of its triangles.
-     */
+    /** The geometry of its triangles. */
     ricci_space space;
-    /**
-     * The geometry in which the input lengths were read.
-     */
+    /** The geometry in which the input lengths were read. */
     ricci_space input_geometry;
-    /**
-     * Its scheme.
-     */
+    /** Its scheme. */
     ricci_scheme scheme;
-    /**
-     * 0.
-     */
+    /** 0. */
     int32_t reserved;
-    /**
-     * V, the entries of per-vertex arrays.
-     */
+    /** V, the entries of per-vertex arrays. */
     size_t n_vertices;
-    /**
-     * E, the entries of per-edge arrays.
-     */
+    /** E, the entries of per-edge arrays. */
     size_t n_edges;
-    /**
-     * F.
-     */
+    /** F. */
     size_t n_faces;
-    /**
-     * Sum of the triangles' areas, in units of the input length squared (E2) or of 1/|curvature|.
-     */
+    /** Sum of the triangles' areas, in units of the input length squared (E2) or of 1/|curvature|. */
     double area;
-    /**
-     * |sum of curvatures + lambda area - 2 pi chi|, lambda the curvature of the space: rounding only.
-     */
+    /** |sum of curvatures + lambda area - 2 pi chi|, lambda the curvature of the space: rounding only. */
     double gauss_bonnet;
-    /**
-     * Number of triangles whose lengths break the triangle inequality.
-     */
+    /** Number of triangles whose lengths break the triangle inequality. */
     size_t broken_triangles;
-    /**
-     * Edges whose initial weight the scheme had to change (Thurston).
-     */
+    /** Edges whose initial weight the scheme had to change (Thurston). */
     size_t clamped_edges;
-    /**
-     * Largest relative change of an edge length by going over to the scheme.
-     */
+    /** Largest relative change of an edge length by going over to the scheme. */
     double max_length_change;
 } ricci_metric_summary;
 
-/**
- * Figures of a report.
- */
+/** Figures of a report. */
 typedef struct {
-    /**
-     * Bytes of this struct that are filled.
-     */
+    /** Bytes of this struct that are filled. */
     size_t size;
-    /**
-     * 1 if the curvature error is within `tolerance` and no triangle is broken, else 0.
-     */
+    /** 1 if the curvature error is within `tolerance` and no triangle is broken, else 0. */
     int32_t converged;
-    /**
-     * Why it stopped.
-     */
+    /** Why it stopped. */
     ricci_stop_reason stop_reason;
-    /**
-     * Number of steps.
-     */
+    /** Number of steps. */
     size_t iterations;
-    /**
-     * Number of edges flipped.
-     */
+    /** Number of edges flipped. */
     size_t flips;
-    /**
-     * Number of triangles whose lengths break the triangle inequality.
-     */
+    /** Number of triangles whose lengths break the triangle inequality. */
     size_t broken_triangles;
-    /**
-     * Largest |K - target| over the vertices, radians.
-     */
+    /** Largest |K - target| over the vertices, radians. */
     double max_curvature_error;
     /**
      * The tolerance that was used: the one asked for, or the rounding floor of the mesh where that is
      * larger.
      */
     double tolerance;
-    /**
-     * Curvature error that rounding u to double precision can cause on the final metric, radians.
-     */
+    /** Curvature error that rounding u to double precision can cause on the final metric, radians. */
     double rounding_floor;
-    /**
-     * |sum of curvatures + lambda area - 2 pi chi| of the result.
-     */
+    /** |sum of curvatures + lambda area - 2 pi chi| of the result. */
     double gauss_bonnet;
-    /**
-     * Seconds in the assembly of curvature and its derivative.
-     */
+    /** Seconds in the assembly of curvature and its derivative. */
     double seconds_assemble;
-    /**
-     * Seconds in the symbolic analysis.
-     */
+    /** Seconds in the symbolic analysis. */
     double seconds_analyse;
-    /**
-     * Seconds in numeric factorisations.
-     */
+    /** Seconds in numeric factorisations. */
     double seconds_factor;
-    /**
-     * Seconds in solves.
-     */
+    /** Seconds in solves. */
     double seconds_solve;
-    /**
-     * Seconds in edge flips.
-     */
+    /** Seconds in edge flips. */
     double seconds_flip;
-    /**
-     * Seconds in all.
-     */
+    /** Seconds in all. */
     double seconds_total;
-    /**
-     * Entries of ricci_report_residuals.
-     */
+    /** Entries of ricci_report_residuals. */
     size_t n_residuals;
-    /**
-     * Rows of ricci_report_trace.
-     */
+    /** Rows of ricci_report_trace. */
     size_t n_trace;
 } ricci_report_summary;
 
-/**
- * How a flow is done. Let ricci_flow_options_init fill it, then change fields.
- */
+/** How a flow is done. Let ricci_flow_options_init fill it, then change fields. */
 typedef struct {
-    /**
-     * Bytes of this struct that are filled.
-     */
+    /** Bytes of this struct that are filled. */
     size_t size;
-    /**
-     * How it is solved; default RICCI_METHOD_NEWTON.
-     */
+    /** How it is solved; default RICCI_METHOD_NEWTON. */
     ricci_method method;
-    /**
-     * Whether edges may be flipped; default RICCI_FLIPS_AUTO.
-     */
+    /** Whether edges may be flipped; default RICCI_FLIPS_AUTO. */
     ricci_flips flips;
-    /**
-     * Largest |K - target| of a converged metric, radians, positive; default 1e-10.
-     */
+    /** Largest |K - target| of a converged metric, radians, positive; default 1e-10. */
     double tolerance;
-    /**
-     * Steps before giving up; default 0: 200 for Newton, 200,000 for the gradient flow.
-     */
+    /** Steps before giving up; default 0: 200 for Newton, 200,000 for the gradient flow. */
     size_t max_iterations;
-    /**
-     * Threads of this flow, in a pool of its own; default 0: one per core. The result does not depend on it.
-     */
+    /** Threads of this flow, in a pool of its own; default 0: one per core. The result does not depend on it. */
     size_t threads;
-    /**
-     * Largest change of any u in one Newton step, positive; default 3.
-     */
+    /** Largest change of any u in one Newton step, positive; default 3. */
     double max_step;
-    /**
-     * Step rule of the gradient flow; default RICCI_STEP_BARZILAI_BORWEIN.
-     */
+    /** Step rule of the gradient flow; default RICCI_STEP_BARZILAI_BORWEIN. */
     ricci_step step;
-    /**
-     * Gradient flow in E2: 1 keeps the total area of the start; default 0.
-     */
+    /** Gradient flow in E2: 1 keeps the total area of the start; default 0. */
     int32_t area_normalised;
-    /**
-     * The step of RICCI_STEP_FIXED, positive; default 0.
-     */
+    /** The step of RICCI_STEP_FIXED, positive; default 0. */
     double step_size;
 } ricci_flow_options;
 
-/**
- * Figures of a layout.
- */
+/** Figures of a layout. */
 typedef struct {
-    /**
-     * Bytes of this struct that are filled.
-     */
+    /** Bytes of this struct that are filled. */
     size_t size;
-    /**
-     * F.
-     */
+    /** F. */
     size_t n_faces;
-    /**
-     * Number of points in the plane: vertices count once per piece of their star between cuts.
-     */
+    /** Number of points in the plane: vertices count once per piece of their star between cuts. */
     size_t n_points;
-    /**
-     * Number of seams.
-     */
+    /** Number of seams. */
     size_t n_seams;
-    /**
-     * Number of edges on all seams.
-     */
+    /** Number of edges on all seams. */
     size_t n_seam_edges;
-    /**
-     * Faces that are not counterclockwise, by exact arithmetic.
-     */
+    /** Faces that are not counterclockwise, by exact arithmetic. */
     size_t n_flipped;
-    /**
-     * Largest disagreement of an edge vector with the placed points, relative to `diameter`.
-     */
+    /** Largest disagreement of an edge vector with the placed points, relative to `diameter`. */
     double consistency;
-    /**
-     * Diagonal of the bounding box.
-     */
+    /** Diagonal of the bounding box. */
     double diameter;
-    /**
-     * Area; that of the input surface where its lengths are Euclidean.
-     */
+    /** Area; that of the input surface where its lengths are Euclidean. */
     double area;
-    /**
-     * Quasi-conformal dilatation, at least 1: mean over the input's area.
-     */
+    /** Quasi-conformal dilatation, at least 1: mean over the input's area. */
     double qc_mean;
-    /**
-     * Largest quasi-conformal dilatation.
-     */
+    /** Largest quasi-conformal dilatation. */
     double qc_max;
-    /**
-     * Smallest area distortion: share of the layout's area over share of the input's.
-     */
+    /** Smallest area distortion: share of the layout's area over share of the input's. */
     double area_ratio_min;
-    /**
-     * Largest area distortion.
-     */
+    /** Largest area distortion. */
     double area_ratio_max;
 } ricci_layout_summary;
 

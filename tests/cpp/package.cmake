@@ -1,4 +1,5 @@
-# Installs BUILD below WORK, moves the installation, and builds SOURCE against it with CMake and with pkg-config.
+# Installs BUILD below WORK, moves the installation, and builds SOURCE against it with CMake and with
+# pkg-config.
 file(REMOVE_RECURSE ${WORK})
 set(_prefix ${WORK}/moved)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first OUTPUT_QUIET

@@ -1,89 +1,13 @@
-// A mesh as OpenMesh holds it goes to ricci as it lies in memory. What ricci says about it is then checked against
-// OpenMesh (counts, loops), CGAL (angles, areas, exact orientation) and formulas in long double on the numbers that
-// ricci returns: curvature before and after the flow, conformality, layout.
+// A mesh as OpenMesh holds it goes to ricci as it lies in memory. What ricci says about it is then checked
+// against OpenMesh (counts, loops), CGAL (angles, areas, exact orientation) and formulas in long double on the
+// numbers that ricci returns: curvature before and after the flow, conformality, layout.
 //
 //   test_openmesh [MESH]     without an argument: generated meshes
-#include <ricci/ricci.h>
+#include "measure.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Simple_cartesian.h>
-#include <OpenMesh/Core/IO/MeshIO.hh>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <limits>
-#include <string>
-#include <vector>
-
-using Real = long double;
-using Mesh = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
-using Kernel = CGAL::Simple_cartesian<Real>;
-using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
+#include <complex>
 
 namespace {
-
-const Real pi = std::acos(Real(-1));
-const Real epsilon = std::numeric_limits<double>::epsilon();
-
-[[noreturn]] void fail(const char *file, int line, const char *what) {
-    std::fprintf(stderr, "%s:%d: %s (last error: %s)\n", file, line, what, ricci_last_error());
-    std::exit(1);
-}
-#define CHECK(condition) ((condition) ? void() : fail(__FILE__, __LINE__, #condition))
-#define OK(call) CHECK((call) == RICCI_OK)
-
-// The angle between sides a and b of a triangle, opposite c, by the half-angle form; and how far it moves when each
-// length is rounded to double (first order, with a margin).
-struct Angle {
-    Real value, rounding;
-};
-
-Angle angle(Real a, Real b, Real c, ricci_space space) {
-    const auto s = [&](Real x) { return space == RICCI_SPACE_H2 ? std::sinh(x) : x; };
-    const Real p = (a + b + c) / 2;
-    const Real value = 2 * std::atan2(std::sqrt(s(p - a) * s(p - b)), std::sqrt(s(p) * s(p - c)));
-    const Real slope = s(c) * (a + b + c) / (s(a) * s(b) * std::sin(value));
-    return {value, 4 * epsilon * slope + 16 * epsilon};
-}
-
-struct Surface {
-    std::size_t n_vertices, n_edges, n_faces;
-    std::vector<std::array<int32_t, 3>> faces;
-    std::vector<std::array<int32_t, 3>> face_edges; // bc, ca, ab; 1-based, signed
-    std::vector<bool> boundary;
-
-    std::array<Real, 3> sides(const std::vector<double> &lengths, std::size_t f) const {
-        std::array<Real, 3> l;
-        for (int k = 0; k < 3; k++) l[k] = lengths[std::abs(face_edges[f][k]) - 1];
-        return l;
-    }
-
-    // Curvature of every vertex, and a bound on what rounding the lengths does to it.
-    void curvature(const std::vector<double> &lengths, ricci_space space, std::vector<Real> &at,
-                   std::vector<Real> &rounding) const {
-        at.assign(n_vertices, 2 * pi);
-        rounding.assign(n_vertices, 0);
-        for (std::size_t v = 0; v < n_vertices; v++)
-            if (boundary[v]) at[v] = pi;
-        for (std::size_t f = 0; f < n_faces; f++) {
-            const auto l = sides(lengths, f);
-            for (int k = 0; k < 3; k++) {
-                const Angle corner = angle(l[(k + 1) % 3], l[(k + 2) % 3], l[k], space);
-                at[faces[f][k]] -= corner.value;
-                rounding[faces[f][k]] += corner.rounding;
-            }
-        }
-    }
-};
-
-Real cgal_angle(const Mesh::Point &at, const Mesh::Point &p, const Mesh::Point &q) {
-    const Kernel::Vector_3 u(p[0] - at[0], p[1] - at[1], p[2] - at[2]), v(q[0] - at[0], q[1] - at[1], q[2] - at[2]);
-    return std::atan2(std::sqrt(CGAL::cross_product(u, v).squared_length()), u * v);
-}
 
 // Counts and loops are OpenMesh's.
 Surface compare_topology(const Mesh &input, const ricci_mesh *mesh) {
@@ -115,7 +39,8 @@ Surface compare_topology(const Mesh &input, const ricci_mesh *mesh) {
             const auto next = k + 1 < starts[i + 1] ? k + 1 : starts[i];
             const auto h = input.find_halfedge(Mesh::VertexHandle(int(vertices[k])),
                                                Mesh::VertexHandle(int(vertices[next])));
-            CHECK(h.is_valid() && !input.is_boundary(h) && input.is_boundary(input.opposite_halfedge_handle(h)));
+            CHECK(h.is_valid() && !input.is_boundary(h));
+            CHECK(input.is_boundary(input.opposite_halfedge_handle(h)));
         }
 
     Surface surface{summary.n_vertices, summary.n_edges, summary.n_faces, {}, {}, {}};
@@ -138,8 +63,8 @@ void compare_angles(const Mesh &input, const ricci_mesh *mesh, const Surface &su
     for (std::size_t f = 0; f < surface.n_faces; f++) {
         const auto l = surface.sides(lengths, f);
         for (int k = 0; k < 3; k++) {
-            const auto corner = [&](int i) { return input.point(Mesh::VertexHandle(surface.faces[f][i % 3])); };
-            const Real exact = cgal_angle(corner(k), corner(k + 1), corner(k + 2));
+            const auto at = [&](int i) { return input.point(Mesh::VertexHandle(surface.faces[f][i % 3])); };
+            const Real exact = cgal_angle(at(k), at(k + 1), at(k + 2));
             const Angle ours = angle(l[(k + 1) % 3], l[(k + 2) % 3], l[k], RICCI_SPACE_E2);
             CHECK(std::abs(ours.value - exact) <= ours.rounding);
             worst = std::max(worst, std::abs(ours.value - exact));
@@ -174,7 +99,8 @@ void check_conformality(const ricci_mesh *mesh, const ricci_metric *end, const S
         }
 }
 
-// The layout has the metric's lengths up to one factor, the input's area, and no triangle that CGAL calls clockwise.
+// The layout has the metric's lengths up to one factor, the input's area, and no triangle that CGAL calls
+// clockwise.
 void check_layout(const Mesh &input, const ricci_metric *end, const std::vector<double> &target,
                   const Surface &surface) {
     ricci_layout *layout = nullptr;
@@ -215,12 +141,37 @@ void check_layout(const Mesh &input, const ricci_metric *end, const std::vector<
     CHECK(summary.consistency <= 1e-7);
     CHECK(worst <= 2 * (summary.consistency + 1e-13L) * summary.diameter);
 
-    // A seam's motion carries its left side onto its right: checked on the distances it must keep.
+    // A seam's motion z -> e^(i rotation) z + t carries its left side onto its right: each edge of it, looked up
+    // in the two faces that have it.
     std::vector<double> seams(4 * summary.n_seams);
+    std::vector<int32_t> edges(summary.n_seam_edges);
+    std::vector<std::size_t> starts(summary.n_seams + 1);
     OK(ricci_layout_seams(layout, seams.data(), seams.size()));
-    for (std::size_t i = 0; i < summary.n_seams; i++) CHECK(seams[4 * i + 3] <= 1e-7);
-    std::printf("  layout: %zu seams, lengths within %.1Le of the metric's (of %.3g)\n", summary.n_seams, worst,
-                summary.diameter);
+    OK(ricci_layout_seam_edges(layout, edges.data(), edges.size(), starts.data(), starts.size()));
+    std::vector<std::size_t> side(2 * surface.n_edges); // face and opposite corner of +e and of -e
+    for (std::size_t f = 0; f < surface.n_faces; f++)
+        for (int k = 0; k < 3; k++) {
+            const auto e = surface.face_edges[f][k];
+            side[2 * (std::abs(e) - 1) + (e < 0)] = 3 * f + k;
+        }
+    using Complex = std::complex<Real>;
+    const auto corner = [&](std::size_t at, int k) {
+        const auto p = point(at / 3, int(at % 3) + k);
+        return Complex(p.x(), p.y());
+    };
+    for (std::size_t i = 0; i < summary.n_seams; i++) {
+        const Complex turn = std::polar(Real(1), Real(seams[4 * i])), t(seams[4 * i + 1], seams[4 * i + 2]);
+        for (auto k = starts[i]; k < starts[i + 1]; k++) {
+            const auto e = edges[k];
+            const auto left = side[2 * (std::abs(e) - 1) + (e < 0)], right = side[2 * (std::abs(e) - 1) + (e > 0)];
+            const Real tail = std::abs(turn * corner(left, 1) + t - corner(right, 2));
+            const Real tip = std::abs(turn * corner(left, 2) + t - corner(right, 1));
+            CHECK(std::max(tail, tip) <= (seams[4 * i + 3] + 1e-13L) * summary.diameter);
+        }
+        CHECK(seams[4 * i + 3] <= 1e-7);
+    }
+    std::printf("  layout: %zu seams, lengths within %.1Le of the metric's (of %.3g)\n", summary.n_seams,
+                worst, summary.diameter);
     ricci_layout_free(layout);
 }
 
@@ -290,7 +241,8 @@ int check(const std::string &name, const Mesh &input) {
     CHECK(std::equal(faces.begin(), faces.end(), surface.faces.begin()));
     compare_angles(input, mesh, surface);
     const long euler = long(surface.n_vertices) - long(surface.n_edges) + long(surface.n_faces);
-    const bool closed = std::find(surface.boundary.begin(), surface.boundary.end(), true) == surface.boundary.end();
+    const auto &boundary = surface.boundary;
+    const bool closed = std::find(boundary.begin(), boundary.end(), true) == boundary.end();
     const ricci_space space = closed && euler < 0 ? RICCI_SPACE_H2 : RICCI_SPACE_E2;
     int reached = 0;
     for (auto scheme : {RICCI_SCHEME_YAMABE, RICCI_SCHEME_INVERSIVE, RICCI_SCHEME_TANGENTIAL})

@@ -1,5 +1,5 @@
-/* Whatever a caller passes, a call answers with a status: it does not crash, and it leaves its outputs alone. Writes
- * arguments.obj, which other tests read. */
+/* Whatever a caller passes, a call answers with a status: it does not crash, and it leaves its outputs alone.
+ * Writes arguments.obj, which other tests read. */
 #include "torus.h"
 
 static void null_pointers_are_errors(const torus *t) {
@@ -7,11 +7,13 @@ static void null_pointers_are_errors(const torus *t) {
     ricci_mesh *untouched = (ricci_mesh *)&mesh;
     ricci_mesh_summary summary;
     double x[3];
-    FAILS(ricci_mesh_from_arrays(NULL, 0, t->n_vertices, t->faces, t->n_faces, &untouched), RICCI_NULL_POINTER,
+    FAILS(ricci_mesh_from_arrays(NULL, 0, t->n_vertices, t->faces, t->n_faces, &untouched),
+          RICCI_NULL_POINTER,
           "positions");
     FAILS(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, NULL, t->n_faces, &untouched),
           RICCI_NULL_POINTER, "faces");
-    FAILS(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, t->n_faces, NULL), RICCI_NULL_POINTER,
+    FAILS(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, t->n_faces, NULL),
+          RICCI_NULL_POINTER,
           "mesh");
     FAILS(ricci_mesh_read(NULL, &untouched), RICCI_NULL_POINTER, "path");
     FAILS(ricci_mesh_read("no such file.obj", &untouched), RICCI_IO, "no such file.obj");
@@ -41,10 +43,14 @@ static void null_pointers_are_errors(const torus *t) {
 static void impossible_counts_are_errors(const torus *t) {
     ricci_mesh *mesh = NULL;
     const size_t huge = (size_t)-1;
-    FAILS(ricci_mesh_from_arrays(t->positions, 0, huge, t->faces, t->n_faces, &mesh), RICCI_TOO_LARGE, "positions");
-    FAILS(ricci_mesh_from_arrays(t->positions, huge, 2, t->faces, t->n_faces, &mesh), RICCI_TOO_LARGE, "positions");
-    FAILS(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, huge / 8, &mesh), RICCI_TOO_LARGE, "faces");
-    FAILS(ricci_mesh_from_arrays(t->positions, 16, t->n_vertices, t->faces, t->n_faces, &mesh), RICCI_ARGUMENT,
+    FAILS(ricci_mesh_from_arrays(t->positions, 0, huge, t->faces, t->n_faces, &mesh), RICCI_TOO_LARGE,
+          "positions");
+    FAILS(ricci_mesh_from_arrays(t->positions, huge, 2, t->faces, t->n_faces, &mesh), RICCI_TOO_LARGE,
+          "positions");
+    FAILS(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, huge / 8, &mesh), RICCI_TOO_LARGE,
+          "faces");
+    FAILS(ricci_mesh_from_arrays(t->positions, 16, t->n_vertices, t->faces, t->n_faces, &mesh),
+          RICCI_ARGUMENT,
           "stride");
     FAILS(ricci_mesh_from_arrays(t->positions, 0, 3, t->faces, t->n_faces, &mesh), RICCI_DEFECTS, "");
     CHECK(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, 0, &mesh) != RICCI_OK);
@@ -55,7 +61,8 @@ static void numbers_that_are_no_enum_are_errors(const torus *t) {
     ricci_mesh *mesh = torus_mesh(t);
     ricci_metric *metric = NULL;
     FAILS(ricci_metric_new(mesh, (ricci_scheme)77, RICCI_SPACE_E2, &metric), RICCI_ARGUMENT, "scheme is 77");
-    FAILS(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, (ricci_space)-1, &metric), RICCI_ARGUMENT, "space is -1");
+    FAILS(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, (ricci_space)-1, &metric), RICCI_ARGUMENT,
+          "space is -1");
     CHECK(strcmp(ricci_status_text((ricci_status)-5), "unknown status") == 0);
     CHECK(strcmp(ricci_stop_reason_text((ricci_stop_reason)99), "unknown") == 0);
     ricci_mesh_free(mesh);
@@ -65,15 +72,17 @@ static void strided_positions_give_the_same_mesh(const torus *t) {
     /* Six doubles per vertex, and not even aligned. */
     const size_t stride = 6 * sizeof(double);
     char *wide = (char *)malloc(t->n_vertices * stride + 1);
-    double *a = (double *)malloc(3 * t->n_vertices * sizeof *a), *b = (double *)malloc(3 * t->n_vertices * sizeof *b);
+    const size_t n = 3 * t->n_vertices;
+    double *a = (double *)malloc(n * sizeof *a), *b = (double *)malloc(n * sizeof *b);
     ricci_mesh *tight = torus_mesh(t), *loose = NULL;
     CHECK(wide && a && b);
     for (size_t v = 0; v < t->n_vertices; v++)
         memcpy(wide + 1 + v * stride, t->positions + 3 * v, 3 * sizeof(double));
-    OK(ricci_mesh_from_arrays((const double *)(void *)(wide + 1), stride, t->n_vertices, t->faces, t->n_faces, &loose));
-    OK(ricci_mesh_positions(tight, a, 3 * t->n_vertices));
-    OK(ricci_mesh_positions(loose, b, 3 * t->n_vertices));
-    CHECK(memcmp(a, b, 3 * t->n_vertices * sizeof *a) == 0);
+    OK(ricci_mesh_from_arrays((const double *)(void *)(wide + 1), stride, t->n_vertices, t->faces,
+       t->n_faces, &loose));
+    OK(ricci_mesh_positions(tight, a, n));
+    OK(ricci_mesh_positions(loose, b, n));
+    CHECK(memcmp(a, b, n * sizeof *a) == 0);
     ricci_mesh_free(tight);
     ricci_mesh_free(loose);
     free(wide);
@@ -93,7 +102,8 @@ static void int32_faces_are_read_and_negative_ones_named(const torus *t) {
     ricci_mesh_free(mesh);
     mesh = NULL;
     faces[3 * 7 + 2] = -4;
-    FAILS(ricci_mesh_from_arrays_i32(t->positions, 0, t->n_vertices, faces, t->n_faces, &mesh), RICCI_ARGUMENT,
+    FAILS(ricci_mesh_from_arrays_i32(t->positions, 0, t->n_vertices, faces, t->n_faces, &mesh),
+          RICCI_ARGUMENT,
           "face 7, corner 2: vertex -4");
     CHECK(mesh == NULL);
     free(faces);
@@ -129,7 +139,8 @@ static void structs_of_older_versions_are_filled_and_unknown_sizes_refused(const
     ricci_metric_free(flat);
     flat = NULL;
     options.size = 0;
-    FAILS(ricci_flow(metric, target, t->n_vertices, &options, NULL, &flat, NULL), RICCI_STRUCT_SIZE, "size 0");
+    FAILS(ricci_flow(metric, target, t->n_vertices, &options, NULL, &flat, NULL), RICCI_STRUCT_SIZE,
+          "size 0");
     /* A newer caller: its new field is zero, or not. */
     struct {
         ricci_flow_options known;
@@ -160,12 +171,15 @@ static void options_out_of_range_are_errors(const torus *t) {
     OK(ricci_target_uniform(metric, target, t->n_vertices));
     OK(ricci_flow_options_init(&options, sizeof options));
     options.method = (ricci_method)5;
-    FAILS(ricci_flow(metric, target, t->n_vertices, &options, NULL, &flat, NULL), RICCI_ARGUMENT, "method is 5");
+    FAILS(ricci_flow(metric, target, t->n_vertices, &options, NULL, &flat, NULL), RICCI_ARGUMENT,
+          "method is 5");
     options.method = RICCI_METHOD_NEWTON;
     options.tolerance = -1;
-    FAILS(ricci_flow(metric, target, t->n_vertices, &options, NULL, &flat, NULL), RICCI_ARGUMENT, "tolerance");
+    FAILS(ricci_flow(metric, target, t->n_vertices, &options, NULL, &flat, NULL), RICCI_ARGUMENT,
+          "tolerance");
     options.tolerance = 0;
-    FAILS(ricci_flow(metric, target, t->n_vertices, &options, NULL, &flat, NULL), RICCI_ARGUMENT, "tolerance");
+    FAILS(ricci_flow(metric, target, t->n_vertices, &options, NULL, &flat, NULL), RICCI_ARGUMENT,
+          "tolerance");
     FAILS(ricci_flow(metric, target, t->n_vertices - 1, NULL, NULL, &flat, NULL), RICCI_WRONG_SIZE, "target");
     CHECK(flat == NULL);
     ricci_metric_free(metric);
@@ -216,10 +230,12 @@ static void a_diagnosis_names_the_elements_of_every_defect(void) {
         if (strcmp(defect.code, "isolated_vertex") == 0)
             isolated += defect.n_vertices == 1 && defect.vertices[0] == 4 && defect.n_faces == 0;
         if (strcmp(defect.code, "inconsistent_orientation") == 0)
-            turned += defect.n_vertices == 2 && defect.vertices[0] + defect.vertices[1] == 1 && defect.n_faces == 2;
+            turned += defect.n_vertices == 2 && defect.n_faces == 2 &&
+                      defect.vertices[0] + defect.vertices[1] == 1;
     }
     CHECK(isolated == 1 && turned == 1);
-    FAILS(ricci_diagnosis_defect(diagnosis, summary.n_defects, &defect, sizeof defect), RICCI_ARGUMENT, "index");
+    FAILS(ricci_diagnosis_defect(diagnosis, summary.n_defects, &defect, sizeof defect), RICCI_ARGUMENT,
+          "index");
     ricci_diagnosis_free(diagnosis);
     OK(ricci_diagnose_arrays(positions[0], 0, 3, sound[0], 1, &diagnosis));
     OK(ricci_diagnosis_summarise(diagnosis, &summary, sizeof summary));
@@ -237,9 +253,11 @@ static void a_gluing_is_given_back_as_it_came(void) {
     ricci_mesh *mesh = NULL;
     ricci_metric *metric = NULL;
     ricci_mesh_summary summary;
-    FAILS(ricci_mesh_from_gluing(1, faces[0], gluing[0], 2, lengths, 2, RICCI_SPACE_E2, &mesh), RICCI_WRONG_SIZE,
+    FAILS(ricci_mesh_from_gluing(1, faces[0], gluing[0], 2, lengths, 2, RICCI_SPACE_E2, &mesh),
+          RICCI_WRONG_SIZE,
           "lengths");
-    FAILS(ricci_mesh_from_gluing(1, faces[0], gluing[0], 2, bad, 3, RICCI_SPACE_E2, &mesh), RICCI_EDGE_LENGTH, "edge 1");
+    FAILS(ricci_mesh_from_gluing(1, faces[0], gluing[0], 2, bad, 3, RICCI_SPACE_E2, &mesh),
+          RICCI_EDGE_LENGTH, "edge 1");
     OK(ricci_mesh_from_gluing(1, faces[0], gluing[0], 2, lengths, 3, RICCI_SPACE_E2, &mesh));
     OK(ricci_mesh_summarise(mesh, &summary, sizeof summary));
     CHECK(summary.n_vertices == 1 && summary.n_edges == 3 && summary.n_faces == 2 && summary.genus == 1);
@@ -286,16 +304,37 @@ static void handles_may_be_freed_in_any_order(const torus *t) {
     free(target);
 }
 
-static size_t messages;
-static void count_messages(ricci_log_level level, const char *message, void *user_data) {
-    CHECK(level >= RICCI_LOG_ERROR && level <= RICCI_LOG_TRACE && message != NULL && user_data == &messages);
-    messages++;
+typedef struct {
+    size_t warnings, others;
+    char last[200];
+} messages;
+
+static void keep_message(ricci_log_level level, const char *message, void *user_data) {
+    messages *m = (messages *)user_data;
+    if (level == RICCI_LOG_WARN) m->warnings++;
+    else m->others++;
+    strncpy(m->last, message, sizeof m->last - 1);
 }
 
-static void logging_can_be_switched_on_and_off(void) {
-    OK(ricci_log_set(count_messages, &messages, RICCI_LOG_TRACE));
-    OK(ricci_log_set(NULL, NULL, RICCI_LOG_OFF));
+static void the_log_goes_to_the_callback_while_it_is_set(const torus *t) {
+    messages m = {0, 0, {0}};
+    ricci_mesh *mesh = torus_mesh(t);
+    ricci_metric *metric = NULL;
+    OK(ricci_log_set(keep_message, &m, RICCI_LOG_WARN));
+    FAILS(ricci_mesh_read("no_such.format", &mesh), RICCI_UNKNOWN_FORMAT, "no_such.format");
+    CHECK(m.warnings == 1 && strcmp(m.last, ricci_last_error()) == 0);
+    OK(ricci_metric_new(mesh, RICCI_SCHEME_TANGENTIAL, RICCI_SPACE_E2, &metric));
+    ricci_metric_free(metric);
+    CHECK(m.others == 0);
+    OK(ricci_log_set(keep_message, &m, RICCI_LOG_INFO));
+    OK(ricci_metric_new(mesh, RICCI_SCHEME_TANGENTIAL, RICCI_SPACE_E2, &metric));
+    CHECK(m.others == 1 && strstr(m.last, "tangential"));
+    OK(ricci_log_set(NULL, NULL, RICCI_LOG_TRACE));
+    FAILS(ricci_mesh_read("no_such.format", &mesh), RICCI_UNKNOWN_FORMAT, "no_such.format");
     FAILS(ricci_log_set(NULL, NULL, (ricci_log_level)9), RICCI_ARGUMENT, "level is 9");
+    CHECK(m.warnings == 1 && m.others == 1);
+    ricci_metric_free(metric);
+    ricci_mesh_free(mesh);
 }
 
 int main(void) {
@@ -312,7 +351,7 @@ int main(void) {
     a_gluing_is_given_back_as_it_came();
     a_panic_is_a_status_and_poisons_the_handle(&t);
     handles_may_be_freed_in_any_order(&t);
-    logging_can_be_switched_on_and_off();
+    the_log_goes_to_the_callback_while_it_is_set(&t);
 
     ricci_mesh *mesh = torus_mesh(&t);
     OK(ricci_mesh_write_obj(mesh, "arguments.obj"));

@@ -88,7 +88,8 @@ static void a_solver_serves_many_targets(const torus *t, const double *target, c
 }
 
 int main(int argc, char **argv) {
-    torus t = torus_new(argc > 2 ? strtoul(argv[1], NULL, 10) : 60, argc > 2 ? strtoul(argv[2], NULL, 10) : 40);
+    const size_t columns = argc > 2 ? strtoul(argv[1], NULL, 10) : 60;
+    torus t = torus_new(columns, argc > 2 ? strtoul(argv[2], NULL, 10) : 40);
     double *target = (double *)calloc(t.n_vertices, sizeof *target);
     const size_t bytes = 3 * t.n_vertices * sizeof(double);
     const ricci_method methods[2] = {RICCI_METHOD_NEWTON, RICCI_METHOD_GRADIENT};

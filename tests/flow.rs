@@ -1,0 +1,411 @@
+//! The flow against known answers.
+
+mod common;
+
+use common::Random;
+use ricci::embed::{layout, quality};
+use ricci::flow::{Gradient, Method, Options, Report, Solver, StepRule, StopReason, flow};
+use ricci::geometry::Space;
+use ricci::geometry::modulus::modulus;
+use ricci::mesh::io::Soup;
+use ricci::mesh::shapes;
+use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use ricci::metric::{Initial, Metric, Scheme, Target, curvature, initial_metric, lengths_from_positions};
+use ricci::topology::{cut_graph, homology_generators};
+use ricci::{Control, Error};
+use std::f64::consts::PI;
+
+const EXACT: [Scheme; 3] = [Scheme::Yamabe, Scheme::Inversive, Scheme::Virtual];
+
+fn surface(soup: &Soup) -> (Mesh, PerEdge<f64>) {
+    let mesh = Mesh::from_soup(soup).unwrap();
+    let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
+    (mesh, lengths)
+}
+
+fn solve(mesh: &Mesh, start: &Metric, target: &PerVertex<f64>, options: &Options) -> (Metric, Report) {
+    let (metric, report) = flow(mesh, start, target, options, &Control::new()).unwrap();
+    if report.broken_triangles == 0 {
+        assert!(report.gauss_bonnet <= 1e-10, "Gauss–Bonnet residual {}", report.gauss_bonnet);
+    }
+    (metric, report)
+}
+
+/// Default flow to the default (or given) target; the metric, its start, the report.
+fn run(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    geometry: Space,
+    scheme: Scheme,
+    space: Space,
+    target: Option<Target>,
+) -> (Initial, Metric, Report) {
+    let initial = initial_metric(mesh, lengths, geometry, scheme, space).unwrap();
+    let target = target.unwrap_or_else(|| Target::default_for(mesh, lengths, space));
+    let target = target.resolve(mesh, lengths, space, scheme).unwrap();
+    let (metric, report) = solve(mesh, &initial.metric, &target, &Options::default());
+    (initial, metric, report)
+}
+
+fn converged(report: &Report) {
+    assert_eq!(report.stop_reason, StopReason::Converged, "{report:?}");
+    assert!(report.converged && report.max_curvature_error <= 1e-10);
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |m, (a, b)| m.max((a - b).abs()))
+}
+
+#[test]
+fn constant_curvature_metrics_are_fixed_points() {
+    let torus = shapes::flat_torus([0.2, 1.1], 6, 5).unwrap();
+    let bolza = shapes::bolza(2).unwrap();
+    for surface in [torus, bolza] {
+        let (mesh, lengths) = surface.build().unwrap();
+        for scheme in EXACT {
+            let (initial, metric, report) =
+                run(&mesh, &lengths, surface.geometry, scheme, surface.geometry, None);
+            converged(&report);
+            assert_eq!(report.iterations, 0, "{scheme}");
+            let moved = metric.lengths(&mesh).unwrap();
+            let start = initial.metric.lengths(&mesh).unwrap();
+            let ratio = moved[0usize.into()] / start[0usize.into()];
+            assert!(mesh.edges().all(|e| (moved[e] / start[e] / ratio - 1.0).abs() < 1e-13), "{scheme}");
+            if surface.geometry == Space::H2 {
+                assert!(distance(&moved, &lengths) < 1e-13);
+            }
+        }
+    }
+}
+
+#[test]
+fn round_sphere_is_a_fixed_point_of_the_spherical_flow() {
+    let soup = shapes::icosphere(6).unwrap();
+    let (mesh, chords) = surface(&soup);
+    let arcs = PerEdge::from_fn(mesh.n_edges(), |e| 2.0 * (0.5 * chords[e]).asin());
+    for scheme in EXACT {
+        let (_, metric, report) = run(&mesh, &arcs, Space::S2, scheme, Space::S2, None);
+        converged(&report);
+        assert_eq!(report.iterations, 0);
+        assert!(distance(&metric.lengths(&mesh).unwrap(), &arcs) < 1e-13);
+    }
+}
+
+#[test]
+fn spherical_flow_rounds_an_ellipsoid_by_newton_and_by_gradient() {
+    let (mesh, lengths) = surface(&shapes::ellipsoid([1.0, 1.2, 0.9], 5).unwrap());
+    for scheme in [Scheme::Yamabe, Scheme::Inversive, Scheme::Thurston] {
+        let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::S2).unwrap();
+        let target = Target::Uniform.resolve(&mesh, &lengths, Space::S2, scheme).unwrap();
+        let (metric, report) = solve(&mesh, &initial.metric, &target, &Options::default());
+        converged(&report);
+        let k = curvature(&mesh, Space::S2, &metric.lengths(&mesh).unwrap()).unwrap();
+        assert!((k.area - 4.0 * PI).abs() < 1e-9);
+        let options = Options { method: Method::Gradient, ..Options::default() };
+        converged(&solve(&mesh, &initial.metric, &target, &options).1);
+    }
+}
+
+/// Modulus of the flat metric on a torus, from the holonomy of two homology generators.
+fn modulus_of(mesh: &Mesh, lengths: &PerEdge<f64>) -> [f64; 2] {
+    let cut = cut_graph(mesh, lengths, &[]).unwrap();
+    let laid = layout(mesh, lengths, &cut, &Control::new()).unwrap();
+    assert!(laid.flipped.is_empty() && laid.consistency < 1e-9);
+    assert!(laid.seams.iter().all(|s| s.rotation.abs() < 1e-8 && s.residual < 1e-9), "{:?}", laid.seams);
+    // The segments of the cut cross the generators of the deck group: their translations span the lattice.
+    let mut periods: Vec<[f64; 2]> = laid.seams.iter().map(|s| s.translation).collect();
+    periods.sort_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
+    let independent = |p: &&[f64; 2]| {
+        let q = periods[0];
+        (p[0] * q[1] - p[1] * q[0]).abs() > 1e-6 * p[0].hypot(p[1]) * q[0].hypot(q[1])
+    };
+    let second = *periods.iter().find(independent).unwrap();
+    modulus([periods[0], second]).unwrap()
+}
+
+#[test]
+fn modulus_of_the_torus_of_revolution_converges_quadratically() {
+    let (big, small) = (2.0f64, 0.8f64);
+    let exact = small / (big * big - small * small).sqrt();
+    // Reduced to |τ| ≥ 1.
+    let exact = exact.max(1.0 / exact);
+    let error = |n: usize| {
+        let (mesh, lengths) = surface(&shapes::torus(big, small, 2 * n, n).unwrap());
+        let (_, metric, report) = run(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2, None);
+        converged(&report);
+        let tau = modulus_of(&mesh, &metric.lengths(&mesh).unwrap());
+        (tau[0].hypot(tau[1] - exact)).abs()
+    };
+    let errors = [10, 20, 40].map(error);
+    for pair in errors.windows(2) {
+        let rate = (pair[0] / pair[1]).log2();
+        assert!((rate - 2.0).abs() < 0.2, "errors {errors:?}, rate {rate}");
+    }
+}
+
+#[test]
+fn scaling_the_input_leaves_the_result_unchanged() {
+    let soup = shapes::genus(2, 3).unwrap();
+    let (mesh, lengths) = surface(&soup);
+    for (space, scheme) in [Space::E2, Space::H2].into_iter().flat_map(|s| EXACT.map(|c| (s, c))) {
+        let result = |factor: f64| {
+            let lengths = PerEdge::from_fn(mesh.n_edges(), |e| factor * lengths[e]);
+            let (_, metric, report) = run(&mesh, &lengths, Space::E2, scheme, space, None);
+            converged(&report);
+            metric.lengths(&mesh).unwrap()
+        };
+        let (one, large) = (result(1.0), result(1000.0));
+        // E² results are normalised to Σ u = 0; the input's scale is in η for ε = 0 and drops out for circles.
+        let ratio = if space == Space::H2 { 1.0 } else { large[0usize.into()] / one[0usize.into()] };
+        assert!(mesh.edges().all(|e| (large[e] / one[e] / ratio - 1.0).abs() < 1e-9), "{space} {scheme}");
+    }
+}
+
+#[test]
+fn relabelling_and_reflection_leave_the_result_unchanged() {
+    let soup = shapes::genus(2, 3).unwrap();
+    let (mesh, lengths) = surface(&soup);
+    let mut random = Random::new(17);
+    let n = soup.positions.len();
+    let mut label: Vec<u32> = (0..n as u32).collect();
+    (1..n).for_each(|i| label.swap(i, random.below(i + 1)));
+    let mut other = soup.clone();
+    (0..n).for_each(|v| other.positions[label[v] as usize] = soup.positions[v]);
+    other.faces = soup.faces.iter().map(|f| f.map(|v| label[v as usize])).collect();
+    // Reflect in x = 0 and reverse, and list the faces in another order.
+    other.positions.iter_mut().for_each(|p| p[0] = -p[0]);
+    other.faces.iter_mut().for_each(|f| f.swap(1, 2));
+    other.faces.reverse();
+    let (mesh2, lengths2) = surface(&other);
+    for (space, scheme) in
+        [(Space::E2, Scheme::Inversive), (Space::H2, Scheme::Yamabe), (Space::H2, Scheme::Thurston)]
+    {
+        let (_, a, report) = run(&mesh, &lengths, Space::E2, scheme, space, None);
+        converged(&report);
+        let (_, b, report) = run(&mesh2, &lengths2, Space::E2, scheme, space, None);
+        converged(&report);
+        for v in 0..n {
+            let there = VertexId(label[v]);
+            assert!((a.u[VertexId::from(v)] - b.u[there]).abs() < 1e-8, "{space} {scheme}");
+        }
+    }
+}
+
+#[test]
+fn gradient_flow_and_newton_agree() {
+    let torus = surface(&shapes::torus(2.0, 0.9, 12, 8).unwrap());
+    let disk = surface(&shapes::disk(4).unwrap());
+    let genus2 = surface(&shapes::genus(2, 2).unwrap());
+    for (mesh, lengths, space) in
+        [(&torus.0, &torus.1, Space::E2), (&disk.0, &disk.1, Space::E2), (&genus2.0, &genus2.1, Space::H2)]
+    {
+        for scheme in Scheme::ALL {
+            let initial = initial_metric(mesh, lengths, Space::E2, scheme, space).unwrap();
+            let target = Target::default_for(mesh, lengths, space);
+            let target = target.resolve(mesh, lengths, space, scheme).unwrap();
+            let (newton, report) = solve(mesh, &initial.metric, &target, &Options::default());
+            if !report.converged {
+                // Virtual radii do not reach every target on a fixed triangulation.
+                assert_eq!((scheme, report.stop_reason), (Scheme::Virtual, StopReason::BrokenTriangles));
+                continue;
+            }
+            let options = Options { method: Method::Gradient, ..Options::default() };
+            let (gradient, report) = solve(mesh, &initial.metric, &target, &options);
+            converged(&report);
+            assert!(distance(&newton.u, &gradient.u) < 1e-8, "{space} {scheme}");
+            assert_eq!(report.trace.len(), report.iterations + 1);
+        }
+    }
+}
+
+#[test]
+fn energy_decreases_along_the_stable_gradient_flow() {
+    let (mesh, lengths) = surface(&shapes::torus(2.0, 0.7, 12, 8).unwrap());
+    for area_normalised in [false, true] {
+        let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Thurston, Space::E2).unwrap();
+        let target = Target::Uniform.resolve(&mesh, &lengths, Space::E2, Scheme::Thurston).unwrap();
+        let gradient = Gradient { step: StepRule::Stable, area_normalised };
+        let options = Options { method: Method::Gradient, gradient, ..Options::default() };
+        let (_, report) = solve(&mesh, &initial.metric, &target, &options);
+        converged(&report);
+        assert!(report.trace.windows(2).all(|w| w[1].energy <= w[0].energy + 1e-14));
+        assert!(report.trace.windows(2).all(|w| w[1].max_curvature_error <= w[0].max_curvature_error * 1.01));
+        let (first, last) = (report.trace[0], report.trace[report.iterations]);
+        assert!(!area_normalised || (last.area / first.area - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn newton_converges_quadratically() {
+    let (mesh, lengths) = surface(&shapes::genus(2, 4).unwrap());
+    for scheme in [Scheme::Yamabe, Scheme::Inversive, Scheme::Thurston, Scheme::Tangential] {
+        let (_, _, report) = run(&mesh, &lengths, Space::E2, scheme, Space::H2, None);
+        converged(&report);
+        let tail: Vec<String> = report.residuals.iter().map(|r| format!("{r:.1e}")).collect();
+        println!("{scheme}: {}", tail.join(" "));
+        // In the quadratic regime log r doubles: from below 1e-2, one step gains at least r^1.5 until rounding.
+        let regime = report.residuals.windows(2).filter(|w| w[0] < 1e-2 && w[1] > 1e-12);
+        assert!(regime.clone().count() > 0);
+        for pair in regime {
+            assert!(pair[1] < pair[0].powf(1.5), "{scheme}: {tail:?}");
+        }
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let (mesh, lengths) = surface(&shapes::genus(3, 12).unwrap());
+    assert!(mesh.n_vertices() > 8000);
+    for scheme in [Scheme::Yamabe, Scheme::Thurston] {
+        let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::H2).unwrap();
+        let target = PerVertex::filled(mesh.n_vertices(), 0.0);
+        let bits = |threads| {
+            let options = Options { threads, ..Options::default() };
+            let (metric, report) = solve(&mesh, &initial.metric, &target, &options);
+            converged(&report);
+            metric.u.iter().map(|u| u.to_bits()).collect::<Vec<_>>()
+        };
+        let one = bits(1);
+        assert_eq!(one, bits(2));
+        assert_eq!(one, bits(3));
+    }
+}
+
+#[test]
+fn a_kept_solver_gives_what_a_fresh_one_gives() {
+    let (mesh, lengths) = surface(&shapes::torus(2.0, 0.9, 20, 12).unwrap());
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap();
+    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
+    for (a, b) in [(0, 100), (17, 30), (200, 5)] {
+        let cones = Target::Cones(vec![(VertexId(a), 1.0), (VertexId(b), -1.0)]);
+        let target = cones.resolve(&mesh, &lengths, Space::E2, Scheme::Inversive).unwrap();
+        let report = solver.solve(&target, &Control::new()).unwrap();
+        converged(&report);
+        let (fresh, _) = solve(&mesh, &initial.metric, &target, &Options::default());
+        assert!(distance(&solver.metric().u, &fresh.u) < 1e-9);
+    }
+}
+
+#[test]
+fn pinned_vertices_keep_u_and_the_rest_reach_their_curvature() {
+    let (mesh, lengths) = surface(&shapes::disk(6).unwrap());
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
+    let boundary: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).collect();
+    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
+    solver.pin(&boundary).unwrap();
+    // u = log |f'| of the conformal map f(z) = z + z²/5, on the boundary.
+    let factor = |v: VertexId, soup: &Soup| {
+        let [x, y, _] = soup.positions[v.index()];
+        (1.0 + 0.4 * x).hypot(0.4 * y).ln()
+    };
+    let soup = shapes::disk(6).unwrap();
+    let u = PerVertex::from_fn(mesh.n_vertices(), |v| {
+        if mesh.is_boundary_vertex(v) { factor(v, &soup) } else { 0.0 }
+    });
+    solver.set_u(u.clone()).unwrap();
+    let report = solver.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), &Control::new()).unwrap();
+    converged(&report);
+    assert!(boundary.iter().all(|&v| solver.metric().u[v] == u[v]));
+    // The flat metric inside is that of f up to the discretisation: h² = 1/36.
+    for v in mesh.vertices() {
+        assert!((solver.metric().u[v] - factor(v, &soup)).abs() < 0.02, "vertex {v}");
+    }
+}
+
+#[test]
+fn inversive_distance_and_vertex_scaling_represent_the_input_exactly() {
+    let (mesh, lengths) = surface(&shapes::ellipsoid([1.0, 2.0, 0.7], 6).unwrap());
+    for scheme in EXACT {
+        let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::E2).unwrap();
+        let back = initial.metric.lengths(&mesh).unwrap();
+        assert!(mesh.edges().all(|e| (back[e] / lengths[e] - 1.0).abs() < 1e-13), "{scheme}");
+        assert_eq!((initial.clamped_edges, initial.max_length_change), (0, 0.0));
+        assert!(initial.conformal_factor(&initial.metric).iter().all(|f| f.abs() < 1e-14));
+        if scheme == Scheme::Inversive {
+            assert!(initial.metric.eta.iter().all(|&eta| eta >= 1.0 - 1e-12));
+        }
+    }
+    let thurston = initial_metric(&mesh, &lengths, Space::E2, Scheme::Thurston, Space::E2).unwrap();
+    assert!(thurston.clamped_edges > 0 && thurston.max_length_change > 0.0);
+    assert!(thurston.metric.eta.iter().all(|eta| (0.0..=1.0).contains(eta)));
+}
+
+#[test]
+fn inadmissible_targets_are_refused_with_the_amount() {
+    let (mesh, lengths) = surface(&shapes::icosphere(2).unwrap());
+    let resolve = |target: Target, space| target.resolve(&mesh, &lengths, space, Scheme::Yamabe).unwrap_err();
+    match resolve(Target::Cones(vec![(VertexId(3), 7.0)]), Space::E2) {
+        Error::TargetAtVertex { vertex: 3, excess, .. } => assert!((excess - (7.0 - 2.0 * PI)).abs() < 1e-14),
+        other => panic!("{other}"),
+    }
+    match resolve(Target::Cones(vec![(VertexId(0), 4.0), (VertexId(1), 4.0), (VertexId(2), 4.0)]), Space::E2)
+    {
+        Error::TargetTotal { miss, .. } => assert!((miss - (12.0 - 4.0 * PI)).abs() < 1e-13),
+        other => panic!("{other}"),
+    }
+    assert!(matches!(resolve(Target::Uniform, Space::H2), Error::TargetTotal { .. }));
+    assert!(matches!(resolve(Target::Boundary, Space::E2), Error::TargetKind { target: "boundary", .. }));
+    assert!(matches!(
+        resolve(Target::Single(VertexId(0)), Space::H2),
+        Error::TargetKind { target: "single", .. }
+    ));
+    assert!(matches!(resolve(Target::Cones(vec![(VertexId(99), 1.0)]), Space::E2), Error::TargetKind { .. }));
+    // A vertex of five triangles cannot have curvature below 2π − 5π in a packing.
+    let low = Target::Cones(vec![
+        (VertexId(0), -10.0),
+        (VertexId(20), 5.0),
+        (VertexId(21), 5.0),
+        (VertexId(22), 5.0),
+        (VertexId(23), 5.0),
+    ]);
+    let error = low.resolve(&mesh, &lengths, Space::E2, Scheme::Tangential).unwrap_err();
+    assert!(matches!(error, Error::TargetBelow { vertex: 0, .. }), "{error}");
+    let (disk, lengths) = surface(&shapes::disk(3).unwrap());
+    let error = Target::Uniform.resolve(&disk, &lengths, Space::E2, Scheme::Yamabe).unwrap_err();
+    assert!(matches!(error, Error::TargetKind { target: "uniform", .. }));
+}
+
+#[test]
+fn a_triangulation_without_solution_is_reported_as_such() {
+    // A cone of almost 2π on a sphere of twelve vertices: the five angles there cannot be that small.
+    let (mesh, lengths) = surface(&shapes::icosphere(1).unwrap());
+    let mut target = PerVertex::filled(12, (4.0 * PI - 6.2) / 11.0);
+    target[VertexId(0)] = 6.2;
+    target[VertexId(3)] -= 6.0;
+    target[VertexId(5)] += 6.0 - 0.0;
+    target[VertexId(5)] -= 6.0;
+    for v in [1, 2, 4, 6, 7, 8] {
+        target[VertexId(v)] += 1.0;
+    }
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
+    let (metric, report) =
+        flow(&mesh, &initial.metric, &target, &Options::default(), &Control::new()).unwrap();
+    assert!(!report.converged, "{report:?}");
+    assert!(report.broken_triangles > 0);
+    assert_eq!(report.stop_reason, StopReason::BrokenTriangles);
+    assert!(metric.u.iter().all(|u| u.is_finite()));
+}
+
+#[test]
+fn cancelling_stops_the_flow_and_leaves_the_metric() {
+    let (mesh, lengths) = surface(&shapes::genus(2, 6).unwrap());
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::H2).unwrap();
+    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
+    let control = Control::new();
+    control.cancel();
+    let target = PerVertex::filled(mesh.n_vertices(), 0.0);
+    assert_eq!(solver.solve(&target, &control).unwrap_err(), Error::Cancelled);
+    assert_eq!(solver.metric(), &initial.metric);
+    converged(&solver.solve(&target, &Control::new()).unwrap());
+}
+
+#[test]
+fn a_flat_disk_is_laid_out_isometrically() {
+    let soup = shapes::disk(5).unwrap();
+    let (mesh, lengths) = surface(&soup);
+    let cut = cut_graph(&mesh, &lengths, &[]).unwrap();
+    let laid = layout(&mesh, &lengths, &cut, &Control::new()).unwrap();
+    let quality = quality(&mesh, &lengths, &laid).unwrap();
+    assert!((quality.qc_max - 1.0).abs() < 1e-7);
+    assert!(homology_generators(&mesh, &lengths).unwrap().is_empty());
+}
