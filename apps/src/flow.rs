@@ -11,6 +11,7 @@ use crate::output::{Outputs, check_extension, check_writable};
 use crate::progress::Progress;
 use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes, timed};
 use crate::say;
+use crate::show;
 use crate::uv;
 use ricci::Control;
 use ricci::control::Stage;
@@ -127,10 +128,8 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
             "--circles: scheme {scheme} has no circles; use inversive, thurston, tangential or virtual"
         )));
     }
-    for (option, path) in [("--uv", &args.uv), ("--picture", &args.picture)] {
-        if path.is_some() && input.positions.is_none() {
-            return Err(Failure::Usage(format!("{option}: an intrinsic metric has no positions in space")));
-        }
+    if args.uv.is_some() && input.positions.is_none() {
+        return Err(Failure::Usage("--uv: an intrinsic metric has no positions in space".into()));
     }
     Ok(())
 }
@@ -168,6 +167,9 @@ fn write(
         }
         if let (Some(path), Ok(laid), Some(positions)) = (&args.uv, &outcome.layout, &input.positions) {
             uv::write(&mut outputs, path, positions, &outcome.mesh, &laid.layout)?;
+        }
+        if let Some(path) = &args.picture {
+            outputs.add(path, |out| show::draw(out, path, input, outcome))?;
         }
         if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
             let Outcome { mesh, metric, scheme, .. } = outcome;

@@ -14,10 +14,12 @@ mod laid;
 mod make;
 mod metric_file;
 mod output;
+mod picture;
 mod progress;
 mod report;
 mod say;
 mod shape_quality;
+mod show;
 mod uv;
 
 use clap::{CommandFactory, Parser};

@@ -1,0 +1,57 @@
+//! The checkerboard of a layout on one triangle, filtered to the pixel.
+
+/// Checks along the square root of the surface's area.
+const CHECKS: f64 = 26.0;
+/// Where a layout's scale varies by more than this factor, the checks are made finer or coarser by it: they stay
+/// squares of visible size on the whole surface, nested into one another.
+const OCTAVE: f64 = 8.0;
+/// Checks narrower than this many pixels are faded to their mean.
+const FADE_PIXELS: f64 = 1.5;
+
+/// Checkerboard coordinates at the corners of a triangle.
+pub struct Checker {
+    uv: [[f64; 2]; 3],
+    /// 1: full contrast, 0: the mean.
+    contrast: f64,
+}
+
+impl Checker {
+    /// `uv`: layout coordinates; `size`: side of a check in the layout; `pixels`: the triangle on the screen.
+    pub fn new(uv: [[f64; 2]; 3], size: f64, pixels: [[f64; 2]; 3]) -> Checker {
+        let uv = uv.map(|p| p.map(|x| x / size));
+        // A check covers (pixel area / uv area) pixels.
+        let side = (doubled_area(pixels).abs() / doubled_area(uv).abs()).sqrt();
+        let contrast = if side.is_finite() { (side / FADE_PIXELS - 1.0).clamp(0.0, 1.0) } else { 0.0 };
+        Checker { uv, contrast }
+    }
+
+    /// 0 or 1 (or ½ where faded) at barycentric coordinates.
+    pub fn value(&self, b: [f64; 3]) -> f64 {
+        let at = |k: usize| (b[0] * self.uv[0][k] + b[1] * self.uv[1][k] + b[2] * self.uv[2][k]).floor();
+        let odd = (at(0) + at(1)).rem_euclid(2.0) == 1.0;
+        0.5 + self.contrast * if odd { 0.5 } else { -0.5 }
+    }
+}
+
+/// Twice the signed area.
+pub fn doubled_area(p: [[f64; 2]; 3]) -> f64 {
+    (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0])
+}
+
+/// Side of the checks on each face, from the faces' areas on the surface and in the layout.
+pub fn check_sizes(surface: &[f64], layout: &[f64]) -> Vec<f64> {
+    let scale = |(s, l): (&f64, &f64)| (l / s).sqrt();
+    let mut order: Vec<(f64, f64)> = surface.iter().zip(layout).map(|(s, l)| (scale((s, l)), *s)).collect();
+    order.retain(|(x, s)| x.is_finite() && *x > 0.0 && s.is_finite());
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let total: f64 = order.iter().map(|(_, s)| s).sum();
+    let mut sum = 0.0;
+    let median = order.iter().find(|(_, s)| {
+        sum += s;
+        2.0 * sum >= total
+    });
+    let median = median.map_or(1.0, |m| m.0);
+    let size = median * total.max(f64::MIN_POSITIVE).sqrt() / CHECKS;
+    let level = |x: f64| if x.is_finite() && x > 0.0 { (x / median).log(OCTAVE).round() } else { 0.0 };
+    surface.iter().zip(layout).map(|pair| size * OCTAVE.powf(level(scale(pair)))).collect()
+}

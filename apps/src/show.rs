@@ -1,0 +1,109 @@
+//! The picture of a finished flow: the surface with its checkerboard beside the layout with its seams.
+
+use crate::circles::circles;
+use crate::input::Input;
+use crate::job::Outcome;
+use crate::laid::Laid;
+use crate::picture::{self, Circle, Flat, Picture, Surface};
+use ricci::mesh::{HalfedgeId, Mesh, PerVertex, VertexId};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Only vertices with at least this much target curvature get a dot; a uniform target on a torus-like layout has none.
+const CONE: f64 = 1e-6;
+/// and only where there are at most this many, so that the dots leave the surface visible.
+const MOST_CONES: usize = 60;
+
+/// Write the picture as PNG, or the flat layout alone where the file is named `.svg`.
+pub fn draw(out: &mut impl Write, path: &Path, input: &Input, outcome: &Outcome) -> io::Result<()> {
+    let svg = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));
+    let parts = outcome.layout.as_ref().ok().map(|laid| Parts::new(outcome, laid));
+    let flat = parts.as_ref().map(Parts::flat);
+    if svg {
+        let nothing = Parts::default();
+        return picture::write_svg(out, &flat.unwrap_or_else(|| nothing.flat()));
+    }
+    let faces: Vec<[u32; 3]> =
+        outcome.mesh.faces().map(|f| outcome.mesh.face_vertices(f).map(|v| v.0)).collect();
+    let cones = cones(&outcome.mesh, &outcome.target);
+    let surface = input.positions.as_ref().map(|positions| Surface {
+        positions,
+        faces: &faces,
+        corner_uv: parts.as_ref().map(|p| p.corner_uv.as_slice()),
+        seams: parts.as_ref().map_or(&[], |p| &p.edges),
+        cones: &cones,
+    });
+    let bytes = picture::png(&Picture { surface, flat }).map_err(io::Error::other)?;
+    out.write_all(&bytes)
+}
+
+/// Cone vertices with their curvature, on a surface where few vertices have any.
+fn cones(mesh: &Mesh, target: &PerVertex<f64>) -> Vec<(u32, f64)> {
+    let inside = |v: &VertexId| !mesh.is_boundary_vertex(*v) && target[*v].abs() > CONE;
+    let cones: Vec<_> = mesh.vertices().filter(inside).map(|v| (v.0, target[v])).collect();
+    if cones.len() <= MOST_CONES { cones } else { Vec::new() }
+}
+
+/// The layout as plain arrays.
+#[derive(Default)]
+struct Parts {
+    corner_uv: Vec<[[f64; 2]; 3]>,
+    edges: Vec<(u32, u32, usize)>,
+    seams: Vec<([f64; 2], [f64; 2], usize)>,
+    boundary: Vec<([f64; 2], [f64; 2])>,
+    cones: Vec<([f64; 2], f64)>,
+    circles: Vec<Circle>,
+    dual_circles: Vec<Circle>,
+}
+
+impl Parts {
+    fn new(outcome: &Outcome, laid: &Laid) -> Parts {
+        let (mesh, layout) = (&outcome.mesh, &laid.layout);
+        let side = |h: HalfedgeId| (layout.corner_uv(h), layout.corner_uv(mesh.next(h)));
+        let mut parts =
+            Parts { corner_uv: mesh.faces().map(|f| layout.face_uv(mesh, f)).collect(), ..Parts::default() };
+        for (number, seam) in layout.seams.iter().enumerate() {
+            for &h in &seam.halfedges {
+                parts.edges.push((mesh.origin(h).0, mesh.tip(h).0, number));
+                for h in [h, h.twin()] {
+                    let (a, b) = side(h);
+                    parts.seams.push((a, b, number));
+                }
+            }
+        }
+        for h in mesh.halfedges().filter(|h| mesh.is_outside(h.twin())) {
+            parts.boundary.push(side(h));
+        }
+        let mut seen = vec![false; layout.coordinates.len()];
+        let cones: PerVertex<f64> = {
+            let mut at = PerVertex::filled(mesh.n_vertices(), 0.0);
+            cones(mesh, &outcome.target).into_iter().for_each(|(v, k)| at[VertexId(v)] = k);
+            at
+        };
+        for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h) && cones[mesh.origin(h)] != 0.0) {
+            let uv = layout.corner_index[h] as usize;
+            if !std::mem::replace(&mut seen[uv], true) {
+                parts.cones.push((layout.coordinates[uv], cones[mesh.origin(h)]));
+            }
+        }
+        if outcome.scheme.epsilon() != 0 {
+            let all = circles(mesh, &outcome.metric, outcome.scheme.name(), layout, laid.scale);
+            let vertex = all.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
+            parts.circles = vertex.collect();
+            let dual = |c: &crate::circles::DualCircle| Some(Circle { center: c.center, radius: c.radius? });
+            parts.dual_circles = all.dual_circles.iter().filter_map(dual).collect();
+        }
+        parts
+    }
+
+    fn flat(&self) -> Flat<'_> {
+        Flat {
+            corner_uv: &self.corner_uv,
+            seams: &self.seams,
+            boundary: &self.boundary,
+            cones: &self.cones,
+            circles: &self.circles,
+            dual_circles: &self.dual_circles,
+        }
+    }
+}
