@@ -181,7 +181,7 @@ fn write(
     if let Some(path) = &args.report {
         seconds.total = start.elapsed().as_secs_f64();
         let asked = Asked::new(args, input.geometry);
-        outputs.add_json(path, &report(input, outcome, asked, seconds))?;
+        outputs.add_report(path, &report(input, outcome, asked, seconds))?;
     }
     control.check()?;
     Ok(outputs.commit()?.iter().map(|p| path_text(p)).collect())

@@ -95,7 +95,7 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
         report.seconds = seconds;
         report.peak_bytes = peak_bytes();
         let mut outputs = Outputs::default();
-        outputs.add_json(path, &report)?;
+        outputs.add_report(path, &report)?;
         outputs.commit()?;
     }
     Ok(0)

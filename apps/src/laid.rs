@@ -10,7 +10,7 @@ use ricci::geometry::modulus::modulus;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::Curvature;
 use ricci::metric::curvature::area;
-use ricci::topology::{CutGraph, cut_graph};
+use ricci::topology::cut_graph;
 
 /// An interior vertex with more target curvature than this is a cone, and the cut passes it. Left inside, the vertex opens
 /// the layout by an angle of that size, which is below what the flow's tolerance leaves open anyway.
@@ -22,7 +22,6 @@ const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
 pub struct Laid {
     pub layout: Layout,
     pub quality: Quality,
-    pub cut: CutGraph,
     /// Lengths in the layout over lengths in the metric.
     pub scale: f64,
     /// τ of a flat torus.
@@ -61,9 +60,9 @@ pub fn lay_out(
         let scale = layout.scale_to_area(mesh, area(&input.mesh, input.geometry, &input.lengths))?;
         control.step(Stage::Layout, 0.8)?;
         let quality = quality(mesh, &input.lengths, &layout)?;
-        Ok((cut, layout, scale, quality))
+        Ok((layout, scale, quality))
     })();
-    let (cut, layout, scale, quality) = match result {
+    let (layout, scale, quality) = match result {
         Ok(parts) => parts,
         Err(ricci::Error::Cancelled) => return Err(Failure::Cancelled),
         Err(error) => return Ok(Err(error.to_string())),
@@ -77,7 +76,7 @@ pub fn lay_out(
         [a, b, ..] if flat_torus => modulus([a.translation, b.translation]),
         _ => None,
     };
-    Ok(Ok(Laid { layout, quality, cut, scale, modulus, consistency_limit }))
+    Ok(Ok(Laid { layout, quality, scale, modulus, consistency_limit }))
 }
 
 impl Laid {

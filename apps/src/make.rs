@@ -73,7 +73,7 @@ pub enum Shape {
         #[arg(short, long, default_value_t = 24)]
         n: usize,
         /// Height of the hill
-        #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+        #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
         height: f64,
         #[command(flatten)]
         to: ToMesh,
@@ -93,7 +93,7 @@ pub enum Shape {
         #[arg(short, long)]
         m: Option<usize>,
         /// Height of the hill
-        #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+        #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
         height: f64,
         #[command(flatten)]
         to: ToMesh,
@@ -271,4 +271,8 @@ fn say_made(path: &Path, mesh: &Mesh, quiet: bool) -> Result<u8, Failure> {
         ));
     }
     Ok(0)
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| "must be a number".into())
 }

@@ -41,10 +41,18 @@ impl Outputs {
         Ok(())
     }
 
-    /// Write a JSON file.
-    pub fn add_json(&mut self, path: &Path, value: &impl Serialize) -> Result<(), Failure> {
+    /// Write a JSON file, indented for people.
+    pub fn add_report(&mut self, path: &Path, value: &impl Serialize) -> Result<(), Failure> {
         self.add(path, |out| {
             serde_json::to_writer_pretty(&mut *out, value)?;
+            writeln!(out)
+        })
+    }
+
+    /// Write a JSON file on one line.
+    pub fn add_json(&mut self, path: &Path, value: &impl Serialize) -> Result<(), Failure> {
+        self.add(path, |out| {
+            serde_json::to_writer(&mut *out, value)?;
             writeln!(out)
         })
     }

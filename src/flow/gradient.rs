@@ -115,7 +115,7 @@ impl Run<'_> {
         // Area grows as e^{2u} (exactly in E²): a fixed point that contracts fast on the sphere too.
         for _ in 0..RESCALINGS {
             let now = state.area(self.mesh, self.class);
-            let shift = 0.5 * (area / now).ln();
+            let mut shift = 0.5 * (area / now).ln();
             if !shift.is_finite() {
                 return false;
             }
@@ -123,8 +123,13 @@ impl Run<'_> {
                 return true;
             }
             state.u.iter_mut().for_each(|u| *u += shift);
-            if !state.evaluate(self.mesh, self.class) {
-                return false;
+            // Near the largest spherical metric of the class the area grows faster: come back half the way.
+            while !state.evaluate(self.mesh, self.class) {
+                shift *= 0.5;
+                if shift.abs() <= 4.0 * f64::EPSILON {
+                    return false;
+                }
+                state.u.iter_mut().for_each(|u| *u -= shift);
             }
         }
         true

@@ -29,13 +29,13 @@ pub enum Target {
 
 impl Target {
     /// What is asked for when nothing is: `Boundary` on open surfaces in E², four cones of π on closed surfaces of
-    /// genus 0 in E² (vertex 0 and then, three times, the vertex farthest from those chosen, along edges),
+    /// genus 0 in E² (V ≥ 4: vertex 0 and then, three times, the vertex farthest from those chosen, along edges),
     /// `Uniform` otherwise.
     pub fn default_for(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space) -> Target {
         match space {
             Space::H2 | Space::S2 => Target::Uniform,
             Space::E2 if !mesh.is_closed() => Target::Boundary,
-            Space::E2 if mesh.euler() == 2 => {
+            Space::E2 if mesh.euler() == 2 && mesh.n_vertices() >= 4 => {
                 let cones = topology::farthest_vertices(mesh, lengths, VertexId(0), 4);
                 Target::Cones(cones.into_iter().map(|v| (v, PI)).collect())
             }

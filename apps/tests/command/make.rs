@@ -1,0 +1,100 @@
+//! `ricci make` and `ricci demo`.
+
+use crate::files::curvature_error;
+use crate::run::{Place, numbers};
+
+#[test]
+fn shapes_have_their_topology() {
+    let place = Place::new();
+    for (line, file, genus, loops) in [
+        ("sphere -n 3", "m.obj", 0, 0),
+        ("ellipsoid -n 3", "m.obj", 0, 0),
+        ("torus -n 12", "m.obj", 1, 0),
+        ("disk -n 4 --height 0.3", "m.obj", 0, 1),
+        ("annulus -n 4", "m.obj", 0, 2),
+        ("genus -g 3 -n 3", "m.obj", 3, 0),
+        ("torus -n 12", "m.json", 1, 0),
+        ("flat-torus", "m.json", 1, 0),
+        ("bolza", "m.json", 2, 0),
+        ("one-vertex", "m.json", 2, 0),
+        ("two-vertex -g 3", "m.json", 3, 0),
+        ("two-triangles", "m.json", 0, 0),
+    ] {
+        place.expect(0, &format!("make {line} -o {file} --quiet"));
+        place.expect(0, &format!("info {file} --report r.json"));
+        let report = place.json("r.json");
+        assert_eq!(report["input"]["genus"], genus, "{line}");
+        assert_eq!(report["input"]["boundary_loops"], loops, "{line}");
+        assert_eq!(report["result"]["admissible"], true, "{line}");
+    }
+}
+
+#[test]
+fn the_bolza_surface_stays_put() {
+    let place = Place::new();
+    place.expect(0, "make bolza -l 2 -o bolza.json");
+    place.expect(0, "flow bolza.json --metric m.json --report r.json");
+    let (metric, result) = (place.json("m.json"), place.json("r.json")["result"].clone());
+    assert_eq!((&result["space"], &result["iterations"]), (&"h2".into(), &0.into()));
+    assert!(numbers(&metric["conformal_factor"]).iter().all(|u| u.abs() < 1e-13));
+    assert!(curvature_error(&metric) < 1e-10);
+    assert!((result["area"].as_f64().unwrap() - 4.0 * std::f64::consts::PI).abs() < 1e-10);
+}
+
+#[test]
+fn a_flat_torus_has_the_modulus_it_was_made_with() {
+    let place = Place::new();
+    place.expect(0, "make flat-torus --tau -0.3 1.2 -n 5 -m 4 -o t.json");
+    place.expect(0, "flow t.json --report r.json");
+    let modulus = numbers(&place.json("r.json")["result"]["modulus"]);
+    assert!((modulus[0] + 0.3).abs() < 1e-12 && (modulus[1] - 1.2).abs() < 1e-12, "{modulus:?}");
+}
+
+#[test]
+fn noise_is_seeded() {
+    let place = Place::new();
+    for (seed, file) in [(1, "a.obj"), (1, "b.obj"), (2, "c.obj")] {
+        place.expect(0, &format!("make torus --noise 0.2 --seed {seed} -o {file}"));
+    }
+    assert!(place.text("a.obj") == place.text("b.obj") && place.text("a.obj") != place.text("c.obj"));
+}
+
+#[test]
+fn what_cannot_be_made_is_exit_2() {
+    let place = Place::new();
+    for line in [
+        "make",
+        "make cube -o m.obj",
+        "make torus",
+        "make torus -n 2 -o m.obj",
+        "make torus --small 3 -o m.obj",
+        "make genus -g 0 -o m.obj",
+        "make sphere -n 1000000000 -o m.obj",
+        "make disk --height nan -o m.obj",
+        "make bolza -o m.obj",
+        "make bolza -l 40 -o m.json",
+        "make torus -o m.stl",
+        "make torus -o missing/m.obj",
+        "make flat-torus --tau 0 -1 -o m.json",
+    ] {
+        place.expect(2, line);
+    }
+    assert!(place.files().is_empty());
+}
+
+#[test]
+fn the_demo_makes_three_surfaces_and_flattens_them() {
+    let place = Place::new();
+    let ended = place.expect(0, "demo out");
+    for (name, genus) in [("torus", 1), ("genus2", 2), ("disk", 0)] {
+        assert!(ended.out.contains(name));
+        for suffix in [".obj", "_uv.obj", "_metric.json", "_report.json"] {
+            assert!(place.exists(&format!("out/{name}{suffix}")), "{name}{suffix}");
+        }
+        let report = place.json(&format!("out/{name}_report.json"));
+        assert_eq!(report["input"]["genus"], genus);
+        assert_eq!(report["result"]["flipped_triangles"], 0);
+        assert!(curvature_error(&place.json(&format!("out/{name}_metric.json"))) < 1e-9);
+    }
+    place.put("file", "").expect(2, "demo file");
+}
