@@ -8,6 +8,8 @@ use super::{Circle, Fit, Flat, LINE, cone_color, seam_color};
 const WIRE_FACES: usize = 5000;
 /// Circles of a smaller radius (pixels) are left out.
 const LEAST_RADIUS: f64 = 0.3;
+/// And of a larger one: their piece of arc in the picture is a line.
+const MOST_RADIUS: f64 = 1e5;
 const WIRE: Rgb = [0.35, 0.38, 0.42];
 const BOUNDARY: Rgb = [0.01, 0.01, 0.015];
 const VERTEX_CIRCLE: Rgb = [0.70, 0.06, 0.03];
@@ -53,7 +55,8 @@ pub fn primitives(flat: &Flat<'_>) -> Vec<Primitive> {
 fn outline(out: &mut Vec<Primitive>, fit: &Fit, circle: &Circle, z: f64, color: Rgb) {
     let radius = fit.scale * circle.radius;
     let center = fit.apply(circle.center);
-    if !(radius >= LEAST_RADIUS && radius < 1e5) || !center.iter().all(|x| x.is_finite()) {
+    let visible = (LEAST_RADIUS..MOST_RADIUS).contains(&radius);
+    if !visible || !center.iter().all(|x| x.is_finite()) {
         return;
     }
     let sides = ((radius * 50.0).sqrt() as usize).clamp(10, 400);
