@@ -2,7 +2,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define TRY(call) if ((call) != RICCI_OK) return fprintf(stderr, "%s\n", ricci_last_error()), 1
+#define TRY(call)                                                                                            \
+    if ((call) != RICCI_OK) return fprintf(stderr, "%s\n", ricci_last_error()), 1
 
 int main(int argc, char **argv) {
     ricci_mesh *mesh;

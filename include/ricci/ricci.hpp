@@ -41,8 +41,7 @@ struct deleter {
     void operator()(ricci_control *p) const { ricci_control_free(p); }
 };
 
-template <class Handle>
-using owned = std::unique_ptr<Handle, deleter>;
+template <class Handle> using owned = std::unique_ptr<Handle, deleter>;
 
 using mesh = owned<ricci_mesh>;
 using diagnosis = owned<ricci_diagnosis>;

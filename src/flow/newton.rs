@@ -66,6 +66,7 @@ impl Run<'_> {
             std::mem::swap(&mut state, &mut trial);
             error = now;
             report.residuals.push(error);
+            log::debug!("Newton step {}: max |K − K̄| = {error:.3e}", report.iterations);
             since_best += 1;
             if error < 0.9 * best {
                 (best, since_best) = (error, 0);

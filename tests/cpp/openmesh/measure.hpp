@@ -33,8 +33,8 @@ const Real epsilon = std::numeric_limits<double>::epsilon();
 #define CHECK(condition) ((condition) ? void() : fail(__FILE__, __LINE__, #condition))
 #define OK(call) CHECK((call) == RICCI_OK)
 
-// The angle between sides a and b of a triangle, opposite c, by the half-angle form; and how far it moves when
-// each length is rounded to double (first order, with a margin).
+// The angle between sides a and b of a triangle, opposite c, by the half-angle form; and how far it moves
+// when each length is rounded to double (first order, with a margin).
 struct Angle {
     Real value, rounding;
 };

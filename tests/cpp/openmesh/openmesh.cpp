@@ -1,6 +1,6 @@
 // A mesh as OpenMesh holds it goes to ricci as it lies in memory. What ricci says about it is then checked
-// against OpenMesh (counts, loops), CGAL (angles, areas, exact orientation) and formulas in long double on the
-// numbers that ricci returns: curvature before and after the flow, conformality, layout.
+// against OpenMesh (counts, loops), CGAL (angles, areas, exact orientation) and formulas in long double on
+// the numbers that ricci returns: curvature before and after the flow, conformality, layout.
 //
 //   test_openmesh [MESH]     without an argument: generated meshes
 #include "measure.hpp"
@@ -141,8 +141,8 @@ void check_layout(const Mesh &input, const ricci_metric *end, const std::vector<
     CHECK(summary.consistency <= 1e-7);
     CHECK(worst <= 2 * (summary.consistency + 1e-13L) * summary.diameter);
 
-    // A seam's motion z -> e^(i rotation) z + t carries its left side onto its right: each edge of it, looked up
-    // in the two faces that have it.
+    // A seam's motion z -> e^(i rotation) z + t carries its left side onto its right: each edge of it, looked
+    // up in the two faces that have it.
     std::vector<double> seams(4 * summary.n_seams);
     std::vector<int32_t> edges(summary.n_seam_edges);
     std::vector<std::size_t> starts(summary.n_seams + 1);
@@ -163,7 +163,8 @@ void check_layout(const Mesh &input, const ricci_metric *end, const std::vector<
         const Complex turn = std::polar(Real(1), Real(seams[4 * i])), t(seams[4 * i + 1], seams[4 * i + 2]);
         for (auto k = starts[i]; k < starts[i + 1]; k++) {
             const auto e = edges[k];
-            const auto left = side[2 * (std::abs(e) - 1) + (e < 0)], right = side[2 * (std::abs(e) - 1) + (e > 0)];
+            const auto left = side[2 * (std::abs(e) - 1) + (e < 0)],
+                       right = side[2 * (std::abs(e) - 1) + (e > 0)];
             const Real tail = std::abs(turn * corner(left, 1) + t - corner(right, 2));
             const Real tip = std::abs(turn * corner(left, 2) + t - corner(right, 1));
             CHECK(std::max(tail, tip) <= (seams[4 * i + 3] + 1e-13L) * summary.diameter);
@@ -252,8 +253,7 @@ int check(const std::string &name, const Mesh &input) {
 }
 
 // An n x m grid, closed up in neither, one or both directions; `place` gives the positions.
-template <class Place>
-Mesh grid(int n, int m, bool close_n, bool close_m, Place place) {
+template <class Place> Mesh grid(int n, int m, bool close_n, bool close_m, Place place) {
     Mesh mesh;
     std::vector<Mesh::VertexHandle> vertices;
     for (int i = 0; i < n; i++)

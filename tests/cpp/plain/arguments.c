@@ -8,13 +8,11 @@ static void null_pointers_are_errors(const torus *t) {
     ricci_mesh_summary summary;
     double x[3];
     FAILS(ricci_mesh_from_arrays(NULL, 0, t->n_vertices, t->faces, t->n_faces, &untouched),
-          RICCI_NULL_POINTER,
-          "positions");
+          RICCI_NULL_POINTER, "positions");
     FAILS(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, NULL, t->n_faces, &untouched),
           RICCI_NULL_POINTER, "faces");
     FAILS(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, t->n_faces, NULL),
-          RICCI_NULL_POINTER,
-          "mesh");
+          RICCI_NULL_POINTER, "mesh");
     FAILS(ricci_mesh_read(NULL, &untouched), RICCI_NULL_POINTER, "path");
     FAILS(ricci_mesh_read("no such file.obj", &untouched), RICCI_IO, "no such file.obj");
     FAILS(ricci_mesh_read("no_such.format", &untouched), RICCI_UNKNOWN_FORMAT, "no_such.format");
@@ -50,8 +48,7 @@ static void impossible_counts_are_errors(const torus *t) {
     FAILS(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, huge / 8, &mesh), RICCI_TOO_LARGE,
           "faces");
     FAILS(ricci_mesh_from_arrays(t->positions, 16, t->n_vertices, t->faces, t->n_faces, &mesh),
-          RICCI_ARGUMENT,
-          "stride");
+          RICCI_ARGUMENT, "stride");
     FAILS(ricci_mesh_from_arrays(t->positions, 0, 3, t->faces, t->n_faces, &mesh), RICCI_DEFECTS, "");
     CHECK(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, 0, &mesh) != RICCI_OK);
     CHECK(mesh == NULL);
@@ -78,8 +75,8 @@ static void strided_positions_give_the_same_mesh(const torus *t) {
     CHECK(wide && a && b);
     for (size_t v = 0; v < t->n_vertices; v++)
         memcpy(wide + 1 + v * stride, t->positions + 3 * v, 3 * sizeof(double));
-    OK(ricci_mesh_from_arrays((const double *)(void *)(wide + 1), stride, t->n_vertices, t->faces,
-       t->n_faces, &loose));
+    OK(ricci_mesh_from_arrays((const double *)(void *)(wide + 1), stride, t->n_vertices, t->faces, t->n_faces,
+                              &loose));
     OK(ricci_mesh_positions(tight, a, n));
     OK(ricci_mesh_positions(loose, b, n));
     CHECK(memcmp(a, b, n * sizeof *a) == 0);
@@ -103,8 +100,7 @@ static void int32_faces_are_read_and_negative_ones_named(const torus *t) {
     mesh = NULL;
     faces[3 * 7 + 2] = -4;
     FAILS(ricci_mesh_from_arrays_i32(t->positions, 0, t->n_vertices, faces, t->n_faces, &mesh),
-          RICCI_ARGUMENT,
-          "face 7, corner 2: vertex -4");
+          RICCI_ARGUMENT, "face 7, corner 2: vertex -4");
     CHECK(mesh == NULL);
     free(faces);
     free(back);
@@ -230,8 +226,8 @@ static void a_diagnosis_names_the_elements_of_every_defect(void) {
         if (strcmp(defect.code, "isolated_vertex") == 0)
             isolated += defect.n_vertices == 1 && defect.vertices[0] == 4 && defect.n_faces == 0;
         if (strcmp(defect.code, "inconsistent_orientation") == 0)
-            turned += defect.n_vertices == 2 && defect.n_faces == 2 &&
-                      defect.vertices[0] + defect.vertices[1] == 1;
+            turned +=
+                defect.n_vertices == 2 && defect.n_faces == 2 && defect.vertices[0] + defect.vertices[1] == 1;
     }
     CHECK(isolated == 1 && turned == 1);
     FAILS(ricci_diagnosis_defect(diagnosis, summary.n_defects, &defect, sizeof defect), RICCI_ARGUMENT,
@@ -254,10 +250,9 @@ static void a_gluing_is_given_back_as_it_came(void) {
     ricci_metric *metric = NULL;
     ricci_mesh_summary summary;
     FAILS(ricci_mesh_from_gluing(1, faces[0], gluing[0], 2, lengths, 2, RICCI_SPACE_E2, &mesh),
-          RICCI_WRONG_SIZE,
-          "lengths");
-    FAILS(ricci_mesh_from_gluing(1, faces[0], gluing[0], 2, bad, 3, RICCI_SPACE_E2, &mesh),
-          RICCI_EDGE_LENGTH, "edge 1");
+          RICCI_WRONG_SIZE, "lengths");
+    FAILS(ricci_mesh_from_gluing(1, faces[0], gluing[0], 2, bad, 3, RICCI_SPACE_E2, &mesh), RICCI_EDGE_LENGTH,
+          "edge 1");
     OK(ricci_mesh_from_gluing(1, faces[0], gluing[0], 2, lengths, 3, RICCI_SPACE_E2, &mesh));
     OK(ricci_mesh_summarise(mesh, &summary, sizeof summary));
     CHECK(summary.n_vertices == 1 && summary.n_edges == 3 && summary.n_faces == 2 && summary.genus == 1);
@@ -311,8 +306,10 @@ typedef struct {
 
 static void keep_message(ricci_log_level level, const char *message, void *user_data) {
     messages *m = (messages *)user_data;
-    if (level == RICCI_LOG_WARN) m->warnings++;
-    else m->others++;
+    if (level == RICCI_LOG_WARN)
+        m->warnings++;
+    else
+        m->others++;
     strncpy(m->last, message, sizeof m->last - 1);
 }
 

@@ -19,7 +19,8 @@ static double *solve(const torus *t, ricci_space space, const double *target) {
     return u;
 }
 
-/* Lengths near the end of the range: squares of them overflow. Returns what the calls answer, a digit each. */
+/* Lengths near the end of the range: squares of them overflow. Returns what the calls answer, a digit each.
+ */
 static long extremes(const torus *t) {
     ricci_mesh *mesh = torus_mesh(t);
     double *lengths = (double *)malloc(3 * t->n_vertices * sizeof *lengths);
@@ -38,7 +39,8 @@ static long extremes(const torus *t) {
                                                             RICCI_SCHEME_INVERSIVE, spaces[k], &metric);
             if (status == RICCI_OK) {
                 status = ricci_metric_curvature(metric, curvature, t->n_vertices);
-                CHECK(status != RICCI_OK || ricci_metric_summarise(metric, &summary, sizeof summary) == RICCI_OK);
+                CHECK(status != RICCI_OK ||
+                      ricci_metric_summarise(metric, &summary, sizeof summary) == RICCI_OK);
             }
             CHECK(status != RICCI_PANIC);
             CHECK(scales[i] != 0 || status == RICCI_EDGE_LENGTH);
