@@ -82,8 +82,12 @@ fn run_example(example: &Example, args: &DemoArgs, control: &Control) -> Result<
     }
     let mut flow = vec!["flow".to_string(), path(".obj")];
     flow.extend(example.flow.iter().map(ToString::to_string));
-    for (option, suffix) in [("--uv", "_uv.obj"), ("--metric", "_metric.json"), ("--report", "_report.json")]
-    {
+    for (option, suffix) in [
+        ("--uv", "_uv.obj"),
+        ("--metric", "_metric.json"),
+        ("--picture", ".png"),
+        ("--report", "_report.json"),
+    ] {
         flow.extend([option.into(), path(suffix)]);
     }
     let line = flow.join(" ");
