@@ -1,5 +1,6 @@
 //! One shared test of the derivative, for every space × scheme and for mixed types: against central differences,
 //! against automatic differentiation of plain cosine laws (an independent implementation), and as an exact 1-form.
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
 

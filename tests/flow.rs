@@ -1,4 +1,5 @@
 //! The flow against known answers.
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
 

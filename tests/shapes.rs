@@ -1,4 +1,5 @@
 //! The generators: topology, geometry and known totals.
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::io::Soup;

@@ -85,8 +85,8 @@ fn run_example(example: &Example, args: &DemoArgs, control: &Control) -> Result<
     for (option, suffix) in [
         ("--uv", "_uv.obj"),
         ("--metric", "_metric.json"),
-        ("--picture", ".png"),
         ("--report", "_report.json"),
+        ("--picture", ".png"),
     ] {
         flow.extend([option.into(), path(suffix)]);
     }

@@ -11,23 +11,30 @@ const FADE_PIXELS: f64 = 1.5;
 /// Checkerboard coordinates at the corners of a triangle.
 pub struct Checker {
     uv: [[f64; 2]; 3],
+    /// Logarithm to base `OCTAVE` of the layout's scale at the corners, 0 at its median.
+    level: [f64; 3],
     /// 1: full contrast, 0: the mean.
     contrast: f64,
 }
 
 impl Checker {
-    /// `uv`: layout coordinates; `size`: side of a check in the layout; `pixels`: the triangle on the screen.
-    pub fn new(uv: [[f64; 2]; 3], size: f64, pixels: [[f64; 2]; 3]) -> Checker {
+    /// `uv`: layout coordinates; `size`: side of a check at the median scale; `level`: see [`Checks`]; `pixels`: the
+    /// triangle on the screen.
+    pub fn new(uv: [[f64; 2]; 3], size: f64, level: [f64; 3], pixels: [[f64; 2]; 3]) -> Checker {
         let uv = uv.map(|p| p.map(|x| x / size));
+        let mean = ((level[0] + level[1] + level[2]) / 3.0).round();
         // A check covers (pixel area / uv area) pixels.
-        let side = (doubled_area(pixels).abs() / doubled_area(uv).abs()).sqrt();
+        let side = (doubled_area(pixels).abs() / doubled_area(uv).abs()).sqrt() * OCTAVE.powf(mean);
         let contrast = if side.is_finite() { (side / FADE_PIXELS - 1.0).clamp(0.0, 1.0) } else { 0.0 };
-        Checker { uv, contrast }
+        Checker { uv, level, contrast }
     }
 
     /// 0 or 1 (or ½ where faded) at barycentric coordinates.
     pub fn value(&self, b: [f64; 3]) -> f64 {
-        let at = |k: usize| (b[0] * self.uv[0][k] + b[1] * self.uv[1][k] + b[2] * self.uv[2][k]).floor();
+        let level = (b[0] * self.level[0] + b[1] * self.level[1] + b[2] * self.level[2]).round();
+        let zoom = OCTAVE.powf(-level);
+        let at =
+            |k: usize| (zoom * (b[0] * self.uv[0][k] + b[1] * self.uv[1][k] + b[2] * self.uv[2][k])).floor();
         let odd = (at(0) + at(1)).rem_euclid(2.0) == 1.0;
         0.5 + self.contrast * if odd { 0.5 } else { -0.5 }
     }
@@ -38,20 +45,30 @@ pub fn doubled_area(p: [[f64; 2]; 3]) -> f64 {
     (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0])
 }
 
-/// Side of the checks on each face, from the faces' areas on the surface and in the layout.
-pub fn check_sizes(surface: &[f64], layout: &[f64]) -> Vec<f64> {
-    let scale = |(s, l): (&f64, &f64)| (l / s).sqrt();
-    let mut order: Vec<(f64, f64)> = surface.iter().zip(layout).map(|(s, l)| (scale((s, l)), *s)).collect();
-    order.retain(|(x, s)| x.is_finite() && *x > 0.0 && s.is_finite());
-    order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let total: f64 = order.iter().map(|(_, s)| s).sum();
-    let mut sum = 0.0;
-    let median = order.iter().find(|(_, s)| {
-        sum += s;
-        2.0 * sum >= total
-    });
-    let median = median.map_or(1.0, |m| m.0);
-    let size = median * total.max(f64::MIN_POSITIVE).sqrt() / CHECKS;
-    let level = |x: f64| if x.is_finite() && x > 0.0 { (x / median).log(OCTAVE).round() } else { 0.0 };
-    surface.iter().zip(layout).map(|pair| size * OCTAVE.powf(level(scale(pair)))).collect()
+/// How large checks are, from the faces' areas on the surface and in the layout.
+pub struct Checks {
+    /// Side of a check at the median scale.
+    pub size: f64,
+    /// Per face: logarithm to base `OCTAVE` of its scale over the median.
+    pub level: Vec<f64>,
+}
+
+impl Checks {
+    pub fn new(surface: &[f64], layout: &[f64]) -> Checks {
+        let scale = |(s, l): (&f64, &f64)| (l / s).sqrt();
+        let mut order: Vec<(f64, f64)> =
+            surface.iter().zip(layout).map(|(s, l)| (scale((s, l)), *s)).collect();
+        order.retain(|(x, s)| x.is_finite() && *x > 0.0 && s.is_finite());
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let total: f64 = order.iter().map(|(_, s)| s).sum();
+        let mut sum = 0.0;
+        let middle = order.iter().find(|(_, s)| {
+            sum += s;
+            2.0 * sum >= total
+        });
+        let median = middle.map_or(1.0, |m| m.0);
+        let size = median * total.max(f64::MIN_POSITIVE).sqrt() / CHECKS;
+        let level = |x: f64| if x.is_finite() && x > 0.0 { (x / median).log(OCTAVE) } else { 0.0 };
+        Checks { size, level: surface.iter().zip(layout).map(|pair| level(scale(pair))).collect() }
+    }
 }

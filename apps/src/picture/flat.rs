@@ -1,6 +1,6 @@
 //! The layout in the plane.
 
-use super::checker::{Checker, check_sizes, doubled_area};
+use super::checker::{Checker, Checks, doubled_area};
 use super::raster::{Paint, Primitive, Rgb, dot, line};
 use super::{Circle, Fit, Flat, LINE, cone_color, seam_color};
 
@@ -8,6 +8,8 @@ use super::{Circle, Fit, Flat, LINE, cone_color, seam_color};
 const WIRE_FACES: usize = 5000;
 /// Circles of a smaller radius (pixels) are left out.
 const LEAST_RADIUS: f64 = 0.3;
+/// And of a larger one: their piece of arc in the picture is a line.
+const MOST_RADIUS: f64 = 1e5;
 const WIRE: Rgb = [0.35, 0.38, 0.42];
 const BOUNDARY: Rgb = [0.01, 0.01, 0.015];
 const VERTEX_CIRCLE: Rgb = [0.70, 0.06, 0.03];
@@ -16,11 +18,15 @@ const DUAL_CIRCLE: Rgb = [0.02, 0.15, 0.55];
 pub fn primitives(flat: &Flat<'_>) -> Vec<Primitive> {
     let fit = Fit::new(flat.corner_uv.iter().flatten().copied());
     let areas: Vec<f64> = flat.corner_uv.iter().map(|uv| 0.5 * doubled_area(*uv).abs()).collect();
-    let sizes = check_sizes(&areas, &areas);
+    let size = Checks::new(&areas, &areas).size;
     let mut out = Vec::new();
-    for (uv, size) in flat.corner_uv.iter().zip(sizes) {
+    for uv in flat.corner_uv {
         let xy = uv.map(|p| fit.apply(p));
-        out.push(Primitive { xy, z: [0.0; 3], paint: Paint::Tiled { checker: Checker::new(*uv, size, xy) } });
+        out.push(Primitive {
+            xy,
+            z: [0.0; 3],
+            paint: Paint::Tiled { checker: Checker::new(*uv, size, [0.0; 3], xy) },
+        });
     }
     if flat.corner_uv.len() <= WIRE_FACES && flat.circles.is_empty() {
         for uv in flat.corner_uv {
@@ -49,7 +55,8 @@ pub fn primitives(flat: &Flat<'_>) -> Vec<Primitive> {
 fn outline(out: &mut Vec<Primitive>, fit: &Fit, circle: &Circle, z: f64, color: Rgb) {
     let radius = fit.scale * circle.radius;
     let center = fit.apply(circle.center);
-    if !(radius >= LEAST_RADIUS && radius < 1e5) || !center.iter().all(|x| x.is_finite()) {
+    let visible = (LEAST_RADIUS..MOST_RADIUS).contains(&radius);
+    if !visible || !center.iter().all(|x| x.is_finite()) {
         return;
     }
     let sides = ((radius * 50.0).sqrt() as usize).clamp(10, 400);

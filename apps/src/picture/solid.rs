@@ -1,6 +1,6 @@
 //! The surface in space: camera, normals, seams and cones on it.
 
-use super::checker::{Checker, check_sizes, doubled_area};
+use super::checker::{Checker, Checks, doubled_area};
 use super::raster::{Paint, Primitive, Rgb, dot, line};
 use super::{Fit, LINE, Surface, cone_color, seam_color};
 
@@ -18,7 +18,7 @@ pub fn primitives(surface: &Surface<'_>) -> Vec<Primitive> {
     if surface.positions.is_empty() || !surface.positions.iter().all(finite) {
         return Vec::new();
     }
-    let view = camera(surface.positions);
+    let view = camera(surface.positions, surface.faces);
     let seen: Vec<V3> = surface.positions.iter().map(|p| view.map(|axis| dot3(axis, *p))).collect();
     let fit = Fit::new(seen.iter().map(|p| [p[0], p[1]]));
     let pixels: Vec<[f64; 2]> = seen.iter().map(|p| fit.apply([p[0], p[1]])).collect();
@@ -27,14 +27,17 @@ pub fn primitives(surface: &Surface<'_>) -> Vec<Primitive> {
     let areas: Vec<f64> =
         (0..surface.faces.len()).map(|f| 0.5 * norm(normal(corners(f).map(|v| seen[v])))).collect();
     let uv_area = |uv: &[V2; 3]| 0.5 * doubled_area(*uv).abs();
-    let sizes = surface.corner_uv.map(|uv| check_sizes(&areas, &uv.iter().map(uv_area).collect::<Vec<_>>()));
+    let checks = surface.corner_uv.map(|uv| Checks::new(&areas, &uv.iter().map(uv_area).collect::<Vec<_>>()));
+    let levels = checks.as_ref().map(|checks| vertex_means(&checks.level, surface));
     let normals = vertex_normals(&seen, surface.faces);
     let mut out = Vec::with_capacity(surface.faces.len());
     for f in 0..surface.faces.len() {
         let c = corners(f);
         let xy = c.map(|v| pixels[v]);
-        let checker = match (surface.corner_uv, &sizes) {
-            (Some(uv), Some(sizes)) => Some(Checker::new(uv[f], sizes[f], xy)),
+        let checker = match (surface.corner_uv, &checks, &levels) {
+            (Some(uv), Some(checks), Some(level)) => {
+                Some(Checker::new(uv[f], checks.size, c.map(|v| level[v]), xy))
+            }
             _ => None,
         };
         let paint = Paint::Lit { normals: c.map(|v| normals[v]), checker, base: CLAY };
@@ -55,8 +58,8 @@ pub fn primitives(surface: &Surface<'_>) -> Vec<Primitive> {
 type V2 = [f64; 2];
 
 /// Rows: screen x, screen y, towards the viewer. From the principal axes of the points: the longest across, the shortest
-/// nearly towards the viewer.
-fn camera(points: &[V3]) -> [V3; 3] {
+/// nearly towards the viewer. An open surface shows its outside.
+fn camera(points: &[V3], faces: &[[u32; 3]]) -> [V3; 3] {
     let n = points.len() as f64;
     let mean = [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
     let mut m = [[0.0; 3]; 3];
@@ -74,6 +77,11 @@ fn camera(points: &[V3]) -> [V3; 3] {
     };
     let x = ahead(axes[0]);
     let mut y = ahead(axes[1]);
+    let mut outside = [0.0; 3];
+    for face in faces {
+        let n = normal(face.map(|v| points[v as usize]));
+        (0..3).for_each(|k| outside[k] += n[k]);
+    }
     // Mostly vertical things stand upright: the longer axis goes up if it is the vertical one of the file.
     let (x, z) = if x[1].abs() > 0.8 {
         let z = cross(ahead(y), x);
@@ -83,6 +91,8 @@ fn camera(points: &[V3]) -> [V3; 3] {
     } else {
         (x, cross(x, y))
     };
+    // Half a turn about the vertical where the viewer would look at the back.
+    let (x, z) = if dot3(outside, z) < 0.0 { (x.map(|a| -a), z.map(|a| -a)) } else { (x, z) };
     let (sa, ca) = TILT[0].sin_cos();
     let turned_x = [0, 1, 2].map(|k| ca * x[k] - sa * z[k]);
     let turned_z = [0, 1, 2].map(|k| sa * x[k] + ca * z[k]);
@@ -114,6 +124,18 @@ fn principal_axes(mut m: [[f64; 3]; 3]) -> [V3; 3] {
     let mut order = [0, 1, 2];
     order.sort_by(|&a, &b| m[b][b].total_cmp(&m[a][a]));
     order.map(|k| v[k])
+}
+
+/// Mean over the faces at each vertex.
+fn vertex_means(values: &[f64], surface: &Surface<'_>) -> Vec<f64> {
+    let mut sum = vec![(0.0, 0.0); surface.positions.len()];
+    for (face, value) in surface.faces.iter().zip(values) {
+        for v in face {
+            sum[*v as usize].0 += value;
+            sum[*v as usize].1 += 1.0;
+        }
+    }
+    sum.into_iter().map(|(total, count)| if count > 0.0 { total / count } else { 0.0 }).collect()
 }
 
 /// Angle-weighted vertex normals.

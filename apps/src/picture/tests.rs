@@ -1,4 +1,4 @@
-use super::checker::check_sizes;
+use super::checker::Checks;
 use super::raster::{Paint, Primitive, render};
 use super::*;
 use ricci::mesh::shapes;
@@ -55,13 +55,13 @@ fn neighbouring_triangles_leave_no_crack() {
 #[test]
 fn checks_finer_than_a_pixel_fade_to_their_mean() {
     let xy = [[0.0, 0.0], [2000.0, 0.0], [0.0, 2000.0]];
-    let fine = checker::Checker::new(xy, 0.5, xy);
+    let fine = checker::Checker::new(xy, 0.5, [0.0; 3], xy);
     assert_eq!(fine.value([0.3, 0.3, 0.4]), 0.5);
-    let coarse = checker::Checker::new(xy, 50.0, xy);
+    let coarse = checker::Checker::new(xy, 50.0, [0.0; 3], xy);
     assert!([0.0, 1.0].contains(&coarse.value([0.3, 0.3, 0.4])));
-    // Sizes follow the median scale, by octaves of eight.
-    let sizes = check_sizes(&[1.0; 5], &[1.0, 1.0, 1.0, 64.0, 64.0 * 64.0]);
-    assert!((sizes[3] / sizes[0] - 8.0).abs() < 1e-12 && (sizes[4] / sizes[0] - 64.0).abs() < 1e-9);
+    // Levels count octaves of eight from the median scale.
+    let checks = Checks::new(&[1.0; 5], &[1.0, 1.0, 1.0, 64.0, 64.0 * 64.0]);
+    assert!((checks.level[3] - 1.0).abs() < 1e-12 && (checks.level[4] - 2.0).abs() < 1e-12);
 }
 
 #[test]

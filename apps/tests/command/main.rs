@@ -1,6 +1,5 @@
 //! The `ricci` command as its users see it: exit codes, the files of the contract, and what is in them, recomputed here
 //! with formulas of our own.
-
 #![allow(clippy::unwrap_used)]
 
 mod files;
