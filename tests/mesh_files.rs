@@ -163,9 +163,12 @@ fn obj_and_off_dialects_are_read() {
         "v 0 0 0 1 0 0\r\nv 1 0 0\n# c\nv 1 1 0\nv 0 1 0 # last\nvt 0 0\ng a\nf 1/1 2/1/1 3//1 \\\n -1\n";
     let soup = io::parse_obj(obj, "t.obj").unwrap();
     assert_eq!(soup.faces, [[0, 1, 2], [0, 2, 3]]);
+    let odd = "\u{feff}v 0 0 0\rv 1 0 0\r# back\\\rv 1 1 0\rv 0 1 0\rf 1 2 3 4\r";
+    assert_eq!(io::parse_obj(odd, "t.obj").unwrap(), soup);
     for off in [
         "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n",
         "COFF 4 1 0\n0 0 0 9 9 9 9\n1 0 0 9\n# c\n\n1 1 0\n0 1 0\n4 0 1 2 3 255 0 0\n",
+        "\u{feff}OFF4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n",
         "  OFF # head\n 4 1\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3",
     ] {
         let read = io::parse_off(off, "t.off").unwrap();

@@ -76,6 +76,9 @@ pub struct InfoArgs {
     /// Write everything as JSON
     #[arg(long, value_name = "R.json")]
     pub report: Option<PathBuf>,
+    /// Write a picture of the surface
+    #[arg(long, value_name = "P.png")]
+    pub picture: Option<PathBuf>,
     /// No summary
     #[arg(long)]
     pub quiet: bool,

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
 use crate::metric_file::MetricFile;
-use crate::output::{Outputs, check_extension, check_writable};
+use crate::output::{Outputs, check_extension, check_writable, extension};
 use crate::progress::Progress;
 use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes, timed};
 use crate::say;
@@ -130,6 +130,18 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
     }
     if args.uv.is_some() && input.positions.is_none() {
         return Err(Failure::Usage("--uv: an intrinsic metric has no positions in space".into()));
+    }
+    if let Some(path) = args.picture.as_ref().filter(|_| space != Space::E2) {
+        let nothing = if extension(path) == "svg" {
+            "an SVG shows the layout alone, use .png"
+        } else if input.positions.is_none() {
+            "an intrinsic metric has no positions in space"
+        } else {
+            return Ok(());
+        };
+        return Err(Failure::Usage(format!(
+            "--picture: layouts in {space} are not in this version; {nothing}"
+        )));
     }
     Ok(())
 }

@@ -3,10 +3,11 @@
 use crate::cli::InfoArgs;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::output::{Outputs, check_writable, extension};
+use crate::output::{Outputs, check_extension, check_writable, extension};
 use crate::report::{InputSummary, Report, Seconds, path_text, peak_bytes, timed};
 use crate::say::{self, count};
 use crate::shape_quality::{self, ShapeQuality};
+use crate::show;
 use ricci::Control;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::check::{Defect, Diagnosis, diagnose};
@@ -61,9 +62,16 @@ struct Asked {}
 /// Run the command: 0 on every file that can be read, whatever its defects.
 pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
-    if let Some(path) = &args.report {
+    for path in [&args.report, &args.picture].into_iter().flatten() {
         check_writable(path)?;
     }
+    if let Some(path) = &args.picture {
+        check_extension("--picture", path, &["png"])?;
+        if extension(&args.mesh) == "json" {
+            return Err(Failure::Usage("--picture: an intrinsic metric has no positions in space".into()));
+        }
+    }
+    let mut outputs = Outputs::default();
     let mut seconds = Seconds::default();
     let (summary, info) = if extension(&args.mesh) == "json" {
         match input::read(&args.mesh, control) {
@@ -84,6 +92,10 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
                 shape_of(&soup).unwrap_or_else(|| shape_quality::of_triangles(&soup.positions, &soup.faces));
             (diagnose(&soup.positions, &soup.faces), quality)
         });
+        if let Some(path) = &args.picture {
+            let draw = || outputs.add(path, |out| show::draw_surface(out, &soup.positions, &soup.faces));
+            timed(&mut seconds.write, draw)?;
+        }
         (summary_of(&diagnosis, path_text(&args.mesh)), Info::new(&diagnosis, quality))
     };
     if !args.quiet {
@@ -94,10 +106,9 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
         seconds.total = start.elapsed().as_secs_f64();
         report.seconds = seconds;
         report.peak_bytes = peak_bytes();
-        let mut outputs = Outputs::default();
         outputs.add_report(path, &report)?;
-        outputs.commit()?;
     }
+    outputs.commit()?;
     Ok(0)
 }
 

@@ -4,11 +4,12 @@ use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
 use crate::output::{Outputs, check_extension, check_writable, extension};
 use crate::say::{self, count};
+use crate::show;
 use clap::{Args, Subcommand};
 use ricci::geometry::Space;
+use ricci::mesh::Mesh;
 use ricci::mesh::io::{self, ObjData, Soup};
 use ricci::mesh::shapes::{self, Intrinsic};
-use ricci::mesh::{Mesh, PerEdge};
 use ricci::metric::lengths_from_positions;
 use std::path::{Path, PathBuf};
 
@@ -164,6 +165,9 @@ pub struct ToMesh {
     /// Seed of the noise
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
+    /// Write a picture of the surface
+    #[arg(long, value_name = "P.png")]
+    pub picture: Option<PathBuf>,
     /// No summary
     #[arg(long)]
     pub quiet: bool,
@@ -224,18 +228,28 @@ fn raise(mut soup: Soup, height: f64) -> Soup {
 fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh) -> Result<u8, Failure> {
     check_extension("-o", &to.out, &["obj", "json"])?;
     check_writable(&to.out)?;
+    if let Some(path) = &to.picture {
+        check_extension("--picture", path, &["png"])?;
+        check_writable(path)?;
+    }
     let mut soup = soup?;
     if to.noise != 0.0 {
         shapes::noise(&mut soup, to.noise, to.seed)?;
     }
     let mesh = Mesh::from_soup(&soup)?;
+    let Soup { positions, faces } = &soup;
+    let mut outputs = Outputs::default();
     if extension(&to.out) == "json" {
-        let lengths = lengths_from_positions(&mesh, &soup.positions)?;
-        write_lengths(&to.out, &mesh, Space::E2, &lengths)?;
+        let lengths = lengths_from_positions(&mesh, positions)?;
+        outputs.add_json(&to.out, &LengthsFile::new(&mesh, Space::E2, &lengths))?;
     } else {
-        let data = ObjData { positions: &soup.positions, faces: &soup.faces, ..ObjData::default() };
-        io::write_obj(&to.out, &data).map_err(|e| Failure::Failed(e.to_string()))?;
+        let data = ObjData { positions, faces, ..ObjData::default() };
+        outputs.add_named(&to.out, |path| io::write_obj(path, &data))?;
     }
+    if let Some(path) = &to.picture {
+        outputs.add(path, |out| show::draw_surface(out, positions, faces))?;
+    }
+    outputs.commit()?;
     say_made(&to.out, &mesh, to.quiet)
 }
 
@@ -249,14 +263,10 @@ fn write_metric(surface: ricci::Result<Intrinsic>, to: &ToMetric) -> Result<u8, 
     check_writable(&to.out)?;
     let surface = surface?;
     let (mesh, lengths) = surface.build()?;
-    write_lengths(&to.out, &mesh, surface.geometry, &lengths)?;
-    say_made(&to.out, &mesh, to.quiet)
-}
-
-fn write_lengths(path: &Path, mesh: &Mesh, geometry: Space, lengths: &PerEdge<f64>) -> Result<(), Failure> {
     let mut outputs = Outputs::default();
-    outputs.add_json(path, &LengthsFile::new(mesh, geometry, lengths))?;
-    outputs.commit().map(drop)
+    outputs.add_json(&to.out, &LengthsFile::new(&mesh, surface.geometry, &lengths))?;
+    outputs.commit()?;
+    say_made(&to.out, &mesh, to.quiet)
 }
 
 fn say_made(path: &Path, mesh: &Mesh, quiet: bool) -> Result<u8, Failure> {

@@ -5,7 +5,7 @@ use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
 use crate::picture::{self, Circle, Flat, Picture, Surface};
-use ricci::mesh::{HalfedgeId, Mesh, PerVertex, VertexId};
+use ricci::mesh::{HalfedgeId, Mesh, PerVertex, Point, VertexId};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -34,6 +34,25 @@ pub fn draw(out: &mut impl Write, path: &Path, input: &Input, outcome: &Outcome)
         cones: &cones,
     });
     let bytes = picture::png(&Picture { surface, flat }).map_err(io::Error::other)?;
+    out.write_all(&bytes)
+}
+
+/// Write a PNG of a surface without a layout; faces that name no or a non-finite vertex are left out.
+pub fn draw_surface(out: &mut impl Write, positions: &[Point], faces: &[[u32; 3]]) -> io::Result<()> {
+    let finite = |v: &u32| positions.get(*v as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
+    let faces: Vec<[u32; 3]> = faces.iter().filter(|f| f.iter().all(finite)).copied().collect();
+    // Points in no face would widen the view.
+    let mut number = vec![None; positions.len()];
+    let mut seen = Vec::new();
+    let mut keep = |v: u32| {
+        *number[v as usize].get_or_insert_with(|| {
+            seen.push(positions[v as usize]);
+            seen.len() as u32 - 1
+        })
+    };
+    let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut keep)).collect();
+    let surface = Surface { positions: &seen, faces: &faces, corner_uv: None, seams: &[], cones: &[] };
+    let bytes = picture::png(&Picture { surface: Some(surface), flat: None }).map_err(io::Error::other)?;
     out.write_all(&bytes)
 }
 

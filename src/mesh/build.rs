@@ -162,12 +162,20 @@ fn check_one_fan_each(n_vertices: usize, origin: &[u32], sides: &[[u32; 3]]) -> 
     Ok(())
 }
 
+/// Isolated vertices that are diagnosed one by one; more are refused as a count.
+const SPARE_VERTICES: usize = 1 << 20;
+
 fn check_counts(n_vertices: usize, n_faces: usize) -> Result<()> {
     // Sides are numbered in u32, edges from 1 in i32.
     for (what, count) in [("vertices", n_vertices), ("sides of faces", n_faces.saturating_mul(3))] {
         if count >= i32::MAX as usize {
             return Err(Error::TooLarge { what, count });
         }
+    }
+    // Memory follows what is there, not what is claimed: nearly all of so many vertices would be isolated.
+    if n_vertices > n_faces.saturating_mul(3).saturating_add(SPARE_VERTICES) {
+        let value = n_vertices.to_string();
+        return Err(Error::Argument { what: "number of vertices", value, need: "three per face or fewer" });
     }
     Ok(())
 }

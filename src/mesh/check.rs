@@ -1,7 +1,7 @@
 //! Diagnosis of triangle lists: every defect, its elements and its remedy.
 
 use super::Point;
-use super::incidence::{Incidence, NONE, UnionFind};
+use super::incidence::{Incidence, UnionFind};
 use crate::geometry::triangle::half_differences;
 use std::collections::BTreeMap;
 
@@ -370,11 +370,15 @@ fn orientation(
             defects.push(Defect::InconsistentOrientation { vertices: edge(sides), faces });
         }
     }
-    for (&root, &vertices) in &one_sided {
-        let count = (0..faces.len() as u32).filter(|&f| turned.root(f).0 == root).count();
-        defects.push(Defect::NonOrientable { vertices, faces: count as u32 });
+    let mut size: BTreeMap<u32, u32> = one_sided.keys().map(|&root| (root, 0)).collect();
+    for f in 0..faces.len() as u32 {
+        if let Some(size) = size.get_mut(&turned.root(f).0) {
+            *size += 1;
+        }
     }
-    debug_assert!(one_sided.keys().all(|&root| root != NONE));
+    for (root, &vertices) in &one_sided {
+        defects.push(Defect::NonOrientable { vertices, faces: size[root] });
+    }
     one_sided.is_empty()
 }
 

@@ -106,7 +106,7 @@ fn the_report_has_the_fields_of_the_contract() {
 fn a_written_metric_read_back_is_a_fixed_point() {
     let place = Place::new();
     place.put("torus.obj", &torus(12, 8).obj());
-    place.expect(0, "make genus -n 5 -o two.obj");
+    place.expect(0, "make genus -n 4 -o two.obj");
     for (mesh, options) in [("torus", ""), ("two", ""), ("two", "--space e2 --target single:0")] {
         place.expect(0, &format!("flow {mesh}.obj {options} --metric first.json"));
         place.expect(0, &format!("flow first.json {options} --metric second.json --report r.json"));
@@ -148,7 +148,7 @@ fn euclidean_variables_have_mean_zero_and_rebuild_the_lengths() {
 fn the_layout_is_the_metric_scaled_to_the_area_of_the_surface() {
     let place = Place::new();
     place.put("torus.obj", &torus(16, 12).obj()).put("disk.obj", &hill(10).obj());
-    place.put("ball.obj", &octahedron().obj()).expect(0, "make genus -n 5 -o two.obj");
+    place.put("ball.obj", &octahedron().obj()).expect(0, "make genus -n 4 -o two.obj");
     for (mesh, options) in [
         ("torus", ""),
         ("disk", ""),

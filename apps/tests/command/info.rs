@@ -35,7 +35,8 @@ fn defects_are_a_result_with_their_elements_and_remedy() {
         (octahedron().obj().replacen("v 1 ", "v nan ", 1), vec!["non_finite_coordinate"]),
     ] {
         place.put("m.obj", &text);
-        let ended = place.expect(0, "info m.obj --report r.json");
+        let ended = place.expect(0, "info m.obj --report r.json --picture p.png");
+        assert!(std::fs::read(place.path("p.png")).unwrap().starts_with(b"\x89PNG"));
         let result = &place.json("r.json")["result"];
         assert_eq!(result["admissible"], false);
         let defects = result["defects"].as_array().unwrap();

@@ -88,7 +88,7 @@ fn the_demo_makes_three_surfaces_and_flattens_them() {
     let ended = place.expect(0, "demo out");
     for (name, genus) in [("torus", 1), ("genus2", 2), ("disk", 0)] {
         assert!(ended.out.contains(name));
-        for suffix in [".obj", "_uv.obj", "_metric.json", "_report.json"] {
+        for suffix in [".obj", ".png", "_uv.obj", "_metric.json", "_report.json"] {
             assert!(place.exists(&format!("out/{name}{suffix}")), "{name}{suffix}");
         }
         let report = place.json(&format!("out/{name}_report.json"));

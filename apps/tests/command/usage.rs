@@ -24,6 +24,8 @@ fn requests_that_do_not_exist_are_exit_2() {
         ("flow torus.obj --tolerance 0", "positive"),
         ("flow torus.obj --threads 100000", "1024"),
         ("flow torus.obj --target auto:4", "not in this version"),
+        ("flow two.obj --picture p.svg", "use .png"),
+        ("flow torus.obj --picture p.jpg", ".png or .svg"),
         ("flow torus.obj --charts", "not in this version"),
         ("flow torus.obj --target boundary", "uniform"),
         ("flow disk.obj --target uniform", "boundary"),

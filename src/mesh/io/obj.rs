@@ -12,23 +12,21 @@ use std::path::Path;
 pub fn parse_obj(text: &str, path: &str) -> Result<Soup> {
     let mut soup = Soup::default();
     let mut corners = Vec::new();
-    let mut lines = text.lines().enumerate();
+    let mut lines = super::scan::lines(text);
     let mut joined = String::new();
     while let Some((number, line)) = lines.next() {
-        let place = Place { path, line: number + 1 };
+        let place = Place { path, line: number };
         let mut line = line;
-        if line.trim_end().ends_with('\\') {
+        if line.ends_with('\\') {
             joined.clear();
-            let mut part = line;
-            while let Some(head) = part.trim_end().strip_suffix('\\') {
+            while let Some(head) = line.strip_suffix('\\') {
                 joined.push_str(head);
                 joined.push(' ');
-                part = lines.next().map_or("", |(_, next)| next);
+                line = lines.next().map_or("", |(_, next)| next);
             }
-            joined.push_str(part);
+            joined.push_str(line);
             line = &joined;
         }
-        let line = line.split('#').next().unwrap_or("");
         let mut tokens = line.split_ascii_whitespace();
         match tokens.next() {
             Some("v") => {

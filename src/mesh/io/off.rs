@@ -1,19 +1,20 @@
 //! OFF, ascii: plain, COFF, NOFF, STOFF and their combinations (the extra columns are skipped).
 
-use super::scan::Place;
+use super::scan::{Place, lines};
 use super::{Point, Soup, fan};
 use crate::error::Result;
 
 /// Parse OFF text. `path` is used in errors.
 pub fn parse_off(text: &str, path: &str) -> Result<Soup> {
-    let mut tokens = Tokens { lines: text.lines().enumerate(), path, line: 0, rest: "" };
+    let mut tokens = Tokens { lines: lines(text), path, line: 0, rest: "" };
     let Some(header) = tokens.next() else {
         return tokens.place().error("the file is empty".into());
     };
-    // The header word is optional; the prefixes ST, C, N, 4 (and a dimension n) name extra columns.
+    // The header word is optional, and the first count may stick to it; the prefixes ST, C, N, 4 (and a dimension n) name
+    // extra columns.
     let mut first = Some(header);
-    if let Some(prefix) = header.strip_suffix("OFF") {
-        first = None;
+    if let Some((prefix, count)) = header.split_once("OFF") {
+        first = Some(count).filter(|c| !c.is_empty());
         if !["", "C", "N", "CN", "ST", "STC", "STN", "STCN"].contains(&prefix) {
             return tokens.place().error(format!("OFF variant `{header}` is not three-dimensional OFF"));
         }
@@ -58,14 +59,14 @@ pub fn parse_off(text: &str, path: &str) -> Result<Soup> {
 }
 
 /// Tokens over line ends, without comments, and the line they stand on.
-struct Tokens<'a> {
-    lines: std::iter::Enumerate<std::str::Lines<'a>>,
+struct Tokens<'a, L> {
+    lines: L,
     path: &'a str,
     line: usize,
     rest: &'a str,
 }
 
-impl<'a> Tokens<'a> {
+impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
     fn place(&self) -> Place<'a> {
         Place { path: self.path, line: self.line }
     }
@@ -74,10 +75,6 @@ impl<'a> Tokens<'a> {
     fn end_line(&mut self) {
         self.rest = "";
     }
-}
-
-impl<'a> Iterator for Tokens<'a> {
-    type Item = &'a str;
 
     fn next(&mut self) -> Option<&'a str> {
         loop {
@@ -88,9 +85,10 @@ impl<'a> Iterator for Tokens<'a> {
                 self.rest = rest;
                 return Some(token);
             }
-            let (number, line) = self.lines.next()?;
-            self.line = number + 1;
-            self.rest = line.split('#').next().unwrap_or("");
+            let (line, text) = self.lines.next()?;
+            // Blank lines do not count as the place of an error: at the end of the file that is its last word.
+            self.line = if text.is_empty() { self.line } else { line };
+            self.rest = text;
         }
     }
 }

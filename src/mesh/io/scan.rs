@@ -2,6 +2,16 @@
 
 use crate::error::{Error, Result};
 
+/// The lines of a text (ended by LF, CR LF or CR) with their 1-based numbers, without comments, trailing blanks and byte
+/// order mark.
+pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    // In a file with LF a CR is a blank at the end of its line.
+    let end = if text.contains('\n') { '\n' } else { '\r' };
+    let bare = |line: &'_ str| -> usize { line.find('#').unwrap_or(line.len()) };
+    text.split(end).enumerate().map(move |(i, line)| (i + 1, line[..bare(line)].trim_end()))
+}
+
 /// Where a token stands.
 #[derive(Clone, Copy)]
 pub(super) struct Place<'a> {

@@ -20,8 +20,8 @@ const PROJECTION_STEPS: usize = 30;
 const ON_SURFACE: f64 = 1e-14;
 
 /// A smooth closed surface of genus `genus` ≥ 1 with `n` ≥ 2 edges per block side, (20g + 14) n² vertices or so, all on
-/// the surface to 1e-13. Vertex 0 lies at an outer corner of the row, where eight triangles meet (even n ≥ 6): room
-/// for a cone of negative curvature. (Genus 0: see [`super::icosphere`].)
+/// the surface to 1e-13. Vertex 0 lies on the wall of the first hole towards the next one, where for even n ≥ 4 eight
+/// triangles meet: room for a cone of negative curvature. (Genus 0: see [`super::icosphere`].)
 pub fn genus(genus: usize, n: usize) -> Result<Soup> {
     let vertices = (22.0 * genus as f64 + 14.0) * (n as f64).powi(2);
     check_count("genus", genus, 1, vertices)?;
@@ -63,7 +63,7 @@ fn plate(genus: usize, n: usize) -> (Vec<Point>, Vec<[u32; 4]>) {
             positions.len() as u32 - 1
         })
     };
-    vertex([0, 0, n.div_ceil(2) as i64]);
+    vertex([2 * n, (3 * n).div_ceil(2), n.div_ceil(2)].map(|x| x as i64));
     for z in 0..size[2] {
         for y in 0..size[1] {
             for x in (0..size[0]).filter(|&x| filled([x, y, z])) {
