@@ -27,3 +27,8 @@ pub mod topology;
 
 pub use control::Control;
 pub use error::{Error, Result};
+
+/// The README's Rust example is compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

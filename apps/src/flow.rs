@@ -20,7 +20,7 @@ use ricci::geometry::Space;
 use ricci::mesh::VertexId;
 use ricci::metric::{Scheme, Target};
 use serde::Serialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// A finished run.
@@ -64,7 +64,8 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     let files = write(args, &input, &outcome, control, start)?;
     drop(progress);
     let checks = outcome.checks();
-    let missing = outcome.layout.is_err() && (args.uv.is_some() || args.circles.is_some());
+    let svg = args.picture.as_ref().is_some_and(|p| show::is_svg(p));
+    let missing = outcome.layout.is_err() && (args.uv.is_some() || args.circles.is_some() || svg);
     let exit_code = if missing { 1 } else { checks.exit_code() };
     Ok(Done { input, outcome, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
 }
@@ -180,8 +181,9 @@ fn write(
         if let (Some(path), Ok(laid), Some(positions)) = (&args.uv, &outcome.layout, &input.positions) {
             uv::write(&mut outputs, path, positions, &outcome.mesh, &laid.layout)?;
         }
-        if let Some(path) = &args.picture {
-            outputs.add(path, |out| show::draw(out, path, input, outcome))?;
+        let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
+        if let Some(path) = args.picture.as_ref().filter(drawable) {
+            outputs.add(path, |out| show::draw(out, path, input, outcome, args.threads.into()))?;
         }
         if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
             let Outcome { mesh, metric, scheme, .. } = outcome;
@@ -220,7 +222,7 @@ pub struct Asked {
 
 impl Asked {
     fn new(args: &FlowArgs, geometry: Space) -> Self {
-        let text = |path: &Option<std::path::PathBuf>| path.as_deref().map(path_text);
+        let text = |path: &Option<PathBuf>| path.as_deref().map(path_text);
         Asked {
             space: args.space,
             scheme: args.scheme,

@@ -15,13 +15,19 @@ const CONE: f64 = 1e-6;
 const MOST_CONES: usize = 60;
 
 /// Write the picture as PNG, or the flat layout alone where the file is named `.svg`.
-pub fn draw(out: &mut impl Write, path: &Path, input: &Input, outcome: &Outcome) -> io::Result<()> {
-    let svg = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));
+///
+/// Without a layout an `.svg` has nothing to show: the caller does not ask for one.
+pub fn draw(
+    out: &mut impl Write,
+    path: &Path,
+    input: &Input,
+    outcome: &Outcome,
+    threads: usize,
+) -> io::Result<()> {
     let parts = outcome.layout.as_ref().ok().map(|laid| Parts::new(outcome, laid));
     let flat = parts.as_ref().map(Parts::flat);
-    if svg {
-        let nothing = Parts::default();
-        return picture::write_svg(out, &flat.unwrap_or_else(|| nothing.flat()));
+    if is_svg(path) {
+        return flat.map_or(Ok(()), |flat| picture::write_svg(out, &flat));
     }
     let faces: Vec<[u32; 3]> =
         outcome.mesh.faces().map(|f| outcome.mesh.face_vertices(f).map(|v| v.0)).collect();
@@ -33,8 +39,13 @@ pub fn draw(out: &mut impl Write, path: &Path, input: &Input, outcome: &Outcome)
         seams: parts.as_ref().map_or(&[], |p| &p.edges),
         cones: &cones,
     });
-    let bytes = picture::png(&Picture { surface, flat }).map_err(io::Error::other)?;
+    let bytes = picture::png(&Picture { surface, flat }, threads).map_err(io::Error::other)?;
     out.write_all(&bytes)
+}
+
+/// Whether the file is the drawing of a layout alone.
+pub fn is_svg(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"))
 }
 
 /// Write a PNG of a surface without a layout; faces that name no or a non-finite vertex are left out.
@@ -52,7 +63,7 @@ pub fn draw_surface(out: &mut impl Write, positions: &[Point], faces: &[[u32; 3]
     };
     let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut keep)).collect();
     let surface = Surface { positions: &seen, faces: &faces, corner_uv: None, seams: &[], cones: &[] };
-    let bytes = picture::png(&Picture { surface: Some(surface), flat: None }).map_err(io::Error::other)?;
+    let bytes = picture::png(&Picture { surface: Some(surface), flat: None }, 0).map_err(io::Error::other)?;
     out.write_all(&bytes)
 }
 

@@ -18,10 +18,10 @@ pub struct Checker {
 }
 
 impl Checker {
-    /// `uv`: layout coordinates; `size`: side of a check at the median scale; `level`: see [`Checks`]; `pixels`: the
-    /// triangle on the screen.
-    pub fn new(uv: [[f64; 2]; 3], size: f64, level: [f64; 3], pixels: [[f64; 2]; 3]) -> Checker {
-        let uv = uv.map(|p| p.map(|x| x / size));
+    /// `uv`: layout coordinates of face `f`; `pixels`: the triangle on the screen.
+    pub fn new(uv: [[f64; 2]; 3], tiles: &Tiles, f: usize, pixels: [[f64; 2]; 3]) -> Checker {
+        let uv = uv.map(|p| p.map(|x| x / tiles.size));
+        let level = tiles.level[f];
         let mean = ((level[0] + level[1] + level[2]) / 3.0).round();
         // A check covers (pixel area / uv area) pixels.
         let side = (doubled_area(pixels).abs() / doubled_area(uv).abs()).sqrt() * OCTAVE.powf(mean);
@@ -45,16 +45,17 @@ pub fn doubled_area(p: [[f64; 2]; 3]) -> f64 {
     (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0])
 }
 
-/// How large checks are, from the faces' areas on the surface and in the layout.
-pub struct Checks {
-    /// Side of a check at the median scale.
+/// How large the checks are, on the surface and in the layout alike.
+pub struct Tiles {
+    /// Side of a check at the median scale, in the layout.
     pub size: f64,
-    /// Per face: logarithm to base `OCTAVE` of its scale over the median.
-    pub level: Vec<f64>,
+    /// Per face and corner: logarithm to base `OCTAVE` of the layout's scale over the median.
+    pub level: Vec<[f64; 3]>,
 }
 
-impl Checks {
-    pub fn new(surface: &[f64], layout: &[f64]) -> Checks {
+impl Tiles {
+    /// From the areas of the faces on the surface and in the layout; `faces` over `n` vertices joins the corners.
+    pub fn new(surface: &[f64], layout: &[f64], faces: &[[u32; 3]], n: usize) -> Tiles {
         let scale = |(s, l): (&f64, &f64)| (l / s).sqrt();
         let mut order: Vec<(f64, f64)> =
             surface.iter().zip(layout).map(|(s, l)| (scale((s, l)), *s)).collect();
@@ -68,7 +69,18 @@ impl Checks {
         });
         let median = middle.map_or(1.0, |m| m.0);
         let size = median * total.max(f64::MIN_POSITIVE).sqrt() / CHECKS;
-        let level = |x: f64| if x.is_finite() && x > 0.0 { (x / median).log(OCTAVE) } else { 0.0 };
-        Checks { size, level: surface.iter().zip(layout).map(|pair| level(scale(pair))).collect() }
+        // Averaged over the faces at each vertex, so that levels change along smooth lines.
+        let mut mean = vec![(0.0, 0.0); n];
+        for (face, pair) in faces.iter().zip(surface.iter().zip(layout)) {
+            let x = scale(pair);
+            if x.is_finite() && x > 0.0 {
+                for v in face {
+                    mean[*v as usize].0 += (x / median).log(OCTAVE);
+                    mean[*v as usize].1 += 1.0;
+                }
+            }
+        }
+        let level = |v: u32| mean[v as usize].0 / f64::max(mean[v as usize].1, 1.0);
+        Tiles { size, level: faces.iter().map(|f| f.map(level)).collect() }
     }
 }

@@ -1,13 +1,13 @@
 //! The layout in the plane.
 
-use super::checker::{Checker, Checks, doubled_area};
+use super::checker::{Checker, Tiles};
 use super::raster::{Paint, Primitive, Rgb, dot, line};
 use super::{Circle, Fit, Flat, LINE, cone_color, seam_color};
 
 /// Layouts of at most this many faces show their edges.
-const WIRE_FACES: usize = 5000;
+pub const WIRE_FACES: usize = 5000;
 /// Circles of a smaller radius (pixels) are left out.
-const LEAST_RADIUS: f64 = 0.3;
+const LEAST_RADIUS: f64 = 1.0;
 /// And of a larger one: their piece of arc in the picture is a line.
 const MOST_RADIUS: f64 = 1e5;
 const WIRE: Rgb = [0.35, 0.38, 0.42];
@@ -15,18 +15,13 @@ const BOUNDARY: Rgb = [0.01, 0.01, 0.015];
 const VERTEX_CIRCLE: Rgb = [0.70, 0.06, 0.03];
 const DUAL_CIRCLE: Rgb = [0.02, 0.15, 0.55];
 
-pub fn primitives(flat: &Flat<'_>) -> Vec<Primitive> {
-    let fit = Fit::new(flat.corner_uv.iter().flatten().copied());
-    let areas: Vec<f64> = flat.corner_uv.iter().map(|uv| 0.5 * doubled_area(*uv).abs()).collect();
-    let size = Checks::new(&areas, &areas).size;
+pub fn primitives(flat: &Flat<'_>, tiles: &Tiles) -> Vec<Primitive> {
+    let fit = Fit::of(flat);
     let mut out = Vec::new();
-    for uv in flat.corner_uv {
+    for (f, uv) in flat.corner_uv.iter().enumerate() {
         let xy = uv.map(|p| fit.apply(p));
-        out.push(Primitive {
-            xy,
-            z: [0.0; 3],
-            paint: Paint::Tiled { checker: Checker::new(*uv, size, [0.0; 3], xy) },
-        });
+        let checker = Checker::new(*uv, tiles, f, xy);
+        out.push(Primitive { xy, z: [0.0; 3], paint: Paint::Tiled { checker } });
     }
     if flat.corner_uv.len() <= WIRE_FACES && flat.circles.is_empty() {
         for uv in flat.corner_uv {

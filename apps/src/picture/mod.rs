@@ -11,6 +11,7 @@ mod svg;
 
 pub use svg::write_svg;
 
+use checker::{Tiles, doubled_area};
 use raster::Rgb;
 
 /// A surface in space.
@@ -52,6 +53,27 @@ pub struct Picture<'a> {
     pub flat: Option<Flat<'a>>,
 }
 
+impl Picture<'_> {
+    /// The checks that both panels show; without a surface those of the layout alone.
+    fn tiles(&self) -> Option<Tiles> {
+        let uv = self.flat.map(|f| f.corner_uv).or(self.surface.and_then(|s| s.corner_uv))?;
+        let layout: Vec<f64> = uv.iter().map(|uv| 0.5 * doubled_area(*uv).abs()).collect();
+        Some(match &self.surface {
+            Some(s) => {
+                let area =
+                    |f: &[u32; 3]| 0.5 * solid::norm(solid::normal(f.map(|v| s.positions[v as usize])));
+                let surface: Vec<f64> = s.faces.iter().map(area).collect();
+                Tiles::new(&surface, &layout, s.faces, s.positions.len())
+            }
+            None => {
+                let apart: Vec<[u32; 3]> =
+                    (0..uv.len() as u32).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
+                Tiles::new(&layout, &layout, &apart, 3 * uv.len())
+            }
+        })
+    }
+}
+
 /// Pixels of a (square) panel.
 const PANEL: usize = 900;
 /// Share of the panel left free on each side.
@@ -59,15 +81,13 @@ const MARGIN: f64 = 0.04;
 /// Line width in pixels.
 const LINE: f64 = 2.2;
 
-/// The picture as a PNG file.
-pub fn png(picture: &Picture<'_>) -> Result<Vec<u8>, png::EncodingError> {
-    let panels: Vec<Vec<u8>> = [
-        picture.surface.as_ref().map(|s| raster::render(&solid::primitives(s), PANEL)),
-        picture.flat.as_ref().map(|f| raster::render(&flat::primitives(f), PANEL)),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+/// The picture as a PNG file, drawn by this many threads (0: one per core).
+pub fn png(picture: &Picture<'_>, threads: usize) -> Result<Vec<u8>, png::EncodingError> {
+    let tiles = picture.tiles();
+    let surface = picture.surface.as_ref().map(|s| solid::primitives(s, tiles.as_ref()));
+    let flat = picture.flat.as_ref().zip(tiles.as_ref()).map(|(f, tiles)| flat::primitives(f, tiles));
+    let panels: Vec<Vec<u8>> =
+        [surface, flat].into_iter().flatten().map(|p| raster::render(&p, PANEL, threads)).collect();
     let width = PANEL * panels.len().max(1);
     let mut image = vec![255u8; 3 * width * PANEL];
     for (p, panel) in panels.iter().enumerate() {
@@ -112,6 +132,12 @@ struct Fit {
 }
 
 impl Fit {
+    /// The whole layout with its circles.
+    fn of(flat: &Flat<'_>) -> Fit {
+        let ends = |c: &Circle| [-1.0, 1.0].map(|s| [c.center[0] + s * c.radius, c.center[1] + s * c.radius]);
+        Fit::new(flat.corner_uv.iter().flatten().copied().chain(flat.circles.iter().flat_map(ends)))
+    }
+
     fn new(points: impl Iterator<Item = [f64; 2]>) -> Fit {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for p in points.filter(|p| p.iter().all(|x| x.is_finite())) {

@@ -32,12 +32,13 @@ pub enum Paint {
     },
 }
 
-/// Draw into a square of `size` pixels; 8-bit sRGB, row by row.
-pub fn render(primitives: &[Primitive], size: usize) -> Vec<u8> {
+/// Draw into a square of `size` pixels with this many threads (0: one per core); 8-bit sRGB, row by row.
+pub fn render(primitives: &[Primitive], size: usize, threads: usize) -> Vec<u8> {
     let mut image = vec![0u8; 3 * size * size];
     let bands: Vec<(usize, &mut [u8])> = image.chunks_mut(3 * size * BAND).enumerate().collect();
     let queue = std::sync::Mutex::new(bands.into_iter());
-    let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let threads = if threads == 0 { cores } else { threads };
     std::thread::scope(|scope| {
         for _ in 0..threads {
             scope.spawn(|| {
@@ -76,7 +77,7 @@ fn draw_band(primitives: &[Primitive], size: usize, first_row: usize, rows: &mut
 }
 
 /// sRGB transfer function.
-fn encode(x: f32) -> u8 {
+pub fn encode(x: f32) -> u8 {
     let x = x.clamp(0.0, 1.0);
     let y = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
     (255.0 * y + 0.5) as u8
@@ -112,7 +113,8 @@ fn draw(p: &Primitive, (w, h): (usize, usize), first_row: usize, depth: &mut [f6
             let i = y * w + x;
             if z > depth[i] {
                 depth[i] = z;
-                color[i] = shade(&p.paint, b).map(|x| x as f32);
+                // y runs down: a triangle seen from its front has negative area.
+                color[i] = shade(&p.paint, b, area < 0.0).map(|x| x as f32);
             }
         }
     }
@@ -122,21 +124,20 @@ fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-fn shade(paint: &Paint, b: [f64; 3]) -> Rgb {
+fn shade(paint: &Paint, b: [f64; 3], front: bool) -> Rgb {
     match paint {
         Paint::Plain(color) => *color,
         Paint::Tiled { checker } => mix([0.94, 0.94, 0.92], [0.62, 0.72, 0.84], checker.value(b)),
         Paint::Lit { normals, checker, base } => {
             let n = [0, 1, 2].map(|k| b[0] * normals[0][k] + b[1] * normals[1][k] + b[2] * normals[2][k]);
             let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let back = n[2] < 0.0;
             // Two-sided: the inside is lit like the outside and tinted.
-            let n = n.map(|x| if length > 0.0 { x / length * if back { -1.0 } else { 1.0 } } else { 0.57 });
+            let n = n.map(|x| if length > 0.0 { x / length * if front { 1.0 } else { -1.0 } } else { 0.57 });
             let albedo = match checker {
                 Some(checker) => mix([0.90, 0.88, 0.84], [0.10, 0.24, 0.48], checker.value(b)),
                 None => *base,
             };
-            let albedo = if back { mix(albedo, [0.5, 0.18, 0.08], 0.6) } else { albedo };
+            let albedo = if front { albedo } else { mix(albedo, [0.5, 0.18, 0.08], 0.6) };
             let light = |direction: [f64; 3]| (0..3).map(|k| direction[k] * n[k]).sum::<f64>().max(0.0);
             let key = light([-0.45, 0.55, 0.70]);
             let fill = light([0.80, 0.05, 0.60]);
@@ -170,7 +171,7 @@ pub fn line(out: &mut Vec<Primitive>, a: [f64; 2], b: [f64; 2], z: [f64; 2], wid
 /// A disk of `radius` pixels facing the viewer, with a white rim.
 pub fn dot(out: &mut Vec<Primitive>, at: [f64; 2], z: f64, radius: f64, color: Rgb) {
     const SIDES: usize = 20;
-    for (radius, z, color) in [(radius + 1.3, z, [1.0; 3]), (radius, z * (1.0 + 1e-9) + 1e-6, color)] {
+    for (radius, z, color) in [(radius + 1.3, z, [1.0; 3]), (radius, z + 0.1, color)] {
         let rim = |k: usize| {
             let (sin, cos) = (std::f64::consts::TAU * k as f64 / SIDES as f64).sin_cos();
             [at[0] + radius * cos, at[1] + radius * sin]

@@ -1,6 +1,6 @@
 //! The surface in space: camera, normals, seams and cones on it.
 
-use super::checker::{Checker, Checks, doubled_area};
+use super::checker::{Checker, Tiles};
 use super::raster::{Paint, Primitive, Rgb, dot, line};
 use super::{Fit, LINE, Surface, cone_color, seam_color};
 
@@ -10,36 +10,29 @@ type V3 = [f64; 3];
 const CLAY: Rgb = [0.62, 0.56, 0.48];
 /// How far lines and dots are lifted off the surface, as a share of its size.
 const LIFT: f64 = 0.006;
+/// Share of the area that must face one way for a side to be the outside: none does on a closed surface.
+const FACING: f64 = 1e-6;
 /// The view is this far from the normal of the widest side: depth shows without hiding the shape.
 const TILT: [f64; 2] = [0.45, 0.35];
 
-pub fn primitives(surface: &Surface<'_>) -> Vec<Primitive> {
+pub fn primitives(surface: &Surface<'_>, tiles: Option<&Tiles>) -> Vec<Primitive> {
     let finite = |p: &V3| p.iter().all(|x| x.is_finite());
     if surface.positions.is_empty() || !surface.positions.iter().all(finite) {
         return Vec::new();
     }
-    let view = camera(surface.positions, surface.faces);
-    let seen: Vec<V3> = surface.positions.iter().map(|p| view.map(|axis| dot3(axis, *p))).collect();
+    let (view, centre) = camera(surface.positions, surface.faces);
+    let seen: Vec<V3> =
+        surface.positions.iter().map(|p| view.map(|axis| dot3(axis, sub(*p, centre)))).collect();
     let fit = Fit::new(seen.iter().map(|p| [p[0], p[1]]));
     let pixels: Vec<[f64; 2]> = seen.iter().map(|p| fit.apply([p[0], p[1]])).collect();
     let depth: Vec<f64> = seen.iter().map(|p| fit.scale * p[2]).collect();
     let corners = |f: usize| surface.faces[f].map(|v| v as usize);
-    let areas: Vec<f64> =
-        (0..surface.faces.len()).map(|f| 0.5 * norm(normal(corners(f).map(|v| seen[v])))).collect();
-    let uv_area = |uv: &[V2; 3]| 0.5 * doubled_area(*uv).abs();
-    let checks = surface.corner_uv.map(|uv| Checks::new(&areas, &uv.iter().map(uv_area).collect::<Vec<_>>()));
-    let levels = checks.as_ref().map(|checks| vertex_means(&checks.level, surface));
     let normals = vertex_normals(&seen, surface.faces);
     let mut out = Vec::with_capacity(surface.faces.len());
     for f in 0..surface.faces.len() {
         let c = corners(f);
         let xy = c.map(|v| pixels[v]);
-        let checker = match (surface.corner_uv, &checks, &levels) {
-            (Some(uv), Some(checks), Some(level)) => {
-                Some(Checker::new(uv[f], checks.size, c.map(|v| level[v]), xy))
-            }
-            _ => None,
-        };
+        let checker = surface.corner_uv.zip(tiles).map(|(uv, tiles)| Checker::new(uv[f], tiles, f, xy));
         let paint = Paint::Lit { normals: c.map(|v| normals[v]), checker, base: CLAY };
         out.push(Primitive { xy, z: c.map(|v| depth[v]), paint });
     }
@@ -55,11 +48,9 @@ pub fn primitives(surface: &Surface<'_>) -> Vec<Primitive> {
     out
 }
 
-type V2 = [f64; 2];
-
 /// Rows: screen x, screen y, towards the viewer. From the principal axes of the points: the longest across, the shortest
-/// nearly towards the viewer. An open surface shows its outside.
-fn camera(points: &[V3], faces: &[[u32; 3]]) -> [V3; 3] {
+/// nearly towards the viewer. An open surface shows its outside. With the centre of the points.
+fn camera(points: &[V3], faces: &[[u32; 3]]) -> ([V3; 3], V3) {
     let n = points.len() as f64;
     let mean = [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
     let mut m = [[0.0; 3]; 3];
@@ -77,9 +68,10 @@ fn camera(points: &[V3], faces: &[[u32; 3]]) -> [V3; 3] {
     };
     let x = ahead(axes[0]);
     let mut y = ahead(axes[1]);
-    let mut outside = [0.0; 3];
+    let (mut outside, mut total) = ([0.0; 3], 0.0);
     for face in faces {
         let n = normal(face.map(|v| points[v as usize]));
+        total += norm(n);
         (0..3).for_each(|k| outside[k] += n[k]);
     }
     // Mostly vertical things stand upright: the longer axis goes up if it is the vertical one of the file.
@@ -92,14 +84,14 @@ fn camera(points: &[V3], faces: &[[u32; 3]]) -> [V3; 3] {
         (x, cross(x, y))
     };
     // Half a turn about the vertical where the viewer would look at the back.
-    let (x, z) = if dot3(outside, z) < 0.0 { (x.map(|a| -a), z.map(|a| -a)) } else { (x, z) };
+    let (x, z) = if dot3(outside, z) < -FACING * total { (x.map(|a| -a), z.map(|a| -a)) } else { (x, z) };
     let (sa, ca) = TILT[0].sin_cos();
     let turned_x = [0, 1, 2].map(|k| ca * x[k] - sa * z[k]);
     let turned_z = [0, 1, 2].map(|k| sa * x[k] + ca * z[k]);
     let (sb, cb) = TILT[1].sin_cos();
     let up = [0, 1, 2].map(|k| cb * y[k] - sb * turned_z[k]);
     let towards = [0, 1, 2].map(|k| sb * y[k] + cb * turned_z[k]);
-    [turned_x, up, towards]
+    ([turned_x, up, towards], mean)
 }
 
 /// Eigenvectors of a symmetric matrix, largest eigenvalue first, by Jacobi rotations.
@@ -124,18 +116,6 @@ fn principal_axes(mut m: [[f64; 3]; 3]) -> [V3; 3] {
     let mut order = [0, 1, 2];
     order.sort_by(|&a, &b| m[b][b].total_cmp(&m[a][a]));
     order.map(|k| v[k])
-}
-
-/// Mean over the faces at each vertex.
-fn vertex_means(values: &[f64], surface: &Surface<'_>) -> Vec<f64> {
-    let mut sum = vec![(0.0, 0.0); surface.positions.len()];
-    for (face, value) in surface.faces.iter().zip(values) {
-        for v in face {
-            sum[*v as usize].0 += value;
-            sum[*v as usize].1 += 1.0;
-        }
-    }
-    sum.into_iter().map(|(total, count)| if count > 0.0 { total / count } else { 0.0 }).collect()
 }
 
 /// Angle-weighted vertex normals.
@@ -165,7 +145,7 @@ fn cross(a: V3, b: V3) -> V3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn normal(p: [V3; 3]) -> V3 {
+pub fn normal(p: [V3; 3]) -> V3 {
     cross(sub(p[1], p[0]), sub(p[2], p[0]))
 }
 
@@ -173,6 +153,6 @@ fn dot3(a: V3, b: V3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn norm(a: V3) -> f64 {
+pub fn norm(a: V3) -> f64 {
     dot3(a, a).sqrt()
 }

@@ -19,11 +19,11 @@ const PROJECTION_STEPS: usize = 30;
 /// A vertex is on the surface when |F| is below this (the units of its blocks are 1).
 const ON_SURFACE: f64 = 1e-14;
 
-/// A smooth closed surface of genus `genus` ≥ 1 with `n` ≥ 2 edges per block side, (20g + 14) n² vertices or so, all on
+/// A smooth closed surface of genus `genus` ≥ 1 with `n` ≥ 2 edges per block side, (18g + 14) n² + 2 − 2g vertices, all on
 /// the surface to 1e-13. Vertex 0 lies on the wall of the first hole towards the next one, where for even n ≥ 4 eight
 /// triangles meet: room for a cone of negative curvature. (Genus 0: see [`super::icosphere`].)
 pub fn genus(genus: usize, n: usize) -> Result<Soup> {
-    let vertices = (22.0 * genus as f64 + 14.0) * (n as f64).powi(2);
+    let vertices = (18.0 * genus as f64 + 14.0) * (n as f64).powi(2);
     check_count("genus", genus, 1, vertices)?;
     check_count("edges per block", n, 2, vertices)?;
     let (mut positions, quads) = plate(genus, n);

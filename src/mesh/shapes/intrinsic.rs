@@ -32,7 +32,10 @@ impl Intrinsic {
     /// Each triangle cut into four at the midpoints of its sides, in its own geometry.
     ///
     /// Edge e becomes 2e − 1 and 2e, in its direction; vertex V + e − 1 is its midpoint; then come three edges per face.
-    pub fn subdivide(&self) -> Intrinsic {
+    ///
+    /// Errors: a gluing that is no surface (see [`Mesh::from_gluing`]).
+    pub fn subdivide(&self) -> Result<Intrinsic> {
+        self.build()?;
         let (n, edges) = (self.n_vertices as u32, self.lengths.len());
         let mut fine = Intrinsic {
             n_vertices: self.n_vertices + edges,
@@ -63,7 +66,7 @@ impl Intrinsic {
             fine.faces.push([middle(0), middle(1), middle(2)]);
             fine.face_edges.push([-inner(2), -inner(0), -inner(1)]);
         }
-        fine
+        Ok(fine)
     }
 }
 
@@ -121,7 +124,7 @@ pub fn bolza(level: usize) -> Result<Intrinsic> {
     let sides: Vec<i32> = (1..=4).chain((1..=4).map(|e| -e)).collect();
     let mut surface = centre_fan(&sides, 2);
     for _ in 0..level {
-        surface = surface.subdivide();
+        surface = surface.subdivide()?;
     }
     Ok(surface)
 }

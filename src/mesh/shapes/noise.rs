@@ -36,10 +36,16 @@ pub fn noise(soup: &mut Soup, amplitude: f64, seed: u64) -> Result<()> {
             need: "between 0 and 1000",
         });
     }
+    let n = soup.positions.len();
+    if let Some(v) = soup.faces.iter().flatten().find(|&&v| v as usize >= n) {
+        return Err(Error::Argument {
+            what: "vertex of a face",
+            value: v.to_string(),
+            need: "an existing vertex",
+        });
+    }
     let (mut total, mut count) = (0.0, 0usize);
-    for [a, b, c] in
-        soup.faces.iter().map(|f| f.map(|v| soup.positions.get(v as usize).copied().unwrap_or_default()))
-    {
+    for [a, b, c] in soup.faces.iter().map(|f| f.map(|v| soup.positions[v as usize])) {
         for (p, q) in [(a, b), (b, c), (c, a)] {
             total += (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
             count += 1;
