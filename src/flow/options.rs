@@ -25,7 +25,7 @@ pub enum Flips {
 /// Step size of the gradient flow.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum StepRule {
-    /// Barzilai–Borwein steps [BB88]: far fewer steps; visits other metrics on the way than the continuous flow.
+    /// Barzilai–Borwein steps \[BB88\]: far fewer steps; visits other metrics on the way than the continuous flow.
     #[default]
     BarzilaiBorwein,
     /// The largest step for which the explicit scheme is stable by Gershgorin's bound on ∂K/∂u.

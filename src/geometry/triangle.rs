@@ -119,7 +119,7 @@ pub fn area(space: Space, l: [f64; 3]) -> f64 {
 /// ∂θ_i/∂u_i = −w_k c(l_k) − w_j c(l_j),   c(l) = 1, cosh l, cos l
 /// ```
 ///
-/// which is [ZGZLYG14]'s matrix `σ/A · L Θ L⁻¹ D` multiplied out (notation.md derives it). In E² it is
+/// which is \[ZGZLYG14\]'s matrix `σ/A · L Θ L⁻¹ D` multiplied out (notation.md derives it). In E² it is
 /// `cot θ_k / 2` for ε = 0, and always (signed distance of the power centre from edge ij) / l_k.
 /// A broken triangle has weights 0: its extended angles are constant.
 #[inline]

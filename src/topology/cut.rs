@@ -29,7 +29,7 @@ impl CutGraph {
 ///
 /// The boundary and the cones together are the sources of a shortest-path forest; the edges that the forest
 /// and a maximum spanning tree of the dual graph leave over, with their paths to the sources, are the cut
-/// (tree–cotree, [EW05]). So cones are joined to each other, to the boundary and to the handles by short
+/// (tree–cotree, \[EW05\]). So cones are joined to each other, to the boundary and to the handles by short
 /// arcs. Then segments are pulled and their ends slid across triangles while that makes the cut shorter.
 ///
 /// `lengths`: finite and positive, one per edge. `cones`: vertices that have to lie on the cut, in any order;

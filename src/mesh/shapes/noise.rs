@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::mesh::io::Soup;
 
-/// SplitMix64 [SLF14]: a small generator whose sequence is part of its definition.
+/// SplitMix64 \[SLF14\]: a small generator whose sequence is part of its definition.
 #[derive(Debug, Clone)]
 pub struct SplitMix64(u64);
 
