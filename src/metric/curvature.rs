@@ -1,10 +1,11 @@
 //! Curvature, area and the Gauss–Bonnet residual of a metric given by its edge lengths.
 
-use super::lengths::{check_lengths, face_lengths};
+use super::lengths::face_lengths;
 use crate::error::Result;
 use crate::geometry::{Space, triangle};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerVertex};
 use crate::parallel;
+use crate::topology::check_lengths;
 use std::f64::consts::PI;
 
 /// Discrete curvature of a metric.

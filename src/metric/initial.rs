@@ -1,11 +1,12 @@
 //! The initial metric of a scheme from the edge lengths of the input surface.
 
 use super::curvature::area;
-use super::lengths::{Metric, check_lengths, face_lengths};
+use super::lengths::{Metric, face_lengths};
 use super::scheme::Scheme;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::{Space, triangle};
 use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
+use crate::topology::check_lengths;
 use std::f64::consts::PI;
 
 /// The initial metric with what is needed to read the result of a flow against it.

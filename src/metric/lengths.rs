@@ -13,6 +13,7 @@ use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::parallel;
+use crate::topology::check_lengths;
 
 /// A metric of the conformal class (ε, η) in a background geometry.
 #[derive(Debug, Clone, PartialEq)]
@@ -171,15 +172,6 @@ pub fn lengths_from_positions(mesh: &Mesh, positions: &[Point]) -> Result<PerEdg
     let lengths = PerEdge::from_fn(mesh.n_edges(), length);
     check_lengths(mesh, &lengths)?;
     Ok(lengths)
-}
-
-/// Size of the array, and every length finite and positive.
-pub fn check_lengths(mesh: &Mesh, lengths: &PerEdge<f64>) -> Result<()> {
-    check_size("lengths", lengths.len(), mesh.n_edges())?;
-    match lengths.iter().position(|l| !(l.is_finite() && *l > 0.0)) {
-        Some(edge) => Err(Error::EdgeLength { edge, length: lengths[EdgeId::from(edge)] }),
-        None => Ok(()),
-    }
 }
 
 /// The lengths opposite the corners of a face: `[l_bc, l_ca, l_ab]` for the face (a, b, c).

@@ -1,6 +1,7 @@
 //! What several tests share: the mesh corpus and its index.
 #![allow(dead_code)]
 
+use ricci::mesh::shapes::SplitMix64;
 use std::collections::HashMap;
 use std::path::PathBuf;
 
@@ -39,24 +40,17 @@ fn fields(line: &str) -> Vec<String> {
     fields
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014): the tests' own seeded numbers.
-pub struct Random(u64);
+/// Seeded numbers for tests.
+pub struct Random(SplitMix64);
 
 impl Random {
     pub fn new(seed: u64) -> Random {
-        Random(seed)
-    }
-
-    pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        Random(SplitMix64::new(seed))
     }
 
     /// In [0, 1).
     pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+        self.0.unit()
     }
 
     /// In [−1, 1).
@@ -66,6 +60,6 @@ impl Random {
 
     /// In 0…n−1.
     pub fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
+        (self.0.bits() % n as u64) as usize
     }
 }

@@ -1,24 +1,20 @@
 //! Surfaces that the topology and layout tests share.
 #![allow(dead_code)]
 
-use ricci::mesh::{Mesh, PerEdge, VertexId, io};
+use ricci::mesh::{Mesh, PerEdge, VertexId, io, shapes};
 use std::path::{Path, PathBuf};
 
-/// The good meshes of the corpus, or a plain word on stderr that they are absent.
-#[allow(clippy::print_stderr)]
+#[path = "../common/mod.rs"]
+mod common;
+
+/// The good meshes of the corpus (none, said on stderr, where it is absent).
 pub fn corpus() -> Vec<PathBuf> {
-    let root = std::env::var("RICCI_MESHES")
-        .unwrap_or_else(|_| concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/meshes").into());
-    let folder = Path::new(&root).join("good");
-    let mut paths: Vec<_> = std::fs::read_dir(&folder)
-        .map(|entries| entries.flatten().map(|entry| entry.path()).collect())
-        .unwrap_or_default();
-    paths.retain(|p| p.extension().is_some_and(|e| e == "obj" || e == "off"));
-    paths.sort();
-    if paths.is_empty() {
-        eprintln!("no meshes in {}: this test did not run (set RICCI_MESHES)", folder.display());
-    }
-    paths
+    let rows = common::index("good").map(|(folder, rows)| {
+        let mut paths: Vec<_> = rows.iter().map(|row| folder.join(&row["file"])).collect();
+        paths.sort();
+        paths
+    });
+    rows.unwrap_or_default()
 }
 
 /// A mesh file with its Euclidean edge lengths.
@@ -43,23 +39,7 @@ pub fn plane_lengths(mesh: &Mesh, positions: &[[f64; 2]]) -> PerEdge<f64> {
 /// The flat torus ℂ/(ℤ + τℤ) as an n × m grid of parallelograms, each halved; legal down to 1 × 1. Face 2(i +
 /// n j) is (z, z + 1/n, z + 1/n + τ/m).
 pub fn flat_torus(n: usize, m: usize, tau: [f64; 2]) -> (Mesh, PerEdge<f64>) {
-    let vertex = |i: usize, j: usize| (i % n) + n * (j % m);
-    let edge = |kind: usize, i: usize, j: usize| (3 * vertex(i, j) + kind + 1) as i32;
-    let (mut faces, mut face_edges) = (Vec::new(), Vec::new());
-    for j in 0..m {
-        for i in 0..n {
-            let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| vertex(i, j) as u32);
-            faces.push([corners[0], corners[1], corners[2]]);
-            face_edges.push([edge(1, i + 1, j), -edge(2, i, j), edge(0, i, j)]);
-            faces.push([corners[0], corners[2], corners[3]]);
-            face_edges.push([-edge(0, i, j + 1), -edge(1, i, j), edge(2, i, j)]);
-        }
-    }
-    let mesh = Mesh::from_gluing(n * m, &faces, &face_edges).unwrap();
-    let (x, y) = ([1.0 / n as f64, 0.0], [tau[0] / m as f64, tau[1] / m as f64]);
-    let sides = [x[0], y[0].hypot(y[1]), (x[0] + y[0]).hypot(y[1])];
-    let lengths = PerEdge::from_fn(mesh.n_edges(), |e: ricci::mesh::EdgeId| sides[e.index() % 3]);
-    (mesh, lengths)
+    shapes::flat_torus(tau, n, m).unwrap().build().unwrap()
 }
 
 /// The regular Euclidean octagon of side 1 with its sides glued by a b a⁻¹ b⁻¹ c d c⁻¹ d⁻¹: genus 2, one
