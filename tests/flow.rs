@@ -4,6 +4,7 @@
 mod common;
 
 use common::Random;
+use ricci::control::Stage;
 use ricci::embed::{layout, quality};
 use ricci::flow::{Gradient, Method, Options, Report, Solver, StepRule, StopReason, flow};
 use ricci::geometry::Space;
@@ -395,6 +396,27 @@ fn cancelling_stops_the_flow_and_leaves_the_metric() {
     assert_eq!(solver.solve(&target, &control).unwrap_err(), Error::Cancelled);
     assert_eq!(solver.metric(), &initial.metric);
     converged(&solver.solve(&target, &Control::new()).unwrap());
+}
+
+#[test]
+fn cancelling_from_another_thread_ends_a_running_flow() {
+    let (mesh, lengths) = surface(&shapes::torus(2.0, 0.9, 300, 150).unwrap());
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap();
+    let target = Target::Uniform.resolve(&mesh, &lengths, Space::E2, Scheme::Inversive).unwrap();
+    // The stable gradient flow needs far longer than the test is willing to wait.
+    let gradient = Gradient { step: StepRule::Stable, ..Gradient::default() };
+    let options = Options { method: Method::Gradient, gradient, ..Options::default() };
+    let control = Control::new();
+    let outcome = std::thread::scope(|scope| {
+        let run = scope.spawn(|| flow(&mesh, &initial.metric, &target, &options, &control));
+        while control.progress().0 == Stage::Idle {
+            std::thread::yield_now();
+        }
+        control.cancel();
+        run.join().unwrap()
+    });
+    println!("{} vertices: {:?} after the cancellation", mesh.n_vertices(), control.since_cancel().unwrap());
+    assert_eq!(outcome.unwrap_err(), Error::Cancelled);
 }
 
 #[test]
