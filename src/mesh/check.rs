@@ -125,11 +125,6 @@ impl Defect {
         }
     }
 
-    /// The vertices and then the faces it concerns.
-    pub fn elements(&self) -> Vec<u32> {
-        [self.vertices(), self.faces()].concat()
-    }
-
     /// The vertices it concerns.
     pub fn vertices(&self) -> Vec<u32> {
         match self {
