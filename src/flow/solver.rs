@@ -140,14 +140,17 @@ impl Run<'_> {
         system: &'s mut Option<System>,
         report: &mut Report,
     ) -> Result<&'s mut System> {
-        if system.is_none() {
-            let mut fixed = self.pinned.to_vec();
-            if self.free_scale {
-                fixed[0] = true;
+        let kept = match system.take() {
+            Some(kept) => kept,
+            None => {
+                let mut fixed = self.pinned.to_vec();
+                if self.free_scale {
+                    fixed[0] = true;
+                }
+                timed(&mut report.seconds.analyse, || System::new(self.mesh, &fixed))?
             }
-            *system = Some(timed(&mut report.seconds.analyse, || System::new(self.mesh, &fixed))?);
-        }
-        let system = system.as_mut().ok_or(Error::Cancelled)?;
+        };
+        let system = system.insert(kept);
         report.unknowns = system.unknowns();
         report.factor_entries = system.factor_entries();
         Ok(system)
