@@ -16,7 +16,8 @@ pub enum StopReason {
     /// The variables run away without limit: the target violates an existence condition of the scheme on this
     /// triangulation (for circle packings an inequality over some set of vertices).
     Diverged,
-    /// No step reduces the error, which is above the rounding floor.
+    /// No step reduces the error, which is above the rounding floor (`Report::broken_triangles` says whether triangles
+    /// break there).
     Stalled,
     /// The iteration limit came first.
     IterationLimit,

@@ -126,8 +126,8 @@ impl Run<'_> {
         let area = state.area(self.mesh, self.class);
         report.gauss_bonnet =
             (sum + self.class.space.curvature() * area - 2.0 * PI * self.mesh.euler() as f64).abs();
-        let settled = !matches!(report.stop_reason, StopReason::IterationLimit | StopReason::Diverged);
-        if report.broken_triangles > 0 && settled {
+        let reached = matches!(report.stop_reason, StopReason::Converged | StopReason::RoundingFloor);
+        if reached && report.broken_triangles > 0 {
             report.stop_reason = StopReason::BrokenTriangles;
         }
         report.converged = matches!(report.stop_reason, StopReason::Converged | StopReason::RoundingFloor);
