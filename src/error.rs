@@ -130,7 +130,7 @@ pub enum Error {
     },
 
     /// A prescribed curvature is too large at a vertex.
-    #[error("vertex {vertex}: target curvature {curvature} must be below {limit}: too large by {excess:e}")]
+    #[error("vertex {vertex}: target curvature {curvature} must be below {limit}: {}", amount("too large", *excess))]
     TargetAtVertex {
         /// The vertex.
         vertex: usize,
@@ -142,7 +142,7 @@ pub enum Error {
         excess: f64,
     },
     /// A prescribed curvature is too small for the angles that the vertex can have.
-    #[error("vertex {vertex}: target curvature {curvature} must be above {limit}: too small by {excess:e}")]
+    #[error("vertex {vertex}: target curvature {curvature} must be above {limit}: {}", amount("too small", *excess))]
     TargetBelow {
         /// The vertex.
         vertex: usize,
@@ -150,11 +150,11 @@ pub enum Error {
         curvature: f64,
         /// The least value, not attained.
         limit: f64,
-        /// Curvature minus limit (≤ 0).
+        /// Limit minus curvature (≥ 0).
         excess: f64,
     },
     /// The prescribed curvatures do not add up to what Gauss–Bonnet asks for.
-    #[error("target curvatures add up to {sum}, Gauss–Bonnet needs {need}: off by {miss:e}")]
+    #[error("target curvatures add up to {sum}, Gauss–Bonnet needs {need}: {}", amount("off", *miss))]
     TargetTotal {
         /// Their sum, radians.
         sum: f64,
@@ -213,6 +213,11 @@ impl Error {
             Error::Layout(_) => 600,
         }
     }
+}
+
+/// `too large by 1.5e-1`; a strict bound that is met with equality says so.
+fn amount(how: &str, by: f64) -> String {
+    if by == 0.0 { "equality is not enough".into() } else { format!("{how} by {:.4e}", by.abs()) }
 }
 
 /// Error for an array of the wrong size, unless the sizes agree.

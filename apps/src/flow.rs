@@ -15,7 +15,7 @@ use crate::show;
 use crate::uv;
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::flow::{Flips, Method, Options};
+use ricci::flow::{Flips, Method, Obstruction, Options};
 use ricci::geometry::Space;
 use ricci::mesh::VertexId;
 use ricci::metric::{Scheme, Target};
@@ -256,6 +256,12 @@ pub struct FlowResult {
     tolerance: f64,
     rounding_floor: f64,
     broken_triangles: usize,
+    /// Faces that break the triangle inequality.
+    broken_faces: Vec<usize>,
+    /// Where |K − K̄| is largest.
+    worst_vertices: Vec<VertexFigures>,
+    /// A set of vertices that proves that the target cannot be reached in this scheme on this triangulation.
+    obstruction: Option<ObstructionFigures>,
     /// Newton matrices that had to be shifted to be positive definite.
     shifted: usize,
     /// Edges whose weight had to be moved into the scheme's range, and the largest relative change of length by that.
@@ -288,6 +294,22 @@ struct SeamFigures {
     edges: usize,
 }
 
+#[derive(Serialize)]
+struct VertexFigures {
+    vertex: usize,
+    /// K − K̄, radians.
+    curvature_error: f64,
+}
+
+/// Every metric of the scheme on this triangulation has a total curvature of more than `above` at the vertices; the target
+/// asks for `target`.
+#[derive(Serialize)]
+struct ObstructionFigures {
+    vertices: Vec<usize>,
+    target: f64,
+    above: f64,
+}
+
 impl FlowResult {
     pub fn new(outcome: &Outcome) -> Self {
         let Outcome { report, initial, layout, .. } = outcome;
@@ -297,6 +319,13 @@ impl FlowResult {
             translation: s.translation,
             residual: s.residual,
             edges: s.halfedges.len(),
+        };
+        let worst =
+            |&(v, curvature_error): &(VertexId, f64)| VertexFigures { vertex: v.index(), curvature_error };
+        let obstruction = |o: &Obstruction| ObstructionFigures {
+            vertices: o.vertices.iter().map(|v| v.index()).collect(),
+            target: o.curvature,
+            above: o.least,
         };
         FlowResult {
             space: outcome.metric.space.name(),
@@ -310,6 +339,9 @@ impl FlowResult {
             tolerance: report.tolerance,
             rounding_floor: report.rounding_floor,
             broken_triangles: report.broken_triangles,
+            broken_faces: outcome.curvature.broken.iter().map(|f| f.index()).collect(),
+            worst_vertices: report.worst.iter().map(worst).collect(),
+            obstruction: report.obstruction.as_ref().map(obstruction),
             shifted: report.shifted,
             clamped_edges: initial.clamped_edges,
             max_length_change: initial.max_length_change,

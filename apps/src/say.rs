@@ -1,7 +1,10 @@
 //! What is said on stdout: a few lines for people. All numbers are in the report.
 
 use crate::flow::Done;
+use crate::job::Outcome;
 use crate::laid::Laid;
+use ricci::flow::StopReason;
+use ricci::mesh::VertexId;
 use std::io::{self, Write};
 
 /// Print lines; a reader that has gone away is no error.
@@ -42,6 +45,9 @@ pub fn flow(done: &Done) {
             n => format!(", {}", count(n, "broken triangle", "broken triangles")),
         }
     );
+    if !report.converged {
+        text += &format!("why      {}\n", why(outcome));
+    }
     text += &match &outcome.layout {
         Ok(laid) => format!("layout   {}\n", layout(laid)),
         Err(why) => format!("layout   none: {why}\n"),
@@ -61,6 +67,35 @@ pub fn flow(done: &Done) {
     }
     text += &format!("{:.2} s\n", done.seconds);
     lines(&text);
+}
+
+/// Why a flow did not converge, as far as that is known.
+fn why(outcome: &Outcome) -> String {
+    let report = &outcome.report;
+    if report.stop_reason == StopReason::BrokenTriangles {
+        return format!(
+            "no metric of the scheme on this triangulation: its energy is least with broken {}",
+            named("face", "faces", &outcome.curvature.broken)
+        );
+    }
+    if let Some(o) = &report.obstruction {
+        return format!(
+            "the target adds up to {:.6} at {}; every metric of the scheme on this triangulation has more than {:.6} there",
+            o.curvature,
+            named("vertex", "vertices", &o.vertices),
+            o.least
+        );
+    }
+    let worst: Vec<VertexId> = report.worst.iter().map(|&(v, _)| v).collect();
+    format!("the error is largest at {}", named("vertex", "vertices", &worst))
+}
+
+/// The first few elements of a list.
+fn named<Id: ToString>(one: &str, many: &str, list: &[Id]) -> String {
+    const SHOWN: usize = 5;
+    let ids: Vec<String> = list.iter().take(SHOWN).map(ToString::to_string).collect();
+    let more = if list.len() > SHOWN { format!(" … ({} in all)", list.len()) } else { String::new() };
+    format!("{} {}{more}", if list.len() == 1 { one } else { many }, ids.join(", "))
 }
 
 fn layout(laid: &Laid) -> String {

@@ -84,7 +84,7 @@ pub fn faces_i32(data: *const i32, n: usize) -> Outcome<Vec<[u32; 3]>> {
 }
 
 /// Refuse a buffer that cannot take `needed` entries.
-fn check_buffer<T>(what: &str, needed: usize, buffer: *mut T, capacity: usize) -> Outcome {
+pub fn check_buffer<T>(what: &str, needed: usize, buffer: *mut T, capacity: usize) -> Outcome {
     if capacity < needed {
         return Err(Failure::new(
             ricci_status::RICCI_BUFFER_TOO_SMALL,

@@ -1,6 +1,6 @@
 //! What a flow did.
 
-use crate::arrays::copy_out;
+use crate::arrays::{check_buffer, copy_out};
 use crate::guard::{self, Handle, Poison};
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
@@ -37,12 +37,15 @@ pub enum ricci_stop_reason {
     RICCI_STOP_ROUNDING_FLOOR = 1,
     /// A minimum of the energy with broken triangles: no metric.
     RICCI_STOP_BROKEN_TRIANGLES = 2,
-    /// The variables run away: the target violates a condition of the scheme on this triangulation.
+    /// The variables run away, and no obstruction was found.
     RICCI_STOP_DIVERGED = 3,
     /// No step lowers the error any more.
     RICCI_STOP_STALLED = 4,
     /// The iteration limit came first.
     RICCI_STOP_ITERATION_LIMIT = 5,
+    /// No metric of the class on this triangulation has the target curvature: ricci_report_obstruction names
+    /// vertices that prove it.
+    RICCI_STOP_INFEASIBLE = 6,
 }
 
 use ricci_stop_reason::*;
@@ -55,6 +58,7 @@ const NAMES: &[(ricci_stop_reason, &CStr)] = &[
     (RICCI_STOP_DIVERGED, c"diverged"),
     (RICCI_STOP_STALLED, c"stalled"),
     (RICCI_STOP_ITERATION_LIMIT, c"iteration_limit"),
+    (RICCI_STOP_INFEASIBLE, c"infeasible"),
 ];
 
 impl From<StopReason> for ricci_stop_reason {
@@ -66,6 +70,7 @@ impl From<StopReason> for ricci_stop_reason {
             StopReason::Diverged => RICCI_STOP_DIVERGED,
             StopReason::Stalled => RICCI_STOP_STALLED,
             StopReason::IterationLimit => RICCI_STOP_ITERATION_LIMIT,
+            StopReason::Infeasible => RICCI_STOP_INFEASIBLE,
         }
     }
 }
@@ -111,6 +116,15 @@ pub struct ricci_report_summary {
     pub n_residuals: usize,
     /// Rows of ricci_report_trace.
     pub n_trace: usize,
+    /// Entries of ricci_report_worst.
+    pub n_worst: usize,
+    /// Entries of ricci_report_obstruction; 0 unless the stop reason is RICCI_STOP_INFEASIBLE.
+    pub n_obstruction: usize,
+    /// Total target curvature at the vertices of the obstruction, radians.
+    pub obstruction_target: f64,
+    /// Every metric of the class on this triangulation has a total curvature above this at the vertices of the
+    /// obstruction, radians.
+    pub obstruction_above: f64,
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
@@ -177,6 +191,10 @@ pub unsafe extern "C" fn ricci_report_summarise(
             seconds_total: seconds.total,
             n_residuals: report.residuals.len(),
             n_trace: report.trace.len(),
+            n_worst: report.worst.len(),
+            n_obstruction: report.obstruction.as_ref().map_or(0, |o| o.vertices.len()),
+            obstruction_target: report.obstruction.as_ref().map_or(0.0, |o| o.curvature),
+            obstruction_above: report.obstruction.as_ref().map_or(0.0, |o| o.least),
         };
         sized::write(figures, summary, size)
     })
@@ -223,6 +241,50 @@ pub unsafe extern "C" fn ricci_report_trace(
     })
 }
 
+/// The vertices that are farthest from their target, farthest first.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param report    the report.
+/// @param vertices  out: n_worst vertices.
+/// @param errors    out: n_worst values K - target, radians.
+/// @param capacity  entries of `vertices` and of `errors`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_report_worst(
+    report: *const ricci_report,
+    vertices: *mut u32,
+    errors: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let (names, values): (Vec<u32>, Vec<f64>) =
+            door.shared(report)?.report.worst.iter().map(|&(v, error)| (v.0, error)).unzip();
+        check_buffer("errors", values.len(), errors, capacity)?;
+        copy_out("vertices", &names, vertices, capacity)?;
+        copy_out("errors", &values, errors, capacity)
+    })
+}
+
+/// Vertices that prove that the target cannot be reached: the totals are in the summary.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param report    the report.
+/// @param vertices  out: n_obstruction vertices, ascending.
+/// @param capacity  entries of `vertices`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_report_obstruction(
+    report: *const ricci_report,
+    vertices: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let obstruction = &door.shared(report)?.report.obstruction;
+        let names: Vec<u32> = obstruction.iter().flat_map(|o| &o.vertices).map(|v| v.0).collect();
+        copy_out("vertices", &names, vertices, capacity)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -236,6 +298,7 @@ mod tests {
             StopReason::Diverged,
             StopReason::Stalled,
             StopReason::IterationLimit,
+            StopReason::Infeasible,
         ] {
             let number = ricci_stop_reason::from(reason);
             let name =

@@ -35,29 +35,35 @@ rows = [(m, {s: run(m, s) for s in schemes}) for m in meshes]
 print("# Flow without flips on the mesh corpus\n")
 print("Made by `docs/results/flow.py`: `ricci flow MESH --scheme S --flips never`, default space and target, for each of the "
       f"{len(rows)} meshes. Reached: max |K − K̄| ≤ 1e-10, no broken triangle.\n")
-print("| scheme | reached | broken triangles | diverged | stalled | other | median steps | flipped in a layout |")
+print("| scheme | reached | broken triangles | infeasible | stalled | other | median steps | flipped in a layout |")
 print("|---|---|---|---|---|---|---|---|")
 for s in schemes:
     r = [x[s] for _, x in rows]
     count = lambda *why: sum(1 for x in r if not x["done"] and x["why"] in why)
     steps = sorted(x["iterations"] for x in r if x["done"])
-    named = count("broken_triangles"), count("diverged"), count("stalled")
+    named = count("broken_triangles"), count("infeasible"), count("stalled")
     other = sum(1 for x in r if not x["done"]) - sum(named)
     flipped = sum(1 for x in r if x["done"] and (x.get("flipped_triangles") or 0) > 0)
     print(f"| {s} | {sum(x['done'] for x in r)} of {len(r)} | {named[0]} | {named[1]} | {named[2]} | {other} | "
           f"{steps[len(steps) // 2] if steps else '–'} | {flipped} |")
-print("\nPer mesh: steps and max |K − K̄| where reached, otherwise why not (and how many triangles break). `qc`: area-weighted mean "
-      "quasi-conformal dilatation of the yamabe layout (E²), a dash where there is none.\n")
+print("\nPer mesh: steps and max |K − K̄| where reached, otherwise why not: the energy is least with that many broken triangles; or "
+      "infeasible, and how many vertices prove it (every metric of the scheme on this triangulation has more total curvature "
+      "there than the target asks for); or stalled. `!`: reached, but that many triangles of the layout are flipped, because "
+      "lengths range over more decades than doubles resolve (exit code 1). `qc`: area-weighted mean quasi-conformal dilatation "
+      "of the yamabe layout (E²), a dash where there is none.\n")
 print("| mesh | V | genus | loops | " + " | ".join(schemes) + " | qc | seconds (yamabe) |")
 print("|---|---|---|---|" + "---|" * (len(schemes) + 2))
 
 
 def cell(x):
     if x["done"]:
-        return f"{x['iterations']}, {x['max_curvature_error']:.0e}"
+        flipped = f" ! {x['flipped_triangles']} flipped" if x["flipped_triangles"] else ""
+        return f"{x['iterations']}, {x['max_curvature_error']:.0e}{flipped}"
     why = x["why"].replace("_", " ")
     if x["why"] == "broken_triangles":
         why += f" ({x['broken_triangles']})"
+    if x["why"] == "infeasible":
+        why += f" ({len(x['obstruction']['vertices'])})"
     return why if len(why) < 60 else why[:57] + "…"
 
 

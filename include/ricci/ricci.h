@@ -162,12 +162,17 @@ typedef enum {
     RICCI_STOP_ROUNDING_FLOOR = 1,
     /** A minimum of the energy with broken triangles: no metric. */
     RICCI_STOP_BROKEN_TRIANGLES = 2,
-    /** The variables run away: the target violates a condition of the scheme on this triangulation. */
+    /** The variables run away, and no obstruction was found. */
     RICCI_STOP_DIVERGED = 3,
     /** No step lowers the error any more. */
     RICCI_STOP_STALLED = 4,
     /** The iteration limit came first. */
     RICCI_STOP_ITERATION_LIMIT = 5,
+    /**
+     * No metric of the class on this triangulation has the target curvature: ricci_report_obstruction names
+     * vertices that prove it.
+     */
+    RICCI_STOP_INFEASIBLE = 6,
 } ricci_stop_reason;
 
 /** How the flow is solved. */
@@ -365,6 +370,17 @@ typedef struct {
     size_t n_residuals;
     /** Rows of ricci_report_trace. */
     size_t n_trace;
+    /** Entries of ricci_report_worst. */
+    size_t n_worst;
+    /** Entries of ricci_report_obstruction; 0 unless the stop reason is RICCI_STOP_INFEASIBLE. */
+    size_t n_obstruction;
+    /** Total target curvature at the vertices of the obstruction, radians. */
+    double obstruction_target;
+    /**
+     * Every metric of the class on this triangulation has a total curvature above this at the vertices of the
+     * obstruction, radians.
+     */
+    double obstruction_above;
 } ricci_report_summary;
 
 /** How a flow is done. Let ricci_flow_options_init fill it, then change fields. */
@@ -1051,6 +1067,34 @@ ricci_status ricci_report_residuals(const ricci_report *report, double *residual
  * @param capacity  entries of `trace`, at least 5 n_trace.
  */
 ricci_status ricci_report_trace(const ricci_report *report, double *trace, size_t capacity);
+
+/**
+ * The vertices that are farthest from their target, farthest first.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param report    the report.
+ * @param vertices  out: n_worst vertices.
+ * @param errors    out: n_worst values K - target, radians.
+ * @param capacity  entries of `vertices` and of `errors`.
+ */
+ricci_status ricci_report_worst(const ricci_report *report,
+                                uint32_t *vertices,
+                                double *errors,
+                                size_t capacity);
+
+/**
+ * Vertices that prove that the target cannot be reached: the totals are in the summary.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param report    the report.
+ * @param vertices  out: n_obstruction vertices, ascending.
+ * @param capacity  entries of `vertices`.
+ */
+ricci_status ricci_report_obstruction(const ricci_report *report,
+                                      uint32_t *vertices,
+                                      size_t capacity);
 
 /**
  * Fill options with their defaults.

@@ -5,6 +5,7 @@ mod evaluate;
 mod gradient;
 mod jacobian;
 mod newton;
+mod obstruction;
 pub mod options;
 pub mod report;
 mod solver;
@@ -12,6 +13,7 @@ mod spherical;
 mod system;
 
 pub use jacobian::curvature_derivative;
+pub use obstruction::Obstruction;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
 pub use report::{Report, Seconds, StopReason, TraceRow};
 pub use solver::Solver;

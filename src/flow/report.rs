@@ -1,5 +1,7 @@
 //! What a flow did.
 
+use super::obstruction::Obstruction;
+use crate::mesh::VertexId;
 use std::time::{Duration, Instant};
 
 /// Why a flow stopped.
@@ -13,11 +15,13 @@ pub enum StopReason {
     /// The extended energy is at its minimum there, but some triangles break: no metric of this class on this
     /// triangulation has the target curvature.
     BrokenTriangles,
-    /// The variables run away without limit: the target violates an existence condition of the scheme on this
-    /// triangulation (for circle packings an inequality over some set of vertices).
+    /// No metric of the class on this triangulation has the target curvature: `Report::obstruction` names a set of
+    /// vertices that proves it.
+    Infeasible,
+    /// The variables run away without limit, and no obstruction was found.
     Diverged,
-    /// No step reduces the error, which is above the rounding floor (`Report::broken_triangles` says whether triangles
-    /// break there).
+    /// No step reduces the error, which is above the rounding floor: `Report::worst` says where,
+    /// `Report::broken_triangles` whether triangles break there. No obstruction was found.
     Stalled,
     /// The iteration limit came first.
     IterationLimit,
@@ -30,6 +34,7 @@ impl StopReason {
             StopReason::Converged => "converged",
             StopReason::RoundingFloor => "rounding_floor",
             StopReason::BrokenTriangles => "broken_triangles",
+            StopReason::Infeasible => "infeasible",
             StopReason::Diverged => "diverged",
             StopReason::Stalled => "stalled",
             StopReason::IterationLimit => "iteration_limit",
@@ -83,6 +88,9 @@ pub struct TraceRow {
     pub step_size: f64,
 }
 
+/// Vertices named in [`Report::worst`].
+pub const WORST: usize = 8;
+
 /// Result of a flow, with everything needed to judge it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
@@ -102,7 +110,12 @@ pub struct Report {
     pub rounding_floor: f64,
     /// Faces that break the triangle inequality.
     pub broken_triangles: usize,
-    /// |Σ K + λ·area − 2πχ| of the final metric (meaningless while triangles are broken).
+    /// The vertices of largest |K − K̄| with their K − K̄ (radians), largest first: at most [`WORST`], none where the
+    /// error is 0.
+    pub worst: Vec<(VertexId, f64)>,
+    /// Vertices that prove the target out of reach (see [`StopReason::Infeasible`]).
+    pub obstruction: Option<Obstruction>,
+    /// |Σ K + λ·area − 2πχ| of the final metric (broken triangles count with their extended angles, which add up to π).
     pub gauss_bonnet: f64,
     /// max |K − K̄| at the start and after each Newton step.
     pub residuals: Vec<f64>,
@@ -129,6 +142,8 @@ impl Report {
             tolerance,
             rounding_floor: 0.0,
             broken_triangles: 0,
+            worst: Vec::new(),
+            obstruction: None,
             gauss_bonnet: 0.0,
             residuals: Vec::new(),
             trace: Vec::new(),

@@ -1,8 +1,9 @@
 //! A surface, a conformal class and a factorisation that serves many targets.
 
 use super::evaluate::State;
+use super::obstruction::obstruction;
 use super::options::{Method, Options};
-use super::report::{Report, StopReason, timed};
+use super::report::{Report, StopReason, WORST, timed};
 use super::system::System;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
@@ -83,9 +84,9 @@ impl Solver {
     /// of memory; the metric is then unchanged.
     pub fn solve(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<Report> {
         check_size("target", target.len(), self.mesh.n_vertices())?;
-        if let Some(vertex) = target.iter().position(|k| !k.is_finite()) {
-            let curvature = target[VertexId::from(vertex)];
-            return Err(Error::TargetBelow { vertex, curvature, limit: f64::MIN, excess: f64::MIN });
+        if let Some(v) = self.mesh.vertices().find(|&v| !target[v].is_finite()) {
+            let value = format!("{} at vertex {v}", target[v]);
+            return Err(Error::Argument { what: "target curvature", value, need: "finite everywhere" });
         }
         let mut report = Report::new(self.options.tolerance);
         let mut seconds = 0.0;
@@ -131,7 +132,28 @@ impl Run<'_> {
             report.stop_reason = StopReason::BrokenTriangles;
         }
         report.converged = matches!(report.stop_reason, StopReason::Converged | StopReason::RoundingFloor);
+        report.worst = self.worst(&state);
+        if !report.converged && report.stop_reason != StopReason::BrokenTriangles {
+            report.obstruction = obstruction(self.mesh, self.class, &state, self.target, self.pinned);
+            if report.obstruction.is_some() {
+                report.stop_reason = StopReason::Infeasible;
+            }
+        }
         Ok(state)
+    }
+
+    /// The vertices that are farthest from their target.
+    fn worst(&self, state: &State) -> Vec<(VertexId, f64)> {
+        let mut worst: Vec<(VertexId, f64)> = Vec::with_capacity(WORST + 1);
+        for v in self.mesh.vertices().filter(|v| !self.pinned[v.index()]) {
+            let error = state.curvature[v] - self.target[v.index()];
+            let rank = worst.partition_point(|(_, other)| other.abs() >= error.abs());
+            if rank < WORST && error != 0.0 {
+                worst.insert(rank, (v, error));
+                worst.truncate(WORST);
+            }
+        }
+        worst
     }
 
     /// The system for this run's unknowns: analysed now, or kept from the last solve.

@@ -62,6 +62,14 @@ impl Target {
         space: Space,
         scheme: Scheme,
     ) -> Result<PerVertex<f64>> {
+        let target = self.values(mesh, lengths, space)?;
+        check_admissible(mesh, space, scheme, &target)?;
+        Ok(target)
+    }
+
+    /// The curvature of every vertex by this rule alone. Errors: a rule that does not exist on this surface in this space, a
+    /// vertex that does not exist.
+    pub fn values(&self, mesh: &Mesh, lengths: &PerEdge<f64>, space: Space) -> Result<PerVertex<f64>> {
         let n = mesh.n_vertices();
         let kind = |message: &str| Error::TargetKind { target: self.name(), message: message.into() };
         let vertex = |v: VertexId| {
@@ -71,7 +79,7 @@ impl Target {
             Err(kind(&format!("vertex {v} does not exist, the surface has vertices 0 to {}", n - 1)))
         };
         let total = 2.0 * PI * mesh.euler() as f64;
-        let target = match self {
+        Ok(match self {
             Target::Uniform if space != Space::E2 => PerVertex::filled(n, 0.0),
             Target::Uniform if !mesh.is_closed() => {
                 return Err(kind("exists in E² on closed surfaces only; use `boundary`"));
@@ -94,10 +102,11 @@ impl Target {
                 }
                 target
             }
-            Target::All(values) => values.clone(),
-        };
-        check_admissible(mesh, space, scheme, &target)?;
-        Ok(target)
+            Target::All(values) => {
+                check_size("target", values.len(), n)?;
+                values.clone()
+            }
+        })
     }
 }
 
@@ -124,7 +133,7 @@ pub fn check_admissible(mesh: &Mesh, space: Space, scheme: Scheme, target: &PerV
             _ => f64::NEG_INFINITY,
         };
         if curvature <= least {
-            let excess = curvature - least;
+            let excess = least - curvature;
             return Err(Error::TargetBelow { vertex: v.index(), curvature, limit: least, excess });
         }
     }
