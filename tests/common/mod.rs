@@ -1,6 +1,8 @@
 //! What several tests share: the mesh corpus and its index.
 #![allow(dead_code)]
 
+pub mod flow;
+
 use ricci::mesh::shapes::SplitMix64;
 use std::collections::HashMap;
 use std::path::PathBuf;

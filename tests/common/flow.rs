@@ -1,0 +1,28 @@
+//! Surfaces to flow on, and what every flow must satisfy.
+#![allow(dead_code)]
+
+use ricci::Control;
+use ricci::flow::{Options, Report, StopReason, flow};
+use ricci::mesh::io::Soup;
+use ricci::mesh::{Mesh, PerEdge, PerVertex};
+use ricci::metric::{Metric, lengths_from_positions};
+
+/// Connectivity and edge lengths of a triangle list.
+pub fn surface(soup: &Soup) -> (Mesh, PerEdge<f64>) {
+    let mesh = Mesh::from_soup(soup).unwrap();
+    let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
+    (mesh, lengths)
+}
+
+/// The flow; whatever its outcome, Gauss–Bonnet holds.
+pub fn solve(mesh: &Mesh, start: &Metric, target: &PerVertex<f64>, options: &Options) -> (Metric, Report) {
+    let (metric, report) = flow(mesh, start, target, options, &Control::new()).unwrap();
+    assert!(report.gauss_bonnet <= 1e-10, "Gauss–Bonnet residual {}", report.gauss_bonnet);
+    (metric, report)
+}
+
+/// Converged to 1e-10, and says so.
+pub fn converged(report: &Report) {
+    assert_eq!(report.stop_reason, StopReason::Converged, "{report:?}");
+    assert!(report.converged && report.max_curvature_error <= 1e-10);
+}
