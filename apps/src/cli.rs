@@ -69,19 +69,44 @@ const COMPLETIONS_EXAMPLE: &str = "\
 Example
     ricci completions bash > ~/.local/share/bash-completion/completions/ricci";
 
+/// What every command takes.
+#[derive(Args, Debug, Clone)]
+pub struct Common {
+    /// Write all numbers of the run as JSON
+    #[arg(long, value_name = "R.json")]
+    pub report: Option<PathBuf>,
+    /// No progress bar, no summary
+    #[arg(long)]
+    pub quiet: bool,
+    /// Threads, 0 for one per core; results do not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads())]
+    threads: u16,
+}
+
+impl Common {
+    /// The number of threads to use, at least 1.
+    pub fn threads(&self) -> usize {
+        match self.threads {
+            0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
+            n => n.into(),
+        }
+    }
+}
+
+/// More threads than this help nobody and can exhaust the system.
+fn threads() -> impl clap::builder::TypedValueParser<Value = u16> {
+    clap::value_parser!(u16).range(..=1024)
+}
+
 #[derive(Args, Debug)]
 pub struct InfoArgs {
     /// Mesh file (.obj, .off) or intrinsic metric (.json)
     pub mesh: PathBuf,
-    /// Write everything as JSON
-    #[arg(long, value_name = "R.json")]
-    pub report: Option<PathBuf>,
     /// Write a picture of the surface
     #[arg(long, value_name = "P.png")]
     pub picture: Option<PathBuf>,
-    /// No summary
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub common: Common,
 }
 
 #[derive(Args, Debug)]
@@ -100,6 +125,12 @@ pub struct FlowArgs {
     /// Newton's method, or the flow itself
     #[arg(long, value_enum, default_value_t = MethodChoice::Newton)]
     pub method: MethodChoice,
+    /// Keep the total area during the gradient flow (E²)
+    #[arg(long)]
+    pub area_normalised: bool,
+    /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,…
+    #[arg(long, value_name = "VERTICES")]
+    pub pin: Option<PinChoice>,
     /// Edge flips inside the conformal class; auto is never in this version
     #[arg(long, value_enum, default_value_t = FlipsChoice::Auto)]
     pub flips: FlipsChoice,
@@ -127,20 +158,8 @@ pub struct FlowArgs {
     /// Charts of several discs: not in this version.
     #[arg(long, hide = true)]
     pub charts: bool,
-    /// Write all numbers of the run as JSON
-    #[arg(long, value_name = "R.json")]
-    pub report: Option<PathBuf>,
-    /// No progress bar, no summary
-    #[arg(long)]
-    pub quiet: bool,
-    /// Threads, 0 for one per core; results do not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads())]
-    pub threads: u16,
-}
-
-/// More threads than this help nobody and can exhaust the system.
-fn threads() -> impl clap::builder::TypedValueParser<Value = u16> {
-    clap::value_parser!(u16).range(..=1024)
+    #[command(flatten)]
+    pub common: Common,
 }
 
 const TARGET_HELP: &str = "\
@@ -150,18 +169,15 @@ Prescribed curvature in radians:
   single:V        all of 2πχ at vertex V, 0 elsewhere (E²)
   cones:FILE.csv  the curvatures of the file's rows `vertex,curvature`, 0 elsewhere
   file:FILE.csv   the curvature of every vertex
-[default: boundary on open surfaces in E²; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere]";
+[default: boundary on open surfaces in E²; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
+with --pin 0 at every vertex that is not pinned]";
 
 #[derive(Args, Debug)]
 pub struct DemoArgs {
     /// Directory to write into; made if it does not exist
     pub out: PathBuf,
-    /// No progress bar, no table
-    #[arg(long)]
-    pub quiet: bool,
-    /// Threads, 0 for one per core
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads())]
-    pub threads: u16,
+    #[command(flatten)]
+    pub common: Common,
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -286,6 +302,25 @@ impl std::fmt::Display for TargetChoice {
             TargetChoice::Cones(file) => write!(f, "cones:{}", file.display()),
             TargetChoice::File(file) => write!(f, "file:{}", file.display()),
         }
+    }
+}
+
+/// Vertices whose conformal factor is held.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PinChoice {
+    Boundary,
+    Vertices(Vec<u32>),
+}
+
+impl FromStr for PinChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "boundary" {
+            return Ok(PinChoice::Boundary);
+        }
+        let vertex = |v: &str| v.trim().parse().map_err(|_| format!("`{v}` is not a vertex number"));
+        text.split(',').map(vertex).collect::<Result<_, _>>().map(PinChoice::Vertices)
     }
 }
 

@@ -2,11 +2,14 @@
 
 use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
-use crate::flow::{self, Done};
-use crate::report::path_text;
+use crate::flow::{self, Done, FlowResult};
+use crate::output::{Outputs, check_writable};
+use crate::report::{Checks, InputSummary, Report, path_text, peak_bytes};
 use crate::{make, say};
 use clap::Parser;
 use ricci::Control;
+use serde::Serialize;
+use std::time::Instant;
 
 /// A surface, what `ricci make` and `ricci flow` are given for it, and what there is to see.
 struct Example {
@@ -37,9 +40,31 @@ const EXAMPLES: [Example; 3] = [
     },
 ];
 
+#[derive(Serialize)]
+struct Asked {
+    out: String,
+    threads: usize,
+}
+
+#[derive(Serialize)]
+struct Runs {
+    runs: Vec<Run>,
+}
+
+/// One surface of the demo; the check of its name counts the checks that failed.
+#[derive(Serialize)]
+struct Run {
+    name: &'static str,
+    command: String,
+    input: InputSummary,
+    result: FlowResult,
+}
+
 /// Run the command; the exit code is the worst of its flows.
 pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
+    let start = Instant::now();
     let out = &args.out;
+    args.common.report.as_deref().map_or(Ok(()), check_writable)?;
     std::fs::create_dir_all(out)
         .map_err(|e| Failure::Usage(format!("{}: cannot be made: {e}", out.display())))?;
     let mut table = format!(
@@ -47,7 +72,7 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
         "surface", "vertices", "genus", "steps", "max |K − K̄|", "flipped", "dilatation", "seconds"
     );
     let mut notes = String::new();
-    let mut exit_code = 0;
+    let (mut exit_code, mut runs, mut checks) = (0, Vec::new(), Checks::default());
     for example in &EXAMPLES {
         let (line, done) = run_example(example, args, control)?;
         let laid = done.outcome.layout.as_ref().ok();
@@ -62,10 +87,23 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
             laid.map_or("–".into(), |l| format!("{:.4}", l.quality.qc_mean)),
             done.seconds,
         );
-        notes += &format!("\n{}: {}\n  ricci {}\n", example.name, example.about, line);
+        notes += &format!("\n{}: {}\n  ricci {line}\n", example.name, example.about);
         exit_code = exit_code.max(done.exit_code);
+        let input = InputSummary::of(&done.input);
+        runs.push(Run { name: example.name, command: line, input, result: FlowResult::new(&done.outcome) });
+        checks.add(example.name, done.checks.failed().len() as f64, 0.0);
     }
-    if !args.quiet {
+    if let Some(path) = &args.common.report {
+        let asked = Asked { out: path_text(out), threads: args.common.threads() };
+        let mut report = Report::new("demo", None, asked, Runs { runs });
+        report.checks = checks;
+        report.seconds.total = start.elapsed().as_secs_f64();
+        report.peak_bytes = peak_bytes();
+        let mut outputs = Outputs::default();
+        outputs.add_report(path, &report)?;
+        outputs.commit()?;
+    }
+    if !args.common.quiet {
         say::lines(&format!("{table}{notes}"));
     }
     Ok(exit_code)
@@ -91,8 +129,8 @@ fn run_example(example: &Example, args: &DemoArgs, control: &Control) -> Result<
         flow.extend([option.into(), path(suffix)]);
     }
     let line = flow.join(" ");
-    flow.push(format!("--threads={}", args.threads));
-    flow.extend(args.quiet.then(|| "--quiet".into()));
+    flow.push(format!("--threads={}", args.common.threads()));
+    flow.extend(args.common.quiet.then(|| "--quiet".into()));
     match parse(flow)? {
         Command::Flow(flow) => Ok((line, flow::execute(&flow, control)?)),
         other => Err(Failure::Failed(format!("{other:?} is no flow"))),

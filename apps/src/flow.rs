@@ -1,7 +1,7 @@
 //! `ricci flow`.
 
 use crate::circles::circles;
-use crate::cli::{FlipsChoice, FlowArgs, MethodChoice, SchemeChoice, SpaceChoice, TargetChoice};
+use crate::cli::{FlipsChoice, FlowArgs, MethodChoice, PinChoice, SchemeChoice, TargetChoice};
 use crate::csv;
 use crate::failure::Failure;
 use crate::input::{self, Input};
@@ -15,9 +15,9 @@ use crate::show;
 use crate::uv;
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::flow::{Flips, Method, Obstruction, Options};
+use ricci::flow::{Flips, Gradient, Method, Obstruction, Options};
 use ricci::geometry::Space;
-use ricci::mesh::VertexId;
+use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::{Scheme, Target};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -37,7 +37,7 @@ pub struct Done {
 /// Run the command and say what came out.
 pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
     let done = execute(args, control)?;
-    if !args.quiet {
+    if !args.common.quiet {
         say::flow(&done);
     }
     Ok(done.exit_code)
@@ -47,7 +47,7 @@ pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
 pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     let start = Instant::now();
     check_request(args)?;
-    let progress = Progress::watch(control, args.quiet);
+    let progress = Progress::watch(control, args.common.quiet);
     let mut input = input::read(&args.mesh, control)?;
     if let Some(geometry) = args.input_geometry {
         input.geometry = geometry.into();
@@ -59,6 +59,7 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
         scheme: args.scheme.into(),
         target: args.target.as_ref().map(|t| target(t, &input)).transpose()?,
         options: options(args),
+        pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, &input.mesh)),
     };
     let outcome = job::run(&input, job, control)?;
     let files = write(args, &input, &outcome, control, start)?;
@@ -81,7 +82,8 @@ fn options(args: &FlowArgs) -> Options {
             FlipsChoice::Auto => Flips::Auto,
             FlipsChoice::Never => Flips::Never,
         },
-        threads: args.threads.into(),
+        threads: args.common.threads(),
+        gradient: Gradient { area_normalised: args.area_normalised, ..Gradient::default() },
         ..Options::default()
     }
 }
@@ -95,13 +97,16 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     if args.trace.is_some() && args.method != MethodChoice::Gradient {
         return usage("--trace records the gradient flow; add --method gradient");
     }
+    if args.area_normalised && args.method != MethodChoice::Gradient {
+        return usage("--area-normalised is a variant of the gradient flow; add --method gradient");
+    }
     if let Some(path) = &args.uv {
         check_extension("--uv", path, &["obj", "glb"])?;
     }
     if let Some(path) = &args.picture {
         check_extension("--picture", path, &["png", "svg"])?;
     }
-    let files = [&args.metric, &args.uv, &args.circles, &args.picture, &args.trace, &args.report];
+    let files = [&args.metric, &args.uv, &args.circles, &args.picture, &args.trace, &args.common.report];
     let mut seen: Vec<&Path> = Vec::new();
     for path in files.into_iter().flatten() {
         if seen.contains(&path.as_path()) {
@@ -158,6 +163,13 @@ fn target(choice: &TargetChoice, input: &Input) -> Result<Target, Failure> {
     })
 }
 
+fn pinned(choice: &PinChoice, mesh: &Mesh) -> Vec<VertexId> {
+    match choice {
+        PinChoice::Boundary => mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).collect(),
+        PinChoice::Vertices(list) => list.iter().map(|&v| VertexId(v)).collect(),
+    }
+}
+
 /// Write every file that was asked for, the report last; returns their names.
 fn write(
     args: &FlowArgs,
@@ -183,7 +195,7 @@ fn write(
         }
         let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
         if let Some(path) = args.picture.as_ref().filter(drawable) {
-            outputs.add(path, |out| show::draw(out, path, input, outcome, args.threads.into()))?;
+            outputs.add(path, |out| show::draw(out, path, input, outcome, args.common.threads()))?;
         }
         if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
             let Outcome { mesh, metric, scheme, .. } = outcome;
@@ -192,52 +204,67 @@ fn write(
         Ok(())
     })?;
     control.step(Stage::Write, 0.5)?;
-    if let Some(path) = &args.report {
+    if let Some(path) = &args.common.report {
         seconds.total = start.elapsed().as_secs_f64();
-        let asked = Asked::new(args, input.geometry);
+        let asked = Asked::new(args, input, outcome);
         outputs.add_report(path, &report(input, outcome, asked, seconds))?;
     }
     control.check()?;
     Ok(outputs.commit()?.iter().map(|p| path_text(p)).collect())
 }
 
-/// What was asked, defaults included.
+/// What was asked, defaults put in: a run with these options is this run.
 #[derive(Serialize)]
 pub struct Asked {
-    pub space: SpaceChoice,
-    pub scheme: SchemeChoice,
-    /// `default`, or the rule.
-    pub target: String,
-    pub method: MethodChoice,
-    pub flips: FlipsChoice,
-    pub tolerance: f64,
-    pub input_geometry: &'static str,
-    pub threads: u16,
-    pub metric: Option<String>,
-    pub uv: Option<String>,
-    pub circles: Option<String>,
-    pub picture: Option<String>,
-    pub trace: Option<String>,
+    space: &'static str,
+    scheme: SchemeChoice,
+    target: String,
+    method: MethodChoice,
+    area_normalised: bool,
+    pin: Vec<u32>,
+    flips: FlipsChoice,
+    tolerance: f64,
+    input_geometry: &'static str,
+    threads: usize,
+    metric: Option<String>,
+    uv: Option<String>,
+    circles: Option<String>,
+    picture: Option<String>,
+    trace: Option<String>,
 }
 
 impl Asked {
-    fn new(args: &FlowArgs, geometry: Space) -> Self {
+    fn new(args: &FlowArgs, input: &Input, outcome: &Outcome) -> Self {
         let text = |path: &Option<PathBuf>| path.as_deref().map(path_text);
         Asked {
-            space: args.space,
+            space: outcome.metric.space.name(),
             scheme: args.scheme,
-            target: args.target.as_ref().map_or("default".into(), ToString::to_string),
+            target: args.target.as_ref().map_or_else(|| rule_text(&outcome.rule), ToString::to_string),
             method: args.method,
-            flips: args.flips,
+            area_normalised: args.area_normalised,
+            pin: outcome.pinned.iter().map(|v| v.0).collect(),
+            // Until there are flips, auto is never.
+            flips: FlipsChoice::Never,
             tolerance: args.tolerance,
-            input_geometry: geometry.name(),
-            threads: args.threads,
+            input_geometry: input.geometry.name(),
+            threads: args.common.threads(),
             metric: text(&args.metric),
             uv: text(&args.uv),
             circles: text(&args.circles),
             picture: text(&args.picture),
             trace: text(&args.trace),
         }
+    }
+}
+
+/// A default target: its rule, with the cones that were chosen.
+fn rule_text(rule: &Target) -> String {
+    match rule {
+        Target::Cones(cones) if !cones.is_empty() => {
+            let named = cones.iter().map(|(v, k)| format!("{v},{k}"));
+            format!("cones:{}", named.collect::<Vec<_>>().join(";"))
+        }
+        rule => rule.name().into(),
     }
 }
 
@@ -330,7 +357,7 @@ impl FlowResult {
         FlowResult {
             space: outcome.metric.space.name(),
             scheme: outcome.scheme.name(),
-            target: outcome.target_name,
+            target: outcome.rule.name(),
             converged: report.converged,
             stop_reason: report.stop_reason.name(),
             iterations: report.iterations,

@@ -57,12 +57,15 @@ impl From<&Defect> for DefectFigures {
 }
 
 #[derive(Serialize)]
-struct Asked {}
+struct Asked {
+    picture: Option<String>,
+    threads: usize,
+}
 
 /// Run the command: 0 on every file that can be read, whatever its defects.
 pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
-    for path in [&args.report, &args.picture].into_iter().flatten() {
+    for path in [&args.common.report, &args.picture].into_iter().flatten() {
         check_writable(path)?;
     }
     if let Some(path) = &args.picture {
@@ -93,16 +96,22 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
             (diagnose(&soup.positions, &soup.faces), quality)
         });
         if let Some(path) = &args.picture {
-            let draw = || outputs.add(path, |out| show::draw_surface(out, &soup.positions, &soup.faces));
+            let draw = || {
+                outputs.add(path, |out| {
+                    show::draw_surface(out, &soup.positions, &soup.faces, args.common.threads())
+                })
+            };
             timed(&mut seconds.write, draw)?;
         }
         (summary_of(&diagnosis, path_text(&args.mesh)), Info::new(&diagnosis, quality))
     };
-    if !args.quiet {
+    if !args.common.quiet {
         say::lines(&text(&summary, &info));
     }
-    if let Some(path) = &args.report {
-        let mut report = Report::new("info", summary, Asked {}, info);
+    if let Some(path) = &args.common.report {
+        let picture = args.picture.as_deref().map(path_text);
+        let asked = Asked { picture, threads: args.common.threads() };
+        let mut report = Report::new("info", summary, asked, info);
         seconds.total = start.elapsed().as_secs_f64();
         report.seconds = seconds;
         report.peak_bytes = peak_bytes();

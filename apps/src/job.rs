@@ -7,8 +7,8 @@ use crate::report::{Checks, Seconds, timed};
 use ricci::Control;
 use ricci::flow::{self, Solver};
 use ricci::geometry::Space;
-use ricci::mesh::{Mesh, PerEdge, PerVertex};
-use ricci::metric::target::check_admissible;
+use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use ricci::metric::target::{check_total, check_vertices};
 use ricci::metric::{Curvature, Initial, Metric, Scheme, Target, curvature, initial_metric};
 
 /// What to compute.
@@ -18,13 +18,19 @@ pub struct Job {
     /// `None`: the default of the surface's topology.
     pub target: Option<Target>,
     pub options: flow::Options,
+    /// Vertices whose conformal factor is held at 0; their curvature is free.
+    pub pinned: Vec<VertexId>,
 }
 
 /// The metric that a flow reached, with its layout where it has one.
 pub struct Outcome {
     pub scheme: Scheme,
-    pub target_name: &'static str,
+    /// The rule that gave the target.
+    pub rule: Target,
+    /// The curvature asked for; at pinned vertices what came out.
     pub target: PerVertex<f64>,
+    /// Vertices whose conformal factor was held.
+    pub pinned: Vec<VertexId>,
     pub initial: Initial,
     pub mesh: Mesh,
     pub metric: Metric,
@@ -43,24 +49,18 @@ pub fn default_space(mesh: &Mesh) -> Space {
 
 pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failure> {
     let space = job.space;
-    let by_default = job.target.is_none();
-    let rule = job.target.unwrap_or_else(|| Target::default_for(&input.mesh, &input.lengths, space));
-    let target = rule.values(&input.mesh, &input.lengths, space)?;
-    match check_admissible(&input.mesh, space, job.scheme, &target) {
-        // A default that is too low for the scheme on this triangulation is no fault of the input: the flow says why it
-        // cannot be reached.
-        Err(ricci::Error::TargetBelow { .. }) if by_default => {}
-        admissible => admissible?,
-    }
+    let (rule, mut target) = target(&input.mesh, &input.lengths, &job)?;
     let initial = initial_metric(&input.mesh, &input.lengths, input.geometry, job.scheme, space)?;
 
     let mut solver = Solver::new(input.mesh.clone(), initial.metric.clone(), job.options)?;
+    solver.pin(&job.pinned)?;
     let report = solver.solve(&target, control)?;
     let (mesh, metric) = (solver.mesh().clone(), solver.metric().clone());
     drop(solver);
 
     let lengths = metric.lengths(&mesh)?;
     let curvature = curvature(&mesh, space, &lengths)?;
+    job.pinned.iter().for_each(|&v| target[v] = curvature.at[v]);
     let mut seconds = Seconds {
         read: input.seconds_read,
         build: input.seconds_build,
@@ -76,8 +76,9 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     })?;
     Ok(Outcome {
         scheme: job.scheme,
-        target_name: rule.name(),
+        rule,
         target,
+        pinned: job.pinned,
         initial,
         mesh,
         metric,
@@ -87,6 +88,28 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
         layout,
         seconds,
     })
+}
+
+/// The target by rule and by value, admissible.
+fn target(mesh: &Mesh, lengths: &PerEdge<f64>, job: &Job) -> Result<(Target, PerVertex<f64>), Failure> {
+    let free = !job.pinned.is_empty();
+    let rule = match &job.target {
+        Some(rule) => rule.clone(),
+        None if free => Target::Cones(Vec::new()),
+        None => Target::default_for(mesh, lengths, job.space),
+    };
+    let mut target = rule.values(mesh, lengths, job.space)?;
+    job.pinned.iter().filter(|v| v.index() < mesh.n_vertices()).for_each(|&v| target[v] = 0.0);
+    match check_vertices(mesh, job.scheme, &target) {
+        // A default that is too low for the scheme on this triangulation is no fault of the input: the flow says why it
+        // cannot be reached.
+        Err(ricci::Error::TargetBelow { .. }) if job.target.is_none() => {}
+        possible => possible?,
+    }
+    if !free {
+        check_total(mesh, job.space, &target)?;
+    }
+    Ok((rule, target))
 }
 
 /// Gauss–Bonnet must hold to this. Each of the 3F angles is off by a few ulp, which add up like a random walk: 1e-12 for a

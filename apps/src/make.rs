@@ -1,17 +1,22 @@
 //! `ricci make`: sample surfaces of every topology.
 
+use crate::cli::Common;
 use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
 use crate::output::{Outputs, check_extension, check_writable, extension};
+use crate::report::{InputSummary, Report, peak_bytes};
 use crate::say::{self, count};
+use crate::shape_quality;
 use crate::show;
 use clap::{Args, Subcommand};
 use ricci::geometry::Space;
-use ricci::mesh::Mesh;
 use ricci::mesh::io::{self, ObjData, Soup};
 use ricci::mesh::shapes::{self, Intrinsic};
+use ricci::mesh::{Mesh, PerEdge};
 use ricci::metric::lengths_from_positions;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 pub const HELP: &str = "\
 Example: a torus, and a hyperbolic surface given by its edge lengths alone
@@ -31,7 +36,8 @@ pub struct MakeArgs {
     pub shape: Shape,
 }
 
-#[derive(Subcommand, Debug)]
+#[derive(Subcommand, Serialize, Debug)]
+#[serde(rename_all = "kebab-case")]
 pub enum Shape {
     /// The unit sphere: an icosahedron with each edge cut into N
     #[command(alias = "icosphere")]
@@ -154,7 +160,7 @@ pub enum Shape {
 }
 
 /// Where a surface in space goes.
-#[derive(Args, Debug)]
+#[derive(Args, Serialize, Debug)]
 pub struct ToMesh {
     /// Mesh (.obj), or its edge lengths (.json)
     #[arg(short = 'o', long = "out", value_name = "OUT")]
@@ -168,46 +174,47 @@ pub struct ToMesh {
     /// Write a picture of the surface
     #[arg(long, value_name = "P.png")]
     pub picture: Option<PathBuf>,
-    /// No summary
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    #[serde(skip)]
+    pub common: Common,
 }
 
 /// Where a surface that is given by its edge lengths goes.
-#[derive(Args, Debug)]
+#[derive(Args, Serialize, Debug)]
 pub struct ToMetric {
     /// Edge lengths (.json)
     #[arg(short = 'o', long = "out", value_name = "M.json")]
     pub out: PathBuf,
-    /// No summary
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    #[serde(skip)]
+    pub common: Common,
 }
 
 /// Run the command.
 pub fn run(args: &MakeArgs) -> Result<u8, Failure> {
+    let start = Instant::now();
+    let mesh = |soup, to| write_mesh(soup, to, &args.shape, start);
+    let metric = |surface, to| write_metric(surface, to, &args.shape, start);
     match &args.shape {
-        Shape::Sphere { n, to } => write_mesh(shapes::icosphere(*n), to),
-        Shape::Ellipsoid { axes, n, to } => {
-            write_mesh(shapes::ellipsoid([axes[0], axes[1], axes[2]], *n), to)
-        }
+        Shape::Sphere { n, to } => mesh(shapes::icosphere(*n), to),
+        Shape::Ellipsoid { axes, n, to } => mesh(shapes::ellipsoid([axes[0], axes[1], axes[2]], *n), to),
         Shape::Torus { big, small, n, m, to } => {
             let m = m.unwrap_or_else(|| around(*n, small / big));
-            write_mesh(shapes::torus(*big, *small, *n, m), to)
+            mesh(shapes::torus(*big, *small, *n, m), to)
         }
-        Shape::Disk { n, height, to } => write_mesh(shapes::disk(*n).map(|s| raise(s, *height)), to),
+        Shape::Disk { n, height, to } => mesh(shapes::disk(*n).map(|s| raise(s, *height)), to),
         Shape::Annulus { inner, outer, n, m, height, to } => {
             // Steps in geometric progression: log(outer/inner)/n each, and 2π/m around in rows of height √3/2.
             let step = (outer / inner).ln() / *n as f64;
             let m = m.unwrap_or_else(|| around(1, std::f64::consts::TAU * 0.75f64.sqrt() / step));
-            write_mesh(shapes::annulus(*inner, *outer, *n, m).map(|s| raise(s, *height)), to)
+            mesh(shapes::annulus(*inner, *outer, *n, m).map(|s| raise(s, *height)), to)
         }
-        Shape::Genus { genus, n, to } => write_mesh(shapes::genus(*genus, *n), to),
-        Shape::FlatTorus { tau, n, m, to } => write_metric(shapes::flat_torus([tau[0], tau[1]], *n, *m), to),
-        Shape::Bolza { level, to } => write_metric(shapes::bolza(*level), to),
-        Shape::OneVertex { genus, to } => write_metric(shapes::one_vertex(*genus), to),
-        Shape::TwoVertex { genus, to } => write_metric(shapes::two_vertex(*genus), to),
-        Shape::TwoTriangles { to } => write_metric(Ok(shapes::two_triangle_sphere()), to),
+        Shape::Genus { genus, n, to } => mesh(shapes::genus(*genus, *n), to),
+        Shape::FlatTorus { tau, n, m, to } => metric(shapes::flat_torus([tau[0], tau[1]], *n, *m), to),
+        Shape::Bolza { level, to } => metric(shapes::bolza(*level), to),
+        Shape::OneVertex { genus, to } => metric(shapes::one_vertex(*genus), to),
+        Shape::TwoVertex { genus, to } => metric(shapes::two_vertex(*genus), to),
+        Shape::TwoTriangles { to } => metric(Ok(shapes::two_triangle_sphere()), to),
     }
 }
 
@@ -225,9 +232,10 @@ fn raise(mut soup: Soup, height: f64) -> Soup {
     soup
 }
 
-fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh) -> Result<u8, Failure> {
+fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Instant) -> Result<u8, Failure> {
     check_extension("-o", &to.out, &["obj", "json"])?;
     check_writable(&to.out)?;
+    to.common.report.as_deref().map_or(Ok(()), check_writable)?;
     if let Some(path) = &to.picture {
         check_extension("--picture", path, &["png"])?;
         check_writable(path)?;
@@ -238,22 +246,27 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh) -> Result<u8, Failure> {
     }
     let mesh = Mesh::from_soup(&soup)?;
     let Soup { positions, faces } = &soup;
+    let lengths = lengths_from_positions(&mesh, positions)?;
     let mut outputs = Outputs::default();
     if extension(&to.out) == "json" {
-        let lengths = lengths_from_positions(&mesh, positions)?;
         outputs.add_json(&to.out, &LengthsFile::new(&mesh, Space::E2, &lengths))?;
     } else {
         let data = ObjData { positions, faces, ..ObjData::default() };
         outputs.add_named(&to.out, |path| io::write_obj(path, &data))?;
     }
     if let Some(path) = &to.picture {
-        outputs.add(path, |out| show::draw_surface(out, positions, faces))?;
+        outputs.add(path, |out| show::draw_surface(out, positions, faces, to.common.threads()))?;
     }
-    outputs.commit()?;
-    say_made(&to.out, &mesh, to.quiet)
+    let made = Made { out: &to.out, mesh: &mesh, geometry: Space::E2, lengths: &lengths };
+    made.finish(outputs, shape, &to.common, start)
 }
 
-fn write_metric(surface: ricci::Result<Intrinsic>, to: &ToMetric) -> Result<u8, Failure> {
+fn write_metric(
+    surface: ricci::Result<Intrinsic>,
+    to: &ToMetric,
+    shape: &Shape,
+    start: Instant,
+) -> Result<u8, Failure> {
     if extension(&to.out) != "json" {
         let out = to.out.display();
         return Err(Failure::Usage(format!(
@@ -261,26 +274,54 @@ fn write_metric(surface: ricci::Result<Intrinsic>, to: &ToMetric) -> Result<u8, 
         )));
     }
     check_writable(&to.out)?;
+    to.common.report.as_deref().map_or(Ok(()), check_writable)?;
     let surface = surface?;
     let (mesh, lengths) = surface.build()?;
     let mut outputs = Outputs::default();
     outputs.add_json(&to.out, &LengthsFile::new(&mesh, surface.geometry, &lengths))?;
-    outputs.commit()?;
-    say_made(&to.out, &mesh, to.quiet)
+    let made = Made { out: &to.out, mesh: &mesh, geometry: surface.geometry, lengths: &lengths };
+    made.finish(outputs, shape, &to.common, start)
 }
 
-fn say_made(path: &Path, mesh: &Mesh, quiet: bool) -> Result<u8, Failure> {
-    if !quiet {
-        say::lines(&format!(
-            "{}: {}, {}, genus {}, {}\n",
-            path.display(),
-            count(mesh.n_vertices(), "vertex", "vertices"),
-            count(mesh.n_faces(), "face", "faces"),
-            mesh.genus(),
-            count(mesh.boundary_loops().len(), "boundary loop", "boundary loops"),
-        ));
+/// The surface that was made.
+struct Made<'a> {
+    out: &'a Path,
+    mesh: &'a Mesh,
+    geometry: Space,
+    lengths: &'a PerEdge<f64>,
+}
+
+impl Made<'_> {
+    /// Write the report, put the files in place, say what was made.
+    fn finish(
+        self,
+        mut outputs: Outputs,
+        shape: &Shape,
+        common: &Common,
+        start: Instant,
+    ) -> Result<u8, Failure> {
+        let Made { out, mesh, geometry, lengths } = self;
+        if let Some(path) = &common.report {
+            let summary = InputSummary::of_mesh(out, mesh);
+            let mut report =
+                Report::new("make", summary, shape, shape_quality::of_surface(mesh, geometry, lengths));
+            report.seconds.total = start.elapsed().as_secs_f64();
+            report.peak_bytes = peak_bytes();
+            outputs.add_report(path, &report)?;
+        }
+        outputs.commit()?;
+        if !common.quiet {
+            say::lines(&format!(
+                "{}: {}, {}, genus {}, {}\n",
+                out.display(),
+                count(mesh.n_vertices(), "vertex", "vertices"),
+                count(mesh.n_faces(), "face", "faces"),
+                mesh.genus(),
+                count(mesh.boundary_loops().len(), "boundary loop", "boundary loops"),
+            ));
+        }
+        Ok(0)
     }
-    Ok(0)
 }
 
 fn finite(text: &str) -> Result<f64, String> {

@@ -1,6 +1,7 @@
 //! The report: one JSON object with all numbers of a run.
 
 use crate::input::Input;
+use ricci::mesh::Mesh;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,7 +13,8 @@ pub struct Report<O, R> {
     pub ricci: &'static str,
     pub version: &'static str,
     pub command: &'static str,
-    pub input: InputSummary,
+    /// None where a command makes its own (`demo`).
+    pub input: Option<InputSummary>,
     pub options: O,
     pub result: R,
     pub checks: Checks,
@@ -21,12 +23,12 @@ pub struct Report<O, R> {
 }
 
 impl<O, R> Report<O, R> {
-    pub fn new(command: &'static str, input: InputSummary, options: O, result: R) -> Self {
+    pub fn new(command: &'static str, input: impl Into<Option<InputSummary>>, options: O, result: R) -> Self {
         Report {
             ricci: env!("CARGO_PKG_VERSION"),
             version: env!("CARGO_PKG_VERSION"),
             command,
-            input,
+            input: input.into(),
             options,
             result,
             checks: Checks::default(),
@@ -51,9 +53,12 @@ pub struct InputSummary {
 
 impl InputSummary {
     pub fn of(input: &Input) -> Self {
-        let mesh = &input.mesh;
+        InputSummary::of_mesh(&input.path, &input.mesh)
+    }
+
+    pub fn of_mesh(path: &Path, mesh: &Mesh) -> Self {
         InputSummary {
-            path: path_text(&input.path),
+            path: path_text(path),
             vertices: mesh.n_vertices(),
             edges: mesh.n_edges(),
             faces: mesh.n_faces(),

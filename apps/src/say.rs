@@ -36,7 +36,7 @@ pub fn flow(done: &Done) {
         "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}\n",
         outcome.metric.space,
         outcome.scheme,
-        outcome.target_name,
+        outcome.rule.name(),
         report.stop_reason,
         count(report.iterations, "step", "steps"),
         report.max_curvature_error,

@@ -49,7 +49,12 @@ pub fn is_svg(path: &Path) -> bool {
 }
 
 /// Write a PNG of a surface without a layout; faces that name no or a non-finite vertex are left out.
-pub fn draw_surface(out: &mut impl Write, positions: &[Point], faces: &[[u32; 3]]) -> io::Result<()> {
+pub fn draw_surface(
+    out: &mut impl Write,
+    positions: &[Point],
+    faces: &[[u32; 3]],
+    threads: usize,
+) -> io::Result<()> {
     let finite = |v: &u32| positions.get(*v as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
     let faces: Vec<[u32; 3]> = faces.iter().filter(|f| f.iter().all(finite)).copied().collect();
     // Points in no face would widen the view.
@@ -63,7 +68,8 @@ pub fn draw_surface(out: &mut impl Write, positions: &[Point], faces: &[[u32; 3]
     };
     let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut keep)).collect();
     let surface = Surface { positions: &seen, faces: &faces, corner_uv: None, seams: &[], cones: &[] };
-    let bytes = picture::png(&Picture { surface: Some(surface), flat: None }, 0).map_err(io::Error::other)?;
+    let bytes =
+        picture::png(&Picture { surface: Some(surface), flat: None }, threads).map_err(io::Error::other)?;
     out.write_all(&bytes)
 }
 

@@ -110,14 +110,20 @@ impl Target {
     }
 }
 
-/// Necessary conditions on a target; for vertex scaling and inversive distance with flips they are sufficient.
+/// Necessary conditions on a target: [`check_vertices`] and [`check_total`]; for vertex scaling and inversive distance with
+/// flips they are sufficient.
+pub fn check_admissible(mesh: &Mesh, space: Space, scheme: Scheme, target: &PerVertex<f64>) -> Result<()> {
+    check_vertices(mesh, scheme, target)?;
+    check_total(mesh, space, target)
+}
+
+/// What each vertex can have:
 ///
 /// - `K̄ < 2π` inside, `K̄ < π` on the boundary;
-/// - E²: `Σ K̄ = 2πχ`; H²: `Σ K̄ > 2πχ`; S²: `Σ K̄ < 2πχ`;
 /// - Thurston's and tangential packings, which never flip: each of the d angles at a vertex is below π, so
-///   `K̄ > (2 − d)π` inside, `(1 − d)π` on the boundary. (Thurston's conditions on larger vertex sets are not
-///   checked: they show as broken or vanishing triangles.)
-pub fn check_admissible(mesh: &Mesh, space: Space, scheme: Scheme, target: &PerVertex<f64>) -> Result<()> {
+///   `K̄ > (2 − d)π` inside, `(1 − d)π` on the boundary. (Conditions on larger vertex sets are found by the flow that runs
+///   into them: [`crate::flow::Obstruction`].)
+pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> Result<()> {
     check_size("target", target.len(), mesh.n_vertices())?;
     for v in mesh.vertices() {
         let limit = if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI };
@@ -137,6 +143,11 @@ pub fn check_admissible(mesh: &Mesh, space: Space, scheme: Scheme, target: &PerV
             return Err(Error::TargetBelow { vertex: v.index(), curvature, limit: least, excess });
         }
     }
+    Ok(())
+}
+
+/// Gauss–Bonnet: `Σ K̄ = 2πχ` in E², `> 2πχ` in H², `< 2πχ` in S² (to [`TOTAL_TOLERANCE`]).
+pub fn check_total(mesh: &Mesh, space: Space, target: &PerVertex<f64>) -> Result<()> {
     let sum: f64 = target.iter().sum();
     let scale = 2.0 * PI + target.iter().map(|k| k.abs()).sum::<f64>();
     let miss = sum - 2.0 * PI * mesh.euler() as f64;

@@ -55,10 +55,18 @@ fn the_report_has_the_fields_of_the_contract() {
     ] {
         assert_eq!(report["input"][key], value, "{key}");
     }
-    for (key, value) in [("space", "auto"), ("scheme", "yamabe"), ("method", "newton"), ("flips", "auto")] {
+    for (key, value) in [
+        ("space", "e2"),
+        ("scheme", "yamabe"),
+        ("target", "uniform"),
+        ("method", "newton"),
+        ("flips", "never"),
+        ("input_geometry", "e2"),
+    ] {
         assert_eq!(report["options"][key], value);
     }
     assert_eq!(report["options"]["tolerance"], 1e-10);
+    assert_eq!(report["options"]["threads"], 1);
     let result = &report["result"];
     for (key, value) in [("space", "e2"), ("scheme", "yamabe"), ("stop_reason", "converged")] {
         assert_eq!(result[key], value);
@@ -325,4 +333,64 @@ fn gltf_holds_the_surface_its_layout_and_a_texture() {
         view(2).chunks(4).map(|b| u32::from_le_bytes(b.try_into().unwrap()) as usize).collect();
     assert!(indices.iter().eq(uv.corners.iter().flatten()));
     assert!(view(3).starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn pinned_vertices_keep_their_scale_and_the_rest_become_flat() {
+    let place = Place::new();
+    place.put("disk.obj", &hill(8).obj());
+    place.expect(0, "flow disk.obj --pin boundary --metric m.json --report r.json");
+    let (metric, report) = (place.json("m.json"), place.json("r.json"));
+    let (factor, target) = (numbers(&metric["conformal_factor"]), numbers(&metric["target"]));
+    let boundary = metric["boundary"].as_array().unwrap();
+    for (v, on_boundary) in boundary.iter().enumerate() {
+        if on_boundary == true {
+            assert!(factor[v] == 0.0);
+        } else {
+            assert!(target[v] == 0.0 && factor[v] != 0.0);
+        }
+    }
+    assert_eq!(report["options"]["pin"].as_array().unwrap().len(), 32);
+    assert!(curvature_error(&metric) < RECOMPUTED);
+    // Curvature left the inside for the boundary, all of it.
+    assert!((target.iter().sum::<f64>() - 2.0 * PI).abs() < 1e-10);
+}
+
+#[test]
+fn the_area_normalised_gradient_flow_keeps_the_area() {
+    let place = Place::new();
+    place.put("torus.obj", &torus(12, 8).obj());
+    for (option, kept) in [("--area-normalised", true), ("", false)] {
+        place.expect(0, &format!("flow torus.obj --method gradient {option} --trace t.csv --report r.json"));
+        let text = place.text("t.csv");
+        let area = |line: &str| line.split(',').nth(3).unwrap().parse::<f64>().unwrap();
+        let mut lines = text.lines().skip(1);
+        let (first, last) = (area(lines.next().unwrap()), area(lines.last().unwrap()));
+        assert_eq!((last / first - 1.0).abs() < 1e-12, kept, "{first} {last}");
+        assert_eq!(place.json("r.json")["options"]["area_normalised"], kept);
+    }
+}
+
+#[test]
+fn a_default_target_out_of_reach_is_exit_1_with_the_vertices_that_prove_it() {
+    // A square with two holes: the boundary has −2π in all, some at a corner in a single triangle.
+    let place = Place::new();
+    let mut square = hill(7);
+    let hole = |v: &[usize; 3], i: usize, j: usize| {
+        v.iter().all(|v| (i..=i + 1).contains(&(v / 8)) && (j..=j + 1).contains(&(v % 8)))
+    };
+    square.faces.retain(|f| !hole(f, 2, 2) && !hole(f, 4, 4));
+    place.put("holes.obj", &square.obj());
+    let ended = place.expect(1, "flow holes.obj --scheme tangential --report r.json --metric m.json");
+    let result = &place.json("r.json")["result"];
+    assert_eq!((&result["converged"], &result["stop_reason"]), (&false.into(), &"infeasible".into()));
+    let proof = &result["obstruction"];
+    assert!(proof["target"].as_f64().unwrap() <= proof["above"].as_f64().unwrap());
+    let corner = numbers(&proof["vertices"])[0];
+    assert!(corner == 7.0 || corner == 56.0, "{proof}");
+    assert!(ended.out.contains("every metric of the scheme"), "{}", ended.out);
+    assert!(!result["worst_vertices"].as_array().unwrap().is_empty());
+    // The same target by name is an input error: it says by how much and where.
+    let ended = place.expect(3, "flow holes.obj --scheme tangential --target boundary");
+    assert!(ended.err.contains("too small by"), "{}", ended.err);
 }

@@ -20,10 +20,17 @@ fn shapes_have_their_topology() {
         ("two-vertex -g 3", "m.json", 3, 0),
         ("two-triangles", "m.json", 0, 0),
     ] {
-        place.expect(0, &format!("make {line} -o {file} --quiet"));
+        place.expect(0, &format!("make {line} -o {file} --quiet --threads 1 --report made.json"));
         place.expect(0, &format!("info {file} --report r.json"));
         let report = place.json("r.json");
         assert_eq!(report["input"]["genus"], genus, "{line}");
+        let made = place.json("made.json");
+        assert_eq!((&made["command"], &made["input"]["genus"]), (&"make".into(), &genus.into()), "{line}");
+        let area = |report: &serde_json::Value| {
+            let quality = &report["result"];
+            quality.get("quality").unwrap_or(quality)["area"].as_f64().unwrap()
+        };
+        assert!((area(&made) / area(&report) - 1.0).abs() < 1e-12, "{line}");
         assert_eq!(report["input"]["boundary_loops"], loops, "{line}");
         assert_eq!(report["result"]["admissible"], true, "{line}");
     }
@@ -85,7 +92,13 @@ fn what_cannot_be_made_is_exit_2() {
 #[test]
 fn the_demo_makes_three_surfaces_and_flattens_them() {
     let place = Place::new();
-    let ended = place.expect(0, "demo out");
+    let ended = place.expect(0, "demo out --report r.json");
+    let report = place.json("r.json");
+    assert_eq!((&report["command"], &report["input"]), (&"demo".into(), &serde_json::Value::Null));
+    for (run, name) in report["result"]["runs"].as_array().unwrap().iter().zip(["torus", "genus2", "disk"]) {
+        assert_eq!((&run["name"], &run["result"]["converged"]), (&name.into(), &true.into()));
+        assert_eq!(report["checks"][name]["holds"], true);
+    }
     for (name, genus) in [("torus", 1), ("genus2", 2), ("disk", 0)] {
         assert!(ended.out.contains(name));
         for suffix in [".obj", ".png", "_uv.obj", "_metric.json", "_report.json"] {
