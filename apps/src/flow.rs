@@ -82,6 +82,7 @@ fn options(args: &FlowArgs) -> Options {
             FlipsChoice::Auto => Flips::Auto,
             FlipsChoice::Never => Flips::Never,
         },
+        max_iterations: args.max_iterations.map_or(0, |n| n as usize),
         threads: args.common.threads(),
         gradient: Gradient { area_normalised: args.area_normalised, ..Gradient::default() },
         ..Options::default()
@@ -224,6 +225,7 @@ pub struct Asked {
     pin: Vec<u32>,
     flips: FlipsChoice,
     tolerance: f64,
+    max_iterations: usize,
     input_geometry: &'static str,
     threads: usize,
     metric: Option<String>,
@@ -246,6 +248,7 @@ impl Asked {
             // Until there are flips, auto is never.
             flips: FlipsChoice::Never,
             tolerance: args.tolerance,
+            max_iterations: options(args).iteration_limit(),
             input_geometry: input.geometry.name(),
             threads: args.common.threads(),
             metric: text(&args.metric),

@@ -57,15 +57,21 @@ impl Run<'_> {
                 h *= 0.5;
             }
             let Some(now) = accepted else { break StopReason::Stalled };
-            let (mut ss, mut sy) = (0.0, 0.0);
+            let (mut ss, mut sy, mut yy) = (0.0, 0.0, 0.0);
             for v in 0..n {
                 let s = trial.u[v.into()] - state.u[v.into()];
                 energy -= 0.5 * s * (direction[v] + next_direction[v]);
                 ss += s * s;
-                sy += s * (direction[v] - next_direction[v]);
+                let y = direction[v] - next_direction[v];
+                sy += s * y;
+                yy += y * y;
             }
-            // No curvature along the step (a straight energy): keep the step; otherwise Barzilai–Borwein's.
-            step = if sy > 0.0 && ss > 0.0 { ss / sy } else { h };
+            // Barzilai–Borwein's long and short step in turn; no curvature along the step (a straight energy): keep it.
+            step = match report.iterations % 2 {
+                _ if sy <= 0.0 || ss <= 0.0 => h,
+                0 => ss / sy,
+                _ => sy / yy,
+            };
             std::mem::swap(&mut state, &mut trial);
             std::mem::swap(&mut direction, &mut next_direction);
             error = now;

@@ -25,7 +25,7 @@ pub enum Flips {
 /// Step size of the gradient flow.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum StepRule {
-    /// Barzilai–Borwein steps \[BB88\]: far fewer steps; visits other metrics on the way than the continuous flow.
+    /// Barzilai–Borwein's two steps in turn \[BB88\]: far fewer steps; visits other metrics on the way than the continuous flow.
     #[default]
     BarzilaiBorwein,
     /// The largest step for which the explicit scheme is stable by Gershgorin's bound on ∂K/∂u.
@@ -93,7 +93,8 @@ impl Options {
         }
     }
 
-    pub(super) fn iteration_limit(&self) -> usize {
+    /// The limit that `max_iterations` stands for.
+    pub fn iteration_limit(&self) -> usize {
         match (self.max_iterations, self.method) {
             (0, Method::Newton) => 200,
             (0, Method::Gradient) => 200_000,
