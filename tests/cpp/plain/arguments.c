@@ -195,7 +195,7 @@ static void inadmissible_targets_say_where_and_by_how_much(const torus *t) {
     target[5] = 7;
     FAILS(ricci_target_check(metric, target, t->n_vertices), RICCI_TARGET_AT_VERTEX, "vertex 5");
     target[5] = 0.25;
-    FAILS(ricci_target_check(metric, target, t->n_vertices), RICCI_TARGET_TOTAL, "2.5e-1");
+    FAILS(ricci_target_check(metric, target, t->n_vertices), RICCI_TARGET_TOTAL, "2.5000e-1");
     FAILS(ricci_target_boundary(metric, target, t->n_vertices), RICCI_TARGET_KIND, "boundary");
     FAILS(ricci_target_single(metric, 100000, target, t->n_vertices), RICCI_ARGUMENT, "100000");
     FAILS(ricci_target_cones(metric, beyond, cones, 2, target, t->n_vertices), RICCI_ARGUMENT, "100000");

@@ -1,0 +1,143 @@
+//! Golden vectors (`tests/vectors/make.py`, 60 digits and plain cosine laws): what double precision leaves of them.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod common;
+
+use common::flow::{converged, solve};
+use ricci::flow::{Options, curvature_derivative};
+use ricci::geometry::{Space, triangle};
+use ricci::mesh::{Mesh, PerEdge, PerVertex};
+use ricci::metric::{Metric, Scheme, curvature, initial_metric};
+use std::collections::HashMap;
+
+/// A double as C's `%a` writes it.
+fn hex(text: &str) -> f64 {
+    let (sign, digits) = text.strip_prefix('-').map_or((1.0, text), |digits| (-1.0, digits));
+    let (mantissa, exponent) = digits.strip_prefix("0x").unwrap().split_once('p').unwrap();
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let bits = u64::from_str_radix(&format!("{whole}{fraction}"), 16).unwrap();
+    // Exact: at most 53 bits, and powers of two.
+    let exponent = exponent.parse::<i32>().unwrap() - 4 * fraction.len() as i32;
+    let half = exponent / 2;
+    sign * bits as f64 * 2f64.powi(half) * 2f64.powi(exponent - half)
+}
+
+fn space(name: &str) -> Space {
+    [Space::E2, Space::H2, Space::S2].into_iter().find(|s| s.name() == name).unwrap()
+}
+
+#[test]
+fn angles_and_areas_are_right_to_a_few_ulp_however_thin_the_triangle() {
+    let (mut worst_angle, mut worst_area, mut lines) = (0.0f64, 0.0f64, 0);
+    for line in include_str!("vectors/triangles.txt").lines() {
+        let (name, numbers) = line.split_once(' ').unwrap();
+        let x: Vec<f64> = numbers.split(' ').map(hex).collect();
+        let (space, lengths) = (space(name), [x[0], x[1], x[2]]);
+        let ours = triangle::angles(space, lengths);
+        assert!(!ours.broken, "{line}");
+        let relative = |ours: f64, exact: f64| (ours - exact).abs() / exact;
+        for k in 0..3 {
+            let error = relative(ours.at[k], x[3 + k]);
+            assert!(error <= ANGLE, "{space} {lengths:?}: angle {k} is off by {error:e}");
+            worst_angle = worst_angle.max(error);
+        }
+        let error = relative(triangle::area(space, lengths), x[6]);
+        assert!(error <= AREA, "{space} {lengths:?}: area is off by {error:e}");
+        worst_area = worst_area.max(error);
+        lines += 1;
+    }
+    assert!(lines > 60);
+    println!("{lines} triangles: angles within {worst_angle:.1e}, areas within {worst_area:.1e} (relative)");
+}
+
+/// Relative; the lengths are exact.
+const ANGLE: f64 = 8.0 * f64::EPSILON;
+const AREA: f64 = 8.0 * f64::EPSILON;
+
+/// One block of `surfaces.txt`.
+struct Golden {
+    name: String,
+    geometry: Space,
+    space: Space,
+    scheme: Scheme,
+    mesh: Mesh,
+    numbers: HashMap<String, Vec<f64>>,
+}
+
+impl Golden {
+    fn parse(block: &str) -> Golden {
+        let lines: HashMap<&str, Vec<&str>> = block
+            .lines()
+            .map(|line| {
+                line.split_once(' ').map_or((line, vec![]), |(key, rest)| (key, rest.split(' ').collect()))
+            })
+            .collect();
+        let count: Vec<usize> = lines["counts"].iter().map(|x| x.parse().unwrap()).collect();
+        let integers = |key: &str| -> Vec<[i32; 3]> {
+            let flat: Vec<i32> = lines[key].iter().map(|x| x.parse().unwrap()).collect();
+            flat.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect()
+        };
+        let faces: Vec<[u32; 3]> = integers("faces").into_iter().map(|f| f.map(|v| v as u32)).collect();
+        let mesh = Mesh::from_gluing(count[0], &faces, &integers("face_edges")).unwrap();
+        assert_eq!([mesh.n_edges(), mesh.n_faces()], [count[1], count[2]]);
+        let given = ["lengths", "eta", "curvature", "derivative", "target", "u", "solution"];
+        let numbers = given
+            .into_iter()
+            .filter_map(|key| Some((key.to_string(), lines.get(key)?.iter().map(|x| hex(x)).collect())));
+        let head = &lines["surface"];
+        Golden {
+            name: head.join(" "),
+            geometry: space(head[1]),
+            space: space(head[2]),
+            scheme: head[3].parse().unwrap(),
+            mesh,
+            numbers: numbers.collect(),
+        }
+    }
+
+    /// Compare with what was computed, relative to the largest entry, or to 1 where all are smaller (angles in a vertex add
+    /// up to 2π, also where little curvature is left).
+    fn compare(&self, key: &str, ours: &[f64], bound: f64, worst: &mut HashMap<String, f64>) {
+        let exact = &self.numbers[key];
+        assert_eq!(ours.len(), exact.len(), "{} {key}", self.name);
+        let scale = exact.iter().fold(1.0f64, |m, x| m.max(x.abs()));
+        let error = ours.iter().zip(exact).fold(0.0f64, |m, (a, b)| m.max((a - b).abs())) / scale;
+        assert!(error <= bound, "{}: {key} is off by {error:e}, bound {bound:e}", self.name);
+        let entry = worst.entry(key.to_string()).or_default();
+        *entry = entry.max(error);
+    }
+}
+
+#[test]
+fn weights_curvature_derivative_and_solutions_agree_with_sixty_digits() {
+    let mut worst = HashMap::new();
+    let mut blocks = 0;
+    for block in include_str!("vectors/surfaces.txt").split("end\n").filter(|b| !b.is_empty()) {
+        let golden = Golden::parse(block);
+        let Golden { mesh, geometry, space, scheme, .. } = &golden;
+        let lengths = PerEdge::from(golden.numbers["lengths"].clone());
+        let start = initial_metric(mesh, &lengths, *geometry, *scheme, *geometry).unwrap().metric;
+        golden.compare("eta", &start.eta, 1e-14, &mut worst);
+        let k = curvature(mesh, *geometry, &start.lengths(mesh).unwrap()).unwrap();
+        golden.compare("curvature", &k.at, 1e-14, &mut worst);
+        let mut derivative = vec![0.0; mesh.n_vertices() * mesh.n_vertices()];
+        for (i, j, x) in curvature_derivative(mesh, &start).unwrap() {
+            derivative[i.index() * mesh.n_vertices() + j.index()] = x;
+            derivative[j.index() * mesh.n_vertices() + i.index()] = x;
+        }
+        golden.compare("derivative", &derivative, 1e-14, &mut worst);
+        if let Some(target) = golden.numbers.get("target") {
+            let class = initial_metric(mesh, &lengths, *geometry, *scheme, *space).unwrap().metric;
+            let (metric, report): (Metric, _) =
+                solve(mesh, &class, &PerVertex::from(target.clone()), &Options::default());
+            converged(&report);
+            golden.compare("u", &metric.u, 2e-13, &mut worst);
+            golden.compare("solution", &metric.lengths(mesh).unwrap(), 2e-13, &mut worst);
+        }
+        blocks += 1;
+    }
+    assert_eq!(blocks, 40);
+    let mut worst: Vec<_> = worst.into_iter().collect();
+    worst.sort_by(|a, b| a.0.cmp(&b.0));
+    println!("{blocks} surfaces, largest errors: {worst:?}");
+}
