@@ -101,7 +101,7 @@ pub enum Error {
         length: f64,
     },
     /// A face's lengths break the triangle inequality of the input geometry.
-    #[error("face {face} breaks the triangle inequality by {excess:e}: no such triangle exists")]
+    #[error("face {face} breaks the triangle inequality ({}): no such triangle exists", amount("too long", *excess))]
     TriangleInequality {
         /// The face.
         face: usize,

@@ -126,7 +126,7 @@ impl Info {
     fn of_metric(surface: &Input) -> Self {
         let Input { mesh, lengths, geometry, .. } = surface;
         let broken =
-            |f: &FaceId| triangle::angles(*geometry, mesh.opposite_edges(*f).map(|e| lengths[e])).broken;
+            |f: &FaceId| triangle::angles(*geometry, mesh.opposite_edges(*f).map(|e| lengths[e])).broken();
         let defect = |f: FaceId| DefectFigures {
             code: "triangle_inequality",
             message: format!("face {f} breaks the triangle inequality of {geometry}"),

@@ -9,7 +9,7 @@ use ricci::flow::{self, Solver};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::target::{check_total, check_vertices};
-use ricci::metric::{Curvature, Initial, Metric, Scheme, Target, curvature, initial_metric};
+use ricci::metric::{Curvature, Initial, Metric, Scheme, Target, initial_metric};
 
 /// What to compute.
 pub struct Job {
@@ -59,7 +59,7 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     drop(solver);
 
     let lengths = metric.lengths(&mesh)?;
-    let curvature = curvature(&mesh, space, &lengths)?;
+    let curvature = metric.curvature(&mesh)?;
     job.pinned.iter().for_each(|&v| target[v] = curvature.at[v]);
     let mut seconds = Seconds {
         read: input.seconds_read,
@@ -71,9 +71,8 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
         flip: report.seconds.flip,
         ..Seconds::default()
     };
-    let layout = timed(&mut seconds.layout, || {
-        laid::lay_out(input, &mesh, &lengths, &curvature, &target, space, control)
-    })?;
+    let layout =
+        timed(&mut seconds.layout, || laid::lay_out(input, &mesh, &metric, &curvature, &target, control))?;
     Ok(Outcome {
         scheme: job.scheme,
         rule,

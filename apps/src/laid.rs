@@ -4,12 +4,12 @@ use crate::failure::Failure;
 use crate::input::Input;
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::embed::{Layout, Quality, layout, quality};
+use ricci::embed::{Layout, Quality, layout_of, quality};
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
-use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use ricci::metric::Curvature;
+use ricci::mesh::{Mesh, PerVertex, VertexId};
 use ricci::metric::curvature::area;
+use ricci::metric::{Curvature, Metric};
 use ricci::topology::cut_graph;
 
 /// An interior vertex with more target curvature than this is a cone, and the cut passes it. Left inside, the vertex opens
@@ -34,14 +34,13 @@ pub struct Laid {
 pub fn lay_out(
     input: &Input,
     mesh: &Mesh,
-    lengths: &PerEdge<f64>,
+    metric: &Metric,
     curvature: &Curvature,
     target: &PerVertex<f64>,
-    space: Space,
     control: &Control,
 ) -> Result<Result<Laid, String>, Failure> {
-    if space != Space::E2 {
-        return Ok(Err(format!("layouts in {space} are not in this version")));
+    if metric.space != Space::E2 {
+        return Ok(Err(format!("layouts in {} are not in this version", metric.space)));
     }
     if !curvature.broken.is_empty() {
         let n = curvature.broken.len();
@@ -54,9 +53,9 @@ pub fn lay_out(
     let cones: Vec<VertexId> =
         mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v) && target[v].abs() > CONE).collect();
     let result = (|| {
-        let cut = cut_graph(mesh, lengths, &cones)?;
+        let cut = cut_graph(mesh, &metric.lengths(mesh)?, &cones)?;
         control.step(Stage::Layout, 0.3)?;
-        let mut layout = layout(mesh, lengths, &cut, control)?;
+        let mut layout = layout_of(mesh, metric, &cut, control)?;
         let scale = layout.scale_to_area(mesh, area(&input.mesh, input.geometry, &input.lengths))?;
         control.step(Stage::Layout, 0.8)?;
         let quality = quality(mesh, &input.lengths, &layout)?;

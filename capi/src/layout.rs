@@ -8,7 +8,7 @@ use crate::mesh::signed_edge;
 use crate::metric::ricci_metric;
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
-use ricci::embed::{Layout, Quality, layout, quality};
+use ricci::embed::{Layout, Quality, layout_of, quality};
 use ricci::geometry::space::Space;
 use ricci::mesh::{Mesh, Point, VertexId, io};
 use ricci::metric::curvature::curvature;
@@ -81,7 +81,7 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &ricci::Control) -
     }
     let (mesh, origin) = (&metric.mesh, &metric.origin);
     let cut = cut_graph(mesh, metric.lengths(), cones)?;
-    let mut layout = layout(mesh, metric.lengths(), &cut, control)?;
+    let mut layout = layout_of(mesh, &metric.metric, &cut, control)?;
     if origin.initial.input_geometry == Space::E2 {
         layout.scale_to_area(mesh, curvature(&origin.mesh, Space::E2, &origin.lengths)?.area)?;
     }

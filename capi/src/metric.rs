@@ -12,7 +12,7 @@ use crate::status::ricci_status;
 use ricci::geometry::space::Space;
 use ricci::mesh::{Mesh, PerEdge, Point};
 use ricci::metric::Metric;
-use ricci::metric::curvature::{Curvature, curvature};
+use ricci::metric::curvature::Curvature;
 use ricci::metric::initial::{Initial, initial_metric};
 use ricci::metric::scheme::Scheme;
 use std::mem::MaybeUninit;
@@ -82,7 +82,7 @@ impl ricci_metric {
     }
 
     fn curvature(&self) -> Outcome<Curvature> {
-        Ok(curvature(&self.mesh, self.metric.space, &self.lengths)?)
+        Ok(self.metric.curvature(&self.mesh)?)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::triangle::Triangle;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
-use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerHalfedge};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge};
 use crate::topology::spanning::Key;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -34,6 +34,7 @@ pub(crate) struct Development {
 pub(crate) fn develop(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
+    differences: &PerFace<[f64; 3]>,
     is_cut: &PerEdge<bool>,
     corner: &PerHalfedge<u32>,
     n_corners: usize,
@@ -65,7 +66,10 @@ pub(crate) fn develop(
 
         let sides = [base, mesh.next(base), mesh.prev(base)];
         let [l_base, l_right, l_left] = sides.map(|h| lengths[h.edge()]);
-        let triangle = Triangle::from_sides([l_right, l_left, l_base]);
+        let corners = mesh.face_halfedges(f);
+        // Differences belong to corners: that at the origin of the base is opposite its next side.
+        let at = |h: HalfedgeId| corners.iter().position(|&c| c == h).map_or(0.0, |k| differences[f][k]);
+        let triangle = Triangle::from_differences(sides.map(at));
         if triangle.excess > 0.0 {
             broken.push(f);
         }

@@ -5,9 +5,11 @@ use super::develop::{Development, develop};
 use super::seam::Seam;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::PlaneIsometry;
 use crate::geometry::predicates::orientation;
-use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
+use crate::geometry::triangle::half_differences;
+use crate::geometry::{PlaneIsometry, Space};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
+use crate::metric::Metric;
 use crate::topology::{CutGraph, check_lengths, cut};
 use std::cmp::Ordering;
 
@@ -53,6 +55,26 @@ pub struct Layout {
 /// [`Error::Cancelled`].
 pub fn layout(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Control) -> Result<Layout> {
     check_lengths(mesh, lengths)?;
+    let differences = |f| half_differences(mesh.opposite_edges(f).map(|e| lengths[e]));
+    lay_out(mesh, lengths, &PerFace::from_fn(mesh.n_faces(), differences), cut, control)
+}
+
+/// [`layout`] of a metric (E²), from its variables: triangles keep their shape where circles of very different sizes meet,
+/// which rounded lengths do not. Errors: as [`layout`] and [`Metric::lengths`]; [`Error::Layout`] in another space.
+pub fn layout_of(mesh: &Mesh, metric: &Metric, cut: &CutGraph, control: &Control) -> Result<Layout> {
+    if metric.space != Space::E2 {
+        return Err(Error::Layout(format!("a metric in {} has no layout in the plane", metric.space)));
+    }
+    lay_out(mesh, &metric.lengths(mesh)?, &metric.differences(mesh)?, cut, control)
+}
+
+fn lay_out(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    differences: &PerFace<[f64; 3]>,
+    cut: &CutGraph,
+    control: &Control,
+) -> Result<Layout> {
     check_size("is_cut", cut.is_cut.len(), mesh.n_edges())?;
     if !cut::is_disk(mesh, &cut.is_cut) {
         return Err(Error::Layout("the cut does not open the surface into a disk".into()));
@@ -63,7 +85,7 @@ pub fn layout(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Con
     }
     let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
     let Development { coordinates, direction, area, broken } =
-        develop(mesh, lengths, &cut.is_cut, &corner_index, n_corners, control)?;
+        develop(mesh, lengths, differences, &cut.is_cut, &corner_index, n_corners, control)?;
     let at = |h: HalfedgeId| coordinates[corner_index[h] as usize];
     let diameter = bounding_diagonal(&coordinates);
     if !(diameter.is_finite() && diameter > 0.0) {

@@ -8,6 +8,6 @@ pub mod quality;
 pub mod seam;
 mod triangle;
 
-pub use layout::{Layout, layout};
+pub use layout::{Layout, layout, layout_of};
 pub use quality::{Quality, quality};
 pub use seam::Seam;

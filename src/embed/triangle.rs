@@ -20,9 +20,15 @@ impl Triangle {
     /// With `s` and `r_k = s − l_k` formed without cancellation ([`half_differences`]), `cos θ_k ∝ s r_k −
     /// r_i r_j` and `sin θ_k ∝ 2·area` with the same factor `1/(l_i l_j)` (half-angle law).
     pub(crate) fn from_sides(sides: [f64; 3]) -> Triangle {
-        let unit = sides.into_iter().fold(0.0, f64::max);
-        let (s, r) = half_differences(sides.map(|l| l / unit));
+        Triangle::from_differences(half_differences(sides))
+    }
+
+    /// From the half-perimeter differences `r_k = s − l_k`.
+    pub(crate) fn from_differences(r: [f64; 3]) -> Triangle {
+        let unit = r[0] + r[1] + r[2] - r.into_iter().fold(f64::INFINITY, f64::min); // the longest side
+        let r = r.map(|x| x / unit);
         let excess = r.into_iter().fold(0.0, |m, x| f64::max(m, -2.0 * x));
+        let s = r[0] + r[1] + r[2];
         let r = r.map(|x| x.max(0.0));
         let root = r.map(f64::sqrt);
         let area = s.sqrt() * root[0] * root[1] * root[2]; // the roots first: r_i r_j may underflow

@@ -1,10 +1,11 @@
 //! Lengths, angles and curvature at given variables: the right-hand side of the flow.
 
 use crate::geometry::Space;
+use crate::geometry::conformal::{Edge, Vertex, differences, edge, weights};
 use crate::geometry::triangle::{self, Angles};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerVertex, VertexId};
+use crate::metric::Metric;
 use crate::metric::curvature::curvature_from_angles;
-use crate::metric::lengths::{Edge, Metric, Vertex, edge};
 use crate::parallel::fill;
 
 /// The metric at one u. Buffers are reused from step to step.
@@ -20,9 +21,9 @@ impl State {
     pub fn new(mesh: &Mesh, metric: &Metric) -> State {
         State {
             u: metric.u.clone(),
-            vertices: vec![Vertex::new(metric.space, 0, 0.0); mesh.n_vertices()],
+            vertices: vec![Vertex::default(); mesh.n_vertices()],
             edges: vec![Edge::default(); mesh.n_edges()],
-            angles: vec![Angles { at: [0.0; 3], broken: false }; mesh.n_faces()],
+            angles: vec![Angles { at: [0.0; 3] }; mesh.n_faces()],
             curvature: PerVertex::filled(mesh.n_vertices(), 0.0),
         }
     }
@@ -40,31 +41,41 @@ impl State {
             let [i, j] = mesh.ends(e);
             edge(space, vertices[i.index()], vertices[j.index()], class.eta[e]).unwrap_or_default()
         });
-        if self.edges.iter().any(|e| e.length == 0.0) {
+        if self.edges.iter().any(|e| e.q2 == 0.0) {
             return false;
         }
         let edges = &self.edges;
         fill(&mut self.angles, |f| {
-            triangle::angles(space, mesh.opposite_edges(FaceId::from(f)).map(|e| edges[e.index()].length))
+            triangle::angles_from(space, face_differences(mesh, vertices, edges, FaceId::from(f)))
         });
         self.curvature = curvature_from_angles(mesh, self.angles.iter().map(|a| a.at));
         true
     }
 
     /// ∂θ/∂u weights of the edges opposite the corners of a face.
-    pub fn weights(&self, mesh: &Mesh, space: Space, f: FaceId) -> [f64; 3] {
-        let edges = mesh.opposite_edges(f).map(|e| self.edges[e.index()]);
-        let power = mesh.face_vertices(f).map(|v| self.vertices[v.index()].power(space));
-        triangle::weights(space, edges.map(|e| e.length), edges.map(|e| e.q2), power)
+    pub fn weights(&self, mesh: &Mesh, class: &Metric, f: FaceId) -> [f64; 3] {
+        let edges = mesh.opposite_edges(f);
+        let q2 = edges.map(|e| self.edges[e.index()].q2);
+        let corners = mesh.face_vertices(f).map(|v| self.vertices[v.index()]);
+        weights(class.space, self.differences(mesh, f), q2, corners, edges.map(|e| class.eta[e]))
+    }
+
+    /// Half-perimeter differences of a face.
+    fn differences(&self, mesh: &Mesh, f: FaceId) -> [f64; 3] {
+        face_differences(mesh, &self.vertices, &self.edges, f)
+    }
+
+    /// Area of a face.
+    pub fn face_area(&self, mesh: &Mesh, space: Space, f: FaceId) -> f64 {
+        triangle::area_from(space, self.differences(mesh, f))
     }
 
     pub fn broken(&self) -> usize {
-        self.angles.iter().filter(|a| a.broken).count()
+        self.angles.iter().filter(|a| a.broken()).count()
     }
 
     pub fn area(&self, mesh: &Mesh, class: &Metric) -> f64 {
-        let lengths = |f| mesh.opposite_edges(f).map(|e| self.edges[e.index()].length);
-        mesh.faces().map(|f| triangle::area(class.space, lengths(f))).sum()
+        mesh.faces().map(|f| self.face_area(mesh, class.space, f)).sum()
     }
 
     /// `K̄ − K` into `out`, 0 at pinned vertices; returns its maximum norm.
@@ -76,4 +87,9 @@ impl State {
         }
         worst
     }
+}
+
+fn face_differences(mesh: &Mesh, vertices: &[Vertex], edges: &[Edge], f: FaceId) -> [f64; 3] {
+    let corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
+    differences(corners, mesh.opposite_edges(f).map(|e| edges[e.index()]))
 }

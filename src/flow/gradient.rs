@@ -93,7 +93,7 @@ impl Run<'_> {
         let space = self.class.space;
         let mut row = vec![0.0; self.mesh.n_vertices()];
         for f in self.mesh.faces() {
-            let weights = state.weights(self.mesh, space, f);
+            let weights = state.weights(self.mesh, self.class, f);
             for (h, (w, e)) in self
                 .mesh
                 .face_halfedges(f)

@@ -56,7 +56,7 @@ impl Jacobian {
 
     /// Fill at a state.
     pub fn assemble(&mut self, mesh: &Mesh, class: &Metric, state: &State) {
-        fill(&mut self.weights, |f| state.weights(mesh, class.space, FaceId::from(f)));
+        fill(&mut self.weights, |f| state.weights(mesh, class, FaceId::from(f)));
         self.values.fill(0.0);
         for f in mesh.faces() {
             let opposite = mesh.opposite_edges(f);
@@ -103,7 +103,7 @@ impl Jacobian {
 
 /// ∂K/∂u at `metric`: V×V, symmetric, entries (i, j, value) with i ≥ j, the diagonal included; (i, j) once.
 ///
-/// Off-diagonal entries are minus the edge weights ([`crate::geometry::triangle::weights`]). A broken triangle
+/// Off-diagonal entries are minus the edge weights ([`crate::geometry::conformal::weights`]). A broken triangle
 /// contributes nothing.
 pub fn curvature_derivative(mesh: &Mesh, metric: &Metric) -> Result<Vec<(VertexId, VertexId, f64)>> {
     metric.check(mesh)?;

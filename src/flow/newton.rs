@@ -117,7 +117,7 @@ impl Run<'_> {
         report: &mut Report,
     ) -> Result<bool> {
         let mut loose = vec![0.0; residual.len()];
-        for f in self.mesh.faces().filter(|f| state.angles[f.index()].broken) {
+        for f in self.mesh.faces().filter(|f| state.angles[f.index()].broken()) {
             self.mesh.face_vertices(f).into_iter().for_each(|v| loose[v.index()] = 1.0);
         }
         if !loose.contains(&1.0) {

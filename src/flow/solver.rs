@@ -10,8 +10,8 @@ use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::mesh::{Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
+use crate::metric::curvature::gauss_bonnet;
 use crate::parallel::Pool;
-use std::f64::consts::PI;
 
 /// Solver for one surface. The symbolic analysis is kept between targets; each solve starts from the last metric.
 ///
@@ -123,10 +123,8 @@ impl Run<'_> {
             (Method::Newton, _) => self.newton(system, state, report)?,
         };
         report.broken_triangles = state.broken();
-        let sum: f64 = state.curvature.iter().sum();
         let area = state.area(self.mesh, self.class);
-        report.gauss_bonnet =
-            (sum + self.class.space.curvature() * area - 2.0 * PI * self.mesh.euler() as f64).abs();
+        report.gauss_bonnet = gauss_bonnet(self.mesh, self.class.space, &state.curvature, area);
         let reached = matches!(report.stop_reason, StopReason::Converged | StopReason::RoundingFloor);
         if reached && report.broken_triangles > 0 {
             report.stop_reason = StopReason::BrokenTriangles;

@@ -11,7 +11,6 @@ use super::solver::Run;
 use super::system::System;
 use crate::control::Stage;
 use crate::error::Result;
-use crate::geometry::triangle;
 use std::f64::consts::PI;
 
 /// Least damping: above 2, the size of the one negative eigenvalue on the round sphere.
@@ -83,8 +82,7 @@ impl Run<'_> {
     fn vertex_areas(&self, state: &State) -> Vec<f64> {
         let mut areas = vec![0.0; self.mesh.n_vertices()];
         for f in self.mesh.faces() {
-            let lengths = self.mesh.opposite_edges(f).map(|e| state.edges[e.index()].length);
-            let third = triangle::area(self.class.space, lengths) / 3.0;
+            let third = state.face_area(self.mesh, self.class.space, f) / 3.0;
             self.mesh.face_vertices(f).into_iter().for_each(|v| areas[v.index()] += third);
         }
         areas

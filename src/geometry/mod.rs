@@ -1,6 +1,7 @@
 //! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
 
 pub mod circle;
+pub mod conformal;
 pub mod isometry;
 pub mod modulus;
 pub mod predicates;

@@ -1,35 +1,43 @@
-//! One geodesic triangle from its three lengths: angles, area, and how the angles move with the lengths' ends.
+//! One geodesic triangle from its three lengths: angles and area.
 //!
 //! ```text
 //!              k                 side i is opposite corner i: l_i = |jk|, l_j = |ki|, l_k = |ij|
 //!            /   \               s = (l_i + l_j + l_k)/2,  r_i = s − l_i
 //!       l_j /     \ l_i          f(x) = x, sinh x, sin x        in E², H², S²
-//!          /       \             q = l/2, sinh(l/2), sin(l/2)   half the chord
-//!         i ─────── j            Δ = sqrt(f(s) f(r_i) f(r_j) f(r_k))
+//!          /       \
+//!         i ─────── j
 //!             l_k
 //! ```
 //!
-//! Everything is written in `f(s)`, `f(r)` and `q`, so one text serves the three geometries and no difference of
+//! Everything is written in `f(s)` and `f(r)`, so one text serves the three geometries and no difference of
 //! nearly equal numbers is formed.
 
 use super::Space;
+use std::f64::consts::PI;
 
 /// Angles and validity of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Angles {
     /// The angle at each corner, radians, opposite the length of the same index.
     pub at: [f64; 3],
-    /// Whether the lengths break the triangle inequality (or, in S², have a perimeter of 2π or more): the angles
-    /// are then the continuous extension (π, 0, 0), or (π, π, π) for the perimeter.
-    pub broken: bool,
 }
 
-/// Half perimeter s and the differences r_i = s − l_i.
+impl Angles {
+    /// Whether the lengths break the triangle inequality (or, in S², have a perimeter of 2π or more): the angles are then the
+    /// continuous extension (π, 0, 0) \[Luo11\], or (π, π, π) for the perimeter. No triangle of doubles has two angles 0.
+    #[inline]
+    pub fn broken(&self) -> bool {
+        let zeros = self.at.into_iter().filter(|&x| x == 0.0).count();
+        zeros == 2 || self.at == [PI; 3]
+    }
+}
+
+/// The differences r_i = s − l_i of the half perimeter s = r_0 + r_1 + r_2.
 ///
 /// The differences are formed from the sorted lengths, largest first (Kahan, "Miscalculating area and angles of
 /// a needle-like triangle"): each is accurate to a few ulp however thin the triangle.
 #[inline]
-pub fn half_differences(l: [f64; 3]) -> (f64, [f64; 3]) {
+pub fn half_differences(l: [f64; 3]) -> [f64; 3] {
     let mut order = [0, 1, 2];
     if l[order[0]] < l[order[1]] {
         order.swap(0, 1);
@@ -45,11 +53,12 @@ pub fn half_differences(l: [f64; 3]) -> (f64, [f64; 3]) {
     r[order[0]] = 0.5 * (c - (a - b));
     r[order[1]] = 0.5 * (c + (a - b));
     r[order[2]] = 0.5 * (a + (b - c));
-    (0.5 * (a + (b + c)), r)
+    r
 }
 
+/// f(x) = x, sinh x, sin x in E², H², S².
 #[inline]
-fn s_function(space: Space, x: f64) -> f64 {
+pub fn sine(space: Space, x: f64) -> f64 {
     match space {
         Space::E2 => x,
         Space::H2 => x.sinh(),
@@ -57,17 +66,20 @@ fn s_function(space: Space, x: f64) -> f64 {
     }
 }
 
-/// `f(s)` and `f(r_i)`, or the corner whose angle is π (3: all of them) when the triangle is broken.
+/// Hyperbolic half perimeters above this are divided by in logarithms: sinh overflows at 710.
+const FAR: f64 = 300.0;
+
+/// `f(r_i)/f(s)`: lengths of any size pass, and only ratios of them are multiplied.
 #[inline]
-fn products(space: Space, l: [f64; 3]) -> Result<(f64, [f64; 3]), usize> {
-    let (s, r) = half_differences(l);
-    if let Some(i) = (0..3).find(|&i| r[i] <= 0.0) {
-        return Err(i);
+fn ratios(space: Space, s: f64, r: [f64; 3]) -> [f64; 3] {
+    match space {
+        // sinh x = e^x (1 − e^{−2x})/2
+        Space::H2 if s > FAR => r.map(|x| (x - s).exp() * (-2.0 * x).exp_m1() / (-2.0 * s).exp_m1()),
+        _ => {
+            let whole = sine(space, s);
+            r.map(|x| sine(space, x) / whole)
+        }
     }
-    if space == Space::S2 && s >= std::f64::consts::PI {
-        return Err(3);
-    }
-    Ok((s_function(space, s), r.map(|x| s_function(space, x))))
 }
 
 /// The angles by the half-angle law `tan²(θ_k/2) = f(r_i) f(r_j) / (f(s) f(r_k))` [JKLLG08, Eqn 12].
@@ -75,19 +87,22 @@ fn products(space: Space, l: [f64; 3]) -> Result<(f64, [f64; 3]), usize> {
 /// Lengths must be positive and finite.
 #[inline]
 pub fn angles(space: Space, l: [f64; 3]) -> Angles {
-    match products(space, l) {
-        Ok((s, r)) => {
-            let angle = |k: usize| {
-                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                2.0 * f64::atan2((r[i] * r[j]).sqrt(), (s * r[k]).sqrt())
-            };
-            Angles { at: [angle(0), angle(1), angle(2)], broken: false }
-        }
-        Err(corner) => {
-            let at = |k| if corner == k || corner == 3 { std::f64::consts::PI } else { 0.0 };
-            Angles { at: [at(0), at(1), at(2)], broken: true }
-        }
+    angles_from(space, half_differences(l))
+}
+
+/// The angles from the half-perimeter differences, which may be known better than the lengths.
+#[inline]
+pub fn angles_from(space: Space, r: [f64; 3]) -> Angles {
+    let s = r[0] + r[1] + r[2];
+    if let Some(corner) = (0..3).find(|&i| r[i] <= 0.0) {
+        return Angles { at: [0, 1, 2].map(|k| if k == corner { PI } else { 0.0 }) };
     }
+    if space == Space::S2 && s >= PI {
+        return Angles { at: [PI; 3] };
+    }
+    // The roots first: f_i f_j may underflow.
+    let [a, b, c] = ratios(space, s, r).map(f64::sqrt);
+    Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * y.atan2(x)) }
 }
 
 /// Area: Heron in E²; in H² and S² by l'Huilier's formula
@@ -95,61 +110,32 @@ pub fn angles(space: Space, l: [f64; 3]) -> Angles {
 ///
 /// A broken triangle has area 0; one whose perimeter reaches 2π in S² has 2π.
 pub fn area(space: Space, l: [f64; 3]) -> f64 {
-    let (s, r) = half_differences(l);
+    area_from(space, half_differences(l))
+}
+
+/// The area from the half-perimeter differences.
+pub fn area_from(space: Space, r: [f64; 3]) -> f64 {
+    let s = r[0] + r[1] + r[2];
     if r.iter().any(|&x| x <= 0.0) {
         return 0.0;
     }
-    let quarter = |t: fn(f64) -> f64| (t(0.5 * s) * t(0.5 * r[0]) * t(0.5 * r[1]) * t(0.5 * r[2])).sqrt();
-    match space {
-        Space::E2 => (s * r[0]).sqrt() * (r[1] * r[2]).sqrt(),
-        Space::H2 => 4.0 * quarter(f64::tanh).atan(),
-        Space::S2 if s >= std::f64::consts::PI => 2.0 * std::f64::consts::PI,
-        Space::S2 => 4.0 * quarter(f64::tan).atan(),
-    }
-}
-
-/// The weights `w_k = ∂θ_i/∂u_j = ∂θ_j/∂u_i` of the three edges (w_k belongs to edge ij, opposite corner k).
-///
-/// `l`: lengths; `q2`: squared half chords; `power`: per corner `P = ε e^{2u}/(1 + λ ε e^{2u})`, in E² `ε e^{2u}/4`
-/// (zero for vertex scaling). With λ the curvature of the space
-///
-/// ```text
-/// w_k = [ (q_i² + q_j² − q_k²)/(1 − λ q_k²)
-///         + 2 (P_i (f(s)f(r_j) − f(r_i)f(r_k)) + P_j (f(s)f(r_i) − f(r_j)f(r_k)) − P_k f(l_k)²)/f(l_k)² ] / (2Δ)
-/// ∂θ_i/∂u_i = −w_k c(l_k) − w_j c(l_j),   c(l) = 1, cosh l, cos l
-/// ```
-///
-/// which is \[ZGZLYG14\]'s matrix `σ/A · L Θ L⁻¹ D` multiplied out (notation.md derives it). In E² it is
-/// `cot θ_k / 2` for ε = 0, and always (signed distance of the power centre from edge ij) / l_k.
-/// A broken triangle has weights 0: its extended angles are constant.
-#[inline]
-pub fn weights(space: Space, l: [f64; 3], q2: [f64; 3], power: [f64; 3]) -> [f64; 3] {
-    let Ok((s, r)) = products(space, l) else { return [0.0; 3] };
-    let delta = (s * r[0]).sqrt() * (r[1] * r[2]).sqrt();
-    if delta <= f64::MIN_POSITIVE {
-        return [0.0; 3];
-    }
-    let lambda = space.curvature();
-    let scaling = power == [0.0; 3];
-    let weight = |k: usize| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let chord = (q2[i] + q2[j] - q2[k]) / (1.0 - lambda * q2[k]);
-        if scaling {
-            return chord / (2.0 * delta);
-        }
-        // f(l_k)² = 4 q_k² (1 − λ q_k²)
-        let f2 = 4.0 * q2[k] * (1.0 - lambda * q2[k]);
-        let circles =
-            (power[i] * (s * r[j] - r[i] * r[k]) + power[j] * (s * r[i] - r[j] * r[k])) / f2 - power[k];
-        (chord + 2.0 * circles) / (2.0 * delta)
+    // t(s/2)² times a root of ratios: no product underflows before the area does.
+    let heron = |t: fn(f64) -> f64| {
+        let whole = t(0.5 * s);
+        let [a, b, c] = r.map(|x| t(0.5 * x) / whole);
+        whole * whole * (a.sqrt() * b.sqrt() * c.sqrt())
     };
-    [weight(0), weight(1), weight(2)]
+    match space {
+        Space::E2 => 4.0 * heron(|x| x),
+        Space::H2 => 4.0 * heron(f64::tanh).atan(),
+        Space::S2 if s >= PI => 2.0 * PI,
+        Space::S2 => 4.0 * heron(f64::tan).atan(),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::PI;
 
     const SPACES: [Space; 3] = [Space::E2, Space::H2, Space::S2];
 
@@ -185,32 +171,43 @@ mod tests {
 
     #[test]
     fn needles_keep_their_relative_accuracy() {
-        // Right triangle with legs 1 and h: the small angle is atan(h).
-        for h in [1e-3, 1e-6] {
-            let l = [h, 1.0, f64::hypot(1.0, h)];
-            let small = angles(Space::E2, l).at[0];
-            // The hypotenuse is rounded to ulp(1) = 2e-16, which moves h² by as much.
-            assert!((small / h.atan() - 1.0).abs() < 4e-16 / (h * h));
-            assert!((area(Space::E2, l) / (0.5 * h) - 1.0).abs() < 4e-16 / (h * h));
+        // Exact lengths 1, 1, h: the small angle is 2 asin(h/2), the area h/2 · sqrt(1 − h²/4).
+        for h in [1e-3, 1e-9, 1e-160, 1e-300] {
+            for scale in [1.0, 2f64.powi(-20), 2f64.powi(500)] {
+                let l = [h * scale, scale, scale];
+                let small = angles(Space::E2, l).at[0];
+                assert!((small / (2.0 * (0.5 * h).asin()) - 1.0).abs() < 1e-15, "{h} {scale}");
+            }
+            let exact = 0.5 * h * (1.0 - 0.25 * h * h).sqrt();
+            assert!((area(Space::E2, [1.0, h, 1.0]) / exact - 1.0).abs() < 1e-15, "{h}");
         }
+    }
+
+    #[test]
+    fn lengths_of_any_size_have_finite_angles_and_areas() {
+        for exponent in [-1000, -600, -300, 0, 8, 9, 300, 500] {
+            let l = [1.0, 1.25, 0.75].map(|x| x * 2f64.powi(exponent));
+            for space in [Space::E2, Space::H2] {
+                let at = angles(space, l).at;
+                assert!(at.iter().all(|x| (0.0..=PI).contains(x)), "{space} {exponent}: {at:?}");
+                assert!(area(space, l) >= 0.0 && area(space, l).is_finite(), "{space} {exponent}");
+                if space == Space::E2 {
+                    assert!((at[1] - 0.5 * PI).abs() < 1e-15 && (at[0] - 0.8f64.asin()).abs() < 1e-15);
+                }
+            }
+        }
+        // 700: the triangle is a tripod with angles near 0; 2e^{−l/2} for an equilateral one.
+        let angle = angles(Space::H2, [400.0; 3]).at[0];
+        assert!((angle / (2.0 * (-200f64).exp()) - 1.0).abs() < 1e-13, "{angle}");
     }
 
     #[test]
     fn broken_triangles_have_the_extended_angles() {
         for space in SPACES {
-            assert_eq!(angles(space, [1.0, 0.3, 0.4]), Angles { at: [PI, 0.0, 0.0], broken: true });
-            assert_eq!(weights(space, [1.0, 0.3, 0.4], [0.1; 3], [0.0; 3]), [0.0; 3]);
+            assert_eq!(angles(space, [1.0, 0.3, 0.4]).at, [PI, 0.0, 0.0]);
+            assert!(angles(space, [1.0, 0.3, 0.4]).broken() && !angles(space, [1.0, 0.9, 0.4]).broken());
         }
-        assert_eq!(angles(Space::S2, [2.2, 2.2, 2.2]), Angles { at: [PI; 3], broken: true });
-    }
-
-    #[test]
-    fn euclidean_vertex_scaling_weight_is_half_the_cotangent() {
-        let l = [1.3, 1.0, 0.8];
-        let w = weights(Space::E2, l, l.map(|x| 0.25 * x * x), [0.0; 3]);
-        let at = angles(Space::E2, l).at;
-        for k in 0..3 {
-            assert!((w[k] - 0.5 / at[k].tan()).abs() < 1e-14);
-        }
+        assert_eq!(angles(Space::S2, [2.2, 2.2, 2.2]).at, [PI; 3]);
+        assert!(angles(Space::S2, [2.2, 2.2, 2.2]).broken());
     }
 }

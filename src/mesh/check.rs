@@ -380,7 +380,7 @@ fn orientation(
 fn zero_area(p: [Point; 3]) -> bool {
     let distance = |a: Point, b: Point| f64::hypot(f64::hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
     let l = [distance(p[1], p[2]), distance(p[2], p[0]), distance(p[0], p[1])];
-    let (_, r) = half_differences(l);
+    let r = half_differences(l);
     let longest = l.into_iter().fold(0.0, f64::max);
     r.into_iter().any(|r| r <= ZERO_AREA * longest)
 }

@@ -1,8 +1,9 @@
 //! Curvature, area and the Gauss–Bonnet residual of a metric given by its edge lengths.
 
-use super::lengths::face_lengths;
+use super::lengths::{Metric, face_lengths};
 use crate::error::Result;
-use crate::geometry::{Space, triangle};
+use crate::geometry::Space;
+use crate::geometry::triangle::{self, Angles, angles_from, area_from, half_differences};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerVertex};
 use crate::parallel;
 use crate::topology::check_lengths;
@@ -17,21 +18,38 @@ pub struct Curvature {
     pub broken: Vec<FaceId>,
     /// Total area, by formulas that use no angle.
     pub area: f64,
-    /// |Σ K + λ·area − 2πχ|; zero to rounding when no face is broken.
+    /// |Σ K + λ·area − 2πχ|, zero to rounding (the angles of a broken triangle add up to π).
     pub gauss_bonnet: f64,
 }
 
 /// Curvature of the metric with these edge lengths (E entries).
 pub fn curvature(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> Result<Curvature> {
     check_lengths(mesh, lengths)?;
-    let mut angles = vec![triangle::Angles { at: [0.0; 3], broken: false }; mesh.n_faces()];
-    parallel::fill(&mut angles, |f| triangle::angles(space, face_lengths(mesh, lengths, f.into())));
+    Ok(curvature_of(mesh, space, |f| half_differences(face_lengths(mesh, lengths, f))))
+}
+
+impl Metric {
+    /// Curvature, from the variables themselves ([`Metric::differences`]). Errors: as [`Metric::lengths`].
+    pub fn curvature(&self, mesh: &Mesh) -> Result<Curvature> {
+        let differences = self.differences(mesh)?;
+        Ok(curvature_of(mesh, self.space, |f| differences[f]))
+    }
+}
+
+fn curvature_of(mesh: &Mesh, space: Space, differences: impl Fn(FaceId) -> [f64; 3] + Sync) -> Curvature {
+    let mut angles = vec![Angles { at: [0.0; 3] }; mesh.n_faces()];
+    parallel::fill(&mut angles, |f| angles_from(space, differences(f.into())));
     let at = curvature_from_angles(mesh, angles.iter().map(|a| a.at));
-    let broken = mesh.faces().filter(|f| angles[f.index()].broken).collect();
-    let area = mesh.faces().map(|f| triangle::area(space, face_lengths(mesh, lengths, f))).sum::<f64>();
-    let total: f64 = at.iter().sum();
-    let gauss_bonnet = (total + space.curvature() * area - 2.0 * PI * mesh.euler() as f64).abs();
-    Ok(Curvature { at, broken, area, gauss_bonnet })
+    let broken = mesh.faces().filter(|f| angles[f.index()].broken()).collect();
+    let area = mesh.faces().map(|f| area_from(space, differences(f))).sum::<f64>();
+    let gauss_bonnet = gauss_bonnet(mesh, space, &at, area);
+    Curvature { at, broken, area, gauss_bonnet }
+}
+
+/// |Σ K + λ·area − 2πχ|
+pub(crate) fn gauss_bonnet(mesh: &Mesh, space: Space, curvature: &PerVertex<f64>, area: f64) -> f64 {
+    let total: f64 = curvature.iter().sum();
+    (total + space.curvature() * area - 2.0 * PI * mesh.euler() as f64).abs()
 }
 
 /// π − (π rounded to a double). Without it every vertex is off by twice this, always to the same side, and the

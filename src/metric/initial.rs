@@ -4,6 +4,7 @@ use super::curvature::area;
 use super::lengths::{Metric, face_lengths};
 use super::scheme::Scheme;
 use crate::error::{Error, Result, check_size};
+use crate::geometry::conformal::Vertex;
 use crate::geometry::{Space, triangle};
 use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
 use crate::topology::check_lengths;
@@ -16,7 +17,7 @@ pub struct Initial {
     pub metric: Metric,
     /// Geometry in which the input lengths were read.
     pub input_geometry: Space,
-    /// Radii γ(0) in the input geometry; 1 at vertices with ε = 0.
+    /// Radii γ(0) in the input geometry ([`crate::geometry::conformal::radius`] of `input_u`); 1 at vertices with ε = 0.
     pub radii: PerVertex<f64>,
     /// `u` of those radii in the input geometry (0 at vertices with ε = 0).
     pub input_u: PerVertex<f64>,
@@ -92,7 +93,6 @@ fn represent(
     range: Range,
 ) -> Result<Initial> {
     let n = mesh.n_vertices();
-    let radii = PerVertex::from_fn(n, |v| if epsilon[v] == 0 { 1.0 } else { radii[v] });
     let log = |v| if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) };
     let input_u = PerVertex::from_fn(n, log);
     if let Some(v) = mesh.vertices().find(|&v| !input_u[v].is_finite()) {
@@ -104,6 +104,7 @@ fn represent(
         eta: PerEdge::filled(mesh.n_edges(), 0.0),
         u: input_u.clone(),
     };
+    let radii = metric.radii();
     let mut clamped_edges = 0;
     for e in mesh.edges() {
         let [i, j] = mesh.ends(e);
@@ -166,16 +167,14 @@ fn log_radius(space: Space, radius: f64) -> f64 {
 
 /// η from a length: the length formulas solved for it.
 fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) -> f64 {
-    let lambda = space.curvature();
-    let e = u.map(f64::exp);
-    let p = [f64::from(epsilon[0]) * e[0] * e[0], f64::from(epsilon[1]) * e[1] * e[1]];
-    let d = p.map(|p| 1.0 + lambda * p);
+    let [a, b] = [0, 1].map(|k| Vertex::new(space, epsilon[k], u[k]));
     let n = match space {
         Space::E2 => length * length,
-        Space::H2 => (0.5 * length).sinh().powi(2) * d[0] * d[1],
-        Space::S2 => (0.5 * length).sin().powi(2) * d[0] * d[1],
+        Space::H2 => (0.5 * length).sinh().powi(2) * a.d * b.d,
+        Space::S2 => (0.5 * length).sin().powi(2) * a.d * b.d,
     };
-    (n - p[0] - p[1]) / (2.0 * e[0] * e[1])
+    let (x, y) = (a.scale, b.scale);
+    (n - a.epsilon * x * x - b.epsilon * y * y) / (2.0 * x * y)
 }
 
 struct CornerRadii {
@@ -189,7 +188,7 @@ fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> CornerRadii {
     let (mut mean, mut min) = (PerVertex::filled(n, 0.0), PerVertex::filled(n, f64::INFINITY));
     let mut corners = PerVertex::filled(n, 0u32);
     for f in mesh.faces() {
-        let (_, r) = triangle::half_differences(face_lengths(mesh, lengths, f));
+        let r = triangle::half_differences(face_lengths(mesh, lengths, f));
         for (v, r) in mesh.face_vertices(f).into_iter().zip(r) {
             mean[v] += r;
             min[v] = min[v].min(r);
@@ -236,10 +235,12 @@ fn check_triangles(mesh: &Mesh, lengths: &PerEdge<f64>, geometry: Space) -> Resu
     check_lengths(mesh, lengths)?;
     for f in mesh.faces() {
         let l = face_lengths(mesh, lengths, f);
-        if triangle::angles(geometry, l).broken {
-            let (s, r) = triangle::half_differences(l);
+        if triangle::angles(geometry, l).broken() {
+            let r = triangle::half_differences(l);
+            let s: f64 = r.iter().sum();
             let worst = r.into_iter().fold(f64::INFINITY, f64::min);
-            let excess = if worst <= 0.0 { -2.0 * worst / s } else { 2.0 * s - 2.0 * PI };
+            let longest = l.into_iter().fold(0.0, f64::max);
+            let excess = if worst <= 0.0 { (-2.0 * worst / longest).max(0.0) } else { 2.0 * s - 2.0 * PI };
             return Err(Error::TriangleInequality { face: f.index(), excess });
         }
     }

@@ -4,6 +4,8 @@
 usage: tests/vectors/make.py DIRECTORY      (needs mpmath; the tests do not: they read the files that are committed)
 
 triangles.txt: one triangle a line: space, three lengths, three opposite angles, area.
+circles.txt: three circles a line, sizes up to e^40 apart: space, eta of the edges opposite the corners, u of the corners, three
+angles, three weights (dtheta_i/du_j of the edge opposite each corner).
 surfaces.txt: blocks of `key values…` lines from `surface` to `end`. Numbers are hexadecimal doubles: those given are exact, those
 computed are the nearest doubles. Edges are numbered by face_edges (1-based, sign = direction; opposite the corners of the face).
   surface NAME INPUT_GEOMETRY SPACE SCHEME
@@ -256,7 +258,33 @@ def triangles(out):
                     out.write(f"{space} {text(l)} {text(angles(space, l))} {text([area(space, l)])}\n")
 
 
+def circles(random, out):
+    domain = {"e2": (-20, 20), "h2": (-25, -0.02), "s2": (-20, -1.5)}
+    for space, (low, high) in domain.items():
+        for kind in [lambda: 1.0] * 6 + [lambda: random.unit()] * 6 + [lambda: 1 + 0.5 * random.unit()] * 3:
+            eta = [mpf(float(kind())) for _ in range(3)]
+            while True:
+                u = [mpf(float(low + (high - low) * random.unit())) for _ in range(3)]
+                if kind() <= 1 or max(u) - min(u) < 0.5:  # circles apart: keep the triangle inequality
+                    break
+                low, high = -2.0, -1.5
+            with mp.workdps(150):
+                def at(u):
+                    return angles(space, [length(space, 1, 1, eta[k], u[(k + 1) % 3], u[(k + 2) % 3]) for k in range(3)])
+                h = mpf(10) ** -50
+                weight = []
+                for k in range(3):
+                    i, j = (k + 1) % 3, (k + 2) % 3
+                    plus, minus = list(u), list(u)
+                    plus[j] += h
+                    minus[j] -= h
+                    weight.append((at(plus)[i] - at(minus)[i]) / (2 * h))
+                out.write(f"{space} {text(eta)} {text(u)} {text(at(u))} {text(weight)}\n")
+
+
 folder = sys.argv[1]
+with open(os.path.join(folder, "circles.txt"), "w") as out:
+    circles(Random(1985), out)
 with open(os.path.join(folder, "triangles.txt"), "w") as out:
     triangles(out)
 with open(os.path.join(folder, "surfaces.txt"), "w") as out:

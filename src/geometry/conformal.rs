@@ -1,0 +1,198 @@
+//! A conformal class (ε, η, u) on one edge and one triangle: lengths, half-perimeter differences, derivative of the angles.
+//!
+//! With `e_i = e^{u_i}` and `d_i = 1 + λ ε_i e_i²`
+//!
+//! ```text
+//! N_ij = 2 η_ij e_i e_j + ε_i e_i² + ε_j e_j²
+//! E²: l² = N          H²: sinh²(l/2) = N/(d_i d_j)          S²: sin²(l/2) = N/(d_i d_j)
+//! ```
+//!
+//! (the length formulas of notation.md §2 solved for the half length, free of the cancellation in `cosh l − 1`).
+//!
+//! Circles of very different sizes nearly fill their triangle. What decides its angles is then not the lengths but what the
+//! radii leave of them, formed from `g((l − γ_i − γ_j)/2) g((l + γ_i + γ_j)/2) = 2 (η − 1) e_i e_j / (d_i d_j)` with
+//! `g = sinh, sin` (E²: `gap (l + γ_i + γ_j) = 2 (η − 1) e_i e_j`):
+//!
+//! ```text
+//! gap_k = l_k − γ_i − γ_j          r_k = s − l_k = γ_k + (gap_i + gap_j − gap_k)/2
+//! ```
+
+use super::Space;
+use super::triangle::half_differences;
+use std::f64::consts::FRAC_PI_2;
+
+/// A vertex at its current u.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Vertex {
+    /// ε.
+    pub epsilon: f64,
+    /// e^u.
+    pub scale: f64,
+    /// d = 1 + λ ε e^{2u}; NaN outside the metric's domain (d ≤ 0).
+    pub d: f64,
+    /// γ where ε = 1, else 0.
+    pub radius: f64,
+}
+
+/// An edge at the current u of its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Edge {
+    /// l − γ_i − γ_j with the radii of [`Vertex::radius`].
+    pub gap: f64,
+    /// Squared half chord: l²/4, sinh²(l/2), sin²(l/2) in E², H², S².
+    pub q2: f64,
+}
+
+/// Squared half chords are refused above this: hyperbolic lengths then stay below 300, and no product of them overflows.
+const MAX_HYPERBOLIC_CHORD: f64 = 1e129;
+/// Above this u, e^u is so near 1 that `2 artanh e^u = −log tanh(−u/2)` needs its second form.
+const NEAR_HOROCYCLE: f64 = -1.0;
+
+/// Radius γ of a vertex of type ε with variable u: `u = log γ` in E²; where λε = −1 (circles in H², imaginary ones in S²)
+/// `u = log tanh(γ/2)`; where λε = 1 `u = log tan(γ/2)`. ε = 0: e^u.
+pub fn radius(space: Space, epsilon: i8, u: f64) -> f64 {
+    match space.curvature() * f64::from(epsilon) {
+        0.0 => u.exp(),
+        x if x > 0.0 => 2.0 * u.exp().atan(),
+        _ if u > NEAR_HOROCYCLE => -(-0.5 * u).tanh().ln(),
+        _ => 2.0 * u.exp().atanh(),
+    }
+}
+
+impl Vertex {
+    /// The quantities of a vertex of type ε with variable u.
+    pub fn new(space: Space, epsilon: i8, u: f64) -> Vertex {
+        let d = match space.curvature() * f64::from(epsilon) {
+            0.0 => 1.0,
+            x if x < 0.0 => -(2.0 * u).exp_m1(),
+            _ => 1.0 + (2.0 * u).exp(),
+        };
+        Vertex {
+            epsilon: f64::from(epsilon),
+            scale: u.exp(),
+            d: if d > 0.0 { d } else { f64::NAN },
+            radius: if epsilon == 1 { radius(space, epsilon, u) } else { 0.0 },
+        }
+    }
+}
+
+/// An edge; `None` when (ε, η, u) give no real positive finite length.
+#[inline]
+pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
+    let q2 = match space {
+        Space::E2 => 0.25 * squared_chord(a, b, eta),
+        _ => squared_chord(a, b, eta) / (a.d * b.d),
+    };
+    if !(q2 > 0.0 && q2 < f64::INFINITY) || (space == Space::H2 && q2 > MAX_HYPERBOLIC_CHORD) {
+        return None;
+    }
+    let circles = a.epsilon > 0.0 && b.epsilon > 0.0;
+    if circles && eta == 1.0 {
+        // sin²(l/2) > 1: the circles together reach around the sphere.
+        return (space != Space::S2 || q2 <= 1.0).then_some(Edge { gap: 0.0, q2 });
+    }
+    let length = length(space, q2);
+    let sum = a.radius + b.radius;
+    let gap = if circles { circle_gap(space, a, b, eta, length + sum) } else { length - sum };
+    gap.is_finite().then_some(Edge { gap, q2 })
+}
+
+/// The length of a squared half chord; NaN in S² where q² > 1.
+#[inline]
+pub fn length(space: Space, q2: f64) -> f64 {
+    match space {
+        Space::E2 => 2.0 * q2.sqrt(),
+        Space::H2 => 2.0 * q2.sqrt().asinh(),
+        Space::S2 => 2.0 * q2.sqrt().asin(),
+    }
+}
+
+/// `N`, with squares completed where signs differ.
+#[inline]
+fn squared_chord(a: Vertex, b: Vertex, eta: f64) -> f64 {
+    let (x, y) = (a.scale, b.scale);
+    let cross = 2.0 * eta * (x * y);
+    match (a.epsilon as i8, b.epsilon as i8) {
+        (0, 0) => cross,
+        (1, 1) if eta < 0.0 => (x - y) * (x - y) + 2.0 * (eta + 1.0) * (x * y),
+        (1, 1) => cross + (x * x + y * y),
+        (1, -1) => (x - y) * (x + y) + cross,
+        (-1, 1) => (y - x) * (y + x) + cross,
+        (-1, -1) => 2.0 * (eta - 1.0) * (x * y) - (x - y) * (x - y),
+        (p, 0) => x * (2.0 * eta * y + f64::from(p) * x),
+        (_, p) => y * (2.0 * eta * x + f64::from(p) * y),
+    }
+}
+
+/// `l − γ_a − γ_b`, given `l + γ_a + γ_b`.
+#[inline]
+fn circle_gap(space: Space, a: Vertex, b: Vertex, eta: f64, total: f64) -> f64 {
+    let product = 2.0 * (eta - 1.0) * (a.scale * b.scale);
+    match space {
+        Space::E2 => product / total,
+        Space::H2 => 2.0 * (product / (a.d * b.d * (0.5 * total).sinh())).asinh(),
+        Space::S2 if total < 2.0 * FRAC_PI_2 => 2.0 * (product / (a.d * b.d * (0.5 * total).sin())).asin(),
+        // Circles about as large as the sphere: nothing small is left over.
+        Space::S2 => total - 2.0 * (a.radius + b.radius),
+    }
+}
+
+/// Half-perimeter differences `r_k` of a triangle, given its corners and the edges opposite them.
+#[inline]
+pub fn differences(corners: [Vertex; 3], edges: [Edge; 3]) -> [f64; 3] {
+    let rest = half_differences(edges.map(|e| e.gap));
+    [0, 1, 2].map(|k| corners[k].radius + rest[k])
+}
+
+/// The weights `w_k = ∂θ_i/∂u_j = ∂θ_j/∂u_i` of the three edges (w_k belongs to edge ij, opposite corner k).
+///
+/// `r`: half-perimeter differences; `q2`, `eta`: of the edges opposite the corners. With `c_i = 1 − λ ε_i e_i²`
+///
+/// ```text
+/// w_k = 8 e_i e_j [ e_i e_j c_k (ε_i ε_j − η_ij²) + e_j e_k c_i (ε_j η_ki + η_ij η_jk) + e_i e_k c_j (ε_i η_jk + η_ij η_ki) ]
+///       / (d_i² d_j² d_k Δ f(l_k)²),          Δ² = f(s) f(r_i) f(r_j) f(r_k),   f(x) = x, sinh x, sin x  (E²: ½ in place of 8)
+/// ∂θ_i/∂u_i = −w_k cos(h) l_k − w_j cos(h) l_j  (E²: −w_k − w_j)
+/// ```
+///
+/// which is \[ZGZLYG14\]'s matrix `σ/A · L Θ L⁻¹ D` multiplied out (notation.md derives it); for circle packings with η in
+/// [0, 1] in E² and H² no term is negative. In E² it is `cot θ_k / 2` for ε = 0, and always (signed distance of the power
+/// centre from edge ij) / l_k. A broken triangle has weights 0: its extended angles are constant.
+#[inline]
+pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], eta: [f64; 3]) -> [f64; 3] {
+    if r.iter().any(|&x| x <= 0.0) {
+        return [0.0; 3];
+    }
+    // The weights do not change when e, f(l), f(r) are divided by one number: this one keeps products from underflow.
+    let unit = corners.iter().fold(0.0, |m, v| f64::max(m, v.scale)).recip();
+    let e = corners.map(|v| v.scale * unit);
+    let f = |x: f64| unit * super::triangle::sine(space, x);
+    let s = r[0] + r[1] + r[2];
+    if space == Space::S2 && s >= 2.0 * FRAC_PI_2 {
+        return [0.0; 3];
+    }
+    let delta = (f(s) * f(r[0])).sqrt() * (f(r[1]) * f(r[2])).sqrt();
+    let lambda = space.curvature();
+    let c = corners.map(|v| 1.0 - lambda * v.epsilon * v.scale * v.scale);
+    let d = corners.map(|v| v.d);
+    let epsilon = corners.map(|v| v.epsilon);
+    let weight = |k: usize| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        // f(l_k)² = 4 q² (1 − λ q²)
+        let chord = 4.0 * q2[k] * unit * unit * (1.0 - lambda * q2[k]);
+        let own = match epsilon[i] * epsilon[j] {
+            1.0 => (1.0 - eta[k]) * (1.0 + eta[k]),
+            p => p - eta[k] * eta[k],
+        };
+        let sum = e[i] * e[j] * c[k] * own
+            + e[j] * e[k] * c[i] * (epsilon[j] * eta[j] + eta[k] * eta[i])
+            + e[i] * e[k] * c[j] * (epsilon[i] * eta[i] + eta[k] * eta[j]);
+        let scale = match space {
+            Space::E2 => 0.5,
+            _ => 8.0 / (d[i] * d[i] * d[j] * d[j] * d[k]),
+        };
+        scale * (e[i] * e[j] / chord) * (sum / delta)
+    };
+    let w = [weight(0), weight(1), weight(2)];
+    // A triangle so thin that doubles cannot say how it would move counts as broken.
+    if w.iter().all(|w| w.is_finite()) { w } else { [0.0; 3] }
+}
