@@ -92,8 +92,10 @@ pub enum Error {
         message: &'static str,
     },
 
-    /// An edge length is not finite and positive.
-    #[error("edge {edge} has length {length}: lengths must be finite and positive")]
+    /// An edge length is not positive, or out of range.
+    #[error(
+        "edge {edge} has length {length}: lengths must lie between 1e-150 and 1e150 (weld its ends, or rescale)"
+    )]
     EdgeLength {
         /// The edge.
         edge: usize,

@@ -11,6 +11,9 @@ use std::thread::JoinHandle;
 /// Elements handed to a thread at a time; fixed, so that it never depends on the number of threads.
 const CHUNK: usize = 1024;
 
+/// More threads than this help nobody.
+pub const MAX_THREADS: usize = 256;
+
 /// Thread pool of one solver or call. Its threads have ended when it is dropped: a host that unloads the
 /// library then leaves nothing behind.
 pub struct Pool {
@@ -21,10 +24,10 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// A pool of `threads` threads; 0 means one per available core.
+    /// A pool of `threads` threads; 0 means one per available core, more than [`MAX_THREADS`] means that many.
     pub fn new(threads: usize) -> Result<Pool> {
         let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
-        let threads = if threads == 0 { cores } else { threads };
+        let threads = if threads == 0 { cores } else { threads.min(MAX_THREADS) };
         let mut workers = Vec::new();
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

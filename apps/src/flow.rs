@@ -184,7 +184,7 @@ fn write(
     let mut seconds = outcome.seconds;
     timed(&mut seconds.write, || -> Result<(), Failure> {
         if let Some(path) = &args.metric {
-            let factor = outcome.initial.conformal_factor(&outcome.metric);
+            let factor = outcome.initial.conformal_factor(&outcome.metric)?;
             let Outcome { mesh, scheme, metric, lengths, target, .. } = outcome;
             outputs.add_json(path, &MetricFile::new(mesh, *scheme, metric, lengths, &factor, target))?;
         }
@@ -284,7 +284,8 @@ pub struct FlowResult {
     max_curvature_error: f64,
     /// What the error is held against: the tolerance, or the rounding floor of the mesh.
     tolerance: f64,
-    rounding_floor: f64,
+    /// Where a flow stalled: what rounding can do to the curvature there.
+    rounding_floor: Option<f64>,
     broken_triangles: usize,
     /// Faces that break the triangle inequality.
     broken_faces: Vec<usize>,

@@ -8,7 +8,7 @@ use ricci::Control;
 use ricci::flow::{self, Solver};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use ricci::metric::target::{check_total, check_vertices};
+use ricci::metric::target::{check_total, check_vertices, settle_total};
 use ricci::metric::{Curvature, Initial, Metric, Scheme, Target, initial_metric};
 
 /// What to compute.
@@ -95,7 +95,7 @@ fn target(mesh: &Mesh, lengths: &PerEdge<f64>, job: &Job) -> Result<(Target, Per
     let rule = match &job.target {
         Some(rule) => rule.clone(),
         None if free => Target::Cones(Vec::new()),
-        None => Target::default_for(mesh, lengths, job.space),
+        None => Target::default_for(mesh, lengths, job.space)?,
     };
     let mut target = rule.values(mesh, lengths, job.space)?;
     job.pinned.iter().filter(|v| v.index() < mesh.n_vertices()).for_each(|&v| target[v] = 0.0);
@@ -107,6 +107,7 @@ fn target(mesh: &Mesh, lengths: &PerEdge<f64>, job: &Job) -> Result<(Target, Per
     }
     if !free {
         check_total(mesh, job.space, &target)?;
+        settle_total(mesh, job.space, &mut target);
     }
     Ok((rule, target))
 }

@@ -56,7 +56,7 @@ pub fn lay_out(
         let cut = cut_graph(mesh, &metric.lengths(mesh)?, &cones)?;
         control.step(Stage::Layout, 0.3)?;
         let mut layout = layout_of(mesh, metric, &cut, control)?;
-        let scale = layout.scale_to_area(mesh, area(&input.mesh, input.geometry, &input.lengths))?;
+        let scale = layout.scale_to_area(mesh, area(&input.mesh, input.geometry, &input.lengths)?)?;
         control.step(Stage::Layout, 0.8)?;
         let quality = quality(mesh, &input.lengths, &layout)?;
         Ok((layout, scale, quality))

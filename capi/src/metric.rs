@@ -342,7 +342,7 @@ pub unsafe extern "C" fn ricci_metric_conformal_factor(
 ) -> ricci_status {
     guard::call(|door| {
         let metric = door.shared(metric)?;
-        let values = metric.origin.initial.conformal_factor(&metric.metric);
+        let values = metric.origin.initial.conformal_factor(&metric.metric)?;
         copy_out("factor", &values, factor, capacity)
     })
 }

@@ -96,7 +96,8 @@ pub struct ricci_report_summary {
     /// The tolerance that was used: the one asked for, or the rounding floor of the mesh where that is
     /// larger.
     pub tolerance: f64,
-    /// Curvature error that rounding u to double precision can cause on the final metric, radians.
+    /// Largest curvature error that rounding can cause at the final metric, radians; determined where a flow
+    /// stalls, else 0.
     pub rounding_floor: f64,
     /// |sum of curvatures + lambda area - 2 pi chi| of the result.
     pub gauss_bonnet: f64,
@@ -181,7 +182,7 @@ pub unsafe extern "C" fn ricci_report_summarise(
             broken_triangles: report.broken_triangles,
             max_curvature_error: report.max_curvature_error,
             tolerance: report.tolerance,
-            rounding_floor: report.rounding_floor,
+            rounding_floor: report.rounding_floor.unwrap_or(0.0),
             gauss_bonnet: report.gauss_bonnet,
             seconds_assemble: seconds.assemble,
             seconds_analyse: seconds.analyse,

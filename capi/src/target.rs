@@ -51,7 +51,7 @@ pub unsafe extern "C" fn ricci_target_default(
     guard::call(|door| {
         let metric = door.shared(metric)?;
         let origin = &metric.origin;
-        let choice = Target::default_for(&origin.mesh, &origin.lengths, metric.metric.space);
+        let choice = Target::default_for(&origin.mesh, &origin.lengths, metric.metric.space)?;
         copy_out("target", &metric.resolve(&choice)?, target, capacity)
     })
 }

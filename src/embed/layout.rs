@@ -79,10 +79,7 @@ fn lay_out(
     if !cut::is_disk(mesh, &cut.is_cut) {
         return Err(Error::Layout("the cut does not open the surface into a disk".into()));
     }
-    let is_cut = |h: &HalfedgeId| h.index() < mesh.n_halfedges() && cut.is_cut[h.edge()];
-    if !cut.segments.iter().flatten().all(is_cut) {
-        return Err(Error::Layout("a segment of the cut has an edge that is not cut".into()));
-    }
+    check_segments(mesh, cut)?;
     let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
     let Development { coordinates, direction, area, broken } =
         develop(mesh, lengths, differences, &cut.is_cut, &corner_index, n_corners, control)?;
@@ -192,6 +189,18 @@ impl Layout {
         };
         mesh.faces().filter(|f| !turns_left(f)).collect()
     }
+}
+
+/// Every cut edge lies in exactly one segment, once, and inside the surface.
+fn check_segments(mesh: &Mesh, cut: &CutGraph) -> Result<()> {
+    let mut left = cut.is_cut.clone();
+    for &h in cut.segments.iter().flatten() {
+        if h.index() >= mesh.n_halfedges() || !std::mem::replace(&mut left[h.edge()], false) {
+            return Err(Error::Layout(format!("half-edge {h} of a segment is not cut, or in two segments")));
+        }
+    }
+    let wrong = mesh.edges().find(|&e| left[e] || (cut.is_cut[e] && mesh.is_boundary_edge(e)));
+    wrong.map_or(Ok(()), |e| Err(Error::Layout(format!("cut edge {e} is in no segment, or on the boundary"))))
 }
 
 fn bounding_diagonal(points: &[[f64; 2]]) -> f64 {

@@ -18,9 +18,9 @@ pub(super) struct State {
 }
 
 impl State {
-    pub fn new(mesh: &Mesh, metric: &Metric) -> State {
+    pub fn new(mesh: &Mesh, u: &PerVertex<f64>) -> State {
         State {
-            u: metric.u.clone(),
+            u: u.clone(),
             vertices: vec![Vertex::default(); mesh.n_vertices()],
             edges: vec![Edge::default(); mesh.n_edges()],
             angles: vec![Angles { at: [0.0; 3] }; mesh.n_faces()],
@@ -83,7 +83,8 @@ impl State {
         let mut worst = 0.0f64;
         for (i, out) in out.iter_mut().enumerate() {
             *out = if pinned[i] { 0.0 } else { target[i] - self.curvature[VertexId::from(i)] };
-            worst = worst.max(out.abs());
+            // NaN, which `max` would drop, must not look like a small error.
+            worst = if out.is_nan() { f64::INFINITY } else { worst.max(out.abs()) };
         }
         worst
     }

@@ -19,8 +19,10 @@ impl Run<'_> {
         let n = self.mesh.n_vertices();
         let mut direction = vec![0.0; n];
         let mut next_direction = vec![0.0; n];
-        let mut trial = State::new(self.mesh, self.class);
+        let mut trial = State::new(self.mesh, self.start);
+        // Pinned vertices hold their u: nothing is left to keep the area with.
         let area = match self.class.space {
+            _ if self.pinned.contains(&true) => None,
             Space::S2 => Some(self.spherical_area()),
             Space::E2 if self.options.gradient.area_normalised => Some(state.area(self.mesh, self.class)),
             _ => None,

@@ -85,6 +85,24 @@ impl Jacobian {
         }
     }
 
+    /// What rounding u to doubles and forming the angles from it can do to the curvature of each vertex, where this was
+    /// assembled: `Σ |∂K_i/∂u_j| δ_j` with `δ = ½ε (|u| + 2)`, term by term, and two ulp of π for every angle.
+    pub fn rounding_floor(&self, mesh: &Mesh, class: &Metric, state: &State) -> Vec<f64> {
+        let moved = |v: VertexId| 0.5 * f64::EPSILON * (state.u[v].abs() + 2.0);
+        let mut floor = vec![0.0; mesh.n_vertices()];
+        for f in mesh.faces() {
+            let (corners, edges) = (mesh.face_vertices(f), mesh.opposite_edges(f));
+            for k in 0..3 {
+                let (i, j) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
+                let w = self.weights[f.index()][k].abs();
+                let c = (1.0 - 2.0 * class.space.curvature() * state.edges[edges[k].index()].q2).abs();
+                floor[i.index()] += w * (moved(j) + c * moved(i)) + 2.0 * f64::EPSILON;
+                floor[j.index()] += w * (moved(i) + c * moved(j)) + 2.0 * f64::EPSILON;
+            }
+        }
+        floor
+    }
+
     pub fn mean_diagonal(&self) -> f64 {
         let n = self.pattern.size();
         (0..n).map(|j| self.values[self.pattern.diagonal(j)].abs()).sum::<f64>() / n.max(1) as f64
@@ -107,7 +125,7 @@ impl Jacobian {
 /// contributes nothing.
 pub fn curvature_derivative(mesh: &Mesh, metric: &Metric) -> Result<Vec<(VertexId, VertexId, f64)>> {
     metric.check(mesh)?;
-    let mut state = State::new(mesh, metric);
+    let mut state = State::new(mesh, &metric.u);
     if !state.evaluate(mesh, metric) {
         // The first edge without a length is named by this call.
         metric.lengths(mesh)?;

@@ -26,7 +26,7 @@ use crate::metric::Metric;
 /// The metric with curvature `target` in the conformal class of `metric`, and how it was found.
 ///
 /// `target`: V entries, radians, admissible (see [`crate::metric::target::check_admissible`]). A flow that does not
-/// reach it is no error: the report says so and why, and the metric is the best one found. For
+/// reach it is no error: the report says so and why, and the metric is the last one. For
 /// several targets on one surface keep a [`Solver`].
 pub fn flow(
     mesh: &Mesh,

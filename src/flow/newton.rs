@@ -18,10 +18,12 @@ const SHIFT_GROWTH: f64 = 100.0;
 const SHIFT_TRIES: usize = 12;
 /// The floor estimate counts every rounding once; a stalled residual within this factor of it is at the floor.
 const FLOOR_SLACK: f64 = 8.0;
-/// Iterations without a new best residual (by a tenth) after which a small residual counts as stalled.
+/// A floor above this is no floor but a degenerating triangle.
+const MAX_FLOOR: f64 = 1e-7;
+/// Iterations without a new best residual (by a tenth) after which a residual below `AT_THE_END` counts as stalled: Newton
+/// converges quadratically there, and what does not is rounding. (Farther out the maximum norm proves nothing.)
 const PATIENCE: usize = 8;
-/// The same while the residual is large.
-const FAR_PATIENCE: usize = 40;
+const AT_THE_END: f64 = 1e-8;
 /// Lengths within one metric that differ by more than e^MAX_RANGE mean that there is no solution to run to: solutions
 /// of the test corpus stay below e^350, and doubles end at e^700.
 const MAX_RANGE: f64 = 500.0;
@@ -38,9 +40,9 @@ impl Run<'_> {
     ) -> Result<State> {
         let n = self.mesh.n_vertices();
         let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
-        let mut trial = State::new(self.mesh, self.class);
+        let mut trial = State::new(self.mesh, self.start);
         let mut error = state.residual(self.target, self.pinned, &mut residual);
-        let (first, mut best, mut since_best, mut shift) = (error, error, 0, 0.0);
+        let (first, mut best, mut since_best, mut shift, mut factored) = (error, error, 0, 0.0, false);
         report.residuals.push(error);
         self.control.step(Stage::Flow, 0.0)?;
         let system = self.prepare(system, report)?;
@@ -54,7 +56,8 @@ impl Run<'_> {
             self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
             timed(&mut report.seconds.assemble, || system.jacobian.assemble(self.mesh, self.class, &state));
             self.control.check()?;
-            if !self.direction(system, &state, &residual, &mut step, &mut shift, report)? {
+            factored = self.direction(system, &state, &residual, &mut step, &mut shift, report)?;
+            if !factored {
                 break StopReason::Stalled;
             }
             report.iterations += 1;
@@ -71,31 +74,30 @@ impl Run<'_> {
             if error < 0.9 * best {
                 (best, since_best) = (error, 0);
             }
-            if since_best >= if error < NEAR * NEAR { PATIENCE } else { FAR_PATIENCE } {
+            if since_best >= PATIENCE && error < AT_THE_END {
                 break StopReason::Stalled;
             }
             if range(&state.u) > MAX_RANGE {
                 break StopReason::Diverged;
             }
         };
-        if report.stop_reason != StopReason::IterationLimit && report.iterations > 0 && error > POLISH_TO {
+        if factored && report.stop_reason != StopReason::IterationLimit && error > POLISH_TO {
             self.polish(system, &mut state, &mut trial, &mut residual, &mut step, report, &mut error)?;
         }
         report.max_curvature_error = error;
+        if report.stop_reason == StopReason::Stalled && error <= report.tolerance {
+            report.stop_reason = StopReason::Converged;
+        }
         if report.stop_reason == StopReason::Stalled {
             timed(&mut report.seconds.assemble, || system.jacobian.assemble(self.mesh, self.class, &state));
-        }
-        // Lengths move by |u| ε and a few ulp of their own, curvature by the row sums of ∂K/∂u times that.
-        let largest_u = state.u.iter().fold(0.0f64, |m, u| m.max(u.abs()));
-        if report.iterations > 0 {
-            report.rounding_floor = 0.5 * f64::EPSILON * (largest_u + 2.0) * system.jacobian.matrix().norm();
-        }
-        if report.stop_reason == StopReason::Stalled {
-            if error <= report.tolerance {
-                report.stop_reason = StopReason::Converged;
-            } else if error <= FLOOR_SLACK * report.rounding_floor {
+            state.residual(self.target, self.pinned, &mut residual);
+            let floor = system.jacobian.rounding_floor(self.mesh, self.class, &state);
+            let largest = floor.iter().fold(0.0f64, |m, x| m.max(*x));
+            report.rounding_floor = Some(largest);
+            let at_floor = |(r, floor): (&f64, &f64)| r.abs() <= FLOOR_SLACK * floor;
+            if FLOOR_SLACK * largest <= MAX_FLOOR && residual.iter().zip(&floor).all(at_floor) {
                 report.stop_reason = StopReason::RoundingFloor;
-                report.tolerance = FLOOR_SLACK * report.rounding_floor;
+                report.tolerance = FLOOR_SLACK * largest;
             }
         }
         Ok(state)
@@ -103,9 +105,9 @@ impl Run<'_> {
 
     /// The Newton direction into `step`; false when there is none.
     ///
-    /// A vertex whose triangles all break has a zero row, and rounding can make the matrix indefinite. The diagonal is
-    /// then raised at the vertices of broken triangles (at all, where none is broken), so far that no u moves further
-    /// than `max_step`: capping the step instead would hold back the sound vertices for the sake of the loose ones.
+    /// A vertex whose triangles all break has a zero row, and rounding can make the matrix indefinite. Where the matrix has
+    /// no factor, its diagonal is raised at the vertices of broken triangles (at all, where none is broken), so far that no
+    /// u moves further than `max_step`: capping the step instead would hold back the sound vertices for the loose ones.
     /// `shift` remembers by how much, for the next iteration.
     fn direction(
         &self,
@@ -116,17 +118,17 @@ impl Run<'_> {
         shift: &mut f64,
         report: &mut Report,
     ) -> Result<bool> {
-        let mut loose = vec![0.0; residual.len()];
+        let mut loose = vec![false; residual.len()];
         for f in self.mesh.faces().filter(|f| state.angles[f.index()].broken()) {
-            self.mesh.face_vertices(f).into_iter().for_each(|v| loose[v.index()] = 1.0);
+            self.mesh.face_vertices(f).into_iter().for_each(|v| loose[v.index()] = true);
         }
-        if !loose.contains(&1.0) {
-            loose.fill(1.0);
+        if !loose.contains(&true) {
+            loose.fill(true);
             *shift = 0.0;
         }
         let first = SHIFT * system.jacobian.mean_diagonal();
         let mut added = if *shift > SHIFT_GROWTH * first { *shift / SHIFT_GROWTH } else { 0.0 };
-        system.jacobian.add_diagonal(|v| added * loose[v]);
+        system.jacobian.add_diagonal(|v| if loose[v] { added } else { 0.0 });
         for _ in 0..SHIFT_TRIES {
             self.control.check()?;
             let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
@@ -141,7 +143,7 @@ impl Run<'_> {
                 }
             }
             let more = if added == 0.0 { first } else { added * SHIFT_GROWTH };
-            system.jacobian.add_diagonal(|v| more * loose[v]);
+            system.jacobian.add_diagonal(|v| if loose[v] { more } else { 0.0 });
             added += more;
         }
         Ok(false)

@@ -18,12 +18,9 @@ pub struct Obstruction {
     pub vertices: Vec<VertexId>,
     /// Σ K̄ over I, radians.
     pub curvature: f64,
-    /// The bound, not attained, radians.
+    /// The bound, not attained, radians. (Both sums are formed in doubles.)
     pub least: f64,
 }
-
-/// Sums of at most 3F angles in a fixed order are off by less than this per corner.
-const ROUNDING: f64 = 1e-14;
 
 /// The smallest violated set among those that a run-away flow suggests: the vertices of least u, for every bound on u.
 ///
@@ -43,7 +40,7 @@ pub(super) fn obstruction(
     // The whole of a surface is Gauss–Bonnet's to judge.
     let proper = order.len().min(mesh.n_vertices() - 1);
     let mut taken = vec![0.0; mesh.n_faces()];
-    let (mut curvature, mut least, mut corners) = (0.0, 0.0, 0.0);
+    let (mut curvature, mut least) = (0.0, 0.0);
     for (n, &v) in order[..proper].iter().enumerate() {
         curvature += target[v.index()];
         least += if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI };
@@ -53,9 +50,8 @@ pub(super) fn obstruction(
             let now = if *face == 0.0 { largest_angle(mesh, class, h) } else { PI };
             least -= now - *face;
             *face = now;
-            corners += 1.0;
         }
-        if curvature <= least + ROUNDING * corners {
+        if curvature <= least {
             let mut vertices = order[..=n].to_vec();
             vertices.sort_unstable();
             return Some(Obstruction { vertices, curvature, least });

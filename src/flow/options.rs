@@ -30,7 +30,7 @@ pub enum StepRule {
     BarzilaiBorwein,
     /// The largest step for which the explicit scheme is stable by Gershgorin's bound on ∂K/∂u.
     Stable,
-    /// Always the same step.
+    /// Always the same step (halved where it leaves the domain or raises the error tenfold).
     Fixed(f64),
 }
 

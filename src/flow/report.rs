@@ -106,8 +106,8 @@ pub struct Report {
     pub max_curvature_error: f64,
     /// The tolerance it is held against: the one asked for, or the rounding floor (see [`StopReason::RoundingFloor`]).
     pub tolerance: f64,
-    /// Curvature error that rounding u to double precision can cause at the final metric.
-    pub rounding_floor: f64,
+    /// Largest curvature error that rounding can cause at the final metric; determined where a flow stalls.
+    pub rounding_floor: Option<f64>,
     /// Faces that break the triangle inequality.
     pub broken_triangles: usize,
     /// The vertices of largest |K − K̄| with their K − K̄ (radians), largest first: at most [`WORST`], none where the
@@ -140,7 +140,7 @@ impl Report {
             flips: 0,
             max_curvature_error: f64::INFINITY,
             tolerance,
-            rounding_floor: 0.0,
+            rounding_floor: None,
             broken_triangles: 0,
             worst: Vec::new(),
             obstruction: None,

@@ -11,14 +11,18 @@ use crate::geometry::Space;
 use crate::mesh::{Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::gauss_bonnet;
+use crate::metric::target::settle_total;
 use crate::parallel::Pool;
 
-/// Solver for one surface. The symbolic analysis is kept between targets; each solve starts from the last metric.
+/// Solver for one surface. The symbolic analysis is kept between targets; each solve starts from the last metric that
+/// reached its target (at first from the given one).
 ///
 /// The solver owns its mesh because edge flips change it.
 pub struct Solver {
     pub(super) mesh: Mesh,
     pub(super) metric: Metric,
+    /// u of the last converged solve, or what was set.
+    start: PerVertex<f64>,
     pub(super) options: Options,
     pub(super) pinned: Vec<bool>,
     pub(super) system: Option<System>,
@@ -29,6 +33,8 @@ pub struct Solver {
 pub(super) struct Run<'a> {
     pub mesh: &'a Mesh,
     pub class: &'a Metric,
+    /// u to start from.
+    pub start: &'a PerVertex<f64>,
     pub options: &'a Options,
     pub target: &'a [f64],
     pub pinned: &'a [bool],
@@ -44,7 +50,8 @@ impl Solver {
         let pool = Pool::new(options.threads)?;
         pool.run(|| metric.lengths(&mesh).map(|_| ()))?;
         let pinned = vec![false; mesh.n_vertices()];
-        Ok(Solver { mesh, metric, options, pinned, system: None, pool })
+        let start = metric.u.clone();
+        Ok(Solver { mesh, metric, start, options, pinned, system: None, pool })
     }
 
     /// Hold u at these vertices (Dirichlet); replaces earlier pins. Their curvature is then free.
@@ -60,10 +67,11 @@ impl Solver {
         Ok(())
     }
 
-    /// Set u (V entries): the start of the next solve, and the values held at pinned vertices.
+    /// Set u (V entries): the start of the next solves, and the values held at pinned vertices.
     pub fn set_u(&mut self, u: PerVertex<f64>) -> Result<()> {
         let metric = Metric { u, ..self.metric.clone() };
         self.pool.run(|| metric.lengths(&self.mesh).map(|_| ()))?;
+        self.start = metric.u.clone();
         self.metric = metric;
         Ok(())
     }
@@ -73,7 +81,7 @@ impl Solver {
         &self.mesh
     }
 
-    /// The current metric: the start, or the result of the last solve.
+    /// The current metric: the start, or where the last solve ended, converged or not.
     pub fn metric(&self) -> &Metric {
         &self.metric
     }
@@ -88,14 +96,19 @@ impl Solver {
             let value = format!("{} at vertex {v}", target[v]);
             return Err(Error::Argument { what: "target curvature", value, need: "finite everywhere" });
         }
+        let mut target = target.clone();
+        if !self.pinned.contains(&true) {
+            settle_total(&self.mesh, self.metric.space, &mut target);
+        }
         let mut report = Report::new(self.options.tolerance);
         let mut seconds = 0.0;
         let free_scale = self.metric.space == Space::E2 && !self.pinned.contains(&true);
         let run = Run {
             mesh: &self.mesh,
             class: &self.metric,
+            start: &self.start,
             options: &self.options,
-            target,
+            target: &target,
             pinned: &self.pinned,
             free_scale,
             control,
@@ -103,6 +116,9 @@ impl Solver {
         let system = &mut self.system;
         let state = timed(&mut seconds, || self.pool.run(|| run.solve(system, &mut report)))?;
         report.seconds.total = seconds;
+        if report.converged {
+            self.start = state.u.clone();
+        }
         self.metric.u = state.u;
         Ok(report)
     }
@@ -110,8 +126,9 @@ impl Solver {
 
 impl Run<'_> {
     fn solve(&self, system: &mut Option<System>, report: &mut Report) -> Result<State> {
-        let mut state = State::new(self.mesh, self.class);
-        if self.free_scale && !self.options.gradient.area_normalised {
+        let mut state = State::new(self.mesh, self.start);
+        let keeps_area = self.options.method == Method::Gradient && self.options.gradient.area_normalised;
+        if self.free_scale && !keeps_area {
             center(&mut state.u);
         }
         if !state.evaluate(self.mesh, self.class) {
@@ -129,14 +146,14 @@ impl Run<'_> {
         if reached && report.broken_triangles > 0 {
             report.stop_reason = StopReason::BrokenTriangles;
         }
-        report.converged = matches!(report.stop_reason, StopReason::Converged | StopReason::RoundingFloor);
         report.worst = self.worst(&state);
-        if !report.converged && report.stop_reason != StopReason::BrokenTriangles {
+        if !matches!(report.stop_reason, StopReason::Converged | StopReason::BrokenTriangles) {
             report.obstruction = obstruction(self.mesh, self.class, &state, self.target, self.pinned);
             if report.obstruction.is_some() {
                 report.stop_reason = StopReason::Infeasible;
             }
         }
+        report.converged = matches!(report.stop_reason, StopReason::Converged | StopReason::RoundingFloor);
         Ok(state)
     }
 

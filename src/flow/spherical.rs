@@ -32,9 +32,15 @@ impl Run<'_> {
     ) -> Result<State> {
         let n = self.mesh.n_vertices();
         let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
-        let mut trial = State::new(self.mesh, self.class);
+        let mut trial = State::new(self.mesh, self.start);
         let area = (!self.pinned.contains(&true)).then(|| self.spherical_area());
-        self.settle(&mut state, area);
+        if !self.settle(&mut state, area) {
+            report.stop_reason = StopReason::Stalled;
+            state = State::new(self.mesh, self.start);
+            state.evaluate(self.mesh, self.class);
+            report.max_curvature_error = state.residual(self.target, self.pinned, &mut residual);
+            return Ok(state);
+        }
         let mut error = state.residual(self.target, self.pinned, &mut residual);
         let (first, mut damping) = (error, MIN_DAMPING);
         report.residuals.push(error);

@@ -13,7 +13,8 @@ const ROUNDING: f64 = 1e-12;
 /// (or not finite): they span no lattice.
 ///
 /// Reduction by Lagrange and Gauss: the longer vector is shortened by multiples of the shorter one. Each round at least
-/// halves the squared length of the longer one until it is within a factor √3 of the shorter, so rounds are few.
+/// halves the squared length of the longer one until it is within a factor √3 of the shorter, so rounds are few; it ends
+/// when a round shortens nothing.
 pub fn modulus(periods: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     let [mut a, mut b] = periods;
     let largest = periods.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -33,7 +34,11 @@ pub fn modulus(periods: [[f64; 2]; 2]) -> Option<[f64; 2]> {
         if times == 0.0 {
             break;
         }
-        b = [b[0] - times * a[0], b[1] - times * a[1]];
+        let shorter = [b[0] - times * a[0], b[1] - times * a[1]];
+        if dot(shorter, shorter) >= dot(b, b) {
+            break; // Re τ = ½: both are as short as it gets
+        }
+        b = shorter;
     }
     if dot(a, a) > dot(b, b) {
         (a, b) = (b, a);

@@ -105,16 +105,4 @@ impl Symmetric<'_> {
             }
         }
     }
-
-    /// Largest absolute row sum.
-    pub fn norm(&self) -> f64 {
-        let mut sums = vec![0.0; self.pattern.size()];
-        for (i, j, a) in self.entries() {
-            sums[i] += a.abs();
-            if i != j {
-                sums[j] += a.abs();
-            }
-        }
-        sums.into_iter().fold(0.0, f64::max)
-    }
 }

@@ -70,6 +70,7 @@ pub fn curvature_from_angles(mesh: &Mesh, angles: impl Iterator<Item = [f64; 3]>
 }
 
 /// Total area of the metric.
-pub fn area(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> f64 {
-    mesh.faces().map(|f| triangle::area(space, face_lengths(mesh, lengths, f))).sum()
+pub fn area(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> Result<f64> {
+    check_lengths(mesh, lengths)?;
+    Ok(mesh.faces().map(|f| triangle::area(space, face_lengths(mesh, lengths, f))).sum())
 }

@@ -124,7 +124,7 @@ fn represent(
             max_length_change = max_length_change.max((start[e] / lengths[e] - 1.0).abs());
         }
     }
-    let shift = start_shift(mesh, &start, &metric, space);
+    let shift = start_shift(mesh, &start, &metric, space)?;
     metric.space = space;
     metric.u.iter_mut().for_each(|u| *u += shift);
     Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
@@ -144,15 +144,17 @@ fn allowed_weight(epsilon: [i8; 2], edge: EdgeId, eta: f64) -> Result<f64> {
 impl Initial {
     /// The conformal factor λ of [JKLLG08, Eqns 2–5] between the input and `metric`, per vertex: `u − u(0)` where
     /// ε = 0, `log(γ/γ(0))` elsewhere.
-    pub fn conformal_factor(&self, metric: &Metric) -> PerVertex<f64> {
+    pub fn conformal_factor(&self, metric: &Metric) -> Result<PerVertex<f64>> {
+        check_size("u", metric.u.len(), self.radii.len())?;
+        check_size("epsilon", metric.epsilon.len(), self.radii.len())?;
         let radii = metric.radii();
-        PerVertex::from_fn(metric.u.len(), |v| {
+        Ok(PerVertex::from_fn(metric.u.len(), |v| {
             if metric.epsilon[v] == 0 {
                 metric.u[v] - self.input_u[v]
             } else {
                 (radii[v] / self.radii[v]).ln()
             }
-        })
+        }))
     }
 }
 
@@ -208,9 +210,9 @@ const MAX_START_U: f64 = -0.1;
 
 /// The common shift of u that carries a metric (with edge `lengths`) from the input geometry to a good start in
 /// `space`.
-fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, input: &Metric, space: Space) -> f64 {
+fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, input: &Metric, space: Space) -> Result<f64> {
     if input.space == space || space == Space::E2 {
-        return 0.0;
+        return Ok(0.0);
     }
     // N = l² in E²; in the curved spaces N ≈ (l/2)² for short edges: halving, then scaling to the wanted area.
     let wanted = match space {
@@ -218,7 +220,7 @@ fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, input: &Metric, space: Space
         Space::H2 => 1.0,
         _ => 4.0 * PI,
     };
-    let area = area(mesh, input.space, lengths);
+    let area = area(mesh, input.space, lengths)?;
     let longest = lengths.iter().fold(0.0f64, |m, &l| m.max(l));
     let mut shift = (0.25 * wanted / area).sqrt().ln();
     shift = shift.min((MAX_START_HALF_CHORD / longest).ln());
@@ -227,7 +229,7 @@ fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, input: &Metric, space: Space
             shift = shift.min(MAX_START_U - input.u[v]);
         }
     }
-    shift
+    Ok(shift)
 }
 
 /// Every length positive, every face a triangle of the input geometry.

@@ -97,6 +97,9 @@ pub fn lengths_from_positions(mesh: &Mesh, positions: &[Point]) -> Result<PerEdg
         // Scaled, so that neither tiny nor huge coordinates under- or overflow when squared.
         let d = [j[0] - i[0], j[1] - i[1], j[2] - i[2]];
         let scale = d.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        if scale == 0.0 {
+            return 0.0;
+        }
         scale * d.iter().map(|x| (x / scale) * (x / scale)).sum::<f64>().sqrt()
     };
     let lengths = PerEdge::from_fn(mesh.n_edges(), length);

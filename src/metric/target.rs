@@ -4,11 +4,11 @@ use super::scheme::Scheme;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use crate::topology;
+use crate::topology::{self, check_lengths};
 use std::f64::consts::PI;
 
 /// Gauss–Bonnet must hold for a given target to this, relative to `2π + Σ|K̄|`: targets written with ten digits
-/// pass, and what remains moves no curvature by more than the flow's own tolerance.
+/// pass. What remains is shared out ([`settle_total`]).
 pub const TOTAL_TOLERANCE: f64 = 1e-10;
 
 /// A prescribed curvature (radians per vertex), by rule or by value.
@@ -31,16 +31,16 @@ impl Target {
     /// What is asked for when nothing is: `Boundary` on open surfaces in E², four cones of π on closed surfaces of
     /// genus 0 in E² (V ≥ 4: vertex 0 and then, three times, the vertex farthest from those chosen, along edges),
     /// `Uniform` otherwise.
-    pub fn default_for(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space) -> Target {
-        match space {
+    pub fn default_for(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space) -> Result<Target> {
+        Ok(match space {
             Space::H2 | Space::S2 => Target::Uniform,
             Space::E2 if !mesh.is_closed() => Target::Boundary,
             Space::E2 if mesh.euler() == 2 && mesh.n_vertices() >= 4 => {
-                let cones = topology::farthest_vertices(mesh, lengths, VertexId(0), 4);
+                let cones = topology::farthest_vertices(mesh, lengths, VertexId(0), 4)?;
                 Target::Cones(cones.into_iter().map(|v| (v, PI)).collect())
             }
             Space::E2 => Target::Uniform,
-        }
+        })
     }
 
     /// The rule's name on the command line.
@@ -54,7 +54,8 @@ impl Target {
         }
     }
 
-    /// The curvature of every vertex, checked to be admissible: see [`check_admissible`].
+    /// The curvature of every vertex, checked to be admissible ([`check_admissible`]) and with an exact total
+    /// ([`settle_total`]).
     pub fn resolve(
         &self,
         mesh: &Mesh,
@@ -62,14 +63,16 @@ impl Target {
         space: Space,
         scheme: Scheme,
     ) -> Result<PerVertex<f64>> {
-        let target = self.values(mesh, lengths, space)?;
+        let mut target = self.values(mesh, lengths, space)?;
         check_admissible(mesh, space, scheme, &target)?;
+        settle_total(mesh, space, &mut target);
         Ok(target)
     }
 
     /// The curvature of every vertex by this rule alone. Errors: a rule that does not exist on this surface in this space, a
     /// vertex that does not exist.
     pub fn values(&self, mesh: &Mesh, lengths: &PerEdge<f64>, space: Space) -> Result<PerVertex<f64>> {
+        check_lengths(mesh, lengths)?;
         let n = mesh.n_vertices();
         let kind = |message: &str| Error::TargetKind { target: self.name(), message: message.into() };
         let vertex = |v: VertexId| {
@@ -128,7 +131,11 @@ pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> R
     for v in mesh.vertices() {
         let limit = if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI };
         let curvature = target[v];
-        if curvature >= limit || curvature.is_nan() {
+        if !curvature.is_finite() {
+            let value = format!("{curvature} at vertex {v}");
+            return Err(Error::Argument { what: "target curvature", value, need: "finite everywhere" });
+        }
+        if curvature >= limit {
             let excess = curvature - limit;
             return Err(Error::TargetAtVertex { vertex: v.index(), curvature, limit, excess });
         }
@@ -161,6 +168,16 @@ pub fn check_total(mesh: &Mesh, space: Space, target: &PerVertex<f64>) -> Result
     }
     let need = format!("{relation} 2πχ = {} in {space}", 2.0 * PI * mesh.euler() as f64);
     Err(Error::TargetTotal { sum, need, miss })
+}
+
+/// In E², where the total must be 2πχ exactly: share what a target misses by rounding equally over the vertices that are not
+/// flat. Without this all of it would remain at whichever vertex the solver holds.
+pub fn settle_total(mesh: &Mesh, space: Space, target: &mut PerVertex<f64>) {
+    let miss = target.iter().sum::<f64>() - 2.0 * PI * mesh.euler() as f64;
+    if space == Space::E2 && check_total(mesh, space, target).is_ok() {
+        let curved = target.iter().filter(|k| **k != 0.0).count();
+        target.iter_mut().filter(|k| **k != 0.0).for_each(|k| *k -= miss / curved as f64);
+    }
 }
 
 /// 2πχ over the boundary vertices in proportion to the boundary length adjacent to each.

@@ -41,17 +41,17 @@ impl CutGraph {
 pub fn cut_graph(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Result<CutGraph> {
     let fixed = fixed_vertices(mesh, lengths, cones)?;
     let sources: Vec<_> = mesh.vertices().filter(|&v| fixed[v]).collect();
-    let open = |sources: &[VertexId]| {
-        let (mut cut, shortest_arc) = tree_cotree_cut(mesh, lengths, &fixed, sources);
+    let open = |sources: &[VertexId]| -> Result<_> {
+        let (mut cut, shortest_arc) = tree_cotree_cut(mesh, lengths, &fixed, sources)?;
         shorten(mesh, lengths, &mut cut);
-        (cut, shortest_arc)
+        Ok((cut, shortest_arc))
     };
     let cut = if sources.is_empty() {
         // Any vertex may be the source: go on from the shortest loop through the last one while that helps.
-        let (mut cut, mut arc) = open(&[VertexId(0)]);
+        let (mut cut, mut arc) = open(&[VertexId(0)])?;
         for _ in 0..MAX_ROOTS {
             let Some(e) = arc else { break };
-            let (next, next_arc) = open(&[mesh.tip(e.halfedge())]);
+            let (next, next_arc) = open(&[mesh.tip(e.halfedge())])?;
             if next.length(lengths) >= cut.length(lengths) {
                 break;
             }
@@ -59,7 +59,7 @@ pub fn cut_graph(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Res
         }
         cut
     } else {
-        open(&sources).0
+        open(&sources)?.0
     };
     debug_assert!(is_disk(mesh, &cut.is_cut));
     Ok(cut.into_graph(mesh))
@@ -180,8 +180,8 @@ fn tree_cotree_cut(
     lengths: &PerEdge<f64>,
     fixed: &PerVertex<bool>,
     sources: &[VertexId],
-) -> (Cut, Option<EdgeId>) {
-    let forest = shortest_paths(mesh, lengths, sources.iter().copied());
+) -> Result<(Cut, Option<EdgeId>)> {
+    let forest = shortest_paths(mesh, lengths, sources.iter().copied())?;
     let arcs = leftover(mesh, lengths, &forest, |e| mesh.is_boundary_edge(e));
     let mut cut = Cut {
         is_cut: PerEdge::filled(mesh.n_edges(), false),
@@ -200,7 +200,7 @@ fn tree_cotree_cut(
         }
     }
     prune(mesh, &mut cut);
-    (cut, arcs.first().copied())
+    Ok((cut, arcs.first().copied()))
 }
 
 /// Close the branches that end nowhere: not at a cone and not on the boundary.
@@ -346,7 +346,7 @@ mod tests {
             let cones: Vec<_> = (0..seed % 4).map(|k| VertexId::from(k * 37 % mesh.n_vertices())).collect();
             let fixed = fixed_vertices(&mesh, &lengths, &cones).unwrap();
             let sources = if cones.is_empty() { &[VertexId(0)] } else { &cones[..] };
-            let (mut cut, _) = tree_cotree_cut(&mesh, &lengths, &fixed, sources);
+            let (mut cut, _) = tree_cotree_cut(&mesh, &lengths, &fixed, sources).unwrap();
             assert!(is_disk(&mesh, &cut.is_cut));
             let before = cut.length(&lengths);
             shorten(&mesh, &lengths, &mut cut);

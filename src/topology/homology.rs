@@ -18,7 +18,7 @@ use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
 pub fn homology_generators(mesh: &Mesh, lengths: &PerEdge<f64>) -> Result<Vec<Vec<HalfedgeId>>> {
     check_lengths(mesh, lengths)?;
     let root = (mesh.n_vertices() > 0).then_some(VertexId(0));
-    let tree = shortest_paths(mesh, lengths, root);
+    let tree = shortest_paths(mesh, lengths, root)?;
     let close = |h: HalfedgeId| {
         let mut there: Vec<_> = tree.path(mesh, mesh.origin(h)).collect();
         let mut back: Vec<_> = tree.path(mesh, mesh.tip(h)).collect();

@@ -1,5 +1,7 @@
 //! Shortest-path forests, and the edges that a tree and a dual tree leave over.
 
+use super::{check_lengths, check_vertex};
+use crate::error::Result;
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -40,17 +42,19 @@ impl Forest {
 ///
 /// `lengths` are positive, one per edge. Equal distances are settled in order of vertex id and the first path
 /// found stays, so the forest depends on the input alone. A component without a source gets one: its vertex
-/// of lowest id.
+/// of lowest id. Errors: lengths that are not E positive numbers, a source that is no vertex.
 pub fn shortest_paths(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     sources: impl IntoIterator<Item = VertexId>,
-) -> Forest {
+) -> Result<Forest> {
+    check_lengths(mesh, lengths)?;
     let mut distance = PerVertex::filled(mesh.n_vertices(), f64::INFINITY);
     let mut parent = PerVertex::filled(mesh.n_vertices(), None);
     let mut settled = PerVertex::filled(mesh.n_vertices(), false);
     let mut queue = BinaryHeap::new();
     for v in sources {
+        check_vertex(mesh, v)?;
         distance[v] = 0.0;
         queue.push(Reverse((Key(0.0), v)));
     }
@@ -72,7 +76,7 @@ pub fn shortest_paths(
         distance[v] = 0.0;
         queue.push(Reverse((Key(0.0), v)));
     }
-    Forest { distance, parent }
+    Ok(Forest { distance, parent })
 }
 
 /// The edges left over by a shortest-path forest and a maximum spanning tree of the dual graph, shortest arcs
