@@ -1,14 +1,15 @@
-//! Reading, diagnosis and building, against the topology that the corpus index states.
+//! Mesh files: the corpus against the topology that its index states, dialects, broken files, writing.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
 
 use proptest::prelude::*;
-use ricci::Error;
+use ricci::mesh::Mesh;
 use ricci::mesh::check::{Defect, diagnose};
 use ricci::mesh::io::{self, ObjData, Soup};
-use ricci::mesh::{FaceId, Mesh};
+use ricci::{Error, Result};
 use std::collections::HashMap;
+use std::io::Write;
 
 fn count(row: &HashMap<String, String>, column: &str) -> Option<usize> {
     row[column].parse().ok()
@@ -29,7 +30,7 @@ fn every_good_mesh_has_the_topology_of_the_index() {
         let theirs = ["V", "E", "F", "genus", "boundary_loops"].map(|c| count(row, c).unwrap());
         assert_eq!(ours, theirs, "{}", row["name"]);
         assert_eq!(diagnosis.genus, Some(mesh.genus()));
-        assert_eq!(diagnosis.boundary_loops, Some(mesh.boundary_loops().len()));
+        assert_eq!(diagnosis.boundary_loops, mesh.boundary_loops().len());
         assert!(mesh.faces().all(|f| mesh.face_vertices(f).map(|v| v.0) == soup.faces[f.index()]));
     }
 }
@@ -40,8 +41,17 @@ fn noted(note: &str, words: &str) -> usize {
     part.and_then(|p| p.split(' ').next()).and_then(|n| n.parse().ok()).unwrap_or(0)
 }
 
+/// Where the index and we differ, and why: (file, column, ours).
+const DIFFERENCES: [(&str, &str, usize); 2] = [
+    // Faces along an edge of a one-sided piece run the same way through nobody's fault: it is the band that is listed.
+    ("moebius.obj", "inconsistent orientation", 0),
+    // The index counts heights below 1e-12 of the longest side; face 2302 is a needle of 0.0011 × 153.5 × 153.5 whose
+    // lengths in doubles bear no angle.
+    ("offset1.obj", "degenerate", 5),
+];
+
 #[test]
-fn every_bad_obj_and_ascii_off_gets_the_diagnosis_of_the_index() {
+fn every_bad_obj_and_text_off_gets_the_diagnosis_of_the_index() {
     let Some((folder, rows)) = common::index("bad") else { return };
     let mut compared = 0;
     for row in rows.iter().filter(|r| r["file"].ends_with("obj") || r["file"].ends_with("off")) {
@@ -50,18 +60,63 @@ fn every_bad_obj_and_ascii_off_gets_the_diagnosis_of_the_index() {
         let diagnosis = diagnose(&soup.positions, &soup.faces);
         let found: HashMap<_, _> = diagnosis.counts().into_iter().collect();
         let ours = |code: &str| found.get(code).copied().unwrap_or(0);
-        let note = &row["note"];
-        let name = &row["name"];
-        assert_eq!(soup.faces.len() - ours("degenerate_face"), faces, "{name}: faces");
-        assert_eq!(ours("isolated_vertex"), noted(note, "isolated vertices"), "{name}: isolated");
-        assert_eq!(ours("duplicate_face"), noted(note, "duplicate faces"), "{name}: duplicates");
-        assert_eq!(ours("non_manifold_edge"), noted(note, "non-manifold edges"), "{name}: edges");
-        assert_eq!(ours("non_manifold_vertex"), noted(note, "non-manifold vertices"), "{name}: vertices");
-        assert_eq!(diagnosis.edges, count(row, "E").unwrap(), "{name}: edges");
-        assert_eq!(ours("non_orientable") > 0, row["orientable"] == "False", "{name}: orientable");
+        let column = |name: &str| count(row, name).unwrap();
+        let is_false = |name: &str| usize::from(row[name] == "False");
+        let any = |n: usize| n.min(1);
+        let noted = |words: &str| noted(&row["note"], words);
+        // A pair of faces at an edge of their own; where more meet, the index counts the non-manifold edge only.
+        let pair = |d: &&Defect| matches!(d, Defect::InconsistentOrientation { meeting: 2, .. });
+        let same_way = ours("inconsistent_orientation") + ours("non_orientable");
+        for (what, ours, theirs) in [
+            ("V", diagnosis.vertices - ours("isolated_vertex"), column("V")),
+            ("E", diagnosis.edges, column("E")),
+            ("F", diagnosis.faces - ours("degenerate_face"), faces),
+            ("components", diagnosis.components, column("components")),
+            ("edge_manifold", any(ours("non_manifold_edge")), is_false("edge_manifold")),
+            ("vertex_manifold", any(ours("non_manifold_vertex")), is_false("vertex_manifold")),
+            ("oriented", any(same_way), is_false("oriented")),
+            ("orientable", any(ours("non_orientable")), is_false("orientable")),
+            ("boundary_loops", diagnosis.boundary_loops, column("boundary_loops")),
+            ("degenerate", ours("zero_area_face"), column("degenerate")),
+            ("isolated vertices", ours("isolated_vertex"), noted("isolated vertices")),
+            ("duplicate faces", ours("duplicate_face"), noted("duplicate faces")),
+            ("non-manifold edges", ours("non_manifold_edge"), noted("non-manifold edges")),
+            ("non-manifold vertices", ours("non_manifold_vertex"), noted("non-manifold vertices")),
+            ("inconsistent orientation", diagnosis.defects.iter().filter(pair).count(), noted("orientation")),
+        ] {
+            let file = row["file"].as_str();
+            let expected = DIFFERENCES.iter().find(|d| (d.0, d.1) == (file, what)).map_or(theirs, |d| d.2);
+            assert_eq!(ours, expected, "{file}: {what}");
+        }
+        assert_eq!(diagnosis.genus, count(row, "genus"), "{}: genus", row["name"]);
         compared += 1;
     }
-    assert!(compared > 30, "only {compared} files compared");
+    assert_eq!(compared, 39);
+}
+
+#[test]
+fn files_that_the_index_could_not_read() {
+    let Some((folder, _)) = common::index("bad") else { return };
+    let soup = |file: &str| io::read(&folder.join(file)).unwrap();
+    for file in ["fmt_empty.obj", "fmt_face_in_group_name.obj"] {
+        assert_eq!(codes(&soup(file))[0], "empty", "{file}");
+    }
+    let cube = Mesh::from_soup(&soup("fmt_whitespace.off")).unwrap();
+    assert_eq!((cube.n_vertices(), cube.n_faces(), cube.genus()), (8, 12, 0));
+    // Continued lines: joined by hand, and triangles counted by corners.
+    let text = std::fs::read_to_string(folder.join("wallhole_linecont.obj")).unwrap();
+    let text = text.replace("\\\r\n", " ").replace("\\\n", " ");
+    let corners = text.lines().filter(|l| l.starts_with("f ")).map(|l| l.split_whitespace().count() - 1);
+    assert_eq!(soup("wallhole_linecont.obj").faces.len(), corners.map(|n| n - 2).sum::<usize>());
+    // Little-endian, triangles without colours: 11 bytes of header, 3 counts, 3 words per vertex, 4 per face.
+    for file in ["beetle_binary.off", "fairing_cross_binary.off"] {
+        let soup = soup(file);
+        let bytes = std::fs::metadata(folder.join(file)).unwrap().len() as usize;
+        assert_eq!(11 + 4 * (3 + 3 * soup.positions.len() + 4 * soup.faces.len()), bytes, "{file}");
+        let diagnosis = diagnose(&soup.positions, &soup.faces);
+        let harmless = |d: &Defect| matches!(d, Defect::NonManifoldVertex { .. });
+        assert!(diagnosis.defects.iter().all(harmless), "{file}: {diagnosis}");
+    }
 }
 
 fn tetrahedron() -> Soup {
@@ -71,67 +126,6 @@ fn tetrahedron() -> Soup {
 
 fn codes(soup: &Soup) -> Vec<&'static str> {
     diagnose(&soup.positions, &soup.faces).counts().into_iter().map(|(code, _)| code).collect()
-}
-
-#[test]
-fn each_defect_is_named_with_its_elements() {
-    let sound = tetrahedron();
-    assert!(codes(&sound).is_empty());
-
-    let mut soup = sound.clone();
-    soup.faces[2][1] = 9;
-    let defects = diagnose(&soup.positions, &soup.faces).defects;
-    assert!(defects.contains(&Defect::IndexOutOfRange { face: 2, index: 9 }));
-
-    let mut soup = sound.clone();
-    soup.faces.push([1, 1, 2]);
-    assert_eq!(codes(&soup), ["degenerate_face"]);
-
-    let mut soup = sound.clone();
-    soup.faces.push([1, 0, 2]);
-    let defects = diagnose(&soup.positions, &soup.faces).defects;
-    assert!(defects.contains(&Defect::DuplicateFace { face: 4, first: 0 }));
-    assert!(defects.contains(&Defect::NonManifoldEdge { vertices: [0, 2], faces: vec![0, 3, 4] }));
-
-    let mut soup = sound.clone();
-    soup.faces[0] = [0, 1, 2];
-    assert_eq!(codes(&soup), ["inconsistent_orientation"]);
-    assert_eq!(diagnose(&soup.positions, &soup.faces).defects.len(), 3);
-
-    let mut soup = sound.clone();
-    soup.positions[3] = [f64::NAN, 0.0, 0.0];
-    assert_eq!(diagnose(&soup.positions, &soup.faces).defects, [Defect::NonFiniteCoordinate { vertex: 3 }]);
-
-    let mut soup = sound.clone();
-    soup.positions[2] = [0.25, 0.0, 0.0];
-    assert_eq!(codes(&soup), ["zero_area_face"]);
-
-    let mut soup = sound.clone();
-    soup.positions.push([5.0, 5.0, 5.0]);
-    assert_eq!(diagnose(&soup.positions, &soup.faces).defects, [Defect::IsolatedVertex { vertex: 4 }]);
-
-    // Two tetrahedra: apart, and joined in one vertex.
-    let far: Vec<_> = sound.positions.iter().map(|p| [p[0] + 3.0, p[1], p[2]]).collect();
-    let mut soup = sound.clone();
-    soup.positions.extend(&far);
-    soup.faces.extend(sound.faces.iter().map(|f| f.map(|v| v + 4)));
-    let defects = diagnose(&soup.positions, &soup.faces).defects;
-    assert_eq!(defects, [Defect::SeveralComponents { faces: vec![4, 4] }]);
-    soup.faces.iter_mut().flatten().filter(|v| **v == 4).for_each(|v| *v = 0);
-    soup.faces.iter_mut().flatten().filter(|v| **v > 4).for_each(|v| *v -= 1);
-    soup.positions.remove(4);
-    let defects = diagnose(&soup.positions, &soup.faces).defects;
-    assert_eq!(defects, [Defect::NonManifoldVertex { vertex: 0, sheets: 2 }]);
-
-    assert_eq!(codes(&Soup::default()), ["empty"]);
-
-    // Möbius strip of five triangles.
-    let faces: Vec<[u32; 3]> = (0..5).map(|i| [i, (i + 1) % 5, (i + 2) % 5]).collect();
-    let positions: Vec<_> =
-        (0..5).map(|i| [f64::from(i).cos(), f64::from(i).sin(), f64::from(i * i)]).collect();
-    let defects = diagnose(&positions, &faces).defects;
-    assert!(matches!(defects[..], [Defect::NonOrientable { faces: 5, .. }]), "{defects:?}");
-    assert!(matches!(Mesh::from_faces(5, &faces), Err(Error::Defects(_))));
 }
 
 #[test]
@@ -149,113 +143,217 @@ fn a_written_obj_reads_back_bit_for_bit() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "a temporary was left behind");
 
     // A failed write leaves the old file and no temporary.
-    soup.positions[0][0] = f64::NAN;
-    let data = ObjData { positions: &soup.positions, faces: &soup.faces, ..ObjData::default() };
-    assert!(matches!(io::write_obj(&path, &data), Err(Error::Io { .. })));
+    let refused = |soup: &Soup, words: &str| {
+        let data = ObjData { positions: &soup.positions, faces: &soup.faces, ..ObjData::default() };
+        let error = io::write_obj(&path, &data).unwrap_err();
+        assert!(matches!(error, Error::Argument { .. }) && error.to_string().contains(words), "{error}");
+        assert_eq!(io::read(&path).unwrap(), back);
+    };
+    soup.positions[3][0] = f64::NAN;
+    refused(&soup, "entry 3");
+    soup.positions[3][0] = 0.0;
+    soup.faces[2][1] = u32::MAX;
+    refused(&soup, "face 2");
+    let full = io::write_atomically(&path, |out| {
+        out.write_all(b"half a file")?;
+        Err(std::io::ErrorKind::StorageFull.into())
+    });
+    assert!(matches!(full, Err(Error::Io { .. })));
     assert_eq!(io::read(&path).unwrap(), back);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "a temporary was left behind");
     let missing = folder.path().join("no/such/folder/t.obj");
-    assert!(matches!(io::write_obj(&missing, &data), Err(Error::Io { .. })));
+    assert!(matches!(io::write_obj(&missing, &ObjData::default()), Err(Error::Io { .. })));
+}
+
+#[test]
+fn texture_coordinates_are_written_per_corner() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("uv.obj");
+    let data = ObjData {
+        positions: &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.5, 0.0]],
+        texcoords: &[[0.5, -0.25], [0.0, 1.0]],
+        faces: &[[2, 0, 1]],
+        face_texcoords: &[[1, 0, 1]],
+    };
+    io::write_obj(&path, &data).unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    let numbers = |line: &str| line.split(' ').skip(1).map(|x| x.parse().unwrap()).collect::<Vec<f64>>();
+    let texcoords: Vec<_> = text.lines().filter(|l| l.starts_with("vt ")).map(numbers).collect();
+    assert_eq!(texcoords, [[0.5, -0.25], [0.0, 1.0]]);
+    assert_eq!(text.lines().last(), Some("f 3/2 1/1 2/2"));
+    assert_eq!(io::read(&path).unwrap().faces, data.faces);
+}
+
+fn read_obj(text: &str) -> Result<Soup> {
+    io::parse_obj(text.as_bytes(), "t.obj")
+}
+
+fn read_off(text: &str) -> Result<Soup> {
+    io::parse_off(text.as_bytes(), "t.off")
 }
 
 #[test]
 fn obj_and_off_dialects_are_read() {
     let obj =
         "v 0 0 0 1 0 0\r\nv 1 0 0\n# c\nv 1 1 0\nv 0 1 0 # last\nvt 0 0\ng a\nf 1/1 2/1/1 3//1 \\\n -1\n";
-    let soup = io::parse_obj(obj, "t.obj").unwrap();
+    let soup = read_obj(obj).unwrap();
     assert_eq!(soup.faces, [[0, 1, 2], [0, 2, 3]]);
     let odd = "\u{feff}v 0 0 0\rv 1 0 0\r# back\\\rv 1 1 0\rv 0 1 0\rf 1 2 3 4\r";
-    assert_eq!(io::parse_obj(odd, "t.obj").unwrap(), soup);
+    assert_eq!(read_obj(odd).unwrap(), soup);
+    let latin1 = [b"usemtl \xFF\xFE\ng f 1 2 3\n", obj.as_bytes()].concat();
+    assert_eq!(io::parse_obj(&latin1, "t.obj").unwrap(), soup);
     for off in [
         "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n",
+        "OFF\r\n4 1 0\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n0 1 0\r\n4 0 1 2 3\r\n\r\n",
+        "# made by hand\n\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n",
         "COFF 4 1 0\n0 0 0 9 9 9 9\n1 0 0 9\n# c\n\n1 1 0\n0 1 0\n4 0 1 2 3 255 0 0\n",
+        "NOFF\n4 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n4 0 1 2 3\n",
+        "STOFF\n4 1 0\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n",
+        "NCSTOFF\n4 1 0\n0 0 0 0 0 1 1 1 1 1 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 # face\n# end",
         "\u{feff}OFF4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n",
         "  OFF # head\n 4 1\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3",
+        "OFF\n4\n1\n0\n0 0\n0\n1 0 0\n1 1 0\n0 1 0\n4 0 1\n2 3\n",
+        "OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1 3\n4 0 1 2 3\n2 0 1",
     ] {
-        let read = io::parse_off(off, "t.off").unwrap();
-        assert_eq!((read.faces, read.positions), (soup.faces.clone(), soup.positions.clone()));
+        assert_eq!(read_off(off).unwrap(), soup, "{off}");
     }
 }
 
 #[test]
-fn a_syntax_error_names_its_line() {
-    let line = |e: Error| if let Error::Parse { line, .. } = e { line } else { 0 };
-    assert_eq!(line(io::parse_obj("v 0 0 0\nv 1 x 0\n", "t").unwrap_err()), 2);
-    assert_eq!(line(io::parse_obj("v 0 0 0\n\nf 1 a 2\n", "t").unwrap_err()), 3);
-    assert_eq!(line(io::parse_obj("v 0 0 0\nf 0 1 1\n", "t").unwrap_err()), 2);
-    assert_eq!(line(io::parse_off("OFF\n3 1 0\n0 0 0\n0 0\n3 0 1 2\n", "t").unwrap_err()), 5);
-    // A header that promises more than the file holds is an error, not an allocation.
-    assert!(line(io::parse_off("OFF\n99999999999 1 0\n0 0 0\n", "t").unwrap_err()) > 0);
-    assert!(
-        line(io::parse_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n99999999999 0 1 2\n", "t").unwrap_err()) > 0
-    );
+fn a_syntax_error_names_its_line_and_what_is_wrong() {
+    let cases: [(fn(&str) -> Result<Soup>, &str, usize, &str); 25] = [
+        (read_obj, "v 0 0 0\nv 1 x 0\n", 2, "coordinate y `x` is not a number"),
+        (read_obj, "v 0 0 0\nv 1 2\n", 2, "coordinate z is missing"),
+        (read_obj, "v 0 0 0\n\nf 1 a 2\n", 3, "`a`"),
+        (read_obj, "v 0 0 0\nf 0 1 1\n", 2, "counts from 1"),
+        (read_obj, "v 0 0 0\nf 1 \\\n0 1", 2, "counts from 1"),
+        (read_obj, "v 0 0 0\nf 1 -2 1", 2, "back past the first"),
+        (read_obj, "v 0 0 0\nf 1 99999999999 1", 2, "more than can be numbered"),
+        (read_off, "", 0, "empty"),
+        (read_off, "ply\n", 1, "begins no OFF file"),
+        (read_off, "XOFF\n", 1, "no OFF header"),
+        (read_off, "CCOFF\n", 1, "no OFF header"),
+        (read_off, "# c\n4OFF\n1 1 0\n", 2, "another dimension"),
+        (read_off, "nOFF\n4\n1 1 0\n", 1, "another dimension"),
+        (read_off, "C4nOFF BINARY\n", 1, "another dimension"),
+        (read_off, "OFF\n3\n", 2, "number of faces is missing"),
+        (read_off, "OFF\n-3 1 0\n", 2, "`-3` is not a count"),
+        (read_off, "OFF\n3 1 0\n0 0 0\n0 0\n3 0 1 2\n", 5, "x of vertex 2 (of 3) is missing"),
+        (read_off, "OFF 3 1 0\n0 0 0\n", 2, "x of vertex 1 (of 3) is missing"),
+        (read_off, "OFF 1 2 0\n0 0 0\n3 0 0 0\n", 3, "size of face 1 (of 2) is missing"),
+        (read_off, "OFF 1 1 0\n0 0 0\n3 0 0 -1\n", 3, "corner 2 of face 0 `-1`"),
+        (read_off, "OFF 1 1 0\n0 0 0\n3 0 0 4294967296\n", 3, "more than can be numbered"),
+        (read_off, "OFF 1 1 0\n0 0 0\n3 0 0 0\n3 0 0 0\n", 4, "after the last face"),
+        // A header that promises more than the file holds is an error, not an allocation.
+        (read_off, "OFF\n99999999999 1 0\n0 0 0\n", 3, "vertex 1 (of 99999999999)"),
+        (read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n99999999999 0 1 2\n", 6, "corner 3 of face 0"),
+        (read_off, "OFF BINARY\n\0\0\0\u{3}", 1, "ends at byte 15, in the number of faces"),
+    ];
+    for (read, text, line, words) in cases {
+        let Err(Error::Parse { line: found, message, .. }) = read(text) else { panic!("{text:?} was read") };
+        assert!(found == line && message.contains(words), "{text:?}: line {found}: {message}");
+    }
     assert!(matches!(io::read("mesh.xyz".as_ref()), Err(Error::UnknownFormat { .. })));
 }
 
-#[test]
-fn one_vertex_torus_is_a_surface() {
-    // The square with opposite sides glued: edges 1 (right), 2 (up), 3 (diagonal).
-    let edges = [[2, -3, 1], [-1, -2, 3]];
-    let mesh = Mesh::from_gluing(1, &[[0, 0, 0], [0, 0, 0]], &edges).unwrap();
-    assert_eq!((mesh.n_edges(), mesh.euler(), mesh.genus()), (3, 0, 1));
-    assert!(mesh.is_closed() && !mesh.is_simplicial());
-    assert_eq!(mesh.outgoing(0usize.into()).count(), 6);
-    assert_eq!([0usize, 1].map(|f| mesh.face_edges(FaceId::from(f))), edges);
+/// Binary OFF after Geomview's manual, written here: big-endian counts, `f32` per vertex, and per face its size, corners
+/// and colour. `little`: the other byte order and no colours, as programs write that copy their memory.
+fn binary(header: &str, vertices: &[&[f32]], faces: &[(&[i32], &[f32])], little: bool) -> Vec<u8> {
+    let mut out = header.as_bytes().to_vec();
+    let mut word = |bits: u32| out.extend(if little { bits.to_le_bytes() } else { bits.to_be_bytes() });
+    [vertices.len(), faces.len(), 0].into_iter().for_each(|n| word(n as u32));
+    vertices.iter().copied().flatten().for_each(|x| word(x.to_bits()));
+    for (corners, colour) in faces {
+        word(corners.len() as u32);
+        corners.iter().for_each(|&v| word(v as u32));
+        if !little {
+            word(colour.len() as u32);
+            colour.iter().for_each(|x| word(x.to_bits()));
+        }
+    }
+    out
 }
 
 #[test]
-fn an_inconsistent_gluing_names_the_face() {
-    let faces = [[0, 0, 0], [0, 0, 0]];
-    let face = |e: [[i32; 3]; 2]| match Mesh::from_gluing(1, &faces, &e) {
-        Err(Error::Gluing { face, .. }) => face,
-        other => panic!("{other:?}"),
+fn binary_off_is_the_text_off_of_the_same_mesh() {
+    let text =
+        "OFF\n5 4 0\n0 0 0.5\n1 0 nan\n1 1 -2\n0 1 1e30\n-0.25 3 0\n4 0 1 2 3\n3 0 1 9\n2 0 1\n5 4 3 2 1 0\n";
+    let expected = read_off(text).unwrap();
+    let red: &[f32] = &[1.0, 0.0, 0.0, 1.0];
+    let faces: [(&[i32], &[f32]); 4] =
+        [(&[0, 1, 2, 3], red), (&[0, 1, 9], &[]), (&[0, 1], &red[..3]), (&[4, 3, 2, 1, 0], red)];
+    let points =
+        [[0.0, 0.0, 0.5], [1.0, 0.0, f32::NAN], [1.0, 1.0, -2.0], [0.0, 1.0, 1e30], [-0.25, 3.0, 0.0]];
+    let same = |bytes: &[u8], what: &str| {
+        let soup = io::parse_off(bytes, "t.off").unwrap();
+        // 1e30 is not an f32: the binary file holds the nearest one.
+        let narrow =
+            |s: &Soup| s.positions.iter().flatten().map(|&x| (x as f32).to_bits()).collect::<Vec<_>>();
+        assert_eq!((&soup.faces, narrow(&soup)), (&expected.faces, narrow(&expected)), "{what}");
+        assert_eq!(codes(&soup), codes(&expected), "{what}");
     };
-    assert_eq!(face([[2, -3, 1], [-1, 0, 3]]), 1);
-    assert_eq!(face([[2, -3, 1], [-1, 2, 3]]), 1);
-    assert_eq!(face([[2, -3, 1], [-1, -2, 1_000_000]]), 1);
-    // Two triangles around one vertex 0, glued so that vertices 1 and 2 disagree.
-    let ends = Mesh::from_gluing(4, &[[0, 1, 2], [0, 2, 3]], &[[1, 2, 3], [4, 5, -3]]);
-    assert!(matches!(ends, Err(Error::Gluing { face: 1, .. })));
-    // A vertex with two fans: two triangles that share only vertex 0.
-    let fans = Mesh::from_gluing(5, &[[0, 1, 2], [0, 3, 4]], &[[1, 2, 3], [4, 5, 6]]);
-    assert!(matches!(fans, Err(Error::Gluing { .. })));
+    assert!(codes(&expected).contains(&"non_finite_coordinate"));
+    let wide = |extra: usize| points.map(|p| [&p[..], &vec![0.5; extra]].concat());
+    let headers = [
+        ("OFF BINARY\n", 0),
+        ("# c\n\n  OFF  BINARY # d\r\n", 0),
+        ("NOFF BINARY\n", 3),
+        ("COFF BINARY\n", 4),
+        ("STNCOFF BINARY\n", 9),
+    ];
+    for (header, extra) in headers {
+        for little in [false, true] {
+            let rows = wide(extra);
+            let rows: Vec<&[f32]> = rows.iter().map(Vec::as_slice).collect();
+            let bytes = binary(header, &rows, &faces, little);
+            same(&bytes, header);
+            same(&[&bytes[..], b"\n"].concat(), header);
+            // Cut anywhere, it is an error that names the last byte; with more behind it, one that says so.
+            for end in header.len()..bytes.len() {
+                let Err(Error::Parse { message, .. }) = io::parse_off(&bytes[..end], "t.off") else {
+                    panic!("{header}: {end} bytes were read")
+                };
+                assert!(message.contains(&format!("ends at byte {end}, in ")), "{header}: {message}");
+            }
+            let longer = io::parse_off(&[&bytes[..], b"more"].concat(), "t.off").unwrap_err().to_string();
+            assert!(longer.contains(&format!("end at byte {}, 4 bytes before", bytes.len())), "{longer}");
+        }
+    }
+}
+
+#[test]
+fn binary_off_with_impossible_numbers_names_them() {
+    let message = |words: &[i32]| {
+        let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_be_bytes()).collect();
+        io::parse_off(&[b"OFF BINARY\n", &bytes[..]].concat(), "t.off").unwrap_err().to_string()
+    };
+    // Counts beyond the file are not believed: nothing is allocated for them.
+    assert!(message(&[i32::MAX, i32::MAX, 0, 0, 0, 0]).contains("in vertex 1 (of 2147483647)"));
+    assert!(message(&[0, i32::MAX, 0]).contains("in the size of face 0 (of 2147483647)"));
+    assert!(message(&[0, 1, 0, i32::MAX, 1, 2]).contains("in corner 2 of face 0"));
+    assert!(message(&[0, 1, 0, 1, 2, i32::MAX, 0]).contains("in the colour of face 0"));
+    assert!(
+        message(&[1, 1, 0, 0, 0, 0, 3, 0, -7, 0, 0]).contains("corner 1 of face 0 (of 1) is -7 at byte 43")
+    );
+    assert!(message(&[1, 1, 0, 0, 0, 0, -3]).contains("size of face 0 (of 1) is -3"));
 }
 
 proptest! {
     #[test]
-    fn random_triples_build_a_valid_mesh_or_name_a_defect(
-        faces in prop::collection::vec([0u32..9, 0u32..9, 0u32..9], 0..14)
+    fn garbage_files_are_read_or_refused(
+        text in "(OFF|C|N|4| BINARY\n|v|f|[0-9]{1,3}|-|/|\\\\|#|[ \n\r]|[a-z]){0,60}",
+        words in prop::collection::vec(-2i32..5, 0..30),
     ) {
-        match Mesh::from_faces(8, &faces) {
-            Ok(mesh) => prop_assert!(mesh.validate().is_ok()),
-            Err(Error::Defects(diagnosis)) => prop_assert!(!diagnosis.defects.is_empty()),
-            Err(other) => prop_assert!(false, "{other}"),
+        for parse in [io::parse_obj, io::parse_off] {
+            if let Ok(soup) = parse(text.as_bytes(), "t") {
+                let _ = Mesh::from_soup(&soup);
+            }
         }
-    }
-
-    #[test]
-    fn random_gluings_build_a_valid_mesh_or_name_a_face(
-        edges in prop::collection::vec([-6i32..7, -6i32..7, -6i32..7], 1..5)
-    ) {
-        match Mesh::from_gluing(1, &vec![[0; 3]; edges.len()], &edges) {
-            Ok(mesh) => prop_assert!(mesh.validate().is_ok()),
-            Err(Error::Gluing { .. }) => {}
-            Err(other) => prop_assert!(false, "{other}"),
+        for order in [i32::to_be_bytes, i32::to_le_bytes] {
+            let bytes: Vec<u8> = words.iter().flat_map(|&w| order(w)).collect();
+            if let Ok(soup) = io::parse_off(&[b"OFF BINARY\n", &bytes[..]].concat(), "t.off") {
+                let _ = Mesh::from_soup(&soup);
+            }
         }
-    }
-
-    #[test]
-    fn relabelled_and_turned_faces_are_the_same_surface(seed in any::<u64>()) {
-        let faces = tetrahedron().faces;
-        let mut state = seed;
-        let mut random = |n: u64| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            ((state >> 33) % n) as usize
-        };
-        let mut label = [0u32, 1, 2, 3];
-        (1..4).for_each(|i| label.swap(i, random(i as u64 + 1)));
-        let mut relabelled: Vec<[u32; 3]> = faces.iter().map(|f| f.map(|v| label[v as usize])).collect();
-        relabelled.iter_mut().for_each(|f| f.rotate_left(random(3)));
-        let mesh = Mesh::from_faces(4, &relabelled).unwrap();
-        prop_assert_eq!((mesh.n_edges(), mesh.euler(), mesh.is_closed()), (6, 2, true));
     }
 }

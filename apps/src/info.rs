@@ -172,7 +172,7 @@ fn summary_of(diagnosis: &Diagnosis, path: String) -> InputSummary {
         components: diagnosis.components,
         euler: diagnosis.euler,
         genus: diagnosis.genus,
-        boundary_loops: diagnosis.boundary_loops,
+        boundary_loops: Some(diagnosis.boundary_loops),
     }
 }
 
@@ -212,8 +212,11 @@ fn text(summary: &InputSummary, info: &Info) -> String {
         if *count > PRINTED {
             text += &format!("  … and {} more (all are in the report)\n", count - PRINTED);
         }
-        if let Some(defect) = of_kind().next() {
-            text += &format!("  remedy: {}\n", defect.remedy);
+        let mut remedies: Vec<_> = of_kind().map(|defect| defect.remedy).collect();
+        remedies.sort_unstable();
+        remedies.dedup();
+        for remedy in remedies {
+            text += &format!("  remedy: {remedy}\n");
         }
     }
     text

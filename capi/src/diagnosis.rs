@@ -50,9 +50,9 @@ pub struct ricci_diagnosis_summary {
     pub n_components: usize,
     /// V - E + F over the vertices in use.
     pub euler: i64,
-    /// Boundary loops; -1 where the surface is not a manifold.
+    /// Boundary loops, as connected pieces of the edges with one face (where the surface is no manifold, too).
     pub n_boundary_loops: i64,
-    /// Genus; -1 where the surface is not a connected, oriented manifold.
+    /// Genus; -1 where the surface is not a connected, orientable manifold.
     pub genus: i64,
 }
 
@@ -181,7 +181,6 @@ pub unsafe extern "C" fn ricci_diagnosis_summarise(
 ) -> ricci_status {
     guard::call(|door| {
         let found = &door.shared(diagnosis)?.diagnosis;
-        let count = |n: Option<usize>| n.map_or(-1, |n| n as i64);
         let counts = ricci_diagnosis_summary {
             size,
             n_defects: found.defects.len(),
@@ -190,8 +189,8 @@ pub unsafe extern "C" fn ricci_diagnosis_summarise(
             n_faces: found.faces,
             n_components: found.components,
             euler: found.euler,
-            n_boundary_loops: count(found.boundary_loops),
-            genus: count(found.genus),
+            n_boundary_loops: found.boundary_loops as i64,
+            genus: found.genus.map_or(-1, |genus| genus as i64),
         };
         sized::write(counts, summary, size)
     })

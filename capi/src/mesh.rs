@@ -160,7 +160,7 @@ pub unsafe extern "C" fn ricci_mesh_from_arrays_i32(
 /// Two vertices may share several edges, an edge may be a loop, a face may be glued to itself. Edge number e
 /// (1-based in `face_edges`) is edge e - 1 of every per-edge array.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE (`n_edges` is not the number of edges),
-/// RICCI_GLUING, RICCI_EDGE_LENGTH, RICCI_ARGUMENT, RICCI_TOO_LARGE.
+/// RICCI_GLUING, RICCI_DEFECTS, RICCI_EDGE_LENGTH, RICCI_ARGUMENT, RICCI_TOO_LARGE.
 ///
 /// @param n_vertices  number of vertices.
 /// @param faces       n_faces x 3 vertex indices (a, b, c), 0-based.

@@ -273,9 +273,9 @@ typedef struct {
     size_t n_components;
     /** V - E + F over the vertices in use. */
     int64_t euler;
-    /** Boundary loops; -1 where the surface is not a manifold. */
+    /** Boundary loops, as connected pieces of the edges with one face (where the surface is no manifold, too). */
     int64_t n_boundary_loops;
-    /** Genus; -1 where the surface is not a connected, oriented manifold. */
+    /** Genus; -1 where the surface is not a connected, orientable manifold. */
     int64_t genus;
 } ricci_diagnosis_summary;
 
@@ -350,7 +350,10 @@ typedef struct {
      * larger.
      */
     double tolerance;
-    /** Curvature error that rounding u to double precision can cause on the final metric, radians. */
+    /**
+     * Largest curvature error that rounding can cause at the final metric, radians; determined where a flow
+     * stalls, else 0.
+     */
     double rounding_floor;
     /** |sum of curvatures + lambda area - 2 pi chi| of the result. */
     double gauss_bonnet;
@@ -579,7 +582,7 @@ ricci_status ricci_mesh_from_arrays_i32(const double *positions,
  * Two vertices may share several edges, an edge may be a loop, a face may be glued to itself. Edge number e
  * (1-based in `face_edges`) is edge e - 1 of every per-edge array.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE (`n_edges` is not the number of edges),
- * RICCI_GLUING, RICCI_EDGE_LENGTH, RICCI_ARGUMENT, RICCI_TOO_LARGE.
+ * RICCI_GLUING, RICCI_DEFECTS, RICCI_EDGE_LENGTH, RICCI_ARGUMENT, RICCI_TOO_LARGE.
  *
  * @param n_vertices  number of vertices.
  * @param faces       n_faces x 3 vertex indices (a, b, c), 0-based.

@@ -1,9 +1,9 @@
 //! Building connectivity from index buffers and from gluings.
 
-use super::check::{diagnose, diagnose_incidence};
+use super::check::{Diagnosis, diagnose_gluing, diagnose_incidence, diagnose_positions};
 use super::halfedge::Mesh;
 use super::ids::{FaceId, HalfedgeId};
-use super::incidence::{Incidence, NONE, UnionFind};
+use super::incidence::{Incidence, NONE};
 use super::io::Soup;
 use crate::error::{Error, Result, check_size};
 
@@ -17,32 +17,17 @@ impl Mesh {
         check_counts(n_vertices, faces.len())?;
         let incidence = Incidence::new(n_vertices, faces);
         let diagnosis = diagnose_incidence(faces, &incidence);
-        if !diagnosis.defects.is_empty() {
-            return Err(Error::Defects(Box::new(diagnosis)));
-        }
-        let partner = incidence.partners(faces.len());
-        drop(incidence);
-        let mut origin = Vec::with_capacity(2 * diagnosis.edges);
-        let mut sides = vec![[NONE; 3]; faces.len()];
-        for side in 0..3 * faces.len() {
-            let (f, k) = (side / 3, side % 3);
-            let other = partner[side] as usize;
-            sides[f][k] = if partner[side] != NONE && other < side {
-                sides[other / 3][other % 3] ^ 1
-            } else {
-                origin.extend([faces[f][k], faces[f][(k + 1) % 3]]);
-                origin.len() as u32 - 2
-            };
-        }
-        Mesh::assemble(n_vertices, origin, &sides)
+        connect(faces, incidence, diagnosis)
     }
 
     /// The surface of a triangle list in space, diagnosed with its positions (zero-area faces, coordinates that are
     /// not finite).
     pub fn from_soup(soup: &Soup) -> Result<Mesh> {
-        let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces);
-        let diagnosis = diagnose(&soup.positions, &soup.faces);
-        if diagnosis.defects.is_empty() { mesh } else { Err(Error::Defects(Box::new(diagnosis))) }
+        let Soup { positions, faces } = soup;
+        check_counts(positions.len(), faces.len())?;
+        let incidence = Incidence::new(positions.len(), faces);
+        let diagnosis = diagnose_positions(positions, faces, &incidence);
+        connect(faces, incidence, diagnosis)
     }
 
     /// The surface of triangles glued along numbered edges: a Δ-complex, whose edges need not be determined by
@@ -51,6 +36,9 @@ impl Mesh {
     /// `face_edges[f] = [±e_bc, ±e_ca, ±e_ab]` for the face (a, b, c): edges are numbered from 1 without gaps, the sign
     /// says whether the side (b to c, c to a, a to b) runs along the edge's direction; half-edge `2(e − 1)` is that
     /// direction. Each edge is named once (boundary) or twice, with opposite signs.
+    ///
+    /// Errors: [`Error::Gluing`] for edge numbers that break these rules or glue different vertices, [`Error::Defects`]
+    /// for a consistent gluing that is not one surface in which every vertex is the centre of one fan.
     pub fn from_gluing(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Result<Mesh> {
         check_counts(n_vertices, faces.len())?;
         check_size("face_edges", face_edges.len(), faces.len())?;
@@ -69,7 +57,10 @@ impl Mesh {
         let mut sides = vec![[NONE; 3]; faces.len()];
         for (f, (corners, edges)) in faces.iter().zip(face_edges).enumerate() {
             if let Some(v) = corners.iter().find(|&&v| v as usize >= n_vertices) {
-                return Err(gluing(f, format!("vertex {v} does not exist")));
+                return Err(gluing(
+                    f,
+                    format!("vertex {v} does not exist; the {n_vertices} vertices are numbered from 0"),
+                ));
             }
             for k in 0..3 {
                 // The side from corner k is opposite corner k + 2.
@@ -92,7 +83,7 @@ impl Mesh {
                         return Err(gluing(
                             f,
                             format!(
-                                "edge {} starts or ends at vertex {v} here, at vertex {} in another face",
+                                "edge {} starts or ends at vertex {v} here, at vertex {} elsewhere; glue sides with the same ends",
                                 edge.unsigned_abs(),
                                 origin[h]
                             ),
@@ -104,9 +95,20 @@ impl Mesh {
             }
         }
         if let Some(e) = (0..n_edges).find(|e| !used[2 * e] && !used[2 * e + 1]) {
-            return Err(gluing(0, format!("no face names edge {}; number edges from 1 without gaps", e + 1)));
+            let f =
+                face_edges.iter().position(|edges| edges.iter().any(|n| n.unsigned_abs() as usize > e + 1));
+            return Err(gluing(
+                f.unwrap_or(0),
+                format!(
+                    "the edge numbers go up to {n_edges}, but no face names edge {}; number edges from 1 without gaps",
+                    e + 1
+                ),
+            ));
         }
-        check_one_fan_each(n_vertices, &origin, &sides)?;
+        let diagnosis = diagnose_gluing(n_vertices, faces, &origin, &sides);
+        if !diagnosis.defects.is_empty() {
+            return Err(Error::Defects(Box::new(diagnosis)));
+        }
         Mesh::assemble(n_vertices, origin, &sides)
     }
 
@@ -126,40 +128,26 @@ impl Mesh {
     }
 }
 
-/// One component, every vertex the centre of exactly one fan.
-fn check_one_fan_each(n_vertices: usize, origin: &[u32], sides: &[[u32; 3]]) -> Result<()> {
-    if sides.is_empty() {
-        return Err(gluing(0, "there are no faces".into()));
+/// Number the edges of a list without defects.
+fn connect(faces: &[[u32; 3]], incidence: Incidence, diagnosis: Diagnosis) -> Result<Mesh> {
+    if !diagnosis.defects.is_empty() {
+        return Err(Error::Defects(Box::new(diagnosis)));
     }
-    // Half-edges leaving a vertex are in one fan when a corner or a gluing joins them: h and the half-edge opposite
-    // the previous one of its face.
-    let mut fans = UnionFind::new(origin.len());
-    let mut pieces = UnionFind::new(n_vertices);
-    for s in sides {
-        for k in 0..3 {
-            fans.join(s[k], s[(k + 2) % 3] ^ 1, false);
-            pieces.join(origin[s[k] as usize], origin[s[(k + 1) % 3] as usize], false);
-        }
+    let partner = incidence.partners(faces.len());
+    drop(incidence);
+    let mut origin = Vec::with_capacity(2 * diagnosis.edges);
+    let mut sides = vec![[NONE; 3]; faces.len()];
+    for side in 0..3 * faces.len() {
+        let (f, k) = (side / 3, side % 3);
+        let other = partner[side] as usize;
+        sides[f][k] = if partner[side] != NONE && other < side {
+            sides[other / 3][other % 3] ^ 1
+        } else {
+            origin.extend([faces[f][k], faces[f][(k + 1) % 3]]);
+            origin.len() as u32 - 2
+        };
     }
-    let mut count = vec![0u32; n_vertices];
-    for h in 0..origin.len() as u32 {
-        count[origin[h as usize] as usize] += u32::from(fans.root(h).0 == h);
-    }
-    for (v, &count) in count.iter().enumerate() {
-        if count != 1 {
-            let message = format!(
-                "vertex {v} is the centre of {count} fans of faces; give each its own vertex, and use every vertex"
-            );
-            return Err(gluing(0, message));
-        }
-        if pieces.root(v as u32).0 != 0 {
-            return Err(gluing(
-                0,
-                format!("vertices 0 and {v} are in different components; glue one surface at a time"),
-            ));
-        }
-    }
-    Ok(())
+    Mesh::assemble(diagnosis.vertices, origin, &sides)
 }
 
 /// Isolated vertices that are diagnosed one by one; more are refused as a count.

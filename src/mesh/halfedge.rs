@@ -289,3 +289,7 @@ impl Mesh {
 fn broken(element: &'static str, index: usize, message: &'static str) -> Error {
     Error::Connectivity { element, index, message }
 }
+
+#[cfg(test)]
+#[path = "halfedge_tests.rs"]
+mod tests;

@@ -48,66 +48,36 @@ impl Incidence {
         self.group.windows(2).map(|w| &self.sides[w[0] as usize..w[1] as usize])
     }
 
-    /// Whether a side runs from the smaller to the larger vertex.
-    pub fn is_forward(&self, faces: &[[u32; 3]], side: u32) -> bool {
-        let (f, k) = (side as usize / 3, side as usize % 3);
-        faces[f][k] < faces[f][(k + 1) % 3]
-    }
-
     /// Per vertex: how many fans of edge-connected faces touch it.
     pub fn sheets(&self, faces: &[[u32; 3]]) -> Vec<u32> {
+        // Corner 3f + k is where side 3f + k starts; the next corner is where it ends.
+        let corners_of = |s: u32| {
+            let (start, end) = (s, 3 * (s / 3) + (s % 3 + 1) % 3);
+            if is_forward(faces, s) { (start, end) } else { (end, start) }
+        };
         let mut corners = UnionFind::new(3 * faces.len());
         for sides in self.edges() {
             for pair in sides.windows(2) {
-                let forward = pair.iter().map(|&s| self.is_forward(faces, s)).collect::<Vec<_>>();
-                // Corner 3f + k is where side 3f + k starts; the next corner is where it ends.
-                let ends = |s: u32, forward: bool| {
-                    let (start, end) = (s, 3 * (s / 3) + (s % 3 + 1) % 3);
-                    if forward { (start, end) } else { (end, start) }
-                };
-                let ((a, b), (c, d)) = (ends(pair[0], forward[0]), ends(pair[1], forward[1]));
-                corners.join(a, c, false);
-                corners.join(b, d, false);
+                let ((a, b), (c, d)) = (corners_of(pair[0]), corners_of(pair[1]));
+                corners.join(a, c);
+                corners.join(b, d);
             }
         }
         let mut sheets = vec![0; self.n_vertices];
-        for (f, face) in faces.iter().enumerate().filter(|(f, _)| self.triangle[*f]) {
-            for k in 0..3 {
-                let corner = (3 * f + k) as u32;
-                sheets[face[k] as usize] += u32::from(corners.root(corner).0 == corner);
+        for (f, face) in self.triangles(faces) {
+            for (corner, &v) in (3 * f..).zip(face) {
+                sheets[v as usize] += u32::from(corners.root(corner) == corner);
             }
         }
         sheets
     }
 
-    /// Number of faces of each piece connected through vertices.
-    pub fn components(&self, faces: &[[u32; 3]]) -> Vec<u32> {
-        let mut pieces = UnionFind::new(self.n_vertices);
-        for (_, face) in faces.iter().enumerate().filter(|(f, _)| self.triangle[*f]) {
-            pieces.join(face[0], face[1], false);
-            pieces.join(face[0], face[2], false);
-        }
-        let mut count = vec![0u32; self.n_vertices];
-        for (_, face) in faces.iter().enumerate().filter(|(f, _)| self.triangle[*f]) {
-            count[pieces.root(face[0]).0 as usize] += 1;
-        }
-        count.into_iter().filter(|&n| n > 0).collect()
+    /// The faces that are triangles, with their numbers.
+    pub fn triangles<'a>(&self, faces: &'a [[u32; 3]]) -> impl Iterator<Item = (u32, &'a [u32; 3])> + Clone {
+        (0u32..).zip(faces).filter(|(f, _)| self.triangle[*f as usize])
     }
 
-    /// Connected pieces of the boundary edges (the boundary loops, on a manifold).
-    pub fn boundary_loops(&self, faces: &[[u32; 3]]) -> usize {
-        let mut pieces = UnionFind::new(self.n_vertices);
-        let mut boundary = vec![false; self.n_vertices];
-        for side in self.edges().filter(|sides| sides.len() == 1).map(|sides| sides[0] as usize) {
-            let (a, b) = (faces[side / 3][side % 3], faces[side / 3][(side + 1 - 3 * (side / 3)) % 3]);
-            pieces.join(a, b, false);
-            boundary[a as usize] = true;
-            boundary[b as usize] = true;
-        }
-        (0..self.n_vertices as u32).filter(|&v| boundary[v as usize] && pieces.root(v).0 == v).count()
-    }
-
-    /// Per side: the other side along its edge, `NONE` on the boundary. For lists without non-manifold edges.
+    /// Per side: the other side along its edge, `NONE` where the edge has one face or more than two.
     pub fn partners(&self, n_faces: usize) -> Vec<u32> {
         let mut partner = vec![NONE; 3 * n_faces];
         for sides in self.edges() {
@@ -120,42 +90,75 @@ impl Incidence {
     }
 }
 
+/// First face and number of faces of each piece connected through vertices, by number of vertex.
+pub(super) fn components<'a>(
+    n_vertices: usize,
+    triangles: impl Iterator<Item = (u32, &'a [u32; 3])> + Clone,
+) -> Vec<(u32, u32)> {
+    let mut pieces = UnionFind::new(n_vertices);
+    for (_, face) in triangles.clone() {
+        pieces.join(face[0], face[1]);
+        pieces.join(face[0], face[2]);
+    }
+    let mut count = vec![(NONE, 0); n_vertices];
+    for (f, face) in triangles {
+        let (first, size) = &mut count[pieces.root(face[0]) as usize];
+        *first = f.min(*first);
+        *size += 1;
+    }
+    count.into_iter().filter(|&(_, size)| size > 0).collect()
+}
+
+/// Connected pieces of the edges with one face, given by their ends: on a manifold, the boundary loops.
+pub(super) fn boundary_loops(n_vertices: usize, boundary: impl Iterator<Item = [u32; 2]>) -> usize {
+    let mut pieces = UnionFind::new(n_vertices);
+    let mut on_boundary = vec![false; n_vertices];
+    for [a, b] in boundary {
+        pieces.join(a, b);
+        on_boundary[a as usize] = true;
+        on_boundary[b as usize] = true;
+    }
+    (0..n_vertices as u32).filter(|&v| on_boundary[v as usize] && pieces.root(v) == v).count()
+}
+
+/// Where a side starts and ends.
+pub(super) fn ends(faces: &[[u32; 3]], side: u32) -> [u32; 2] {
+    let (face, k) = (faces[side as usize / 3], side as usize % 3);
+    [face[k], face[(k + 1) % 3]]
+}
+
+/// Whether a side runs from the smaller to the larger vertex.
+pub(super) fn is_forward(faces: &[[u32; 3]], side: u32) -> bool {
+    let [start, end] = ends(faces, side);
+    start < end
+}
+
 fn distinct(f: &[u32; 3]) -> bool {
     f[0] != f[1] && f[1] != f[2] && f[2] != f[0]
 }
 
-/// Disjoint sets whose members carry a sign relative to their root. The root is the smallest member.
-pub(super) struct UnionFind(Vec<(u32, bool)>);
+/// Disjoint sets. The root of a set is its smallest member.
+pub(super) struct UnionFind(Vec<u32>);
 
 impl UnionFind {
     pub fn new(n: usize) -> UnionFind {
-        UnionFind((0..n as u32).map(|i| (i, false)).collect())
+        UnionFind((0..n as u32).collect())
     }
 
-    /// The root of `i`, and whether `i` has the opposite sign.
-    pub fn root(&mut self, mut i: u32) -> (u32, bool) {
-        let mut sign = false;
-        while self.0[i as usize].0 != i {
-            let (parent, up) = self.0[i as usize];
-            let (above, further) = self.0[parent as usize];
+    /// The root of the set of `i`.
+    pub fn root(&mut self, mut i: u32) -> u32 {
+        while self.0[i as usize] != i {
             // Path halving.
-            self.0[i as usize] = (above, up ^ (parent != above && further));
-            let (next, step) = self.0[i as usize];
-            sign ^= step;
-            i = next;
+            let above = self.0[self.0[i as usize] as usize];
+            self.0[i as usize] = above;
+            i = above;
         }
-        (i, sign)
+        i
     }
 
-    /// Put `a` and `b` into one set with opposite signs (or equal ones); false if they already are, differently.
-    pub fn join(&mut self, a: u32, b: u32, opposite: bool) -> bool {
-        let ((a, sign_a), (b, sign_b)) = (self.root(a), self.root(b));
-        let relation = sign_a ^ sign_b ^ opposite;
-        if a == b {
-            return !relation;
-        }
-        let (low, high) = (a.min(b), a.max(b));
-        self.0[high as usize] = (low, relation);
-        true
+    /// Make one set of those of `a` and `b`.
+    pub fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b) as usize] = a.min(b);
     }
 }

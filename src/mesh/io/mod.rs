@@ -3,6 +3,7 @@
 mod atomic;
 mod obj;
 mod off;
+mod off_binary;
 mod scan;
 
 pub use atomic::write_atomically;
@@ -36,7 +37,7 @@ pub fn read(path: &Path) -> Result<Soup> {
         _ => return Err(Error::UnknownFormat { path: name, known: READABLE }),
     };
     let bytes = std::fs::read(path).map_err(|e| Error::Io { path: name.clone(), message: e.to_string() })?;
-    parse(&String::from_utf8_lossy(&bytes), &name)
+    parse(&bytes, &name)
 }
 
 /// The fan of a polygon from its first corner; nothing for fewer than three corners.

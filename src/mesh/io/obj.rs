@@ -9,10 +9,11 @@ use std::path::Path;
 
 /// Parse OBJ text: `v` and `f` (polygons, negative indices, `v/vt/vn` corners), line continuations; everything else
 /// is skipped. `path` is used in errors.
-pub fn parse_obj(text: &str, path: &str) -> Result<Soup> {
+pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
+    let text = String::from_utf8_lossy(bytes);
     let mut soup = Soup::default();
     let mut corners = Vec::new();
-    let mut lines = super::scan::lines(text);
+    let mut lines = super::scan::lines(&text);
     let mut joined = String::new();
     while let Some((number, line)) = lines.next() {
         let place = Place { path, line: number };
@@ -32,7 +33,7 @@ pub fn parse_obj(text: &str, path: &str) -> Result<Soup> {
             Some("v") => {
                 let mut point: Point = [0.0; 3];
                 for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
-                    *x = place.number(tokens.next(), name)?;
+                    *x = place.number(tokens.next(), format_args!("coordinate {name}"))?;
                 }
                 soup.positions.push(point);
             }
@@ -58,12 +59,17 @@ fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
     };
     let zero_based = match number {
         0 => return place.error("vertex number 0: OBJ counts from 1".into()),
+        n if n < 0 && n.unsigned_abs() > vertices as u64 => {
+            return place.error(format!(
+                "corner `{token}` counts back past the first of the {vertices} vertices so far"
+            ));
+        }
         n if n < 0 => vertices as i64 + n,
         n => n - 1,
     };
     match u32::try_from(zero_based) {
         Ok(v) => Ok(v),
-        Err(_) => place.error(format!("corner `{token}` is outside the vertices that can be numbered")),
+        Err(_) => place.error(format!("corner `{token}` is more than can be numbered")),
     }
 }
 
@@ -81,15 +87,17 @@ pub struct ObjData<'a> {
 }
 
 /// Write an OBJ file with 17 significant digits (which read back to the same doubles), atomically.
+///
+/// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
+/// [`Error::Size`], [`Error::Io`].
 pub fn write_obj(path: &Path, data: &ObjData<'_>) -> Result<()> {
     if !data.face_texcoords.is_empty() {
         crate::error::check_size("face_texcoords", data.face_texcoords.len(), data.faces.len())?;
     }
-    let bad = |x: &[f64]| x.iter().any(|x| !x.is_finite());
-    if data.positions.iter().any(|p| bad(p)) || data.texcoords.iter().any(|t| bad(t)) {
-        let path = path.display().to_string();
-        return Err(Error::Io { path, message: "a coordinate to be written is not finite".into() });
-    }
+    finite("position", data.positions)?;
+    finite("texture coordinate", data.texcoords)?;
+    in_range("vertex", data.faces, data.positions.len())?;
+    in_range("texture vertex", data.face_texcoords, data.texcoords.len())?;
     write_atomically(path, |out| {
         for [x, y, z] in data.positions {
             writeln!(out, "v {x:.16e} {y:.16e} {z:.16e}")?;
@@ -106,4 +114,28 @@ pub fn write_obj(path: &Path, data: &ObjData<'_>) -> Result<()> {
         }
         Ok(())
     })
+}
+
+fn finite<const N: usize>(what: &'static str, points: &[[f64; N]]) -> Result<()> {
+    match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        Some(i) => {
+            let value = format!("{:?} at entry {i}", points[i]);
+            Err(Error::Argument { what, value, need: "a file holds finite numbers only" })
+        }
+        None => Ok(()),
+    }
+}
+
+fn in_range(what: &'static str, faces: &[[u32; 3]], n: usize) -> Result<()> {
+    match faces.iter().position(|corners| corners.iter().any(|&v| v as usize >= n)) {
+        Some(f) => {
+            let value = format!("one of {:?} in face {f}", faces[f]);
+            Err(Error::Argument {
+                what,
+                value,
+                need: "corners must be below the number of entries they name",
+            })
+        }
+        None => Ok(()),
+    }
 }

@@ -1,6 +1,7 @@
 //! Numbers out of text lines, with errors that name the line.
 
 use crate::error::{Error, Result};
+use std::fmt::Arguments;
 
 /// The lines of a text (ended by LF, CR LF or CR) with their 1-based numbers, without comments, trailing blanks and byte
 /// order mark.
@@ -26,14 +27,14 @@ impl Place<'_> {
     }
 
     /// A coordinate; `nan` and `inf` are numbers here, the diagnosis refuses them by vertex.
-    pub fn number(self, token: Option<&str>, what: &str) -> Result<f64> {
+    pub fn number(self, token: Option<&str>, what: Arguments<'_>) -> Result<f64> {
         match token {
             Some(t) => t.parse().or_else(|_| self.error(format!("{what} `{t}` is not a number"))),
             None => self.error(format!("{what} is missing")),
         }
     }
 
-    pub fn count(self, token: Option<&str>, what: &str) -> Result<usize> {
+    pub fn count(self, token: Option<&str>, what: Arguments<'_>) -> Result<usize> {
         match token {
             Some(t) => t.parse().or_else(|_| self.error(format!("{what} `{t}` is not a count"))),
             None => self.error(format!("{what} is missing")),

@@ -1,0 +1,181 @@
+//! Diagnosis of triangle lists: every defect, its elements and its remedy.
+
+mod defect;
+mod gluing;
+mod orientation;
+
+pub use defect::Defect;
+pub(super) use gluing::diagnose_gluing;
+
+use super::Point;
+use super::incidence::{Incidence, boundary_loops, components, ends};
+use crate::geometry::triangle::half_differences;
+use orientation::orientation;
+
+/// A face counts as zero-area when its lengths, as computed in doubles, satisfy the triangle inequality by less than
+/// this fraction of the longest side: four roundings of a length, below which the inequality is an accident.
+pub const ZERO_AREA: f64 = 4.0 * f64::EPSILON;
+
+/// Every defect of a triangle list, or of a gluing, and its counts. All defects keep a metric from being defined on it, so an input
+/// is admissible exactly when `defects` is empty.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Diagnosis {
+    /// Vertices given.
+    pub vertices: usize,
+    /// Distinct edges of the faces that are triangles.
+    pub edges: usize,
+    /// Faces given.
+    pub faces: usize,
+    /// Connected pieces (faces that share a vertex are connected).
+    pub components: usize,
+    /// V − E + F over the vertices in use.
+    pub euler: i64,
+    /// Boundary loops, counted as connected pieces of the edges with one face: loops that touch at a non-manifold
+    /// vertex count as one.
+    pub boundary_loops: usize,
+    /// Genus of a connected, orientable manifold (its faces need not be oriented yet).
+    pub genus: Option<usize>,
+    /// The defects, kind by kind: first those of the faces' indices, then those of the positions.
+    pub defects: Vec<Defect>,
+}
+
+impl Diagnosis {
+    /// Number of defects by kind, in order of first appearance.
+    pub fn counts(&self) -> Vec<(&'static str, usize)> {
+        let mut counts: Vec<(&'static str, usize)> = Vec::new();
+        for defect in &self.defects {
+            match counts.iter_mut().find(|(code, _)| *code == defect.code()) {
+                Some((_, n)) => *n += 1,
+                None => counts.push((defect.code(), 1)),
+            }
+        }
+        counts
+    }
+}
+
+impl std::fmt::Display for Diagnosis {
+    /// The first defect of each kind and remedy, and how many more there are.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut kinds: Vec<(&Defect, usize)> = Vec::new();
+        for defect in &self.defects {
+            let alike = |d: &Defect| (d.code(), d.remedy()) == (defect.code(), defect.remedy());
+            match kinds.iter_mut().find(|(first, _)| alike(first)) {
+                Some((_, more)) => *more += 1,
+                None => kinds.push((defect, 0)),
+            }
+        }
+        for (n, (defect, more)) in kinds.iter().enumerate() {
+            let separator = if n > 0 { "; " } else { "" };
+            let more = if *more > 0 { format!(" (and {more} more)") } else { String::new() };
+            write!(f, "{separator}{defect}{more}: {}", defect.remedy())?;
+        }
+        let numbered = |(d, _): &(&Defect, usize)| !d.vertices().is_empty() || !d.faces().is_empty();
+        if kinds.iter().any(numbered) { write!(f, " (elements are numbered from 0)") } else { Ok(()) }
+    }
+}
+
+/// Diagnose an indexed triangle list. O(F log F).
+pub fn diagnose(positions: &[Point], faces: &[[u32; 3]]) -> Diagnosis {
+    diagnose_positions(positions, faces, &Incidence::new(positions.len(), faces))
+}
+
+pub(super) fn diagnose_positions(
+    positions: &[Point],
+    faces: &[[u32; 3]],
+    incidence: &Incidence,
+) -> Diagnosis {
+    let mut diagnosis = diagnose_incidence(faces, incidence);
+    let finite = |v: usize| positions[v].iter().all(|x| x.is_finite());
+    let coordinates = (0..positions.len()).filter(|&v| !finite(v));
+    diagnosis.defects.extend(coordinates.map(|v| Defect::NonFiniteCoordinate { vertex: v as u32 }));
+    for (face, corners) in faces.iter().enumerate().filter(|(f, _)| incidence.is_triangle(*f)) {
+        let p = corners.map(|v| positions[v as usize]);
+        if corners.iter().all(|&v| finite(v as usize)) && zero_area(p) {
+            diagnosis.defects.push(Defect::ZeroAreaFace { face: face as u32 });
+        }
+    }
+    diagnosis
+}
+
+pub(super) fn diagnose_incidence(faces: &[[u32; 3]], incidence: &Incidence) -> Diagnosis {
+    let n = incidence.n_vertices;
+    let mut defects = Vec::new();
+    if faces.is_empty() {
+        defects.push(Defect::Empty);
+    }
+    let in_range = |v: &u32| (*v as usize) < n;
+    for (face, corners) in (0u32..).zip(faces) {
+        let beyond = corners.iter().filter(|v| !in_range(v));
+        defects.extend(beyond.map(|&index| Defect::IndexOutOfRange { face, index }));
+    }
+    let degenerate = |f: &usize| !incidence.is_triangle(*f) && faces[*f].iter().all(in_range);
+    let degenerate = (0..faces.len()).filter(degenerate);
+    defects.extend(degenerate.map(|f| Defect::DegenerateFace { face: f as u32 }));
+    duplicates(faces, incidence, &mut defects);
+    let mut pinched = vec![false; n];
+    let mut manifold = defects.is_empty();
+    for sides in incidence.edges().filter(|sides| sides.len() > 2) {
+        let vertices = ends(faces, sides[0]);
+        vertices.into_iter().for_each(|v| pinched[v as usize] = true);
+        defects.push(Defect::NonManifoldEdge { vertices, faces: sides.iter().map(|s| s / 3).collect() });
+    }
+    let sheets = incidence.sheets(faces);
+    for v in 0..n {
+        if sheets[v] > 1 || pinched[v] {
+            manifold = false;
+            defects.push(Defect::NonManifoldVertex { vertex: v as u32, sheets: sheets[v] });
+        }
+    }
+    let orientable = orientation(faces, incidence, &mut defects);
+    defects.extend((0..n).filter(|&v| sheets[v] == 0).map(|v| Defect::IsolatedVertex { vertex: v as u32 }));
+    let components = several_components(components(n, incidence.triangles(faces)), &mut defects);
+    let edges = incidence.edges().count();
+    let used = sheets.iter().filter(|&&s| s > 0).count();
+    let euler = used as i64 - edges as i64 + incidence.triangles(faces).count() as i64;
+    let boundary = incidence.edges().filter(|sides| sides.len() == 1).map(|sides| ends(faces, sides[0]));
+    let boundary_loops = boundary_loops(n, boundary);
+    let genus = (manifold && orientable && components == 1).then(|| genus(euler, boundary_loops)).flatten();
+    Diagnosis { vertices: n, edges, faces: faces.len(), components, euler, boundary_loops, genus, defects }
+}
+
+/// Adds the defect that there are several pieces; returns how many.
+fn several_components(mut pieces: Vec<(u32, u32)>, defects: &mut Vec<Defect>) -> usize {
+    let n = pieces.len();
+    if n > 1 {
+        pieces.sort_unstable_by_key(|&(first, size)| (std::cmp::Reverse(size), first));
+        let (first_faces, sizes) = pieces.into_iter().unzip();
+        defects.push(Defect::SeveralComponents { sizes, first_faces });
+    }
+    n
+}
+
+/// From χ = 2 − 2g − b.
+fn genus(euler: i64, boundary_loops: usize) -> Option<usize> {
+    usize::try_from((2 - euler - boundary_loops as i64) / 2).ok()
+}
+
+/// Faces with the same set of vertices as an earlier one.
+fn duplicates(faces: &[[u32; 3]], incidence: &Incidence, defects: &mut Vec<Defect>) {
+    let key = |f: u32| {
+        let mut v = faces[f as usize];
+        v.sort_unstable();
+        v
+    };
+    let mut order: Vec<u32> =
+        (0..faces.len() as u32).filter(|&f| incidence.is_triangle(f as usize)).collect();
+    order.sort_unstable_by_key(|&f| (key(f), f));
+    let mut found: Vec<(u32, u32)> = Vec::new();
+    for same in order.chunk_by(|&a, &b| key(a) == key(b)) {
+        found.extend(same[1..].iter().map(|&f| (f, same[0])));
+    }
+    found.sort_unstable();
+    defects.extend(found.into_iter().map(|(face, first)| Defect::DuplicateFace { face, first }));
+}
+
+fn zero_area(p: [Point; 3]) -> bool {
+    let distance = |a: Point, b: Point| f64::hypot(f64::hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+    let l = [distance(p[1], p[2]), distance(p[2], p[0]), distance(p[0], p[1])];
+    let r = half_differences(l);
+    let longest = l.into_iter().fold(0.0, f64::max);
+    r.into_iter().any(|r| r <= ZERO_AREA * longest)
+}
