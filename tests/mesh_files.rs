@@ -29,6 +29,10 @@ fn every_good_mesh_has_the_topology_of_the_index() {
             [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces(), mesh.genus(), mesh.boundary_loops().len()];
         let theirs = ["V", "E", "F", "genus", "boundary_loops"].map(|c| count(row, c).unwrap());
         assert_eq!(ours, theirs, "{}", row["name"]);
+        // No defect is what the rest of the index says.
+        let sound = ["edge_manifold", "vertex_manifold", "oriented", "orientable"];
+        assert!(sound.iter().all(|&column| row[column] == "True"), "{}", row["name"]);
+        assert_eq!([count(row, "components"), count(row, "degenerate")], [Some(1), Some(0)]);
         assert_eq!(diagnosis.genus, Some(mesh.genus()));
         assert_eq!(diagnosis.boundary_loops, mesh.boundary_loops().len());
         assert!(mesh.faces().all(|f| mesh.face_vertices(f).map(|v| v.0) == soup.faces[f.index()]));
@@ -43,10 +47,11 @@ fn noted(note: &str, words: &str) -> usize {
 
 /// Where the index and we differ, and why: (file, column, ours).
 const DIFFERENCES: [(&str, &str, usize); 2] = [
-    // Faces along an edge of a one-sided piece run the same way through nobody's fault: it is the band that is listed.
+    // Faces along an edge of a one-sided piece run the same way through nobody's fault: it is the band that
+    // is listed.
     ("moebius.obj", "inconsistent orientation", 0),
-    // The index counts heights below 1e-12 of the longest side; face 2302 is a needle of 0.0011 × 153.5 × 153.5 whose
-    // lengths in doubles bear no angle.
+    // The index counts heights below 1e-12 of the longest side; face 2302 is a needle of 0.0011 × 153.5 ×
+    // 153.5 whose lengths in doubles bear no angle.
     ("offset1.obj", "degenerate", 5),
 ];
 
@@ -64,7 +69,8 @@ fn every_bad_obj_and_text_off_gets_the_diagnosis_of_the_index() {
         let is_false = |name: &str| usize::from(row[name] == "False");
         let any = |n: usize| n.min(1);
         let noted = |words: &str| noted(&row["note"], words);
-        // A pair of faces at an edge of their own; where more meet, the index counts the non-manifold edge only.
+        // A pair of faces at an edge of their own; where more meet, the index counts the non-manifold edge
+        // only.
         let pair = |d: &&Defect| matches!(d, Defect::InconsistentOrientation { meeting: 2, .. });
         let same_way = ours("inconsistent_orientation") + ours("non_orientable");
         for (what, ours, theirs) in [
@@ -256,8 +262,9 @@ fn a_syntax_error_names_its_line_and_what_is_wrong() {
     assert!(matches!(io::read("mesh.xyz".as_ref()), Err(Error::UnknownFormat { .. })));
 }
 
-/// Binary OFF after Geomview's manual, written here: big-endian counts, `f32` per vertex, and per face its size, corners
-/// and colour. `little`: the other byte order and no colours, as programs write that copy their memory.
+/// Binary OFF after Geomview's manual, written here: big-endian counts, `f32` per vertex, and per face its
+/// size, corners and colour. `little`: the other byte order and no colours, as programs write that copy their
+/// memory.
 fn binary(header: &str, vertices: &[&[f32]], faces: &[(&[i32], &[f32])], little: bool) -> Vec<u8> {
     let mut out = header.as_bytes().to_vec();
     let mut word = |bits: u32| out.extend(if little { bits.to_le_bytes() } else { bits.to_be_bytes() });

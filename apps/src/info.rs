@@ -172,7 +172,7 @@ fn summary_of(diagnosis: &Diagnosis, path: String) -> InputSummary {
         components: diagnosis.components,
         euler: diagnosis.euler,
         genus: diagnosis.genus,
-        boundary_loops: Some(diagnosis.boundary_loops),
+        boundary_loops: diagnosis.boundary_loops,
     }
 }
 
@@ -188,8 +188,8 @@ fn text(summary: &InputSummary, info: &Info) -> String {
         count(summary.faces, "face", "faces"),
         count(summary.components, "component", "components"),
         summary.euler,
-        known(summary.genus),
-        known(summary.boundary_loops),
+        summary.genus.map_or("undefined".into(), |n| n.to_string()),
+        summary.boundary_loops,
     );
     let q = &info.quality;
     text += &format!(
@@ -200,9 +200,8 @@ fn text(summary: &InputSummary, info: &Info) -> String {
         percent(q.obtuse_fraction),
         percent(q.non_delaunay_fraction),
     );
-    if info.admissible {
-        text += "no defects\n";
-    }
+    text +=
+        if info.admissible { "no defects\n" } else { "defects (vertices and faces are numbered from 0):\n" };
     for DefectCount { code, count } in &info.defect_counts {
         let of_kind = || info.defects.iter().filter(|d| d.code == *code);
         text += &format!("\n{code}: {count}\n");
@@ -220,10 +219,6 @@ fn text(summary: &InputSummary, info: &Info) -> String {
         }
     }
     text
-}
-
-fn known(n: Option<usize>) -> String {
-    n.map_or("undefined".into(), |n| n.to_string())
 }
 
 fn percent(x: Option<f64>) -> String {

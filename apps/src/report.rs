@@ -48,7 +48,7 @@ pub struct InputSummary {
     pub components: usize,
     pub euler: i64,
     pub genus: Option<usize>,
-    pub boundary_loops: Option<usize>,
+    pub boundary_loops: usize,
 }
 
 impl InputSummary {
@@ -65,7 +65,7 @@ impl InputSummary {
             components: 1,
             euler: mesh.euler(),
             genus: Some(mesh.genus()),
-            boundary_loops: Some(mesh.boundary_loops().len()),
+            boundary_loops: mesh.boundary_loops().len(),
         }
     }
 }

@@ -10,9 +10,9 @@ use crate::error::{Error, Result, check_size};
 impl Mesh {
     /// The surface of an indexed triangle list (0-based, counterclockwise).
     ///
-    /// Vertices, faces and corners keep their numbers; edges are numbered in the order in which the faces' sides
-    /// (first to second corner, second to third, third to first) first name them, and half-edge `2e` runs in the
-    /// direction of that first side. Every defect is found first: see [`Error::Defects`].
+    /// Vertices, faces and corners keep their numbers; edges are numbered in the order in which the faces'
+    /// sides (first to second corner, second to third, third to first) first name them, and half-edge `2e`
+    /// runs in the direction of that first side. Every defect is found first: see [`Error::Defects`].
     pub fn from_faces(n_vertices: usize, faces: &[[u32; 3]]) -> Result<Mesh> {
         check_counts(n_vertices, faces.len())?;
         let incidence = Incidence::new(n_vertices, faces);
@@ -20,8 +20,8 @@ impl Mesh {
         connect(faces, incidence, diagnosis)
     }
 
-    /// The surface of a triangle list in space, diagnosed with its positions (zero-area faces, coordinates that are
-    /// not finite).
+    /// The surface of a triangle list in space, diagnosed with its positions (zero-area faces, coordinates
+    /// that are not finite).
     pub fn from_soup(soup: &Soup) -> Result<Mesh> {
         let Soup { positions, faces } = soup;
         check_counts(positions.len(), faces.len())?;
@@ -30,15 +30,17 @@ impl Mesh {
         connect(faces, incidence, diagnosis)
     }
 
-    /// The surface of triangles glued along numbered edges: a Δ-complex, whose edges need not be determined by
-    /// their ends.
+    /// The surface of triangles glued along numbered edges: a Δ-complex, whose edges need not be determined
+    /// by their ends.
     ///
-    /// `face_edges[f] = [±e_bc, ±e_ca, ±e_ab]` for the face (a, b, c): edges are numbered from 1 without gaps, the sign
-    /// says whether the side (b to c, c to a, a to b) runs along the edge's direction; half-edge `2(e − 1)` is that
-    /// direction. Each edge is named once (boundary) or twice, with opposite signs.
+    /// `face_edges[f] = [±e_bc, ±e_ca, ±e_ab]` for the face (a, b, c): edges are numbered from 1 without
+    /// gaps, the sign says whether the side (b to c, c to a, a to b) runs along the edge's direction;
+    /// half-edge `2(e − 1)` is that direction. Each edge is named once (boundary) or twice, with opposite
+    /// signs.
     ///
-    /// Errors: [`Error::Gluing`] for edge numbers that break these rules or glue different vertices, [`Error::Defects`]
-    /// for a consistent gluing that is not one surface in which every vertex is the centre of one fan.
+    /// Errors: [`Error::Gluing`] for edge numbers that break these rules or glue different vertices,
+    /// [`Error::Defects`] for a consistent gluing that is not one surface in which every vertex is the centre
+    /// of one fan.
     pub fn from_gluing(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Result<Mesh> {
         check_counts(n_vertices, faces.len())?;
         check_size("face_edges", face_edges.len(), faces.len())?;

@@ -1,7 +1,7 @@
 //! Which faces meet in which edge of a triangle list that may have any defect.
 //!
-//! Side `3f + k` is the side of face f from its corner k to corner k + 1. Faces that name a missing vertex or a vertex
-//! twice have no sides.
+//! Side `3f + k` is the side of face f from its corner k to corner k + 1. Faces that name a missing vertex or
+//! a vertex twice have no sides.
 
 /// No face, no side.
 pub(super) const NONE: u32 = u32::MAX;

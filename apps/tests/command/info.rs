@@ -23,6 +23,20 @@ fn counts_and_topology_are_reported() {
 }
 
 #[test]
+fn each_remedy_of_a_kind_is_said() {
+    let place = Place::new();
+    // Faces 1 and 2 at an edge of their own, faces 1, 3 and 4 at another: turning helps the first edge only.
+    place.put(
+        "m.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 2 3 4\nf 1 2 5\nf 1 2 6\n",
+    );
+    let ended = place.expect(0, "info m.obj");
+    assert!(ended.out.contains("faces 0, 2, 3 run the same way along edge 0–1"), "{}", ended.out);
+    assert!(ended.out.contains("turn faces until neighbours agree"), "{}", ended.out);
+    assert!(ended.out.contains("turning faces cannot help"), "{}", ended.out);
+}
+
+#[test]
 fn defects_are_a_result_with_their_elements_and_remedy() {
     let place = Place::new();
     let two = octahedron().beside(octahedron());
@@ -30,6 +44,7 @@ fn defects_are_a_result_with_their_elements_and_remedy() {
     for (text, codes) in [
         (two.obj(), vec!["several_components"]),
         (moebius(12).obj(), vec!["non_orientable"]),
+        (octahedron().obj() + "v 0 0 9\nf 1 5 7\n", vec!["non_manifold_edge", "inconsistent_orientation"]),
         (repeated, vec!["duplicate_face", "degenerate_face", "isolated_vertex", "index_out_of_range"]),
         ("# nothing\n".into(), vec!["empty"]),
         (octahedron().obj().replacen("v 1 ", "v nan ", 1), vec!["non_finite_coordinate"]),
@@ -37,7 +52,9 @@ fn defects_are_a_result_with_their_elements_and_remedy() {
         place.put("m.obj", &text);
         let ended = place.expect(0, "info m.obj --report r.json --picture p.png");
         assert!(std::fs::read(place.path("p.png")).unwrap().starts_with(b"\x89PNG"));
-        let result = &place.json("r.json")["result"];
+        let report = place.json("r.json");
+        assert!(report["input"]["boundary_loops"].is_u64());
+        let result = &report["result"];
         assert_eq!(result["admissible"], false);
         let defects = result["defects"].as_array().unwrap();
         for code in codes {

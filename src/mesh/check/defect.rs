@@ -37,15 +37,16 @@ pub enum Defect {
         /// All its faces.
         faces: Vec<u32>,
     },
-    /// The faces at a vertex do not form one fan (several sheets touch there, or an edge there is non-manifold).
+    /// The faces at a vertex do not form one fan (several sheets touch there, or an edge there is
+    /// non-manifold).
     NonManifoldVertex {
         /// The vertex.
         vertex: u32,
         /// Number of sheets; 1 where the only fault is a non-manifold edge that ends there.
         sheets: u32,
     },
-    /// Faces run along their common edge in the same direction. Two faces that meet in an edge of a one-sided piece
-    /// are not listed: there that is nobody's mistake.
+    /// Faces run along their common edge in the same direction. Two faces that meet in an edge of a one-sided
+    /// piece are not listed: there that is nobody's mistake.
     InconsistentOrientation {
         /// Where the edge starts and where it ends, as these faces run along it.
         vertices: [u32; 2],
@@ -56,7 +57,8 @@ pub enum Defect {
     },
     /// A piece of the surface is one-sided.
     NonOrientable {
-        /// A Möbius band in it: faces of which each shares an edge with the next, and the last with the first.
+        /// A Möbius band in it: faces of which each shares an edge with the next, and the last with the
+        /// first.
         strip: Vec<u32>,
     },
     /// The corners of a face lie on a line to working precision.
@@ -177,8 +179,8 @@ impl std::fmt::Display for Defect {
                 write!(f, "{sheets} separate fans of faces meet in vertex {vertex}")
             }
             Defect::InconsistentOrientation { vertices: [a, b], faces, meeting } => {
-                write!(f, "faces {} all run along their edge from vertex {a} to {b}", few(faces))?;
-                if *meeting > 2 { write!(f, " (of {meeting} that meet there)") } else { Ok(()) }
+                write!(f, "faces {} run the same way along edge {a}–{b}", few(faces))?;
+                if *meeting > 2 { write!(f, ", of {meeting} that meet there") } else { Ok(()) }
             }
             Defect::NonOrientable { strip } => {
                 write!(f, "the surface is non-orientable: a Möbius band runs through faces {}", few(strip))
@@ -186,7 +188,7 @@ impl std::fmt::Display for Defect {
             Defect::ZeroAreaFace { face } => write!(f, "face {face} has zero area"),
             Defect::IsolatedVertex { vertex } => write!(f, "vertex {vertex} belongs to no face"),
             Defect::SeveralComponents { sizes, .. } => {
-                write!(f, "the surface has {} components (of {} faces)", sizes.len(), few(sizes))
+                write!(f, "the surface has {} components; their faces: {}", sizes.len(), few(sizes))
             }
         }
     }

@@ -3,8 +3,8 @@
 use super::{Defect, Diagnosis, genus, several_components};
 use crate::mesh::incidence::{UnionFind, boundary_loops, components};
 
-/// Diagnose faces whose side k is the half-edge `sides[f][k]`; half-edge h starts at `origin[h]`, its twin is `h ^ 1`,
-/// and no half-edge is in two faces.
+/// Diagnose faces whose side k is the half-edge `sides[f][k]`; half-edge h starts at `origin[h]`, its twin is
+/// `h ^ 1`, and no half-edge is in two faces.
 pub(in crate::mesh) fn diagnose_gluing(
     n_vertices: usize,
     faces: &[[u32; 3]],
@@ -15,8 +15,8 @@ pub(in crate::mesh) fn diagnose_gluing(
     if faces.is_empty() {
         defects.push(Defect::Empty);
     }
-    // Half-edges leaving a vertex are in one fan when a corner or a gluing joins them: h and the half-edge opposite
-    // the previous one of its face.
+    // Half-edges leaving a vertex are in one fan when a corner or a gluing joins them: h and the half-edge
+    // opposite the previous one of its face.
     let mut fans = UnionFind::new(origin.len());
     let mut inside = vec![false; origin.len()];
     for s in sides {

@@ -12,12 +12,13 @@ use super::incidence::{Incidence, boundary_loops, components, ends};
 use crate::geometry::triangle::half_differences;
 use orientation::orientation;
 
-/// A face counts as zero-area when its lengths, as computed in doubles, satisfy the triangle inequality by less than
-/// this fraction of the longest side: four roundings of a length, below which the inequality is an accident.
+/// A face counts as zero-area when its lengths, as computed in doubles, satisfy the triangle inequality by
+/// less than this fraction of the longest side: four roundings of a length, below which the inequality is an
+/// accident.
 pub const ZERO_AREA: f64 = 4.0 * f64::EPSILON;
 
-/// Every defect of a triangle list, or of a gluing, and its counts. All defects keep a metric from being defined on it, so an input
-/// is admissible exactly when `defects` is empty.
+/// Every defect of a triangle list, or of a gluing, and its counts. All defects keep a metric from being
+/// defined on it, so an input is admissible exactly when `defects` is empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Diagnosis {
     /// Vertices given.
@@ -30,8 +31,8 @@ pub struct Diagnosis {
     pub components: usize,
     /// V − E + F over the vertices in use.
     pub euler: i64,
-    /// Boundary loops, counted as connected pieces of the edges with one face: loops that touch at a non-manifold
-    /// vertex count as one.
+    /// Boundary loops, counted as connected pieces of the edges with one face: loops that touch at a
+    /// non-manifold vertex count as one.
     pub boundary_loops: usize,
     /// Genus of a connected, orientable manifold (its faces need not be oriented yet).
     pub genus: Option<usize>,
@@ -54,7 +55,7 @@ impl Diagnosis {
 }
 
 impl std::fmt::Display for Diagnosis {
-    /// The first defect of each kind and remedy, and how many more there are.
+    /// The first defect of each kind and remedy, and how many more there are; numbers count from 0.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut kinds: Vec<(&Defect, usize)> = Vec::new();
         for defect in &self.defects {

@@ -4,8 +4,8 @@ use super::defect::Defect;
 use crate::mesh::incidence::{Incidence, NONE, ends, is_forward};
 use std::collections::VecDeque;
 
-/// Adds the edges at which orientations clash and a Möbius band for each piece that no turning of faces can orient
-/// (pieces are joined through edges of two faces). Returns whether there is none of the latter.
+/// Adds the edges at which orientations clash and a Möbius band for each piece that no turning of faces can
+/// orient (pieces are joined through edges of two faces). Returns whether there is none of the latter.
 pub(super) fn orientation(faces: &[[u32; 3]], incidence: &Incidence, defects: &mut Vec<Defect>) -> bool {
     let forward = |sides: &[u32]| sides.iter().filter(|&&s| is_forward(faces, s)).count();
     let clashes =
@@ -43,7 +43,8 @@ struct Pieces {
 }
 
 impl Pieces {
-    /// Orient each piece by breadth-first search from its first face; the first contradiction closes a Möbius band.
+    /// Orient each piece by breadth-first search from its first face; the first contradiction closes a Möbius
+    /// band.
     fn new(faces: &[[u32; 3]], incidence: &Incidence) -> Pieces {
         let partner = incidence.partners(faces.len());
         let mut parent = vec![NONE; faces.len()];

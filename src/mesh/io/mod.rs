@@ -14,8 +14,8 @@ use super::Point;
 use crate::error::{Error, Result};
 use std::path::Path;
 
-/// An indexed triangle list as a file gives it. Polygons are triangulated as fans from their first corner; vertices
-/// keep the file's numbering, isolated ones included.
+/// An indexed triangle list as a file gives it. Polygons are triangulated as fans from their first corner;
+/// vertices keep the file's numbering, isolated ones included.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Soup {
     /// Vertex positions; coordinates may be non-finite, [`super::check::diagnose`] finds that.

@@ -1,5 +1,5 @@
-//! Wavefront OBJ. Our own reader, because the contract needs the file's vertex numbering, which the OBJ crates
-//! replace by one of their own.
+//! Wavefront OBJ. Our own reader, because the contract needs the file's vertex numbering, which the OBJ
+//! crates replace by one of their own.
 
 use super::scan::Place;
 use super::{Point, Soup, fan, write_atomically};
@@ -7,8 +7,8 @@ use crate::error::{Error, Result};
 use std::io::Write;
 use std::path::Path;
 
-/// Parse OBJ text: `v` and `f` (polygons, negative indices, `v/vt/vn` corners), line continuations; everything else
-/// is skipped. `path` is used in errors.
+/// Parse OBJ text: `v` and `f` (polygons, negative indices, `v/vt/vn` corners), line continuations;
+/// everything else is skipped. `path` is used in errors.
 pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
     let text = String::from_utf8_lossy(bytes);
     let mut soup = Soup::default();
@@ -88,8 +88,8 @@ pub struct ObjData<'a> {
 
 /// Write an OBJ file with 17 significant digits (which read back to the same doubles), atomically.
 ///
-/// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
-/// [`Error::Size`], [`Error::Io`].
+/// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of
+/// range, [`Error::Size`], [`Error::Io`].
 pub fn write_obj(path: &Path, data: &ObjData<'_>) -> Result<()> {
     if !data.face_texcoords.is_empty() {
         crate::error::check_size("face_texcoords", data.face_texcoords.len(), data.faces.len())?;

@@ -1,5 +1,5 @@
-//! OFF, text and binary: plain, COFF, NOFF, STOFF and their combinations (normals, colours and texture coordinates are
-//! skipped). The format is Geomview's, <http://www.geomview.org/docs/html/OFF.html>.
+//! OFF, text and binary: plain, COFF, NOFF, STOFF and their combinations (normals, colours and texture
+//! coordinates are skipped). The format is Geomview's, <http://www.geomview.org/docs/html/OFF.html>.
 
 use super::off_binary::parse_off_binary;
 use super::scan::{Place, lines};
@@ -147,7 +147,8 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
                 return Some(token);
             }
             let (line, text) = self.lines.next()?;
-            // Blank lines do not count as the place of an error: at the end of the file that is its last word.
+            // Blank lines do not count as the place of an error: at the end of the file that is its last
+            // word.
             self.line = if text.is_empty() { self.line } else { line };
             self.rest = text;
         }

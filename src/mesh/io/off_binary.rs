@@ -7,16 +7,16 @@ use crate::error::Result;
 /// How the data behind `OFF BINARY` are laid out. The file does not say which it is.
 #[derive(Clone, Copy, PartialEq)]
 enum Dialect {
-    /// The format's definition: big-endian, and each face ends with the number of its colour components (which may be
-    /// 0) and these components.
+    /// The format's definition: big-endian, and each face ends with the number of its colour components
+    /// (which may be 0) and these components.
     Geomview,
     /// Of programs that copy their memory: little-endian, no colours of faces.
     Copied,
 }
 
-/// Parse the data that begin at `start`: three `i32` counts, `columns` `f32` per vertex of which the first three are the
-/// position, and per face the `i32` number of its corners and these, 0-based. The dialect is the one in which the file
-/// ends where its last face does.
+/// Parse the data that begin at `start`: three `i32` counts, `columns` `f32` per vertex of which the first
+/// three are the position, and per face the `i32` number of its corners and these, 0-based. The dialect is
+/// the one in which the file ends where its last face does.
 pub(super) fn parse_off_binary(bytes: &[u8], start: usize, columns: usize, place: Place<'_>) -> Result<Soup> {
     let read = |dialect| Words { bytes, at: start, dialect, place }.soup(columns);
     let geomview = read(Dialect::Geomview);
