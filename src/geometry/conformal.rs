@@ -97,6 +97,22 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
     gap.is_finite().then_some(Edge { gap, q2 })
 }
 
+impl Edge {
+    /// What a double `length` of the edge from `a` to `b` loses: `γ_a + γ_b + gap − length`, to twice the digits.
+    pub fn remainder(self, a: Vertex, b: Vertex, length: f64) -> f64 {
+        let (sum, lost) = two_sum(a.radius, b.radius);
+        let (sum, more) = two_sum(sum, self.gap);
+        (sum - length) + (lost + more)
+    }
+}
+
+/// The sum of two doubles and what it loses, exactly (Knuth).
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
 /// The length of a squared half chord; NaN in S² where q² > 1.
 #[inline]
 pub fn length(space: Space, q2: f64) -> f64 {
