@@ -4,18 +4,16 @@
 mod common;
 
 use common::Random;
-use common::flow::{converged, solve, surface};
-use ricci::control::Stage;
-use ricci::embed::{layout, quality};
-use ricci::flow::{Gradient, Method, Options, Report, Solver, StepRule, StopReason, flow};
+use common::flow::{converged, distance, solve, surface};
+use ricci::Control;
+use ricci::embed::layout;
+use ricci::flow::{Gradient, Method, Options, Report, StepRule, StopReason};
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
-use ricci::mesh::io::Soup;
 use ricci::mesh::shapes;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::{Initial, Metric, Scheme, Target, curvature, initial_metric};
-use ricci::topology::{cut_graph, homology_generators};
-use ricci::{Control, Error};
+use ricci::topology::cut_graph;
 use std::f64::consts::PI;
 
 const EXACT: [Scheme; 3] = [Scheme::Yamabe, Scheme::Inversive, Scheme::Virtual];
@@ -34,10 +32,6 @@ fn run(
     let target = target.resolve(mesh, lengths, space, scheme).unwrap();
     let (metric, report) = solve(mesh, &initial.metric, &target, &Options::default());
     (initial, metric, report)
-}
-
-fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).fold(0.0, |m, (a, b)| m.max((a - b).abs()))
 }
 
 #[test]
@@ -180,6 +174,7 @@ fn gradient_flow_and_newton_agree() {
     let torus = surface(&shapes::torus(2.0, 0.9, 12, 8).unwrap());
     let disk = surface(&shapes::disk(4).unwrap());
     let genus2 = surface(&shapes::genus(2, 2).unwrap());
+    let mut unreached = 0;
     for (mesh, lengths, space) in
         [(&torus.0, &torus.1, Space::E2), (&disk.0, &disk.1, Space::E2), (&genus2.0, &genus2.1, Space::H2)]
     {
@@ -191,6 +186,7 @@ fn gradient_flow_and_newton_agree() {
             if !report.converged {
                 // Virtual radii do not reach every target on a fixed triangulation.
                 assert_eq!((scheme, report.stop_reason), (Scheme::Virtual, StopReason::BrokenTriangles));
+                unreached += 1;
                 continue;
             }
             let options = Options { method: Method::Gradient, ..Options::default() };
@@ -200,6 +196,7 @@ fn gradient_flow_and_newton_agree() {
             assert_eq!(report.trace.len(), report.iterations + 1);
         }
     }
+    assert!(unreached <= 1);
 }
 
 #[test]
@@ -265,47 +262,6 @@ fn results_do_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
-fn a_kept_solver_gives_what_a_fresh_one_gives() {
-    let (mesh, lengths) = surface(&shapes::torus(2.0, 0.9, 20, 12).unwrap());
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap();
-    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
-    for (a, b) in [(0, 100), (17, 30), (200, 5)] {
-        let cones = Target::Cones(vec![(VertexId(a), 1.0), (VertexId(b), -1.0)]);
-        let target = cones.resolve(&mesh, &lengths, Space::E2, Scheme::Inversive).unwrap();
-        let report = solver.solve(&target, &Control::new()).unwrap();
-        converged(&report);
-        let (fresh, _) = solve(&mesh, &initial.metric, &target, &Options::default());
-        assert!(distance(&solver.metric().u, &fresh.u) < 1e-9);
-    }
-}
-
-#[test]
-fn pinned_vertices_keep_u_and_the_rest_reach_their_curvature() {
-    let (mesh, lengths) = surface(&shapes::disk(6).unwrap());
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
-    let boundary: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).collect();
-    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
-    solver.pin(&boundary).unwrap();
-    // u = log |f'| of the conformal map f(z) = z + z²/5, on the boundary.
-    let factor = |v: VertexId, soup: &Soup| {
-        let [x, y, _] = soup.positions[v.index()];
-        (1.0 + 0.4 * x).hypot(0.4 * y).ln()
-    };
-    let soup = shapes::disk(6).unwrap();
-    let u = PerVertex::from_fn(mesh.n_vertices(), |v| {
-        if mesh.is_boundary_vertex(v) { factor(v, &soup) } else { 0.0 }
-    });
-    solver.set_u(u.clone()).unwrap();
-    let report = solver.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), &Control::new()).unwrap();
-    converged(&report);
-    assert!(boundary.iter().all(|&v| solver.metric().u[v] == u[v]));
-    // The flat metric inside is that of f up to the discretisation: h² = 1/36.
-    for v in mesh.vertices() {
-        assert!((solver.metric().u[v] - factor(v, &soup)).abs() < 0.02, "vertex {v}");
-    }
-}
-
-#[test]
 fn inversive_distance_and_vertex_scaling_represent_the_input_exactly() {
     let (mesh, lengths) = surface(&shapes::ellipsoid([1.0, 2.0, 0.7], 6).unwrap());
     for scheme in EXACT {
@@ -321,49 +277,4 @@ fn inversive_distance_and_vertex_scaling_represent_the_input_exactly() {
     let thurston = initial_metric(&mesh, &lengths, Space::E2, Scheme::Thurston, Space::E2).unwrap();
     assert!(thurston.clamped_edges > 0 && thurston.max_length_change > 0.0);
     assert!(thurston.metric.eta.iter().all(|eta| (0.0..=1.0).contains(eta)));
-}
-
-#[test]
-fn cancelling_stops_the_flow_and_leaves_the_metric() {
-    let (mesh, lengths) = surface(&shapes::genus(2, 6).unwrap());
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::H2).unwrap();
-    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
-    let control = Control::new();
-    control.cancel();
-    let target = PerVertex::filled(mesh.n_vertices(), 0.0);
-    assert_eq!(solver.solve(&target, &control).unwrap_err(), Error::Cancelled);
-    assert_eq!(solver.metric(), &initial.metric);
-    converged(&solver.solve(&target, &Control::new()).unwrap());
-}
-
-#[test]
-fn cancelling_from_another_thread_ends_a_running_flow() {
-    let (mesh, lengths) = surface(&shapes::torus(2.0, 0.9, 300, 150).unwrap());
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap();
-    let target = Target::Uniform.resolve(&mesh, &lengths, Space::E2, Scheme::Inversive).unwrap();
-    // The stable gradient flow needs far longer than the test is willing to wait.
-    let gradient = Gradient { step: StepRule::Stable, ..Gradient::default() };
-    let options = Options { method: Method::Gradient, gradient, ..Options::default() };
-    let control = Control::new();
-    let outcome = std::thread::scope(|scope| {
-        let run = scope.spawn(|| flow(&mesh, &initial.metric, &target, &options, &control));
-        while control.progress().0 == Stage::Idle {
-            std::thread::yield_now();
-        }
-        control.cancel();
-        run.join().unwrap()
-    });
-    println!("{} vertices: {:?} after the cancellation", mesh.n_vertices(), control.since_cancel().unwrap());
-    assert_eq!(outcome.unwrap_err(), Error::Cancelled);
-}
-
-#[test]
-fn a_flat_disk_is_laid_out_isometrically() {
-    let soup = shapes::disk(5).unwrap();
-    let (mesh, lengths) = surface(&soup);
-    let cut = cut_graph(&mesh, &lengths, &[]).unwrap();
-    let laid = layout(&mesh, &lengths, &cut, &Control::new()).unwrap();
-    let quality = quality(&mesh, &lengths, &laid).unwrap();
-    assert!((quality.qc_max - 1.0).abs() < 1e-7);
-    assert!(homology_generators(&mesh, &lengths).unwrap().is_empty());
 }

@@ -4,8 +4,9 @@
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, Intrinsic};
-use ricci::mesh::{Mesh, Point};
+use ricci::mesh::{HalfedgeId, Mesh, Point};
 use ricci::metric::{curvature, lengths_from_positions};
+use ricci::topology::homology_generators;
 use std::f64::consts::PI;
 
 fn topology(soup: &Soup) -> (usize, usize) {
@@ -63,21 +64,68 @@ fn every_shape_has_its_topology_and_faces_outwards() {
 fn triangles_are_well_shaped() {
     assert!(min_angle(&shapes::icosphere(12).unwrap()) > 50.0);
     assert!(min_angle(&shapes::disk(12).unwrap()) > 40.0);
-    for (genus, n) in [(1, 4), (2, 4), (2, 8), (3, 6), (5, 4)] {
+    for (genus, n) in [(1, 1), (1, 4), (2, 1), (2, 4), (2, 32), (3, 6), (3, 16), (5, 4), (9, 2)] {
         let angle = min_angle(&shapes::genus(genus, n).unwrap());
-        assert!(angle > 20.0, "genus {genus}, n {n}: {angle}°");
+        assert!(angle > 27.0, "genus {genus}, n {n}: {angle}°");
     }
 }
 
 #[test]
-fn area_of_the_icosphere_tends_to_four_pi_quadratically() {
-    let area = |n| {
-        let soup = shapes::icosphere(n).unwrap();
-        let mesh = Mesh::from_soup(&soup).unwrap();
-        let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-        curvature(&mesh, Space::E2, &lengths).unwrap().area
+fn vertices_lie_on_their_surface() {
+    let worst = |soup: &Soup, f: &dyn Fn(f64, f64, f64) -> f64| {
+        soup.positions.iter().map(|&[x, y, z]| f(x, y, z).abs()).fold(0.0, f64::max)
     };
-    let errors = [8, 16, 32].map(|n| 4.0 * PI - area(n));
+    assert!(worst(&shapes::icosphere(9).unwrap(), &|x, y, z| x * x + y * y + z * z - 1.0) < 1e-15);
+    let ellipsoid = shapes::ellipsoid([3.0, 2.0, 0.5], 9).unwrap();
+    assert!(
+        worst(&ellipsoid, &|x, y, z| (x / 3.0).powi(2) + (y / 2.0).powi(2) + (z / 0.5).powi(2) - 1.0) < 2e-15
+    );
+    let torus = shapes::torus(2.0, 0.7, 30, 20).unwrap();
+    assert!(worst(&torus, &|x, y, z| (x.hypot(y) - 2.0).hypot(z) - 0.7) < 1e-15);
+    // Handles: z² (1/p + Σ 1/p_k) = 0.7, multiplied by all p: a smooth function that is zero there.
+    for (genus, n) in [(1usize, 3), (2, 5), (4, 3)] {
+        let centre = |k: usize| 1.35 * (2.0 * k as f64 + 1.0 - genus as f64);
+        let implicit = |x: f64, y: f64, z: f64| {
+            let square = |k: usize| (x - centre(k)).powi(2) + y * y;
+            let rim =
+                (1.7f64.powi(2) + 2.0 * (0..genus).map(|k| (-0.5 * square(k)).exp()).sum::<f64>().ln()) / 3.4;
+            let mut p: Vec<f64> = (0..genus).map(|k| 0.5 * (square(k) - 1.0)).collect();
+            p.push(rim);
+            let product = |skip: usize| {
+                p.iter().enumerate().filter(|(i, _)| *i != skip).map(|(_, p)| p).product::<f64>()
+            };
+            z * z * (0..p.len()).map(product).sum::<f64>() - 0.7 * product(p.len())
+        };
+        let soup = shapes::genus(genus, n).unwrap();
+        // Far holes have p_k up to 60.
+        assert!(worst(&soup, &implicit) < 1e-14 * 60f64.powi(genus as i32 - 1), "genus {genus}");
+        assert_eq!(soup.positions.len(), 8 * (5 * genus + 1) * n * n + 2 - 2 * genus);
+        let mut places: Vec<_> = soup.positions.iter().map(|p| p.map(|x| (x * 1e9) as i64)).collect();
+        let triangles = soup.faces.iter().filter(|f| f.contains(&0)).count();
+        assert!(genus == 1 || triangles == 10, "genus {genus}: {triangles} at vertex 0");
+        places.sort_unstable();
+        places.dedup();
+        assert_eq!(places.len(), soup.positions.len(), "genus {genus}: two vertices in one place");
+    }
+}
+
+#[test]
+fn area_of_a_surface_with_handles_converges_quadratically() {
+    let areas = [4, 8, 16, 32].map(|n| area(&shapes::genus(2, n).unwrap()));
+    let rate = ((areas[1] - areas[0]) / (areas[2] - areas[1])).log2();
+    let next = ((areas[2] - areas[1]) / (areas[3] - areas[2])).log2();
+    assert!((rate - 2.0).abs() < 0.2 && (next - 2.0).abs() < 0.1, "{areas:?}: {rate} {next}");
+}
+
+fn area(soup: &Soup) -> f64 {
+    let mesh = Mesh::from_soup(soup).unwrap();
+    let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
+    curvature(&mesh, Space::E2, &lengths).unwrap().area
+}
+
+#[test]
+fn area_of_the_icosphere_tends_to_four_pi_quadratically() {
+    let errors = [8, 16, 32].map(|n| 4.0 * PI - area(&shapes::icosphere(n).unwrap()));
     for pair in errors.windows(2) {
         assert!((pair[0] / pair[1] - 4.0).abs() < 0.1, "{errors:?}");
     }
@@ -124,6 +172,24 @@ fn level_zero_of_bolza_is_a_complex_of_two_vertices() {
 }
 
 #[test]
+fn bolza_has_the_systole_of_the_regular_octagon() {
+    // The shortest closed geodesics of the Bolza surface have length 2 arcosh(1 + √2). The sides of the octagon are such;
+    // no closed path that bounds nothing is shorter.
+    let systole = 2.0 * (1.0 + 2f64.sqrt()).acosh();
+    let (mesh, lengths) = shapes::bolza(0).unwrap().build().unwrap();
+    let loops: Vec<_> = mesh.edges().filter(|&e| mesh.ends(e)[0] == mesh.ends(e)[1]).collect();
+    assert_eq!(loops.len(), 4);
+    assert!(loops.iter().all(|&e| (lengths[e] - systole).abs() < 1e-14));
+    for level in 0..=4 {
+        let (mesh, lengths) = shapes::bolza(level).unwrap().build().unwrap();
+        let generators = homology_generators(&mesh, &lengths).unwrap();
+        assert_eq!(generators.len(), 4);
+        let length = |path: &Vec<HalfedgeId>| path.iter().map(|h| lengths[h.edge()]).sum::<f64>();
+        assert!(generators.iter().all(|path| length(path) >= systole - 1e-12), "level {level}");
+    }
+}
+
+#[test]
 fn doubled_triangle_is_a_sphere_with_three_cones() {
     let (mesh, lengths) = shapes::two_triangle_sphere().build().unwrap();
     assert_eq!(mesh.euler(), 2);
@@ -154,6 +220,16 @@ fn impossible_shapes_are_refused() {
     assert!(shapes::torus(2.0, f64::NAN, 5, 5).is_err());
     assert!(shapes::torus(2.0, 1.0, 2, 5).is_err());
     assert!(shapes::genus(0, 4).is_err());
+    assert!(shapes::genus(2, 0).is_err());
+    assert!(shapes::genus(usize::MAX, 1).is_err());
+    assert!(shapes::genus(2, usize::MAX).is_err());
+    assert!(shapes::annulus(2.0, 2.0, 3, 9).is_err());
+    assert!(shapes::annulus(1.0, 1.0 + 1e-14, 3, 9).is_err());
+    assert!(shapes::annulus(f64::NAN, 1.0, 3, 9).is_err());
+    assert!(shapes::disk(0).is_err());
+    assert!(shapes::ellipsoid([1.0, 0.0, 1.0], 3).is_err());
     assert!(shapes::bolza(60).is_err());
     assert!(shapes::flat_torus([0.0, -1.0], 1, 1).is_err());
+    assert!(shapes::flat_torus([1e20, 1.0], 1, 1).is_err());
+    assert!(shapes::flat_torus([0.0, 1e-200], 1, 1).is_err());
 }

@@ -5,7 +5,7 @@ mod common;
 
 use common::flow::{converged, solve};
 use ricci::flow::{Options, curvature_derivative};
-use ricci::geometry::conformal::{Vertex, differences, edge, weights};
+use ricci::geometry::conformal::{Vertex, differences, edge, length, weights};
 use ricci::geometry::triangle::angles_from;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
@@ -80,6 +80,22 @@ fn circles_of_very_different_sizes_keep_the_accuracy_of_their_angles_and_weights
                 "{line}: corner {k}: {angle:e} {weight:e} {weights:?}"
             );
             (worst_angle, worst_weight) = (worst_angle.max(angle), worst_weight.max(weight));
+        }
+        // The same differences from lengths of twice the digits, which is how files hold them.
+        let l = edges.map(|e| length(space, e.q2));
+        let lo = [0, 1, 2].map(|k| edges[k].remainder(corners[(k + 1) % 3], corners[(k + 2) % 3], l[k]));
+        let longest = l.into_iter().fold(0.0, f64::max);
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            // Exact in the order that Kahan's differences have.
+            let (a, b) = if l[i] > l[j] { (l[i], l[j]) } else { (l[j], l[i]) };
+            let high = if l[k] < b { a + (b - l[k]) } else { b + (a - l[k]) };
+            let ours = 0.5 * (high + (lo[i] + lo[j] - lo[k]));
+            assert!(
+                (ours - r[k]).abs() <= 1e-15 * r[k] + 1e-30 * longest,
+                "{line}: r {k}: {ours:e} {:e}",
+                r[k]
+            );
         }
         lines += 1;
     }

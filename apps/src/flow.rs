@@ -186,7 +186,9 @@ fn write(
         if let Some(path) = &args.metric {
             let factor = outcome.initial.conformal_factor(&outcome.metric)?;
             let Outcome { mesh, scheme, metric, lengths, target, .. } = outcome;
-            outputs.add_json(path, &MetricFile::new(mesh, *scheme, metric, lengths, &factor, target))?;
+            let lost = metric.length_remainders(mesh)?;
+            let file = MetricFile::new(mesh, *scheme, metric, [lengths, &lost], &factor, target);
+            outputs.add_json(path, &file)?;
         }
         if let Some(path) = &args.trace {
             outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace))?;

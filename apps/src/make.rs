@@ -105,12 +105,12 @@ pub enum Shape {
         #[command(flatten)]
         to: ToMesh,
     },
-    /// A smooth closed surface of genus G ≥ 1: tori in a row
+    /// A smooth closed surface of genus G ≥ 1: handles in a row
     Genus {
         /// Number of handles
         #[arg(short, long, default_value_t = 2)]
         genus: usize,
-        /// Edges per side of a block; about (20 G + 14) N² vertices
+        /// Layers over a quarter of the tube; 8 (5 G + 1) N² + 2 − 2 G vertices
         #[arg(short, long, default_value_t = 6)]
         n: usize,
         #[command(flatten)]

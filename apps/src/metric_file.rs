@@ -25,6 +25,9 @@ pub struct MetricFile<'a> {
     face_edges: Option<Vec<[i32; 3]>>,
     eta: Vec<[f64; 3]>,
     lengths: Vec<[f64; 3]>,
+    /// What the doubles of `lengths` lose of the lengths; left out where that is nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lengths_lo: Option<Vec<[f64; 3]>>,
     u: &'a [f64],
     conformal_factor: &'a [f64],
     epsilon: &'a [i8],
@@ -33,16 +36,18 @@ pub struct MetricFile<'a> {
 }
 
 impl<'a> MetricFile<'a> {
+    /// `lengths`: as doubles, and what they lose.
     pub fn new(
         mesh: &Mesh,
         scheme: Scheme,
         metric: &'a Metric,
-        lengths: &PerEdge<f64>,
+        lengths: [&PerEdge<f64>; 2],
         conformal_factor: &'a PerVertex<f64>,
         target: &'a PerVertex<f64>,
     ) -> Self {
-        let per_face =
-            |values: &PerEdge<f64>| mesh.faces().map(|f| mesh.opposite_edges(f).map(|e| values[e])).collect();
+        let per_face = |values: &PerEdge<f64>| -> Vec<[f64; 3]> {
+            mesh.faces().map(|f| mesh.opposite_edges(f).map(|e| values[e])).collect()
+        };
         MetricFile {
             space: metric.space.name(),
             input_geometry: metric.space.name(),
@@ -50,7 +55,8 @@ impl<'a> MetricFile<'a> {
             faces: faces_of(mesh),
             face_edges: face_edges_of(mesh),
             eta: per_face(&metric.eta),
-            lengths: per_face(lengths),
+            lengths: per_face(lengths[0]),
+            lengths_lo: lengths[1].iter().any(|&lo| lo != 0.0).then(|| per_face(lengths[1])),
             u: &metric.u,
             conformal_factor,
             epsilon: &metric.epsilon,

@@ -132,7 +132,7 @@ impl Run<'_> {
         for _ in 0..SHIFT_TRIES {
             self.control.check()?;
             let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
-            if factored && timed(&mut report.seconds.solve, || system.solve(residual, step)) {
+            if factored && timed(&mut report.seconds.solve, || system.solve(residual, self.enough(), step)) {
                 if self.free_scale {
                     center(step);
                 }
@@ -196,7 +196,7 @@ impl Run<'_> {
         for _ in 0..POLISH_STEPS {
             self.control.check()?;
             state.residual(self.target, self.pinned, residual);
-            if !timed(&mut report.seconds.solve, || system.solve(residual, step)) {
+            if !timed(&mut report.seconds.solve, || system.solve(residual, self.enough(), step)) {
                 return Ok(());
             }
             if self.free_scale {

@@ -157,6 +157,11 @@ impl Run<'_> {
         Ok(state)
     }
 
+    /// Curvature error that a linear solution may leave: it is added to what the tolerance allows.
+    pub(super) fn enough(&self) -> f64 {
+        0.01 * self.options.tolerance
+    }
+
     /// The vertices that are farthest from their target.
     fn worst(&self, state: &State) -> Vec<(VertexId, f64)> {
         let mut worst: Vec<(VertexId, f64)> = Vec::with_capacity(WORST + 1);

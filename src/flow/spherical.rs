@@ -63,7 +63,7 @@ impl Run<'_> {
             });
             report.iterations += 1;
             let solved = timed(&mut report.seconds.factor, || system.factor()).is_ok()
-                && timed(&mut report.seconds.solve, || system.solve(&residual, &mut step));
+                && timed(&mut report.seconds.solve, || system.solve(&residual, self.enough(), &mut step));
             let largest = step.iter().fold(0.0f64, |m, x| m.max(x.abs()));
             if !solved || largest > self.options.max_step {
                 damping *= 4.0;

@@ -41,8 +41,9 @@ impl System {
     }
 
     /// Solve `(∂K/∂u) step = residual` (both per vertex, 0 at fixed vertices) with the last factor, refined where
-    /// the linear residual asks for it. False when the solution is not finite.
-    pub fn solve(&mut self, residual: &[f64], step: &mut [f64]) -> bool {
+    /// the linear residual asks for it: what it leaves of the curvature error stays below `REFINE_TO` of that error, or below
+    /// `enough` (radians). False when the solution is not finite.
+    pub fn solve(&mut self, residual: &[f64], enough: f64, step: &mut [f64]) -> bool {
         self.jacobian.rows().for_each(|(v, row)| self.rhs[row] = residual[v]);
         self.solution.copy_from_slice(&self.rhs);
         self.cholesky.solve(&mut self.solution);
@@ -52,7 +53,7 @@ impl System {
             self.jacobian.matrix().residual(&self.solution, &self.rhs, &mut self.correction);
             let now = norm(&self.correction);
             // A NaN compares false and ends the refinement too.
-            let worth_it = now > REFINE_TO * scale && now < 0.5 * last;
+            let worth_it = now > f64::max(REFINE_TO * scale, enough) && now < 0.5 * last;
             if !worth_it {
                 break;
             }

@@ -19,7 +19,7 @@
 
 use super::Space;
 use super::triangle::half_differences;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::PI;
 
 /// A vertex at its current u.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -97,6 +97,22 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
     gap.is_finite().then_some(Edge { gap, q2 })
 }
 
+impl Edge {
+    /// What a double `length` of the edge from `a` to `b` loses: `γ_a + γ_b + gap − length`, to twice the digits.
+    pub fn remainder(self, a: Vertex, b: Vertex, length: f64) -> f64 {
+        let (sum, lost) = two_sum(a.radius, b.radius);
+        let (sum, more) = two_sum(sum, self.gap);
+        (sum - length) + (lost + more)
+    }
+}
+
+/// The sum of two doubles and what it loses, exactly (Knuth).
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
 /// The length of a squared half chord; NaN in S² where q² > 1.
 #[inline]
 pub fn length(space: Space, q2: f64) -> f64 {
@@ -131,7 +147,7 @@ fn circle_gap(space: Space, a: Vertex, b: Vertex, eta: f64, total: f64) -> f64 {
     match space {
         Space::E2 => product / total,
         Space::H2 => 2.0 * (product / (a.d * b.d * (0.5 * total).sinh())).asinh(),
-        Space::S2 if total < 2.0 * FRAC_PI_2 => 2.0 * (product / (a.d * b.d * (0.5 * total).sin())).asin(),
+        Space::S2 if total < PI => 2.0 * (product / (a.d * b.d * (0.5 * total).sin())).asin(),
         // Circles about as large as the sphere: nothing small is left over.
         Space::S2 => total - 2.0 * (a.radius + b.radius),
     }
@@ -151,7 +167,7 @@ pub fn differences(corners: [Vertex; 3], edges: [Edge; 3]) -> [f64; 3] {
 /// ```text
 /// w_k = 8 e_i e_j [ e_i e_j c_k (ε_i ε_j − η_ij²) + e_j e_k c_i (ε_j η_ki + η_ij η_jk) + e_i e_k c_j (ε_i η_jk + η_ij η_ki) ]
 ///       / (d_i² d_j² d_k Δ f(l_k)²),          Δ² = f(s) f(r_i) f(r_j) f(r_k),   f(x) = x, sinh x, sin x  (E²: ½ in place of 8)
-/// ∂θ_i/∂u_i = −w_k cos(h) l_k − w_j cos(h) l_j  (E²: −w_k − w_j)
+/// ∂θ_i/∂u_i = −w_k C(l_k) − w_j C(l_j),      C(l) = 1, cosh l, cos l
 /// ```
 ///
 /// which is \[ZGZLYG14\]'s matrix `σ/A · L Θ L⁻¹ D` multiplied out (notation.md derives it); for circle packings with η in
@@ -162,37 +178,38 @@ pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], et
     if r.iter().any(|&x| x <= 0.0) {
         return [0.0; 3];
     }
-    // The weights do not change when e, f(l), f(r) are divided by one number: this one keeps products from underflow.
-    let unit = corners.iter().fold(0.0, |m, v| f64::max(m, v.scale)).recip();
-    let e = corners.map(|v| v.scale * unit);
+    // In units of the longest chord no product under- or overflows.
+    let unit = 0.5 / q2.into_iter().fold(0.0, f64::max).sqrt();
     let f = |x: f64| unit * super::triangle::sine(space, x);
     let s = r[0] + r[1] + r[2];
-    if space == Space::S2 && s >= 2.0 * FRAC_PI_2 {
+    if space == Space::S2 && s >= PI {
         return [0.0; 3];
     }
     let delta = (f(s) * f(r[0])).sqrt() * (f(r[1]) * f(r[2])).sqrt();
     let lambda = space.curvature();
     let c = corners.map(|v| 1.0 - lambda * v.epsilon * v.scale * v.scale);
-    let d = corners.map(|v| v.d);
-    let epsilon = corners.map(|v| v.epsilon);
+    let e = corners.map(|v| v.scale * unit);
+    let own = [0, 1, 2].map(|i| corners[i].epsilon * e[i] * e[i]);
+    let cross = [0, 1, 2].map(|k| eta[k] * (e[(k + 1) % 3] * e[(k + 2) % 3]));
     let weight = |k: usize| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        // f(l_k)² = 4 q² (1 − λ q²)
-        let chord = 4.0 * q2[k] * unit * unit * (1.0 - lambda * q2[k]);
-        let own = match epsilon[i] * epsilon[j] {
-            1.0 => (1.0 - eta[k]) * (1.0 + eta[k]),
-            p => p - eta[k] * eta[k],
+        let first = if own[i] * own[j] > 0.0 {
+            own[i] * own[j] * ((1.0 - eta[k]) * (1.0 + eta[k]))
+        } else {
+            own[i] * own[j] - cross[k] * cross[k]
         };
-        let sum = e[i] * e[j] * c[k] * own
-            + e[j] * e[k] * c[i] * (epsilon[j] * eta[j] + eta[k] * eta[i])
-            + e[i] * e[k] * c[j] * (epsilon[i] * eta[i] + eta[k] * eta[j]);
+        let sum = c[k] * first
+            + c[i] * (own[j] * cross[j] + cross[k] * cross[i])
+            + c[j] * (own[i] * cross[i] + cross[k] * cross[j]);
+        // f(l_k)² = 4 q² (1 − λ q²)
+        let chord = (2.0 * unit) * (2.0 * unit) * q2[k] * (1.0 - lambda * q2[k]);
         let scale = match space {
             Space::E2 => 0.5,
-            _ => 8.0 / (d[i] * d[i] * d[j] * d[j] * d[k]),
+            _ => 8.0 / (corners[i].d * corners[j].d).powi(2) / corners[k].d,
         };
-        scale * (e[i] * e[j] / chord) * (sum / delta)
+        scale * sum / (delta * chord)
     };
     let w = [weight(0), weight(1), weight(2)];
-    // A triangle so thin that doubles cannot say how it would move counts as broken.
+    // Of a triangle so thin that its area underflows doubles cannot say how it would move.
     if w.iter().all(|w| w.is_finite()) { w } else { [0.0; 3] }
 }

@@ -61,6 +61,17 @@ impl Metric {
         }))
     }
 
+    /// What the doubles of [`Metric::lengths`] lose, per edge: `l` to twice the digits is `length + remainder`.
+    ///
+    /// It matters where circles of very different sizes meet; 0 where ε is 0 at both ends. Errors: as [`Metric::lengths`].
+    pub fn length_remainders(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
+        let (vertices, edges) = self.elements(mesh)?;
+        Ok(PerEdge::from_fn(mesh.n_edges(), |e| {
+            let [a, b] = mesh.ends(e).map(|v| vertices[v]);
+            edges[e].remainder(a, b, length(self.space, edges[e].q2))
+        }))
+    }
+
     fn elements(&self, mesh: &Mesh) -> Result<(PerVertex<Vertex>, PerEdge<Edge>)> {
         self.check(mesh)?;
         let vertices: PerVertex<Vertex> = PerVertex::from_fn(mesh.n_vertices(), |v| self.vertex(v));

@@ -26,3 +26,8 @@ pub fn converged(report: &Report) {
     assert_eq!(report.stop_reason, StopReason::Converged, "{report:?}");
     assert!(report.converged && report.max_curvature_error <= 1e-10);
 }
+
+/// Maximum norm of a − b.
+pub fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |m, (a, b)| m.max((a - b).abs()))
+}

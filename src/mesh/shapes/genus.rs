@@ -1,153 +1,266 @@
-//! Smooth closed surfaces of any genus: tori in a row, blended.
+//! Closed surfaces of any genus: a smooth plate with g holes in a row.
 //!
-//! The surface is the zero set of `F = −(1/κ) log Σ_k exp(−κ d_k)`, with `d_k` the signed distance to the k-th torus
-//! (centre circle of radius 1 about (2k, 0, 0), tube radius 0.45). The mesh starts as the outside of a plate of unit
-//! blocks, 2g + 1 long, 3 wide and 1 thick, with g holes of one block, cut into n × n squares per block face; it is
-//! projected onto the surface and relaxed along it.
+//! ```text
+//!      ____________________        The plate lies between its rim and its holes. Half-way between them runs the
+//!     /  ____   |    ____  \       medial graph: a loop around each hole; neighbours share a bridge. Rim and
+//!    |  /    \  |   /    \  |      holes each have a ring of quads reaching from the graph on the upper sheet
+//!    |  \____/  |   \____/  |      around the tube to the graph on the lower one: 2n layers. Vertices are
+//!     \_________|__________/       regular but for the two ends of each bridge, above and below.
+//! ```
 
 use super::check_count;
 use crate::error::Result;
 use crate::mesh::Point;
 use crate::mesh::io::Soup;
-use std::collections::HashMap;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-const TUBE: f64 = 0.45;
-/// Sharpness κ of the blend: the holes (radius 0.55) stay open, neighbouring tubes join over a width of about 1/κ.
-const SHARPNESS: f64 = 8.0;
-/// Newton steps of a projection; the distance functions have unit gradient, so that few are needed.
-const PROJECTION_STEPS: usize = 30;
-/// A vertex is on the surface when |F| is below this (the units of its blocks are 1).
-const ON_SURFACE: f64 = 1e-14;
+/// Radius of the holes.
+const HOLE: f64 = 1.0;
+/// Radius of the tube around a hole.
+const TUBE: f64 = 0.35;
+/// Radius of the rim around a hole on its own.
+const RIM: f64 = HOLE + 2.0 * TUBE;
+/// Half the distance of neighbouring holes.
+const HALF_STEP: f64 = HOLE + TUBE;
+/// Temperature of the smooth union of the rim's disks: larger fills the waists between the holes.
+const BLEND: f64 = 2.0;
+/// Disks more than this many steps from the nearest one change the rim by less than rounding: their weight is at
+/// most `exp(−((2·REACH + 1)² − 1) HALF_STEP² / BLEND)` ≈ 1e−19 of the nearest one's.
+const REACH: usize = 3;
 
-/// A smooth closed surface of genus `genus` ≥ 1 with `n` ≥ 2 edges per block side, (18g + 14) n² + 2 − 2g vertices, all on
-/// the surface to 1e-13. Vertex 0 lies on the wall of the first hole towards the next one, where for even n ≥ 4 eight
-/// triangles meet: room for a cone of negative curvature. (Genus 0: see [`super::icosphere`].)
+type Point2 = [f64; 2];
+
+/// A smooth closed surface of genus `genus` ≥ 1: handles in a row along the x axis. (Genus 0: [`super::icosphere`].)
+///
+/// With the holes' centres `c_k = (1.35 (2k + 1 − g), 0)`, the surface is `z² = f(x, y)` where
+///
+/// ```text
+///     f = 0.7 / (1/p + Σ_k 1/p_k)
+///     p_k = (|x − c_k|² − 1) / 2                               about the distance from hole k (radius 1)
+///     p = (1.7² + 2 log Σ_k exp(−|x − c_k|²/2)) / 3.4          about the distance from the rim
+/// ```
+///
+/// The rim is a smooth union of disks of radius 1.7, and `f` the harmonic mean that makes a tube of radius about
+/// 0.35 between two parallel walls. Every vertex lies on the surface to rounding.
+///
+/// `n` ≥ 1 is the number of layers over a quarter of the tube: `8(5g + 1)n² + 2 − 2g` vertices, no angle below 27°. Vertex
+/// order: the medial graph above, the same below, then ring by ring (hole 0, …, hole g − 1, rim), layer by layer
+/// downwards. For g ≥ 2 vertex 0 is the lower end of the first bridge between two holes, where ten triangles meet: room
+/// for a cone of negative curvature.
+///
+/// Errors: [`crate::Error::Argument`] for a count that is too small, or too large to number the vertices.
 pub fn genus(genus: usize, n: usize) -> Result<Soup> {
-    let vertices = (18.0 * genus as f64 + 14.0) * (n as f64).powi(2);
+    let vertices = 8.0 * (5.0 * genus as f64 + 1.0) * (n as f64).powi(2);
     check_count("genus", genus, 1, vertices)?;
-    check_count("edges per block", n, 2, vertices)?;
-    let (mut positions, quads) = plate(genus, n);
-    let surface = Surface { genus };
-    positions.iter_mut().for_each(|p| *p = surface.project(*p));
-    // Information travels one edge per round: rounds in proportion to n relax the plate's corners at every n.
-    for _ in 0..6 * n {
-        relax(&mut positions, &quads, &surface);
+    check_count("layers", n, 1, vertices)?;
+    let plate = Plate { genus };
+    let Skeleton { points, holes, rim } = plate.skeleton(n);
+    let mut sheets = Sheets { plate, layers: n, positions: Vec::new(), faces: Vec::new() };
+    let heights: Vec<f64> = points.iter().map(|&p| plate.height(p)).collect();
+    for side in [1.0, -1.0] {
+        sheets.positions.extend(points.iter().zip(&heights).map(|(p, z)| [p[0], p[1], side * z]));
     }
-    let distance = |a: u32, b: u32| {
-        let (p, q) = (positions[a as usize], positions[b as usize]);
-        (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>()
-    };
-    let mut faces = Vec::with_capacity(2 * quads.len());
-    for [a, b, c, d] in quads {
-        let halves =
-            if distance(a, c) <= distance(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
-        faces.extend(halves);
+    for (k, ring) in holes.iter().enumerate() {
+        sheets.ring(&points, ring, |p| plate.foot_on_hole(k, p), Side::Hole);
     }
-    Ok(Soup { positions, faces })
+    sheets.ring(&points, &rim, |p| plate.foot_on_rim(p), Side::Rim);
+    Ok(Soup { positions: sheets.positions, faces: sheets.faces })
 }
 
-/// The outside of the plate of blocks as counterclockwise squares, centred like the tori.
-fn plate(genus: usize, n: usize) -> (Vec<Point>, Vec<[u32; 4]>) {
-    let size = [(2 * genus + 1) * n, 3 * n, n].map(|s| s as i64);
-    let filled = |c: [i64; 3]| {
-        let inside = (0..3).all(|k| c[k] >= 0 && c[k] < size[k]);
-        let block = [c[0] / n as i64, c[1] / n as i64];
-        inside && !(block[1] == 1 && block[0] % 2 == 1)
-    };
-    let mut known: HashMap<[i64; 3], u32> = HashMap::new();
-    let (mut positions, mut quads) = (Vec::new(), Vec::new());
-    let mut vertex = |c: [i64; 3]| {
-        *known.entry(c).or_insert_with(|| {
-            let x = c.map(|x| x as f64 / n as f64);
-            positions.push([x[0] - 1.5, x[1] - 1.5, x[2] - 0.5]);
-            positions.len() as u32 - 1
-        })
-    };
-    vertex([2 * n, (3 * n).div_ceil(2), n.div_ceil(2)].map(|x| x as i64));
-    for z in 0..size[2] {
-        for y in 0..size[1] {
-            for x in (0..size[0]).filter(|&x| filled([x, y, z])) {
-                let cell = [x, y, z];
-                for axis in 0..3 {
-                    for side in [0, 1] {
-                        let mut neighbour = cell;
-                        neighbour[axis] += 2 * side - 1;
-                        if filled(neighbour) {
-                            continue;
-                        }
-                        let corner = |u: i64, v: i64| {
-                            let mut c = cell;
-                            c[axis] += side;
-                            c[(axis + 1) % 3] += u;
-                            c[(axis + 2) % 3] += v;
-                            c
-                        };
-                        let mut square =
-                            [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)].map(&mut vertex);
-                        if side == 0 {
-                            square.reverse();
-                        }
-                        quads.push(square);
-                    }
-                }
-            }
-        }
-    }
-    (positions, quads)
-}
-
-struct Surface {
+/// The plate: rim, holes and height over the plane.
+#[derive(Clone, Copy)]
+struct Plate {
     genus: usize,
 }
 
-impl Surface {
-    /// F and its gradient.
-    fn value(&self, p: Point) -> (f64, Point) {
-        let torus = |k: usize| {
-            let x = p[0] - 2.0 * k as f64;
-            let rho = x.hypot(p[1]);
-            let tube = (rho - 1.0).hypot(p[2]);
-            let (radial, up) = ((rho - 1.0) / tube.max(1e-300), p[2] / tube.max(1e-300));
-            (tube - TUBE, [radial * x / rho.max(1e-300), radial * p[1] / rho.max(1e-300), up])
-        };
-        let nearest = (0..self.genus).map(|k| torus(k).0).fold(f64::INFINITY, f64::min);
-        let (mut sum, mut gradient) = (0.0, [0.0; 3]);
-        for (distance, direction) in (0..self.genus).map(torus) {
-            let weight = (-SHARPNESS * (distance - nearest)).exp();
-            sum += weight;
-            (0..3).for_each(|i| gradient[i] += weight * direction[i]);
-        }
-        (nearest - sum.ln() / SHARPNESS, gradient.map(|g| g / sum))
+/// The medial graph: points, and the loops around the holes and along the rim, all counter-clockwise.
+struct Skeleton {
+    points: Vec<Point2>,
+    holes: Vec<Vec<usize>>,
+    rim: Vec<usize>,
+}
+
+impl Plate {
+    /// The x coordinate of the centre of hole k.
+    fn centre(self, k: usize) -> f64 {
+        HALF_STEP * (2.0 * k as f64 + 1.0 - self.genus as f64)
     }
 
-    /// Newton along the gradient to F = 0.
-    fn project(&self, mut p: Point) -> Point {
-        for _ in 0..PROJECTION_STEPS {
-            let (value, gradient) = self.value(p);
-            if value.abs() <= ON_SURFACE {
-                break;
-            }
-            let square: f64 = gradient.iter().map(|g| g * g).sum();
-            (0..3).for_each(|i| p[i] -= value * gradient[i] / square.max(1e-6));
+    /// `|x − c_k|²`.
+    fn square(self, k: usize, [x, y]: Point2) -> f64 {
+        (x - self.centre(k)).powi(2) + y * y
+    }
+
+    /// `p_k`: zero on hole k, with slope 1 there.
+    fn hole_distance(self, k: usize, p: Point2) -> f64 {
+        (self.square(k, p) - HOLE * HOLE) / (2.0 * HOLE)
+    }
+
+    /// `p`: zero on the rim.
+    fn rim_distance(self, p: Point2) -> f64 {
+        let nearest = ((p[0] - self.centre(0)) / (2.0 * HALF_STEP))
+            .round()
+            .clamp(0.0, self.genus as f64 - 1.0) as usize;
+        let least = self.square(nearest, p);
+        let disks = nearest.saturating_sub(REACH)..self.genus.min(nearest + REACH + 1);
+        let sum: f64 = disks.map(|k| ((least - self.square(k, p)) / BLEND).exp()).sum();
+        (RIM * RIM - least + BLEND * sum.ln()) / (2.0 * RIM)
+    }
+
+    /// Height `√f` of the upper sheet; 0 on the rim and the holes.
+    fn height(self, p: Point2) -> f64 {
+        let holes: f64 = (0..self.genus).map(|k| self.hole_distance(k, p).recip()).sum();
+        (2.0 * TUBE / (self.rim_distance(p).recip() + holes)).max(0.0).sqrt()
+    }
+
+    /// The point of hole k nearest to `p`.
+    fn foot_on_hole(self, k: usize, p: Point2) -> Point2 {
+        let (dx, r) = (p[0] - self.centre(k), self.square(k, p).sqrt());
+        [self.centre(k) + HOLE * dx / r, HOLE * p[1] / r]
+    }
+
+    /// The rim beyond `p`: away from the centre of the first or last hole in the caps, along y between them.
+    fn foot_on_rim(self, p: Point2) -> Point2 {
+        let x = p[0].clamp(self.centre(0), self.centre(self.genus - 1));
+        let r = (p[0] - x).hypot(p[1]);
+        let along = |t: f64| [x + t * (p[0] - x) / r, t * p[1] / r];
+        along(root(0.0, 2.0 * RIM, |t| self.rim_distance(along(t))))
+    }
+
+    /// Half-way between hole k and the rim, in direction `angle` from the hole's centre.
+    fn medial(self, k: usize, angle: f64) -> Point2 {
+        let (sin, cos) = angle.sin_cos();
+        let along = |t: f64| [self.centre(k) + t * cos, t * sin];
+        along(root(HOLE, 2.0 * RIM, |t| self.rim_distance(along(t)) - self.hole_distance(k, along(t))))
+    }
+
+    /// The medial graph: 2n steps on a bridge, 4n between the bridges of a hole, 10n around an end, 12n in all
+    /// around a single hole.
+    fn skeleton(self, n: usize) -> Skeleton {
+        let mut points = Vec::new();
+        let last = self.genus - 1;
+        if last == 0 {
+            let ring: Vec<usize> = (0..12 * n).collect();
+            points.extend(ring.iter().map(|&i| self.medial(0, TAU * i as f64 / ring.len() as f64)));
+            return Skeleton { points, holes: vec![ring.clone()], rim: ring };
         }
-        p
+        // Bridge k, between the holes k and k + 1, ends at the directions ±tilt[k] from hole k.
+        let mut tilt = Vec::with_capacity(last);
+        for k in 0..last {
+            let x = self.centre(k) + HALF_STEP;
+            let end = root(0.0, 2.0 * RIM, |y| self.rim_distance([x, y]) - self.hole_distance(k, [x, y]));
+            tilt.push(end.atan2(HALF_STEP));
+            let steps = (0..=2 * n).map(|i| i as f64 / n as f64 - 1.0);
+            points.extend(steps.map(|t| [x, HALF_STEP * (t * tilt[k]).tan()]));
+        }
+        let bottom = |k: usize| k * (2 * n + 1);
+        let top = |k: usize| bottom(k) + 2 * n;
+        // Half-open paths: each ends where the next begins.
+        let up = |k: usize| bottom(k)..top(k);
+        let down = |k: usize| (bottom(k) + 1..=top(k)).rev();
+        let mut arc = |k: usize, start: usize, from: f64, to: f64, steps: usize| {
+            let new = points.len()..points.len() + steps - 1;
+            let angles = (1..steps).map(|i| from + (to - from) * i as f64 / steps as f64);
+            points.extend(angles.map(|angle| self.medial(k, angle)));
+            std::iter::once(start).chain(new).collect::<Vec<usize>>()
+        };
+        let west = arc(0, top(0), tilt[0], TAU - tilt[0], 10 * n);
+        let east = arc(last, bottom(last - 1), tilt[last - 1] - PI, PI - tilt[last - 1], 10 * n);
+        let mut holes = vec![up(0).chain(west.iter().copied()).collect::<Vec<usize>>()];
+        let (mut north, mut south) = (Vec::new(), Vec::new());
+        for k in 1..last {
+            let upper = arc(k, top(k), tilt[k], PI - tilt[k - 1], 4 * n);
+            let lower = arc(k, bottom(k - 1), PI + tilt[k - 1], TAU - tilt[k], 4 * n);
+            holes.push(
+                up(k).chain(upper.iter().copied()).chain(down(k - 1)).chain(lower.iter().copied()).collect(),
+            );
+            north.push(upper);
+            south.push(lower);
+        }
+        holes.push(east.iter().copied().chain(down(last - 1)).collect());
+        north.reverse();
+        let rim = [vec![east], north, vec![west], south].concat().concat();
+        Skeleton { points, holes, rim }
     }
 }
 
-/// Every vertex to the mean of its neighbours along the squares' sides, and back onto the surface.
-fn relax(positions: &mut [Point], quads: &[[u32; 4]], surface: &Surface) {
-    let mut sum = vec![([0.0; 3], 0.0); positions.len()];
-    for quad in quads {
-        for k in 0..4 {
-            let (a, b) = (quad[k] as usize, quad[(k + 1) % 4] as usize);
-            // Each side is seen from both its squares, in either direction: both ends get each other twice in all.
-            (0..3).for_each(|i| sum[a].0[i] += positions[b][i]);
-            sum[a].1 += 1.0;
-            (0..3).for_each(|i| sum[b].0[i] += positions[a][i]);
-            sum[b].1 += 1.0;
+/// What a ring of quads leads around.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Hole,
+    Rim,
+}
+
+/// The mesh under construction.
+struct Sheets {
+    plate: Plate,
+    layers: usize,
+    positions: Vec<Point>,
+    faces: Vec<[u32; 3]>,
+}
+
+impl Sheets {
+    /// Add the quads from the medial loop above, around the tube through `foot`, to the medial loop below.
+    fn ring(&mut self, points: &[Point2], ring: &[usize], foot: impl Fn(Point2) -> Point2, side: Side) {
+        let feet: Vec<Point2> = ring.iter().map(|&v| foot(points[v])).collect();
+        let mut above = ring.to_vec();
+        for layer in 1..=2 * self.layers {
+            let below: Vec<usize> = if layer == 2 * self.layers {
+                ring.iter().map(|v| v + points.len()).collect()
+            } else {
+                (self.positions.len()..self.positions.len() + ring.len()).collect()
+            };
+            if layer < 2 * self.layers {
+                // A round tube in cross-section: sin of the angle from its crest, towards the foot.
+                let t = (FRAC_PI_2 * layer as f64 / self.layers as f64).sin();
+                for (&v, foot) in ring.iter().zip(&feet) {
+                    let p = [0, 1].map(|d| (1.0 - t) * points[v][d] + t * foot[d]);
+                    self.positions.push(match layer.cmp(&self.layers) {
+                        std::cmp::Ordering::Less => [p[0], p[1], self.plate.height(p)],
+                        std::cmp::Ordering::Equal => [foot[0], foot[1], 0.0],
+                        std::cmp::Ordering::Greater => [p[0], p[1], -self.plate.height(p)],
+                    });
+                }
+            }
+            for j in 0..ring.len() {
+                let next = (j + 1) % ring.len();
+                let quad = [above[j], above[next], below[next], below[j]];
+                self.split(quad, side);
+            }
+            above = below;
         }
     }
-    for (p, (total, count)) in positions.iter_mut().zip(sum) {
-        *p = surface.project(total.map(|x| x / count));
+
+    /// Split a quad (counter-clockwise from outside around a hole, clockwise around the rim) along its shorter diagonal; those
+    /// between vertex 0 and a hole along the diagonal through it.
+    fn split(&mut self, mut quad: [usize; 4], side: Side) {
+        if side == Side::Rim {
+            quad.reverse();
+        }
+        let square = |i: usize, j: usize| {
+            let (p, q) = (self.positions[quad[i]], self.positions[quad[j]]);
+            (0..3).map(|d| (p[d] - q[d]).powi(2)).sum::<f64>()
+        };
+        let swap = match quad.iter().position(|&v| v == 0) {
+            Some(corner) if side == Side::Hole => corner % 2 == 1,
+            _ => square(1, 3) < square(0, 2),
+        };
+        let [a, b, c, d] = quad.map(|v| v as u32);
+        self.faces.extend(if swap { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] });
+    }
+}
+
+/// Where `f` falls through zero between `low` and `high`, by bisection to rounding.
+fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return middle;
+        }
+        if f(middle) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
     }
 }

@@ -33,9 +33,13 @@ impl Intrinsic {
     ///
     /// Edge e becomes 2e − 1 and 2e, in its direction; vertex V + e − 1 is its midpoint; then come three edges per face.
     ///
-    /// Errors: a gluing that is no surface (see [`Mesh::from_gluing`]).
+    /// Errors: a gluing that is no surface (see [`Mesh::from_gluing`]), more edges than i32 can number.
     pub fn subdivide(&self) -> Result<Intrinsic> {
         self.build()?;
+        let after = 2 * self.lengths.len() + 3 * self.faces.len();
+        if i32::try_from(after).is_err() {
+            return Err(Error::TooLarge { what: "edges", count: after });
+        }
         let (n, edges) = (self.n_vertices as u32, self.lengths.len());
         let mut fine = Intrinsic {
             n_vertices: self.n_vertices + edges,
@@ -88,6 +92,9 @@ fn midline(geometry: Space, b: f64, c: f64, a: f64, angle: f64) -> f64 {
     }
 }
 
+/// Least area of a triangle over its longest side squared: what is left of it after rounding has a few digits.
+const FLAT: f64 = 1e-12;
+
 /// The flat torus ℂ/(ℤ + τℤ), Im τ > 0, as an n × m grid of parallelograms, each halved by its diagonal from z to
 /// z + 1/n + τ/m; legal down to 1 × 1 (one vertex). Vertex (i, j) is i + n j.
 pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
@@ -102,6 +109,14 @@ pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
     let edge = |kind: usize, i: usize, j: usize| (3 * vertex(i, j) + kind + 1) as i32;
     let (x, y) = ([1.0 / n as f64, 0.0], [tau[0] / m as f64, tau[1] / m as f64]);
     let sides = [x[0], y[0].hypot(y[1]), (x[0] + y[0]).hypot(y[1])];
+    if triangle::area(Space::E2, sides) <= FLAT * sides[2] * sides[2] {
+        let value = format!("{} + {} i", tau[0], tau[1]);
+        return Err(Error::Argument {
+            what: "τ",
+            value,
+            need: "such that its triangles have an area in doubles",
+        });
+    }
     let (mut faces, mut face_edges, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
     for j in 0..m {
         for i in 0..n {

@@ -33,6 +33,9 @@ pub fn disk(n: usize) -> Result<Soup> {
     Ok(soup)
 }
 
+/// Least relative distance of two rings: far above the rounding of a point on them.
+const RING: f64 = 1e-12;
+
 /// The annulus between the radii `inner` < `outer`: `n_radial` ≥ 1 steps in geometric progression, `n_around` ≥ 3
 /// steps, alternate rings turned by half a step. (n_radial + 1)·n_around vertices, ring by ring from inside.
 pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Result<Soup> {
@@ -45,6 +48,10 @@ pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Resu
     let vertices = n_radial as f64 * n_around as f64;
     check_count("radial steps", n_radial, 1, vertices)?;
     check_count("steps around", n_around, 3, vertices)?;
+    if (outer / inner).ln() <= RING * n_radial as f64 {
+        let value = n_radial.to_string();
+        return Err(Error::Argument { what: "radial steps", value, need: "fewer: the rings would coincide" });
+    }
     let mut soup = Soup::default();
     for k in 0..=n_radial {
         let radius = inner * (outer / inner).powf(k as f64 / n_radial as f64);
