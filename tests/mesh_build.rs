@@ -199,7 +199,7 @@ fn non_finite_coordinates_are_named_and_never_flat() {
     positions[3][0] = f64::INFINITY;
     let found = diagnose(&positions, &TETRAHEDRON).defects;
     assert_eq!(found, [Defect::NonFiniteCoordinate { vertex: 1 }, Defect::NonFiniteCoordinate { vertex: 3 }]);
-    let soup = Soup { positions, faces: TETRAHEDRON.to_vec() };
+    let soup = Soup::new(positions, TETRAHEDRON.to_vec());
     assert!(matches!(Mesh::from_soup(&soup), Err(Error::Defects(_))));
 }
 

@@ -245,7 +245,7 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Inst
         shapes::noise(&mut soup, to.noise, to.seed)?;
     }
     let mesh = Mesh::from_soup(&soup)?;
-    let Soup { positions, faces } = &soup;
+    let Soup { positions, faces, .. } = &soup;
     let lengths = lengths_from_positions(&mesh, positions)?;
     let mut outputs = Outputs::default();
     if extension(&to.out) == "json" {

@@ -122,7 +122,7 @@ pub unsafe extern "C" fn ricci_mesh_from_arrays(
         let mesh = output("mesh", mesh)?;
         let positions = arrays::points(positions, stride, n_vertices)?;
         let faces = arrays::faces(faces, n_faces)?;
-        mesh.hand_over(ricci_mesh::from_soup(Soup { positions, faces })?);
+        mesh.hand_over(ricci_mesh::from_soup(Soup::new(positions, faces))?);
         Ok(())
     })
 }
@@ -150,7 +150,7 @@ pub unsafe extern "C" fn ricci_mesh_from_arrays_i32(
         let mesh = output("mesh", mesh)?;
         let positions = arrays::points(positions, stride, n_vertices)?;
         let faces = arrays::faces_i32(faces, n_faces)?;
-        mesh.hand_over(ricci_mesh::from_soup(Soup { positions, faces })?);
+        mesh.hand_over(ricci_mesh::from_soup(Soup::new(positions, faces))?);
         Ok(())
     })
 }
@@ -205,7 +205,7 @@ pub unsafe extern "C" fn ricci_mesh_from_gluing(
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS (ask
 /// ricci_diagnose_file for the list).
 ///
-/// @param path  file name ending in .obj or .off, NUL-terminated.
+/// @param path  file name ending in .obj, .off, .ply or .stl, NUL-terminated.
 /// @param mesh  out: the new handle, to be released by ricci_mesh_free.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_read(path: *const c_char, mesh: *mut *mut ricci_mesh) -> ricci_status {

@@ -609,7 +609,7 @@ ricci_status ricci_mesh_from_gluing(size_t n_vertices,
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS (ask
  * ricci_diagnose_file for the list).
  *
- * @param path  file name ending in .obj or .off, NUL-terminated.
+ * @param path  file name ending in .obj, .off, .ply or .stl, NUL-terminated.
  * @param mesh  out: the new handle, to be released by ricci_mesh_free.
  */
 ricci_status ricci_mesh_read(const char *path,
@@ -750,7 +750,7 @@ ricci_status ricci_diagnose_arrays(const double *positions,
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT.
  *
- * @param path       file name ending in .obj or .off, NUL-terminated.
+ * @param path       file name ending in .obj, .off, .ply or .stl, NUL-terminated.
  * @param diagnosis  out: the new handle, to be released by ricci_diagnosis_free.
  */
 ricci_status ricci_diagnose_file(const char *path, ricci_diagnosis **diagnosis);

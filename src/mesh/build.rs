@@ -23,7 +23,7 @@ impl Mesh {
     /// The surface of a triangle list in space, diagnosed with its positions (zero-area faces, coordinates
     /// that are not finite).
     pub fn from_soup(soup: &Soup) -> Result<Mesh> {
-        let Soup { positions, faces } = soup;
+        let Soup { positions, faces, .. } = soup;
         check_counts(positions.len(), faces.len())?;
         let incidence = Incidence::new(positions.len(), faces);
         let diagnosis = diagnose_positions(positions, faces, &incidence);

@@ -94,7 +94,7 @@ fn lines_behind_the_surface_are_hidden() {
 #[test]
 fn degenerate_input_is_drawn_as_far_as_it_goes() {
     assert!(!png(&Picture { surface: None, flat: None }, 1).unwrap().is_empty());
-    let soup = ricci::mesh::io::Soup { positions: vec![[1.0; 3]; 3], faces: vec![[0, 1, 2]] };
+    let soup = ricci::mesh::io::Soup::new(vec![[1.0; 3]; 3], vec![[0, 1, 2]]);
     let uv = [[[1e300, 0.0], [f64::NAN, 1.0], [0.0, 1e-300]]];
     let flat =
         Flat { corner_uv: &uv, seams: &[], boundary: &[], cones: &[], circles: &[], dual_circles: &[] };

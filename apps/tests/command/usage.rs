@@ -63,7 +63,7 @@ fn surfaces_that_cannot_be_are_exit_3() {
         ("flow none.obj", "no faces"),
         ("flow torn.off", "torn.off:"),
         ("flow missing.obj", "missing.obj"),
-        ("flow disk.stl", "unknown format"),
+        ("flow disk.step", "unknown format"),
         ("flow torus.obj --target cones:missing.csv", "missing.csv"),
         ("flow torus.obj --target cones:far.csv", "far.csv:1: vertex 200"),
         ("flow torus.obj --target file:total.csv", "vertex 1 is missing"),

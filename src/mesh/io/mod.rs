@@ -4,28 +4,89 @@ mod atomic;
 mod obj;
 mod off;
 mod off_binary;
+mod ply;
+mod polygon;
 mod scan;
+mod stl;
 
 pub use atomic::write_atomically;
 pub use obj::{ObjData, parse_obj, write_obj};
-pub use off::parse_off;
+pub use off::{parse_off, write_off};
+pub use ply::{parse_ply, write_ply};
+pub use stl::parse_stl;
 
 use super::Point;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_size};
 use std::path::Path;
 
-/// An indexed triangle list as a file gives it. Polygons are triangulated as fans from their first corner;
-/// vertices keep the file's numbering, isolated ones included.
+/// An indexed triangle list as a file gives it. Polygons are triangulated: convex ones as fans from their first corner, others
+/// ear by ear. Vertices keep the file's numbering, isolated ones included.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Soup {
     /// Vertex positions; coordinates may be non-finite, [`super::check::diagnose`] finds that.
     pub positions: Vec<Point>,
     /// Corners of each triangle, 0-based. Indices may be out of range, the diagnosis finds that too.
     pub faces: Vec<[u32; 3]>,
+    /// What else there is at vertices and corners.
+    pub attributes: Attributes,
+}
+
+/// What a file says beside positions and faces.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Attributes {
+    /// Normal of each vertex (V entries), of any length.
+    pub normals: Option<Vec<Point>>,
+    /// Colour of each vertex (V entries): red, green, blue, opacity, from 0 to 1.
+    pub colors: Option<Vec<[f64; 4]>>,
+    /// Texture coordinates of each face's corners (F entries).
+    pub uv: Option<Vec<[[f64; 2]; 3]>>,
+}
+
+impl Attributes {
+    /// Texture coordinates per vertex, if the corners of each of the `n` vertices agree on them.
+    pub(crate) fn vertex_uv(&self, n: usize, faces: &[[u32; 3]]) -> Option<Vec<[f64; 2]>> {
+        let mut at: Vec<Option<[f64; 2]>> = vec![None; n];
+        for (&v, &uv) in faces.as_flattened().iter().zip(self.uv.as_ref()?.as_flattened()) {
+            let slot = at.get_mut(v as usize)?;
+            if slot.is_some_and(|known| known != uv) {
+                return None;
+            }
+            *slot = Some(uv);
+        }
+        Some(at.into_iter().map(Option::unwrap_or_default).collect())
+    }
+}
+
+impl Soup {
+    /// A triangle list without attributes.
+    pub fn new(positions: Vec<Point>, faces: Vec<[u32; 3]>) -> Soup {
+        Soup { positions, faces, attributes: Attributes::default() }
+    }
+
+    /// Numbers are finite, corners name vertices, attributes have an entry for each element.
+    pub(crate) fn check_writable(&self) -> Result<()> {
+        let Soup { positions, faces, attributes } = self;
+        let Attributes { normals, colors, uv } = attributes;
+        finite("position", positions)?;
+        in_range("vertex", faces, positions.len())?;
+        if let Some(normals) = normals {
+            check_size("normals", normals.len(), positions.len())?;
+            finite("normal", normals)?;
+        }
+        if let Some(colors) = colors {
+            check_size("colors", colors.len(), positions.len())?;
+            finite("colour", colors)?;
+        }
+        if let Some(uv) = uv {
+            check_size("uv", uv.len(), faces.len())?;
+            finite("texture coordinate", uv.as_flattened())?;
+        }
+        Ok(())
+    }
 }
 
 /// Extensions that [`read`] knows.
-pub const READABLE: &str = ".obj, .off";
+pub const READABLE: &str = ".obj, .off, .ply, .stl";
 
 /// Read a mesh file by its extension (case does not matter).
 pub fn read(path: &Path) -> Result<Soup> {
@@ -34,13 +95,34 @@ pub fn read(path: &Path) -> Result<Soup> {
     let parse = match extension.as_deref() {
         Some("obj") => parse_obj,
         Some("off") => parse_off,
+        Some("ply") => parse_ply,
+        Some("stl") => parse_stl,
         _ => return Err(Error::UnknownFormat { path: name, known: READABLE }),
     };
     let bytes = std::fs::read(path).map_err(|e| Error::Io { path: name.clone(), message: e.to_string() })?;
     parse(&bytes, &name)
 }
 
-/// The fan of a polygon from its first corner; nothing for fewer than three corners.
-fn fan(corners: &[u32], faces: &mut Vec<[u32; 3]>) {
-    faces.extend(corners.windows(2).skip(1).map(|w| [corners[0], w[0], w[1]]));
+fn finite<const N: usize>(what: &'static str, points: &[[f64; N]]) -> Result<()> {
+    match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        Some(i) => {
+            let value = format!("{:?} at entry {i}", points[i]);
+            Err(Error::Argument { what, value, need: "a file holds finite numbers only" })
+        }
+        None => Ok(()),
+    }
+}
+
+fn in_range(what: &'static str, faces: &[[u32; 3]], n: usize) -> Result<()> {
+    match faces.iter().position(|corners| corners.iter().any(|&v| v as usize >= n)) {
+        Some(f) => {
+            let value = format!("one of {:?} in face {f}", faces[f]);
+            Err(Error::Argument {
+                what,
+                value,
+                need: "corners must be below the number of entries they name",
+            })
+        }
+        None => Ok(()),
+    }
 }

@@ -1,18 +1,20 @@
 //! Wavefront OBJ. Our own reader, because the contract needs the file's vertex numbering, which the OBJ
 //! crates replace by one of their own.
 
+use super::polygon::Polygons;
 use super::scan::Place;
-use super::{Point, Soup, fan, write_atomically};
-use crate::error::{Error, Result};
+use super::{Attributes, Point, Soup, finite, in_range, write_atomically};
+use crate::error::Result;
 use std::io::Write;
 use std::path::Path;
 
-/// Parse OBJ text: `v` and `f` (polygons, negative indices, `v/vt/vn` corners), line continuations;
-/// everything else is skipped. `path` is used in errors.
+/// Parse OBJ text: `v` (with colours behind the coordinates, if there are any), `vt`, `vn` and `f` (polygons, negative indices,
+/// `v/vt/vn` corners), line continuations; everything else is skipped. `path` is used in errors.
+///
+/// Texture coordinates are kept where every corner has them, normals where all corners of a vertex name equal ones.
 pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
     let text = String::from_utf8_lossy(bytes);
-    let mut soup = Soup::default();
-    let mut corners = Vec::new();
+    let mut file = File::default();
     let mut lines = super::scan::lines(&text);
     let mut joined = String::new();
     while let Some((number, line)) = lines.next() {
@@ -35,20 +37,99 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
                 for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
                     *x = place.number(tokens.next(), format_args!("coordinate {name}"))?;
                 }
-                soup.positions.push(point);
+                file.positions.push(point);
+                file.colors.extend(color(tokens));
             }
+            Some("vt") => file.texcoords.push(numbers(tokens)),
+            Some("vn") => file.normals.push(numbers(tokens)),
             Some("f") => {
-                corners.clear();
                 for token in tokens {
-                    corners.push(corner(place, token, soup.positions.len())?);
+                    file.polygons.corners.push(corner(place, token, file.positions.len())?);
+                    let mut parts = token.split('/').skip(1);
+                    file.corner_texcoords.push(attribute(parts.next(), file.texcoords.len()));
+                    file.corner_normals.push(attribute(parts.next(), file.normals.len()));
                 }
-                // Faces of one or two corners occur in the wild; they are no part of the surface.
-                fan(&corners, &mut soup.faces);
+                file.polygons.end();
             }
             _ => {}
         }
     }
-    Ok(soup)
+    Ok(file.soup())
+}
+
+/// What has been read so far.
+#[derive(Default)]
+struct File {
+    positions: Vec<Point>,
+    colors: Vec<[f64; 4]>,
+    texcoords: Vec<[f64; 2]>,
+    normals: Vec<Point>,
+    polygons: Polygons,
+    /// Per corner, the entry it names.
+    corner_texcoords: Vec<Option<usize>>,
+    corner_normals: Vec<Option<usize>>,
+}
+
+impl File {
+    fn soup(self) -> Soup {
+        let triangles = self.polygons.triangles(&self.positions);
+        let texcoord =
+            |corner: usize| self.corner_texcoords[corner].and_then(|i| self.texcoords.get(i)).copied();
+        let corners_of = |t: &[usize; 3]| Some([texcoord(t[0])?, texcoord(t[1])?, texcoord(t[2])?]);
+        let uv: Option<Vec<_>> = triangles.iter().map(corners_of).collect();
+        let attributes = Attributes {
+            normals: self.vertex_normals(),
+            // Every vertex has a colour, or none.
+            colors: (self.colors.len() == self.positions.len()).then_some(self.colors),
+            uv: uv.filter(|uv| {
+                !uv.is_empty() && uv.as_flattened().as_flattened().iter().all(|x| x.is_finite())
+            }),
+        };
+        let colors = attributes.colors.filter(|c| !c.is_empty());
+        let faces = triangles.iter().map(|&t| self.polygons.face(t)).collect();
+        Soup { positions: self.positions, faces, attributes: Attributes { colors, ..attributes } }
+    }
+
+    /// The normal of every vertex, if all its corners name equal ones.
+    fn vertex_normals(&self) -> Option<Vec<Point>> {
+        let mut normals: Vec<Option<Point>> = vec![None; self.positions.len()];
+        for (&v, &normal) in self.polygons.corners.iter().zip(&self.corner_normals) {
+            let normal = *self.normals.get(normal?)?;
+            let slot = normals.get_mut(v as usize)?;
+            if slot.is_some_and(|known| known != normal) || !normal.iter().all(|x| x.is_finite()) {
+                return None;
+            }
+            *slot = Some(normal);
+        }
+        // Vertices without a face have none.
+        let any = normals.iter().any(Option::is_some);
+        any.then(|| normals.into_iter().map(|n| n.unwrap_or([0.0; 3])).collect())
+    }
+}
+
+/// The colour behind the three coordinates of a vertex: red, green, blue and perhaps opacity (a fourth coordinate alone is a
+/// weight). `None` where it is none.
+fn color<'a>(tokens: impl Iterator<Item = &'a str>) -> Option<[f64; 4]> {
+    let x: Option<Vec<f64>> = tokens.map(|t| t.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    match x?.as_slice() {
+        [r, g, b] => Some([*r, *g, *b, 1.0]),
+        [r, g, b, a, ..] => Some([*r, *g, *b, *a]),
+        _ => None,
+    }
+}
+
+/// The first N numbers; NaN for those that are missing.
+fn numbers<'a, const N: usize>(mut tokens: impl Iterator<Item = &'a str>) -> [f64; N] {
+    std::array::from_fn(|_| tokens.next().and_then(|t| t.parse().ok()).unwrap_or(f64::NAN))
+}
+
+/// The entry (0-based) that the second or third number of a corner names among `count` so far; a wrong one names none.
+fn attribute(number: Option<&str>, count: usize) -> Option<usize> {
+    match number?.parse::<i64>().ok()? {
+        0 => None,
+        n if n < 0 => count.checked_sub(usize::try_from(n.unsigned_abs()).ok()?),
+        n => usize::try_from(n - 1).ok(),
+    }
 }
 
 /// The vertex of a corner `v`, `v/vt`, `v//vn`, `v/vt/vn`: 1-based, or negative from the last vertex so far.
@@ -114,28 +195,4 @@ pub fn write_obj(path: &Path, data: &ObjData<'_>) -> Result<()> {
         }
         Ok(())
     })
-}
-
-fn finite<const N: usize>(what: &'static str, points: &[[f64; N]]) -> Result<()> {
-    match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
-        Some(i) => {
-            let value = format!("{:?} at entry {i}", points[i]);
-            Err(Error::Argument { what, value, need: "a file holds finite numbers only" })
-        }
-        None => Ok(()),
-    }
-}
-
-fn in_range(what: &'static str, faces: &[[u32; 3]], n: usize) -> Result<()> {
-    match faces.iter().position(|corners| corners.iter().any(|&v| v as usize >= n)) {
-        Some(f) => {
-            let value = format!("one of {:?} in face {f}", faces[f]);
-            Err(Error::Argument {
-                what,
-                value,
-                need: "corners must be below the number of entries they name",
-            })
-        }
-        None => Ok(()),
-    }
 }

@@ -1,10 +1,13 @@
-//! OFF, text and binary: plain, COFF, NOFF, STOFF and their combinations (normals, colours and texture
-//! coordinates are skipped). The format is Geomview's, <http://www.geomview.org/docs/html/OFF.html>.
+//! OFF, text and binary: plain, COFF, NOFF, STOFF and their combinations (colours of faces are skipped). The format is
+//! Geomview's, <http://www.geomview.org/docs/html/OFF.html>.
 
 use super::off_binary::parse_off_binary;
+use super::polygon::Polygons;
 use super::scan::{Place, lines};
-use super::{Point, Soup, fan};
+use super::{Attributes, Point, Soup, write_atomically};
 use crate::error::Result;
+use std::io::Write;
+use std::path::Path;
 
 /// Parse an OFF file, text or binary. Indices count from 0. `path` is used in errors.
 pub fn parse_off(bytes: &[u8], path: &str) -> Result<Soup> {
@@ -14,8 +17,8 @@ pub fn parse_off(bytes: &[u8], path: &str) -> Result<Soup> {
     }
 }
 
-/// Numbers per vertex, where the data begin and the place of the header, if that says `BINARY`.
-fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(usize, usize, Place<'a>)>> {
+/// What each vertex has, where the data begin and the place of the header, if that says `BINARY`.
+fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Place<'a>)>> {
     let mut end = 0;
     for (i, line) in bytes.split_inclusive(|&b| b == b'\n').enumerate() {
         end += line.len();
@@ -35,15 +38,27 @@ fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(usize, usize, Place
     Ok(None)
 }
 
-/// Numbers per vertex of the variant that the letters before `OFF` name, in any order.
-fn columns(prefix: &str, place: Place<'_>) -> Result<usize> {
+/// What each vertex has besides its coordinates, in this order.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Columns {
+    pub normal: bool,
+    pub color: bool,
+    pub texture: bool,
+}
+
+/// What the letters before `OFF` name, in any order.
+fn columns(prefix: &str, place: Place<'_>) -> Result<Columns> {
     let prefix = prefix.trim_start_matches('\u{feff}');
     let mut rest = prefix;
-    let mut columns = 3;
-    let mut known = vec![("ST", 2), ("N", 3), ("C", 4)];
-    while let Some(i) = known.iter().position(|(letters, _)| rest.starts_with(letters)) {
-        let (letters, numbers) = known.remove(i);
-        (rest, columns) = (&rest[letters.len()..], columns + numbers);
+    let mut columns = Columns::default();
+    loop {
+        let (letters, flag) = match rest {
+            _ if rest.starts_with("ST") && !columns.texture => (2, &mut columns.texture),
+            _ if rest.starts_with('N') && !columns.normal => (1, &mut columns.normal),
+            _ if rest.starts_with('C') && !columns.color => (1, &mut columns.color),
+            _ => break,
+        };
+        (rest, *flag) = (&rest[letters..], true);
     }
     match rest {
         "" => Ok(columns),
@@ -62,9 +77,10 @@ fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
         return tokens.place().error("the file is empty; OFF begins with `OFF` and its counts".into());
     };
     // The header word is optional, and the first count may stick to it.
+    let mut has = Columns::default();
     let first = match header.split_once("OFF") {
         Some((prefix, count)) => {
-            columns(prefix, tokens.place())?;
+            has = columns(prefix, tokens.place())?;
             if count.is_empty() { tokens.next() } else { Some(count) }
         }
         None if header.starts_with(|c: char| c.is_ascii_digit()) => Some(header),
@@ -81,15 +97,17 @@ fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
         tokens.next();
     }
     tokens.end_line();
-    let mut soup = Soup::default();
+    let (mut positions, mut extras, mut polygons) = (Vec::new(), Extras::new(has), Polygons::default());
     for v in 0..n_vertices {
         let mut point: Point = [0.0; 3];
         for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
             let token = tokens.next();
             *x = tokens.place().number(token, format_args!("{name} of vertex {v} (of {n_vertices})"))?;
         }
+        let rest: Vec<f64> = tokens.rest.split_ascii_whitespace().map_while(|t| t.parse().ok()).collect();
+        extras.push(&rest);
         tokens.end_line();
-        soup.positions.push(point);
+        positions.push(point);
     }
     let mut corners = Vec::new();
     for f in 0..n_faces {
@@ -110,15 +128,98 @@ fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
         }
         tokens.end_line();
         // Points and segments are legal in OFF and no part of the surface.
-        fan(&corners, &mut soup.faces);
+        polygons.push(corners.iter().copied());
     }
     match tokens.next() {
-        None => Ok(soup),
+        None => Ok(extras.soup(positions, &polygons)),
         Some(token) => tokens.place().error(format!(
             "`{token}` comes after the last face: the header promises {n_vertices} vertices and {n_faces} faces, each on a line of its own"
         )),
     }
 }
+
+/// The attributes of the vertices read so far.
+pub(super) struct Extras {
+    has: Columns,
+    normals: Vec<Point>,
+    colors: Vec<[f64; 4]>,
+    texture: Vec<[f64; 2]>,
+}
+
+impl Extras {
+    pub fn new(has: Columns) -> Extras {
+        Extras { has, normals: Vec::new(), colors: Vec::new(), texture: Vec::new() }
+    }
+
+    /// The numbers behind the coordinates of a vertex. A colour is what the others leave over, three numbers or four.
+    pub fn push(&mut self, rest: &[f64]) {
+        let (normal, rest) = rest.split_at(if self.has.normal { rest.len().min(3) } else { 0 });
+        let (color, texture) = rest.split_at(rest.len().saturating_sub(if self.has.texture { 2 } else { 0 }));
+        self.normals.extend(<Point>::try_from(normal));
+        self.texture.extend(<[f64; 2]>::try_from(texture));
+        match *color {
+            [r, g, b] => self.colors.push([r, g, b, f64::NAN]),
+            [r, g, b, a, ..] => self.colors.push([r, g, b, a]),
+            _ => {}
+        }
+    }
+
+    /// The triangle list, with the attributes that every vertex has.
+    pub fn soup(self, positions: Vec<Point>, polygons: &Polygons) -> Soup {
+        let n = positions.len();
+        let triangles = polygons.triangles(&positions);
+        // Components are from 0 to 1, or from 0 to 255 as soon as one is larger.
+        let full = if self.colors.iter().flatten().any(|&x| x > 1.0) { 255.0 } else { 1.0 };
+        let color = |c: [f64; 4]| c.map(|x| if x.is_nan() { 1.0 } else { x / full });
+        let uv = |v: u32| self.texture.get(v as usize).copied().unwrap_or_default();
+        let attributes = Attributes {
+            normals: (self.has.normal && self.normals.len() == n).then_some(self.normals),
+            colors: (self.has.color && self.colors.len() == n)
+                .then(|| self.colors.into_iter().map(color).collect()),
+            uv: (self.has.texture && self.texture.len() == n)
+                .then(|| triangles.iter().map(|&t| polygons.face(t).map(uv)).collect()),
+        };
+        Soup { faces: triangles.iter().map(|&t| polygons.face(t)).collect(), positions, attributes }
+    }
+}
+
+/// Write text OFF with 17 significant digits (which read back to the same doubles), with normals, colours (0 to 255) where there
+/// are any, and texture coordinates where each vertex has a single pair; atomically.
+///
+/// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
+/// [`crate::Error::Size`] for attributes of another size, [`crate::Error::Io`].
+pub fn write_off(path: &Path, soup: &Soup) -> Result<()> {
+    soup.check_writable()?;
+    let Soup { positions, faces, attributes } = soup;
+    let Attributes { normals, colors, .. } = attributes;
+    let texture = attributes.vertex_uv(positions.len(), faces);
+    write_atomically(path, |out| {
+        let letters = [(texture.is_some(), "ST"), (colors.is_some(), "C"), (normals.is_some(), "N")];
+        for (_, letters) in letters.into_iter().filter(|(has, _)| *has) {
+            out.write_all(letters.as_bytes())?;
+        }
+        writeln!(out, "OFF\n{} {} 0", positions.len(), faces.len())?;
+        for (v, [x, y, z]) in positions.iter().enumerate() {
+            write!(out, "{x:.16e} {y:.16e} {z:.16e}")?;
+            if let Some([x, y, z]) = normals.as_ref().map(|n| n[v]) {
+                write!(out, " {x:.16e} {y:.16e} {z:.16e}")?;
+            }
+            if let Some(color) = colors.as_ref().map(|c| c[v]) {
+                let [r, g, b, a] = color.map(|x| (255.0 * x.clamp(0.0, 1.0)).round() as u8);
+                write!(out, " {r} {g} {b} {a}")?;
+            }
+            if let Some([s, t]) = texture.as_ref().map(|uv| uv[v]) {
+                write!(out, " {s:.16e} {t:.16e}")?;
+            }
+            writeln!(out)?;
+        }
+        for [a, b, c] in faces {
+            writeln!(out, "3 {a} {b} {c}")?;
+        }
+        Ok(())
+    })
+}
+
 /// Tokens over line ends, without comments, and the line they stand on.
 struct Tokens<'a, L> {
     lines: L,

@@ -1,7 +1,9 @@
 //! Binary OFF: what Geomview reads and writes, and what other programs write under the same header.
 
+use super::off::{Columns, Extras};
+use super::polygon::Polygons;
 use super::scan::Place;
-use super::{Point, Soup, fan};
+use super::{Point, Soup};
 use crate::error::Result;
 
 /// How the data behind `OFF BINARY` are laid out. The file does not say which it is.
@@ -17,8 +19,8 @@ enum Dialect {
 /// Parse the data that begin at `start`: three `i32` counts, `columns` `f32` per vertex of which the first
 /// three are the position, and per face the `i32` number of its corners and these, 0-based. The dialect is
 /// the one in which the file ends where its last face does.
-pub(super) fn parse_off_binary(bytes: &[u8], start: usize, columns: usize, place: Place<'_>) -> Result<Soup> {
-    let read = |dialect| Words { bytes, at: start, dialect, place }.soup(columns);
+pub(super) fn parse_off_binary(bytes: &[u8], start: usize, has: Columns, place: Place<'_>) -> Result<Soup> {
+    let read = |dialect| Words { bytes, at: start, dialect, place }.soup(has);
     let geomview = read(Dialect::Geomview);
     if geomview.is_ok() {
         return geomview;
@@ -38,20 +40,21 @@ struct Words<'a> {
 }
 
 impl Words<'_> {
-    fn soup(mut self, columns: usize) -> Result<Soup> {
+    fn soup(mut self, has: Columns) -> Result<Soup> {
+        let columns =
+            3 + 3 * usize::from(has.normal) + 4 * usize::from(has.color) + 2 * usize::from(has.texture);
         let n_vertices = self.count(|| "the number of vertices".into())?;
         let n_faces = self.count(|| "the number of faces".into())?;
         self.word(|| "the number of edges".into())?;
-        let mut soup = Soup::default();
+        let (mut positions, mut extras, mut polygons) = (Vec::new(), Extras::new(has), Polygons::default());
         for v in 0..n_vertices {
-            let mut point: Point = [0.0; 3];
-            for k in 0..columns {
-                let x = f32::from_bits(self.word(|| format!("vertex {v} (of {n_vertices})"))?);
-                if let Some(coordinate) = point.get_mut(k) {
-                    *coordinate = f64::from(x);
-                }
+            let mut numbers = [0.0; 12];
+            for x in &mut numbers[..columns] {
+                *x = f64::from(f32::from_bits(self.word(|| format!("vertex {v} (of {n_vertices})"))?));
             }
-            soup.positions.push(point);
+            let position: Point = [numbers[0], numbers[1], numbers[2]];
+            positions.push(position);
+            extras.push(&numbers[3..columns]);
         }
         let mut corners = Vec::new();
         for f in 0..n_faces {
@@ -67,7 +70,7 @@ impl Words<'_> {
                 }
             }
             // Points and segments are legal in OFF and no part of the surface.
-            fan(&corners, &mut soup.faces);
+            polygons.push(corners.iter().copied());
         }
         let left = self.bytes[self.at..].trim_ascii().len();
         if left > 0 {
@@ -76,7 +79,7 @@ impl Words<'_> {
                 "the {n_vertices} vertices and {n_faces} faces that the header promises end at byte {end}, {left} bytes before the file does"
             ));
         }
-        Ok(soup)
+        Ok(extras.soup(positions, &polygons))
     }
 
     fn word(&mut self, what: impl Fn() -> String) -> Result<u32> {

@@ -64,7 +64,7 @@ pub fn genus(genus: usize, n: usize) -> Result<Soup> {
         sheets.ring(&points, ring, |p| plate.foot_on_hole(k, p), Side::Hole);
     }
     sheets.ring(&points, &rim, |p| plate.foot_on_rim(p), Side::Rim);
-    Ok(Soup { positions: sheets.positions, faces: sheets.faces })
+    Ok(Soup::new(sheets.positions, sheets.faces))
 }
 
 /// The plate: rim, holes and height over the plane.

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// 3n(n + 1) + 1 vertices, 6n² faces. n ≥ 1.
 pub fn disk(n: usize) -> Result<Soup> {
     check_count("rings", n, 1, 3.0 * (n as f64).powi(2))?;
-    let mut soup = Soup { positions: vec![[0.0; 3]], faces: Vec::new() };
+    let mut soup = Soup::new(vec![[0.0; 3]], Vec::new());
     // First vertex of ring k.
     let start = |k: usize| if k == 0 { 0 } else { 3 * k * (k - 1) + 1 };
     for k in 1..=n {

@@ -52,7 +52,7 @@ pub fn icosphere(n: usize) -> Result<Soup> {
         let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
         p.iter_mut().for_each(|x| *x /= length);
     }
-    Ok(Soup { positions, faces })
+    Ok(Soup::new(positions, faces))
 }
 
 /// The ellipsoid with half axes a, b, c along x, y, z: the icosphere, scaled.

@@ -1,0 +1,170 @@
+//! Polygons of a file, and their triangles.
+
+use super::Point;
+use crate::geometry::predicates::orientation;
+use std::cmp::Ordering;
+
+/// The polygons of a file in its order, as flat lists: corner k of the file is `corners[k]`.
+#[derive(Default)]
+pub(super) struct Polygons {
+    pub corners: Vec<u32>,
+    /// Where each polygon ends in `corners`.
+    ends: Vec<usize>,
+}
+
+/// Polygons of more corners are cut into fans: looking for ears takes time in proportion to their square.
+const MOST_CORNERS: usize = 1000;
+
+impl Polygons {
+    pub fn push(&mut self, corners: impl IntoIterator<Item = u32>) {
+        self.corners.extend(corners);
+        self.end();
+    }
+
+    /// The corners pushed onto `corners` since the last polygon are one.
+    pub fn end(&mut self) {
+        self.ends.push(self.corners.len());
+    }
+
+    /// The triangles, three flat corner numbers each. Faces of one or two corners occur in the wild and have none.
+    ///
+    /// A convex polygon is a fan from its first corner; another one is cut ear by ear in the plane of its area vector.
+    pub fn triangles(&self, positions: &[Point]) -> Vec<[usize; 3]> {
+        let mut triangles = Vec::with_capacity(self.ends.len());
+        let mut start = 0;
+        for &end in &self.ends {
+            match end - start {
+                0..=2 => {}
+                3 => triangles.push([start, start + 1, start + 2]),
+                _ => polygon(&self.corners[start..end], start, positions, &mut triangles),
+            }
+            start = end;
+        }
+        triangles
+    }
+
+    /// The vertices of a triangle of [`Polygons::triangles`].
+    pub fn face(&self, triangle: [usize; 3]) -> [u32; 3] {
+        triangle.map(|k| self.corners[k])
+    }
+}
+
+fn polygon(corners: &[u32], start: usize, positions: &[Point], triangles: &mut Vec<[usize; 3]>) {
+    let mut left: Vec<usize> = (0..corners.len()).collect();
+    if let Some(plane) = in_plane(corners, positions).filter(|_| corners.len() <= MOST_CORNERS) {
+        let turn = |[a, b, c]: [usize; 3]| orientation(plane[a], plane[b], plane[c]);
+        let around = |left: &[usize], k: usize| {
+            let n = left.len();
+            [left[(k + n - 1) % n], left[k], left[(k + 1) % n]]
+        };
+        let convex = (0..left.len()).all(|k| turn(around(&left, k)) != Ordering::Less);
+        while !convex && left.len() > 3 {
+            let ear = (0..left.len()).find(|&k| {
+                let ear = around(&left, k);
+                let [a, b, c] = ear;
+                let inside = |p: usize| {
+                    [[a, b, p], [b, c, p], [c, a, p]].into_iter().all(|t| turn(t) != Ordering::Less)
+                };
+                let same_place = |p: usize| ear.iter().any(|&q| corners[p] == corners[q]);
+                turn(ear) == Ordering::Greater && !left.iter().any(|&p| !same_place(p) && inside(p))
+            });
+            // A polygon that crosses itself has no ears at some point: what is left becomes a fan.
+            let Some(k) = ear else { break };
+            triangles.push(around(&left, k).map(|k| start + k));
+            left.remove(k);
+        }
+    }
+    let fan = left.windows(2).skip(1).map(|w| [left[0], w[0], w[1]].map(|k| start + k));
+    triangles.extend(fan);
+}
+
+/// The corners in the coordinate plane onto which the area vector projects largest, counter-clockwise. `None` for corners
+/// without a finite position.
+fn in_plane(corners: &[u32], positions: &[Point]) -> Option<Vec<[f64; 2]>> {
+    let points: Option<Vec<Point>> = corners.iter().map(|&v| positions.get(v as usize).copied()).collect();
+    let points = points?;
+    let origin = *points.first()?;
+    let mut area = [0.0; 3];
+    for (p, q) in points.iter().zip(points.iter().cycle().skip(1)) {
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            area[k] += (p[i] - origin[i]) * (q[j] - origin[j]) - (p[j] - origin[j]) * (q[i] - origin[i]);
+        }
+    }
+    if !area.iter().all(|x: &f64| x.is_finite()) {
+        return None;
+    }
+    let k = (0..3).max_by(|&i, &j| area[i].abs().total_cmp(&area[j].abs()))?;
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let project = |p: Point| if area[k] >= 0.0 { [p[i], p[j]] } else { [p[j], p[i]] };
+    Some(points.into_iter().map(project).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn area(p: [[f64; 2]; 3]) -> f64 {
+        0.5 * ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]))
+    }
+
+    fn check(outline: &[[f64; 2]], expected: f64) {
+        // In three planes and both orientations of each.
+        for lift in [
+            |p: [f64; 2]| [p[0], p[1], 0.5],
+            |p: [f64; 2]| [0.1, p[0], p[1]],
+            |p: [f64; 2]| [p[0], -3.0, p[1]],
+        ] {
+            let positions: Vec<Point> = outline.iter().map(|&p| lift(p)).collect();
+            let n = outline.len() as u32;
+            for corners in [(0..n).collect::<Vec<_>>(), (0..n).rev().collect()] {
+                let mut polygons = Polygons::default();
+                polygons.push([7, 8]);
+                polygons.push(corners.iter().copied());
+                let triangles = polygons.triangles(&positions);
+                assert_eq!(triangles.len(), outline.len() - 2);
+                let areas: Vec<f64> =
+                    triangles.iter().map(|&t| area(polygons.face(t).map(|v| outline[v as usize]))).collect();
+                let sign = if corners[0] == 0 { 1.0 } else { -1.0 };
+                assert!(areas.iter().all(|a| sign * a > 0.0), "{areas:?}");
+                assert!((sign * areas.iter().sum::<f64>() - expected).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn convex_and_star_shaped_and_winding_polygons_keep_their_area() {
+        check(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]], 2.0);
+        check(&[[0.0, 0.0], [2.0, 1.0], [0.0, 2.0], [0.5, 1.0]], 1.5);
+        // A comb, whose fan from the first corner would fold.
+        check(
+            &[
+                [0.0, 3.0],
+                [0.0, 0.0],
+                [5.0, 0.0],
+                [5.0, 3.0],
+                [4.0, 3.0],
+                [4.0, 1.0],
+                [3.0, 1.0],
+                [3.0, 3.0],
+                [2.0, 3.0],
+                [2.0, 1.0],
+                [1.0, 1.0],
+                [1.0, 3.0],
+            ],
+            11.0,
+        );
+    }
+
+    #[test]
+    fn polygons_without_a_plane_are_fans() {
+        let mut polygons = Polygons::default();
+        polygons.push([0, 1, 2, 9]);
+        let positions = [[0.0; 3]; 3];
+        assert_eq!(polygons.triangles(&positions), [[0, 1, 2], [0, 2, 3]]);
+        let mut bowtie = Polygons::default();
+        bowtie.push([0, 1, 2, 3]);
+        let crossing = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        assert_eq!(bowtie.triangles(&crossing).len(), 2);
+    }
+}

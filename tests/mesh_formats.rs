@@ -1,0 +1,265 @@
+//! Every format: what is written reads back the same, dialects are understood, and what is cut off or absurd is refused.
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
+
+mod common;
+
+use common::Random;
+use ricci::Error;
+use ricci::mesh::io::{self, Attributes, Soup};
+use ricci::mesh::shapes;
+use std::path::Path;
+
+/// A tetrahedron with an isolated vertex, and an attribute of each kind.
+fn decorated() -> Soup {
+    let mut random = Random::new(9);
+    let mut number = || (random.symmetric() * 1e3).exp2().recip() + 0.1;
+    let positions = (0..5).map(|_| [number(), -number(), number()]).collect();
+    let mut soup = Soup::new(positions, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
+    soup.attributes = Attributes {
+        normals: Some((0..5).map(|v| [0.0, 0.6, if v == 4 { 0.0 } else { 0.8 }]).collect()),
+        colors: Some((0..5).map(|v| [f64::from(v) / 5.0, 1.0, 0.0, 0.6]).collect()),
+        uv: Some((0..4).map(|f| [[0.1, f64::from(f)], [0.2, 0.3], [1.0 / 3.0, 0.4]]).collect()),
+    };
+    soup
+}
+
+#[test]
+fn what_is_written_reads_back_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let soup = decorated();
+    io::write_ply(&at("m.ply"), &soup).unwrap();
+    assert_eq!(io::read(&at("m.ply")).unwrap(), soup);
+    // OFF has texture coordinates per vertex only.
+    let mut single = soup.clone();
+    let at_vertex = |v: u32| [f64::from(v), 1.0 / 3.0];
+    single.attributes.uv = Some(single.faces.iter().map(|f| f.map(at_vertex)).collect());
+    io::write_off(&at("m.off"), &single).unwrap();
+    assert_eq!(io::read(&at("m.off")).unwrap(), single);
+    io::write_off(&at("m.off"), &soup).unwrap();
+    assert_eq!(
+        io::read(&at("m.off")).unwrap().attributes,
+        Attributes { uv: None, ..soup.attributes.clone() }
+    );
+    for shape in [shapes::genus(2, 3).unwrap(), shapes::disk(3).unwrap()] {
+        io::write_ply(&at("s.ply"), &shape).unwrap();
+        io::write_off(&at("s.off"), &shape).unwrap();
+        assert_eq!(io::read(&at("s.ply")).unwrap(), shape);
+        assert_eq!(io::read(&at("s.off")).unwrap(), shape);
+    }
+}
+
+#[test]
+fn every_good_mesh_is_the_same_in_every_format() {
+    let Some((folder, rows)) = common::index("good") else { return };
+    let out = tempfile::tempdir().unwrap();
+    for row in &rows {
+        let soup = io::read(&folder.join(&row["file"])).unwrap();
+        for (name, write) in [("m.ply", io::write_ply as fn(&Path, &Soup) -> _), ("m.off", io::write_off)] {
+            let path = out.path().join(name);
+            write(&path, &soup).unwrap();
+            let back = io::read(&path).unwrap();
+            assert!(
+                back.positions == soup.positions && back.faces == soup.faces,
+                "{} as {name}",
+                row["name"]
+            );
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_written_is_refused_and_leaves_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bad = vec![decorated(), decorated(), decorated(), decorated()];
+    bad[0].positions[3][1] = f64::NAN;
+    bad[1].faces[2][0] = 5;
+    bad[2].attributes.normals.as_mut().unwrap().pop();
+    bad[3].attributes.uv.as_mut().unwrap()[1][2][0] = f64::INFINITY;
+    for (name, write) in [("m.ply", io::write_ply as fn(&Path, &Soup) -> _), ("m.off", io::write_off)] {
+        let path = folder.path().join(name);
+        write(&path, &decorated()).unwrap();
+        let before = std::fs::read(&path).unwrap();
+        for soup in &bad {
+            assert!(matches!(write(&path, soup), Err(Error::Argument { .. } | Error::Size { .. })));
+        }
+        assert_eq!(std::fs::read(&path).unwrap(), before);
+        assert_eq!(
+            std::fs::read_dir(folder.path()).unwrap().filter(|e| e.as_ref().unwrap().path() != path).count(),
+            usize::from(name == "m.off")
+        );
+    }
+}
+
+/// A square as PLY in three encodings, with an unknown element in front and unknown properties around.
+fn square_ply(encoding: &str) -> Vec<u8> {
+    let mut bytes = format!(
+        "ply\r\nformat {encoding} 1.0 \r\ncomment by hand\r\nelement camera 1\r\nproperty float f\r\n\
+         property list uchar short l\r\nelement vertex 4\r\nproperty double x\r\nproperty float y\r\n\
+         property short z\r\nproperty uchar red\r\nproperty uchar green\r\nproperty uchar blue\r\n\
+         property float quality\r\nelement face 1\r\nproperty uchar flags\r\nproperty list ushort int vertex_index\r\n\
+         end_header\r\n"
+    )
+    .into_bytes();
+    let corners: [[f64; 2]; 4] = [[0.1, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    if encoding == "ascii" {
+        bytes.extend(b"0.5 2 7 8\r\n");
+        for [x, y] in corners {
+            bytes.extend(format!("{x} {y} -3 255 0 51 0.25\r\n").into_bytes());
+        }
+        bytes.extend(b"9 4 0 1 2 3\r\n");
+        return bytes;
+    }
+    let little = encoding == "binary_little_endian";
+    let mut put = |be: &[u8]| {
+        let mut word = be.to_vec();
+        if little {
+            word.reverse();
+        }
+        bytes.extend(word);
+    };
+    put(&0.5f32.to_be_bytes());
+    put(&[2]);
+    put(&7i16.to_be_bytes());
+    put(&8i16.to_be_bytes());
+    for [x, y] in corners {
+        put(&x.to_be_bytes());
+        put(&(y as f32).to_be_bytes());
+        put(&(-3i16).to_be_bytes());
+        [255u8, 0, 51].iter().for_each(|c| put(&[*c]));
+        put(&0.25f32.to_be_bytes());
+    }
+    put(&[9]);
+    put(&4u16.to_be_bytes());
+    (0..4i32).for_each(|v| put(&v.to_be_bytes()));
+    bytes
+}
+
+#[test]
+fn ply_is_read_in_all_its_encodings() {
+    for encoding in ["ascii", "binary_little_endian", "binary_big_endian"] {
+        let bytes = square_ply(encoding);
+        let soup = io::parse_ply(&bytes, "t.ply").unwrap();
+        assert_eq!(soup.positions, [[0.1, 0.0, -3.0], [1.0, 0.0, -3.0], [1.0, 1.0, -3.0], [0.0, 1.0, -3.0]]);
+        assert_eq!(soup.faces, [[0, 1, 2], [0, 2, 3]], "{encoding}");
+        assert_eq!(soup.attributes.colors.unwrap()[2], [1.0, 0.0, 0.2, 1.0]);
+        assert_eq!((soup.attributes.normals, soup.attributes.uv), (None, None));
+        // Cut off anywhere it is an error, never a panic and never a smaller mesh.
+        for end in 0..bytes.len() - 2 {
+            assert!(io::parse_ply(&bytes[..end], "t.ply").is_err(), "{encoding} cut at {end}");
+        }
+    }
+}
+
+#[test]
+fn ply_headers_are_not_trusted() {
+    for (text, says) in [
+        ("", "no PLY file"),
+        ("solid\n", "no PLY file"),
+        ("ply\nformat ascii 1.0\n", "end_header"),
+        ("ply\nformat ascii 1.0\nend_header\n", "no element `vertex`"),
+        (
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
+            "no property `z`",
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement vertex 99999999999999\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
+            "expected 99999999999999, got 1",
+        ),
+        (
+            "ply\nformat binary_little_endian 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uint int vertex_indices\nend_header\n\u{7f}\u{7f}\u{7f}\u{7f}",
+            "Unexpected end of file",
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 -1 0\n",
+            "face 0 names vertex -1",
+        ),
+    ] {
+        let Err(Error::Parse { message, .. }) = io::parse_ply(text.as_bytes(), "t.ply") else {
+            panic!("{text}")
+        };
+        assert!(message.contains(says), "{message}");
+    }
+    // An element of nothing, 10¹⁸ times.
+    let empty = "ply\nformat binary_big_endian 1.0\nelement void 1000000000000000000\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    assert_eq!(io::parse_ply(empty.as_bytes(), "t.ply").unwrap(), Soup::default());
+}
+
+#[test]
+fn triangle_strips_turn_every_other_triangle_around() {
+    let ply = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n\
+               element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
+               0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n10 0 1 2 3 -1 2 3 4 4 5\n";
+    let soup = io::parse_ply(ply.as_bytes(), "t.ply").unwrap();
+    assert_eq!(soup.faces, [[0, 1, 2], [2, 1, 3], [2, 3, 4]]);
+}
+
+const ASCII_STL: &str = "solid two triangles\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 1 1 0\n  endloop\n endfacet\n\
+  FACET normal 0 0 1\n  OUTER LOOP\n   VERTEX 0 0 -0\n   vertex 1 1 0\n   vertex 0 1 0\n  endloop\n endfacet\nendsolid two triangles\n";
+
+fn binary_stl(header: &[u8], triangles: &[[[f32; 3]; 3]], count: u32) -> Vec<u8> {
+    let mut bytes = header.to_vec();
+    bytes.resize(80, b' ');
+    bytes.extend(count.to_le_bytes());
+    for triangle in triangles {
+        bytes.extend([0u8; 12]);
+        bytes.extend(triangle.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
+        bytes.extend([0u8; 2]);
+    }
+    bytes
+}
+
+#[test]
+fn stl_is_welded_where_corners_are_in_one_place() {
+    let (a, b, c, d) = ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]);
+    let expected =
+        Soup::new([a, b, c, d].map(|p: [f32; 3]| p.map(f64::from)).to_vec(), vec![[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(io::parse_stl(ASCII_STL.as_bytes(), "t.stl").unwrap(), expected);
+    // A binary file may begin with `solid` too.
+    for header in [&b"solid by some CAD program"[..], b"binary"] {
+        let bytes = binary_stl(header, &[[a, b, c], [[-0.0, 0.0, 0.0], c, d]], 2);
+        assert_eq!(io::parse_stl(&bytes, "t.stl").unwrap(), expected);
+    }
+}
+
+#[test]
+fn stl_that_is_cut_off_or_garbled_names_the_place() {
+    let triangle = [[0.0f32; 3]; 3];
+    for (bytes, line, says) in [
+        (Vec::new(), 1, "no STL file"),
+        (b"plain text".to_vec(), 1, "no STL file"),
+        (binary_stl(b"x", &[triangle], 2), 0, "in triangle 1 of the 2"),
+        (binary_stl(b"x", &[triangle], u32::MAX), 0, "in triangle 1 of the 4294967295"),
+        (
+            ASCII_STL.replace("1 1 0\n  endloop", "1 one 0\n  endloop").into_bytes(),
+            6,
+            "`one` is not a number",
+        ),
+        (ASCII_STL.replacen("vertex", "vortex", 1).into_bytes(), 4, "`vortex` has no place"),
+        (ASCII_STL.split("  endloop").next().unwrap().as_bytes().to_vec(), 6, "ends inside a loop"),
+    ] {
+        let Err(Error::Parse { message, line: found, .. }) = io::parse_stl(&bytes, "t.stl") else {
+            panic!("{says}")
+        };
+        assert!(message.contains(says) && found == line, "{found}: {message}");
+    }
+}
+
+#[test]
+fn obj_and_off_attributes_are_kept() {
+    let obj = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 2\nf 1/1/1 2/2/1 3/-1/-1\n";
+    let soup = io::parse_obj(obj.as_bytes(), "t.obj").unwrap();
+    let Attributes { normals, colors, uv } = soup.attributes;
+    assert_eq!(normals, Some(vec![[0.0, 0.0, 2.0]; 3]));
+    assert_eq!(colors.unwrap()[1], [0.0, 1.0, 0.0, 1.0]);
+    assert_eq!(uv, Some(vec![[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]]));
+    // Half of it missing, out of range or no number: none of it.
+    let poor = "v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0 nan 0 0\nvt 0 0\nvn 0 0 1\nvn 0 1 0\nf 1/1/1 2/7/1 3//1\nf 1//2 3//1 2//1\n";
+    let soup = io::parse_obj(poor.as_bytes(), "t.obj").unwrap();
+    assert_eq!((soup.attributes, soup.faces.len()), (Attributes::default(), 2));
+    let off = "STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 51 0.5 0.25\n1 0 0 0 0 1 0 255 0 1 0\n1 1 0 0 0 1 0 0 255 1 1\n3 0 1 2\n";
+    let Attributes { normals, colors, uv } = io::parse_off(off.as_bytes(), "t.off").unwrap().attributes;
+    assert_eq!(normals, Some(vec![[0.0, 0.0, 1.0]; 3]));
+    assert_eq!(colors.unwrap()[0], [1.0, 0.0, 0.2, 1.0]);
+    assert_eq!(uv.unwrap()[0][0], [0.5, 0.25]);
+}
