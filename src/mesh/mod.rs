@@ -7,7 +7,9 @@ pub mod halfedge;
 pub mod ids;
 mod incidence;
 pub mod io;
+pub mod repair;
 pub mod shapes;
+mod weld;
 
 pub use attribute::{PerEdge, PerFace, PerHalfedge, PerVertex};
 pub use halfedge::Mesh;

@@ -1,0 +1,315 @@
+//! Repair of triangle lists, as far as it needs no guess.
+
+use super::check::{Diagnosis, diagnose};
+use super::incidence::{Incidence, NONE, UnionFind, components, is_forward};
+use super::io::{Attributes, Soup};
+use super::weld::coincident;
+use crate::error::{Error, Result};
+use std::collections::{HashSet, VecDeque};
+
+/// What a repair may do beyond what is always done: dropping faces that use a vertex twice or repeat a face, giving each fan
+/// of faces a vertex of its own, turning faces until neighbours agree, dropping isolated vertices.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Repair {
+    /// Vertices within this distance become one (transitively; the first one's position stays); 0: those in exactly the same
+    /// place, unless that would join sheets in a non-manifold way; `None`: no welding. Default 0.
+    pub weld: Option<f64>,
+    /// Cut the surface open along edges in which more than two faces meet. Default no: which faces belong together would be a
+    /// guess.
+    pub cut_non_manifold_edges: bool,
+    /// Keep one connected piece only: 0 is that with the most faces, and so on. Default all.
+    pub component: Option<usize>,
+}
+
+impl Default for Repair {
+    fn default() -> Self {
+        Repair { weld: Some(0.0), cut_non_manifold_edges: false, component: None }
+    }
+}
+
+/// How often each repair was made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Steps {
+    /// Vertices that became one with an earlier vertex.
+    pub welded_vertices: usize,
+    /// Faces dropped because they used a vertex twice (after welding).
+    pub degenerate_faces: usize,
+    /// Faces dropped because an earlier face had their vertices.
+    pub duplicate_faces: usize,
+    /// Edges along which the surface was cut open.
+    pub cut_edges: usize,
+    /// Vertices made for further fans of faces.
+    pub split_vertices: usize,
+    /// Faces turned around.
+    pub turned_faces: usize,
+    /// Faces of other components than the one that was asked for.
+    pub faces_of_other_components: usize,
+    /// Vertices dropped because no face uses them.
+    pub isolated_vertices: usize,
+}
+
+/// A repaired triangle list, with the way back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Repaired {
+    /// The result; its elements keep the order of the input's.
+    pub soup: Soup,
+    /// For each vertex of the result, the input's vertex that it was.
+    pub vertex_origin: Vec<u32>,
+    /// For each face of the result, the input's face that it was.
+    pub face_origin: Vec<u32>,
+    /// What was done.
+    pub steps: Steps,
+    /// What is left: defects that cannot be mended without a guess.
+    pub diagnosis: Diagnosis,
+}
+
+/// Repair a triangle list. Attributes stay with their elements.
+///
+/// Errors: [`Error::Defects`] for faces that name missing vertices and used vertices without finite coordinates, which nothing
+/// can mend; [`Error::Argument`] for a tolerance that is negative or not finite and a component that does not exist.
+pub fn repair(soup: &Soup, options: &Repair) -> Result<Repaired> {
+    refuse_garbage(soup)?;
+    let mut work = Work {
+        faces: soup.faces.clone(),
+        origin: (0..soup.faces.len() as u32).collect(),
+        turned: vec![false; soup.faces.len()],
+        vertex_origin: (0..soup.positions.len() as u32).collect(),
+        steps: Steps::default(),
+    };
+    work.weld(soup, options.weld)?;
+    work.drop_bad_faces();
+    work.separate(options.cut_non_manifold_edges);
+    work.orient();
+    work.take(options.component)?;
+    Ok(work.finish(soup))
+}
+
+fn refuse_garbage(soup: &Soup) -> Result<()> {
+    let n = soup.positions.len();
+    let bad = |&v: &u32| soup.positions.get(v as usize).is_none_or(|p| !p.iter().all(|x| x.is_finite()));
+    if !soup.faces.as_flattened().iter().any(bad) {
+        return Ok(());
+    }
+    let mut diagnosis = diagnose(&soup.positions, &soup.faces);
+    let used: HashSet<u32> =
+        soup.faces.as_flattened().iter().copied().filter(|&v| (v as usize) < n).collect();
+    diagnosis.defects.retain(|defect| match defect.code() {
+        "index_out_of_range" => true,
+        "non_finite_coordinate" => defect.vertices().iter().all(|v| used.contains(v)),
+        _ => false,
+    });
+    Err(Error::Defects(Box::new(diagnosis)))
+}
+
+fn is_proper(&[a, b, c]: &[u32; 3]) -> bool {
+    a != b && b != c && c != a
+}
+
+fn sorted(mut face: [u32; 3]) -> [u32; 3] {
+    face.sort_unstable();
+    face
+}
+
+/// Edges with more than two faces and vertices with more than one fan, among the faces that will be kept.
+fn non_manifold(faces: &[[u32; 3]], n_vertices: usize) -> usize {
+    let mut seen = HashSet::with_capacity(faces.len());
+    let kept = |face: &&[u32; 3]| is_proper(face) && seen.insert(sorted(**face));
+    let faces: Vec<[u32; 3]> = faces.iter().filter(kept).copied().collect();
+    let incidence = Incidence::new(n_vertices, &faces);
+    let edges = incidence.edges().filter(|sides| sides.len() > 2).count();
+    edges + incidence.sheets(&faces).into_iter().filter(|&fans| fans > 1).count()
+}
+
+/// The list under repair.
+struct Work {
+    faces: Vec<[u32; 3]>,
+    /// Per face: the input's face, and whether it was turned.
+    origin: Vec<u32>,
+    turned: Vec<bool>,
+    /// Per vertex: the input's vertex.
+    vertex_origin: Vec<u32>,
+    steps: Steps,
+}
+
+impl Work {
+    fn incidence(&self) -> Incidence {
+        Incidence::new(self.vertex_origin.len(), &self.faces)
+    }
+
+    fn weld(&mut self, soup: &Soup, tolerance: Option<f64>) -> Result<()> {
+        let Some(tolerance) = tolerance else { return Ok(()) };
+        if !(tolerance >= 0.0 && tolerance.is_finite()) {
+            let value = tolerance.to_string();
+            return Err(Error::Argument { what: "weld", value, need: "a distance that is not negative" });
+        }
+        let first = coincident(&soup.positions, tolerance);
+        let welded = first.iter().enumerate().filter(|&(v, &to)| v as u32 != to).count();
+        if welded == 0 {
+            return Ok(());
+        }
+        let faces: Vec<[u32; 3]> = self.faces.iter().map(|f| f.map(|v| first[v as usize])).collect();
+        if tolerance == 0.0 && non_manifold(&faces, first.len()) > non_manifold(&self.faces, first.len()) {
+            return Ok(());
+        }
+        self.faces = faces;
+        self.steps.welded_vertices = welded;
+        Ok(())
+    }
+
+    /// Keep the faces for which `keep` says so; how many went.
+    fn retain(&mut self, keep: &[bool]) -> usize {
+        let before = self.faces.len();
+        fn chosen<T: Copy>(list: &mut Vec<T>, keep: &[bool]) {
+            let mut flags = keep.iter();
+            list.retain(|_| flags.next().copied().unwrap_or(false));
+        }
+        chosen(&mut self.faces, keep);
+        chosen(&mut self.origin, keep);
+        chosen(&mut self.turned, keep);
+        before - self.faces.len()
+    }
+
+    fn drop_bad_faces(&mut self) {
+        let proper: Vec<bool> = self.faces.iter().map(is_proper).collect();
+        self.steps.degenerate_faces = self.retain(&proper);
+        let mut seen = HashSet::with_capacity(self.faces.len());
+        let first: Vec<bool> = self.faces.iter().map(|&face| seen.insert(sorted(face))).collect();
+        self.steps.duplicate_faces = self.retain(&first);
+    }
+
+    /// A vertex of its own for every fan of faces. With `cut`, edges with more than two faces hold no fan together.
+    fn separate(&mut self, cut: bool) {
+        let incidence = self.incidence();
+        let mut corners = UnionFind::new(3 * self.faces.len());
+        for sides in incidence.edges() {
+            if cut && sides.len() > 2 {
+                self.steps.cut_edges += 1;
+                continue;
+            }
+            // Corner 3f + k is where side 3f + k starts, the next one where it ends.
+            let ends = |s: u32| {
+                let (start, end) = (s, 3 * (s / 3) + (s % 3 + 1) % 3);
+                if is_forward(&self.faces, s) { (start, end) } else { (end, start) }
+            };
+            for pair in sides.windows(2) {
+                let ((a, b), (c, d)) = (ends(pair[0]), ends(pair[1]));
+                corners.join(a, c);
+                corners.join(b, d);
+            }
+        }
+        // The fan of the lowest corner keeps the vertex.
+        let mut taken = vec![false; self.vertex_origin.len()];
+        let mut vertex_of_fan = vec![NONE; 3 * self.faces.len()];
+        for corner in 0..3 * self.faces.len() {
+            let v = self.faces[corner / 3][corner % 3];
+            let fan = corners.root(corner as u32) as usize;
+            if vertex_of_fan[fan] == NONE {
+                vertex_of_fan[fan] = v;
+                if std::mem::replace(&mut taken[v as usize], true) {
+                    vertex_of_fan[fan] = self.vertex_origin.len() as u32;
+                    self.vertex_origin.push(self.vertex_origin[v as usize]);
+                    self.steps.split_vertices += 1;
+                }
+            }
+            self.faces[corner / 3][corner % 3] = vertex_of_fan[fan];
+        }
+    }
+
+    /// Turn the smaller part of each piece, so that neighbours agree; one-sided pieces stay as they are.
+    fn orient(&mut self) {
+        let partner = self.incidence().partners(self.faces.len());
+        let mut turn = vec![None; self.faces.len()];
+        let mut queue = VecDeque::new();
+        for first in 0..self.faces.len() {
+            if turn[first].is_some() {
+                continue;
+            }
+            turn[first] = Some(false);
+            queue.push_back(first);
+            let (mut piece, mut one_sided) = (Vec::new(), false);
+            while let Some(f) = queue.pop_front() {
+                piece.push(f);
+                for side in 3 * f..3 * f + 3 {
+                    let other = partner[side];
+                    if other == NONE {
+                        continue;
+                    }
+                    let same_way = is_forward(&self.faces, side as u32) == is_forward(&self.faces, other);
+                    let wanted = turn[f].map(|t| t ^ same_way);
+                    let g = other as usize / 3;
+                    if turn[g].is_none() {
+                        turn[g] = wanted;
+                        queue.push_back(g);
+                    }
+                    one_sided |= turn[g] != wanted;
+                }
+            }
+            let turned = piece.iter().filter(|&&f| turn[f] == Some(true)).count();
+            // Of two equal parts the one with the first face stays.
+            let smaller = Some(2 * turned <= piece.len());
+            for f in piece.into_iter().filter(|&f| !one_sided && turn[f] == smaller) {
+                self.faces[f].swap(1, 2);
+                self.turned[f] = true;
+                self.steps.turned_faces += 1;
+            }
+        }
+    }
+
+    fn take(&mut self, component: Option<usize>) -> Result<()> {
+        let Some(wanted) = component else { return Ok(()) };
+        let incidence = self.incidence();
+        let mut pieces = components(self.vertex_origin.len(), incidence.triangles(&self.faces));
+        pieces.sort_unstable_by_key(|&(first, size)| (std::cmp::Reverse(size), first));
+        let Some(&(first, _)) = pieces.get(wanted) else {
+            let value = format!("{wanted}, of {} components numbered from 0", pieces.len());
+            return Err(Error::Argument { what: "component", value, need: "one that exists" });
+        };
+        let mut connected = UnionFind::new(self.vertex_origin.len());
+        for [a, b, c] in &self.faces {
+            connected.join(*a, *b);
+            connected.join(*a, *c);
+        }
+        let root = connected.root(self.faces[first as usize][0]);
+        let keep: Vec<bool> = self.faces.iter().map(|f| connected.root(f[0]) == root).collect();
+        self.steps.faces_of_other_components = self.retain(&keep);
+        Ok(())
+    }
+
+    /// Drop unused vertices and carry the attributes over.
+    fn finish(mut self, soup: &Soup) -> Repaired {
+        let n_before = soup.positions.len();
+        let mut number = vec![NONE; self.vertex_origin.len()];
+        self.faces.as_flattened().iter().for_each(|&v| number[v as usize] = 0);
+        let mut vertex_origin = Vec::new();
+        for (number, &origin) in number.iter_mut().zip(&self.vertex_origin).filter(|(n, _)| **n == 0) {
+            *number = vertex_origin.len() as u32;
+            vertex_origin.push(origin);
+        }
+        let kept: HashSet<u32> = vertex_origin.iter().copied().collect();
+        let gone = n_before - kept.len();
+        self.steps.isolated_vertices = gone.saturating_sub(self.steps.welded_vertices);
+        let faces: Vec<[u32; 3]> = self.faces.iter().map(|f| f.map(|v| number[v as usize])).collect();
+        fn picked<T: Copy>(list: &Option<Vec<T>>, origin: &[u32]) -> Option<Vec<T>> {
+            list.as_ref()?.first()?;
+            list.as_ref().map(|list| origin.iter().map(|&v| list[v as usize]).collect())
+        }
+        let mut uv = picked(&soup.attributes.uv, &self.origin);
+        for (uv, _) in uv.iter_mut().flatten().zip(&self.turned).filter(|(_, turned)| **turned) {
+            uv.swap(1, 2);
+        }
+        let attributes = Attributes {
+            normals: picked(&soup.attributes.normals, &vertex_origin),
+            colors: picked(&soup.attributes.colors, &vertex_origin),
+            uv,
+        };
+        let positions: Vec<_> = vertex_origin.iter().map(|&v| soup.positions[v as usize]).collect();
+        let diagnosis = diagnose(&positions, &faces);
+        Repaired {
+            soup: Soup { positions, faces, attributes },
+            vertex_origin,
+            face_origin: self.origin,
+            steps: self.steps,
+            diagnosis,
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Repair: what can be mended without a guess is, the rest is named, and every element can be traced back.
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
+
+mod common;
+
+use common::Random;
+use ricci::Error;
+use ricci::mesh::check::diagnose;
+use ricci::mesh::io::{self, Attributes, Soup};
+use ricci::mesh::repair::{Repair, Repaired, Steps, repair};
+use ricci::mesh::{Mesh, shapes};
+
+fn mend(soup: &Soup) -> Repaired {
+    check(soup, &Repair::default())
+}
+
+/// Repair, and hold the result against what every repair must satisfy.
+fn check(soup: &Soup, options: &Repair) -> Repaired {
+    let done = repair(soup, options).unwrap();
+    assert_eq!(done.diagnosis, diagnose(&done.soup.positions, &done.soup.faces));
+    assert_eq!(done.vertex_origin.len(), done.soup.positions.len());
+    assert_eq!(done.face_origin.len(), done.soup.faces.len());
+    assert!(done.face_origin.is_sorted_by(|a, b| a < b));
+    for (v, &origin) in done.vertex_origin.iter().enumerate() {
+        assert_eq!(done.soup.positions[v], soup.positions[origin as usize]);
+    }
+    // Each face has the corners that its origin had, up to its direction and to welding.
+    for (face, &origin) in done.soup.faces.iter().zip(&done.face_origin) {
+        let place = |v: u32| soup.positions[v as usize].map(|x| (x + 0.0).to_bits()); // −0 is 0
+        let mut here = face.map(|v| place(done.vertex_origin[v as usize]));
+        let mut there = soup.faces[origin as usize].map(place);
+        here.sort_unstable();
+        there.sort_unstable();
+        assert!(here == there || options.weld.is_some_and(|w| w > 0.0));
+    }
+    // What is repaired stays as it is. (Welding is tried on the whole: the piece that was taken may allow it now.)
+    let again = repair(&done.soup, &Repair { weld: None, component: None, ..*options }).unwrap();
+    assert_eq!(again.steps, Steps::default());
+    assert!(again.soup.positions == done.soup.positions && again.soup.faces == done.soup.faces);
+    done
+}
+
+#[test]
+fn a_sound_surface_is_left_alone() {
+    for soup in [shapes::genus(2, 2).unwrap(), shapes::disk(3).unwrap(), shapes::icosphere(3).unwrap()] {
+        let done = mend(&soup);
+        assert_eq!(done.steps, Steps::default());
+        assert!(done.soup == soup);
+    }
+}
+
+#[test]
+fn a_shuffled_soup_becomes_the_surface_it_was() {
+    let whole = shapes::genus(2, 3).unwrap();
+    let mut random = Random::new(31);
+    // Every face with corners of its own, some turned, some repeated, some collapsed, and a few points nobody uses.
+    let mut torn = Soup::default();
+    for (f, face) in whole.faces.iter().enumerate() {
+        let n = torn.positions.len() as u32;
+        torn.positions.extend(face.map(|v| whole.positions[v as usize]));
+        torn.faces.push(if random.unit() < 0.3 { [n, n + 2, n + 1] } else { [n, n + 1, n + 2] });
+        if f % 50 == 0 {
+            torn.faces.extend([[n + 1, n, n + 2], [n, n, n + 1]]);
+        }
+    }
+    torn.positions.extend([[9.0, 0.0, 0.0], [f64::NAN, 0.0, 0.0]]);
+    let done = mend(&torn);
+    let mesh = Mesh::from_soup(&done.soup).unwrap();
+    let expected = Mesh::from_soup(&whole).unwrap();
+    assert_eq!(
+        (mesh.n_vertices(), mesh.n_edges(), mesh.genus()),
+        (expected.n_vertices(), expected.n_edges(), 2)
+    );
+    let repeated = whole.faces.len().div_ceil(50);
+    assert_eq!((done.steps.duplicate_faces, done.steps.degenerate_faces), (repeated, repeated));
+    assert_eq!(done.steps.isolated_vertices, 2);
+    assert_eq!(done.steps.welded_vertices, 3 * whole.faces.len() - whole.positions.len());
+    // The majority decides the orientation.
+    let volume = |soup: &Soup| -> f64 {
+        let det = |[a, b, c]: [u32; 3]| {
+            let [p, q, r] = [a, b, c].map(|v| soup.positions[v as usize]);
+            p[0] * (q[1] * r[2] - q[2] * r[1])
+                + p[1] * (q[2] * r[0] - q[0] * r[2])
+                + p[2] * (q[0] * r[1] - q[1] * r[0])
+        };
+        soup.faces.iter().map(|&f| det(f)).sum()
+    };
+    assert!((volume(&done.soup) / volume(&whole) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn welding_within_a_tolerance_joins_chains_and_no_more() {
+    // A square as two triangles that miss each other by 1e-4.
+    let gap = 1e-4;
+    let soup = Soup::new(
+        vec![
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [0.0, gap, 0.0],
+            [1.0, 1.0 + gap, 0.0],
+            [0.0, 1.0, 0.0],
+        ],
+        vec![[0, 1, 2], [3, 4, 5]],
+    );
+    let with = |weld| check(&soup, &Repair { weld, component: Some(0), ..Repair::default() });
+    assert_eq!(with(Some(0.5 * gap)).soup.faces.len(), 1);
+    let joined = with(Some(1.5 * gap));
+    assert_eq!(
+        (joined.soup.positions.len(), joined.soup.faces.len(), joined.steps.welded_vertices),
+        (4, 2, 2)
+    );
+    assert!(joined.diagnosis.defects.is_empty());
+    assert_eq!(with(None).soup.faces.len(), 1);
+    // Against brute force on a cloud, at every scale of the tolerance.
+    let mut random = Random::new(5);
+    let cloud: Vec<_> =
+        (0..300).map(|_| [random.symmetric(), random.symmetric(), 0.1 * random.symmetric()]).collect();
+    let faces: Vec<[u32; 3]> = (0..100).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
+    let cloud = Soup::new(cloud, faces);
+    for tolerance in [1e-3, 0.03, 0.1, 0.4, 3.0] {
+        let mut set: Vec<usize> = (0..300).collect();
+        for a in 0..300 {
+            for b in 0..a {
+                let d = (0..3)
+                    .map(|k| (cloud.positions[a][k] - cloud.positions[b][k]).powi(2))
+                    .sum::<f64>()
+                    .sqrt();
+                if d <= tolerance && set[a] != set[b] {
+                    let (from, to) = (set[a].max(set[b]), set[a].min(set[b]));
+                    set.iter_mut().filter(|s| **s == from).for_each(|s| *s = to);
+                }
+            }
+        }
+        let expected = (0..300).filter(|&v| set[v] != v).count();
+        let done = repair(&cloud, &Repair { weld: Some(tolerance), ..Repair::default() }).unwrap();
+        assert_eq!(done.steps.welded_vertices, expected, "{tolerance}");
+    }
+}
+
+#[test]
+fn sheets_that_touch_in_a_point_come_apart_and_keep_their_attributes() {
+    // Two disks that share their centre, each corner with a texture coordinate of its own.
+    let mut soup = shapes::disk(2).unwrap();
+    let n = soup.positions.len() as u32;
+    let lifted: Vec<_> = soup.positions[1..].iter().map(|p| [p[0], p[1], p[0] * p[0] + 1.0]).collect();
+    let second: Vec<_> = soup.faces.iter().map(|f| f.map(|v| if v == 0 { 0 } else { v + n - 1 })).collect();
+    soup.positions.extend(lifted);
+    soup.faces.extend(second.iter().map(|&[a, b, c]| [a, c, b]));
+    let (vertices, faces) = (soup.positions.len(), soup.faces.len());
+    soup.attributes = Attributes {
+        normals: Some(vec![[0.0, 0.0, 1.0]; vertices]),
+        colors: Some((0..vertices).map(|v| [v as f64 / vertices as f64, 0.0, 0.0, 1.0]).collect()),
+        uv: Some((0..faces).map(|f| [[f as f64, 0.0], [f as f64, 1.0], [f as f64, 2.0]]).collect()),
+    };
+    let done = mend(&soup);
+    assert_eq!((done.steps.split_vertices, done.soup.positions.len()), (1, vertices + 1));
+    assert_eq!(done.diagnosis.components, 2);
+    let codes: Vec<_> = done.diagnosis.counts().into_iter().map(|(code, _)| code).collect();
+    assert_eq!(codes, ["several_components"]);
+    let second = check(&soup, &Repair { component: Some(1), ..Repair::default() });
+    assert!(second.diagnosis.defects.is_empty() && second.soup.faces.len() == faces / 2);
+    assert_eq!(second.steps.faces_of_other_components, faces / 2);
+    for done in [done, second] {
+        let colors = done.soup.attributes.colors.unwrap();
+        for (color, &origin) in colors.iter().zip(&done.vertex_origin) {
+            assert_eq!(color[0], f64::from(origin) / vertices as f64);
+        }
+        let uv = done.soup.attributes.uv.unwrap();
+        for ((face, uv), &origin) in done.soup.faces.iter().zip(uv).zip(&done.face_origin) {
+            for (k, &v) in face.iter().enumerate() {
+                let corner =
+                    soup.faces[origin as usize].iter().position(|&w| w == done.vertex_origin[v as usize]);
+                assert_eq!(uv[k], [f64::from(origin), corner.unwrap() as f64]);
+            }
+        }
+    }
+}
+
+#[test]
+fn non_manifold_edges_are_cut_on_request_only() {
+    // Three pages of a book.
+    let positions =
+        vec![[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [-1.0, 0.1, 0.0], [0.0, 1.0, 0.0]];
+    let book = Soup::new(positions, vec![[0, 1, 2], [0, 1, 3], [0, 1, 4]]);
+    let left = mend(&book);
+    assert_eq!(left.soup, book);
+    assert!(left.diagnosis.counts().iter().any(|&(code, n)| (code, n) == ("non_manifold_edge", 1)));
+    let cut = check(&book, &Repair { cut_non_manifold_edges: true, ..Repair::default() });
+    assert_eq!((cut.steps.cut_edges, cut.steps.split_vertices, cut.diagnosis.components), (1, 4, 3));
+}
+
+#[test]
+fn what_needs_a_guess_is_left_and_garbage_is_refused() {
+    let moebius: Vec<[u32; 3]> = (0..5).map(|i| [i, (i + 1) % 5, (i + 2) % 5]).collect();
+    let points = (0..5).map(|i| [f64::from(i).cos(), f64::from(i).sin(), 0.1 * f64::from(i * i)]).collect();
+    let band = Soup::new(points, moebius);
+    let done = mend(&band);
+    assert_eq!(done.soup, band);
+    assert!(done.diagnosis.counts().iter().any(|&(code, _)| code == "non_orientable"));
+    let mut garbage = shapes::icosphere(1).unwrap();
+    garbage.faces[7][1] = 99;
+    garbage.positions[3][0] = f64::INFINITY;
+    garbage.positions.push([f64::NAN; 3]);
+    let Err(Error::Defects(diagnosis)) = repair(&garbage, &Repair::default()) else { panic!() };
+    assert_eq!(diagnosis.counts(), [("index_out_of_range", 1), ("non_finite_coordinate", 1)]);
+    let sound = shapes::icosphere(1).unwrap();
+    for options in [
+        Repair { weld: Some(-1.0), ..Repair::default() },
+        Repair { weld: Some(f64::NAN), ..Repair::default() },
+        Repair { component: Some(1), ..Repair::default() },
+    ] {
+        assert!(matches!(repair(&sound, &options), Err(Error::Argument { .. })));
+    }
+}
+
+#[test]
+fn every_bad_mesh_is_repaired_or_says_what_is_left() {
+    let Some((folder, rows)) = common::index("bad") else { return };
+    let mut sound = 0;
+    for row in &rows {
+        let Ok(soup) = io::read(&folder.join(&row["file"])) else { continue };
+        let whole = Repair { cut_non_manifold_edges: true, component: Some(0), ..Repair::default() };
+        let options = if soup.faces.is_empty() { Repair::default() } else { whole };
+        let done = check(&soup, &options);
+        // Only what no options mend is left.
+        let left: Vec<_> = done.diagnosis.counts().into_iter().map(|(code, _)| code).collect();
+        let hopeless = ["empty", "zero_area_face", "non_orientable"];
+        assert!(left.iter().all(|code| hopeless.contains(code)), "{}: {left:?}", row["file"]);
+        sound += usize::from(left.is_empty());
+    }
+    assert!(sound >= 60, "{sound}");
+}
