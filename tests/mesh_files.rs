@@ -203,6 +203,7 @@ fn texture_coordinates_are_written_per_corner() {
         texcoords: &[[0.5, -0.25], [0.0, 1.0]],
         faces: &[[2, 0, 1]],
         face_texcoords: &[[1, 0, 1]],
+        ..ObjData::default()
     };
     io::write_obj(&path, &data).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();

@@ -41,6 +41,13 @@ fn what_is_written_reads_back_the_same() {
         io::read(&at("m.off")).unwrap().attributes,
         Attributes { uv: None, ..soup.attributes.clone() }
     );
+    // OBJ has colours of six decimals; the isolated vertex has no corner to name its normal.
+    io::write(&at("m.obj"), &soup).unwrap();
+    let back = io::read(&at("m.obj")).unwrap();
+    assert!(back.positions == soup.positions && back.faces == soup.faces);
+    assert!(back.attributes.uv == soup.attributes.uv && back.attributes.colors == soup.attributes.colors);
+    assert_eq!(back.attributes.normals.unwrap()[..4], soup.attributes.normals.as_ref().unwrap()[..4]);
+    assert!(matches!(io::write(&at("m.stl"), &soup), Err(Error::UnknownFormat { .. })));
     for shape in [shapes::genus(2, 3).unwrap(), shapes::disk(3).unwrap()] {
         io::write_ply(&at("s.ply"), &shape).unwrap();
         io::write_off(&at("s.off"), &shape).unwrap();
@@ -55,9 +62,9 @@ fn every_good_mesh_is_the_same_in_every_format() {
     let out = tempfile::tempdir().unwrap();
     for row in &rows {
         let soup = io::read(&folder.join(&row["file"])).unwrap();
-        for (name, write) in [("m.ply", io::write_ply as fn(&Path, &Soup) -> _), ("m.off", io::write_off)] {
+        for name in ["m.ply", "m.off", "m.obj"] {
             let path = out.path().join(name);
-            write(&path, &soup).unwrap();
+            io::write(&path, &soup).unwrap();
             let back = io::read(&path).unwrap();
             assert!(
                 back.positions == soup.positions && back.faces == soup.faces,

@@ -26,6 +26,9 @@ pub enum Command {
     /// What a mesh is: counts, topology, quality; each defect with its elements and its remedy
     #[command(after_help = INFO_EXAMPLE)]
     Info(InfoArgs),
+    /// Mend what can be mended without a guess, with a map back to the input
+    #[command(after_help = REPAIR_EXAMPLE)]
+    Repair(RepairArgs),
     /// The conformal metric with a prescribed curvature, and its layout
     #[command(after_help = FLOW_EXAMPLE)]
     Flow(FlowArgs),
@@ -46,6 +49,14 @@ pub enum Command {
 const INFO_EXAMPLE: &str = "\
 Example: every defect of a scan, machine-readable
     ricci info scan.obj --report scan.json";
+
+const REPAIR_EXAMPLE: &str = "\
+Example: the largest piece of a scan, welded within 1e-6, and where its vertices and faces came from
+    ricci repair scan.stl -o clean.ply --weld 1e-6 --component 0 --map origin.json
+
+Always: weld vertices in the same place (unless that joins sheets in a non-manifold way), drop faces that use a vertex twice
+or repeat a face, give every fan of faces a vertex of its own, turn faces until neighbours agree, drop isolated vertices.
+The exit code is 1 if a defect is left that needs a guess; the file is written all the same.";
 
 const FLOW_EXAMPLE: &str = "\
 Example: a flat torus, its layout as texture coordinates and a picture of both
@@ -103,6 +114,35 @@ pub struct InfoArgs {
     /// Mesh file (.obj, .off, .ply, .stl) or intrinsic metric (.json)
     pub mesh: PathBuf,
     /// Write a picture of the surface
+    #[arg(long, value_name = "P.png")]
+    pub picture: Option<PathBuf>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+#[derive(Args, Debug)]
+pub struct RepairArgs {
+    /// Mesh file (.obj, .off, .ply, .stl)
+    pub mesh: PathBuf,
+    /// Repaired mesh (.obj, .off, .ply)
+    #[arg(short = 'o', long = "out", value_name = "OUT")]
+    pub out: PathBuf,
+    /// Weld vertices within this distance; 0 welds those in exactly the same place
+    #[arg(long, value_name = "DISTANCE", default_value_t = 0.0, value_parser = distance)]
+    pub weld: f64,
+    /// Weld nothing
+    #[arg(long, conflicts_with = "weld")]
+    pub no_weld: bool,
+    /// Cut the surface open along edges in which more than two faces meet
+    #[arg(long)]
+    pub cut_edges: bool,
+    /// Keep one connected piece: 0 is that with the most faces
+    #[arg(long, value_name = "K")]
+    pub component: Option<usize>,
+    /// Write the input's vertex of each vertex and the input's face of each face
+    #[arg(long, value_name = "MAP.json")]
+    pub map: Option<PathBuf>,
+    /// Write a picture of the result
     #[arg(long, value_name = "P.png")]
     pub picture: Option<PathBuf>,
     #[command(flatten)]
@@ -181,6 +221,13 @@ pub struct DemoArgs {
     pub out: PathBuf,
     #[command(flatten)]
     pub common: Common,
+}
+
+fn distance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x >= 0.0 && x.is_finite() => Ok(x),
+        _ => Err("must be a distance".into()),
+    }
 }
 
 fn positive(text: &str) -> Result<f64, String> {

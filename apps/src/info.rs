@@ -29,19 +29,19 @@ struct Info {
 }
 
 #[derive(Serialize)]
-struct DefectCount {
-    code: &'static str,
-    count: usize,
+pub struct DefectCount {
+    pub code: &'static str,
+    pub count: usize,
 }
 
 /// One defect; vertices and faces as the file numbers them, from 0.
 #[derive(Serialize)]
-struct DefectFigures {
+pub struct DefectFigures {
     code: &'static str,
-    message: String,
+    pub message: String,
     vertices: Vec<u32>,
     faces: Vec<u32>,
-    remedy: &'static str,
+    pub remedy: &'static str,
 }
 
 impl From<&Defect> for DefectFigures {
@@ -163,7 +163,7 @@ fn shape_of(soup: &Soup) -> Option<ShapeQuality> {
     Some(shape_quality::of_surface(&mesh, Space::E2, &lengths))
 }
 
-fn summary_of(diagnosis: &Diagnosis, path: String) -> InputSummary {
+pub fn summary_of(diagnosis: &Diagnosis, path: String) -> InputSummary {
     InputSummary {
         path,
         vertices: diagnosis.vertices,

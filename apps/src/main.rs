@@ -16,6 +16,7 @@ mod metric_file;
 mod output;
 mod picture;
 mod progress;
+mod repair;
 mod report;
 mod say;
 mod shape_quality;
@@ -44,6 +45,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
     match command {
         Command::Flow(args) => flow::run(args, &control),
         Command::Info(args) => info::run(args, &control),
+        Command::Repair(args) => repair::run(args, &control),
         Command::Make(args) => make::run(args),
         Command::Demo(args) => demo::run(args, &control),
         Command::Completions { shell } => {

@@ -10,7 +10,7 @@ use crate::shape_quality;
 use crate::show;
 use clap::{Args, Subcommand};
 use ricci::geometry::Space;
-use ricci::mesh::io::{self, ObjData, Soup};
+use ricci::mesh::io::{self, Format, Soup};
 use ricci::mesh::shapes::{self, Intrinsic};
 use ricci::mesh::{Mesh, PerEdge};
 use ricci::metric::lengths_from_positions;
@@ -162,7 +162,7 @@ pub enum Shape {
 /// Where a surface in space goes.
 #[derive(Args, Serialize, Debug)]
 pub struct ToMesh {
-    /// Mesh (.obj), or its edge lengths (.json)
+    /// Mesh (.obj, .off, .ply), or its edge lengths (.json)
     #[arg(short = 'o', long = "out", value_name = "OUT")]
     pub out: PathBuf,
     /// Move every vertex by up to this fraction of the mean edge length in each coordinate
@@ -233,7 +233,7 @@ fn raise(mut soup: Soup, height: f64) -> Soup {
 }
 
 fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Instant) -> Result<u8, Failure> {
-    check_extension("-o", &to.out, &["obj", "json"])?;
+    check_extension("-o", &to.out, &["obj", "off", "ply", "json"])?;
     check_writable(&to.out)?;
     to.common.report.as_deref().map_or(Ok(()), check_writable)?;
     if let Some(path) = &to.picture {
@@ -251,8 +251,8 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Inst
     if extension(&to.out) == "json" {
         outputs.add_json(&to.out, &LengthsFile::new(&mesh, Space::E2, &lengths))?;
     } else {
-        let data = ObjData { positions, faces, ..ObjData::default() };
-        outputs.add_named(&to.out, |path| io::write_obj(path, &data))?;
+        let format = Format::of(&to.out)?;
+        outputs.add_named(&to.out, |path| io::write_as(path, format, &soup))?;
     }
     if let Some(path) = &to.picture {
         outputs.add(path, |out| show::draw_surface(out, positions, faces, to.common.threads()))?;

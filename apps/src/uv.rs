@@ -28,7 +28,12 @@ pub fn write(
         return outputs.add(path, |out| out.write_all(&bytes));
     }
     let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
-    let data =
-        io::ObjData { positions, texcoords: &layout.coordinates, faces: &faces, face_texcoords: &corners };
+    let data = io::ObjData {
+        positions,
+        texcoords: &layout.coordinates,
+        faces: &faces,
+        face_texcoords: &corners,
+        ..io::ObjData::default()
+    };
     outputs.add_named(path, |path| io::write_obj(path, &data))
 }

@@ -95,20 +95,25 @@ unsafe impl Sized64 for ricci_defect {
 }
 
 fn diagnose(positions: &[Point], faces: &[[u32; 3]]) -> ricci_diagnosis {
-    let text = |words: String| CString::new(words.replace('\0', "\u{fffd}")).unwrap_or_default();
-    let diagnosis = check::diagnose(positions, faces);
-    let defects = diagnosis
-        .defects
-        .iter()
-        .map(|defect| Record {
-            code: text(defect.code().to_string()),
-            message: text(defect.to_string()),
-            remedy: text(defect.remedy().to_string()),
-            vertices: defect.vertices(),
-            faces: defect.faces(),
-        })
-        .collect();
-    ricci_diagnosis { poison: Poison::default(), diagnosis, defects }
+    check::diagnose(positions, faces).into()
+}
+
+impl From<Diagnosis> for ricci_diagnosis {
+    fn from(diagnosis: Diagnosis) -> Self {
+        let text = |words: String| CString::new(words.replace('\0', "\u{fffd}")).unwrap_or_default();
+        let defects = diagnosis
+            .defects
+            .iter()
+            .map(|defect| Record {
+                code: text(defect.code().to_string()),
+                message: text(defect.to_string()),
+                remedy: text(defect.remedy().to_string()),
+                vertices: defect.vertices(),
+                faces: defect.faces(),
+            })
+            .collect();
+        ricci_diagnosis { poison: Poison::default(), diagnosis, defects }
+    }
 }
 
 /// Every defect of positions and faces; defects are a result, not an error.

@@ -353,6 +353,7 @@ pub unsafe extern "C" fn ricci_layout_write_obj(
             faces: &faces,
             texcoords: &layout.layout.coordinates,
             face_texcoords: &layout.corners(),
+            ..io::ObjData::default()
         };
         Ok(io::write_obj(&path, &data)?)
     })

@@ -42,6 +42,8 @@ pub mod mesh;
 
 pub mod diagnosis;
 
+pub mod repair;
+
 pub mod scheme;
 
 pub mod metric;

@@ -222,6 +222,9 @@ typedef struct ricci_mesh ricci_mesh;
  */
 typedef struct ricci_metric ricci_metric;
 
+/** A repaired triangle list, with the way back to what was given. */
+typedef struct ricci_repair ricci_repair;
+
 /** What a flow did: why it stopped, how far it came, how long it took. */
 typedef struct ricci_report ricci_report;
 
@@ -298,6 +301,55 @@ typedef struct {
     /** Number of faces. */
     size_t n_faces;
 } ricci_defect;
+
+/**
+ * What a repair may do beyond what is always done: dropping faces that use a vertex twice or repeat a face, giving each fan of
+ * faces a vertex of its own, turning faces until neighbours agree, dropping isolated vertices. Let
+ * ricci_repair_options_init fill it, then change fields.
+ */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /**
+     * Vertices within this distance become one; 0 (default): those in exactly the same place, unless that
+     * joins sheets in a non-manifold way; negative: no welding.
+     */
+    double weld;
+    /** 1 cuts the surface open along edges in which more than two faces meet; default 0. */
+    int32_t cut_non_manifold_edges;
+    /** 0. */
+    int32_t reserved;
+    /** Keep one connected piece: 0 is that with the most faces, and so on; negative (default): all. */
+    int64_t component;
+} ricci_repair_options;
+
+/** What a repair did, and the size of its result. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Vertices of the result. */
+    size_t n_vertices;
+    /** Faces of the result. */
+    size_t n_faces;
+    /** Defects that are left: ricci_repair_diagnosis lists them. */
+    size_t n_defects;
+    /** Vertices that became one with an earlier vertex. */
+    size_t welded_vertices;
+    /** Faces dropped because they used a vertex twice. */
+    size_t degenerate_faces;
+    /** Faces dropped because an earlier face had their vertices. */
+    size_t duplicate_faces;
+    /** Edges along which the surface was cut open. */
+    size_t cut_edges;
+    /** Vertices made for further fans of faces. */
+    size_t split_vertices;
+    /** Faces turned around. */
+    size_t turned_faces;
+    /** Faces of other components than the one that was asked for. */
+    size_t faces_of_other_components;
+    /** Vertices dropped because no face uses them. */
+    size_t isolated_vertices;
+} ricci_repair_summary;
 
 /** Figures of a metric. */
 typedef struct {
@@ -789,6 +841,116 @@ ricci_status ricci_diagnosis_defect(const ricci_diagnosis *diagnosis,
                                     size_t index,
                                     ricci_defect *defect,
                                     size_t size);
+
+/**
+ * Fill options with their defaults.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param options  out: the defaults.
+ * @param size     sizeof *options.
+ */
+ricci_status ricci_repair_options_init(ricci_repair_options *options, size_t size);
+
+/**
+ * Mend what can be mended without a guess. Defects that are left are a result, not an error.
+ *
+ * Elements keep their order. Attributes are the caller's: the origins say where each element came from.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride, options, no such component), RICCI_TOO_LARGE,
+ * RICCI_STRUCT_SIZE, RICCI_DEFECTS (a face that names no vertex or one without finite coordinates).
+ *
+ * @param positions   n_vertices points: x, y, z as double.
+ * @param stride      bytes from one point to the next, at least 24; 0 means 24.
+ * @param n_vertices  number of points.
+ * @param faces       n_faces x 3 vertex indices, 0-based.
+ * @param n_faces     number of triangles.
+ * @param options     what may be done, or NULL for the defaults.
+ * @param repair      out: the new handle, to be released by ricci_repair_free.
+ */
+ricci_status ricci_repair_arrays(const double *positions,
+                                 size_t stride,
+                                 size_t n_vertices,
+                                 const uint32_t *faces,
+                                 size_t n_faces,
+                                 const ricci_repair_options *options,
+                                 ricci_repair **repair);
+
+/**
+ * ricci_repair_arrays for a mesh file.
+ *
+ * @return as ricci_repair_arrays; RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT.
+ *
+ * @param path     file name ending in .obj, .off, .ply or .stl, NUL-terminated.
+ * @param options  what may be done, or NULL for the defaults.
+ * @param repair   out: the new handle, to be released by ricci_repair_free.
+ */
+ricci_status ricci_repair_file(const char *path,
+                               const ricci_repair_options *options,
+                               ricci_repair **repair);
+
+/**
+ * Release a repair.
+ *
+ * @param repair  the handle, or NULL.
+ */
+void ricci_repair_free(ricci_repair *repair);
+
+/**
+ * What was done, and the size of the result.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param repair   the repair.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+ricci_status ricci_repair_summarise(const ricci_repair *repair,
+                                    ricci_repair_summary *summary,
+                                    size_t size);
+
+/**
+ * Positions and faces of the result.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param repair              the repair.
+ * @param positions           out: n_vertices x 3 coordinates.
+ * @param positions_capacity  entries of `positions`.
+ * @param faces               out: n_faces x 3 vertex indices, 0-based.
+ * @param faces_capacity      entries of `faces`.
+ */
+ricci_status ricci_repair_result(const ricci_repair *repair,
+                                 double *positions,
+                                 size_t positions_capacity,
+                                 uint32_t *faces,
+                                 size_t faces_capacity);
+
+/**
+ * Where the elements of the result came from.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param repair             the repair.
+ * @param vertices           out: n_vertices input vertices.
+ * @param vertices_capacity  entries of `vertices`.
+ * @param faces              out: n_faces input faces.
+ * @param faces_capacity     entries of `faces`.
+ */
+ricci_status ricci_repair_origins(const ricci_repair *repair,
+                                  uint32_t *vertices,
+                                  size_t vertices_capacity,
+                                  uint32_t *faces,
+                                  size_t faces_capacity);
+
+/**
+ * The defects that are left.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param repair     the repair.
+ * @param diagnosis  out: the new handle, to be released by ricci_diagnosis_free.
+ */
+ricci_status ricci_repair_diagnosis(const ricci_repair *repair, ricci_diagnosis **diagnosis);
 
 /**
  * The initial metric of a mesh in the conformal class of its lengths.

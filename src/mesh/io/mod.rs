@@ -103,6 +103,65 @@ pub fn read(path: &Path) -> Result<Soup> {
     parse(&bytes, &name)
 }
 
+/// Extensions that [`write`] knows.
+pub const WRITABLE: &str = ".obj, .off, .ply";
+
+/// A format that can be written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront OBJ.
+    Obj,
+    /// OFF, text.
+    Off,
+    /// PLY, binary.
+    Ply,
+}
+
+impl Format {
+    /// The format that a file's extension names (case does not matter). Errors: [`Error::UnknownFormat`].
+    pub fn of(path: &Path) -> Result<Format> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        match extension.as_deref() {
+            Some("obj") => Ok(Format::Obj),
+            Some("off") => Ok(Format::Off),
+            Some("ply") => Ok(Format::Ply),
+            _ => Err(Error::UnknownFormat { path: path.display().to_string(), known: WRITABLE }),
+        }
+    }
+}
+
+/// Write a mesh file by its extension: [`write_as`] the format of that.
+pub fn write(path: &Path, soup: &Soup) -> Result<()> {
+    write_as(path, Format::of(path)?, soup)
+}
+
+/// Write a mesh file, atomically, with the attributes that the format has: text with 17 significant digits, PLY binary, so that
+/// positions read back as they are.
+///
+/// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range;
+/// [`Error::Size`] for attributes of another size; [`Error::Io`].
+pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<()> {
+    match format {
+        Format::Ply => write_ply(path, soup),
+        Format::Off => write_off(path, soup),
+        Format::Obj => {
+            soup.check_writable()?;
+            let Attributes { normals, colors, uv } = &soup.attributes;
+            let texcoords: Vec<[f64; 2]> = uv.iter().flatten().flatten().copied().collect();
+            let corners = (0..texcoords.len() as u32 / 3).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]);
+            let data = ObjData {
+                positions: &soup.positions,
+                faces: &soup.faces,
+                colors: colors.as_deref().unwrap_or_default(),
+                normals: normals.as_deref().unwrap_or_default(),
+                texcoords: &texcoords,
+                face_texcoords: &corners.collect::<Vec<_>>(),
+            };
+            write_obj(path, &data)
+        }
+    }
+}
+
 fn finite<const N: usize>(what: &'static str, points: &[[f64; N]]) -> Result<()> {
     match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         Some(i) => {

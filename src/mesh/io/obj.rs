@@ -159,6 +159,10 @@ fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
 pub struct ObjData<'a> {
     /// `v` lines.
     pub positions: &'a [Point],
+    /// Colours behind the coordinates (V entries, 0 to 1); empty for none.
+    pub colors: &'a [[f64; 4]],
+    /// `vn` lines, one per vertex (V entries); empty for none.
+    pub normals: &'a [Point],
     /// `vt` lines; empty for none.
     pub texcoords: &'a [[f64; 2]],
     /// Corners of the faces, 0-based into `positions`.
@@ -169,27 +173,47 @@ pub struct ObjData<'a> {
 
 /// Write an OBJ file with 17 significant digits (which read back to the same doubles), atomically.
 ///
-/// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of
-/// range, [`Error::Size`], [`Error::Io`].
+/// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of
+/// range, [`crate::Error::Size`], [`crate::Error::Io`].
 pub fn write_obj(path: &Path, data: &ObjData<'_>) -> Result<()> {
     if !data.face_texcoords.is_empty() {
         crate::error::check_size("face_texcoords", data.face_texcoords.len(), data.faces.len())?;
     }
+    for (what, len) in [("colors", data.colors.len()), ("normals", data.normals.len())] {
+        if len > 0 {
+            crate::error::check_size(what, len, data.positions.len())?;
+        }
+    }
     finite("position", data.positions)?;
+    finite("colour", data.colors)?;
+    finite("normal", data.normals)?;
     finite("texture coordinate", data.texcoords)?;
     in_range("vertex", data.faces, data.positions.len())?;
     in_range("texture vertex", data.face_texcoords, data.texcoords.len())?;
     write_atomically(path, |out| {
-        for [x, y, z] in data.positions {
-            writeln!(out, "v {x:.16e} {y:.16e} {z:.16e}")?;
+        for (v, [x, y, z]) in data.positions.iter().enumerate() {
+            write!(out, "v {x:.16e} {y:.16e} {z:.16e}")?;
+            if let Some([r, g, b, a]) = data.colors.get(v) {
+                write!(out, " {r:.6} {g:.6} {b:.6}")?;
+                if *a != 1.0 {
+                    write!(out, " {a:.6}")?;
+                }
+            }
+            writeln!(out)?;
         }
         for [s, t] in data.texcoords {
             writeln!(out, "vt {s:.16e} {t:.16e}")?;
         }
+        for [x, y, z] in data.normals {
+            writeln!(out, "vn {x:.16e} {y:.16e} {z:.16e}")?;
+        }
+        let normals = !data.normals.is_empty();
         for (f, corners) in data.faces.iter().enumerate() {
             let [a, b, c] = corners.map(|v| v + 1);
             match data.face_texcoords.get(f).map(|t| t.map(|t| t + 1)) {
+                Some([s, t, u]) if normals => writeln!(out, "f {a}/{s}/{a} {b}/{t}/{b} {c}/{u}/{c}")?,
                 Some([s, t, u]) => writeln!(out, "f {a}/{s} {b}/{t} {c}/{u}")?,
+                None if normals => writeln!(out, "f {a}//{a} {b}//{b} {c}//{c}")?,
                 None => writeln!(out, "f {a} {b} {c}")?,
             }
         }

@@ -1,0 +1,184 @@
+//! `ricci repair`.
+
+use crate::cli::RepairArgs;
+use crate::failure::Failure;
+use crate::info::{DefectCount, DefectFigures, summary_of};
+use crate::output::{Outputs, check_extension, check_writable};
+use crate::report::{Report, Seconds, path_text, peak_bytes, timed};
+use crate::say::{self, count};
+use crate::show;
+use ricci::Control;
+use ricci::control::Stage;
+use ricci::mesh::check::diagnose;
+use ricci::mesh::io::{self, Format};
+use ricci::mesh::repair::{Repair, Repaired, Steps, repair};
+use serde::Serialize;
+use std::time::Instant;
+
+/// What was done, what the result is, and what is left.
+#[derive(Serialize)]
+struct RepairResult {
+    /// The other commands accept the result.
+    admissible: bool,
+    vertices: usize,
+    edges: usize,
+    faces: usize,
+    components: usize,
+    euler: i64,
+    genus: Option<usize>,
+    boundary_loops: usize,
+    welded_vertices: usize,
+    degenerate_faces: usize,
+    duplicate_faces: usize,
+    cut_edges: usize,
+    split_vertices: usize,
+    turned_faces: usize,
+    faces_of_other_components: usize,
+    isolated_vertices: usize,
+    defect_counts: Vec<DefectCount>,
+    defects: Vec<DefectFigures>,
+}
+
+#[derive(Serialize)]
+struct Asked {
+    out: String,
+    weld: Option<f64>,
+    cut_edges: bool,
+    component: Option<usize>,
+    map: Option<String>,
+    picture: Option<String>,
+    threads: usize,
+}
+
+/// `--map`: for each vertex and face of the result its number in the input, from 0.
+#[derive(Serialize)]
+struct MapFile<'a> {
+    vertex_origin: &'a [u32],
+    face_origin: &'a [u32],
+}
+
+/// Run the command: 0 if the result is a surface that the other commands accept, 1 if a defect is left.
+pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
+    let start = Instant::now();
+    check_extension("-o", &args.out, &["obj", "off", "ply"])?;
+    if let Some(path) = &args.picture {
+        check_extension("--picture", path, &["png"])?;
+    }
+    for path in [Some(&args.out), args.map.as_ref(), args.picture.as_ref(), args.common.report.as_ref()] {
+        path.map_or(Ok(()), |path| check_writable(path))?;
+    }
+    let mut seconds = Seconds::default();
+    control.step(Stage::Read, 0.0)?;
+    let soup = timed(&mut seconds.read, || io::read(&args.mesh))?;
+    control.step(Stage::Build, 0.0)?;
+    let weld = (!args.no_weld).then_some(args.weld);
+    let options = Repair { weld, cut_non_manifold_edges: args.cut_edges, component: args.component };
+    let done = timed(&mut seconds.build, || repair(&soup, &options))?;
+    control.step(Stage::Write, 0.0)?;
+    let mut outputs = Outputs::default();
+    timed(&mut seconds.write, || -> Result<(), Failure> {
+        let format = Format::of(&args.out)?;
+        outputs.add_named(&args.out, |path| io::write_as(path, format, &done.soup))?;
+        if let Some(path) = &args.map {
+            let map = MapFile { vertex_origin: &done.vertex_origin, face_origin: &done.face_origin };
+            outputs.add_json(path, &map)?;
+        }
+        if let Some(path) = &args.picture {
+            let (threads, soup) = (args.common.threads(), &done.soup);
+            outputs.add(path, |out| show::draw_surface(out, &soup.positions, &soup.faces, threads))?;
+        }
+        Ok(())
+    })?;
+    let result = RepairResult::new(&done);
+    let exit_code = u8::from(!result.admissible);
+    if !args.common.quiet {
+        say::lines(&text(args, &done.steps, &result));
+    }
+    if let Some(path) = &args.common.report {
+        let text = |path: &Option<std::path::PathBuf>| path.as_deref().map(path_text);
+        let asked = Asked {
+            out: path_text(&args.out),
+            weld,
+            cut_edges: args.cut_edges,
+            component: args.component,
+            map: text(&args.map),
+            picture: text(&args.picture),
+            threads: args.common.threads(),
+        };
+        let input = summary_of(&diagnose(&soup.positions, &soup.faces), path_text(&args.mesh));
+        let left = result.defects.len() as f64;
+        let mut report = Report::new("repair", input, asked, result);
+        report.checks.add("defects", left, 0.0);
+        seconds.total = start.elapsed().as_secs_f64();
+        report.seconds = seconds;
+        report.peak_bytes = peak_bytes();
+        outputs.add_report(path, &report)?;
+    }
+    control.check()?;
+    outputs.commit()?;
+    Ok(exit_code)
+}
+
+impl RepairResult {
+    fn new(done: &Repaired) -> Self {
+        let (diagnosis, steps) = (&done.diagnosis, &done.steps);
+        let counts = diagnosis.counts().into_iter();
+        RepairResult {
+            admissible: diagnosis.defects.is_empty(),
+            vertices: diagnosis.vertices,
+            edges: diagnosis.edges,
+            faces: diagnosis.faces,
+            components: diagnosis.components,
+            euler: diagnosis.euler,
+            genus: diagnosis.genus,
+            boundary_loops: diagnosis.boundary_loops,
+            welded_vertices: steps.welded_vertices,
+            degenerate_faces: steps.degenerate_faces,
+            duplicate_faces: steps.duplicate_faces,
+            cut_edges: steps.cut_edges,
+            split_vertices: steps.split_vertices,
+            turned_faces: steps.turned_faces,
+            faces_of_other_components: steps.faces_of_other_components,
+            isolated_vertices: steps.isolated_vertices,
+            defect_counts: counts.map(|(code, count)| DefectCount { code, count }).collect(),
+            defects: diagnosis.defects.iter().map(DefectFigures::from).collect(),
+        }
+    }
+}
+
+fn text(args: &RepairArgs, steps: &Steps, result: &RepairResult) -> String {
+    let vertex = |n, what: &str| (n, count(n, "vertex", "vertices") + what);
+    let face = |n, what: &str| (n, count(n, "face", "faces") + what);
+    let done: Vec<String> = [
+        vertex(steps.welded_vertices, " welded"),
+        face(steps.degenerate_faces, " with a repeated vertex dropped"),
+        face(steps.duplicate_faces, " that repeat another dropped"),
+        (steps.cut_edges, count(steps.cut_edges, "edge", "edges") + " cut open"),
+        vertex(steps.split_vertices, " added where fans of faces met"),
+        face(steps.turned_faces, " turned"),
+        face(steps.faces_of_other_components, " of other components left out"),
+        vertex(steps.isolated_vertices, " without faces dropped"),
+    ]
+    .into_iter()
+    .filter(|(n, _)| *n > 0)
+    .map(|(_, text)| text)
+    .collect();
+    let mut text = format!(
+        "{}: {}\n{}: {}, {}, {}, {}\n",
+        args.mesh.display(),
+        if done.is_empty() { "nothing to mend".into() } else { done.join(", ") },
+        args.out.display(),
+        count(result.vertices, "vertex", "vertices"),
+        count(result.faces, "face", "faces"),
+        count(result.components, "component", "components"),
+        count(result.boundary_loops, "boundary loop", "boundary loops"),
+    );
+    let mut told: Vec<&str> = Vec::new();
+    for defect in &result.defects {
+        if !told.contains(&defect.remedy) {
+            told.push(defect.remedy);
+            text += &format!("left: {}: {}\n", defect.message, defect.remedy);
+        }
+    }
+    text
+}

@@ -1,0 +1,79 @@
+//! `ricci repair`: what is mended, what is left, and the way back.
+
+use crate::run::Place;
+use crate::surfaces::{moebius, octahedron, torus};
+
+#[test]
+fn a_mended_scan_flows() {
+    let place = Place::new();
+    // A torus with a repeated and a turned face, beside a small piece, and a point that nobody uses.
+    let mut scan = torus(12, 8).beside(octahedron());
+    let first = scan.faces[0];
+    scan.faces.push(first);
+    scan.faces[5].swap(0, 1);
+    scan.positions.push([9.0, 9.0, 9.0]);
+    place.put("scan.obj", &scan.obj());
+    place.expect(3, "flow scan.obj");
+    let ended = place.expect(1, "repair scan.obj -o both.off");
+    assert!(ended.out.contains("left: the surface has 2 components"), "{}", ended.out);
+    let ended = place.expect(
+        0,
+        "repair scan.obj -o clean.ply --component 0 --map map.json --report r.json --picture p.png",
+    );
+    assert!(ended.out.contains("1 face turned") && ended.out.contains("clean.ply"), "{}", ended.out);
+    let (report, map) = (place.json("r.json"), place.json("map.json"));
+    let result = &report["result"];
+    for (key, value) in [
+        ("duplicate_faces", 1),
+        ("turned_faces", 1),
+        ("isolated_vertices", 7),
+        ("faces_of_other_components", 8),
+        ("vertices", 96),
+        ("faces", 192),
+        ("genus", 1),
+    ] {
+        assert_eq!(result[key], value, "{key}");
+    }
+    assert_eq!((&report["command"], &report["checks"]["defects"]["holds"]), (&"repair".into(), &true.into()));
+    let list =
+        |key: &str| map[key].as_array().unwrap().iter().map(|v| v.as_u64().unwrap()).collect::<Vec<_>>();
+    assert_eq!(list("vertex_origin"), (0..96).collect::<Vec<_>>());
+    assert_eq!(list("face_origin"), (0..192).collect::<Vec<_>>());
+    place.expect(0, "flow clean.ply");
+}
+
+#[test]
+fn what_cannot_be_mended_is_named_and_written_all_the_same() {
+    let place = Place::new();
+    place.put("band.obj", &moebius(12).obj());
+    let ended = place.expect(1, "repair band.obj -o same.obj --report r.json");
+    assert!(ended.out.contains("nothing to mend") && ended.out.contains("non-orientable"), "{}", ended.out);
+    assert_eq!(place.json("r.json")["result"]["defect_counts"][0]["code"], "non_orientable");
+    assert!(place.exists("same.obj"));
+    place.put("gone.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    let ended = place.expect(3, "repair gone.obj -o out.obj");
+    assert!(ended.err.contains("vertex 8, which does not exist"), "{}", ended.err);
+    assert!(!place.exists("out.obj"));
+    place.put("ball.obj", &octahedron().obj());
+    for line in [
+        "repair ball.obj",
+        "repair ball.obj -o out.stl",
+        "repair ball.obj -o out.obj --weld -1",
+        "repair ball.obj -o out.obj --weld 1 --no-weld",
+        "repair ball.obj -o out.obj --component 1",
+        "repair ball.obj -o missing/out.obj",
+    ] {
+        place.expect(2, line);
+    }
+    assert!(!place.exists("out.obj"));
+}
+
+#[test]
+fn welding_is_asked_for_by_distance() {
+    let place = Place::new();
+    place.put("slit.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0.001 0\nv 1 1.001 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n");
+    place.expect(1, "repair slit.obj -o out.obj");
+    place.expect(0, "repair slit.obj -o out.obj --weld 0.002");
+    place.expect(0, "info out.obj --report r.json");
+    assert_eq!(place.json("r.json")["input"]["vertices"], 4);
+}
