@@ -103,7 +103,7 @@ pub fn read(path: &Path) -> Result<Soup> {
     parse(&bytes, &name)
 }
 
-/// Extensions that [`write`] knows.
+/// Extensions that [`write()`] knows.
 pub const WRITABLE: &str = ".obj, .off, .ply";
 
 /// A format that can be written.
