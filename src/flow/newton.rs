@@ -129,6 +129,7 @@ impl Run<'_> {
         let first = SHIFT * system.jacobian.mean_diagonal();
         let mut added = if *shift > SHIFT_GROWTH * first { *shift / SHIFT_GROWTH } else { 0.0 };
         system.jacobian.add_diagonal(|v| if loose[v] { added } else { 0.0 });
+        let mut last = f64::INFINITY;
         for _ in 0..SHIFT_TRIES {
             self.control.check()?;
             let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
@@ -136,7 +137,11 @@ impl Run<'_> {
                 if self.free_scale {
                     center(step);
                 }
-                if added == 0.0 || norm(step) <= self.options.max_step {
+                // A step that more shift does not shorten is not the loose vertices': the line search will cap it.
+                let now = norm(step);
+                let settled = now > 0.5 * last;
+                last = now;
+                if added == 0.0 || now <= self.options.max_step || settled {
                     *shift = added;
                     report.shifted += usize::from(added > 0.0);
                     return Ok(true);

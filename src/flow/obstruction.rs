@@ -2,7 +2,7 @@
 
 use super::evaluate::State;
 use crate::geometry::Space;
-use crate::mesh::{HalfedgeId, Mesh, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, VertexId};
 use crate::metric::Metric;
 use std::f64::consts::PI;
 
@@ -20,6 +20,45 @@ pub struct Obstruction {
     pub curvature: f64,
     /// The bound, not attained, radians. (Both sums are formed in doubles.)
     pub least: f64,
+}
+
+/// The first vertex whose target is below its own bound by more than `tolerance`: found without a flow. (A target nearer to the
+/// bound can be approached.)
+pub(super) fn obstruction_at_a_vertex(
+    mesh: &Mesh,
+    class: &Metric,
+    target: &[f64],
+    pinned: &[bool],
+    tolerance: f64,
+) -> Option<Obstruction> {
+    if class.space == Space::S2 || mesh.n_vertices() == 1 {
+        return None;
+    }
+    let mut faces: Vec<FaceId> = Vec::new();
+    for v in mesh.vertices().filter(|v| !pinned[v.index()]) {
+        let (curvature, mut least) = (target[v.index()], full_angle(mesh, v));
+        faces.clear();
+        for h in mesh.outgoing(v) {
+            let Some(f) = mesh.face(h) else { continue };
+            let corners = mesh.face_vertices(f).into_iter().filter(|&w| w == v).count();
+            if corners == 1 {
+                least -= largest_angle(mesh, class, h);
+            } else if !faces.contains(&f) {
+                // All corners of such a face have at most π together.
+                faces.push(f);
+                least -= PI;
+            }
+        }
+        if curvature + tolerance < least {
+            return Some(Obstruction { vertices: vec![v], curvature, least });
+        }
+    }
+    None
+}
+
+/// 2π inside, π on the boundary.
+fn full_angle(mesh: &Mesh, v: VertexId) -> f64 {
+    if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI }
 }
 
 /// The smallest violated set among those that a run-away flow suggests: the vertices of least u, for every bound on u.
@@ -43,7 +82,7 @@ pub(super) fn obstruction(
     let (mut curvature, mut least) = (0.0, 0.0);
     for (n, &v) in order[..proper].iter().enumerate() {
         curvature += target[v.index()];
-        least += if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI };
+        least += full_angle(mesh, v);
         for h in mesh.outgoing(v) {
             let Some(f) = mesh.face(h) else { continue };
             let face = &mut taken[f.index()];

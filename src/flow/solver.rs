@@ -1,7 +1,7 @@
 //! A surface, a conformal class and a factorisation that serves many targets.
 
 use super::evaluate::State;
-use super::obstruction::obstruction;
+use super::obstruction::{obstruction, obstruction_at_a_vertex};
 use super::options::{Method, Options};
 use super::report::{Report, StopReason, WORST, timed};
 use super::system::System;
@@ -134,7 +134,17 @@ impl Run<'_> {
         if !state.evaluate(self.mesh, self.class) {
             return Err(Error::Argument { what: "u", value: "start".into(), need: "in the metric's domain" });
         }
+        // A target that a single vertex rules out needs no flow.
+        report.obstruction =
+            obstruction_at_a_vertex(self.mesh, self.class, self.target, self.pinned, report.tolerance);
         let state = match (self.options.method, self.class.space) {
+            _ if report.obstruction.is_some() => {
+                let mut residual = vec![0.0; self.target.len()];
+                report.max_curvature_error = state.residual(self.target, self.pinned, &mut residual);
+                report.residuals.push(report.max_curvature_error);
+                report.stop_reason = StopReason::Infeasible;
+                state
+            }
             (Method::Gradient, _) => self.gradient(state, report)?,
             (Method::Newton, Space::S2) => self.spherical(system, state, report)?,
             (Method::Newton, _) => self.newton(system, state, report)?,
@@ -147,7 +157,8 @@ impl Run<'_> {
             report.stop_reason = StopReason::BrokenTriangles;
         }
         report.worst = self.worst(&state);
-        if !matches!(report.stop_reason, StopReason::Converged | StopReason::BrokenTriangles) {
+        let known = report.obstruction.is_some();
+        if !known && !matches!(report.stop_reason, StopReason::Converged | StopReason::BrokenTriangles) {
             report.obstruction = obstruction(self.mesh, self.class, &state, self.target, self.pinned);
             if report.obstruction.is_some() {
                 report.stop_reason = StopReason::Infeasible;
