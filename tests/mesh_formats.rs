@@ -4,9 +4,11 @@
 mod common;
 
 use common::Random;
+use proptest::prelude::{any, prop, proptest};
 use ricci::Error;
 use ricci::mesh::io::{self, Attributes, Soup};
-use ricci::mesh::shapes;
+use ricci::mesh::repair::{Repair, repair};
+use ricci::mesh::{Mesh, shapes};
 use std::path::Path;
 
 /// A tetrahedron with an isolated vertex, and an attribute of each kind.
@@ -269,4 +271,51 @@ fn obj_and_off_attributes_are_kept() {
     assert_eq!(normals, Some(vec![[0.0, 0.0, 1.0]; 3]));
     assert_eq!(colors.unwrap()[0], [1.0, 0.0, 0.2, 1.0]);
     assert_eq!(uv.unwrap()[0][0], [0.5, 0.25]);
+}
+
+/// Whatever was accepted must hold together: it builds a valid mesh or names its defects, it is repaired or refused, and it
+/// reads back as it was written.
+fn accepted(soup: &Soup) {
+    if let Ok(mesh) = Mesh::from_soup(soup) {
+        mesh.validate().unwrap();
+    }
+    if let Ok(done) = repair(soup, &Repair::default()) {
+        let sound = done.diagnosis.defects.is_empty();
+        assert_eq!(Mesh::from_soup(&done.soup).is_ok(), sound);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.ply");
+    if io::write(&path, soup).is_ok() {
+        let back = io::read(&path).unwrap();
+        assert!(back.positions == soup.positions && back.faces == soup.faces);
+    }
+}
+
+proptest! {
+    #[test]
+    fn damaged_files_are_read_whole_or_refused(
+        which in 0usize..6,
+        damage in prop::collection::vec((0usize..2000, any::<u8>()), 0..6),
+        cut in 0usize..4000,
+    ) {
+        let (a, b, c) = ([0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]);
+        let mut bytes = match which {
+            0 => square_ply("ascii"),
+            1 => square_ply("binary_little_endian"),
+            2 => square_ply("binary_big_endian"),
+            3 => ASCII_STL.as_bytes().to_vec(),
+            4 => binary_stl(b"solid", &[[a, b, c], [c, b, a]], 2),
+            _ => b"STCNOFF\n3 2 0\n0 0 0 0 0 1 255 0 51 0.5 0.25\n1 0 0 0 0 1 0 255 0 1 0\n1 1 0 0 0 1 0 0 255 1 1\n3 0 1 2\n4 0 1 2 0\n".to_vec(),
+        };
+        for (at, byte) in damage {
+            let n = bytes.len();
+            bytes[at % n] = byte;
+        }
+        bytes.truncate(bytes.len().min(cut));
+        for parse in [io::parse_ply, io::parse_stl, io::parse_off, io::parse_obj] {
+            if let Ok(soup) = parse(&bytes, "t") {
+                accepted(&soup);
+            }
+        }
+    }
 }
