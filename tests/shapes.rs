@@ -1,6 +1,7 @@
 //! The generators: topology, geometry and known totals.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
+use ricci::Error;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, Intrinsic};
@@ -43,8 +44,8 @@ fn every_shape_has_its_topology_and_faces_outwards() {
     assert_eq!(topology(&shapes::torus(2.0, 0.5, 7, 5).unwrap()), (1, 0));
     assert!(volume(&shapes::torus(2.0, 0.5, 40, 20).unwrap()) > 9.0);
     assert_eq!(topology(&shapes::annulus(1.0, 2.0, 4, 9).unwrap()), (0, 2));
-    for genus in 1..=4 {
-        for n in [2, 3, 5] {
+    for genus in 1..=6 {
+        for n in [1, 2, 5] {
             let soup = shapes::genus(genus, n).unwrap();
             assert_eq!(topology(&soup), (genus, 0), "genus {genus}, n {n}");
             assert!(volume(&soup) > 0.0);
@@ -83,7 +84,7 @@ fn vertices_lie_on_their_surface() {
     let torus = shapes::torus(2.0, 0.7, 30, 20).unwrap();
     assert!(worst(&torus, &|x, y, z| (x.hypot(y) - 2.0).hypot(z) - 0.7) < 1e-15);
     // Handles: z² (1/p + Σ 1/p_k) = 0.7, multiplied by all p: a smooth function that is zero there.
-    for (genus, n) in [(1usize, 3), (2, 5), (4, 3)] {
+    for (genus, n) in [(1usize, 3), (2, 5), (2, 16), (4, 3)] {
         let centre = |k: usize| 1.35 * (2.0 * k as f64 + 1.0 - genus as f64);
         let implicit = |x: f64, y: f64, z: f64| {
             let square = |k: usize| (x - centre(k)).powi(2) + y * y;
@@ -173,8 +174,8 @@ fn level_zero_of_bolza_is_a_complex_of_two_vertices() {
 
 #[test]
 fn bolza_has_the_systole_of_the_regular_octagon() {
-    // The shortest closed geodesics of the Bolza surface have length 2 arcosh(1 + √2). The sides of the octagon are such;
-    // no closed path that bounds nothing is shorter.
+    // The shortest closed geodesics of the Bolza surface have length 2 arcosh(1 + √2). The sides of the
+    // octagon are such; no closed path that bounds nothing is shorter.
     let systole = 2.0 * (1.0 + 2f64.sqrt()).acosh();
     let (mesh, lengths) = shapes::bolza(0).unwrap().build().unwrap();
     let loops: Vec<_> = mesh.edges().filter(|&e| mesh.ends(e)[0] == mesh.ends(e)[1]).collect();
@@ -187,6 +188,71 @@ fn bolza_has_the_systole_of_the_regular_octagon() {
         let length = |path: &Vec<HalfedgeId>| path.iter().map(|h| lengths[h.edge()]).sum::<f64>();
         assert!(generators.iter().all(|path| length(path) >= systole - 1e-12), "level {level}");
     }
+}
+
+type Complex = [f64; 2];
+
+fn times([a, b]: Complex, [c, d]: Complex) -> Complex {
+    [a * c - b * d, a * d + b * c]
+}
+
+/// The product of two isometries `z ↦ (p z + q)/(q̄ z + p̄)` of the Poincaré disk, each as (p, q).
+fn compose([p, q]: [Complex; 2], [r, s]: [Complex; 2]) -> [Complex; 2] {
+    let add = |a: Complex, b: Complex| [a[0] + b[0], a[1] + b[1]];
+    let conj = |a: Complex| [a[0], -a[1]];
+    [add(times(p, r), times(q, conj(s))), add(times(p, s), times(q, conj(r)))]
+}
+
+#[test]
+fn side_pairings_of_the_octagon_generate_a_surface_group_with_the_bolza_systole() {
+    // The inradius from the mesh, by Pythagoras in the right triangle centre, corner, middle of a side.
+    let (mesh, lengths) = shapes::bolza(0).unwrap().build().unwrap();
+    let is_side = |e| mesh.ends(e)[0] == mesh.ends(e)[1];
+    let side = mesh.edges().find(|&e| is_side(e)).map(|e| lengths[e]).unwrap();
+    let spoke = mesh.edges().find(|&e| !is_side(e)).map(|e| lengths[e]).unwrap();
+    let inradius = (spoke.cosh() / (0.5 * side).cosh()).acosh();
+    // Pairing k moves a side to the opposite one along the diameter in direction kπ/4; k + 4: its inverse.
+    let pairing = |k: usize| {
+        let (sin, cos) = (PI * (k % 8) as f64 / 4.0).sin_cos();
+        [[inradius.cosh(), 0.0], [cos * inradius.sinh(), sin * inradius.sinh()]]
+    };
+    // Once around the corner: its eight angles close up to 2π exactly if this word is the identity, ±1.
+    let around = [5, 2, 7, 4, 1, 6, 3].iter().fold(pairing(0), |word, &k| compose(word, pairing(k)));
+    assert!((around[0][0].abs() - 1.0).abs() < 1e-11 && around[0][1].abs() < 1e-11, "{around:?}");
+    assert!(around[1][0].hypot(around[1][1]) < 1e-11, "{around:?}");
+    // A free homotopy class has the length 2 arcosh |Re p|: the least of all words of up to four pairings.
+    let mut words: Vec<[Complex; 2]> = (0..8).map(pairing).collect();
+    let mut shortest = f64::INFINITY;
+    for _ in 0..4 {
+        let traces = words.iter().map(|w| w[0][0].abs());
+        // Words that reduce to the identity have |Re p| = 1; no other element of the group is close to it.
+        shortest = traces.filter(|&p| p > 1.0 + 1e-9).map(|p| 2.0 * p.acosh()).fold(shortest, f64::min);
+        words = words.iter().flat_map(|&w| (0..8).map(move |k| compose(w, pairing(k)))).collect();
+    }
+    assert!((shortest - 2.0 * (1.0 + 2f64.sqrt()).acosh()).abs() < 1e-12, "{shortest}");
+}
+
+#[test]
+fn subdivision_refuses_lengths_without_triangles() {
+    let with = |geometry, lengths: [f64; 3]| {
+        let lengths = lengths.to_vec();
+        Intrinsic { lengths, geometry, ..shapes::two_triangle_sphere() }.subdivide()
+    };
+    for bad in [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e-160, 1e160] {
+        let error = with(Space::E2, [1.0, bad, 1.0]).unwrap_err();
+        assert!(matches!(error, Error::EdgeLength { edge: 1, .. }), "{bad}: {error}");
+    }
+    let excess = |surface: ricci::Result<Intrinsic>| match surface {
+        Err(Error::TriangleInequality { face: 0, excess }) => excess,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(excess(with(Space::E2, [4.0, 1.0, 1.0])), 0.5);
+    assert_eq!(excess(with(Space::H2, [1.0, 1.0, 2.0])), 0.0);
+    assert!((excess(with(Space::S2, [2.5; 3])) - (7.5 - 2.0 * PI)).abs() < 1e-15);
+    assert!(matches!(with(Space::H2, [701.0; 3]), Err(Error::Argument { .. })));
+    // At the limit midlines are still right: an ideal triangle's feet are 2 asinh(1/2) apart.
+    let far = with(Space::H2, [700.0; 3]).unwrap();
+    assert!(far.lengths[6..].iter().all(|l| (l - 2.0 * 0.5f64.asinh()).abs() < 1e-9), "{:?}", far.lengths);
 }
 
 #[test]
@@ -232,4 +298,34 @@ fn impossible_shapes_are_refused() {
     assert!(shapes::flat_torus([0.0, -1.0], 1, 1).is_err());
     assert!(shapes::flat_torus([1e20, 1.0], 1, 1).is_err());
     assert!(shapes::flat_torus([0.0, 1e-200], 1, 1).is_err());
+    assert!(shapes::flat_torus([-1.0, 1e-13], 1, 1).is_err());
+    for huge in [[1.7e308, 1.7e308], [0.0, 1e308], [f64::INFINITY, 1.0], [0.0, f64::NAN]] {
+        assert!(shapes::flat_torus(huge, 1, 1).is_err());
+    }
+    assert!(shapes::flat_torus([0.5, 1.0], 0, 1).is_err());
+    assert!(shapes::flat_torus([0.5, 1.0], usize::MAX, usize::MAX).is_err());
+    // Sizes whose squares or quotients leave the doubles, or that differ by rounding alone.
+    assert!(shapes::annulus(1e-300, 1e300, 3, 9).is_err());
+    assert!(shapes::annulus(1e-320, 1.0, 3, 9).is_err());
+    assert!(shapes::annulus(1e-149, 1e149, 3, 9).is_err());
+    assert!(shapes::annulus(1.0, f64::INFINITY, 3, 9).is_err());
+    assert!(shapes::annulus(2.0, 1.0, 3, 9).is_err());
+    assert!(shapes::annulus(1.0, 2.0, 0, 9).is_err());
+    assert!(shapes::torus(1.2e308, 1.0e308, 5, 5).is_err());
+    assert!(shapes::torus(1.0, 1e-300, 5, 5).is_err());
+    assert!(shapes::torus(1.0, 1.0 - 1e-15, 6, 6).is_err());
+    assert!(shapes::ellipsoid([1.0, 1e-20, 1.0], 3).is_err());
+    assert!(shapes::ellipsoid([f64::NAN, 1.0, 1.0], 3).is_err());
+    // What is barely allowed is a surface.
+    for soup in [
+        shapes::torus(1.0, 1.0 - 2e-12, 6, 6),
+        shapes::torus(1.0, 2e-12, 6, 6),
+        shapes::ellipsoid([1.0, 2e-12, 1.0], 3),
+        shapes::annulus(1e-149, 1e149, 30, 9),
+        shapes::annulus(1.0, 1.0 + 4e-12, 3, 9),
+    ] {
+        let soup = soup.unwrap();
+        assert!(soup.positions.iter().flatten().all(|x| x.is_finite()));
+        assert_eq!(Mesh::from_soup(&soup).err(), None);
+    }
 }

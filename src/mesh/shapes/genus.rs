@@ -1,11 +1,11 @@
 //! Closed surfaces of any genus: a smooth plate with g holes in a row.
 //!
 //! ```text
-//!      ____________________        The plate lies between its rim and its holes. Half-way between them runs the
-//!     /  ____   |    ____  \       medial graph: a loop around each hole; neighbours share a bridge. Rim and
-//!    |  /    \  |   /    \  |      holes each have a ring of quads reaching from the graph on the upper sheet
-//!    |  \____/  |   \____/  |      around the tube to the graph on the lower one: 2n layers. Vertices are
-//!     \_________|__________/       regular but for the two ends of each bridge, above and below.
+//!      ____________________     The plate lies between its rim and its holes. Half-way between them runs
+//!     /  ____   |    ____  \    the medial graph: a loop around each hole; neighbours share a bridge.
+//!    |  /    \  |   /    \  |   Rim and holes each have a ring of quads reaching from the graph on the upper
+//!    |  \____/  |   \____/  |   sheet around the tube to the graph on the lower one: 2n layers. Vertices are
+//!     \_________|__________/    regular but for the two ends of each bridge, above and below.
 //! ```
 
 use super::check_count;
@@ -24,13 +24,14 @@ const RIM: f64 = HOLE + 2.0 * TUBE;
 const HALF_STEP: f64 = HOLE + TUBE;
 /// Temperature of the smooth union of the rim's disks: larger fills the waists between the holes.
 const BLEND: f64 = 2.0;
-/// Disks more than this many steps from the nearest one change the rim by less than rounding: their weight is at
-/// most `exp(−((2·REACH + 1)² − 1) HALF_STEP² / BLEND)` ≈ 1e−19 of the nearest one's.
+/// Disks more than this many steps from the nearest one change the rim by less than rounding: their weight is
+/// at most `exp(−((2·REACH + 1)² − 1) HALF_STEP² / BLEND)` ≈ 1e−19 of the nearest one's.
 const REACH: usize = 3;
 
 type Point2 = [f64; 2];
 
-/// A smooth closed surface of genus `genus` ≥ 1: handles in a row along the x axis. (Genus 0: [`super::icosphere`].)
+/// A smooth closed surface of genus `genus` ≥ 1: handles in a row along the x axis. (Genus 0:
+/// [`super::icosphere`].)
 ///
 /// With the holes' centres `c_k = (1.35 (2k + 1 − g), 0)`, the surface is `z² = f(x, y)` where
 ///
@@ -40,13 +41,15 @@ type Point2 = [f64; 2];
 ///     p = (1.7² + 2 log Σ_k exp(−|x − c_k|²/2)) / 3.4          about the distance from the rim
 /// ```
 ///
-/// The rim is a smooth union of disks of radius 1.7, and `f` the harmonic mean that makes a tube of radius about
-/// 0.35 between two parallel walls. Every vertex lies on the surface to rounding.
+/// The rim is a smooth union of disks of radius 1.7, and `f` the harmonic mean that makes a tube of radius
+/// about 0.35 between two parallel walls. Every vertex lies on the surface to rounding.
 ///
-/// `n` ≥ 1 is the number of layers over a quarter of the tube: `8(5g + 1)n² + 2 − 2g` vertices, no angle below 27°. Vertex
-/// order: the medial graph above, the same below, then ring by ring (hole 0, …, hole g − 1, rim), layer by layer
-/// downwards. For g ≥ 2 vertex 0 is the lower end of the first bridge between two holes, where ten triangles meet: room
-/// for a cone of negative curvature.
+/// `n` ≥ 1 is the number of layers over a quarter of the tube: `8(5g + 1)n² + 2 − 2g` vertices, no angle
+/// below 27°. Vertex order: the medial graph above, the same below, then ring by ring (hole 0, …, hole g − 1,
+/// rim), layer by layer downwards. For g ≥ 2 vertex 0 is the lower end of the first bridge between two holes,
+/// where ten triangles meet: room for a cone of negative curvature.
+///
+/// Every height sums over all holes: the time grows with n² g².
 ///
 /// Errors: [`crate::Error::Argument`] for a count that is too small, or too large to number the vertices.
 pub fn genus(genus: usize, n: usize) -> Result<Soup> {
@@ -134,8 +137,8 @@ impl Plate {
         along(root(HOLE, 2.0 * RIM, |t| self.rim_distance(along(t)) - self.hole_distance(k, along(t))))
     }
 
-    /// The medial graph: 2n steps on a bridge, 4n between the bridges of a hole, 10n around an end, 12n in all
-    /// around a single hole.
+    /// The medial graph: 2n steps on a bridge, 4n between the bridges of a hole, 10n around an end, 12n in
+    /// all around a single hole.
     fn skeleton(self, n: usize) -> Skeleton {
         let mut points = Vec::new();
         let last = self.genus - 1;
@@ -231,8 +234,8 @@ impl Sheets {
         }
     }
 
-    /// Split a quad (counter-clockwise from outside around a hole, clockwise around the rim) along its shorter diagonal; those
-    /// between vertex 0 and a hole along the diagonal through it.
+    /// Split a quad (counter-clockwise from outside around a hole, clockwise around the rim) along its
+    /// shorter diagonal; those between vertex 0 and a hole along the diagonal through it.
     fn split(&mut self, mut quad: [usize; 4], side: Side) {
         if side == Side::Rim {
             quad.reverse();

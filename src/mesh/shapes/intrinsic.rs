@@ -1,6 +1,6 @@
 //! Surfaces given by glued triangles and edge lengths alone.
 
-use super::check_count;
+use super::{SIZES, THIN, check_count};
 use crate::error::{Error, Result};
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Mesh, PerEdge};
@@ -31,11 +31,15 @@ impl Intrinsic {
 
     /// Each triangle cut into four at the midpoints of its sides, in its own geometry.
     ///
-    /// Edge e becomes 2e − 1 and 2e, in its direction; vertex V + e − 1 is its midpoint; then come three edges per face.
+    /// Edge e becomes 2e − 1 and 2e, in its direction; vertex V + e − 1 is its midpoint; then come three
+    /// edges per face.
     ///
-    /// Errors: a gluing that is no surface (see [`Mesh::from_gluing`]), more edges than i32 can number.
+    /// Errors: a gluing that is no surface (see [`Mesh::from_gluing`]); [`Error::EdgeLength`] and
+    /// [`Error::TriangleInequality`] for lengths without such triangles; [`Error::Argument`] for sides in H²
+    /// beyond 700; more edges than i32 can number.
     pub fn subdivide(&self) -> Result<Intrinsic> {
         self.build()?;
+        self.check_triangles()?;
         let after = 2 * self.lengths.len() + 3 * self.faces.len();
         if i32::try_from(after).is_err() {
             return Err(Error::TooLarge { what: "edges", count: after });
@@ -72,10 +76,34 @@ impl Intrinsic {
         }
         Ok(fine)
     }
+
+    /// Every length usable, every face a triangle of the geometry.
+    fn check_triangles(&self) -> Result<()> {
+        if let Some((edge, &length)) = self.lengths.iter().enumerate().find(|(_, l)| !SIZES.contains(*l)) {
+            return Err(Error::EdgeLength { edge, length });
+        }
+        if let Some(l) = self.lengths.iter().find(|&&l| self.geometry == Space::H2 && l > FAR) {
+            let need = "at most 700: its triangles' midlines are beyond doubles";
+            return Err(Error::Argument { what: "length in H²", value: l.to_string(), need });
+        }
+        for (face, edge) in self.face_edges.iter().enumerate() {
+            let l = edge.map(|e| self.lengths[e.unsigned_abs() as usize - 1]);
+            if triangle::angles(self.geometry, l).broken() {
+                let [longest, perimeter] = [l.into_iter().fold(0.0, f64::max), l.iter().sum()];
+                let over = (2.0 * longest - perimeter) / longest;
+                let excess = if over >= 0.0 { over } else { perimeter - 2.0 * PI };
+                return Err(Error::TriangleInequality { face, excess });
+            }
+        }
+        Ok(())
+    }
 }
 
-/// Distance of the midpoints of two sides b, c that meet at `angle` (a: the third side): the cosine law for half the
-/// sides, in half-chord form.
+/// Longest side in H² whose midlines are found: the square of their half chord grows like e^l, up to e^709.
+const FAR: f64 = 700.0;
+
+/// Distance of the midpoints of two sides b, c that meet at `angle` (a: the third side): the cosine law for
+/// half the sides, in half-chord form.
 fn midline(geometry: Space, b: f64, c: f64, a: f64, angle: f64) -> f64 {
     let (b, c) = (0.5 * b, 0.5 * c);
     let sine = (0.5 * angle).sin();
@@ -92,11 +120,11 @@ fn midline(geometry: Space, b: f64, c: f64, a: f64, angle: f64) -> f64 {
     }
 }
 
-/// Least area of a triangle over its longest side squared: what is left of it after rounding has a few digits.
-const FLAT: f64 = 1e-12;
-
-/// The flat torus ℂ/(ℤ + τℤ), Im τ > 0, as an n × m grid of parallelograms, each halved by its diagonal from z to
-/// z + 1/n + τ/m; legal down to 1 × 1 (one vertex). Vertex (i, j) is i + n j.
+/// The flat torus ℂ/(ℤ + τℤ), Im τ > 0, as an n × m grid of parallelograms, each halved by its diagonal from
+/// z to z + 1/n + τ/m; legal down to 1 × 1 (one vertex). Vertex (i, j) is i + n j.
+///
+/// Errors: [`Error::Argument`] for τ outside the upper half plane or not finite, triangles flatter than 1e-12
+/// (twice the area over the longest side squared), or counts out of range.
 pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
     if !(tau[0].is_finite() && tau[1].is_finite() && tau[1] > 0.0) {
         let value = format!("{} + {} i", tau[0], tau[1]);
@@ -109,7 +137,9 @@ pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
     let edge = |kind: usize, i: usize, j: usize| (3 * vertex(i, j) + kind + 1) as i32;
     let (x, y) = ([1.0 / n as f64, 0.0], [tau[0] / m as f64, tau[1] / m as f64]);
     let sides = [x[0], y[0].hypot(y[1]), (x[0] + y[0]).hypot(y[1])];
-    if triangle::area(Space::E2, sides) <= FLAT * sides[2] * sides[2] {
+    // Twice a triangle's area over its longest side squared; 0 if that side is infinite.
+    let longest = sides.into_iter().fold(0.0, f64::max);
+    if (x[0] / longest) * (y[1] / longest) <= THIN {
         let value = format!("{} + {} i", tau[0], tau[1]);
         return Err(Error::Argument {
             what: "τ",
@@ -131,8 +161,8 @@ pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
     Ok(Intrinsic { n_vertices: n * m, faces, face_edges, lengths, geometry: Space::E2 })
 }
 
-/// The Bolza surface: the regular hyperbolic octagon with angles π/4, opposite sides identified, as eight triangles
-/// around its centre, subdivided `level` times. Every vertex has curvature 0; the area is 4π.
+/// The Bolza surface: the regular hyperbolic octagon with angles π/4, opposite sides identified, as eight
+/// triangles around its centre, subdivided `level` times. Every vertex has curvature 0; the area is 4π.
 pub fn bolza(level: usize) -> Result<Intrinsic> {
     check_count("level", level, 0, 8.0 * 4f64.powi(level.min(60) as i32))?;
     // Side i and side i + 4 are the same edge, run through in opposite directions.
@@ -144,14 +174,16 @@ pub fn bolza(level: usize) -> Result<Intrinsic> {
     Ok(surface)
 }
 
-/// The regular 4g-gon with sides `a1 b1 a1⁻¹ b1⁻¹ …` glued (all corners are one vertex of curvature 0), as a fan around
-/// its centre: two vertices, 6g edges. Hyperbolic with angles 2π/4g for g ≥ 2, the unit square for g = 1.
+/// The regular 4g-gon with sides `a1 b1 a1⁻¹ b1⁻¹ …` glued (all corners are one vertex of curvature 0), as a
+/// fan around its centre: two vertices, 6g edges. Hyperbolic with angles 2π/4g for g ≥ 2, the unit square for
+/// g = 1.
 pub fn two_vertex(genus: usize) -> Result<Intrinsic> {
     check_count("genus", genus, 1, 8.0 * genus as f64)?;
     Ok(centre_fan(&commutators(genus), genus))
 }
 
-/// The polygon of [`two_vertex`] as a fan of diagonals from one corner: one vertex, 6g − 3 edges, every edge a loop.
+/// The polygon of [`two_vertex`] as a fan of diagonals from one corner: one vertex, 6g − 3 edges, every edge
+/// a loop.
 pub fn one_vertex(genus: usize) -> Result<Intrinsic> {
     check_count("genus", genus, 1, 8.0 * genus as f64)?;
     let sides = commutators(genus);

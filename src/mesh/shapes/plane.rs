@@ -1,12 +1,12 @@
 //! Pieces of the plane z = 0.
 
-use super::{check_count, check_size};
+use super::{THIN, check_count, check_size};
 use crate::error::{Error, Result};
 use crate::mesh::io::Soup;
 use std::f64::consts::TAU;
 
-/// The unit disk: a centre and n rings, 6k vertices on ring k at radius k/n, joined by nearly equilateral triangles.
-/// 3n(n + 1) + 1 vertices, 6n² faces. n ≥ 1.
+/// The unit disk: a centre and n rings, 6k vertices on ring k at radius k/n, joined by nearly equilateral
+/// triangles. 3n(n + 1) + 1 vertices, 6n² faces. n ≥ 1.
 pub fn disk(n: usize) -> Result<Soup> {
     check_count("rings", n, 1, 3.0 * (n as f64).powi(2))?;
     let mut soup = Soup::new(vec![[0.0; 3]], Vec::new());
@@ -33,11 +33,12 @@ pub fn disk(n: usize) -> Result<Soup> {
     Ok(soup)
 }
 
-/// Least relative distance of two rings: far above the rounding of a point on them.
-const RING: f64 = 1e-12;
-
-/// The annulus between the radii `inner` < `outer`: `n_radial` ≥ 1 steps in geometric progression, `n_around` ≥ 3
-/// steps, alternate rings turned by half a step. (n_radial + 1)·n_around vertices, ring by ring from inside.
+/// The annulus between the radii `inner` < `outer`: `n_radial` ≥ 1 steps in geometric progression, `n_around`
+/// ≥ 3 steps, alternate rings turned by half a step. (n_radial + 1)·n_around vertices, ring by ring from
+/// inside.
+///
+/// Errors: [`Error::Argument`] for radii outside 1e-150 … 1e150 or not increasing, counts out of range, and
+/// rings so close or so far apart that no triangle between them has an area in doubles.
 pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Result<Soup> {
     check_size("inner radius", inner)?;
     check_size("outer radius", outer)?;
@@ -48,9 +49,15 @@ pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Resu
     let vertices = n_radial as f64 * n_around as f64;
     check_count("radial steps", n_radial, 1, vertices)?;
     check_count("steps around", n_around, 3, vertices)?;
-    if (outer / inner).ln() <= RING * n_radial as f64 {
-        let value = n_radial.to_string();
-        return Err(Error::Argument { what: "radial steps", value, need: "fewer: the rings would coincide" });
+    // Logarithm of the ratio of neighbouring rings.
+    let step = (outer / inner).ln() / n_radial as f64;
+    if !(THIN..=-THIN.ln()).contains(&step) {
+        let need = if step < THIN {
+            "fewer: the rings would coincide"
+        } else {
+            "more: a step has no area in doubles"
+        };
+        return Err(Error::Argument { what: "radial steps", value: n_radial.to_string(), need });
     }
     let mut soup = Soup::default();
     for k in 0..=n_radial {

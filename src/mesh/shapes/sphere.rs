@@ -1,13 +1,13 @@
 //! Spheres and ellipsoids from the subdivided icosahedron.
 
-use super::{check_count, check_size};
-use crate::error::Result;
+use super::{THIN, check_count, check_size};
+use crate::error::{Error, Result};
 use crate::mesh::Point;
 use crate::mesh::io::Soup;
 use std::collections::HashMap;
 
-/// The unit sphere: each face of the icosahedron cut into n² triangles, radially projected. 10n² + 2 vertices, 20n²
-/// faces; the icosahedron's twelve corners come first. n ≥ 1.
+/// The unit sphere: each face of the icosahedron cut into n² triangles, radially projected. 10n² + 2
+/// vertices, 20n² faces; the icosahedron's twelve corners come first. n ≥ 1.
 pub fn icosphere(n: usize) -> Result<Soup> {
     check_count("frequency", n, 1, 10.0 * (n as f64).powi(2))?;
     let golden = 0.5 * (1.0 + 5.0f64.sqrt());
@@ -16,7 +16,8 @@ pub fn icosphere(n: usize) -> Result<Soup> {
         positions.extend([[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
     }
     let corners = icosahedron_faces(&positions);
-    // A point of an edge or face by its weights at the corners, smallest corner first: shared by all its faces.
+    // A point of an edge or face by its weights at the corners, smallest corner first: shared by all its
+    // faces.
     let mut known: HashMap<[(u32, u32); 3], u32> = HashMap::new();
     let base = positions.clone();
     let mut vertex = |face: [u32; 3], weights: [u32; 3]| {
@@ -56,9 +57,16 @@ pub fn icosphere(n: usize) -> Result<Soup> {
 }
 
 /// The ellipsoid with half axes a, b, c along x, y, z: the icosphere, scaled.
+///
+/// Errors: [`Error::Argument`] for an axis outside 1e-150 … 1e150 or below 1e-12 of the longest, or n out of
+/// range.
 pub fn ellipsoid(axes: [f64; 3], n: usize) -> Result<Soup> {
     for (what, axis) in ["first half axis", "second half axis", "third half axis"].into_iter().zip(axes) {
         check_size(what, axis)?;
+        if axes.iter().any(|&other| axis < THIN * other) {
+            let value = format!("{axis:e}");
+            return Err(Error::Argument { what, value, need: "at least 1e-12 of the longest" });
+        }
     }
     let mut soup = icosphere(n)?;
     for p in &mut soup.positions {

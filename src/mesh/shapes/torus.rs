@@ -1,24 +1,26 @@
 //! The torus of revolution.
 
-use super::{check_count, check_size};
+use super::{THIN, check_count, check_size};
 use crate::error::{Error, Result};
 use crate::mesh::io::Soup;
 use std::f64::consts::TAU;
 
-/// The torus of revolution about z with centre circle of radius `big` and tube radius `small` < `big`:
-/// `((R + r cos v) cos u, (R + r cos v) sin u, r sin v)` on a regular grid of `n_u` × `n_v` angles, each cell halved
+/// The torus of revolution about z with centre circle of radius `big` and tube radius `small` < `big`: `((R +
+/// r cos v) cos u, (R + r cos v) sin u, r sin v)` on a regular grid of `n_u` × `n_v` angles, each cell halved
 /// by its diagonal from (u, v) to the next (u, v). Vertex (i, j) is `i + n_u j`. Both counts ≥ 3.
 ///
 /// Its flat metric has the modulus `i r/√(R² − r²)` up to SL(2, ℤ).
+///
+/// Errors: [`Error::Argument`] for radii outside 1e-150 … 1e150, r/R within 1e-12 of 0 or of 1 or beyond, or
+/// counts out of range.
 pub fn torus(big: f64, small: f64, n_u: usize, n_v: usize) -> Result<Soup> {
     check_size("radius of the centre circle", big)?;
     check_size("radius of the tube", small)?;
-    if small >= big {
-        let value = small.to_string();
+    if !(THIN * big..=(1.0 - THIN) * big).contains(&small) {
         return Err(Error::Argument {
             what: "radius of the tube",
-            value,
-            need: "below that of the centre circle",
+            value: format!("{small:e}"),
+            need: "below that of the centre circle, and neither the tube nor its hole lost in rounding",
         });
     }
     let vertices = n_u as f64 * n_v as f64;
