@@ -5,7 +5,7 @@ mod surfaces;
 
 use ricci::embed::quality::DILATATION_CAP;
 use ricci::embed::{Layout, layout, quality};
-use ricci::geometry::PlaneIsometry;
+use ricci::geometry::{PlaneIsometry, Space};
 use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, VertexId};
 use ricci::topology::cut_graph;
 use ricci::{Control, Error};
@@ -13,6 +13,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use surfaces::*;
 
 fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Layout {
+    gauss_bonnet(mesh, Space::E2, lengths);
     let cut = cut_graph(mesh, lengths, cones).unwrap();
     layout(mesh, lengths, &cut, &Control::new()).unwrap()
 }

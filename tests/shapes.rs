@@ -121,7 +121,9 @@ fn area_of_a_surface_with_handles_converges_quadratically() {
 fn area(soup: &Soup) -> f64 {
     let mesh = Mesh::from_soup(soup).unwrap();
     let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-    curvature(&mesh, Space::E2, &lengths).unwrap().area
+    let k = curvature(&mesh, Space::E2, &lengths).unwrap();
+    assert!(k.gauss_bonnet <= 1e-10);
+    k.area
 }
 
 #[test]
@@ -137,6 +139,7 @@ fn check_flat(surface: &Intrinsic, genus: usize, area: f64) {
     assert!(mesh.is_closed());
     assert_eq!(mesh.genus(), genus);
     let k = curvature(&mesh, surface.geometry, &lengths).unwrap();
+    assert!(k.gauss_bonnet <= 1e-10);
     assert!(k.broken.is_empty());
     assert!(k.at.iter().all(|k| k.abs() < 1e-12), "{:?}", k.at.iter().map(|k| k.abs()).fold(0.0, f64::max));
     assert!((k.area - area).abs() < 1e-11 * area.max(1.0), "area {}", k.area);
@@ -260,6 +263,7 @@ fn doubled_triangle_is_a_sphere_with_three_cones() {
     let (mesh, lengths) = shapes::two_triangle_sphere().build().unwrap();
     assert_eq!(mesh.euler(), 2);
     let k = curvature(&mesh, Space::E2, &lengths).unwrap();
+    assert!(k.gauss_bonnet <= 1e-10);
     assert!(k.at.iter().all(|k| (k - 4.0 * PI / 3.0).abs() < 1e-14));
 }
 

@@ -1,7 +1,9 @@
 //! Surfaces that the topology and layout tests share.
 #![allow(dead_code)]
 
+use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, VertexId, io, shapes};
+use ricci::metric::curvature as curvature_of;
 use std::path::{Path, PathBuf};
 
 #[path = "../common/mod.rs"]
@@ -17,6 +19,12 @@ pub fn corpus() -> Vec<PathBuf> {
     rows.unwrap_or_default()
 }
 
+/// Gauss–Bonnet holds, as it must for every metric.
+pub fn gauss_bonnet(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) {
+    let residual = curvature_of(mesh, space, lengths).unwrap().gauss_bonnet;
+    assert!(residual <= 1e-10, "Gauss–Bonnet residual {residual}");
+}
+
 /// A mesh file with its Euclidean edge lengths.
 pub fn load(path: &Path) -> (Mesh, PerEdge<f64>) {
     let soup = io::read(path).unwrap();
@@ -25,6 +33,7 @@ pub fn load(path: &Path) -> (Mesh, PerEdge<f64>) {
         let [p, q] = mesh.ends(e).map(|v| soup.positions[v.index()]);
         (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt()
     });
+    gauss_bonnet(&mesh, Space::E2, &lengths);
     (mesh, lengths)
 }
 
