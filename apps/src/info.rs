@@ -34,6 +34,12 @@ pub struct DefectCount {
     pub count: usize,
 }
 
+impl DefectCount {
+    pub fn of(diagnosis: &Diagnosis) -> Vec<DefectCount> {
+        diagnosis.counts().into_iter().map(|(code, count)| DefectCount { code, count }).collect()
+    }
+}
+
 /// One defect; vertices and faces as the file numbers them, from 0.
 #[derive(Serialize)]
 pub struct DefectFigures {
@@ -146,11 +152,10 @@ impl Info {
     }
 
     fn new(diagnosis: &Diagnosis, quality: ShapeQuality) -> Self {
-        let counts = diagnosis.counts().into_iter();
         Info {
             admissible: diagnosis.defects.is_empty(),
             quality,
-            defect_counts: counts.map(|(code, count)| DefectCount { code, count }).collect(),
+            defect_counts: DefectCount::of(diagnosis),
             defects: diagnosis.defects.iter().map(DefectFigures::from).collect(),
         }
     }

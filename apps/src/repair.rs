@@ -122,7 +122,6 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
 impl RepairResult {
     fn new(done: &Repaired) -> Self {
         let (diagnosis, steps) = (&done.diagnosis, &done.steps);
-        let counts = diagnosis.counts().into_iter();
         RepairResult {
             admissible: diagnosis.defects.is_empty(),
             vertices: diagnosis.vertices,
@@ -140,7 +139,7 @@ impl RepairResult {
             turned_faces: steps.turned_faces,
             faces_of_other_components: steps.faces_of_other_components,
             isolated_vertices: steps.isolated_vertices,
-            defect_counts: counts.map(|(code, count)| DefectCount { code, count }).collect(),
+            defect_counts: DefectCount::of(diagnosis),
             defects: diagnosis.defects.iter().map(DefectFigures::from).collect(),
         }
     }

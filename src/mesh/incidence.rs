@@ -48,21 +48,27 @@ impl Incidence {
         self.group.windows(2).map(|w| &self.sides[w[0] as usize..w[1] as usize])
     }
 
-    /// Per vertex: how many fans of edge-connected faces touch it.
-    pub fn sheets(&self, faces: &[[u32; 3]]) -> Vec<u32> {
+    /// The corners in sets: those of one fan of faces around a vertex, connected through edges of at most `most` faces.
+    pub fn fans(&self, faces: &[[u32; 3]], most: usize) -> UnionFind {
         // Corner 3f + k is where side 3f + k starts; the next corner is where it ends.
         let corners_of = |s: u32| {
             let (start, end) = (s, 3 * (s / 3) + (s % 3 + 1) % 3);
             if is_forward(faces, s) { (start, end) } else { (end, start) }
         };
         let mut corners = UnionFind::new(3 * faces.len());
-        for sides in self.edges() {
+        for sides in self.edges().filter(|sides| sides.len() <= most) {
             for pair in sides.windows(2) {
                 let ((a, b), (c, d)) = (corners_of(pair[0]), corners_of(pair[1]));
                 corners.join(a, c);
                 corners.join(b, d);
             }
         }
+        corners
+    }
+
+    /// Per vertex: how many fans of edge-connected faces touch it.
+    pub fn sheets(&self, faces: &[[u32; 3]]) -> Vec<u32> {
+        let mut corners = self.fans(faces, usize::MAX);
         let mut sheets = vec![0; self.n_vertices];
         for (f, face) in self.triangles(faces) {
             for (corner, &v) in (3 * f..).zip(face) {

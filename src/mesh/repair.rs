@@ -180,23 +180,10 @@ impl Work {
     /// A vertex of its own for every fan of faces. With `cut`, edges with more than two faces hold no fan together.
     fn separate(&mut self, cut: bool) {
         let incidence = self.incidence();
-        let mut corners = UnionFind::new(3 * self.faces.len());
-        for sides in incidence.edges() {
-            if cut && sides.len() > 2 {
-                self.steps.cut_edges += 1;
-                continue;
-            }
-            // Corner 3f + k is where side 3f + k starts, the next one where it ends.
-            let ends = |s: u32| {
-                let (start, end) = (s, 3 * (s / 3) + (s % 3 + 1) % 3);
-                if is_forward(&self.faces, s) { (start, end) } else { (end, start) }
-            };
-            for pair in sides.windows(2) {
-                let ((a, b), (c, d)) = (ends(pair[0]), ends(pair[1]));
-                corners.join(a, c);
-                corners.join(b, d);
-            }
+        if cut {
+            self.steps.cut_edges = incidence.edges().filter(|sides| sides.len() > 2).count();
         }
+        let mut corners = incidence.fans(&self.faces, if cut { 2 } else { usize::MAX });
         // The fan of the lowest corner keeps the vertex.
         let mut taken = vec![false; self.vertex_origin.len()];
         let mut vertex_of_fan = vec![NONE; 3 * self.faces.len()];
