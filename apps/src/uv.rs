@@ -28,12 +28,12 @@ pub fn write(
         return outputs.add(path, |out| out.write_all(&bytes));
     }
     let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
-    let data = io::ObjData {
+    let data = io::Textured {
         positions,
         texcoords: &layout.coordinates,
         faces: &faces,
         face_texcoords: &corners,
-        ..io::ObjData::default()
+        ..io::Textured::default()
     };
     outputs.add_named(path, |path| io::write_obj(path, &data))
 }

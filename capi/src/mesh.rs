@@ -228,7 +228,7 @@ pub unsafe extern "C" fn ricci_mesh_write_obj(mesh: *const ricci_mesh, path: *co
     guard::call(|door| {
         let mesh = door.shared(mesh)?;
         let faces = face_vertices(&mesh.connectivity);
-        let data = io::ObjData { positions: mesh.positions()?, faces: &faces, ..Default::default() };
+        let data = io::Textured { positions: mesh.positions()?, faces: &faces, ..Default::default() };
         io::write_obj(&arrays::path("path", path)?, &data)?;
         Ok(())
     })

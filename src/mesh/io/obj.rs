@@ -3,7 +3,7 @@
 
 use super::polygon::Polygons;
 use super::scan::Place;
-use super::{Attributes, Point, Soup, finite, in_range, write_atomically};
+use super::{Attributes, Point, Soup, Textured, write_atomically};
 use crate::error::Result;
 use std::io::Write;
 use std::path::Path;
@@ -154,42 +154,12 @@ fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
     }
 }
 
-/// What [`write_obj`] writes.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct ObjData<'a> {
-    /// `v` lines.
-    pub positions: &'a [Point],
-    /// Colours behind the coordinates (V entries, 0 to 1); empty for none.
-    pub colors: &'a [[f64; 4]],
-    /// `vn` lines, one per vertex (V entries); empty for none.
-    pub normals: &'a [Point],
-    /// `vt` lines; empty for none.
-    pub texcoords: &'a [[f64; 2]],
-    /// Corners of the faces, 0-based into `positions`.
-    pub faces: &'a [[u32; 3]],
-    /// Corners of the faces, 0-based into `texcoords`; as many as faces, or empty for none.
-    pub face_texcoords: &'a [[u32; 3]],
-}
-
 /// Write an OBJ file with 17 significant digits (which read back to the same doubles), atomically.
 ///
 /// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of
 /// range, [`crate::Error::Size`], [`crate::Error::Io`].
-pub fn write_obj(path: &Path, data: &ObjData<'_>) -> Result<()> {
-    if !data.face_texcoords.is_empty() {
-        crate::error::check_size("face_texcoords", data.face_texcoords.len(), data.faces.len())?;
-    }
-    for (what, len) in [("colors", data.colors.len()), ("normals", data.normals.len())] {
-        if len > 0 {
-            crate::error::check_size(what, len, data.positions.len())?;
-        }
-    }
-    finite("position", data.positions)?;
-    finite("colour", data.colors)?;
-    finite("normal", data.normals)?;
-    finite("texture coordinate", data.texcoords)?;
-    in_range("vertex", data.faces, data.positions.len())?;
-    in_range("texture vertex", data.face_texcoords, data.texcoords.len())?;
+pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
+    data.check()?;
     write_atomically(path, |out| {
         for (v, [x, y, z]) in data.positions.iter().enumerate() {
             write!(out, "v {x:.16e} {y:.16e} {z:.16e}")?;
