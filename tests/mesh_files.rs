@@ -6,7 +6,7 @@ mod common;
 use proptest::prelude::*;
 use ricci::mesh::Mesh;
 use ricci::mesh::check::{Defect, diagnose};
-use ricci::mesh::io::{self, Textured, Soup};
+use ricci::mesh::io::{self, Soup, Textured};
 use ricci::{Error, Result};
 use std::collections::HashMap;
 use std::io::Write;

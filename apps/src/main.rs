@@ -1,12 +1,12 @@
 //! The `ricci` command.
 
+mod checkerboard;
 mod circles;
 mod cli;
 mod csv;
 mod demo;
 mod failure;
 mod flow;
-mod glb;
 mod info;
 mod input;
 mod job;

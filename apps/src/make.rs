@@ -162,7 +162,7 @@ pub enum Shape {
 /// Where a surface in space goes.
 #[derive(Args, Serialize, Debug)]
 pub struct ToMesh {
-    /// Mesh (.obj, .off, .ply), or its edge lengths (.json)
+    /// Mesh (.obj, .off, .ply, .glb), or its edge lengths (.json)
     #[arg(short = 'o', long = "out", value_name = "OUT")]
     pub out: PathBuf,
     /// Move every vertex by up to this fraction of the mean edge length in each coordinate
@@ -233,7 +233,7 @@ fn raise(mut soup: Soup, height: f64) -> Soup {
 }
 
 fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Instant) -> Result<u8, Failure> {
-    check_extension("-o", &to.out, &["obj", "off", "ply", "json"])?;
+    check_extension("-o", &to.out, &["obj", "off", "ply", "glb", "json"])?;
     check_writable(&to.out)?;
     to.common.report.as_deref().map_or(Ok(()), check_writable)?;
     if let Some(path) = &to.picture {

@@ -110,7 +110,9 @@ impl Arrays {
 
     fn soup(self, place: Place<'_>) -> Result<Soup> {
         let Some(positions) = self.points else {
-            return place.error("the file has no NIFTI_INTENT_POINTSET: it is data on a surface, not a surface".into());
+            return place.error(
+                "the file has no NIFTI_INTENT_POINTSET: it is data on a surface, not a surface".into(),
+            );
         };
         let normals = self.vectors.into_iter().find(|v| v.len() == positions.len() && !v.is_empty());
         let attributes = Attributes { normals, ..Attributes::default() };

@@ -78,7 +78,13 @@ impl Header {
     }
 
     /// The rows of three numbers that `text` holds.
-    pub fn table(&self, what: &'static str, text: &str, budget: &mut Budget, place: Place<'_>) -> Result<Table> {
+    pub fn table(
+        &self,
+        what: &'static str,
+        text: &str,
+        budget: &mut Budget,
+        place: Place<'_>,
+    ) -> Result<Table> {
         let Some(kind) = Kind::new(&self.data_type) else {
             return place.error(format!("{what} of DataType=\"{}\" are not known", self.data_type));
         };
@@ -133,7 +139,8 @@ impl Header {
         if encoding == Encoding::Compressed {
             if size > MOST_INFLATION.saturating_mul(bytes.len()) {
                 let n = bytes.len();
-                return place.error(format!("{what}: {n} compressed bytes cannot hold the {size} of the table"));
+                return place
+                    .error(format!("{what}: {n} compressed bytes cannot hold the {size} of the table"));
             }
             let mut plain = Vec::with_capacity(size);
             // One byte more shows that there is more. The format says zlib; some write gzip, as its name does.

@@ -21,7 +21,7 @@ pub use gltf::{Texture, Wrap, parse_glb, write_glb};
 pub use obj::{parse_obj, write_obj};
 pub use off::{parse_off, write_off};
 pub use ply::{parse_ply, write_ply};
-pub use stl::parse_stl;
+pub use stl::{parse_stl, parse_stl_welded};
 pub use textured::Textured;
 
 use super::Point;
@@ -110,8 +110,16 @@ pub fn read(path: &Path) -> Result<Soup> {
         Some("gii") => parse_gifti,
         _ => return Err(Error::UnknownFormat { path: name, known: READABLE }),
     };
-    let bytes = std::fs::read(path).map_err(|e| Error::Io { path: name.clone(), message: e.to_string() })?;
-    parse(&bytes, &name)
+    parse(&content(path)?, &name)
+}
+
+/// Read an STL file, whatever its name, and weld it within a distance: [`parse_stl_welded`].
+pub fn read_stl(path: &Path, weld: f64) -> Result<Soup> {
+    parse_stl_welded(&content(path)?, &path.display().to_string(), weld)
+}
+
+fn content(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).map_err(|e| Error::Io { path: path.display().to_string(), message: e.to_string() })
 }
 
 /// Extensions that [`write()`] knows.

@@ -5,6 +5,7 @@ use super::polygon::Polygons;
 use super::scan::{Place, lines};
 use super::{Point, Soup};
 use crate::error::Result;
+use crate::mesh::weld::{check_tolerance, coincident};
 use std::collections::HashMap;
 
 /// Bytes of text before the number of triangles in a binary file, and of each triangle.
@@ -26,6 +27,28 @@ pub fn parse_stl(bytes: &[u8], path: &str) -> Result<Soup> {
             HEADER + 4
         )),
     }
+}
+
+/// [`parse_stl`], where corners within the distance `weld` of each other, also by a chain of such corners, are one vertex: that
+/// of the first of them. Faces keep their number; those that collapse use a vertex twice, which the diagnosis finds and
+/// [`crate::mesh::repair`] drops.
+///
+/// Errors: [`crate::Error::Argument`] for a distance that is negative or not finite; [`crate::Error::Parse`].
+pub fn parse_stl_welded(bytes: &[u8], path: &str, weld: f64) -> Result<Soup> {
+    check_tolerance(weld)?;
+    let mut soup = parse_stl(bytes, path)?;
+    let first = coincident(&soup.positions, weld);
+    let mut number = vec![0; first.len()];
+    let mut positions = Vec::new();
+    for (v, &to) in first.iter().enumerate() {
+        if v as u32 == to {
+            number[v] = positions.len() as u32;
+            positions.push(soup.positions[v]);
+        }
+    }
+    soup.faces.as_flattened_mut().iter_mut().for_each(|v| *v = number[first[*v as usize] as usize]);
+    soup.positions = positions;
+    Ok(soup)
 }
 
 /// Corners that are in the same place become one vertex.

@@ -53,9 +53,11 @@ pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
 
 /// The JSON and the binary chunk of a GLB file [glTF 2.0, section 4.4].
 fn chunks<'a>(bytes: &'a [u8], place: Place<'_>) -> Result<(&'a [u8], Option<&'a [u8]>)> {
-    let word = |at: usize| bytes.get(at..at + 4).and_then(|b| b.first_chunk()).map(|b| u32::from_le_bytes(*b));
+    let word =
+        |at: usize| bytes.get(at..at + 4).and_then(|b| b.first_chunk()).map(|b| u32::from_le_bytes(*b));
     let (true, Some(version), Some(length)) = (bytes.starts_with(b"glTF"), word(4), word(8)) else {
-        return place.error("this is no GLB file: that begins with `glTF`, its version and its length".into());
+        return place
+            .error("this is no GLB file: that begins with `glTF`, its version and its length".into());
     };
     if version != 2 {
         return place.error(format!("this is version {version} of GLB; version 2 is read"));
@@ -71,7 +73,8 @@ fn chunks<'a>(bytes: &'a [u8], place: Place<'_>) -> Result<(&'a [u8], Option<&'a
     let mut chunk = |kind: &[u8; 4]| -> Result<Option<&'a [u8]>> {
         let Some(size) = word(at).filter(|_| at + 8 <= end) else { return Ok(None) };
         if size as usize > end - at - 8 {
-            return place.error(format!("the chunk at byte {at} promises {size} bytes, {} follow", end - at - 8));
+            return place
+                .error(format!("the chunk at byte {at} promises {size} bytes, {} follow", end - at - 8));
         }
         let data = &bytes[at + 8..at + 8 + size as usize];
         let found = bytes[at + 4..at + 8] == *kind;
@@ -85,7 +88,12 @@ fn chunks<'a>(bytes: &'a [u8], place: Place<'_>) -> Result<(&'a [u8], Option<&'a
 }
 
 /// The bytes of buffer `i`.
-fn buffer<'a>(i: usize, buffer: &Buffer, binary: Option<&'a [u8]>, place: Place<'_>) -> Result<Cow<'a, [u8]>> {
+fn buffer<'a>(
+    i: usize,
+    buffer: &Buffer,
+    binary: Option<&'a [u8]>,
+    place: Place<'_>,
+) -> Result<Cow<'a, [u8]>> {
     let bytes = match (&buffer.uri, binary) {
         (Some(uri), _) => match uri.strip_prefix("data:").and_then(|data| data.split_once(";base64,")) {
             Some((_, text)) => match base64::decode(text.as_bytes()) {

@@ -16,7 +16,14 @@ const PRIMITIVE: usize = 64;
 /// All meshes below the roots of the scene: the default one, else the first, else every mesh where it stands.
 pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
     let (document, place) = (file.document, file.place);
-    let mut out = Collected { file, budget, soup: Soup::default(), uv: Vec::new(), normals: Vec::new(), colors: Vec::new() };
+    let mut out = Collected {
+        file,
+        budget,
+        soup: Soup::default(),
+        uv: Vec::new(),
+        normals: Vec::new(),
+        colors: Vec::new(),
+    };
     let scene = match document.scene {
         Some(i) if i >= document.scenes.len() => return place.error(format!("scene {i} does not exist")),
         Some(i) => Some(&document.scenes[i]),
@@ -30,9 +37,11 @@ pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
     };
     // Nodes are a forest: one that is met twice would be its own ancestor, or count its meshes twice.
     let mut met = vec![false; document.nodes.len()];
-    let mut open: Vec<(u32, Affine)> = scene.nodes.iter().rev().map(|&node| (node, Affine::IDENTITY)).collect();
+    let mut open: Vec<(u32, Affine)> =
+        scene.nodes.iter().rev().map(|&node| (node, Affine::IDENTITY)).collect();
     while let Some((index, above)) = open.pop() {
-        let (Some(node), Some(met)) = (document.nodes.get(index as usize), met.get_mut(index as usize)) else {
+        let (Some(node), Some(met)) = (document.nodes.get(index as usize), met.get_mut(index as usize))
+        else {
             return place.error(format!("node {index} does not exist"));
         };
         if std::mem::replace(met, true) {

@@ -113,7 +113,8 @@ struct Split {
 impl Split {
     fn new(data: &Textured<'_>) -> Split {
         let n = data.positions.len();
-        let mut split = Split { origin: (0..n as u32).collect(), texcoords: Vec::new(), faces: data.faces.to_vec() };
+        let mut split =
+            Split { origin: (0..n as u32).collect(), texcoords: Vec::new(), faces: data.faces.to_vec() };
         let mut first: Vec<Option<[u32; 2]>> = vec![None; if data.face_texcoords.is_empty() { 0 } else { n }];
         split.texcoords.resize(first.len(), [0.0; 2]);
         let mut further: HashMap<(u32, [u32; 2]), u32> = HashMap::new();
