@@ -61,10 +61,9 @@ impl Header {
                 "Dimensionality" => header.dimensionality = number()?,
                 "Dim0" => header.dims[0] = number()?,
                 "Dim1" => header.dims[1] = number()?,
-                "Endian" => header.big_endian = choice(name, value, ["LittleEndian", "BigEndian"], place)?,
+                "Endian" => header.big_endian = choice(name, value, ["little", "big"], place)?,
                 "ArrayIndexingOrder" => {
-                    let orders = ["RowMajorOrder", "ColumnMajorOrder"];
-                    header.column_major = choice(name, value, orders, place)?;
+                    header.column_major = choice(name, value, ["row", "column"], place)?;
                 }
                 _ => {}
             }
@@ -164,11 +163,12 @@ impl Header {
     }
 }
 
-/// Which of two values an attribute has.
+/// Which of two words is in the value of an attribute: files say `LittleEndian` and `GIFTI_ENDIAN_LITTLE`.
 fn choice(name: &str, value: &str, [first, second]: [&str; 2], place: Place<'_>) -> Result<bool> {
-    match value {
-        _ if value == first => Ok(false),
-        _ if value == second => Ok(true),
+    let lower = value.to_ascii_lowercase();
+    match (lower.contains(first), lower.contains(second)) {
+        (true, false) => Ok(false),
+        (false, true) => Ok(true),
         _ => place.error(format!("{name}=\"{value}\" is neither {first} nor {second}")),
     }
 }
