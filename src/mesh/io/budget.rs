@@ -1,4 +1,4 @@
-//! How much a file may unfold to. Compression and instances are the ways in which a small file becomes a large mesh.
+//! How much a file may unfold to. Compression, instances and polygons are the ways in which a small file becomes a large mesh.
 
 use super::scan::Place;
 use crate::error::Result;
@@ -6,7 +6,7 @@ use crate::error::Result;
 /// Bytes that any file may unfold to, and more for each of its own: honest files need less, and a reader that stays within them
 /// takes at most 64 MB + 20 times its file, scratch included.
 const ANY_FILE: usize = 32 << 20;
-const PER_BYTE: usize = 12;
+const PER_BYTE: usize = 8;
 
 /// What is left of the bytes that a reader may hold for one file.
 #[derive(Default)]

@@ -115,7 +115,8 @@ impl Header {
             return place.error(format!("the {what} have markup among their data"));
         }
         let stored = if encoding == Encoding::Ascii { size_of::<f64>() } else { kind.size() };
-        budget.take(rows, 3 * stored + size_of::<[f64; 3]>(), what, place)?;
+        let kept = if what == "triangles" { size_of::<[u32; 3]>() } else { size_of::<[f64; 3]>() };
+        budget.take(rows, 3 * stored + kept, what, place)?;
         let numbers = match encoding {
             Encoding::Ascii => Numbers::Text(ascii(what, text, 3 * rows, place)?),
             _ => Numbers::Binary(self.binary(what, text, encoding, 3 * rows * stored, place)?, kind),

@@ -1,5 +1,6 @@
 //! Binary OFF: what Geomview reads and writes, and what other programs write under the same header.
 
+use super::budget::Budget;
 use super::off::{Columns, Extras};
 use super::polygon::Polygons;
 use super::scan::Place;
@@ -79,7 +80,7 @@ impl Words<'_> {
                 "the {n_vertices} vertices and {n_faces} faces that the header promises end at byte {end}, {left} bytes before the file does"
             ));
         }
-        Ok(extras.soup(positions, &polygons))
+        extras.soup(positions, &polygons, Budget::of(self.bytes), self.place)
     }
 
     fn word(&mut self, what: impl Fn() -> String) -> Result<u32> {

@@ -1,6 +1,7 @@
 //! STL, ascii and binary. Our own reader: what says `solid` may be binary, counts in headers may be wrong, and errors name
 //! the line or the byte.
 
+use super::budget::Budget;
 use super::polygon::Polygons;
 use super::scan::{Place, lines};
 use super::{Point, Soup};
@@ -122,7 +123,8 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     if corners.is_some() {
         return Place { path, line: last }.error("the file ends inside a loop".into());
     }
-    let triangles = polygons.triangles(&weld.soup.positions);
+    let (mut budget, place) = (Budget::of(text.as_bytes()), Place { path, line: last });
+    let triangles = polygons.triangles(&weld.soup.positions, &mut budget, place)?;
     weld.soup.faces = triangles.iter().map(|&t| polygons.face(t)).collect();
     Ok(weld.soup)
 }

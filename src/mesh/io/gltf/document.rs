@@ -127,23 +127,20 @@ impl Affine {
         self.linear.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
     }
 
-    /// The map of normals up to a positive factor: the cofactors of the linear part, turned with the orientation.
-    pub fn of_normals(&self) -> Affine {
-        let m = &self.linear;
+    /// The map of normals up to a positive factor, the cofactors of the linear part turned with the orientation; and whether that
+    /// is turned around.
+    pub fn of_normals(&self) -> (Affine, bool) {
+        // At size 1, so that no product leaves the range of doubles.
+        let size = self.linear.as_flattened().iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        let m = if size > 0.0 { self.linear.map(|row| row.map(|x| x / size)) } else { self.linear };
         let cofactor = |i: usize, j: usize| {
             let [a, b, c, d] = [(i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3];
             m[a][c] * m[b][d] - m[a][d] * m[b][c]
         };
-        let sign = if self.mirrors() { -1.0 } else { 1.0 };
+        let mirrors = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum::<f64>() < 0.0;
+        let sign = if mirrors { -1.0 } else { 1.0 };
         let linear = std::array::from_fn(|i| std::array::from_fn(|j| sign * cofactor(i, j)));
-        Affine { linear, translation: [0.0; 3] }
-    }
-
-    /// Whether it turns orientation around.
-    pub fn mirrors(&self) -> bool {
-        let [a, b, c] = self.linear;
-        let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        cross[0] * c[0] + cross[1] * c[1] + cross[2] * c[2] < 0.0
+        (Affine { linear, translation: [0.0; 3] }, mirrors)
     }
 }
 

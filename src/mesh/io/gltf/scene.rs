@@ -93,6 +93,7 @@ impl Collected<'_> {
         if *map != Affine::IDENTITY {
             positions.iter_mut().for_each(|p| *p = map.apply(*p));
         }
+        let (turn, mirrors) = map.of_normals();
         let check = |what: &str, count: usize| match count == n {
             true => Ok(()),
             false => place.error(format!("{what} has {count} elements, POSITION {n}")),
@@ -102,7 +103,6 @@ impl Collected<'_> {
             check("NORMAL", normals.count)?;
             let mut normals: Vec<Point> = normals.numbers(0.0, "NORMAL", budget, place)?;
             if map.linear != Affine::IDENTITY.linear {
-                let turn = map.of_normals();
                 normals.iter_mut().for_each(|x| *x = unit(turn.apply(*x)));
             }
             self.normals.append(&mut normals);
@@ -149,7 +149,7 @@ impl Collected<'_> {
             if mode == STRIP && (a == b || b == c || c == a) {
                 continue;
             }
-            let corners = if map.mirrors() { [a, c, b] } else { [a, b, c] };
+            let corners = if mirrors { [a, c, b] } else { [a, b, c] };
             self.soup.faces.push(corners.map(|v| first as u32 + v));
             if let Some(texcoords) = &texcoords {
                 // v points down in glTF.
