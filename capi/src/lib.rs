@@ -40,6 +40,8 @@ pub mod space;
 
 pub mod mesh;
 
+pub mod mesh_file;
+
 pub mod diagnosis;
 
 pub mod repair;
