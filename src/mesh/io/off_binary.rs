@@ -4,7 +4,7 @@ use super::budget::Budget;
 use super::off::{Columns, Extras};
 use super::polygon::Polygons;
 use super::scan::Place;
-use super::{Point, Soup};
+use super::{Point, Soup, in_range};
 use crate::error::Result;
 
 /// How the data behind `OFF BINARY` are laid out. The file does not say which it is.
@@ -35,12 +35,14 @@ pub(super) fn parse_off_binary(bytes: &[u8], start: usize, has: Columns, place: 
     if second.is_ok() {
         return second;
     }
-    // OpenMesh writes either byte order, and colours of three components.
+    // OpenMesh writes either byte order, and colours of three components. What is left of a file that is cut off may end as these
+    // do, but for its corners.
     let opaque = Dialect { color: 3, ..COPIED };
     let others = [Dialect { big_endian: true, ..COPIED }, opaque, Dialect { big_endian: true, ..opaque }];
-    let tried = others.into_iter().filter(|dialect| has.color || dialect.color == 4);
-    if let Some(soup) = tried.map(read).find(Result::is_ok) {
-        return soup;
+    let known = others.into_iter().filter(|dialect| has.color || dialect.color == 4);
+    let sound = |soup: &Soup| in_range("vertex", &soup.faces, soup.positions.len()).is_ok();
+    if let Some(soup) = known.filter_map(|dialect| read(dialect).ok()).find(sound) {
+        return Ok(soup);
     }
     // Of two errors that of the likelier byte order: a number of vertices below 2¹⁶ is above it when misread.
     let count = bytes[start..].first_chunk::<4>().copied().unwrap_or([0; 4]);
