@@ -19,6 +19,7 @@ mod progress;
 mod repair;
 mod report;
 mod say;
+mod shape;
 mod shape_quality;
 mod show;
 mod uv;

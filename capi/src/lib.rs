@@ -42,6 +42,10 @@ pub mod mesh;
 
 pub mod mesh_file;
 
+pub mod shapes;
+
+pub mod intrinsic;
+
 pub mod diagnosis;
 
 pub mod repair;
