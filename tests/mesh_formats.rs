@@ -325,6 +325,26 @@ fn obj_and_off_attributes_are_kept() {
     assert_eq!(uv.unwrap()[0][0], [0.5, 0.25]);
 }
 
+/// A triangle as OpenMesh 9 writes `STCNOFF BINARY`: host order, colours as three integers, no colours of faces.
+#[test]
+fn binary_off_has_colours_of_bytes_too() {
+    let vertex = |x: f32, y: f32| -> Vec<u32> {
+        let floats = |list: &[f32]| list.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        [floats(&[x, y, 0.5, 0.0, 0.0, 1.0]), vec![0, 51, 255], floats(&[x, 0.25])].concat()
+    };
+    let words =
+        [vec![3, 1, 0], vertex(0.0, 0.0), vertex(1.0, 0.0), vertex(0.0, 1.0), vec![3, 0, 1, 2]].concat();
+    for order in [u32::to_le_bytes, u32::to_be_bytes] {
+        let data: Vec<u8> = words.iter().flat_map(|&w| order(w)).collect();
+        let soup = io::parse_off(&[b"STCNOFF BINARY\n", &data[..]].concat(), "t.off").unwrap();
+        assert_eq!((soup.positions[1], soup.faces), ([1.0, 0.0, 0.5], vec![[0, 1, 2]]));
+        let Attributes { normals, colors, uv } = soup.attributes;
+        assert_eq!(normals.unwrap()[2], [0.0, 0.0, 1.0]);
+        assert_eq!(colors.unwrap()[2], [0.0, 0.2, 1.0, 1.0]);
+        assert_eq!(uv.unwrap(), [[[0.0, 0.25], [1.0, 0.25], [0.0, 0.25]]]);
+    }
+}
+
 /// Whatever was accepted must hold together: it builds a valid mesh or names its defects, it is repaired or refused, and it
 /// reads back as it was written.
 fn accepted(soup: &Soup) {

@@ -127,6 +127,24 @@ fn nodes_place_their_meshes() {
     // A mirror keeps the outside outside.
     document["nodes"] = json!([{"mesh": 0, "scale": [1, 1, -1]}]);
     assert_eq!(at(&document).faces, [[0, 2, 1], [0, 3, 2]]);
+    // Normals stay normal to a surface that is stretched or mirrored, and of length 1.
+    let mut leaning = document.clone();
+    let push = |list: &mut Value, item: Value| list.as_array_mut().unwrap().push(item);
+    push(
+        &mut leaning["accessors"],
+        json!({"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC3"}),
+    );
+    push(&mut leaning["bufferViews"], json!({"buffer": 1, "byteLength": 48}));
+    let slope: Vec<u8> = floats(&[0.6, 0.0, 0.8].repeat(4));
+    let data = format!("data:;base64,{}", STANDARD.encode(&slope));
+    push(&mut leaning["buffers"], json!({"byteLength": 48, "uri": data}));
+    leaning["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(2);
+    for (scale, normal) in [([1, 1, 2], [0.6, 0.0, 0.4]), ([-1, 1, 1], [-0.6, 0.0, 0.8])] {
+        leaning["nodes"] = json!([{"mesh": 0, "scale": scale}]);
+        let found = at(&leaning).attributes.normals.unwrap()[0];
+        let length = f64::hypot(normal[0], normal[2]);
+        assert!((0..3).all(|k| (found[k] - normal[k] / length).abs() < 1e-7), "{found:?}");
+    }
     // Two of a mesh, in the order of the scene; skinned meshes stay where they are.
     document["nodes"] =
         json!([{"children": [2, 1]}, {"mesh": 0}, {"mesh": 0, "translation": [0, 0, 1], "skin": 0}]);

@@ -281,7 +281,8 @@ impl PropertyAccess for FaceRow {
 }
 
 /// Write binary PLY (little-endian, positions as doubles, so that they read back as they are), with normals, colours (8 bits)
-/// and texture coordinates where there are any; atomically.
+/// and texture coordinates where there are any: at the vertices (s, t) if each has a single pair, else at the corners of the faces
+/// (texcoord); atomically.
 ///
 /// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`Error::Size`] for attributes of another size, [`Error::Io`].
@@ -289,6 +290,8 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<()> {
     soup.check_writable()?;
     let Soup { positions, faces, attributes } = soup;
     let Attributes { normals, colors, uv } = attributes;
+    let vertex_uv = attributes.vertex_uv(positions.len(), faces);
+    let corner_uv = uv.as_ref().filter(|_| vertex_uv.is_none());
     write_atomically(path, |out| {
         write!(out, "ply\nformat binary_little_endian 1.0\ncomment ricci {}\n", env!("CARGO_PKG_VERSION"))?;
         write!(
@@ -304,8 +307,11 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<()> {
                 writeln!(out, "property uchar {name}")?;
             }
         }
+        if vertex_uv.is_some() {
+            out.write_all(b"property double s\nproperty double t\n")?;
+        }
         write!(out, "element face {}\nproperty list uchar uint vertex_indices\n", faces.len())?;
-        if uv.is_some() {
+        if corner_uv.is_some() {
             out.write_all(b"property list uchar double texcoord\n")?;
         }
         out.write_all(b"end_header\n")?;
@@ -317,13 +323,16 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<()> {
             if let Some(color) = colors.as_ref().map(|c| c[v]) {
                 out.write_all(&color.map(|x| (255.0 * x.clamp(0.0, 1.0)).round() as u8))?;
             }
+            for x in vertex_uv.iter().flat_map(|uv| uv[v]) {
+                out.write_all(&x.to_le_bytes())?;
+            }
         }
         for (f, face) in faces.iter().enumerate() {
             out.write_all(&[3])?;
             for v in face {
                 out.write_all(&v.to_le_bytes())?;
             }
-            if let Some(uv) = uv.as_ref().map(|uv| uv[f]) {
+            if let Some(uv) = corner_uv.map(|uv| uv[f]) {
                 out.write_all(&[6])?;
                 for x in uv.as_flattened() {
                     out.write_all(&x.to_le_bytes())?;
