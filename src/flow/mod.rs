@@ -2,6 +2,7 @@
 //! or by following it.
 
 mod evaluate;
+mod flipping;
 mod gradient;
 mod jacobian;
 mod newton;

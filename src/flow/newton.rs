@@ -1,6 +1,7 @@
 //! Newton's method on the convex energy (E², H²): full steps with a line search on the slope.
 
 use super::evaluate::State;
+use super::flipping::flip_to_delaunay;
 use super::report::{Report, StopReason, timed};
 use super::solver::{Run, center};
 use super::system::System;
@@ -33,8 +34,8 @@ const POLISH_STEPS: usize = 3;
 
 impl Run<'_> {
     pub(super) fn newton(
-        &self,
-        system: &mut Option<System>,
+        &mut self,
+        kept: &mut Option<System>,
         mut state: State,
         report: &mut Report,
     ) -> Result<State> {
@@ -45,7 +46,7 @@ impl Run<'_> {
         let (first, mut best, mut since_best, mut shift, mut factored) = (error, error, 0, 0.0, false);
         report.residuals.push(error);
         self.control.step(Stage::Flow, 0.0)?;
-        let system = self.prepare(system, report)?;
+        let mut flipped = report.flips;
         report.stop_reason = loop {
             if error <= report.tolerance {
                 break StopReason::Converged;
@@ -54,6 +55,10 @@ impl Run<'_> {
                 break StopReason::IterationLimit;
             }
             self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
+            if std::mem::replace(&mut flipped, report.flips) != report.flips {
+                *kept = None;
+            }
+            let system = self.prepare(kept, report)?;
             timed(&mut report.seconds.assemble, || system.jacobian.assemble(self.mesh, self.class, &state));
             self.control.check()?;
             factored = self.direction(system, &state, &residual, &mut step, &mut shift, report)?;
@@ -63,7 +68,9 @@ impl Run<'_> {
             report.iterations += 1;
             let accepted = self.line_search(&state, &mut trial, &mut residual, &step, error, report)?;
             let Some(now) = accepted else {
-                state.residual(self.target, self.pinned, &mut residual);
+                // Back to the triangulation of the last metric, or one of the same.
+                self.evaluate(&mut state, report)?;
+                error = state.residual(self.target, self.pinned, &mut residual);
                 break StopReason::Stalled;
             };
             std::mem::swap(&mut state, &mut trial);
@@ -81,6 +88,10 @@ impl Run<'_> {
                 break StopReason::Diverged;
             }
         };
+        if flipped != report.flips {
+            (*kept, factored) = (None, false);
+        }
+        let system = self.prepare(kept, report)?;
         if factored && report.stop_reason != StopReason::IterationLimit && error > POLISH_TO {
             self.polish(system, &mut state, &mut trial, &mut residual, &mut step, report, &mut error)?;
         }
@@ -159,7 +170,7 @@ impl Run<'_> {
     /// Accepted: the energy still falls along the step at its end, `step·(K̄ − K) ≥ 0`; near the solution a smaller
     /// residual will do.
     fn line_search(
-        &self,
+        &mut self,
         state: &State,
         trial: &mut State,
         residual: &mut [f64],
@@ -170,11 +181,8 @@ impl Run<'_> {
         let mut t = (self.options.max_step / norm(step)).min(1.0);
         for _ in 0..HALVINGS {
             self.control.check()?;
-            let inside = timed(&mut report.seconds.assemble, || {
-                trial.u.iter_mut().zip(state.u.iter().zip(step)).for_each(|(x, (u, d))| *x = u + t * d);
-                trial.evaluate(self.mesh, self.class)
-            });
-            if inside {
+            trial.u.iter_mut().zip(state.u.iter().zip(step)).for_each(|(x, (u, d))| *x = u + t * d);
+            if self.evaluate(trial, report)? {
                 let now = trial.residual(self.target, self.pinned, residual);
                 let slope: f64 = step.iter().zip(residual.iter()).map(|(d, r)| d * r).sum();
                 if (error < NEAR && now < error) || slope >= 0.0 {
@@ -184,6 +192,15 @@ impl Run<'_> {
             t *= 0.5;
         }
         Ok(None)
+    }
+
+    /// Compute a state at its u, on the Delaunay triangulation there if edges may be flipped.
+    pub(super) fn evaluate(&mut self, state: &mut State, report: &mut Report) -> Result<bool> {
+        if self.flips() {
+            report.flips +=
+                timed(&mut report.seconds.flip, || flip_to_delaunay(self.mesh, self.class, &state.u))?;
+        }
+        Ok(timed(&mut report.seconds.assemble, || state.evaluate(self.mesh, self.class)))
     }
 
     /// Steps with the last factor, as long as they at least halve the error: iterative refinement of the nonlinear

@@ -2,7 +2,7 @@
 
 use super::evaluate::State;
 use super::obstruction::{obstruction, obstruction_at_a_vertex};
-use super::options::{Method, Options};
+use super::options::{Flips, Method, Options};
 use super::report::{Report, StopReason, WORST, timed};
 use super::system::System;
 use crate::control::Control;
@@ -31,8 +31,8 @@ pub struct Solver {
 
 /// What the methods share during one solve.
 pub(super) struct Run<'a> {
-    pub mesh: &'a Mesh,
-    pub class: &'a Metric,
+    pub mesh: &'a mut Mesh,
+    pub class: &'a mut Metric,
     /// u to start from.
     pub start: &'a PerVertex<f64>,
     pub options: &'a Options,
@@ -103,9 +103,11 @@ impl Solver {
         let mut report = Report::new(self.options.tolerance);
         let mut seconds = 0.0;
         let free_scale = self.metric.space == Space::E2 && !self.pinned.contains(&true);
-        let run = Run {
-            mesh: &self.mesh,
-            class: &self.metric,
+        let before =
+            (self.options.flips == Flips::Auto).then(|| (self.mesh.clone(), self.metric.eta.clone()));
+        let mut run = Run {
+            mesh: &mut self.mesh,
+            class: &mut self.metric,
             start: &self.start,
             options: &self.options,
             target: &target,
@@ -114,7 +116,15 @@ impl Solver {
             control,
         };
         let system = &mut self.system;
-        let state = timed(&mut seconds, || self.pool.run(|| run.solve(system, &mut report)))?;
+        let state = timed(&mut seconds, || self.pool.run(|| run.solve(system, &mut report)));
+        let state = match (state, before) {
+            (Err(error), Some((mesh, eta))) => {
+                // Nothing happened: the old triangulation, whose system is to be made anew.
+                (self.mesh, self.metric.eta, self.system) = (mesh, eta, None);
+                return Err(error);
+            }
+            (state, _) => state?,
+        };
         report.seconds.total = seconds;
         if report.converged {
             self.start = state.u.clone();
@@ -125,18 +135,22 @@ impl Solver {
 }
 
 impl Run<'_> {
-    fn solve(&self, system: &mut Option<System>, report: &mut Report) -> Result<State> {
+    fn solve(&mut self, system: &mut Option<System>, report: &mut Report) -> Result<State> {
         let mut state = State::new(self.mesh, self.start);
         let keeps_area = self.options.method == Method::Gradient && self.options.gradient.area_normalised;
         if self.free_scale && !keeps_area {
             center(&mut state.u);
         }
-        if !state.evaluate(self.mesh, self.class) {
+        if !self.evaluate(&mut state, report)? {
             return Err(Error::Argument { what: "u", value: "start".into(), need: "in the metric's domain" });
         }
         // A target that a single vertex rules out needs no flow.
-        report.obstruction =
-            obstruction_at_a_vertex(self.mesh, self.class, self.target, self.pinned, report.tolerance);
+        // What rules a target out on one triangulation says nothing of the others.
+        let rigid = !self.flips();
+        if rigid {
+            report.obstruction =
+                obstruction_at_a_vertex(self.mesh, self.class, self.target, self.pinned, report.tolerance);
+        }
         let state = match (self.options.method, self.class.space) {
             _ if report.obstruction.is_some() => {
                 let mut residual = vec![0.0; self.target.len()];
@@ -158,7 +172,10 @@ impl Run<'_> {
         }
         report.worst = self.worst(&state);
         let known = report.obstruction.is_some();
-        if !known && !matches!(report.stop_reason, StopReason::Converged | StopReason::BrokenTriangles) {
+        if rigid
+            && !known
+            && !matches!(report.stop_reason, StopReason::Converged | StopReason::BrokenTriangles)
+        {
             report.obstruction = obstruction(self.mesh, self.class, &state, self.target, self.pinned);
             if report.obstruction.is_some() {
                 report.stop_reason = StopReason::Infeasible;
@@ -166,6 +183,12 @@ impl Run<'_> {
         }
         report.converged = matches!(report.stop_reason, StopReason::Converged | StopReason::RoundingFloor);
         Ok(state)
+    }
+
+    /// Whether edges may be flipped.
+    pub(super) fn flips(&self) -> bool {
+        let options = self.options;
+        options.flips == Flips::Auto && options.method == Method::Newton && self.class.space != Space::S2
     }
 
     /// Curvature error that a linear solution may leave: it is added to what the tolerance allows.

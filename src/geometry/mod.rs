@@ -2,6 +2,7 @@
 
 pub mod circle;
 pub mod conformal;
+pub mod flip;
 pub mod hyperelliptic;
 pub mod isometry;
 pub mod modulus;

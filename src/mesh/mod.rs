@@ -3,6 +3,7 @@
 pub mod attribute;
 pub mod build;
 pub mod check;
+mod flip;
 pub mod halfedge;
 pub mod ids;
 mod incidence;

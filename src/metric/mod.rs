@@ -1,6 +1,7 @@
 //! Metrics in a conformal class: one formula for five schemes, mixed types and three geometries.
 
 pub mod curvature;
+pub mod delaunay;
 pub mod initial;
 pub mod lengths;
 pub mod scheme;

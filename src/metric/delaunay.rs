@@ -1,0 +1,232 @@
+//! Weighted Delaunay triangulations of a surface, by edge flips.
+//!
+//! Two kinds of flips. *Isometric*: the surface stays as it is, the new edge is the geodesic across its two triangles. *Inside the
+//! conformal class*: vertices keep their vectors ([`crate::geometry::flip`]), and the surface changes wherever the edge was not
+//! weighted Delaunay. Only edges around what has changed are looked at.
+
+use super::lengths::Metric;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::conformal::Vertex;
+use crate::geometry::flip::{Hinge, diagonal, weight};
+use crate::geometry::{Space, triangle};
+use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
+use crate::parallel;
+use crate::topology::check_lengths;
+use std::collections::VecDeque;
+use std::f64::consts::PI;
+
+/// Flips per edge before a flip sequence is given up: real surfaces need less than one, and rounding could make one go in circles.
+const MOST_FLIPS: usize = 1000;
+
+/// Edges that may fail the Delaunay condition, first come first served.
+#[derive(Debug, Clone)]
+pub struct Queue {
+    waiting: VecDeque<EdgeId>,
+    queued: PerEdge<bool>,
+}
+
+impl Queue {
+    /// No edge of a surface with this many.
+    pub fn new(n_edges: usize) -> Queue {
+        Queue { waiting: VecDeque::new(), queued: PerEdge::filled(n_edges, false) }
+    }
+
+    /// Every edge of a surface.
+    pub fn all(mesh: &Mesh) -> Queue {
+        Queue { waiting: mesh.edges().collect(), queued: PerEdge::filled(mesh.n_edges(), true) }
+    }
+
+    /// Look at this edge.
+    pub fn push(&mut self, e: EdgeId) {
+        if !std::mem::replace(&mut self.queued[e], true) {
+            self.waiting.push_back(e);
+        }
+    }
+
+    fn pop(&mut self) -> Option<EdgeId> {
+        let e = self.waiting.pop_front()?;
+        self.queued[e] = false;
+        Some(e)
+    }
+
+    /// Flip edges until the queue is empty. `decide` gives an edge's value after its flip, or `None` where it stays; `record` is
+    /// told each flip. Edges with a face on one side only, or the same on both, stay. Returns the flips, or `None` if they do not
+    /// end.
+    fn run<T>(
+        &mut self,
+        mesh: &mut Mesh,
+        values: &mut PerEdge<T>,
+        mut decide: impl FnMut(&Mesh, &PerEdge<T>, HalfedgeId) -> Option<T>,
+        record: &mut dyn FnMut(&Mesh, EdgeId),
+    ) -> Option<usize> {
+        let (mut flips, most) = (0, MOST_FLIPS * mesh.n_edges());
+        while let Some(e) = self.pop() {
+            let h = e.halfedge();
+            if mesh.face(h).is_none() || mesh.face(h.twin()).is_none() || mesh.face(h) == mesh.face(h.twin())
+            {
+                continue;
+            }
+            let Some(value) = decide(mesh, values, h) else { continue };
+            if flips == most {
+                return None;
+            }
+            record(mesh, e);
+            let sides = mesh.quadrilateral(h);
+            mesh.flip(e);
+            values[e] = value;
+            flips += 1;
+            sides.into_iter().for_each(|side| self.push(side.edge()));
+        }
+        Some(flips)
+    }
+}
+
+/// The Delaunay hinge of half-edge h, `w` per vertex: vertices origin, tip, left, right.
+fn hinge(
+    mesh: &Mesh,
+    h: HalfedgeId,
+    epsilon: &PerVertex<i8>,
+    eta: &PerEdge<f64>,
+    w: &PerVertex<f64>,
+) -> Hinge {
+    let [jk, ki, il, lj] = mesh.quadrilateral(h);
+    let vertices = [h, h.twin(), ki, lj].map(|h| mesh.origin(h));
+    Hinge::new(
+        vertices.map(|v| f64::from(epsilon[v])),
+        vertices.map(|v| w[v]),
+        [h, ki, jk, il, lj].map(|h| eta[h.edge()]),
+    )
+}
+
+/// Flip inside the conformal class, from the edges of `queue` on, until every edge is weighted Delaunay at variables `u`
+/// or cannot be flipped (E², H²). η changes on the edges flipped; `record` is told each edge just before its flip.
+///
+/// Returns the number of flips. Errors: [`Error::Connectivity`] if the flips do not end, which rounding alone could cause.
+pub fn restore_delaunay(
+    mesh: &mut Mesh,
+    metric: &mut Metric,
+    u: &PerVertex<f64>,
+    queue: &mut Queue,
+    record: &mut dyn FnMut(&Mesh, EdgeId),
+) -> Result<usize> {
+    let w = weights(metric, u);
+    let epsilon = &metric.epsilon;
+    let decide = |mesh: &Mesh, eta: &PerEdge<f64>, h: HalfedgeId| {
+        let hinge = hinge(mesh, h, epsilon, eta, &w);
+        if !hinge.wants_flip() {
+            return None;
+        }
+        let [k, l] = [h, h.twin()].map(|h| mesh.origin(mesh.prev(h)));
+        let scale = w[k] * w[l];
+        hinge.flipped().map(|product| product / scale).filter(|eta| eta.is_finite())
+    };
+    queue.run(mesh, &mut metric.eta, decide, record).ok_or_else(endless)
+}
+
+/// Isometric flips until the triangulation is the intrinsic Delaunay one of the surface (weighted by circles of these `radii`
+/// around its vertices, 0 for none; `lengths` in `geometry`): it depends on the surface and the circles alone, up to ties.
+///
+/// Returns the number of flips. Errors: sizes; a length out of range, a face that breaks the triangle inequality;
+/// [`Error::Connectivity`] if the flips do not end.
+pub fn intrinsic_delaunay(
+    mesh: &mut Mesh,
+    lengths: &mut PerEdge<f64>,
+    radii: Option<&PerVertex<f64>>,
+    geometry: Space,
+    record: &mut dyn FnMut(&Mesh, EdgeId),
+) -> Result<usize> {
+    check_lengths(mesh, lengths)?;
+    if let Some(radii) = radii {
+        check_size("radii", radii.len(), mesh.n_vertices())?;
+    }
+    let decide = |mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId| {
+        let sides = [h, h.twin()].map(|h| {
+            // Sides of the face in the order opposite, next, previous of its corner at the origin of h.
+            let [next, prev] = [mesh.next(h), mesh.prev(h)];
+            [lengths[next.edge()], lengths[prev.edge()], lengths[h.edge()]]
+        });
+        let [left, right] = sides.map(|l| triangle::angles(geometry, l));
+        if left.broken() || right.broken() {
+            return None;
+        }
+        let fails = match radii {
+            None => local_defect(geometry, sides) < -crate::geometry::flip::TOLERANCE,
+            Some(radii) => weighted_hinge(mesh, lengths, radii, geometry, h).wants_flip(),
+        };
+        // Angle at the origin of h: corner 0 on the left; on the right its twin starts at the other end.
+        let at_origin = left.at[0] + right.at[1];
+        let at_tip = left.at[1] + right.at[0];
+        if !fails || at_origin >= PI || at_tip >= PI {
+            return None;
+        }
+        let [near, far] = [sides[0][1], sides[1][0]];
+        let length = diagonal(geometry, near, far, at_origin);
+        (length > 0.0 && length.is_finite()).then_some(length)
+    };
+    Queue::all(mesh).run(mesh, lengths, decide, record).ok_or_else(endless)
+}
+
+/// `cot α + cot β` (scaled) of the angles opposite a common side, or what decides alike in curved spaces: the circumcircles'
+/// centres. With half chords q of the sides: `q_a² + q_b² − q_c²` over twice the product, the Euclidean triangle of the chords.
+fn local_defect(geometry: Space, sides: [[f64; 3]; 2]) -> f64 {
+    let chord = |l: f64| match geometry {
+        Space::E2 => l,
+        Space::H2 => (0.5 * l).sinh(),
+        Space::S2 => (0.5 * l).sin(),
+    };
+    let cos = |[a, b, c]: [f64; 3]| {
+        let [a, b, c] = [chord(a), chord(b), chord(c)];
+        (a * a + b * b - c * c) / (2.0 * a * b)
+    };
+    cos(sides[0]) + cos(sides[1])
+}
+
+/// The hinge of circles with these radii around the vertices, from the current lengths.
+fn weighted_hinge(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    radii: &PerVertex<f64>,
+    geometry: Space,
+    h: HalfedgeId,
+) -> Hinge {
+    let [jk, ki, il, lj] = mesh.quadrilateral(h);
+    let vertices = [h, h.twin(), ki, lj].map(|h| mesh.origin(h));
+    // w = tanh γ and the like; η w w = (l² − γ_i² − γ_j²)/2 and the like.
+    let circle = |v: VertexId| radii[v];
+    let product = |e: HalfedgeId| {
+        let [a, b] = mesh.ends(e.edge()).map(circle);
+        let l = lengths[e.edge()];
+        match geometry {
+            Space::E2 => 0.5 * (l * l - a * a - b * b),
+            Space::H2 => (l.cosh() - a.cosh() * b.cosh()) / (a.cosh() * b.cosh()),
+            Space::S2 => (a.cos() * b.cos() - l.cos()) / (a.cos() * b.cos()),
+        }
+    };
+    let square = |v: VertexId| match geometry {
+        Space::E2 => circle(v) * circle(v),
+        Space::H2 => circle(v).tanh().powi(2),
+        Space::S2 => circle(v).tan().powi(2),
+    };
+    Hinge::from_products(vertices.map(square), [h, ki, jk, il, lj].map(product))
+}
+
+fn endless() -> Error {
+    Error::Connectivity { element: "mesh", index: 0, message: "edge flips towards Delaunay do not end" }
+}
+
+/// The edges that fail the weighted Delaunay condition at variables `u` and can be flipped, ascending.
+pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> {
+    let w = weights(metric, u);
+    let mut fails = vec![false; mesh.n_edges()];
+    parallel::fill(&mut fails, |e| {
+        let h = EdgeId::from(e).halfedge();
+        let [f, g] = [h, h.twin()].map(|h| mesh.face(h));
+        f.is_some() && g.is_some() && f != g && hinge(mesh, h, &metric.epsilon, &metric.eta, &w).wants_flip()
+    });
+    mesh.edges().filter(|e| fails[e.index()]).collect()
+}
+
+/// `w` of every vertex at variables `u`.
+fn weights(metric: &Metric, u: &PerVertex<f64>) -> PerVertex<f64> {
+    PerVertex::from_fn(u.len(), |v| weight(metric.space, Vertex::new(metric.space, metric.epsilon[v], u[v])))
+}
