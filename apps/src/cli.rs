@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::picture::{FlowPictureArgs, SurfacePictureArgs};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ricci::geometry::Space;
 use ricci::metric::Scheme;
@@ -113,9 +114,8 @@ fn threads() -> impl clap::builder::TypedValueParser<Value = u16> {
 pub struct InfoArgs {
     /// Mesh file (.obj, .off, .ply, .stl) or intrinsic metric (.json)
     pub mesh: PathBuf,
-    /// Write a picture of the surface
-    #[arg(long, value_name = "P.png")]
-    pub picture: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: SurfacePictureArgs,
     #[command(flatten)]
     pub common: Common,
 }
@@ -142,9 +142,8 @@ pub struct RepairArgs {
     /// Write the input's vertex of each vertex and the input's face of each face
     #[arg(long, value_name = "MAP.json")]
     pub map: Option<PathBuf>,
-    /// Write a picture of the result
-    #[arg(long, value_name = "P.png")]
-    pub picture: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: SurfacePictureArgs,
     #[command(flatten)]
     pub common: Common,
 }
@@ -192,9 +191,8 @@ pub struct FlowArgs {
     /// Write the vertex circles and dual circles of the layout (circle schemes, E²)
     #[arg(long, value_name = "C.json")]
     pub circles: Option<PathBuf>,
-    /// Write a picture of the surface beside its layout, .png or .svg
-    #[arg(long, value_name = "P.png")]
-    pub picture: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: FlowPictureArgs,
     /// Write the steps of the gradient flow
     #[arg(long, value_name = "T.csv")]
     pub trace: Option<PathBuf>,

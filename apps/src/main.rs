@@ -16,6 +16,7 @@ mod metric_file;
 mod output;
 mod picture;
 mod progress;
+mod quantity;
 mod repair;
 mod report;
 mod say;

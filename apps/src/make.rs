@@ -4,6 +4,7 @@ use crate::cli::Common;
 use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
 use crate::output::{Outputs, check_extension, check_writable, extension};
+use crate::picture::SurfacePictureArgs;
 use crate::report::{InputSummary, Report, peak_bytes};
 use crate::say::{self, count};
 use crate::shape_quality;
@@ -171,9 +172,9 @@ pub struct ToMesh {
     /// Seed of the noise
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
-    /// Write a picture of the surface
-    #[arg(long, value_name = "P.png")]
-    pub picture: Option<PathBuf>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub picture: SurfacePictureArgs,
     #[command(flatten)]
     #[serde(skip)]
     pub common: Common,
@@ -236,7 +237,7 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Inst
     check_extension("-o", &to.out, &["obj", "off", "ply", "json"])?;
     check_writable(&to.out)?;
     to.common.report.as_deref().map_or(Ok(()), check_writable)?;
-    if let Some(path) = &to.picture {
+    if let Some(path) = &to.picture.base.picture {
         check_extension("--picture", path, &["png"])?;
         check_writable(path)?;
     }
@@ -254,8 +255,9 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Inst
         let format = Format::of(&to.out)?;
         outputs.add_named(&to.out, |path| io::write_as(path, format, &soup))?;
     }
-    if let Some(path) = &to.picture {
-        outputs.add(path, |out| show::draw_surface(out, positions, faces, to.common.threads()))?;
+    if let Some(path) = &to.picture.base.picture {
+        outputs
+            .add(path, |out| show::draw_surface(out, positions, faces, &to.picture, to.common.threads()))?;
     }
     let made = Made { out: &to.out, mesh: &mesh, geometry: Space::E2, lengths: &lengths };
     made.finish(outputs, shape, &to.common, start)
