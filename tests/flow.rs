@@ -9,6 +9,7 @@ use ricci::Control;
 use ricci::embed::layout;
 use ricci::flow::{Gradient, Method, Options, Report, StepRule, StopReason};
 use ricci::geometry::Space;
+use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::geometry::modulus::modulus;
 use ricci::mesh::shapes;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
@@ -118,6 +119,31 @@ fn modulus_of_the_torus_of_revolution_converges_quadratically() {
     for pair in errors.windows(2) {
         let rate = (pair[0] / pair[1]).log2();
         assert!((rate - 2.0).abs() < 0.2, "errors {errors:?}, rate {rate}");
+    }
+}
+
+#[test]
+fn modulus_of_an_elliptic_curve_converges_to_its_periods() {
+    let point = |(re, im)| num_complex::Complex64::new(re, im);
+    // Square and hexagonal lattices, whose spheres are symmetric too, and one without symmetry.
+    for points in [
+        vec![(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)],
+        vec![(1.0, 0.0), (-0.5, 0.75f64.sqrt()), (-0.5, -(0.75f64.sqrt()))],
+        vec![(-1.0, 0.2), (0.3, 0.9), (0.8, -0.7), (2.0, 0.5)],
+    ] {
+        let points: Vec<_> = points.into_iter().map(point).collect();
+        let tau = period_matrix(&points).unwrap()[0][0];
+        let exact = modulus([[1.0, 0.0], [tau.re, tau.im]]).unwrap();
+        let error = |n: usize| {
+            let (mesh, lengths) = shapes::hyperelliptic(&points, n).unwrap().build().unwrap();
+            let (_, metric, report) = run(&mesh, &lengths, Space::S2, Scheme::Yamabe, Space::E2, None);
+            converged(&report);
+            let tau = modulus_of(&mesh, &metric.lengths(&mesh).unwrap());
+            (tau[0] - exact[0]).hypot(tau[1] - exact[1])
+        };
+        // Corners of 4π at the branch points: first order.
+        let errors = [8usize, 16, 32, 64].map(|n| n as f64 * error(n));
+        assert!(errors.iter().all(|&e| e < 0.06), "{errors:?}");
     }
 }
 

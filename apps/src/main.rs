@@ -20,6 +20,7 @@ mod quantity;
 mod repair;
 mod report;
 mod say;
+mod shape;
 mod shape_quality;
 mod show;
 mod uv;

@@ -4,19 +4,20 @@ use crate::cli::Common;
 use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
 use crate::output::{Outputs, check_extension, check_writable, extension};
-use crate::picture::SurfacePictureArgs;
 use crate::report::{InputSummary, Report, peak_bytes};
 use crate::say::{self, count};
-use crate::shape_quality;
+use crate::shape::{Shape, ToMesh, ToMetric};
+use crate::shape_quality::{self, ShapeQuality};
 use crate::show;
-use clap::{Args, Subcommand};
+use clap::Args;
 use ricci::geometry::Space;
+use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::mesh::io::{self, Format, Soup};
-use ricci::mesh::shapes::{self, Intrinsic};
+use ricci::mesh::shapes::{self, Intrinsic, TorusKnot};
 use ricci::mesh::{Mesh, PerEdge};
 use ricci::metric::lengths_from_positions;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 pub const HELP: &str = "\
@@ -35,160 +36,6 @@ Example: a torus, and a hyperbolic surface given by its edge lengths alone
 pub struct MakeArgs {
     #[command(subcommand)]
     pub shape: Shape,
-}
-
-#[derive(Subcommand, Serialize, Debug)]
-#[serde(rename_all = "kebab-case")]
-pub enum Shape {
-    /// The unit sphere: an icosahedron with each edge cut into N
-    #[command(alias = "icosphere")]
-    Sphere {
-        #[arg(short, long, default_value_t = 16)]
-        n: usize,
-        #[command(flatten)]
-        to: ToMesh,
-    },
-    /// An ellipsoid: the sphere scaled along x, y, z
-    Ellipsoid {
-        /// Half axes
-        #[arg(long, num_args = 3, value_names = ["A", "B", "C"], default_values_t = [3.0, 2.0, 1.0])]
-        axes: Vec<f64>,
-        #[arg(short, long, default_value_t = 16)]
-        n: usize,
-        #[command(flatten)]
-        to: ToMesh,
-    },
-    /// A torus of revolution
-    Torus {
-        /// Radius of the centre circle
-        #[arg(long, default_value_t = 2.0)]
-        big: f64,
-        /// Radius of the tube
-        #[arg(long, default_value_t = 1.0)]
-        small: f64,
-        /// Vertices along the centre circle
-        #[arg(short, long, default_value_t = 64)]
-        n: usize,
-        /// Vertices around the tube [default: in proportion to the radii]
-        #[arg(short, long)]
-        m: Option<usize>,
-        #[command(flatten)]
-        to: ToMesh,
-    },
-    /// The unit disk, flat or with a hill and a hollow
-    Disk {
-        /// Rings
-        #[arg(short, long, default_value_t = 24)]
-        n: usize,
-        /// Height of the hill
-        #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
-        height: f64,
-        #[command(flatten)]
-        to: ToMesh,
-    },
-    /// A plane ring, flat or with a hill and a hollow
-    Annulus {
-        /// Inner radius
-        #[arg(long, default_value_t = 0.3)]
-        inner: f64,
-        /// Outer radius
-        #[arg(long, default_value_t = 1.0)]
-        outer: f64,
-        /// Steps from the inner to the outer radius
-        #[arg(short, long, default_value_t = 16)]
-        n: usize,
-        /// Vertices around [default: so that triangles are nearly equilateral]
-        #[arg(short, long)]
-        m: Option<usize>,
-        /// Height of the hill
-        #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
-        height: f64,
-        #[command(flatten)]
-        to: ToMesh,
-    },
-    /// A smooth closed surface of genus G ≥ 1: handles in a row
-    Genus {
-        /// Number of handles
-        #[arg(short, long, default_value_t = 2)]
-        genus: usize,
-        /// Layers over a quarter of the tube; 8 (5 G + 1) N² + 2 − 2 G vertices
-        #[arg(short, long, default_value_t = 6)]
-        n: usize,
-        #[command(flatten)]
-        to: ToMesh,
-    },
-    /// The flat torus with periods 1 and τ, as edge lengths
-    FlatTorus {
-        /// τ, Im τ > 0
-        #[arg(long, num_args = 2, value_names = ["RE", "IM"], default_values_t = [0.0, 1.0], allow_negative_numbers = true)]
-        tau: Vec<f64>,
-        /// Parallelograms along 1
-        #[arg(short, long, default_value_t = 16)]
-        n: usize,
-        /// Parallelograms along τ
-        #[arg(short, long, default_value_t = 16)]
-        m: usize,
-        #[command(flatten)]
-        to: ToMetric,
-    },
-    /// The Bolza surface: a regular hyperbolic octagon with opposite sides glued, as edge lengths
-    Bolza {
-        /// Times that every triangle is cut into four
-        #[arg(short, long, default_value_t = 3)]
-        level: usize,
-        #[command(flatten)]
-        to: ToMetric,
-    },
-    /// A regular polygon with sides a1 b1 a1⁻¹ b1⁻¹ … glued, cut by diagonals: one vertex, as edge lengths
-    OneVertex {
-        #[arg(short, long, default_value_t = 2)]
-        genus: usize,
-        #[command(flatten)]
-        to: ToMetric,
-    },
-    /// The same polygon, cut from its centre: two vertices, as edge lengths
-    TwoVertex {
-        #[arg(short, long, default_value_t = 2)]
-        genus: usize,
-        #[command(flatten)]
-        to: ToMetric,
-    },
-    /// Two equilateral triangles glued along their sides, as edge lengths
-    TwoTriangles {
-        #[command(flatten)]
-        to: ToMetric,
-    },
-}
-
-/// Where a surface in space goes.
-#[derive(Args, Serialize, Debug)]
-pub struct ToMesh {
-    /// Mesh (.obj, .off, .ply), or its edge lengths (.json)
-    #[arg(short = 'o', long = "out", value_name = "OUT")]
-    pub out: PathBuf,
-    /// Move every vertex by up to this fraction of the mean edge length in each coordinate
-    #[arg(long, default_value_t = 0.0, value_name = "A")]
-    pub noise: f64,
-    /// Seed of the noise
-    #[arg(long, default_value_t = 0)]
-    pub seed: u64,
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub picture: SurfacePictureArgs,
-    #[command(flatten)]
-    #[serde(skip)]
-    pub common: Common,
-}
-
-/// Where a surface that is given by its edge lengths goes.
-#[derive(Args, Serialize, Debug)]
-pub struct ToMetric {
-    /// Edge lengths (.json)
-    #[arg(short = 'o', long = "out", value_name = "M.json")]
-    pub out: PathBuf,
-    #[command(flatten)]
-    #[serde(skip)]
-    pub common: Common,
 }
 
 /// Run the command.
@@ -210,8 +57,17 @@ pub fn run(args: &MakeArgs) -> Result<u8, Failure> {
             let m = m.unwrap_or_else(|| around(1, std::f64::consts::TAU * 0.75f64.sqrt() / step));
             mesh(shapes::annulus(*inner, *outer, *n, m).map(|s| raise(s, *height)), to)
         }
-        Shape::Genus { genus, n, to } => mesh(shapes::genus(*genus, *n), to),
+        Shape::Genus { genus, n, ratio, to } => mesh(shapes::tapered_genus(*genus, *n, *ratio), to),
+        Shape::Knot { p, q, big, small, tube, n, m, to } => {
+            let knot = TorusKnot { p: *p, q: *q, big: *big, small: *small };
+            let m = m.unwrap_or_else(|| knot_around(&knot, *tube, *n));
+            mesh(knot.torus(*tube, *n, m), to)
+        }
         Shape::FlatTorus { tau, n, m, to } => metric(shapes::flat_torus([tau[0], tau[1]], *n, *m), to),
+        Shape::Pants { lengths, level, to } => {
+            metric(shapes::pants([lengths[0], lengths[1], lengths[2]], *level), to)
+        }
+        Shape::Hyperelliptic { at, n, to } => metric(shapes::hyperelliptic(at, *n), to),
         Shape::Bolza { level, to } => metric(shapes::bolza(*level), to),
         Shape::OneVertex { genus, to } => metric(shapes::one_vertex(*genus), to),
         Shape::TwoVertex { genus, to } => metric(shapes::two_vertex(*genus), to),
@@ -222,6 +78,14 @@ pub fn run(args: &MakeArgs) -> Result<u8, Failure> {
 /// A count in proportion to another, at least 3.
 fn around(n: usize, ratio: f64) -> usize {
     (n as f64 * ratio).round().clamp(3.0, 1e6) as usize
+}
+
+/// Vertices around a tube such that they are as far apart as its `n` cross-sections are.
+fn knot_around(knot: &TorusKnot, tube: f64, n: usize) -> usize {
+    let TorusKnot { p, q, big, small } = *knot;
+    // The core's length: p turns around the axis and q around the tube, at right angles.
+    let length = (f64::from(p) * big).hypot(f64::from(q) * small);
+    around(n, tube / length)
 }
 
 /// Raise a plane piece to a hill of this height and a hollow of half the depth.
@@ -241,10 +105,7 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Inst
         check_extension("--picture", path, &["png"])?;
         check_writable(path)?;
     }
-    let mut soup = soup?;
-    if to.noise != 0.0 {
-        shapes::noise(&mut soup, to.noise, to.seed)?;
-    }
+    let soup = to.spoil.apply(soup?)?;
     let mesh = Mesh::from_soup(&soup)?;
     let Soup { positions, faces, .. } = &soup;
     let lengths = lengths_from_positions(&mesh, positions)?;
@@ -285,6 +146,22 @@ fn write_metric(
     made.finish(outputs, shape, &to.common, start)
 }
 
+/// What the report says of the surface.
+#[derive(Serialize)]
+struct MadeResult {
+    #[serde(flatten)]
+    quality: ShapeQuality,
+    /// Of the curve that a hyperelliptic surface is: `[re, im]` of τ_ij.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    period_matrix: Option<Vec<Vec<[f64; 2]>>>,
+}
+
+fn known_periods(shape: &Shape) -> ricci::Result<Option<Vec<Vec<[f64; 2]>>>> {
+    let Shape::Hyperelliptic { at, .. } = shape else { return Ok(None) };
+    let tau = period_matrix(at)?;
+    Ok(Some(tau.iter().map(|row| row.iter().map(|z| [z.re, z.im]).collect()).collect()))
+}
+
 /// The surface that was made.
 struct Made<'a> {
     out: &'a Path,
@@ -305,8 +182,9 @@ impl Made<'_> {
         let Made { out, mesh, geometry, lengths } = self;
         if let Some(path) = &common.report {
             let summary = InputSummary::of_mesh(out, mesh);
-            let mut report =
-                Report::new("make", summary, shape, shape_quality::of_surface(mesh, geometry, lengths));
+            let quality = shape_quality::of_surface(mesh, geometry, lengths);
+            let result = MadeResult { quality, period_matrix: known_periods(shape)? };
+            let mut report = Report::new("make", summary, shape, result);
             report.seconds.total = start.elapsed().as_secs_f64();
             report.peak_bytes = peak_bytes();
             outputs.add_report(path, &report)?;
@@ -324,8 +202,4 @@ impl Made<'_> {
         }
         Ok(0)
     }
-}
-
-fn finite(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| "must be a number".into())
 }

@@ -40,6 +40,10 @@ pub mod space;
 
 pub mod mesh;
 
+pub mod shapes;
+
+pub mod intrinsic;
+
 pub mod diagnosis;
 
 pub mod repair;

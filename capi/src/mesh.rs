@@ -43,12 +43,12 @@ impl ricci_mesh {
         ricci_mesh { poison: Poison::default(), connectivity, shape }
     }
 
-    fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {
+    pub(crate) fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {
         let connectivity = Mesh::from_soup(&soup)?;
         Ok(ricci_mesh::new(Arc::new(connectivity), Shape::Positions(Arc::new(soup.positions))))
     }
 
-    fn positions(&self) -> Outcome<&[Point]> {
+    pub(crate) fn positions(&self) -> Outcome<&[Point]> {
         match &self.shape {
             Shape::Positions(positions) => Ok(positions),
             Shape::Lengths(..) => {
@@ -411,6 +411,6 @@ pub(crate) fn signed_edge(h: HalfedgeId) -> i32 {
     if h == h.edge().halfedge() { number } else { -number }
 }
 
-fn face_vertices(mesh: &Mesh) -> Vec<[u32; 3]> {
+pub(crate) fn face_vertices(mesh: &Mesh) -> Vec<[u32; 3]> {
     mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect()
 }

@@ -140,6 +140,14 @@ typedef enum {
     RICCI_SPACE_S2 = 2,
 } ricci_space;
 
+/** Which bad triangles. */
+typedef enum {
+    /** A vertex near the middle of a side: one angle near pi. */
+    RICCI_SLIVER_CAP = 0,
+    /** A vertex near a corner: a short edge. */
+    RICCI_SLIVER_NEEDLE = 1,
+} ricci_sliver;
+
 /** How edge lengths depend on one variable u per vertex. */
 typedef enum {
     /** Vertex scaling (discrete Yamabe); represents any input metric exactly. */
@@ -776,6 +784,286 @@ ricci_status ricci_mesh_boundary(const ricci_mesh *mesh,
                                  size_t vertices_capacity,
                                  size_t *starts,
                                  size_t starts_capacity);
+
+/**
+ * The unit sphere: an icosahedron with each edge cut into n. 10 n^2 + 2 vertices.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param n     at least 1.
+ * @param mesh  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_sphere(size_t n, ricci_mesh **mesh);
+
+/**
+ * An ellipsoid: the sphere scaled along x, y, z.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param a     half axis along x.
+ * @param b     half axis along y.
+ * @param c     half axis along z.
+ * @param n     as for ricci_shape_sphere.
+ * @param mesh  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_ellipsoid(double a, double b, double c, size_t n, ricci_mesh **mesh);
+
+/**
+ * The unit disk in the plane z = 0: a centre and n rings. 3 n (n + 1) + 1 vertices.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param n     at least 1.
+ * @param mesh  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_disk(size_t n, ricci_mesh **mesh);
+
+/**
+ * A plane ring, radii in geometric progression. (n + 1) m vertices.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param inner  inner radius.
+ * @param outer  outer radius, larger.
+ * @param n      steps from inside to outside, at least 1.
+ * @param m      vertices around, at least 3.
+ * @param mesh   out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_annulus(double inner, double outer, size_t n, size_t m, ricci_mesh **mesh);
+
+/**
+ * A torus of revolution about z. n m vertices.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param big    radius of the centre circle.
+ * @param small  radius of the tube, smaller.
+ * @param n      vertices around the axis, at least 3.
+ * @param m      vertices around the tube, at least 3.
+ * @param mesh   out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_torus(double big, double small, size_t n, size_t m, ricci_mesh **mesh);
+
+/**
+ * A smooth closed surface of any genus: handles in a row, the first hole `ratio` times as wide as the last.
+ * 8 (5 genus + 1) n^2 + 2 - 2 genus vertices.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param genus  number of handles, at least 1.
+ * @param n      layers over a quarter of the tube, at least 1.
+ * @param ratio  1 for equal handles; larger ones have a limit, which the message names.
+ * @param mesh   out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_genus(size_t genus,
+                               size_t n,
+                               double ratio,
+                               ricci_mesh **mesh);
+
+/**
+ * A knotted torus: a tube around the curve that goes p times around the axis and q times around the tube of a
+ * torus of revolution. n m vertices.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param p      times around the axis; coprime with q.
+ * @param q      times around the tube.
+ * @param big    radius of that torus's centre circle.
+ * @param small  radius of its tube, smaller.
+ * @param tube   radius of the tube around the curve; where it would meet itself is an error.
+ * @param n      cross-sections, at least 3.
+ * @param m      vertices around the tube, at least 3.
+ * @param mesh   out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_knot(uint32_t p,
+                              uint32_t q,
+                              double big,
+                              double small,
+                              double tube,
+                              size_t n,
+                              size_t m,
+                              ricci_mesh **mesh);
+
+/**
+ * Cut round holes out of a surface, as far from each other and from the boundary as its vertices allow. Vertices and
+ * faces keep their order, those cut out are dropped.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (also: the mesh is intrinsic).
+ *
+ * @param mesh    the surface.
+ * @param count   number of holes; no room for one is an error.
+ * @param result  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_mesh_punch(const ricci_mesh *mesh,
+                              size_t count,
+                              ricci_mesh **result);
+
+/**
+ * Halve the edges around a vertex, then those of the smaller triangles around it, and so on. The new vertices come
+ * last; the surface keeps its shape.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (also: the mesh is intrinsic).
+ *
+ * @param mesh    the surface.
+ * @param vertex  the vertex.
+ * @param levels  number of times, at most 100.
+ * @param result  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_mesh_grade(const ricci_mesh *mesh,
+                              uint32_t vertex,
+                              size_t levels,
+                              ricci_mesh **result);
+
+/**
+ * Cut faces into three by a vertex that leaves one of them with a small angle. The new vertices come last; the surface
+ * keeps its shape.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (also: the mesh is intrinsic).
+ *
+ * @param mesh    the surface.
+ * @param kind    which slivers.
+ * @param count   number of faces to cut, at most n_faces.
+ * @param angle   their smallest angle, radians, 1e-7 to 0.1.
+ * @param seed    chooses the faces.
+ * @param result  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_mesh_slivers(const ricci_mesh *mesh,
+                                ricci_sliver kind,
+                                size_t count,
+                                double angle,
+                                uint64_t seed,
+                                ricci_mesh **result);
+
+/**
+ * Move every vertex by up to a fraction of the mean edge length in each coordinate.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (also: the mesh is intrinsic).
+ *
+ * @param mesh       the surface.
+ * @param amplitude  the fraction, 0 to 1000.
+ * @param seed       the same seed gives the same noise on every machine.
+ * @param result     out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_mesh_noise(const ricci_mesh *mesh,
+                              double amplitude,
+                              uint64_t seed,
+                              ricci_mesh **result);
+
+/**
+ * Map a surface by the inversion in a sphere, a conformal map; faces keep their outside.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (also: the mesh is intrinsic).
+ *
+ * @param mesh    the surface.
+ * @param centre  3 entries: the centre of the sphere, away from every vertex.
+ * @param radius  its radius.
+ * @param result  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_mesh_invert(const ricci_mesh *mesh,
+                               const double *centre,
+                               double radius,
+                               ricci_mesh **result);
+
+/**
+ * The flat torus with periods 1 and tau. n m vertices.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param re    real part of tau.
+ * @param im    imaginary part of tau, positive.
+ * @param n     parallelograms along 1, at least 1.
+ * @param m     parallelograms along tau, at least 1.
+ * @param mesh  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_flat_torus(double re, double im, size_t n, size_t m, ricci_mesh **mesh);
+
+/**
+ * The Bolza surface: a regular hyperbolic octagon with opposite sides glued; curvature 0.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param level  times that every triangle is cut into four.
+ * @param mesh   out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_bolza(size_t level, ricci_mesh **mesh);
+
+/**
+ * A regular polygon with sides a1 b1 a1^-1 b1^-1 ... glued, cut by diagonals: one vertex; curvature 0.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param genus  at least 1 (1: the flat square torus).
+ * @param mesh   out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_one_vertex(size_t genus,
+                                    ricci_mesh **mesh);
+
+/**
+ * The polygon of ricci_shape_one_vertex, cut from its centre: two vertices.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param genus  at least 1.
+ * @param mesh   out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_two_vertex(size_t genus, ricci_mesh **mesh);
+
+/**
+ * Two equilateral triangles glued along their sides: a sphere of three cones.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param mesh  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_two_triangles(ricci_mesh **mesh);
+
+/**
+ * The hyperbolic pair of pants with geodesic boundaries of given lengths; curvature 0, also on the boundary.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT, RICCI_TRIANGLE_INEQUALITY (triangles too thin for doubles).
+ *
+ * @param l1     length of the first boundary, 1e-6 to 200.
+ * @param l2     of the second.
+ * @param l3     of the third.
+ * @param level  times that every triangle is cut into four.
+ * @param mesh   out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_pants(double l1,
+                               double l2,
+                               double l3,
+                               size_t level,
+                               ricci_mesh **mesh);
+
+/**
+ * The curve y^2 = (x - e_1) (x - e_2) ... as the double cover of the round sphere branched over the points e_j:
+ * spherical edge lengths, angle 4 pi over the points. Vertex j lies over e_j.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
+ *
+ * @param points    n_points x 2: real and imaginary parts of the finite branch points, all different.
+ * @param n_points  2 g + 1 (infinity is one more) or 2 g + 2, at least 3.
+ * @param n         frequency of the sphere below; 40 n^2 faces.
+ * @param mesh      out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_shape_hyperelliptic(const double *points,
+                                       size_t n_points,
+                                       size_t n,
+                                       ricci_mesh **mesh);
+
+/**
+ * The period matrix of that curve, with respect to some symplectic basis of cycles.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
+ *
+ * @param points    n_points x 2: real and imaginary parts of the finite branch points, all different.
+ * @param n_points  2 g + 1 (infinity is one more) or 2 g + 2, at least 3.
+ * @param periods   out: g x g x 2, real and imaginary parts of the symmetric matrix.
+ * @param capacity  entries of `periods`, at least 2 g^2.
+ */
+ricci_status ricci_shape_hyperelliptic_periods(const double *points,
+                                               size_t n_points,
+                                               double *periods,
+                                               size_t capacity);
 
 /**
  * Every defect of positions and faces; defects are a result, not an error.

@@ -2,11 +2,14 @@
 
 pub mod circle;
 pub mod conformal;
+pub mod hyperelliptic;
 pub mod isometry;
 pub mod modulus;
 pub mod predicates;
 pub mod space;
+pub mod symplectic;
 pub mod triangle;
+pub mod vector;
 
 pub use isometry::PlaneIsometry;
 pub use space::Space;

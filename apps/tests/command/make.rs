@@ -67,6 +67,53 @@ fn noise_is_seeded() {
 }
 
 #[test]
+fn holes_and_bad_triangles_are_made_on_demand() {
+    let place = Place::new();
+    for (line, genus, loops) in [
+        ("sphere -n 8 --holes 3", 0, 3),
+        ("disk -n 12 --holes 4", 0, 5),
+        ("torus -n 40 --holes 2 --slivers 9 --sliver-angle 1e-5", 1, 2),
+        ("genus -g 3 -n 3 --ratio 2", 3, 0),
+        ("knot -n 120", 1, 0),
+        ("sphere --grade 3,10 --slivers 5 --sliver-kind needle", 0, 0),
+    ] {
+        place.expect(0, &format!("make {line} -o m.ply --report r.json"));
+        place.expect(0, "info m.ply --report i.json");
+        let (made, read) = (place.json("r.json"), place.json("i.json"));
+        for report in [&made, &read] {
+            assert_eq!(
+                (&report["input"]["genus"], &report["input"]["boundary_loops"]),
+                (&genus.into(), &loops.into())
+            );
+        }
+        assert!(read["result"]["defects"].as_array().unwrap().is_empty(), "{line}");
+        if let Some(angle) = line.split("--sliver-angle ").nth(1) {
+            let asked = angle.parse::<f64>().unwrap().to_degrees();
+            let angle = made["result"]["min_angle_degrees"].as_f64().unwrap();
+            assert!((angle / asked - 1.0).abs() < 0.1, "{angle} {asked}");
+        }
+    }
+}
+
+#[test]
+fn curves_are_made_with_their_periods() {
+    let place = Place::new();
+    place.expect(0, "make hyperelliptic --at 0,0 --at 1,0 --at 2,0 -n 12 -o m.json --report r.json");
+    let tau = place.json("r.json")["result"]["period_matrix"].clone();
+    assert_eq!(tau.as_array().unwrap().len(), 1);
+    // y² = x (x − 1) (x − 2): the square lattice, and so is the flat torus that the flow finds.
+    place.expect(0, "flow m.json --report f.json");
+    let modulus = place.json("f.json")["result"]["modulus"].clone();
+    let [re, im] = [0, 1].map(|k| modulus[k].as_f64().unwrap());
+    assert!(re.abs() < 0.01 && (im - 1.0).abs() < 0.01, "{modulus}");
+    place.expect(0, "make pants --lengths 2 3 4 -l 2 -o p.json --report p.r.json");
+    let report = place.json("p.r.json");
+    assert_eq!((&report["input"]["genus"], &report["input"]["boundary_loops"]), (&0.into(), &3.into()));
+    let area = report["result"]["area"].as_f64().unwrap();
+    assert!((area - 2.0 * std::f64::consts::PI).abs() < 1e-12, "{area}");
+}
+
+#[test]
 fn what_cannot_be_made_is_exit_2() {
     let place = Place::new();
     for line in [
@@ -79,6 +126,14 @@ fn what_cannot_be_made_is_exit_2() {
         "make sphere -n 1000000000 -o m.obj",
         "make disk --height nan -o m.obj",
         "make bolza -o m.obj",
+        "make pants --lengths 1 0 1 -o m.json",
+        "make hyperelliptic --at 0,0 --at 1,0 -o m.json",
+        "make hyperelliptic --at 0 --at 1,0 --at 2,0 -o m.json",
+        "make knot -p 2 -q 4 -o m.obj",
+        "make genus -g 2 --ratio 50 -o m.obj",
+        "make sphere -n 1 --holes 1 -o m.obj",
+        "make sphere --grade 3 -o m.obj",
+        "make sphere --slivers 1 --sliver-angle 1 -o m.obj",
         "make bolza -l 40 -o m.json",
         "make torus -o m.stl",
         "make torus -o missing/m.obj",

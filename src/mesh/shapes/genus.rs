@@ -15,13 +15,13 @@ use crate::mesh::io::Soup;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Radius of the holes.
-const HOLE: f64 = 1.0;
+pub(super) const HOLE: f64 = 1.0;
 /// Radius of the tube around a hole.
 const TUBE: f64 = 0.35;
 /// Radius of the rim around a hole on its own.
-const RIM: f64 = HOLE + 2.0 * TUBE;
+pub(super) const RIM: f64 = HOLE + 2.0 * TUBE;
 /// Half the distance of neighbouring holes.
-const HALF_STEP: f64 = HOLE + TUBE;
+pub(super) const HALF_STEP: f64 = HOLE + TUBE;
 /// Temperature of the smooth union of the rim's disks: larger fills the waists between the holes.
 const BLEND: f64 = 2.0;
 /// Disks more than this many steps from the nearest one change the rim by less than rounding: their weight is

@@ -78,7 +78,7 @@ impl Intrinsic {
     }
 
     /// Every length usable, every face a triangle of the geometry.
-    fn check_triangles(&self) -> Result<()> {
+    pub(super) fn check_triangles(&self) -> Result<()> {
         if let Some((edge, &length)) = self.lengths.iter().enumerate().find(|(_, l)| !SIZES.contains(*l)) {
             return Err(Error::EdgeLength { edge, length });
         }

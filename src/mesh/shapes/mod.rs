@@ -1,15 +1,27 @@
 //! Sample surfaces of every topology, at any resolution.
 
 mod genus;
+mod grading;
+mod holes;
+mod hyperelliptic;
 mod intrinsic;
+mod inversion;
+mod knot;
 mod noise;
+mod pants;
 mod plane;
 mod sphere;
 mod torus;
 
 pub use genus::genus;
+pub use grading::{Sliver, grade, slivers};
+pub use holes::punch;
+pub use hyperelliptic::hyperelliptic;
 pub use intrinsic::{Intrinsic, bolza, flat_torus, one_vertex, two_triangle_sphere, two_vertex};
+pub use inversion::{invert, tapered_genus};
+pub use knot::TorusKnot;
 pub use noise::{SplitMix64, noise};
+pub use pants::pants;
 pub use plane::{annulus, disk};
 pub use sphere::{ellipsoid, icosphere};
 pub use torus::torus;

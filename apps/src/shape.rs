@@ -1,0 +1,300 @@
+//! The shapes that `ricci make` knows, and what can be done to them.
+
+use crate::cli::Common;
+use crate::picture::SurfacePictureArgs;
+use clap::{Args, Subcommand, ValueEnum};
+use num_complex::Complex64;
+use ricci::mesh::io::Soup;
+use ricci::mesh::shapes::{self, Sliver};
+use serde::{Serialize, Serializer};
+use std::path::PathBuf;
+
+#[derive(Subcommand, Serialize, Debug)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shape {
+    /// The unit sphere: an icosahedron with each edge cut into N
+    #[command(alias = "icosphere")]
+    Sphere {
+        #[arg(short, long, default_value_t = 16)]
+        n: usize,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// An ellipsoid: the sphere scaled along x, y, z
+    Ellipsoid {
+        /// Half axes
+        #[arg(long, num_args = 3, value_names = ["A", "B", "C"], default_values_t = [3.0, 2.0, 1.0])]
+        axes: Vec<f64>,
+        #[arg(short, long, default_value_t = 16)]
+        n: usize,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// A torus of revolution
+    Torus {
+        /// Radius of the centre circle
+        #[arg(long, default_value_t = 2.0)]
+        big: f64,
+        /// Radius of the tube
+        #[arg(long, default_value_t = 1.0)]
+        small: f64,
+        /// Vertices along the centre circle
+        #[arg(short, long, default_value_t = 64)]
+        n: usize,
+        /// Vertices around the tube [default: in proportion to the radii]
+        #[arg(short, long)]
+        m: Option<usize>,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// The unit disk, flat or with a hill and a hollow
+    Disk {
+        /// Rings
+        #[arg(short, long, default_value_t = 24)]
+        n: usize,
+        /// Height of the hill
+        #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
+        height: f64,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// A plane ring, flat or with a hill and a hollow
+    Annulus {
+        /// Inner radius
+        #[arg(long, default_value_t = 0.3)]
+        inner: f64,
+        /// Outer radius
+        #[arg(long, default_value_t = 1.0)]
+        outer: f64,
+        /// Steps from the inner to the outer radius
+        #[arg(short, long, default_value_t = 16)]
+        n: usize,
+        /// Vertices around [default: so that triangles are nearly equilateral]
+        #[arg(short, long)]
+        m: Option<usize>,
+        /// Height of the hill
+        #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
+        height: f64,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// A smooth closed surface of genus G ≥ 1: handles in a row
+    Genus {
+        /// Number of handles
+        #[arg(short, long, default_value_t = 2)]
+        genus: usize,
+        /// Layers over a quarter of the tube; 8 (5 G + 1) N² + 2 − 2 G vertices
+        #[arg(short, long, default_value_t = 6)]
+        n: usize,
+        /// How many times as wide the first hole is as the last
+        #[arg(long, default_value_t = 1.0)]
+        ratio: f64,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// A knotted torus: a tube around a torus knot, by default the trefoil
+    Knot {
+        /// Times that the knot goes around the axis
+        #[arg(short, long, default_value_t = 2)]
+        p: u32,
+        /// Times that it goes around the tube of the torus it lies on
+        #[arg(short, long, default_value_t = 3)]
+        q: u32,
+        /// Radius of that torus's centre circle
+        #[arg(long, default_value_t = 2.0)]
+        big: f64,
+        /// Radius of that torus's tube
+        #[arg(long, default_value_t = 0.9)]
+        small: f64,
+        /// Radius of the tube around the knot
+        #[arg(long, default_value_t = 0.4)]
+        tube: f64,
+        /// Cross-sections
+        #[arg(short, long, default_value_t = 240)]
+        n: usize,
+        /// Vertices around the tube [default: as far apart as the cross-sections]
+        #[arg(short, long)]
+        m: Option<usize>,
+        #[command(flatten)]
+        to: ToMesh,
+    },
+    /// A hyperbolic pair of pants with geodesic boundaries of given lengths, as edge lengths
+    Pants {
+        /// Lengths of the three boundaries
+        #[arg(long, num_args = 3, value_names = ["L1", "L2", "L3"], default_values_t = [1.0, 2.0, 3.0])]
+        lengths: Vec<f64>,
+        /// Times that every triangle is cut into four
+        #[arg(short, long, default_value_t = 4)]
+        level: usize,
+        #[command(flatten)]
+        to: ToMetric,
+    },
+    /// The curve y² = Π (x − e): the round sphere's double cover branched over given points, as edge lengths
+    ///
+    /// The report has the period matrix. Default: y² = x⁶ − 1, genus 2.
+    Hyperelliptic {
+        /// A branch point of the x-plane; an odd number of points has ∞ as one more
+        #[arg(long, value_name = "RE,IM", allow_hyphen_values = true, value_parser = complex,
+              default_values = ["1,0", "0.5,0.8660254037844386", "-0.5,0.8660254037844386", "-1,0",
+                                "-0.5,-0.8660254037844386", "0.5,-0.8660254037844386"])]
+        #[serde(serialize_with = "pairs")]
+        at: Vec<Complex64>,
+        /// Frequency of the sphere below; 40 N² faces
+        #[arg(short, long, default_value_t = 16)]
+        n: usize,
+        #[command(flatten)]
+        to: ToMetric,
+    },
+    /// The flat torus with periods 1 and τ, as edge lengths
+    FlatTorus {
+        /// τ, Im τ > 0
+        #[arg(long, num_args = 2, value_names = ["RE", "IM"], default_values_t = [0.0, 1.0], allow_negative_numbers = true)]
+        tau: Vec<f64>,
+        /// Parallelograms along 1
+        #[arg(short, long, default_value_t = 16)]
+        n: usize,
+        /// Parallelograms along τ
+        #[arg(short, long, default_value_t = 16)]
+        m: usize,
+        #[command(flatten)]
+        to: ToMetric,
+    },
+    /// The Bolza surface: a regular hyperbolic octagon with opposite sides glued, as edge lengths
+    Bolza {
+        /// Times that every triangle is cut into four
+        #[arg(short, long, default_value_t = 3)]
+        level: usize,
+        #[command(flatten)]
+        to: ToMetric,
+    },
+    /// A regular polygon with sides a1 b1 a1⁻¹ b1⁻¹ … glued, cut by diagonals: one vertex, as edge lengths
+    OneVertex {
+        #[arg(short, long, default_value_t = 2)]
+        genus: usize,
+        #[command(flatten)]
+        to: ToMetric,
+    },
+    /// The same polygon, cut from its centre: two vertices, as edge lengths
+    TwoVertex {
+        #[arg(short, long, default_value_t = 2)]
+        genus: usize,
+        #[command(flatten)]
+        to: ToMetric,
+    },
+    /// Two equilateral triangles glued along their sides, as edge lengths
+    TwoTriangles {
+        #[command(flatten)]
+        to: ToMetric,
+    },
+}
+
+/// Where a surface in space goes.
+#[derive(Args, Serialize, Debug)]
+pub struct ToMesh {
+    /// Mesh (.obj, .off, .ply), or its edge lengths (.json)
+    #[arg(short = 'o', long = "out", value_name = "OUT")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub spoil: Spoil,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub picture: SurfacePictureArgs,
+    #[command(flatten)]
+    #[serde(skip)]
+    pub common: Common,
+}
+
+/// Where a surface that is given by its edge lengths goes.
+#[derive(Args, Serialize, Debug)]
+pub struct ToMetric {
+    /// Edge lengths (.json)
+    #[arg(short = 'o', long = "out", value_name = "M.json")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    #[serde(skip)]
+    pub common: Common,
+}
+
+/// Holes, noise and bad triangles, in this order.
+#[derive(Args, Serialize, Debug)]
+pub struct Spoil {
+    /// Cut this many round holes, far from each other
+    #[arg(long, default_value_t = 0, value_name = "COUNT")]
+    pub holes: usize,
+    /// Halve the edges around a vertex, again and again
+    #[arg(long, value_name = "VERTEX,LEVELS", value_parser = grading)]
+    pub grade: Option<(u32, usize)>,
+    /// Cut this many faces into slivers
+    #[arg(long, default_value_t = 0, value_name = "COUNT")]
+    pub slivers: usize,
+    /// Smallest angle of the slivers, radians
+    #[arg(long, default_value_t = 1e-3, value_name = "ANGLE")]
+    pub sliver_angle: f64,
+    /// Flat ones, or short edges
+    #[arg(long, value_enum, default_value_t = SliverChoice::Cap)]
+    pub sliver_kind: SliverChoice,
+    /// Move every vertex by up to this fraction of the mean edge length in each coordinate
+    #[arg(long, default_value_t = 0.0, value_name = "A")]
+    pub noise: f64,
+    /// Seed of slivers and noise
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+}
+
+impl Spoil {
+    /// The surface after all that was asked for.
+    pub fn apply(&self, mut soup: Soup) -> ricci::Result<Soup> {
+        if self.holes > 0 {
+            soup = shapes::punch(&soup, self.holes)?;
+        }
+        if self.noise != 0.0 {
+            shapes::noise(&mut soup, self.noise, self.seed)?;
+        }
+        if let Some((vertex, levels)) = self.grade {
+            shapes::grade(&mut soup, vertex, levels)?;
+        }
+        if self.slivers > 0 {
+            shapes::slivers(&mut soup, self.sliver_kind.into(), self.slivers, self.sliver_angle, self.seed)?;
+        }
+        Ok(soup)
+    }
+}
+
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+pub enum SliverChoice {
+    /// A vertex near the middle of a side
+    Cap,
+    /// A vertex near a corner
+    Needle,
+}
+
+impl From<SliverChoice> for Sliver {
+    fn from(choice: SliverChoice) -> Sliver {
+        match choice {
+            SliverChoice::Cap => Sliver::Cap,
+            SliverChoice::Needle => Sliver::Needle,
+        }
+    }
+}
+
+fn complex(text: &str) -> Result<Complex64, String> {
+    let (re, im) = text.split_once(',').ok_or("must be RE,IM")?;
+    let part = |x: &str| finite(x.trim());
+    Ok(Complex64::new(part(re)?, part(im)?))
+}
+
+fn pairs<S: Serializer>(points: &[Complex64], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(points.iter().map(|z| [z.re, z.im]))
+}
+
+fn grading(text: &str) -> Result<(u32, usize), String> {
+    let parts =
+        text.split_once(',').and_then(|(v, l)| Some((v.trim().parse().ok()?, l.trim().parse().ok()?)));
+    parts.ok_or_else(|| "must be VERTEX,LEVELS".into())
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| "must be a number".into())
+}

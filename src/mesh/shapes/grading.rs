@@ -1,0 +1,152 @@
+//! Bad triangles on demand: grading towards a vertex, and slivers.
+
+use super::noise::SplitMix64;
+use crate::error::{Error, Result};
+use crate::geometry::vector::{add, cross, distance, lerp, norm, normalised, scale, sub, triangle_normal};
+use crate::mesh::Point;
+use crate::mesh::io::Soup;
+
+/// Halve the edges around `vertex`, then those of the smaller triangles around it, `levels` times: edge lengths fall
+/// like 2^−levels towards it, and no new shape of triangle appears but halves of trapezia.
+///
+/// ```text
+///          v                 Each triangle (v, a, b) becomes (v, a', b') and the trapezium (a', a, b, b'), cut
+///         / \                along a'b. New vertices come last, level by level in the order of the vertex's
+///       a'___b'              faces. Positions are midpoints: the surface stays as it is.
+///       / \   \
+///      a___\___b
+/// ```
+///
+/// Errors: [`Error::Argument`] for a vertex that does not exist or is in no face, or more than 100 levels;
+/// [`Error::TooLarge`].
+pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
+    let star: Vec<usize> = (0..soup.faces.len()).filter(|&f| soup.faces[f].contains(&vertex)).collect();
+    check_corners(soup)?;
+    if star.is_empty() {
+        let need = "a vertex of a face";
+        return Err(Error::Argument { what: "vertex to grade towards", value: vertex.to_string(), need });
+    }
+    if levels > MOST_LEVELS {
+        let need = "at most 100: edges would vanish in rounding";
+        return Err(Error::Argument { what: "levels", value: levels.to_string(), need });
+    }
+    check_room(soup, 2 * levels * star.len())?;
+    for _ in 0..levels {
+        // The vertices opposite the graded one, each with its midpoint.
+        let mut middle: Vec<(u32, u32)> = Vec::new();
+        for &f in &star {
+            for a in soup.faces[f].into_iter().filter(|&a| a != vertex) {
+                if !middle.iter().any(|&(known, _)| known == a) {
+                    let p = lerp(soup.positions[vertex as usize], soup.positions[a as usize], 0.5);
+                    middle.push((a, soup.positions.len() as u32));
+                    soup.positions.push(p);
+                }
+            }
+        }
+        let middle_of = |a: u32| middle.iter().find(|&&(known, _)| known == a).map_or(a, |&(_, m)| m);
+        for &f in &star {
+            let corner = soup.faces[f].iter().position(|&v| v == vertex).unwrap_or(0);
+            let (a, b) = (soup.faces[f][(corner + 1) % 3], soup.faces[f][(corner + 2) % 3]);
+            let (near_a, near_b) = (middle_of(a), middle_of(b));
+            soup.faces[f] = [vertex, near_a, near_b];
+            soup.faces.extend([[near_a, a, b], [near_a, b, near_b]]);
+        }
+    }
+    forget_attributes(soup);
+    Ok(())
+}
+
+/// 2⁻¹⁰⁰ of an edge is still a hundred million times what doubles resolve at coordinate 0, and nothing elsewhere.
+const MOST_LEVELS: usize = 100;
+
+/// Which sliver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sliver {
+    /// A vertex close to the middle of a side: one angle near π, two small ones.
+    Cap,
+    /// A vertex close to a corner: a short edge, one small angle.
+    Needle,
+}
+
+/// Cut `count` faces, chosen by `seed`, into three by a new vertex so placed that the smallest angle is about `angle`
+/// (radians, up to 0.1): the vertex lies near the middle of the first side, or near the first corner, where the
+/// farther ones see it under `angle`; never farther in than a third of the face. The surface stays as it is.
+///
+/// The new vertices come last; of each face cut, the first third keeps its number and the others come last.
+///
+/// Errors: [`Error::Argument`] for an angle outside 1e-7 … 0.1 or more slivers than faces; [`Error::TooLarge`].
+pub fn slivers(soup: &mut Soup, kind: Sliver, count: usize, angle: f64, seed: u64) -> Result<()> {
+    check_corners(soup)?;
+    if !(THINNEST..=0.1).contains(&angle) {
+        let need = "between 1e-7 and 0.1 radians";
+        return Err(Error::Argument { what: "angle of a sliver", value: angle.to_string(), need });
+    }
+    let n_faces = soup.faces.len();
+    if count > n_faces {
+        let need = "at most the number of faces";
+        return Err(Error::Argument { what: "slivers", value: count.to_string(), need });
+    }
+    check_room(soup, 2 * count)?;
+    let mut random = SplitMix64::new(seed);
+    // The first entries of a random permutation (Fisher and Yates).
+    let mut order: Vec<usize> = (0..n_faces).collect();
+    for i in 0..count {
+        let rest = (n_faces - i) as u64;
+        order.swap(i, i + (random.bits() % rest) as usize);
+    }
+    for &f in &order[..count] {
+        let [a, b, c] = soup.faces[f];
+        let [p, q, r] = [a, b, c].map(|v| soup.positions[v as usize]);
+        let position = match kind {
+            Sliver::Cap => cap([p, q, r], angle),
+            Sliver::Needle => needle([p, q, r], angle),
+        };
+        let v = soup.positions.len() as u32;
+        soup.positions.push(position);
+        soup.faces[f] = [a, b, v];
+        soup.faces.extend([[b, c, v], [c, a, v]]);
+    }
+    forget_attributes(soup);
+    Ok(())
+}
+
+/// The sides of a cap with this angle differ from its base by a few ulps: `2 (1 − cos 1e-7) = 1e-14`. Thinner ones have no
+/// area by their lengths.
+const THINNEST: f64 = 1e-7;
+
+/// Above the middle of pq, seen from p and q under `angle`.
+fn cap([p, q, r]: [Point; 3], angle: f64) -> Point {
+    let side = distance(p, q);
+    let height = norm(triangle_normal([p, q, r])) / side;
+    lerp(lerp(p, q, 0.5), r, (0.5 * side * angle.tan() / height).min(1.0 / 3.0))
+}
+
+/// On the bisector at p, seen from the farther one of q and r under `angle`.
+fn needle([p, q, r]: [Point; 3], angle: f64) -> Point {
+    let (to_q, to_r) = (sub(q, p), sub(r, p));
+    let bisector = normalised(add(normalised(to_q), normalised(to_r)));
+    let sine = norm(cross(normalised(to_q), bisector));
+    let (near, far) = (norm(to_q).min(norm(to_r)), norm(to_q).max(norm(to_r)));
+    add(p, scale((far * angle / sine).min(near / 3.0), bisector))
+}
+
+fn check_corners(soup: &Soup) -> Result<()> {
+    match soup.faces.iter().flatten().find(|&&v| v as usize >= soup.positions.len()) {
+        Some(v) => {
+            let need = "an existing vertex";
+            Err(Error::Argument { what: "vertex of a face", value: v.to_string(), need })
+        }
+        None => Ok(()),
+    }
+}
+
+/// Half-edges are numbered in u32, six to a vertex.
+fn check_room(soup: &Soup, new_faces: usize) -> Result<()> {
+    let count = soup.faces.len() + new_faces;
+    if count > u32::MAX as usize / 3 { Err(Error::TooLarge { what: "faces", count }) } else { Ok(()) }
+}
+
+/// Attributes belong to the elements that were there.
+fn forget_attributes(soup: &mut Soup) {
+    soup.attributes = Default::default();
+}

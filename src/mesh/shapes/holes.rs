@@ -1,0 +1,254 @@
+//! Round holes in any surface.
+
+use crate::error::{Error, Result};
+use crate::geometry::vector::{Vector, add, distance, dot, lerp, norm, normalised, sub, triangle_normal};
+use crate::mesh::io::Soup;
+use crate::mesh::{HalfedgeId, Mesh, PerVertex, Point, VertexId};
+
+/// A hole's radius as a share of the distance from its centre to the nearest other centre or boundary vertex.
+const SHARE: f64 = 0.3;
+/// A hole stays where the surface faces the same way as at its centre, within this cosine.
+const FACING: f64 = 0.5;
+/// What a hole's radius shrinks by from one attempt to the next.
+const SHRINK: f64 = 0.95;
+/// Radii down to this share of the largest possible one are tried; the one with the fattest triangles is taken.
+const CHOICE: f64 = 0.7;
+
+/// Cut `count` round holes out of a surface, as far from each other and from the boundary as its vertices allow: the
+/// surface stays connected and has `count` more boundary loops.
+///
+/// Centres are vertices where the surface is flat over two edges, each the farthest (in space) from those before it and
+/// from the boundary. A hole is the piece of the surface around its centre within a ball; its rim lies on the ball's
+/// sphere: the vertices nearest to the rim move onto it, along edges. The radius is 0.3 of the least distance of two
+/// centres or of a centre and the boundary, less at a hole around which the surface curves away, and by up to a third
+/// where that makes better triangles.
+/// Vertices and faces keep their order, those cut out are dropped, and so are attributes.
+///
+/// Errors: those of [`Mesh::from_soup`] for the surface; [`Error::Argument`] if there is no room for a hole of at least
+/// one ring of triangles.
+pub fn punch(soup: &Soup, count: usize) -> Result<Soup> {
+    let mesh = Mesh::from_soup(soup)?;
+    if count == 0 {
+        return Ok(soup.clone());
+    }
+    let surface = Surface::new(&mesh, &soup.positions);
+    let no_room = || Error::Argument {
+        what: "holes",
+        value: count.to_string(),
+        need: "fewer, or more vertices: there is no room for one more hole",
+    };
+    let (centres, apart) = surface.centres(count).ok_or_else(no_room)?;
+    let mut state = State::new(&mesh, &soup.positions);
+    for (done, &c) in centres.iter().enumerate() {
+        let attempt = |radius: f64| {
+            let mut next = state.clone();
+            surface.cut(c, radius, &mut next)?;
+            let rest = surface.rest(&next);
+            let punched = Mesh::from_soup(&rest).ok()?;
+            let loops = mesh.boundary_loops().len() + done + 1;
+            let right = punched.boundary_loops().len() == loops && punched.genus() == mesh.genus();
+            right.then(|| (smallest_sine(&rest), radius, next))
+        };
+        let mut best: Option<(f64, f64, State)> = None;
+        let mut radius = SHARE * apart;
+        let least = surface.ring_radius(c);
+        while radius > least.max(best.as_ref().map_or(0.0, |(_, largest, _)| CHOICE * largest)) {
+            if let Some((sine, _, next)) = attempt(radius) {
+                let largest = best.as_ref().map_or(radius, |&(_, largest, _)| largest);
+                if best.as_ref().is_none_or(|&(known, ..)| sine > known) {
+                    best = Some((sine, largest, next));
+                }
+            }
+            radius *= SHRINK;
+        }
+        state = best.ok_or_else(no_room)?.2;
+    }
+    Ok(surface.rest(&state))
+}
+
+/// The sine of the smallest angle, nearly: the least height over the longest side.
+fn smallest_sine(soup: &Soup) -> f64 {
+    let sine = |f: &[u32; 3]| {
+        let p = f.map(|v| soup.positions[v as usize]);
+        let longest = [0, 1, 2].map(|k| distance(p[k], p[(k + 1) % 3])).into_iter().fold(0.0, f64::max);
+        norm(triangle_normal(p)) / (longest * longest)
+    };
+    soup.faces.iter().map(sine).fold(f64::INFINITY, f64::min)
+}
+
+/// The surface with some holes cut.
+#[derive(Clone)]
+struct State {
+    place: PerVertex<Place>,
+    positions: Vec<Point>,
+}
+
+impl State {
+    fn new(mesh: &Mesh, positions: &[Point]) -> State {
+        State { place: PerVertex::filled(mesh.n_vertices(), Place::Outside), positions: positions.to_vec() }
+    }
+}
+
+struct Surface<'a> {
+    mesh: &'a Mesh,
+    positions: &'a [Point],
+    normals: PerVertex<Vector>,
+}
+
+impl<'a> Surface<'a> {
+    fn new(mesh: &'a Mesh, positions: &'a [Point]) -> Surface<'a> {
+        let normals = PerVertex::from_fn(mesh.n_vertices(), |v| {
+            let faces = mesh.outgoing(v).filter_map(|h| mesh.face(h));
+            let normal = |f| triangle_normal(mesh.face_vertices(f).map(|v| positions[v.index()]));
+            normalised(faces.fold([0.0; 3], |sum, f| add(sum, normal(f))))
+        });
+        Surface { mesh, positions, normals }
+    }
+
+    fn at(&self, v: VertexId) -> Point {
+        self.positions[v.index()]
+    }
+
+    /// Farthest-point centres, and the least distance among them and to the boundary.
+    fn centres(&self, count: usize) -> Option<(Vec<VertexId>, f64)> {
+        let mut free = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
+        let keep_off = |free: &mut PerVertex<f64>, p: Point| {
+            for v in self.mesh.vertices() {
+                free[v] = free[v].min(distance(self.at(v), p));
+            }
+        };
+        for v in self.mesh.vertices().filter(|&v| self.mesh.is_boundary_vertex(v)) {
+            keep_off(&mut free, self.at(v));
+        }
+        let flat: Vec<VertexId> = self.mesh.vertices().filter(|&v| self.is_flat(v)).collect();
+        let farthest =
+            |free: &PerVertex<f64>| flat.iter().copied().max_by(|&v, &w| free[v].total_cmp(&free[w]));
+        let mut centres: Vec<VertexId> = Vec::with_capacity(count.min(self.mesh.n_vertices()));
+        let mut apart = f64::INFINITY;
+        for _ in 0..count {
+            let v = farthest(&free)?;
+            apart = apart.min(free[v]);
+            if apart <= 0.0 {
+                return None;
+            }
+            centres.push(v);
+            keep_off(&mut free, self.at(v));
+        }
+        // A single hole in a closed surface: nothing to keep off but the far side.
+        let far =
+            || self.mesh.vertices().map(|v| distance(self.at(v), self.at(centres[0]))).fold(0.0, f64::max);
+        let apart = if apart.is_finite() { apart } else { far() };
+        Some((centres, apart))
+    }
+
+    /// Whether the surface within two edges of a vertex faces the way it does there.
+    fn is_flat(&self, v: VertexId) -> bool {
+        let along = |w: VertexId| self.mesh.outgoing(w).map(|h| self.mesh.tip(h));
+        along(v).flat_map(along).all(|w| dot(self.normals[w], self.normals[v]) >= FACING)
+    }
+
+    /// Longest edge at a vertex.
+    fn ring_radius(&self, v: VertexId) -> f64 {
+        self.mesh.outgoing(v).map(|h| distance(self.at(v), self.at(self.mesh.tip(h)))).fold(0.0, f64::max)
+    }
+
+    /// Cut the ball about `c` out; `None` where the piece does not face the centre's way, or meets another hole.
+    fn cut(&self, c: VertexId, radius: f64, state: &mut State) -> Option<()> {
+        let inside = self.inside(c, radius, &mut state.place)?;
+        self.snap(c, radius, &inside, state)
+    }
+
+    /// What is left.
+    fn rest(&self, state: &State) -> Soup {
+        let State { place, positions } = state;
+        let gone = |f: &[VertexId; 3]| {
+            f.iter().any(|&v| place[v] == Place::Inside) || f.iter().all(|&v| place[v] == Place::Rim)
+        };
+        let faces: Vec<[VertexId; 3]> =
+            self.mesh.faces().map(|f| self.mesh.face_vertices(f)).filter(|f| !gone(f)).collect();
+        let mut number = vec![u32::MAX; positions.len()];
+        for v in faces.iter().flatten() {
+            number[v.index()] = 0;
+        }
+        let mut kept = Vec::with_capacity(positions.len());
+        for (slot, p) in number.iter_mut().zip(positions).filter(|(slot, _)| **slot == 0) {
+            *slot = kept.len() as u32;
+            kept.push(*p);
+        }
+        Soup::new(kept, faces.iter().map(|f| f.map(|v| number[v.index()])).collect())
+    }
+
+    /// The vertices within the ball, from its centre along edges.
+    fn inside(&self, c: VertexId, radius: f64, place: &mut PerVertex<Place>) -> Option<Vec<VertexId>> {
+        let mut inside = vec![c];
+        if place[c] != Place::Outside {
+            return None;
+        }
+        place[c] = Place::Inside;
+        let mut next = 0;
+        while next < inside.len() {
+            let v = inside[next];
+            if self.mesh.is_boundary_vertex(v) || dot(self.normals[v], self.normals[c]) < FACING {
+                return None;
+            }
+            for tip in self.mesh.outgoing(v).map(|h| self.mesh.tip(h)) {
+                if distance(self.at(tip), self.at(c)) < radius {
+                    match place[tip] {
+                        Place::Outside => {
+                            place[tip] = Place::Inside;
+                            inside.push(tip);
+                        }
+                        Place::Inside => {}
+                        Place::Rim => return None,
+                    }
+                }
+            }
+            next += 1;
+        }
+        Some(inside)
+    }
+
+    /// Move the vertices nearest to the rim onto it, each along the edge on which it is nearest.
+    fn snap(&self, c: VertexId, radius: f64, inside: &[VertexId], state: &mut State) -> Option<()> {
+        let State { place, positions } = state;
+        // Distance moved, vertex, new position.
+        let mut moves: Vec<(f64, VertexId, Point)> = Vec::new();
+        let leaving = |h: &HalfedgeId| place[self.mesh.tip(*h)] != Place::Inside;
+        for h in inside.iter().flat_map(|&v| self.mesh.outgoing(v)).filter(leaving) {
+            let (a, b) = (self.mesh.origin(h), self.mesh.tip(h));
+            if place[b] == Place::Rim || self.mesh.is_boundary_vertex(b) {
+                return None;
+            }
+            let t = leave(self.at(a), self.at(b), self.at(c), radius);
+            let p = lerp(self.at(a), self.at(b), t);
+            let v = if t < 0.5 { a } else { b };
+            moves.push((distance(p, self.at(v)), v, p));
+        }
+        moves.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        for (_, v, p) in moves {
+            if place[v] != Place::Rim {
+                place[v] = Place::Rim;
+                positions[v.index()] = p;
+            }
+        }
+        (place[c] == Place::Inside).then_some(())
+    }
+}
+
+/// Where a vertex is with respect to the holes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Place {
+    Outside,
+    Inside,
+    Rim,
+}
+
+/// Where the segment from `a`, inside the ball about `c`, to `b`, outside, leaves it: a share in [0, 1].
+fn leave(a: Point, b: Point, c: Point, radius: f64) -> f64 {
+    let (d, e) = (sub(b, a), sub(a, c));
+    let (square, half, rest) = (dot(d, d), dot(d, e), dot(e, e) - radius * radius);
+    // square t² + 2 half t + rest = 0 with rest ≤ 0: the root that is not negative.
+    let root = (half * half - square * rest).max(0.0).sqrt();
+    let t = if half > 0.0 { -rest / (half + root) } else { (root - half) / square };
+    t.clamp(0.0, 1.0)
+}

@@ -1,0 +1,181 @@
+//! Hyperelliptic surfaces over given branch points.
+
+use super::check_count;
+use super::intrinsic::Intrinsic;
+use super::sphere::icosphere;
+use crate::error::{Error, Result};
+use crate::geometry::vector::{Vector, add, cross, distance, dot, norm, normalised};
+use crate::geometry::{Space, hyperelliptic};
+use crate::mesh::io::Soup;
+use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge, PerVertex, VertexId};
+use num_complex::Complex64;
+
+/// Rounds of smoothing after vertices have been moved onto the branch points.
+const ROUNDS: usize = 10;
+
+/// The Riemann surface of `y² = Π (x − e_j)` as the double cover of the round sphere, branched over the points `e_j` and,
+/// if their number is odd, over ∞: genus g for 2g + 1 or 2g + 2 points, g ≥ 1. Its period matrix is known:
+/// [`crate::geometry::hyperelliptic::period_matrix`].
+///
+/// The plane is moved and scaled so that the points' mean is 0 and their mean square 1, then put on the unit sphere by
+/// stereographic projection from the south pole, which keeps the orientation as seen from outside. The sphere is an
+/// icosphere of frequency `n` whose nearest vertices sit on the points and whose other ones are smoothed: 20 n² faces
+/// below, 40 n² above. Triangles are spherical, edge lengths arcs of great circles; a branch point has the angle 4π,
+/// curvature −2π, every other vertex curvature 0.
+///
+/// Vertex j is the one over e_j, the one over ∞ follows if there is one, then the pairs over the other vertices.
+///
+/// Errors: [`Error::Argument`] for fewer than three points, points that are not finite, and points so close to each
+/// other on the sphere that the vertices there are the same or neighbours (raise n).
+pub fn hyperelliptic(branch_points: &[Complex64], n: usize) -> Result<Intrinsic> {
+    check_count("branch points", branch_points.len(), 3, 20.0 * (n as f64).powi(2))?;
+    check_count("frequency", n, 1, 20.0 * (n as f64).powi(2))?;
+    let points = on_the_sphere(branch_points)?;
+    let (sphere, branch) = sphere(&points, n)?;
+    let mesh = Mesh::from_soup(&sphere)?;
+    let is_branch = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| branch.contains(&v.0));
+    let cover = Cover { crossing: crossings(&mesh, &is_branch), mesh: &mesh, branch: &branch };
+    let lengths = PerEdge::from_fn(mesh.n_edges(), |e| {
+        let [p, q] = mesh.ends(e).map(|v| sphere.positions[v.index()]);
+        norm(cross(p, q)).atan2(dot(p, q))
+    });
+    Ok(cover.surface(&lengths))
+}
+
+/// Stereographic projection of the normalised points from the south pole, which keeps orientation as seen from outside;
+/// with that pole if the number of points is odd.
+fn on_the_sphere(branch_points: &[Complex64]) -> Result<Vec<Vector>> {
+    let place = |z: &Complex64| {
+        let r = z.norm_sqr();
+        [2.0 * z.re / (1.0 + r), 2.0 * z.im / (1.0 + r), (1.0 - r) / (1.0 + r)]
+    };
+    let mut points: Vec<Vector> = hyperelliptic::normalised(branch_points)?.iter().map(place).collect();
+    if points.len() % 2 == 1 {
+        points.push([0.0, 0.0, -1.0]);
+    }
+    Ok(points)
+}
+
+/// The sphere with a vertex at each point, and those vertices.
+fn sphere(points: &[Vector], n: usize) -> Result<(Soup, Vec<u32>)> {
+    let mut soup = icosphere(n)?;
+    let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces)?;
+    let mut branch: Vec<u32> = Vec::with_capacity(points.len());
+    for (j, &p) in points.iter().enumerate() {
+        let nearer = |v: &VertexId, w: &VertexId| {
+            distance(soup.positions[v.index()], p).total_cmp(&distance(soup.positions[w.index()], p))
+        };
+        let Some(v) = mesh.vertices().min_by(nearer) else { break };
+        let taken = |w: u32| branch.contains(&w);
+        if taken(v.0) || mesh.outgoing(v).any(|h| taken(mesh.tip(h).0)) {
+            return Err(Error::Argument {
+                what: "frequency",
+                value: n.to_string(),
+                need: "larger: vertices next to each other would sit on two branch points",
+            });
+        }
+        branch.push(v.0);
+        soup.positions[v.index()] = points[j];
+    }
+    for _ in 0..ROUNDS {
+        let old = soup.positions.clone();
+        for v in mesh.vertices().filter(|v| !branch.contains(&v.0)) {
+            let sum = mesh.outgoing(v).fold([0.0; 3], |sum, h| add(sum, old[mesh.tip(h).index()]));
+            soup.positions[v.index()] = normalised(sum);
+        }
+    }
+    Ok((soup, branch))
+}
+
+/// Edges across which the sheets change: a set of edges with an odd number at each branch point and an even one
+/// elsewhere. Of a spanning tree, those edges that part the branch points into two odd sets.
+fn crossings(mesh: &Mesh, is_branch: &PerVertex<bool>) -> PerEdge<bool> {
+    let mut crossing = PerEdge::filled(mesh.n_edges(), false);
+    let mut reached_by = PerVertex::filled(mesh.n_vertices(), None);
+    let root = VertexId(0);
+    let mut order = vec![root];
+    let mut next = 0;
+    while next < order.len() {
+        for h in mesh.outgoing(order[next]) {
+            let tip = mesh.tip(h);
+            if tip != root && reached_by[tip].is_none() {
+                reached_by[tip] = Some(h);
+                order.push(tip);
+            }
+        }
+        next += 1;
+    }
+    let mut odd = is_branch.clone();
+    for v in order.into_iter().rev() {
+        if let Some(h) = reached_by[v].filter(|_| odd[v]) {
+            crossing[h.edge()] = true;
+            odd[mesh.origin(h)] ^= true;
+        }
+    }
+    crossing
+}
+
+/// Two copies of a closed surface, glued crosswise.
+struct Cover<'a> {
+    mesh: &'a Mesh,
+    branch: &'a [u32],
+    crossing: PerEdge<bool>,
+}
+
+impl Cover<'_> {
+    /// Face 2f + s is face f on sheet s; edge 2e + s that whose left face (along half-edge 2e) is on sheet s.
+    fn surface(&self, lengths: &PerEdge<f64>) -> Intrinsic {
+        let mesh = self.mesh;
+        let (lifted, n_vertices) = self.corners();
+        let mut surface = Intrinsic {
+            n_vertices,
+            faces: Vec::with_capacity(2 * mesh.n_faces()),
+            face_edges: Vec::with_capacity(2 * mesh.n_faces()),
+            lengths: lengths.iter().flat_map(|&l| [l, l]).collect(),
+            geometry: Space::S2,
+        };
+        for f in mesh.faces() {
+            let [ab, bc, ca] = mesh.face_halfedges(f);
+            for sheet in [0, 1] {
+                let side = |h: HalfedgeId| {
+                    let forward = h == h.edge().halfedge();
+                    let left = sheet ^ u32::from(!forward && self.crossing[h.edge()]);
+                    let number = (2 * h.edge().0 + left + 1) as i32;
+                    if forward { number } else { -number }
+                };
+                surface.faces.push([ab, bc, ca].map(|h| lifted[h][sheet as usize]));
+                surface.face_edges.push([bc, ca, ab].map(side));
+            }
+        }
+        surface
+    }
+
+    /// The vertex above each corner (named by the half-edge that leaves it) on each sheet, and how many there are.
+    fn corners(&self) -> (PerHalfedge<[u32; 2]>, usize) {
+        let mesh = self.mesh;
+        let mut lifted = PerHalfedge::filled(mesh.n_halfedges(), [0; 2]);
+        let mut count = self.branch.len() as u32;
+        for v in mesh.vertices() {
+            let above = match self.branch.iter().position(|&b| b == v.0) {
+                Some(j) => [j as u32; 2],
+                None => {
+                    count += 2;
+                    [count - 2, count - 1]
+                }
+            };
+            // Once around, counterclockwise: `sheet` of the corner that continues sheet 0 of the first.
+            let (start, mut sheet) = (mesh.out(v), 0);
+            let mut h = start;
+            loop {
+                lifted[h] = [above[sheet], above[1 - sheet]];
+                let across = mesh.prev(h);
+                sheet ^= usize::from(self.crossing[across.edge()]);
+                h = across.twin();
+                if h == start {
+                    break;
+                }
+            }
+        }
+        (lifted, count as usize)
+    }
+}

@@ -1,0 +1,74 @@
+//! Inversion in a sphere: a conformal map of space, and with it of every surface.
+
+use super::check_size;
+use super::genus::{HALF_STEP, HOLE, RIM, genus};
+use crate::error::{Error, Result};
+use crate::geometry::vector::{Vector, add, dot, scale, sub};
+use crate::mesh::io::Soup;
+
+/// Map each vertex to its mirror image in the sphere about `centre` with this `radius`:
+/// `x ↦ c + R² (x − c)/|x − c|²`; faces are turned, so that orientation is kept.
+///
+/// The map is conformal: the surfaces before and after have the same conformal structure (moduli, period matrix),
+/// their triangulations the same one in the limit of fine meshes. A closed surface that does not contain the centre
+/// keeps its outside.
+///
+/// Errors: [`Error::Argument`] for a radius outside 1e-150 … 1e150, or a vertex within 1e-12 R of the centre.
+pub fn invert(soup: &mut Soup, centre: Vector, radius: f64) -> Result<()> {
+    check_size("radius of the inversion", radius)?;
+    let near = |p: &Vector| dot(sub(*p, centre), sub(*p, centre)) < (1e-12 * radius).powi(2);
+    if let Some(v) = soup.positions.iter().position(near) {
+        let need = "away from every vertex";
+        return Err(Error::Argument { what: "centre of the inversion", value: format!("vertex {v}"), need });
+    }
+    for p in &mut soup.positions {
+        let d = sub(*p, centre);
+        *p = add(centre, scale(radius * radius / dot(d, d), d));
+    }
+    soup.faces.iter_mut().for_each(|face| face.swap(1, 2));
+    Ok(())
+}
+
+/// The inversion's centre stays this far from the last handle's rim, in radii of the rim: nearer, the image of that
+/// rim grows without bound.
+const CLEARANCE: f64 = 1.2;
+
+/// [`genus`] with handles of different size: the first hole is `ratio` ≥ 1 times as wide as the last, the others fall
+/// in size between them.
+///
+/// The row of equal handles is inverted in a sphere about a point of its axis, which leaves all angles as they are up
+/// to the mesh's fineness, and so the conformal structure. The scale is 1 at the middle of the row.
+///
+/// Errors: those of [`genus`]; [`Error::Argument`] for a ratio below 1, another one than 1 for a single handle, and
+/// one too large for so few handles.
+pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
+    let mut soup = genus(handles, n)?;
+    let refuse = |need| Err(Error::Argument { what: "ratio of the handles", value: ratio.to_string(), need });
+    if !(1.0..=SIZE).contains(&ratio) {
+        return refuse("between 1 and 1000");
+    }
+    if ratio == 1.0 {
+        return Ok(soup);
+    }
+    // A hole of radius 1 at distance d from the centre becomes one of radius R²/(d² − 1). Those of the first and last,
+    // at ∓c, have the ratio asked for where ((C + c)² − 1) = ratio ((C − c)² − 1).
+    let c = HALF_STEP * (handles as f64 - 1.0);
+    let k = c * (ratio + 1.0) / (ratio - 1.0);
+    let centre = k + (k * k - c * c + HOLE * HOLE).sqrt();
+    if handles == 1 {
+        return refuse("1 for a single handle");
+    }
+    if centre < c + CLEARANCE * RIM {
+        return refuse("smaller: the largest handle would swallow the rest");
+    }
+    invert(&mut soup, [-centre, 0.0, 0.0], centre)?;
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for p in &soup.positions {
+        (low, high) = (low.min(p[0]), high.max(p[0]));
+    }
+    soup.positions.iter_mut().for_each(|p| p[0] -= 0.5 * (low + high));
+    Ok(soup)
+}
+
+/// Largest ratio of the handles' sizes.
+const SIZE: f64 = 1000.0;
