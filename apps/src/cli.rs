@@ -39,6 +39,9 @@ pub enum Command {
     /// Run the flow on a torus, a genus-2 surface and a disk, with pictures and reports
     #[command(after_help = DEMO_EXAMPLE)]
     Demo(DemoArgs),
+    /// One picture per kind of surface and of picture, with the commands that make them
+    #[command(after_help = GALLERY_EXAMPLE)]
+    Gallery(GalleryArgs),
     /// Completions for a shell, on stdout
     #[command(after_help = COMPLETIONS_EXAMPLE)]
     Completions {
@@ -76,6 +79,10 @@ Files
 const DEMO_EXAMPLE: &str = "\
 Example
     ricci demo out && ls out";
+
+const GALLERY_EXAMPLE: &str = "\
+Example
+    ricci gallery pictures && cat pictures/README.md";
 
 const COMPLETIONS_EXAMPLE: &str = "\
 Example
@@ -217,6 +224,16 @@ with --pin 0 at every vertex that is not pinned]";
 pub struct DemoArgs {
     /// Directory to write into; made if it does not exist
     pub out: PathBuf,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+#[derive(Args, Debug)]
+pub struct GalleryArgs {
+    /// Directory to write into; made if it does not exist
+    pub out: PathBuf,
+    /// A folder of meshes with good/INDEX.csv, for pictures of real surfaces
+    pub meshes: Option<PathBuf>,
     #[command(flatten)]
     pub common: Common,
 }

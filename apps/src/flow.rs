@@ -8,7 +8,7 @@ use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
 use crate::metric_file::MetricFile;
 use crate::output::{Outputs, check_extension, check_writable, extension};
-use crate::picture::FlowPictureArgs;
+use crate::picture::{ColorChoice, FlowPictureArgs};
 use crate::progress::Progress;
 use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes, timed};
 use crate::say;
@@ -139,6 +139,11 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
     }
     if args.uv.is_some() && input.positions.is_none() {
         return Err(Failure::Usage("--uv: an intrinsic metric has no positions in space".into()));
+    }
+    if let Some(name) = args.picture.color().filter(|_| space != Space::E2).and_then(ColorChoice::of_layout) {
+        return Err(Failure::Usage(format!(
+            "--color {name}: layouts in {space} are not in this version; use u or curvature"
+        )));
     }
     if let Some(path) = args.picture.base.picture.as_ref().filter(|_| space != Space::E2) {
         let nothing = if extension(path) == "svg" {

@@ -6,6 +6,7 @@ mod csv;
 mod demo;
 mod failure;
 mod flow;
+mod gallery;
 mod glb;
 mod info;
 mod input;
@@ -50,6 +51,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Repair(args) => repair::run(args, &control),
         Command::Make(args) => make::run(args),
         Command::Demo(args) => demo::run(args, &control),
+        Command::Gallery(args) => gallery::run(args, &control),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "ricci", &mut script);

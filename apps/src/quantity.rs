@@ -32,7 +32,7 @@ pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<
     })
 }
 
-const CURVATURE: &str = "gaussian curvature K (1/length²)";
+const CURVATURE: &str = "Gaussian curvature K (1/length²)";
 
 /// Gaussian curvature of a surface: the angle defect of each vertex over a third of the area around it.
 pub fn curvature_of_input(input: &Input) -> Option<Field> {

@@ -27,7 +27,7 @@ pub struct PictureArgs {
     #[arg(long, requires = "picture")]
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub wire: bool,
-    /// At most 256 colours, for a small file
+    /// At most 192 colours, for a small file
     #[arg(long, requires = "picture")]
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub palette: bool,
@@ -74,6 +74,17 @@ pub enum ColorChoice {
     /// Area in the layout over area in the input
     Area,
     None,
+}
+
+impl ColorChoice {
+    /// The name of a quantity that only a layout has.
+    pub fn of_layout(self) -> Option<&'static str> {
+        match self {
+            ColorChoice::Qc => Some("qc"),
+            ColorChoice::Area => Some("area"),
+            ColorChoice::U | ColorChoice::Curvature | ColorChoice::None => None,
+        }
+    }
 }
 
 /// Azimuth and elevation in degrees.

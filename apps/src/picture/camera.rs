@@ -31,6 +31,10 @@ const STANDING: [f64; 3] = [14.0, 24.0, 36.0];
 const LYING: [f64; 3] = [34.0, 44.0, 54.0];
 /// Surface seen at a glancing angle counts at most this many times its projected area.
 const GLANCING: f64 = 2.5;
+/// Of two sides that show as much surface the one with more detail is better: to this power of how much normals turn from
+/// pixel to pixel, of which this much is nothing to look at.
+const DETAIL: f64 = 0.3;
+const LEAST_DETAIL: f64 = 0.01;
 /// A hole through which the background shows makes a view better by this share, up to three of them.
 const HOLE: f64 = 0.12;
 /// The front is better than the back, and an oblique view than one along an axis, by these shares.
@@ -90,18 +94,25 @@ impl Camera {
             .collect();
         let shapes: Vec<Shape> = faces.iter().map(|f| Shape::Triangle(f.map(|v| seen[v as usize]))).collect();
         let samples = visible(&shapes, PROBE, 0, PROBE, 1);
-        let mut empty = vec![true; PROBE * PROBE];
-        let mut sum = 0.0;
-        for (i, empty) in empty.iter_mut().enumerate() {
+        let mut normals = vec![None; PROBE * PROBE];
+        let (mut area, mut bends) = (0.0, 0.0);
+        for i in 0..normals.len() {
             let (x, y) = (i % PROBE, i / PROBE);
             if let Some(hit) = samples.hit(&shapes, x, y, [x as f64 + 0.5, y as f64 + 0.5]) {
-                *empty = false;
                 let n = normal(faces[hit.shape].map(|v| points[v as usize]));
-                let cosine = dot(n, self.axes[2]) / norm(n).max(f64::MIN_POSITIVE);
-                sum += if cosine > 0.0 { (1.0 / cosine).min(GLANCING) } else { 0.0 };
+                let n = unit(n).unwrap_or([0.0; 3]);
+                let cosine = dot(n, self.axes[2]);
+                area += if cosine > 0.0 { (1.0 / cosine).min(GLANCING) } else { 0.0 };
+                let bend = |j: Option<usize>| {
+                    j.and_then(|j| normals[j]).map_or(0.0, |m| (1.0 - dot(n, m)).clamp(0.0, 1.0))
+                };
+                bends += bend((x > 0).then(|| i - 1)) + bend((y > 0).then(|| i.wrapping_sub(PROBE)));
+                normals[i] = Some(n);
             }
         }
-        sum * (1.0 + HOLE * holes(empty).min(3) as f64)
+        let empty = normals.iter().map(Option::is_none).collect();
+        let detail = (bends / f64::max(area, 1.0) + LEAST_DETAIL).powf(DETAIL);
+        area * detail * (1.0 + HOLE * holes(empty).min(3) as f64)
     }
 }
 

@@ -4,7 +4,7 @@ use super::coat::{Coat, Wish};
 use super::color::{INK, Rgb, cone_color, from_hex, mix, seam_color};
 use super::fit::Fit;
 use super::raster::{Hit, Image, Painter, Shape, render};
-use super::{CONE_RADIUS, Circle, Flat, LINE, Style};
+use super::{Circle, Flat, Style};
 
 /// Circles of a smaller radius (pixels) are left out.
 const LEAST_RADIUS: f64 = 1.0;
@@ -35,15 +35,15 @@ pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style, threads: usize) -> 
         }
     }
     for &(a, b) in flat.boundary {
-        line(fit.apply(a), fit.apply(b), 4.0, LINE * size, INK);
+        line(fit.apply(a), fit.apply(b), 4.0, style.line(), INK);
     }
     for &(a, b, seam) in flat.seams {
-        line(fit.apply(a), fit.apply(b), 5.0, LINE * size, seam_color(seam));
+        line(fit.apply(a), fit.apply(b), 5.0, style.line(), seam_color(seam));
     }
     for &(p, curvature) in flat.cones {
         let p = fit.apply(p);
-        line(p, p, 6.0, 1.25 * CONE_RADIUS * size, [1.0; 3]);
-        line(p, p, 7.0, CONE_RADIUS * size, cone_color(curvature));
+        line(p, p, 6.0, 1.25 * style.cone(), [1.0; 3]);
+        line(p, p, 7.0, style.cone(), cone_color(curvature));
     }
     let coat = Coat::new(wish, &triangles);
     // Circles are to be seen, not what is under them.

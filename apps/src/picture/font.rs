@@ -54,6 +54,7 @@ fn strokes(character: char) -> &'static str {
         'y' => "0622 4610",
         'z' => "06460242",
         'A' => "022842 1434",
+        'G' => "~474808024245 4525",
         'K' => "0802 4804 2642",
         '.' => "0202",
         ',' => "0201",
@@ -124,7 +125,7 @@ mod tests {
 
     #[test]
     fn every_character_of_the_legends_has_strokes() {
-        let used = "abcdefghijklmnopqrstuvwxyz0123456789AK.,-−+/%()²|=";
+        let used = "abcdefghijklmnopqrstuvwxyz0123456789AGK.,-−+/%()²|=";
         for c in used.chars() {
             assert!(!strokes(c).is_empty(), "{c}");
             for stroke in strokes(c).split(' ') {

@@ -15,6 +15,9 @@ const SMALL: f64 = 0.0125;
 /// Length of the bar.
 const LENGTH: f64 = 0.62;
 
+/// A legend is as large as for a panel of this many pixels at least, to be read.
+const LEAST: f64 = 560.0;
+
 /// Where the parts of a legend are, in pixels of an image of this width: the same in raster and vector pictures.
 pub struct Plan {
     pub height: f64,
@@ -29,6 +32,7 @@ pub struct Plan {
 
 impl Plan {
     pub fn new(scale: &Scale, width: f64, size: f64) -> Plan {
+        let size = size.max(LEAST);
         let length = (LENGTH * size).min(0.8 * width);
         let bar = [0.5 * (width - length), BAR_TOP * size, length, BAR_HEIGHT * size];
         let [low, high] = scale.range;
@@ -119,6 +123,7 @@ mod tests {
             [image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]]
         };
         // The violet and yellow ends of viridis.
+        assert_eq!(image.height, (HEIGHT * LEAST).ceil() as usize);
         assert!(at(0.02)[2] > at(0.02)[1] && at(0.98)[0] > 220 && at(0.98)[2] < 80);
     }
 }

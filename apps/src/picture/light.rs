@@ -5,9 +5,9 @@ use super::occlusion::Open;
 use super::vector::{V3, add, dot, scaled, unit};
 
 /// Brightness of each light on a white surface that faces it.
-const KEY: f64 = 0.70;
+const KEY: f64 = 0.76;
 const FILL: f64 = 0.16;
-const SKY: f64 = 0.44;
+const SKY: f64 = 0.40;
 /// What the ground throws back upwards.
 const BOUNCE: f64 = 0.16;
 const SHINE: f64 = 0.05;

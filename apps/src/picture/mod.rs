@@ -86,8 +86,20 @@ pub struct Style {
     pub wire: bool,
     /// Stand the surface on a ground that takes its shadow.
     pub ground: bool,
-    /// Write at most 256 colours, for a small file.
+    /// Write at most 192 colours, for a small file.
     pub palette: bool,
+}
+
+impl Style {
+    /// Half the width of a line, pixels.
+    fn line(&self) -> f64 {
+        (LINE[0] * self.size as f64).max(LINE[1])
+    }
+
+    /// The radius of a cone's ball, pixels.
+    fn cone(&self) -> f64 {
+        (CONE_RADIUS[0] * self.size as f64).max(CONE_RADIUS[1])
+    }
 }
 
 impl Default for Style {
@@ -105,9 +117,9 @@ pub struct Picture<'a> {
     pub field: Option<&'a Field>,
 }
 
-/// Half the width of a line and the radius of a cone's ball, over the size of a panel.
-const LINE: f64 = 0.0013;
-const CONE_RADIUS: f64 = 0.0062;
+/// Half the width of a line and the radius of a cone's ball, over the size of a panel, and in pixels at least.
+const LINE: [f64; 2] = [0.0013, 0.7];
+const CONE_RADIUS: [f64; 2] = [0.0062, 2.6];
 /// Space between two panels, over the size of a panel.
 const BETWEEN: f64 = 0.03;
 
@@ -176,6 +188,8 @@ pub fn png(picture: &Picture<'_>, style: &Style, threads: usize) -> Result<Vec<u
         let (colors, indices) = palette::reduce(&image.rgb);
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_palette(colors);
+        // Neighbouring numbers of a palette say nothing about each other.
+        encoder.set_filter(png::Filter::NoFilter);
         encoder.write_header()?.write_image_data(&indices)?;
     } else {
         encoder.set_color(png::ColorType::Rgb);

@@ -1,9 +1,9 @@
-//! An image in at most 256 colours, by median cut [Hec82].
+//! An image in at most 192 colours, by median cut [Hec82].
 
 use std::collections::HashMap;
 
-/// Colours of an indexed PNG.
-const MOST: usize = 256;
+/// Colours of an indexed PNG: few enough for a small file, enough for soft shadows.
+const MOST: usize = 192;
 
 /// A palette (three bytes a colour) and for each pixel the number of its colour.
 pub fn reduce(rgb: &[u8]) -> (Vec<u8>, Vec<u8>) {
@@ -14,7 +14,7 @@ pub fn reduce(rgb: &[u8]) -> (Vec<u8>, Vec<u8>) {
     let mut colors: Vec<([u8; 3], usize)> = count.into_iter().collect();
     colors.sort_unstable();
     // Boxes of colours, as ranges of the list.
-    let mut boxes = vec![0..colors.len()];
+    let mut boxes: Vec<_> = std::iter::once(0..colors.len()).collect();
     while boxes.len() < MOST {
         // The box whose colours are spread most, each by how often it occurs.
         let spread = |range: &std::ops::Range<usize>| spread(&colors[range.clone()]);

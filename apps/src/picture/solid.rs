@@ -1,6 +1,5 @@
 //! The surface in space.
 
-use super::Surface;
 use super::camera::Camera;
 use super::coat::{Coat, Wish};
 use super::color::{INK, Rgb, cone_color, mix, seam_color};
@@ -10,12 +9,12 @@ use super::normals::corner_normals;
 use super::occlusion::{Caster, Field, Ground, Open, Point, over};
 use super::raster::{Hit, Image, Painter, Shape, render};
 use super::vector::{V3, add, at, dot, normal, scaled, unit};
-use super::{CONE_RADIUS, LINE, Style};
+use super::{Style, Surface};
 
 /// The ground is shown from this elevation on (sine).
 const LOWEST: f64 = 0.1;
 /// How much of the way to the end of the shadow the picture reaches.
-const SHADOW: f64 = 0.75;
+const SHADOW: f64 = 0.5;
 /// Over this share of the picture's size the ground fades into the white around the panel.
 const FADE: f64 = 0.1;
 /// The inside of a surface has this tint.
@@ -97,12 +96,12 @@ impl<'a> Scene<'a> {
         let mut strokes = Vec::new();
         let mut tube = |a: u32, b: u32, radius: f64, color: Rgb| {
             let ends = [placed[a as usize], placed[b as usize]];
-            shapes.push(Shape::Capsule { ends, radius: radius * style.size as f64 });
+            shapes.push(Shape::Capsule { ends, radius });
             strokes.push(color);
         };
-        border(surface.faces).into_iter().for_each(|(a, b)| tube(a, b, LINE, INK));
-        surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.25 * LINE, seam_color(seam)));
-        surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, CONE_RADIUS, cone_color(curvature)));
+        border(surface.faces).into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
+        surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.25 * style.line(), seam_color(seam)));
+        surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, style.cone(), cone_color(curvature)));
 
         let size = [fit.width, fit.height];
         let n_faces = corners.len();

@@ -6,7 +6,7 @@ use super::fit::Fit;
 use super::flat::{DUAL_CIRCLE, VERTEX_CIRCLE, fit};
 use super::legend::Plan;
 use super::texture::{CIRCLE_SPACING, RING, Texture, Tiles};
-use super::{CONE_RADIUS, Circle, Field, Flat, LINE, Picture, Scale, Style};
+use super::{Circle, Field, Flat, Picture, Scale, Style};
 use std::collections::HashMap;
 use std::io::{Result, Write};
 
@@ -29,7 +29,7 @@ pub fn write_svg(out: &mut impl Write, flat: &Flat<'_>, field: Option<&Field>, s
         decimal(height)
     )?;
     writeln!(out, r#"<g transform="translate({} 0)">"#, decimal(0.5 * (width - fit.width as f64)))?;
-    let drawing = Drawing { flat, fit, size };
+    let drawing = Drawing { flat, fit, size, style };
     match field {
         Some(field) => drawing.colors(out, field)?,
         None => drawing.pattern(out, style.texture)?,
@@ -50,6 +50,7 @@ struct Drawing<'a> {
     flat: &'a Flat<'a>,
     fit: Fit,
     size: f64,
+    style: &'a Style,
 }
 
 impl Drawing<'_> {
@@ -159,7 +160,7 @@ impl Drawing<'_> {
     }
 
     fn lines(&self, out: &mut impl Write) -> Result<()> {
-        let (width, Flat { boundary, seams, cones, .. }) = (decimal(2.0 * LINE * self.size), self.flat);
+        let (width, Flat { boundary, seams, cones, .. }) = (decimal(2.0 * self.style.line()), self.flat);
         writeln!(out, r#"<g stroke-width="{width}" stroke-linecap="round">"#)?;
         for points in loops(boundary.iter().copied()) {
             writeln!(out, r##"<path stroke="#1c1c21" d="{}"/>"##, self.polyline(&points))?;
@@ -174,7 +175,7 @@ impl Drawing<'_> {
         writeln!(out, "</g>")?;
         for (p, curvature) in cones.iter().filter(|(p, _)| p.iter().all(|x| x.is_finite())) {
             let [x, y] = self.fit.apply(*p).map(decimal);
-            let (r, color) = (decimal(CONE_RADIUS * self.size), to_hex(cone_color(*curvature)));
+            let (r, color) = (decimal(self.style.cone()), to_hex(cone_color(*curvature)));
             writeln!(out, r#"<circle cx="{x}" cy="{y}" r="{r}" fill="{color}" stroke="white"/>"#)?;
         }
         Ok(())

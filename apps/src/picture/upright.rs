@@ -17,8 +17,9 @@ const SHEET: f64 = 0.35;
 const FLAT_SHEET: f64 = 0.34;
 /// A closed surface thinner than this share of its width and length may lie on the ground,
 const FLAT_BODY: f64 = 0.6;
-/// if it is its own mirror image up to this share of the area.
+/// if it is its own mirror image there up to this share of the area, and has handles or is one along every axis.
 const SYMMETRIC: f64 = 0.55;
+const REGULAR: f64 = 0.75;
 /// Boxes per axis in which mirror images are compared.
 const BOXES: usize = 10;
 /// A bottom that covers this share of the bounding box stands on the ground; less than the other share does not.
@@ -44,9 +45,9 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
         }
         return Stance { up: if outward == 1 { Z } else { Y }, lies: false };
     }
-    let symmetric = [0, 1, 2].map(|k| figure.symmetry(k) > SYMMETRIC);
-    let others = |k: usize| symmetric[(k + 1) % 3] || symmetric[(k + 2) % 3] || figure.handles;
-    let flat = |k: &usize| thin(*k) < FLAT_BODY && symmetric[*k] && others(*k);
+    let symmetry = [0, 1, 2].map(|k| figure.symmetry(k));
+    let regular = symmetry.iter().all(|s| *s > REGULAR);
+    let flat = |k: &usize| thin(*k) < FLAT_BODY && symmetry[*k] > SYMMETRIC && (regular || figure.handles);
     if let Some(k) = [2, 1, 0].into_iter().find(flat) {
         return Stance { up: axis(k, 1.0), lies: true };
     }
