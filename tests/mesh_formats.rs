@@ -49,6 +49,20 @@ fn what_is_written_reads_back_the_same() {
     assert!(back.positions == soup.positions && back.faces == soup.faces);
     assert!(back.attributes.uv == soup.attributes.uv && back.attributes.colors == soup.attributes.colors);
     assert_eq!(back.attributes.normals.unwrap()[..4], soup.attributes.normals.as_ref().unwrap()[..4]);
+    // GLB has 32 bits, normals of length 1 and v downwards; here no vertex has two pairs of texture coordinates.
+    io::write(&at("m.glb"), &single).unwrap();
+    let back = io::read(&at("m.glb")).unwrap();
+    let close =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-7) && a.len() == b.len();
+    assert_eq!(back.faces, single.faces);
+    let (ours, theirs) = (&single.attributes, &back.attributes);
+    let flat = |uv: &Option<Vec<[[f64; 2]; 3]>>| uv.as_ref().unwrap().as_flattened().as_flattened().to_vec();
+    assert!(close(&flat(&theirs.uv), &flat(&ours.uv)));
+    let flat = |colors: &Option<Vec<[f64; 4]>>| colors.as_ref().unwrap().as_flattened().to_vec();
+    assert!(close(&flat(&theirs.colors), &flat(&ours.colors)));
+    let (normals, unit) = (theirs.normals.as_ref().unwrap(), ours.normals.as_ref().unwrap());
+    assert!(close(normals[..4].as_flattened(), unit[..4].as_flattened()));
+    assert_eq!(normals[4], [0.0, 1.0, 0.0]);
     assert!(matches!(io::write(&at("m.stl"), &soup), Err(Error::UnknownFormat { .. })));
     for shape in [shapes::genus(2, 3).unwrap(), shapes::disk(3).unwrap()] {
         io::write_ply(&at("s.ply"), &shape).unwrap();
@@ -73,6 +87,20 @@ fn every_good_mesh_is_the_same_in_every_format() {
                 "{} as {name}",
                 row["name"]
             );
+        }
+        // GLB keeps 24 bits of the distance from the centre along each axis.
+        let plain = Soup::new(soup.positions.clone(), soup.faces.clone());
+        let path = out.path().join("m.glb");
+        io::write(&path, &plain).unwrap();
+        let back = io::read(&path).unwrap();
+        assert!(back.faces == soup.faces && back.positions.len() == soup.positions.len(), "{}", row["name"]);
+        for k in 0..3 {
+            let coordinates = || soup.positions.iter().map(|p| p[k]);
+            let (low, high) =
+                (coordinates().fold(f64::MAX, f64::min), coordinates().fold(f64::MIN, f64::max));
+            let allowed = 0.5 * (high - low) * 2f64.powi(-24) + low.abs().max(high.abs()) * 2f64.powi(-52);
+            let off = back.positions.iter().map(|p| p[k]).zip(coordinates()).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) <= allowed, "{}", row["name"]);
         }
     }
 }
@@ -173,11 +201,11 @@ fn ply_headers_are_not_trusted() {
         ),
         (
             "ply\nformat ascii 1.0\nelement vertex 99999999999999\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
-            "expected 99999999999999, got 1",
+            "ends inside element `vertex` of 99999999999999 rows",
         ),
         (
             "ply\nformat binary_little_endian 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uint int vertex_indices\nend_header\n\u{7f}\u{7f}\u{7f}\u{7f}",
-            "Unexpected end of file",
+            "ends inside element `face` of 1 rows",
         ),
         (
             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 -1 0\n",
@@ -232,6 +260,30 @@ fn stl_is_welded_where_corners_are_in_one_place() {
 }
 
 #[test]
+fn stl_is_welded_within_a_distance_on_request() {
+    let (a, b, c, d) = ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]);
+    let near = |p: [f32; 3]| [p[0] + 1e-3, p[1], p[2]];
+    // Two triangles with a slit between them, and one that is smaller than the slit.
+    let bytes = binary_stl(b"x", &[[a, b, c], [near(a), near(c), d], [d, near(d), d]], 3);
+    assert_eq!(io::parse_stl(&bytes, "t.stl").unwrap().positions.len(), 7);
+    let welded = io::parse_stl_welded(&bytes, "t.stl", 2e-3).unwrap();
+    assert_eq!(
+        welded,
+        Soup::new([a, b, c, d].map(|p| p.map(f64::from)).to_vec(), vec![[0, 1, 2], [0, 2, 3], [3, 3, 3]])
+    );
+    assert_eq!(io::parse_stl_welded(&bytes, "t.stl", 0.0), io::parse_stl(&bytes, "t.stl"));
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("x.bin"), &bytes).unwrap();
+    assert_eq!(io::read_stl(&folder.path().join("x.bin"), 2e-3).unwrap(), welded);
+    for weld in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(
+            io::parse_stl_welded(&bytes, "t.stl", weld),
+            Err(Error::Argument { what: "weld", .. })
+        ));
+    }
+}
+
+#[test]
 fn stl_that_is_cut_off_or_garbled_names_the_place() {
     let triangle = [[0.0f32; 3]; 3];
     for (bytes, line, says) in [
@@ -273,6 +325,26 @@ fn obj_and_off_attributes_are_kept() {
     assert_eq!(uv.unwrap()[0][0], [0.5, 0.25]);
 }
 
+/// A triangle as OpenMesh 9 writes `STCNOFF BINARY`: host order, colours as three integers, no colours of faces.
+#[test]
+fn binary_off_has_colours_of_bytes_too() {
+    let vertex = |x: f32, y: f32| -> Vec<u32> {
+        let floats = |list: &[f32]| list.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        [floats(&[x, y, 0.5, 0.0, 0.0, 1.0]), vec![0, 51, 255], floats(&[x, 0.25])].concat()
+    };
+    let words =
+        [vec![3, 1, 0], vertex(0.0, 0.0), vertex(1.0, 0.0), vertex(0.0, 1.0), vec![3, 0, 1, 2]].concat();
+    for order in [u32::to_le_bytes, u32::to_be_bytes] {
+        let data: Vec<u8> = words.iter().flat_map(|&w| order(w)).collect();
+        let soup = io::parse_off(&[b"STCNOFF BINARY\n", &data[..]].concat(), "t.off").unwrap();
+        assert_eq!((soup.positions[1], soup.faces), ([1.0, 0.0, 0.5], vec![[0, 1, 2]]));
+        let Attributes { normals, colors, uv } = soup.attributes;
+        assert_eq!(normals.unwrap()[2], [0.0, 0.0, 1.0]);
+        assert_eq!(colors.unwrap()[2], [0.0, 0.2, 1.0, 1.0]);
+        assert_eq!(uv.unwrap(), [[[0.0, 0.25], [1.0, 0.25], [0.0, 0.25]]]);
+    }
+}
+
 /// Whatever was accepted must hold together: it builds a valid mesh or names its defects, it is repaired or refused, and it
 /// reads back as it was written.
 fn accepted(soup: &Soup) {
@@ -291,28 +363,66 @@ fn accepted(soup: &Soup) {
     }
 }
 
+/// A small file with attributes, as our writer makes it.
+fn glb() -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.glb");
+    io::write(&path, &decorated()).unwrap();
+    std::fs::read(&path).unwrap()
+}
+
+fn gifti(encoding: &str, points: &str, triangle: &str) -> Vec<u8> {
+    let array = |intent: &str, kind: &str, n: usize, data: &str| {
+        format!(
+            "<DataArray Intent=\"NIFTI_INTENT_{intent}\" DataType=\"NIFTI_TYPE_{kind}\" Encoding=\"{encoding}\" \
+             Dimensionality=\"2\" Dim0=\"{n}\" Dim1=\"3\"><Data>{data}</Data></DataArray>"
+        )
+    };
+    let arrays = array("POINTSET", "FLOAT32", 3, points) + &array("TRIANGLE", "INT32", 1, triangle);
+    format!("<GIFTI>{arrays}</GIFTI>").into_bytes()
+}
+
+/// A sound file of each kind.
+fn sample(which: usize) -> Vec<u8> {
+    let (a, b, c) = ([0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]);
+    match which {
+        0 => square_ply("ascii"),
+        1 => square_ply("binary_little_endian"),
+        2 => square_ply("binary_big_endian"),
+        3 => ASCII_STL.as_bytes().to_vec(),
+        4 => binary_stl(b"solid", &[[a, b, c], [c, b, a]], 2),
+        5 => glb(),
+        6 => gifti("ASCII", "0 0 0 1 0 0 0 1 0", "0 1 2"),
+        7 => gifti("GZipBase64Binary", "eJxjYEAGDfYMWPgAFIoBfw==", "eJxjYGBgYARiJiAGAAAcAAQ="),
+        _ => b"STCNOFF\n3 2 0\n0 0 0 0 0 1 255 0 51 0.5 0.25\n1 0 0 0 0 1 0 255 0 1 0\n1 1 0 0 0 1 0 0 255 1 1\n3 0 1 2\n4 0 1 2 0\n".to_vec(),
+    }
+}
+
+#[test]
+fn the_samples_are_sound() {
+    let parsers = [io::parse_ply, io::parse_stl, io::parse_off, io::parse_glb, io::parse_gifti];
+    for which in 0..9 {
+        let bytes = sample(which);
+        let read = parsers.iter().find_map(|parse| parse(&bytes, "t").ok());
+        assert!(read.is_some_and(|soup| !soup.faces.is_empty()), "sample {which}");
+    }
+}
+
 proptest! {
     #[test]
     fn damaged_files_are_read_whole_or_refused(
-        which in 0usize..6,
+        which in 0usize..9,
         damage in prop::collection::vec((0usize..2000, any::<u8>()), 0..6),
         cut in 0usize..4000,
     ) {
-        let (a, b, c) = ([0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]);
-        let mut bytes = match which {
-            0 => square_ply("ascii"),
-            1 => square_ply("binary_little_endian"),
-            2 => square_ply("binary_big_endian"),
-            3 => ASCII_STL.as_bytes().to_vec(),
-            4 => binary_stl(b"solid", &[[a, b, c], [c, b, a]], 2),
-            _ => b"STCNOFF\n3 2 0\n0 0 0 0 0 1 255 0 51 0.5 0.25\n1 0 0 0 0 1 0 255 0 1 0\n1 1 0 0 0 1 0 0 255 1 1\n3 0 1 2\n4 0 1 2 0\n".to_vec(),
-        };
+        let mut bytes = sample(which);
         for (at, byte) in damage {
             let n = bytes.len();
             bytes[at % n] = byte;
         }
         bytes.truncate(bytes.len().min(cut));
-        for parse in [io::parse_ply, io::parse_stl, io::parse_off, io::parse_obj] {
+        let stl = |bytes: &[u8], path: &str| io::parse_stl_welded(bytes, path, 0.1);
+        for parse in [io::parse_ply, io::parse_stl, stl, io::parse_off, io::parse_obj, io::parse_glb, io::parse_gifti] {
             if let Ok(soup) = parse(&bytes, "t") {
                 accepted(&soup);
             }

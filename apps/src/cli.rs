@@ -119,7 +119,7 @@ fn threads() -> impl clap::builder::TypedValueParser<Value = u16> {
 
 #[derive(Args, Debug)]
 pub struct InfoArgs {
-    /// Mesh file (.obj, .off, .ply, .stl) or intrinsic metric (.json)
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json)
     pub mesh: PathBuf,
     #[command(flatten)]
     pub picture: SurfacePictureArgs,
@@ -129,9 +129,9 @@ pub struct InfoArgs {
 
 #[derive(Args, Debug)]
 pub struct RepairArgs {
-    /// Mesh file (.obj, .off, .ply, .stl)
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii)
     pub mesh: PathBuf,
-    /// Repaired mesh (.obj, .off, .ply)
+    /// Repaired mesh (.obj, .off, .ply, .glb)
     #[arg(short = 'o', long = "out", value_name = "OUT")]
     pub out: PathBuf,
     /// Weld vertices within this distance; 0 welds those in exactly the same place
@@ -157,7 +157,7 @@ pub struct RepairArgs {
 
 #[derive(Args, Debug)]
 pub struct FlowArgs {
-    /// Mesh file (.obj, .off, .ply, .stl) or intrinsic metric (.json: `faces` and `lengths` suffice)
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json: `faces` and `lengths` suffice)
     pub mesh: PathBuf,
     /// Background geometry; auto is h2 on closed surfaces of genus ≥ 2 and e2 elsewhere
     #[arg(long, value_enum, default_value_t = SpaceChoice::Auto)]

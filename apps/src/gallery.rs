@@ -36,7 +36,7 @@ const fn row(name: &'static str, source: Source, draw: &'static str, about: &'st
 
 /// One row per generator.
 const GENERATORS: &[Row] = &[
-    row("sphere", Made("sphere"), "flow {}", "four cones of π: the layout is a doubled rectangle"),
+    row("sphere", Made("sphere"), "flow {}", "four cones of π, flat elsewhere"),
     row("ellipsoid", Made("ellipsoid"), "flow {} --texture circles", "circles stay circles"),
     row("torus", Made("torus"), "flow {}", "flat: a parallelogram up to its seams"),
     row("disk", Made("disk --height 0.4"), "flow {}", "a bumpy disk, its curvature spread over the boundary"),

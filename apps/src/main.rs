@@ -1,5 +1,6 @@
 //! The `ricci` command.
 
+mod checkerboard;
 mod circles;
 mod cli;
 mod csv;
@@ -7,7 +8,6 @@ mod demo;
 mod failure;
 mod flow;
 mod gallery;
-mod glb;
 mod info;
 mod input;
 mod job;

@@ -98,7 +98,7 @@ fn raise(mut soup: Soup, height: f64) -> Soup {
 }
 
 fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Instant) -> Result<u8, Failure> {
-    check_extension("-o", &to.out, &["obj", "off", "ply", "json"])?;
+    check_extension("-o", &to.out, &["obj", "off", "ply", "glb", "json"])?;
     check_writable(&to.out)?;
     to.common.report.as_deref().map_or(Ok(()), check_writable)?;
     if let Some(path) = &to.picture.base.picture {

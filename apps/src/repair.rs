@@ -62,7 +62,7 @@ struct MapFile<'a> {
 /// Run the command: 0 if the result is a surface that the other commands accept, 1 if a defect is left.
 pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
-    check_extension("-o", &args.out, &["obj", "off", "ply"])?;
+    check_extension("-o", &args.out, &["obj", "off", "ply", "glb"])?;
     if let Some(path) = &args.picture.base.picture {
         check_extension("--picture", path, &["png"])?;
     }

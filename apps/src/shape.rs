@@ -191,7 +191,7 @@ pub enum Shape {
 /// Where a surface in space goes.
 #[derive(Args, Serialize, Debug)]
 pub struct ToMesh {
-    /// Mesh (.obj, .off, .ply), or its edge lengths (.json)
+    /// Mesh (.obj, .off, .ply, .glb), or its edge lengths (.json)
     #[arg(short = 'o', long = "out", value_name = "OUT")]
     pub out: PathBuf,
     #[command(flatten)]

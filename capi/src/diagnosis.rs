@@ -148,7 +148,7 @@ pub unsafe extern "C" fn ricci_diagnose_arrays(
 ///
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT.
 ///
-/// @param path       file name ending in .obj, .off, .ply or .stl, NUL-terminated.
+/// @param path       file name ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii, NUL-terminated.
 /// @param diagnosis  out: the new handle, to be released by ricci_diagnosis_free.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_diagnose_file(

@@ -348,12 +348,12 @@ pub unsafe extern "C" fn ricci_layout_write_obj(
         })?;
         let mesh = &layout.mesh;
         let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
-        let data = io::ObjData {
+        let data = io::Textured {
             positions,
             faces: &faces,
             texcoords: &layout.layout.coordinates,
             face_texcoords: &layout.corners(),
-            ..io::ObjData::default()
+            ..io::Textured::default()
         };
         Ok(io::write_obj(&path, &data)?)
     })

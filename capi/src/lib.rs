@@ -40,6 +40,8 @@ pub mod space;
 
 pub mod mesh;
 
+pub mod mesh_file;
+
 pub mod shapes;
 
 pub mod intrinsic;

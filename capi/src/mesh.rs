@@ -8,10 +8,9 @@ use crate::sized::{self, Sized64};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::geometry::space::Space;
-use ricci::mesh::io::Soup;
-use ricci::mesh::{HalfedgeId, Mesh, PerEdge, Point, io};
+use ricci::mesh::io::{Attributes, Soup};
+use ricci::mesh::{HalfedgeId, Mesh, PerEdge, Point};
 use ricci::metric::lengths::lengths_from_positions;
-use std::ffi::c_char;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
@@ -20,6 +19,8 @@ pub struct ricci_mesh {
     poison: Poison,
     pub(crate) connectivity: Arc<Mesh>,
     pub(crate) shape: Shape,
+    /// What the file had beside positions and faces.
+    pub(crate) attributes: Attributes,
 }
 
 /// Where the edge lengths come from.
@@ -40,12 +41,13 @@ impl Handle for ricci_mesh {
 
 impl ricci_mesh {
     pub(crate) fn new(connectivity: Arc<Mesh>, shape: Shape) -> ricci_mesh {
-        ricci_mesh { poison: Poison::default(), connectivity, shape }
+        ricci_mesh { poison: Poison::default(), connectivity, shape, attributes: Attributes::default() }
     }
 
     pub(crate) fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {
-        let connectivity = Mesh::from_soup(&soup)?;
-        Ok(ricci_mesh::new(Arc::new(connectivity), Shape::Positions(Arc::new(soup.positions))))
+        let connectivity = Arc::new(Mesh::from_soup(&soup)?);
+        let Soup { positions, attributes, .. } = soup;
+        Ok(ricci_mesh { attributes, ..ricci_mesh::new(connectivity, Shape::Positions(Arc::new(positions))) })
     }
 
     pub(crate) fn positions(&self) -> Outcome<&[Point]> {
@@ -87,6 +89,12 @@ pub struct ricci_mesh_summary {
     pub euler: i64,
     /// (2 - euler - boundary loops) / 2.
     pub genus: usize,
+    /// Number of normals: V, or 0 if the mesh was not read from a file that has them.
+    pub n_normals: usize,
+    /// Number of colours: V, or 0.
+    pub n_colors: usize,
+    /// Number of faces with texture coordinates: F, or 0.
+    pub n_uv: usize,
 }
 
 // SAFETY: integers of 8 bytes, size first.
@@ -200,40 +208,6 @@ pub unsafe extern "C" fn ricci_mesh_from_gluing(
     })
 }
 
-/// A mesh from a file.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS (ask
-/// ricci_diagnose_file for the list).
-///
-/// @param path  file name ending in .obj, .off, .ply or .stl, NUL-terminated.
-/// @param mesh  out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_read(path: *const c_char, mesh: *mut *mut ricci_mesh) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
-        mesh.hand_over(ricci_mesh::from_soup(io::read(&arrays::path("path", path)?)?)?);
-        Ok(())
-    })
-}
-
-/// Write a mesh as OBJ, with 17 significant digits.
-///
-/// A file of that name is replaced only once the new one is complete.
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
-///
-/// @param mesh  the mesh.
-/// @param path  file name, NUL-terminated.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_write_obj(mesh: *const ricci_mesh, path: *const c_char) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
-        let faces = face_vertices(&mesh.connectivity);
-        let data = io::ObjData { positions: mesh.positions()?, faces: &faces, ..Default::default() };
-        io::write_obj(&arrays::path("path", path)?, &data)?;
-        Ok(())
-    })
-}
-
 /// Release a mesh. Metrics made from it live on.
 ///
 /// @param mesh  the handle, or NULL.
@@ -242,7 +216,7 @@ pub unsafe extern "C" fn ricci_mesh_free(mesh: *mut ricci_mesh) {
     guard::free(mesh);
 }
 
-/// Counts, Euler characteristic, genus and boundary loops.
+/// Counts, Euler characteristic, genus, boundary loops, and which attributes there are.
 ///
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
 ///
@@ -256,7 +230,7 @@ pub unsafe extern "C" fn ricci_mesh_summarise(
     size: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let mesh = &door.shared(mesh)?.connectivity;
+        let ricci_mesh { connectivity: mesh, attributes, .. } = door.shared(mesh)?;
         let counts = ricci_mesh_summary {
             size,
             n_vertices: mesh.n_vertices(),
@@ -266,6 +240,9 @@ pub unsafe extern "C" fn ricci_mesh_summarise(
             n_boundary_vertices: mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).count(),
             euler: mesh.euler(),
             genus: mesh.genus(),
+            n_normals: attributes.normals.as_ref().map_or(0, Vec::len),
+            n_colors: attributes.colors.as_ref().map_or(0, Vec::len),
+            n_uv: attributes.uv.as_ref().map_or(0, Vec::len),
         };
         sized::write(counts, summary, size)
     })

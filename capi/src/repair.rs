@@ -161,7 +161,7 @@ pub unsafe extern "C" fn ricci_repair_arrays(
 ///
 /// @return as ricci_repair_arrays; RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT.
 ///
-/// @param path     file name ending in .obj, .off, .ply or .stl, NUL-terminated.
+/// @param path     file name ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii, NUL-terminated.
 /// @param options  what may be done, or NULL for the defaults.
 /// @param repair   out: the new handle, to be released by ricci_repair_free.
 #[unsafe(no_mangle)]

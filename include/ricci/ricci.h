@@ -266,7 +266,25 @@ typedef struct {
     int64_t euler;
     /** (2 - euler - boundary loops) / 2. */
     size_t genus;
+    /** Number of normals: V, or 0 if the mesh was not read from a file that has them. */
+    size_t n_normals;
+    /** Number of colours: V, or 0. */
+    size_t n_colors;
+    /** Number of faces with texture coordinates: F, or 0. */
+    size_t n_uv;
 } ricci_mesh_summary;
+
+/** What is written beside positions and faces. Let ricci_mesh_attributes_init fill it, then change fields. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Normals of the vertices, n_vertices x 3, of any length; NULL (default): none. */
+    const double *normals;
+    /** Colours of the vertices, n_vertices x 4: red, green, blue, opacity, from 0 to 1; NULL (default): none. */
+    const double *colors;
+    /** Texture coordinates of the faces' corners, n_faces x 3 x 2, v upwards; NULL (default): none. */
+    const double *uv;
+} ricci_mesh_attributes;
 
 /** Counts of a triangle list. */
 typedef struct {
@@ -664,29 +682,6 @@ ricci_status ricci_mesh_from_gluing(size_t n_vertices,
                                     ricci_mesh **mesh);
 
 /**
- * A mesh from a file.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS (ask
- * ricci_diagnose_file for the list).
- *
- * @param path  file name ending in .obj, .off, .ply or .stl, NUL-terminated.
- * @param mesh  out: the new handle, to be released by ricci_mesh_free.
- */
-ricci_status ricci_mesh_read(const char *path,
-                             ricci_mesh **mesh);
-
-/**
- * Write a mesh as OBJ, with 17 significant digits.
- *
- * A file of that name is replaced only once the new one is complete.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
- *
- * @param mesh  the mesh.
- * @param path  file name, NUL-terminated.
- */
-ricci_status ricci_mesh_write_obj(const ricci_mesh *mesh, const char *path);
-
-/**
  * Release a mesh. Metrics made from it live on.
  *
  * @param mesh  the handle, or NULL.
@@ -694,7 +689,7 @@ ricci_status ricci_mesh_write_obj(const ricci_mesh *mesh, const char *path);
 void ricci_mesh_free(ricci_mesh *mesh);
 
 /**
- * Counts, Euler characteristic, genus and boundary loops.
+ * Counts, Euler characteristic, genus, boundary loops, and which attributes there are.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
  *
@@ -784,6 +779,105 @@ ricci_status ricci_mesh_boundary(const ricci_mesh *mesh,
                                  size_t vertices_capacity,
                                  size_t *starts,
                                  size_t starts_capacity);
+
+/**
+ * A mesh from a file, with the attributes that it has.
+ *
+ * Vertices and faces have the file's numbers; polygons are cut into triangles. Corners of an STL file in exactly the same place
+ * are one vertex.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS (ask
+ * ricci_diagnose_file for the list).
+ *
+ * @param path  file name ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii, NUL-terminated.
+ * @param mesh  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_mesh_read(const char *path,
+                             ricci_mesh **mesh);
+
+/**
+ * A mesh from an STL file whose corners within a distance of each other are one vertex.
+ *
+ * Faces that this collapses are RICCI_DEFECTS; ricci_repair_file welds and drops them.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_DEFECTS, RICCI_ARGUMENT (the distance).
+ *
+ * @param path  file name, NUL-terminated.
+ * @param weld  the distance, not negative; 0 welds corners in exactly the same place.
+ * @param mesh  out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_mesh_read_stl(const char *path,
+                                 double weld,
+                                 ricci_mesh **mesh);
+
+/**
+ * Fill attributes with none.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param attributes  out: no attributes.
+ * @param size        sizeof *attributes.
+ */
+ricci_status ricci_mesh_attributes_init(ricci_mesh_attributes *attributes, size_t size);
+
+/**
+ * Write a mesh in the format that the file's name says, with the attributes that the format has.
+ *
+ * OBJ and OFF are text with 17 significant digits, PLY is binary, and positions read back as they are; GLB has 24 bits of the
+ * distance from the centre of the mesh. A file of that name is replaced only once the new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (the mesh is
+ * intrinsic, or a number is not finite), RICCI_TOO_LARGE.
+ *
+ * @param mesh        the mesh.
+ * @param attributes  what to write beside positions and faces, or NULL for what the mesh was read with.
+ * @param path        file name ending in .obj, .off, .ply or .glb, NUL-terminated.
+ */
+ricci_status ricci_mesh_write(const ricci_mesh *mesh,
+                              const ricci_mesh_attributes *attributes,
+                              const char *path);
+
+/**
+ * Write a mesh as OBJ, with 17 significant digits and the attributes that it was read with, whatever the file's name.
+ *
+ * A file of that name is replaced only once the new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic, or a number is not finite).
+ *
+ * @param mesh  the mesh.
+ * @param path  file name, NUL-terminated.
+ */
+ricci_status ricci_mesh_write_obj(const ricci_mesh *mesh,
+                                  const char *path);
+
+/**
+ * The normals that the mesh was read with.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+ *
+ * @param mesh      the mesh.
+ * @param normals   out: n_vertices x 3, of any length.
+ * @param capacity  entries of `normals`, at least 3 n_vertices.
+ */
+ricci_status ricci_mesh_normals(const ricci_mesh *mesh, double *normals, size_t capacity);
+
+/**
+ * The colours that the mesh was read with.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+ *
+ * @param mesh      the mesh.
+ * @param colors    out: n_vertices x 4: red, green, blue, opacity, from 0 to 1.
+ * @param capacity  entries of `colors`, at least 4 n_vertices.
+ */
+ricci_status ricci_mesh_colors(const ricci_mesh *mesh, double *colors, size_t capacity);
+
+/**
+ * The texture coordinates that the mesh was read with.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+ *
+ * @param mesh      the mesh.
+ * @param uv        out: n_faces x 3 x 2: u, v of every corner, v upwards.
+ * @param capacity  entries of `uv`, at least 6 n_faces.
+ */
+ricci_status ricci_mesh_uv(const ricci_mesh *mesh, double *uv, size_t capacity);
 
 /**
  * The unit sphere: an icosahedron with each edge cut into n. 10 n^2 + 2 vertices.
@@ -1090,10 +1184,11 @@ ricci_status ricci_diagnose_arrays(const double *positions,
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT.
  *
- * @param path       file name ending in .obj, .off, .ply or .stl, NUL-terminated.
+ * @param path       file name ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii, NUL-terminated.
  * @param diagnosis  out: the new handle, to be released by ricci_diagnosis_free.
  */
-ricci_status ricci_diagnose_file(const char *path, ricci_diagnosis **diagnosis);
+ricci_status ricci_diagnose_file(const char *path,
+                                 ricci_diagnosis **diagnosis);
 
 /**
  * Release a diagnosis.
@@ -1168,7 +1263,7 @@ ricci_status ricci_repair_arrays(const double *positions,
  *
  * @return as ricci_repair_arrays; RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT.
  *
- * @param path     file name ending in .obj, .off, .ply or .stl, NUL-terminated.
+ * @param path     file name ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii, NUL-terminated.
  * @param options  what may be done, or NULL for the defaults.
  * @param repair   out: the new handle, to be released by ricci_repair_free.
  */

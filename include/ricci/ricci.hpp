@@ -34,6 +34,7 @@ inline void check(ricci_status status) {
 struct deleter {
     void operator()(ricci_mesh *p) const { ricci_mesh_free(p); }
     void operator()(ricci_diagnosis *p) const { ricci_diagnosis_free(p); }
+    void operator()(ricci_repair *p) const { ricci_repair_free(p); }
     void operator()(ricci_metric *p) const { ricci_metric_free(p); }
     void operator()(ricci_report *p) const { ricci_report_free(p); }
     void operator()(ricci_solver *p) const { ricci_solver_free(p); }
@@ -45,6 +46,7 @@ template <class Handle> using owned = std::unique_ptr<Handle, deleter>;
 
 using mesh = owned<ricci_mesh>;
 using diagnosis = owned<ricci_diagnosis>;
+using repair = owned<ricci_repair>;
 using metric = owned<ricci_metric>;
 using report = owned<ricci_report>;
 using solver = owned<ricci_solver>;

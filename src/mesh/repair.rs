@@ -3,7 +3,7 @@
 use super::check::{Diagnosis, diagnose};
 use super::incidence::{Incidence, NONE, UnionFind, components, is_forward};
 use super::io::{Attributes, Soup};
-use super::weld::coincident;
+use super::weld::{check_tolerance, coincident};
 use crate::error::{Error, Result};
 use std::collections::{HashSet, VecDeque};
 
@@ -138,10 +138,7 @@ impl Work {
 
     fn weld(&mut self, soup: &Soup, tolerance: Option<f64>) -> Result<()> {
         let Some(tolerance) = tolerance else { return Ok(()) };
-        if !(tolerance >= 0.0 && tolerance.is_finite()) {
-            let value = tolerance.to_string();
-            return Err(Error::Argument { what: "weld", value, need: "a distance that is not negative" });
-        }
+        check_tolerance(tolerance)?;
         let first = coincident(&soup.positions, tolerance);
         let welded = first.iter().enumerate().filter(|&(v, &to)| v as u32 != to).count();
         if welded == 0 {

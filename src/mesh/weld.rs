@@ -2,10 +2,19 @@
 
 use super::Point;
 use super::incidence::UnionFind;
+use crate::error::{Error, Result};
 use std::collections::HashMap;
 
 /// Size of a cell over the tolerance: below 1/√3.
 const CELL: f64 = 0.577;
+
+/// Whether this is a distance within which points can coincide.
+pub(super) fn check_tolerance(weld: f64) -> Result<()> {
+    if weld >= 0.0 && weld.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Argument { what: "weld", value: weld.to_string(), need: "a distance that is not negative" })
+}
 
 /// Per point, the first point that it coincides with: in exactly the same place for `tolerance` 0, else within that distance
 /// by a chain of such points. Points that are not finite coincide with none.

@@ -331,7 +331,26 @@ fn gltf_holds_the_surface_its_layout_and_a_texture() {
     };
     let indices: Vec<usize> =
         view(2).chunks(4).map(|b| u32::from_le_bytes(b.try_into().unwrap()) as usize).collect();
-    assert!(indices.iter().eq(uv.corners.iter().flatten()));
+    let floats = |k: usize| -> Vec<f64> {
+        view(k).chunks(4).map(|b| f64::from(f32::from_le_bytes(b.try_into().unwrap()))).collect()
+    };
+    // Corner by corner the position, and the layout scaled, v downwards.
+    let (stored, texcoords) = (floats(0), floats(1));
+    let center = &document["nodes"][0]["translation"];
+    let scale = (texcoords[2 * indices[1]] - texcoords[2 * indices[0]])
+        / (uv.vt[uv.corners[0][1]][0] - uv.vt[uv.corners[0][0]][0]);
+    let first = [texcoords[2 * indices[0]], texcoords[2 * indices[0] + 1]];
+    let start = uv.vt[uv.corners[0][0]];
+    for (k, &i) in indices.iter().enumerate() {
+        let (v, t) = (uv.faces[k / 3][k % 3], uv.corners[k / 3][k % 3]);
+        for j in 0..3 {
+            assert!((stored[3 * i + j] + center[j].as_f64().unwrap_or(0.0) - uv.v[v][j]).abs() < 1e-6);
+        }
+        let expected = [scale * (uv.vt[t][0] - start[0]), -scale * (uv.vt[t][1] - start[1])];
+        for j in 0..2 {
+            assert!((texcoords[2 * i + j] - first[j] - expected[j]).abs() < 1e-4);
+        }
+    }
     assert!(view(3).starts_with(b"\x89PNG"));
 }
 

@@ -58,6 +58,19 @@ fn a_flat_torus_has_the_modulus_it_was_made_with() {
 }
 
 #[test]
+fn every_format_that_is_written_is_read_again() {
+    let place = Place::new();
+    for extension in ["obj", "off", "ply", "glb"] {
+        place.expect(0, &format!("make torus -n 12 -o made.{extension} --quiet"));
+        place.expect(0, &format!("repair made.{extension} -o again.{extension} --report r.json"));
+        let report = place.json("r.json");
+        assert_eq!((&report["input"]["genus"], &report["result"]["genus"]), (&1.into(), &1.into()));
+        assert_eq!(report["result"]["welded_vertices"], 0, "{extension}");
+    }
+    place.expect(0, "flow again.glb --report r.json");
+}
+
+#[test]
 fn noise_is_seeded() {
     let place = Place::new();
     for (seed, file) in [(1, "a.obj"), (1, "b.obj"), (2, "c.obj")] {

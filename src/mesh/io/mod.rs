@@ -1,6 +1,11 @@
 //! Mesh files: triangles and positions, as the file numbers them.
 
 mod atomic;
+mod base64;
+mod budget;
+mod gifti;
+mod gifti_data;
+mod gltf;
 mod obj;
 mod off;
 mod off_binary;
@@ -8,12 +13,16 @@ mod ply;
 mod polygon;
 mod scan;
 mod stl;
+mod textured;
 
 pub use atomic::write_atomically;
-pub use obj::{ObjData, parse_obj, write_obj};
+pub use gifti::parse_gifti;
+pub use gltf::{Texture, Wrap, parse_glb, write_glb};
+pub use obj::{parse_obj, write_obj};
 pub use off::{parse_off, write_off};
 pub use ply::{parse_ply, write_ply};
-pub use stl::parse_stl;
+pub use stl::{parse_stl, parse_stl_welded};
+pub use textured::Textured;
 
 use super::Point;
 use crate::error::{Error, Result, check_size};
@@ -86,7 +95,7 @@ impl Soup {
 }
 
 /// Extensions that [`read`] knows.
-pub const READABLE: &str = ".obj, .off, .ply, .stl";
+pub const READABLE: &str = ".obj, .off, .ply, .stl, .glb, .gltf, .gii";
 
 /// Read a mesh file by its extension (case does not matter).
 pub fn read(path: &Path) -> Result<Soup> {
@@ -97,14 +106,24 @@ pub fn read(path: &Path) -> Result<Soup> {
         Some("off") => parse_off,
         Some("ply") => parse_ply,
         Some("stl") => parse_stl,
+        Some("glb" | "gltf") => parse_glb,
+        Some("gii") => parse_gifti,
         _ => return Err(Error::UnknownFormat { path: name, known: READABLE }),
     };
-    let bytes = std::fs::read(path).map_err(|e| Error::Io { path: name.clone(), message: e.to_string() })?;
-    parse(&bytes, &name)
+    parse(&content(path)?, &name)
+}
+
+/// Read an STL file, whatever its name, and weld it within a distance: [`parse_stl_welded`].
+pub fn read_stl(path: &Path, weld: f64) -> Result<Soup> {
+    parse_stl_welded(&content(path)?, &path.display().to_string(), weld)
+}
+
+fn content(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).map_err(|e| Error::Io { path: path.display().to_string(), message: e.to_string() })
 }
 
 /// Extensions that [`write()`] knows.
-pub const WRITABLE: &str = ".obj, .off, .ply";
+pub const WRITABLE: &str = ".obj, .off, .ply, .glb";
 
 /// A format that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,6 +134,8 @@ pub enum Format {
     Off,
     /// PLY, binary.
     Ply,
+    /// Binary glTF 2.0.
+    Glb,
 }
 
 impl Format {
@@ -125,6 +146,7 @@ impl Format {
             Some("obj") => Ok(Format::Obj),
             Some("off") => Ok(Format::Off),
             Some("ply") => Ok(Format::Ply),
+            Some("glb") => Ok(Format::Glb),
             _ => Err(Error::UnknownFormat { path: path.display().to_string(), known: WRITABLE }),
         }
     }
@@ -136,7 +158,7 @@ pub fn write(path: &Path, soup: &Soup) -> Result<()> {
 }
 
 /// Write a mesh file, atomically, with the attributes that the format has: text with 17 significant digits, PLY binary, so that
-/// positions read back as they are.
+/// positions read back as they are; GLB has 24 bits, see [`write_glb`].
 ///
 /// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range;
 /// [`Error::Size`] for attributes of another size; [`Error::Io`].
@@ -144,21 +166,8 @@ pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<()> {
     match format {
         Format::Ply => write_ply(path, soup),
         Format::Off => write_off(path, soup),
-        Format::Obj => {
-            soup.check_writable()?;
-            let Attributes { normals, colors, uv } = &soup.attributes;
-            let texcoords: Vec<[f64; 2]> = uv.iter().flatten().flatten().copied().collect();
-            let corners = (0..texcoords.len() as u32 / 3).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]);
-            let data = ObjData {
-                positions: &soup.positions,
-                faces: &soup.faces,
-                colors: colors.as_deref().unwrap_or_default(),
-                normals: normals.as_deref().unwrap_or_default(),
-                texcoords: &texcoords,
-                face_texcoords: &corners.collect::<Vec<_>>(),
-            };
-            write_obj(path, &data)
-        }
+        Format::Obj => textured::with_textured(soup, |data| write_obj(path, data)),
+        Format::Glb => textured::with_textured(soup, |data| write_glb(path, data, None)).map(drop),
     }
 }
 

@@ -1,9 +1,10 @@
 //! Wavefront OBJ. Our own reader, because the contract needs the file's vertex numbering, which the OBJ
 //! crates replace by one of their own.
 
+use super::budget::Budget;
 use super::polygon::Polygons;
 use super::scan::Place;
-use super::{Attributes, Point, Soup, finite, in_range, write_atomically};
+use super::{Attributes, Point, Soup, Textured, write_atomically};
 use crate::error::Result;
 use std::io::Write;
 use std::path::Path;
@@ -54,8 +55,11 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
             _ => {}
         }
     }
-    Ok(file.soup())
+    file.soup(Budget::of(bytes), Place { path, line: 0 })
 }
+
+/// No entry.
+const NONE: u32 = u32::MAX;
 
 /// What has been read so far.
 #[derive(Default)]
@@ -65,16 +69,15 @@ struct File {
     texcoords: Vec<[f64; 2]>,
     normals: Vec<Point>,
     polygons: Polygons,
-    /// Per corner, the entry it names.
-    corner_texcoords: Vec<Option<usize>>,
-    corner_normals: Vec<Option<usize>>,
+    /// Per corner, the entry it names, or `NONE`.
+    corner_texcoords: Vec<u32>,
+    corner_normals: Vec<u32>,
 }
 
 impl File {
-    fn soup(self) -> Soup {
-        let triangles = self.polygons.triangles(&self.positions);
-        let texcoord =
-            |corner: usize| self.corner_texcoords[corner].and_then(|i| self.texcoords.get(i)).copied();
+    fn soup(self, mut budget: Budget, place: Place<'_>) -> Result<Soup> {
+        let triangles = self.polygons.triangles(&self.positions, &mut budget, place)?;
+        let texcoord = |corner: usize| self.texcoords.get(self.corner_texcoords[corner] as usize).copied();
         let corners_of = |t: &[usize; 3]| Some([texcoord(t[0])?, texcoord(t[1])?, texcoord(t[2])?]);
         let uv: Option<Vec<_>> = triangles.iter().map(corners_of).collect();
         let attributes = Attributes {
@@ -87,14 +90,14 @@ impl File {
         };
         let colors = attributes.colors.filter(|c| !c.is_empty());
         let faces = triangles.iter().map(|&t| self.polygons.face(t)).collect();
-        Soup { positions: self.positions, faces, attributes: Attributes { colors, ..attributes } }
+        Ok(Soup { positions: self.positions, faces, attributes: Attributes { colors, ..attributes } })
     }
 
     /// The normal of every vertex, if all its corners name equal ones.
     fn vertex_normals(&self) -> Option<Vec<Point>> {
         let mut normals: Vec<Option<Point>> = vec![None; self.positions.len()];
         for (&v, &normal) in self.polygons.corners.iter().zip(&self.corner_normals) {
-            let normal = *self.normals.get(normal?)?;
+            let normal = *self.normals.get(normal as usize)?;
             let slot = normals.get_mut(v as usize)?;
             if slot.is_some_and(|known| known != normal) || !normal.iter().all(|x| x.is_finite()) {
                 return None;
@@ -124,12 +127,13 @@ fn numbers<'a, const N: usize>(mut tokens: impl Iterator<Item = &'a str>) -> [f6
 }
 
 /// The entry (0-based) that the second or third number of a corner names among `count` so far; a wrong one names none.
-fn attribute(number: Option<&str>, count: usize) -> Option<usize> {
-    match number?.parse::<i64>().ok()? {
+fn attribute(number: Option<&str>, count: usize) -> u32 {
+    let entry = |number: &str| match number.parse::<i64>().ok()? {
         0 => None,
-        n if n < 0 => count.checked_sub(usize::try_from(n.unsigned_abs()).ok()?),
-        n => usize::try_from(n - 1).ok(),
-    }
+        n if n < 0 => count.checked_sub(usize::try_from(n.unsigned_abs()).ok()?)?.try_into().ok(),
+        n => u32::try_from(n - 1).ok(),
+    };
+    number.and_then(entry).unwrap_or(NONE)
 }
 
 /// The vertex of a corner `v`, `v/vt`, `v//vn`, `v/vt/vn`: 1-based, or negative from the last vertex so far.
@@ -154,42 +158,12 @@ fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
     }
 }
 
-/// What [`write_obj`] writes.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct ObjData<'a> {
-    /// `v` lines.
-    pub positions: &'a [Point],
-    /// Colours behind the coordinates (V entries, 0 to 1); empty for none.
-    pub colors: &'a [[f64; 4]],
-    /// `vn` lines, one per vertex (V entries); empty for none.
-    pub normals: &'a [Point],
-    /// `vt` lines; empty for none.
-    pub texcoords: &'a [[f64; 2]],
-    /// Corners of the faces, 0-based into `positions`.
-    pub faces: &'a [[u32; 3]],
-    /// Corners of the faces, 0-based into `texcoords`; as many as faces, or empty for none.
-    pub face_texcoords: &'a [[u32; 3]],
-}
-
 /// Write an OBJ file with 17 significant digits (which read back to the same doubles), atomically.
 ///
 /// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of
 /// range, [`crate::Error::Size`], [`crate::Error::Io`].
-pub fn write_obj(path: &Path, data: &ObjData<'_>) -> Result<()> {
-    if !data.face_texcoords.is_empty() {
-        crate::error::check_size("face_texcoords", data.face_texcoords.len(), data.faces.len())?;
-    }
-    for (what, len) in [("colors", data.colors.len()), ("normals", data.normals.len())] {
-        if len > 0 {
-            crate::error::check_size(what, len, data.positions.len())?;
-        }
-    }
-    finite("position", data.positions)?;
-    finite("colour", data.colors)?;
-    finite("normal", data.normals)?;
-    finite("texture coordinate", data.texcoords)?;
-    in_range("vertex", data.faces, data.positions.len())?;
-    in_range("texture vertex", data.face_texcoords, data.texcoords.len())?;
+pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
+    data.check()?;
     write_atomically(path, |out| {
         for (v, [x, y, z]) in data.positions.iter().enumerate() {
             write!(out, "v {x:.16e} {y:.16e} {z:.16e}")?;

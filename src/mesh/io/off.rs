@@ -1,6 +1,7 @@
 //! OFF, text and binary: plain, COFF, NOFF, STOFF and their combinations (colours of faces are skipped). The format is
 //! Geomview's, <http://www.geomview.org/docs/html/OFF.html>.
 
+use super::budget::Budget;
 use super::off_binary::parse_off_binary;
 use super::polygon::Polygons;
 use super::scan::{Place, lines};
@@ -131,7 +132,7 @@ fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
         polygons.push(corners.iter().copied());
     }
     match tokens.next() {
-        None => Ok(extras.soup(positions, &polygons)),
+        None => extras.soup(positions, &polygons, Budget::of(text.as_bytes()), tokens.place()),
         Some(token) => tokens.place().error(format!(
             "`{token}` comes after the last face: the header promises {n_vertices} vertices and {n_faces} faces, each on a line of its own"
         )),
@@ -165,9 +166,15 @@ impl Extras {
     }
 
     /// The triangle list, with the attributes that every vertex has.
-    pub fn soup(self, positions: Vec<Point>, polygons: &Polygons) -> Soup {
+    pub fn soup(
+        self,
+        positions: Vec<Point>,
+        polygons: &Polygons,
+        mut budget: Budget,
+        place: Place<'_>,
+    ) -> Result<Soup> {
         let n = positions.len();
-        let triangles = polygons.triangles(&positions);
+        let triangles = polygons.triangles(&positions, &mut budget, place)?;
         // Components are from 0 to 1, or from 0 to 255 as soon as one is larger.
         let full = if self.colors.iter().flatten().any(|&x| x > 1.0) { 255.0 } else { 1.0 };
         let color = |c: [f64; 4]| c.map(|x| if x.is_nan() { 1.0 } else { x / full });
@@ -179,7 +186,7 @@ impl Extras {
             uv: (self.has.texture && self.texture.len() == n)
                 .then(|| triangles.iter().map(|&t| polygons.face(t).map(uv)).collect()),
         };
-        Soup { faces: triangles.iter().map(|&t| polygons.face(t)).collect(), positions, attributes }
+        Ok(Soup { faces: triangles.iter().map(|&t| polygons.face(t)).collect(), positions, attributes })
     }
 }
 

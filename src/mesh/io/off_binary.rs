@@ -1,34 +1,52 @@
 //! Binary OFF: what Geomview reads and writes, and what other programs write under the same header.
 
+use super::budget::Budget;
 use super::off::{Columns, Extras};
 use super::polygon::Polygons;
 use super::scan::Place;
-use super::{Point, Soup};
+use super::{Point, Soup, in_range};
 use crate::error::Result;
 
 /// How the data behind `OFF BINARY` are laid out. The file does not say which it is.
 #[derive(Clone, Copy, PartialEq)]
-enum Dialect {
-    /// The format's definition: big-endian, and each face ends with the number of its colour components
-    /// (which may be 0) and these components.
-    Geomview,
-    /// Of programs that copy their memory: little-endian, no colours of faces.
-    Copied,
+struct Dialect {
+    big_endian: bool,
+    /// Each face ends with the number of its colour components (which may be 0) and these components.
+    face_colors: bool,
+    /// Components of a vertex's colour.
+    color: usize,
 }
+
+/// The format's definition.
+const GEOMVIEW: Dialect = Dialect { big_endian: true, face_colors: true, color: 4 };
+/// Of programs that copy their memory.
+const COPIED: Dialect = Dialect { big_endian: false, face_colors: false, color: 4 };
 
 /// Parse the data that begin at `start`: three `i32` counts, `columns` `f32` per vertex of which the first
 /// three are the position, and per face the `i32` number of its corners and these, 0-based. The dialect is
-/// the one in which the file ends where its last face does.
+/// the one in which the file ends where its last face does; colours may also be integers up to 255.
 pub(super) fn parse_off_binary(bytes: &[u8], start: usize, has: Columns, place: Place<'_>) -> Result<Soup> {
     let read = |dialect| Words { bytes, at: start, dialect, place }.soup(has);
-    let geomview = read(Dialect::Geomview);
-    if geomview.is_ok() {
-        return geomview;
+    let first = read(GEOMVIEW);
+    if first.is_ok() {
+        return first;
     }
-    let copied = read(Dialect::Copied);
+    let second = read(COPIED);
+    if second.is_ok() {
+        return second;
+    }
+    // OpenMesh writes either byte order, and colours of three components. What is left of a file that is cut off may end as these
+    // do, but for its corners.
+    let opaque = Dialect { color: 3, ..COPIED };
+    let others = [Dialect { big_endian: true, ..COPIED }, opaque, Dialect { big_endian: true, ..opaque }];
+    let known = others.into_iter().filter(|dialect| has.color || dialect.color == 4);
+    let sound = |soup: &Soup| in_range("vertex", &soup.faces, soup.positions.len()).is_ok();
+    if let Some(soup) = known.filter_map(|dialect| read(dialect).ok()).find(sound) {
+        return Ok(soup);
+    }
     // Of two errors that of the likelier byte order: a number of vertices below 2¹⁶ is above it when misread.
     let count = bytes[start..].first_chunk::<4>().copied().unwrap_or([0; 4]);
-    if copied.is_ok() || u32::from_le_bytes(count) < u32::from_be_bytes(count) { copied } else { geomview }
+    if u32::from_le_bytes(count) < u32::from_be_bytes(count) { second } else { first }
 }
 
 /// The file as words of four bytes, from byte `at`.
@@ -41,16 +59,21 @@ struct Words<'a> {
 
 impl Words<'_> {
     fn soup(mut self, has: Columns) -> Result<Soup> {
-        let columns =
-            3 + 3 * usize::from(has.normal) + 4 * usize::from(has.color) + 2 * usize::from(has.texture);
+        let Dialect { color, face_colors, .. } = self.dialect;
+        let before = 3 + 3 * usize::from(has.normal);
+        let after = before + color * usize::from(has.color);
+        let columns = after + 2 * usize::from(has.texture);
         let n_vertices = self.count(|| "the number of vertices".into())?;
         let n_faces = self.count(|| "the number of faces".into())?;
         self.word(|| "the number of edges".into())?;
         let (mut positions, mut extras, mut polygons) = (Vec::new(), Extras::new(has), Polygons::default());
         for v in 0..n_vertices {
             let mut numbers = [0.0; 12];
-            for x in &mut numbers[..columns] {
-                *x = f64::from(f32::from_bits(self.word(|| format!("vertex {v} (of {n_vertices})"))?));
+            for (k, x) in numbers[..columns].iter_mut().enumerate() {
+                let word = self.word(|| format!("vertex {v} (of {n_vertices})"))?;
+                // As an `f32` such an integer would be below 1e-42.
+                let integer = (before..after).contains(&k) && word <= 255;
+                *x = if integer { f64::from(word) } else { f64::from(f32::from_bits(word)) };
             }
             let position: Point = [numbers[0], numbers[1], numbers[2]];
             positions.push(position);
@@ -63,7 +86,7 @@ impl Words<'_> {
             for k in 0..size {
                 corners.push(self.count(|| format!("corner {k} of face {f} (of {n_faces})"))?);
             }
-            if self.dialect == Dialect::Geomview {
+            if face_colors {
                 let what = || format!("the colour of face {f} (of {n_faces})");
                 for _ in 0..self.count(what)? {
                     self.word(what)?;
@@ -79,7 +102,7 @@ impl Words<'_> {
                 "the {n_vertices} vertices and {n_faces} faces that the header promises end at byte {end}, {left} bytes before the file does"
             ));
         }
-        Ok(extras.soup(positions, &polygons))
+        extras.soup(positions, &polygons, Budget::of(self.bytes), self.place)
     }
 
     fn word(&mut self, what: impl Fn() -> String) -> Result<u32> {
@@ -89,10 +112,7 @@ impl Words<'_> {
             return self.place.error(format!("the file ends at byte {end}, in {what}; export it again"));
         };
         self.at += 4;
-        Ok(match self.dialect {
-            Dialect::Geomview => u32::from_be_bytes(word),
-            Dialect::Copied => u32::from_le_bytes(word),
-        })
+        Ok(if self.dialect.big_endian { u32::from_be_bytes(word) } else { u32::from_le_bytes(word) })
     }
 
     /// A word that is not negative as a signed number.

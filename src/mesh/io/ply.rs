@@ -1,12 +1,13 @@
 //! PLY, ascii and both binary byte orders, by the crate `ply-rs-bw`.
 
+use super::budget::Budget;
 use super::polygon::Polygons;
 use super::scan::Place;
 use super::{Attributes, Point, Soup, write_atomically};
 use crate::error::{Error, Result};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
-use std::io::{Read, Write};
+use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
+use std::io::{BufRead, ErrorKind, Read, Write};
 use std::path::Path;
 
 /// Parse a PLY file: elements `vertex` (x, y, z; nx, ny, nz; red, green, blue, alpha; s, t or u, v), `face` (vertex_indices or
@@ -14,47 +15,80 @@ use std::path::Path;
 pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
     let (header, body) = split_header(bytes, path)?;
     let mut reader = Reader::new(header.as_bytes().chain(body));
-    let failed = |error: ParseError| -> Error {
-        let message = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
-        Error::Parse { path: path.into(), line: error.line().unwrap_or(0), message }
+    let header = match Parser::<Skipped>::new().read_header(&mut reader) {
+        Ok(header) => header,
+        Err(error) => return Err(failed(&error, path)),
     };
-    let header = Parser::<Skipped>::new().read_header(&mut reader).map_err(failed)?;
     check_header(&header, Place { path, line: 1 })?;
-    let (mut vertices, mut polygons, mut corner_uv) = (Vec::new(), Polygons::default(), Vec::new());
+    let (mut vertices, mut polygons, mut corner_uv) =
+        (Vertices::new(&header), Polygons::default(), Vec::new());
+    let (mut budget, place) = (Budget::of(bytes), Place { path, line: 0 });
     for (name, element) in &header.elements {
+        let mut rows = Rows { reader: &mut reader, header: &header, element, path };
         match name.as_str() {
-            "vertex" => {
-                let rows = Parser::<VertexRow>::new().read_payload_for_element(&mut reader, element, &header);
-                vertices = rows.map_err(failed)?;
-            }
-            "face" => {
-                let rows = Parser::<FaceRow>::new().read_payload_for_element(&mut reader, element, &header);
-                for (f, row) in rows.map_err(failed)?.into_iter().enumerate() {
-                    let place = Place { path, line: 0 };
-                    let corners: Result<Vec<u32>> =
-                        row.corners.iter().map(|&v| vertex(v, f, place)).collect();
-                    let corners = corners?;
-                    if row.uv.len() == 2 * corners.len() {
-                        corner_uv.extend(row.uv.chunks_exact(2).map(|uv| [uv[0], uv[1]]));
-                    }
-                    polygons.push(corners);
+            "vertex" => rows.each(|_, row| {
+                vertices.push(row);
+                Ok(())
+            })?,
+            "face" => rows.each(|f, row: FaceRow| {
+                for &v in &row.corners {
+                    polygons.corners.push(vertex(v, f, place)?);
                 }
-            }
-            "tristrips" => {
-                let rows = Parser::<FaceRow>::new().read_payload_for_element(&mut reader, element, &header);
-                for (f, row) in rows.map_err(failed)?.into_iter().enumerate() {
-                    strips(&row.corners, f, Place { path, line: 0 }, &mut polygons)?;
+                if row.uv.len() == 2 * row.corners.len() {
+                    corner_uv.extend(row.uv.chunks_exact(2).map(|uv| [uv[0], uv[1]]));
                 }
-            }
+                polygons.end();
+                Ok(())
+            })?,
+            "tristrips" => rows.each(|f, row: FaceRow| {
+                // A triangle for each corner, which may take a byte.
+                budget.take(row.corners.len(), size_of::<([u32; 3], usize)>(), "strips", place)?;
+                strips(&row.corners, f, place, &mut polygons)
+            })?,
             _ if element.properties.is_empty() && header.encoding != Encoding::Ascii => {}
-            _ => {
-                Parser::<Skipped>::new()
-                    .read_payload_for_element(&mut reader, element, &header)
-                    .map_err(failed)?;
-            }
+            _ => rows.each(|_, _: Skipped| Ok(()))?,
         }
     }
-    Ok(soup(&header, &vertices, &polygons, &corner_uv))
+    let triangles = polygons.triangles(&vertices.positions, &mut budget, place)?;
+    Ok(vertices.soup(&polygons, &triangles, &corner_uv))
+}
+
+fn failed(error: &ParseError, path: &str) -> Error {
+    let message = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    Error::Parse { path: path.into(), line: error.line().unwrap_or(0), message }
+}
+
+/// The rows of an element, which the reader has before it.
+struct Rows<'a, R: BufRead> {
+    reader: &'a mut Reader<R>,
+    header: &'a Header,
+    element: &'a ElementDef,
+    path: &'a str,
+}
+
+impl<R: BufRead> Rows<'_, R> {
+    /// Hand on each row with its number. They are parsed in blocks: a row of a byte would take many in memory.
+    fn each<E: PropertyAccess>(&mut self, mut take: impl FnMut(usize, E) -> Result<()>) -> Result<()> {
+        const BLOCK: usize = 1024;
+        let (parser, mut block) = (Parser::<E>::new(), self.element.clone());
+        for first in (0..self.element.count).step_by(BLOCK) {
+            block.count = BLOCK.min(self.element.count - first);
+            match parser.read_payload_for_element(self.reader, &block, self.header) {
+                Ok(rows) => {
+                    for (i, row) in rows.into_iter().enumerate() {
+                        take(first + i, row)?;
+                    }
+                }
+                Err(error) if error.kind() == ErrorKind::UnexpectedEof => {
+                    let place = Place { path: self.path, line: error.line().unwrap_or(0) };
+                    let ElementDef { name, count, .. } = self.element;
+                    return place.error(format!("the file ends inside element `{name}` of {count} rows"));
+                }
+                Err(error) => return Err(failed(&error, self.path)),
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The header as plain lines, and the bytes behind it. Blanks at line ends and lone carriage returns occur in the wild.
@@ -94,27 +128,46 @@ fn check_header(header: &Header, place: Place<'_>) -> Result<()> {
     }
 }
 
-fn soup(header: &Header, vertices: &[VertexRow], polygons: &Polygons, corner_uv: &[[f64; 2]]) -> Soup {
-    let has = |names: &[&str]| {
+/// The rows of element `vertex`: what it has is kept.
+struct Vertices {
+    positions: Vec<Point>,
+    normals: Option<Vec<Point>>,
+    colors: Option<Vec<[f64; 4]>>,
+    uv: Option<Vec<[f64; 2]>>,
+}
+
+impl Vertices {
+    fn new(header: &Header) -> Vertices {
         let element = header.elements.get("vertex");
-        element.is_some_and(|e| names.iter().all(|name| e.properties.contains_key(*name)))
-    };
-    let positions: Vec<Point> = vertices.iter().map(|v| v.position).collect();
-    let triangles = polygons.triangles(&positions);
-    let uv = if corner_uv.len() == polygons.corners.len() && !corner_uv.is_empty() {
-        Some(triangles.iter().map(|t| t.map(|k| corner_uv[k])).collect())
-    } else if has(&["s", "t"]) || has(&["u", "v"]) || has(&["texture_u", "texture_v"]) {
-        let at = |v: u32| vertices.get(v as usize).map_or([0.0; 2], |v| v.uv);
-        Some(triangles.iter().map(|&t| polygons.face(t).map(at)).collect())
-    } else {
-        None
-    };
-    let attributes = Attributes {
-        normals: has(&["nx", "ny", "nz"]).then(|| vertices.iter().map(|v| v.normal).collect()),
-        colors: has(&["red", "green", "blue"]).then(|| vertices.iter().map(|v| v.color).collect()),
-        uv,
-    };
-    Soup { positions, faces: triangles.iter().map(|&t| polygons.face(t)).collect(), attributes }
+        let has = |names: &[&str]| {
+            element.is_some_and(|e| names.iter().all(|name| e.properties.contains_key(*name)))
+        };
+        Vertices {
+            positions: Vec::new(),
+            normals: has(&["nx", "ny", "nz"]).then(Vec::new),
+            colors: has(&["red", "green", "blue"]).then(Vec::new),
+            uv: (has(&["s", "t"]) || has(&["u", "v"]) || has(&["texture_u", "texture_v"])).then(Vec::new),
+        }
+    }
+
+    fn push(&mut self, row: VertexRow) {
+        self.positions.push(row.position);
+        self.normals.iter_mut().for_each(|list| list.push(row.normal));
+        self.colors.iter_mut().for_each(|list| list.push(row.color));
+        self.uv.iter_mut().for_each(|list| list.push(row.uv));
+    }
+
+    fn soup(self, polygons: &Polygons, triangles: &[[usize; 3]], corner_uv: &[[f64; 2]]) -> Soup {
+        let Vertices { positions, normals, colors, uv } = self;
+        let uv = if corner_uv.len() == polygons.corners.len() && !corner_uv.is_empty() {
+            Some(triangles.iter().map(|t| t.map(|k| corner_uv[k])).collect())
+        } else {
+            let at = |uv: &[[f64; 2]], v: u32| uv.get(v as usize).copied().unwrap_or_default();
+            uv.map(|uv| triangles.iter().map(|&t| polygons.face(t).map(|v| at(&uv, v))).collect())
+        };
+        let faces = triangles.iter().map(|&t| polygons.face(t)).collect();
+        Soup { positions, faces, attributes: Attributes { normals, colors, uv } }
+    }
 }
 
 fn vertex(index: i64, face: usize, place: Place<'_>) -> Result<u32> {
@@ -228,7 +281,8 @@ impl PropertyAccess for FaceRow {
 }
 
 /// Write binary PLY (little-endian, positions as doubles, so that they read back as they are), with normals, colours (8 bits)
-/// and texture coordinates where there are any; atomically.
+/// and texture coordinates where there are any: at the vertices (s, t) if each has a single pair, else at the corners of the faces
+/// (texcoord); atomically.
 ///
 /// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`Error::Size`] for attributes of another size, [`Error::Io`].
@@ -236,6 +290,8 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<()> {
     soup.check_writable()?;
     let Soup { positions, faces, attributes } = soup;
     let Attributes { normals, colors, uv } = attributes;
+    let vertex_uv = attributes.vertex_uv(positions.len(), faces);
+    let corner_uv = uv.as_ref().filter(|_| vertex_uv.is_none());
     write_atomically(path, |out| {
         write!(out, "ply\nformat binary_little_endian 1.0\ncomment ricci {}\n", env!("CARGO_PKG_VERSION"))?;
         write!(
@@ -251,8 +307,11 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<()> {
                 writeln!(out, "property uchar {name}")?;
             }
         }
+        if vertex_uv.is_some() {
+            out.write_all(b"property double s\nproperty double t\n")?;
+        }
         write!(out, "element face {}\nproperty list uchar uint vertex_indices\n", faces.len())?;
-        if uv.is_some() {
+        if corner_uv.is_some() {
             out.write_all(b"property list uchar double texcoord\n")?;
         }
         out.write_all(b"end_header\n")?;
@@ -264,13 +323,16 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<()> {
             if let Some(color) = colors.as_ref().map(|c| c[v]) {
                 out.write_all(&color.map(|x| (255.0 * x.clamp(0.0, 1.0)).round() as u8))?;
             }
+            for x in vertex_uv.iter().flat_map(|uv| uv[v]) {
+                out.write_all(&x.to_le_bytes())?;
+            }
         }
         for (f, face) in faces.iter().enumerate() {
             out.write_all(&[3])?;
             for v in face {
                 out.write_all(&v.to_le_bytes())?;
             }
-            if let Some(uv) = uv.as_ref().map(|uv| uv[f]) {
+            if let Some(uv) = corner_uv.map(|uv| uv[f]) {
                 out.write_all(&[6])?;
                 for x in uv.as_flattened() {
                     out.write_all(&x.to_le_bytes())?;

@@ -1,6 +1,9 @@
 //! Polygons of a file, and their triangles.
 
 use super::Point;
+use super::budget::Budget;
+use super::scan::Place;
+use crate::error::Result;
 use crate::geometry::predicates::orientation;
 use std::cmp::Ordering;
 
@@ -28,19 +31,29 @@ impl Polygons {
 
     /// The triangles, three flat corner numbers each. Faces of one or two corners occur in the wild and have none.
     ///
-    /// A convex polygon is a fan from its first corner; another one is cut ear by ear in the plane of its area vector.
-    pub fn triangles(&self, positions: &[Point]) -> Vec<[usize; 3]> {
-        let mut triangles = Vec::with_capacity(self.ends.len());
+    /// A convex polygon is a fan from its first corner; another one is cut ear by ear in the plane of its area vector. A corner of
+    /// a polygon takes a byte in some files, its triangle many: they are accounted for first.
+    pub fn triangles(
+        &self,
+        positions: &[Point],
+        budget: &mut Budget,
+        place: Place<'_>,
+    ) -> Result<Vec<[usize; 3]>> {
+        let starts = std::iter::once(&0).chain(&self.ends);
+        let count = starts.zip(&self.ends).map(|(start, end)| (end - start).saturating_sub(2)).sum();
+        budget.take(count, size_of::<([usize; 3], [u32; 3], [[f64; 2]; 3])>(), "faces", place)?;
+        let mut triangles = Vec::with_capacity(count);
         let mut start = 0;
         for &end in &self.ends {
             match end - start {
                 0..=2 => {}
                 3 => triangles.push([start, start + 1, start + 2]),
-                _ => polygon(&self.corners[start..end], start, positions, &mut triangles),
+                4..=MOST_CORNERS => polygon(&self.corners[start..end], start, positions, &mut triangles),
+                _ => triangles.extend((start + 2..end).map(|k| [start, k - 1, k])),
             }
             start = end;
         }
-        triangles
+        Ok(triangles)
     }
 
     /// The vertices of a triangle of [`Polygons::triangles`].
@@ -51,7 +64,7 @@ impl Polygons {
 
 fn polygon(corners: &[u32], start: usize, positions: &[Point], triangles: &mut Vec<[usize; 3]>) {
     let mut left: Vec<usize> = (0..corners.len()).collect();
-    if let Some(plane) = in_plane(corners, positions).filter(|_| corners.len() <= MOST_CORNERS) {
+    if let Some(plane) = in_plane(corners, positions) {
         let turn = |[a, b, c]: [usize; 3]| orientation(plane[a], plane[b], plane[c]);
         let around = |left: &[usize], k: usize| {
             let n = left.len();
@@ -104,6 +117,10 @@ fn in_plane(corners: &[u32], positions: &[Point]) -> Option<Vec<[f64; 2]>> {
 mod tests {
     use super::*;
 
+    fn triangles(polygons: &Polygons, positions: &[Point]) -> Vec<[usize; 3]> {
+        polygons.triangles(positions, &mut Budget::of(&[]), Place { path: "t", line: 0 }).unwrap()
+    }
+
     fn area(p: [[f64; 2]; 3]) -> f64 {
         0.5 * ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]))
     }
@@ -121,7 +138,7 @@ mod tests {
                 let mut polygons = Polygons::default();
                 polygons.push([7, 8]);
                 polygons.push(corners.iter().copied());
-                let triangles = polygons.triangles(&positions);
+                let triangles = triangles(&polygons, &positions);
                 assert_eq!(triangles.len(), outline.len() - 2);
                 let areas: Vec<f64> =
                     triangles.iter().map(|&t| area(polygons.face(t).map(|v| outline[v as usize]))).collect();
@@ -161,10 +178,10 @@ mod tests {
         let mut polygons = Polygons::default();
         polygons.push([0, 1, 2, 9]);
         let positions = [[0.0; 3]; 3];
-        assert_eq!(polygons.triangles(&positions), [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(triangles(&polygons, &positions), [[0, 1, 2], [0, 2, 3]]);
         let mut bowtie = Polygons::default();
         bowtie.push([0, 1, 2, 3]);
         let crossing = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        assert_eq!(bowtie.triangles(&crossing).len(), 2);
+        assert_eq!(triangles(&bowtie, &crossing).len(), 2);
     }
 }

@@ -1,10 +1,12 @@
 //! STL, ascii and binary. Our own reader: what says `solid` may be binary, counts in headers may be wrong, and errors name
 //! the line or the byte.
 
+use super::budget::Budget;
 use super::polygon::Polygons;
 use super::scan::{Place, lines};
 use super::{Point, Soup};
 use crate::error::Result;
+use crate::mesh::weld::{check_tolerance, coincident};
 use std::collections::HashMap;
 
 /// Bytes of text before the number of triangles in a binary file, and of each triangle.
@@ -26,6 +28,28 @@ pub fn parse_stl(bytes: &[u8], path: &str) -> Result<Soup> {
             HEADER + 4
         )),
     }
+}
+
+/// [`parse_stl`], where corners within the distance `weld` of each other, also by a chain of such corners, are one vertex: that
+/// of the first of them. Faces keep their number; those that collapse use a vertex twice, which the diagnosis finds and
+/// [`crate::mesh::repair`] drops.
+///
+/// Errors: [`crate::Error::Argument`] for a distance that is negative or not finite; [`crate::Error::Parse`].
+pub fn parse_stl_welded(bytes: &[u8], path: &str, weld: f64) -> Result<Soup> {
+    check_tolerance(weld)?;
+    let mut soup = parse_stl(bytes, path)?;
+    let first = coincident(&soup.positions, weld);
+    let mut number = vec![0; first.len()];
+    let mut positions = Vec::new();
+    for (v, &to) in first.iter().enumerate() {
+        if v as u32 == to {
+            number[v] = positions.len() as u32;
+            positions.push(soup.positions[v]);
+        }
+    }
+    soup.faces.as_flattened_mut().iter_mut().for_each(|v| *v = number[first[*v as usize] as usize]);
+    soup.positions = positions;
+    Ok(soup)
 }
 
 /// Corners that are in the same place become one vertex.
@@ -99,7 +123,8 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     if corners.is_some() {
         return Place { path, line: last }.error("the file ends inside a loop".into());
     }
-    let triangles = polygons.triangles(&weld.soup.positions);
+    let (mut budget, place) = (Budget::of(text.as_bytes()), Place { path, line: last });
+    let triangles = polygons.triangles(&weld.soup.positions, &mut budget, place)?;
     weld.soup.faces = triangles.iter().map(|&t| polygons.face(t)).collect();
     Ok(weld.soup)
 }

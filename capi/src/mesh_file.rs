@@ -1,0 +1,219 @@
+//! Meshes from and to files, with their attributes.
+
+use crate::arrays::{self, copy_out};
+use crate::failure::{Failure, Outcome};
+use crate::guard::{self, output};
+use crate::mesh::{face_vertices, ricci_mesh};
+use crate::sized::{self, Sized64};
+use crate::status::ricci_status;
+use ricci::mesh::io::{self, Attributes, Format, Soup};
+use std::ffi::c_char;
+use std::ptr::null;
+
+/// What is written beside positions and faces. Let ricci_mesh_attributes_init fill it, then change fields.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_mesh_attributes {
+    /// Bytes of this struct that are filled.
+    pub size: usize,
+    /// Normals of the vertices, n_vertices x 3, of any length; NULL (default): none.
+    pub normals: *const f64,
+    /// Colours of the vertices, n_vertices x 4: red, green, blue, opacity, from 0 to 1; NULL (default): none.
+    pub colors: *const f64,
+    /// Texture coordinates of the faces' corners, n_faces x 3 x 2, v upwards; NULL (default): none.
+    pub uv: *const f64,
+}
+
+// SAFETY: pointers of 8 bytes that are only read through `arrays`, size first.
+unsafe impl Sized64 for ricci_mesh_attributes {
+    const NAME: &'static str = "attributes";
+    fn with_size(self, size: usize) -> Self {
+        Self { size, ..self }
+    }
+}
+
+impl ricci_mesh_attributes {
+    fn none() -> Self {
+        ricci_mesh_attributes { size: size_of::<Self>(), normals: null(), colors: null(), uv: null() }
+    }
+
+    fn read(
+        attributes: *const ricci_mesh_attributes,
+        n_vertices: usize,
+        n_faces: usize,
+    ) -> Outcome<Attributes> {
+        fn list<T: Copy>(what: &str, data: *const f64, n: usize) -> Outcome<Option<Vec<T>>> {
+            if data.is_null() { Ok(None) } else { arrays::array(what, data.cast(), n).map(Some) }
+        }
+        let given = sized::read(Self::none(), attributes)?;
+        Ok(Attributes {
+            normals: list("normals", given.normals, n_vertices)?,
+            colors: list("colors", given.colors, n_vertices)?,
+            uv: list("uv", given.uv, n_faces)?,
+        })
+    }
+}
+
+/// A mesh from a file, with the attributes that it has.
+///
+/// Vertices and faces have the file's numbers; polygons are cut into triangles. Corners of an STL file in exactly the same place
+/// are one vertex.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS (ask
+/// ricci_diagnose_file for the list).
+///
+/// @param path  file name ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii, NUL-terminated.
+/// @param mesh  out: the new handle, to be released by ricci_mesh_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_read(path: *const c_char, mesh: *mut *mut ricci_mesh) -> ricci_status {
+    guard::call(|_| {
+        let mesh = output("mesh", mesh)?;
+        mesh.hand_over(ricci_mesh::from_soup(io::read(&arrays::path("path", path)?)?)?);
+        Ok(())
+    })
+}
+
+/// A mesh from an STL file whose corners within a distance of each other are one vertex.
+///
+/// Faces that this collapses are RICCI_DEFECTS; ricci_repair_file welds and drops them.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_PARSE, RICCI_DEFECTS, RICCI_ARGUMENT (the distance).
+///
+/// @param path  file name, NUL-terminated.
+/// @param weld  the distance, not negative; 0 welds corners in exactly the same place.
+/// @param mesh  out: the new handle, to be released by ricci_mesh_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_read_stl(
+    path: *const c_char,
+    weld: f64,
+    mesh: *mut *mut ricci_mesh,
+) -> ricci_status {
+    guard::call(|_| {
+        let mesh = output("mesh", mesh)?;
+        mesh.hand_over(ricci_mesh::from_soup(io::read_stl(&arrays::path("path", path)?, weld)?)?);
+        Ok(())
+    })
+}
+
+/// Fill attributes with none.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+///
+/// @param attributes  out: no attributes.
+/// @param size        sizeof *attributes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_attributes_init(
+    attributes: *mut ricci_mesh_attributes,
+    size: usize,
+) -> ricci_status {
+    guard::call(|_| sized::write(ricci_mesh_attributes::none(), attributes, size))
+}
+
+/// Write a mesh in the format that the file's name says, with the attributes that the format has.
+///
+/// OBJ and OFF are text with 17 significant digits, PLY is binary, and positions read back as they are; GLB has 24 bits of the
+/// distance from the centre of the mesh. A file of that name is replaced only once the new one is complete.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (the mesh is
+/// intrinsic, or a number is not finite), RICCI_TOO_LARGE.
+///
+/// @param mesh        the mesh.
+/// @param attributes  what to write beside positions and faces, or NULL for what the mesh was read with.
+/// @param path        file name ending in .obj, .off, .ply or .glb, NUL-terminated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_write(
+    mesh: *const ricci_mesh,
+    attributes: *const ricci_mesh_attributes,
+    path: *const c_char,
+) -> ricci_status {
+    guard::call(|door| {
+        let mesh = door.shared(mesh)?;
+        let path = arrays::path("path", path)?;
+        let mut soup = whole(mesh)?;
+        if !attributes.is_null() {
+            soup.attributes =
+                ricci_mesh_attributes::read(attributes, soup.positions.len(), soup.faces.len())?;
+        }
+        Ok(io::write(&path, &soup)?)
+    })
+}
+
+/// Write a mesh as OBJ, with 17 significant digits and the attributes that it was read with, whatever the file's name.
+///
+/// A file of that name is replaced only once the new one is complete.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic, or a number is not finite).
+///
+/// @param mesh  the mesh.
+/// @param path  file name, NUL-terminated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_write_obj(mesh: *const ricci_mesh, path: *const c_char) -> ricci_status {
+    guard::call(|door| {
+        let mesh = door.shared(mesh)?;
+        Ok(io::write_as(&arrays::path("path", path)?, Format::Obj, &whole(mesh)?)?)
+    })
+}
+
+/// The normals that the mesh was read with.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+///
+/// @param mesh      the mesh.
+/// @param normals   out: n_vertices x 3, of any length.
+/// @param capacity  entries of `normals`, at least 3 n_vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_normals(
+    mesh: *const ricci_mesh,
+    normals: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let list = present("normals", &door.shared(mesh)?.attributes.normals)?;
+        copy_out("normals", list.as_flattened(), normals, capacity)
+    })
+}
+
+/// The colours that the mesh was read with.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+///
+/// @param mesh      the mesh.
+/// @param colors    out: n_vertices x 4: red, green, blue, opacity, from 0 to 1.
+/// @param capacity  entries of `colors`, at least 4 n_vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_colors(
+    mesh: *const ricci_mesh,
+    colors: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let list = present("colors", &door.shared(mesh)?.attributes.colors)?;
+        copy_out("colors", list.as_flattened(), colors, capacity)
+    })
+}
+
+/// The texture coordinates that the mesh was read with.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+///
+/// @param mesh      the mesh.
+/// @param uv        out: n_faces x 3 x 2: u, v of every corner, v upwards.
+/// @param capacity  entries of `uv`, at least 6 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_uv(
+    mesh: *const ricci_mesh,
+    uv: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let list = present("uv", &door.shared(mesh)?.attributes.uv)?;
+        copy_out("uv", list.as_flattened().as_flattened(), uv, capacity)
+    })
+}
+
+fn present<'a, T>(what: &str, list: &'a Option<Vec<T>>) -> Outcome<&'a [T]> {
+    list.as_deref().ok_or_else(|| Failure::argument(format!("this mesh was read without {what}")))
+}
+
+/// The triangle list that the mesh is, with what it was read with.
+fn whole(mesh: &ricci_mesh) -> Outcome<Soup> {
+    let positions = mesh.positions()?.to_vec();
+    let faces = face_vertices(&mesh.connectivity);
+    Ok(Soup { positions, faces, attributes: mesh.attributes.clone() })
+}

@@ -1,0 +1,121 @@
+//! GIFTI surfaces (`.surf.gii`), as brain imaging writes them. The format is that of
+//! <https://www.nitrc.org/projects/gifti>, version 1.0.
+
+use super::budget::Budget;
+use super::gifti_data::{Header, Table};
+use super::scan::Place;
+use super::{Attributes, Point, Soup};
+use crate::error::Result;
+use quick_xml::Reader;
+use quick_xml::events::Event;
+
+/// Parse a GIFTI surface: its `NIFTI_INTENT_POINTSET`, its `NIFTI_INTENT_TRIANGLE` and, as normals, an array
+/// `NIFTI_INTENT_VECTOR` of one vector per vertex; other arrays are skipped. Data are ASCII, base64 or compressed base64, in
+/// either byte order and either array order; those in another file are refused by name.
+///
+/// Positions are as stored: `CoordinateSystemTransformMatrix`, which leads to the coordinates of another space, is not applied.
+/// Entities are not expanded. `path` is used in errors.
+pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
+    let mut reader = Reader::from_reader(bytes);
+    reader.config_mut().expand_empty_elements = true;
+    let mut lines = Lines { bytes, at: 0, line: 1 };
+    let mut arrays = Arrays { budget: Budget::of(bytes), ..Arrays::default() };
+    // The array in which the reader is.
+    let mut inside: Option<Header> = None;
+    let mut root = false;
+    loop {
+        let event = reader.read_event();
+        let place = Place { path, line: lines.until(reader.buffer_position()) };
+        match event {
+            Ok(Event::Start(tag)) if !root => {
+                if tag.name().0 != "GIFTI" {
+                    return place.error("this is no GIFTI file: its first element is not `GIFTI`".into());
+                }
+                root = true;
+            }
+            Ok(Event::Start(tag)) => match (tag.name().0, &inside) {
+                ("DataArray", None) => inside = Some(Header::new(&tag, place)?),
+                ("DataArray", Some(_)) => return place.error("a DataArray inside another".into()),
+                ("Data", Some(array)) => match reader.read_text(tag.name()) {
+                    Ok(text) => arrays.take(array, &text, place)?,
+                    Err(e) => return place.error(format!("this is no XML: {e}")),
+                },
+                _ => {}
+            },
+            Ok(Event::End(tag)) if tag.name().0 == "DataArray" => inside = None,
+            Ok(Event::End(tag)) if tag.name().0 == "GIFTI" => break,
+            Ok(Event::Eof) if root => return place.error("the file ends inside the element `GIFTI`".into()),
+            Ok(Event::Eof) => return place.error("this is no GIFTI file: it has no element".into()),
+            Ok(_) => {}
+            Err(e) => return place.error(format!("this is no XML: {e}")),
+        }
+    }
+    arrays.soup(Place { path, line: 0 })
+}
+
+/// Line numbers of positions that grow.
+struct Lines<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: usize,
+}
+
+impl Lines<'_> {
+    fn until(&mut self, position: u64) -> usize {
+        let to = usize::try_from(position).map_or(self.bytes.len(), |p| p.min(self.bytes.len())).max(self.at);
+        self.line += self.bytes[self.at..to].iter().filter(|&&b| b == b'\n').count();
+        self.at = to;
+        self.line
+    }
+}
+
+/// The arrays of interest that have been read so far.
+#[derive(Default)]
+struct Arrays {
+    budget: Budget,
+    points: Option<Vec<Point>>,
+    faces: Option<Vec<[u32; 3]>>,
+    vectors: Vec<Vec<Point>>,
+}
+
+impl Arrays {
+    fn take(&mut self, header: &Header, text: &str, place: Place<'_>) -> Result<()> {
+        let rows = |what: &'static str, budget: &mut Budget| header.table(what, text, budget, place);
+        let points = |table: Table| (0..table.rows).map(|i| table.row(i)).collect();
+        match header.intent.as_str() {
+            "NIFTI_INTENT_POINTSET" if self.points.is_none() => {
+                self.points = Some(points(rows("points", &mut self.budget)?));
+            }
+            "NIFTI_INTENT_TRIANGLE" if self.faces.is_none() => {
+                let table = rows("triangles", &mut self.budget)?;
+                let face = |i: usize| -> Result<[u32; 3]> {
+                    let row = table.row(i);
+                    match row.iter().find(|&&v| !(v >= 0.0 && v <= f64::from(u32::MAX) && v.fract() == 0.0)) {
+                        Some(v) => place.error(format!("triangle {i} names vertex {v}, which cannot be")),
+                        None => Ok(row.map(|v| v as u32)),
+                    }
+                };
+                self.faces = Some((0..table.rows).map(face).collect::<Result<_>>()?);
+            }
+            "NIFTI_INTENT_POINTSET" | "NIFTI_INTENT_TRIANGLE" => {
+                return place.error(format!("a second {}: the file holds several surfaces", header.intent));
+            }
+            "NIFTI_INTENT_VECTOR" if header.is_vectors() => {
+                self.vectors.push(points(rows("vectors", &mut self.budget)?));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn soup(self, place: Place<'_>) -> Result<Soup> {
+        let Some(positions) = self.points else {
+            return place.error(
+                "the file has no NIFTI_INTENT_POINTSET: it is data on a surface, not a surface".into(),
+            );
+        };
+        let normals = self.vectors.into_iter().find(|v| v.len() == positions.len() && !v.is_empty());
+        let attributes = Attributes { normals, ..Attributes::default() };
+        Ok(Soup { positions, faces: self.faces.unwrap_or_default(), attributes })
+    }
+}

@@ -1,0 +1,288 @@
+//! The tables of a GIFTI file: what its attributes say, and the numbers out of its text.
+
+use super::base64;
+use super::budget::Budget;
+use super::scan::Place;
+use crate::error::Result;
+use flate2::read::{GzDecoder, ZlibDecoder};
+use quick_xml::events::BytesStart;
+use std::io::Read;
+
+/// Deflate makes at most this many bytes out of one.
+const MOST_INFLATION: usize = 1032;
+
+#[derive(Clone, Copy, PartialEq)]
+enum Encoding {
+    Ascii,
+    Base64,
+    Compressed,
+}
+
+/// The attributes of an array.
+pub(super) struct Header {
+    pub intent: String,
+    data_type: String,
+    encoding: String,
+    external: String,
+    big_endian: bool,
+    column_major: bool,
+    /// Rows and columns; −1 where the file does not say.
+    dims: [i64; 2],
+    dimensionality: i64,
+}
+
+impl Header {
+    pub fn new(tag: &BytesStart<'_>, place: Place<'_>) -> Result<Header> {
+        let mut header = Header {
+            intent: String::new(),
+            data_type: String::new(),
+            encoding: String::new(),
+            external: String::new(),
+            big_endian: false,
+            column_major: false,
+            dims: [-1; 2],
+            dimensionality: -1,
+        };
+        for attribute in tag.attributes().with_checks(false) {
+            let attribute = match attribute {
+                Ok(attribute) => attribute,
+                Err(e) => return place.error(format!("DataArray: {e}")),
+            };
+            let (name, value) = (attribute.key.0, attribute.value.trim());
+            let number = || match value.parse::<i64>() {
+                Ok(n) if n >= 0 => Ok(n),
+                _ => place.error(format!("{name}=\"{value}\" is not a count")),
+            };
+            match name {
+                "Intent" => header.intent = value.into(),
+                "DataType" => header.data_type = value.into(),
+                "Encoding" => header.encoding = value.into(),
+                "ExternalFileName" => header.external = value.into(),
+                "Dimensionality" => header.dimensionality = number()?,
+                "Dim0" => header.dims[0] = number()?,
+                "Dim1" => header.dims[1] = number()?,
+                "Endian" => header.big_endian = choice(name, value, ["little", "big"], place)?,
+                "ArrayIndexingOrder" => {
+                    header.column_major = choice(name, value, ["row", "column"], place)?;
+                }
+                _ => {}
+            }
+        }
+        Ok(header)
+    }
+
+    /// Whether the array has rows of three floating-point numbers.
+    pub fn is_vectors(&self) -> bool {
+        self.dimensionality == 2 && self.dims[1] == 3 && self.data_type.starts_with("NIFTI_TYPE_FLOAT")
+    }
+
+    /// The rows of three numbers that `text` holds.
+    pub fn table(
+        &self,
+        what: &'static str,
+        text: &str,
+        budget: &mut Budget,
+        place: Place<'_>,
+    ) -> Result<Table> {
+        let Some(kind) = Kind::new(&self.data_type) else {
+            return place.error(format!("{what} of DataType=\"{}\" are not known", self.data_type));
+        };
+        if what == "triangles" && matches!(kind, Kind::F32 | Kind::F64) {
+            return place.error(format!("{what} of DataType=\"{}\" have no integers", self.data_type));
+        }
+        let (rows, true) = (self.dims[0], self.dimensionality == 2 && self.dims[1] == 3) else {
+            return place.error(format!("{what} have Dimensionality=\"2\" and Dim1=\"3\""));
+        };
+        let Ok(rows) = usize::try_from(rows) else {
+            return place.error(format!("{what} have no Dim0"));
+        };
+        if rows > u32::MAX as usize {
+            return place.error(format!("{rows} {what} are more than can be numbered"));
+        }
+        let encoding = match self.encoding.as_str() {
+            "ASCII" => Encoding::Ascii,
+            "Base64Binary" => Encoding::Base64,
+            "GZipBase64Binary" => Encoding::Compressed,
+            "ExternalFileBinary" => {
+                return place.error(format!(
+                    "the {what} are in another file, `{}`; convert the surface to one file",
+                    self.external
+                ));
+            }
+            other => return place.error(format!("Encoding=\"{other}\" is not known")),
+        };
+        if text.contains(['<', '&']) {
+            return place.error(format!("the {what} have markup among their data"));
+        }
+        let stored = if encoding == Encoding::Ascii { size_of::<f64>() } else { kind.size() };
+        let kept = if what == "triangles" { size_of::<[u32; 3]>() } else { size_of::<[f64; 3]>() };
+        budget.take(rows, 3 * stored + kept, what, place)?;
+        let numbers = match encoding {
+            Encoding::Ascii => Numbers::Text(ascii(what, text, 3 * rows, place)?),
+            _ => Numbers::Binary(self.binary(what, text, encoding, 3 * rows * stored, place)?, kind),
+        };
+        Ok(Table { rows, numbers, big_endian: self.big_endian, column_major: self.column_major })
+    }
+
+    fn binary(
+        &self,
+        what: &str,
+        text: &str,
+        encoding: Encoding,
+        size: usize,
+        place: Place<'_>,
+    ) -> Result<Vec<u8>> {
+        let mut bytes = match base64::decode(text.as_bytes()) {
+            Ok(bytes) => bytes,
+            Err(message) => return place.error(format!("{what}: {message}")),
+        };
+        if encoding == Encoding::Compressed {
+            if size > MOST_INFLATION.saturating_mul(bytes.len()) {
+                let n = bytes.len();
+                return place
+                    .error(format!("{what}: {n} compressed bytes cannot hold the {size} of the table"));
+            }
+            let mut plain = Vec::with_capacity(size);
+            // One byte more shows that there is more. The format says zlib; some write gzip, as its name does.
+            let most = size as u64 + 1;
+            let inflated = if bytes.starts_with(&[0x1f, 0x8b]) {
+                GzDecoder::new(bytes.as_slice()).take(most).read_to_end(&mut plain)
+            } else {
+                ZlibDecoder::new(bytes.as_slice()).take(most).read_to_end(&mut plain)
+            };
+            if let Err(e) = inflated {
+                return place.error(format!("{what}: the compressed data are damaged: {e}"));
+            }
+            bytes = plain;
+        }
+        if bytes.len() != size {
+            let more = if bytes.len() > size { "at least " } else { "" };
+            let n = bytes.len();
+            return place.error(format!("{what}: the data have {more}{n} bytes, the table has {size}"));
+        }
+        Ok(bytes)
+    }
+}
+
+/// Which of two words is in the value of an attribute: files say `LittleEndian` and `GIFTI_ENDIAN_LITTLE`.
+fn choice(name: &str, value: &str, [first, second]: [&str; 2], place: Place<'_>) -> Result<bool> {
+    let lower = value.to_ascii_lowercase();
+    match (lower.contains(first), lower.contains(second)) {
+        (true, false) => Ok(false),
+        (false, true) => Ok(true),
+        _ => place.error(format!("{name}=\"{value}\" is neither {first} nor {second}")),
+    }
+}
+
+/// The `count` numbers of a text; `place` is where it begins.
+fn ascii(what: &str, text: &str, count: usize, place: Place<'_>) -> Result<Vec<f64>> {
+    let mut numbers = Vec::new();
+    let mut last = place;
+    for (i, line) in text.split('\n').enumerate() {
+        last = Place { line: place.line + i, ..place };
+        for token in line.split_ascii_whitespace() {
+            if numbers.len() == count {
+                return last.error(format!("{what}: `{token}` comes after the last of {count} numbers"));
+            }
+            numbers.push(last.number(Some(token), format_args!("{what}:"))?);
+        }
+    }
+    if numbers.len() < count {
+        return last.error(format!("{what}: the data end after {} of {count} numbers", numbers.len()));
+    }
+    Ok(numbers)
+}
+
+/// Types of numbers.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    I64,
+    U64,
+    F32,
+    F64,
+}
+
+impl Kind {
+    fn new(name: &str) -> Option<Kind> {
+        Some(match name.strip_prefix("NIFTI_TYPE_")? {
+            "INT8" => Kind::I8,
+            "UINT8" => Kind::U8,
+            "INT16" => Kind::I16,
+            "UINT16" => Kind::U16,
+            "INT32" => Kind::I32,
+            "UINT32" => Kind::U32,
+            "INT64" => Kind::I64,
+            "UINT64" => Kind::U64,
+            "FLOAT32" => Kind::F32,
+            "FLOAT64" => Kind::F64,
+            _ => return None,
+        })
+    }
+
+    fn size(self) -> usize {
+        match self {
+            Kind::I8 | Kind::U8 => 1,
+            Kind::I16 | Kind::U16 => 2,
+            Kind::I32 | Kind::U32 | Kind::F32 => 4,
+            Kind::I64 | Kind::U64 | Kind::F64 => 8,
+        }
+    }
+
+    /// The number of these bytes, the lowest first.
+    fn number(self, bytes: [u8; 8]) -> f64 {
+        let [a, b, c, d, ..] = bytes;
+        match self {
+            Kind::I8 => f64::from(a as i8),
+            Kind::U8 => f64::from(a),
+            Kind::I16 => f64::from(i16::from_le_bytes([a, b])),
+            Kind::U16 => f64::from(u16::from_le_bytes([a, b])),
+            Kind::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
+            Kind::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
+            Kind::I64 => i64::from_le_bytes(bytes) as f64,
+            Kind::U64 => u64::from_le_bytes(bytes) as f64,
+            Kind::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
+            Kind::F64 => f64::from_le_bytes(bytes),
+        }
+    }
+}
+
+enum Numbers {
+    Text(Vec<f64>),
+    Binary(Vec<u8>, Kind),
+}
+
+/// Rows of three numbers.
+pub(super) struct Table {
+    pub rows: usize,
+    numbers: Numbers,
+    big_endian: bool,
+    column_major: bool,
+}
+
+impl Table {
+    /// Row i, below `rows`.
+    pub fn row(&self, i: usize) -> [f64; 3] {
+        std::array::from_fn(|j| self.number(if self.column_major { j * self.rows + i } else { 3 * i + j }))
+    }
+
+    fn number(&self, at: usize) -> f64 {
+        match &self.numbers {
+            Numbers::Text(numbers) => numbers[at],
+            Numbers::Binary(bytes, kind) => {
+                let size = kind.size();
+                let mut word = [0; 8];
+                word[..size].copy_from_slice(&bytes[size * at..size * (at + 1)]);
+                if self.big_endian {
+                    word[..size].reverse();
+                }
+                kind.number(word)
+            }
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! What we read of a glTF 2.0 document. Everything else in it is skipped without being stored, and what is stored takes little
+//! more room than its text, so that no document of a given size takes many times that.
+
+use serde::Deserialize;
+
+/// The JSON document [glTF 2.0, section 5].
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Document {
+    pub asset: Asset,
+    #[serde(default)]
+    pub extensions_required: Vec<String>,
+    pub scene: Option<usize>,
+    #[serde(default)]
+    pub scenes: Vec<Scene>,
+    #[serde(default)]
+    pub nodes: Vec<Node>,
+    #[serde(default)]
+    pub meshes: Vec<Mesh>,
+    #[serde(default)]
+    pub accessors: Vec<Accessor>,
+    #[serde(default)]
+    pub buffer_views: Vec<BufferView>,
+    #[serde(default)]
+    pub buffers: Vec<Buffer>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Asset {
+    pub version: String,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Scene {
+    #[serde(default)]
+    pub nodes: Vec<u32>,
+}
+
+/// A node; its transform, if it has one, as one affine map.
+#[derive(Deserialize)]
+#[serde(from = "NodeText")]
+pub(super) struct Node {
+    pub mesh: Option<u32>,
+    /// The mesh follows joints, not this node.
+    pub skinned: bool,
+    pub children: Box<[u32]>,
+    pub transform: Option<Box<Affine>>,
+}
+
+#[derive(Deserialize)]
+struct NodeText {
+    mesh: Option<u32>,
+    skin: Option<u32>,
+    #[serde(default)]
+    children: Box<[u32]>,
+    matrix: Option<[f64; 16]>,
+    translation: Option<[f64; 3]>,
+    rotation: Option<[f64; 4]>,
+    scale: Option<[f64; 3]>,
+}
+
+impl From<NodeText> for Node {
+    fn from(text: NodeText) -> Node {
+        let NodeText { mesh, skin, children, matrix, translation, rotation, scale } = text;
+        let transform = match matrix {
+            Some(m) => Some(Affine::from_columns(&m)),
+            None if translation.is_none() && rotation.is_none() && scale.is_none() => None,
+            None => Some(Affine::from_parts(
+                translation.unwrap_or([0.0; 3]),
+                rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]),
+                scale.unwrap_or([1.0; 3]),
+            )),
+        };
+        Node { mesh, skinned: skin.is_some(), children, transform: transform.map(Box::new) }
+    }
+}
+
+/// x ↦ linear · x + translation.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) struct Affine {
+    /// Rows.
+    pub linear: [[f64; 3]; 3],
+    pub translation: [f64; 3],
+}
+
+impl Affine {
+    pub const IDENTITY: Affine =
+        Affine { linear: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3] };
+
+    /// A 4 × 4 matrix, column by column; its last row is (0, 0, 0, 1).
+    fn from_columns(m: &[f64; 16]) -> Affine {
+        Affine {
+            linear: std::array::from_fn(|i| std::array::from_fn(|j| m[4 * j + i])),
+            translation: [m[12], m[13], m[14]],
+        }
+    }
+
+    /// First scale, then rotate by the quaternion (x, y, z, w), then translate.
+    fn from_parts(translation: [f64; 3], [x, y, z, w]: [f64; 4], scale: [f64; 3]) -> Affine {
+        let square = x * x + y * y + z * z + w * w;
+        let s = if square > 0.0 { 2.0 / square } else { 0.0 };
+        let rotation = [
+            [1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+            [s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w)],
+            [s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y)],
+        ];
+        let linear = rotation.map(|row| std::array::from_fn(|j| row[j] * scale[j]));
+        Affine { linear, translation }
+    }
+
+    /// First `inner`, then this.
+    pub fn after(&self, inner: &Affine) -> Affine {
+        let column = |j: usize| self.turn(std::array::from_fn(|i| inner.linear[i][j]));
+        let columns = [column(0), column(1), column(2)];
+        Affine {
+            linear: std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i])),
+            translation: self.apply(inner.translation),
+        }
+    }
+
+    pub fn apply(&self, x: [f64; 3]) -> [f64; 3] {
+        let turned = self.turn(x);
+        std::array::from_fn(|i| turned[i] + self.translation[i])
+    }
+
+    fn turn(&self, x: [f64; 3]) -> [f64; 3] {
+        self.linear.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
+    }
+
+    /// The map of normals up to a positive factor, the cofactors of the linear part turned with the orientation; and whether that
+    /// is turned around.
+    pub fn of_normals(&self) -> (Affine, bool) {
+        // At size 1, so that no product leaves the range of doubles.
+        let size = self.linear.as_flattened().iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        let m = if size > 0.0 { self.linear.map(|row| row.map(|x| x / size)) } else { self.linear };
+        let cofactor = |i: usize, j: usize| {
+            let [a, b, c, d] = [(i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3];
+            m[a][c] * m[b][d] - m[a][d] * m[b][c]
+        };
+        let mirrors = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum::<f64>() < 0.0;
+        let sign = if mirrors { -1.0 } else { 1.0 };
+        let linear = std::array::from_fn(|i| std::array::from_fn(|j| sign * cofactor(i, j)));
+        (Affine { linear, translation: [0.0; 3] }, mirrors)
+    }
+}
+
+#[derive(Deserialize)]
+pub(super) struct Mesh {
+    pub primitives: Vec<Primitive>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Primitive {
+    pub attributes: Named,
+    pub indices: Option<u32>,
+    pub mode: Option<u32>,
+}
+
+/// Accessors of the attributes that we read.
+#[derive(Deserialize)]
+pub(super) struct Named {
+    #[serde(rename = "POSITION")]
+    pub position: Option<u32>,
+    #[serde(rename = "NORMAL")]
+    pub normal: Option<u32>,
+    #[serde(rename = "COLOR_0")]
+    pub color: Option<u32>,
+    #[serde(rename = "TEXCOORD_0")]
+    pub texcoord: Option<u32>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Accessor {
+    pub buffer_view: Option<u32>,
+    #[serde(default)]
+    pub byte_offset: usize,
+    pub component_type: u32,
+    #[serde(default)]
+    pub normalized: bool,
+    pub count: usize,
+    #[serde(rename = "type")]
+    pub shape: Shape,
+    pub sparse: Option<Box<Sparse>>,
+}
+
+#[derive(Deserialize, Clone, Copy, PartialEq, Debug)]
+#[serde(rename_all = "UPPERCASE")]
+pub(super) enum Shape {
+    Scalar,
+    Vec2,
+    Vec3,
+    Vec4,
+    Mat2,
+    Mat3,
+    Mat4,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Sparse {
+    pub count: usize,
+    pub indices: SparseIndices,
+    pub values: SparseValues,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SparseIndices {
+    pub buffer_view: u32,
+    #[serde(default)]
+    pub byte_offset: usize,
+    pub component_type: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SparseValues {
+    pub buffer_view: u32,
+    #[serde(default)]
+    pub byte_offset: usize,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct BufferView {
+    pub buffer: u32,
+    #[serde(default)]
+    pub byte_offset: usize,
+    pub byte_length: usize,
+    pub byte_stride: Option<usize>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Buffer {
+    pub byte_length: usize,
+    pub uri: Option<String>,
+}

@@ -1,0 +1,290 @@
+//! Binary glTF 2.0 from a triangle list, with texture.
+
+use super::super::{Point, Textured, write_atomically};
+use crate::error::{Error, Result};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+use std::io::Write;
+use std::path::Path;
+
+/// A picture over the texture coordinates.
+#[derive(Debug, Clone, Copy)]
+pub struct Texture<'a> {
+    /// A PNG file's bytes.
+    pub png: &'a [u8],
+    /// What is outside the unit square.
+    pub wrap: Wrap,
+}
+
+/// How a texture goes on outside the unit square.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Wrap {
+    /// Periodically.
+    #[default]
+    Repeat,
+    /// Periodically, every other time mirrored.
+    Mirror,
+    /// With the colours of its border.
+    Clamp,
+}
+
+impl Wrap {
+    fn code(self) -> u32 {
+        match self {
+            Wrap::Repeat => 10497,
+            Wrap::Mirror => 33648,
+            Wrap::Clamp => 33071,
+        }
+    }
+}
+
+/// Extents within which coordinates are stored as they are; others are scaled, for an `f32` holds up to 2¹²⁸ only and loses
+/// digits below 2⁻¹²⁶.
+const PLAIN: std::ops::RangeInclusive<f64> = 1e-25..=1e30;
+
+/// Write binary glTF 2.0 (.glb): one mesh, its attributes as `f32`, normals at length 1, and a texture if there is one;
+/// atomically. Texture coordinates have v upwards, as in OBJ.
+///
+/// Positions are exact where all of them are `f32` numbers. Others are stored from the centre of their bounding box, which is
+/// the translation of the mesh's node in doubles: each coordinate is right to 2⁻²⁴ of its largest distance from the centre, far
+/// from the origin too.
+///
+/// A vertex of glTF has one pair of texture coordinates. Vertices keep their numbers with the pair of their first corner; one
+/// with other pairs is given again for each of these, behind all others, in the order of the corners. Returned is the input's
+/// vertex of each vertex of the file: 0, 1, …, V − 1 and those that were given again. Faces keep order and corners.
+///
+/// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
+/// [`Error::Size`], [`Error::TooLarge`] for more than the 4 GB that glTF can count, [`Error::Io`].
+pub fn write_glb(path: &Path, data: &Textured<'_>, texture: Option<Texture<'_>>) -> Result<Vec<u32>> {
+    data.check()?;
+    let split = Split::new(data);
+    let placed = Placed::new(data.positions);
+    let mut parts = Parts::default();
+    let vertices = split.origin.iter().map(|&v| v as usize);
+    if !data.positions.is_empty() {
+        let stored = vertices.clone().map(|v| placed.stored(data.positions[v])).collect();
+        let position = parts.attribute("POSITION", stored);
+        (position["min"], position["max"]) = placed.bounds();
+        if !data.normals.is_empty() {
+            parts.attribute("NORMAL", vertices.clone().map(|v| unit(data.normals[v])).collect());
+        }
+        if !data.colors.is_empty() {
+            let color = |v: usize| data.colors[v].map(|x| x.clamp(0.0, 1.0) as f32);
+            parts.attribute("COLOR_0", vertices.map(color).collect());
+        }
+    }
+    if !data.face_texcoords.is_empty() {
+        parts.attribute("TEXCOORD_0", split.texcoords);
+    }
+    if !split.faces.is_empty() {
+        parts.indices(&split.faces);
+    }
+    if let Some(texture) = texture {
+        parts.texture(texture);
+    }
+    let (json, binary) = parts.chunks(placed.node());
+    let total = 12 + 8 + json.len() + 8 + binary.len();
+    let Ok(length) = u32::try_from(total) else {
+        return Err(Error::TooLarge { what: "bytes of a GLB file", count: total });
+    };
+    write_atomically(path, |out| {
+        out.write_all(b"glTF")?;
+        out.write_all(&2u32.to_le_bytes())?;
+        out.write_all(&length.to_le_bytes())?;
+        for (kind, chunk) in [(b"JSON", &json), (b"BIN\0", &binary)] {
+            out.write_all(&(chunk.len() as u32).to_le_bytes())?;
+            out.write_all(kind)?;
+            out.write_all(chunk)?;
+        }
+        Ok(())
+    })?;
+    Ok(split.origin)
+}
+
+/// Vertices with one pair of texture coordinates each.
+struct Split {
+    /// Per vertex, that of the input.
+    origin: Vec<u32>,
+    /// Per vertex, with v downwards.
+    texcoords: Vec<[f32; 2]>,
+    faces: Vec<[u32; 3]>,
+}
+
+impl Split {
+    fn new(data: &Textured<'_>) -> Split {
+        let n = data.positions.len();
+        let mut split =
+            Split { origin: (0..n as u32).collect(), texcoords: Vec::new(), faces: data.faces.to_vec() };
+        let mut first: Vec<Option<[u32; 2]>> = vec![None; if data.face_texcoords.is_empty() { 0 } else { n }];
+        split.texcoords.resize(first.len(), [0.0; 2]);
+        let mut further: HashMap<(u32, [u32; 2]), u32> = HashMap::new();
+        let corners = split.faces.as_flattened_mut().iter_mut().zip(data.face_texcoords.as_flattened());
+        for (corner, &t) in corners {
+            let [s, t] = data.texcoords[t as usize];
+            let pair = [s as f32, (1.0 - t) as f32];
+            let (v, bits) = (*corner, pair.map(f32::to_bits));
+            let slot = &mut first[v as usize];
+            if slot.is_none() {
+                split.texcoords[v as usize] = pair;
+            }
+            if *slot.get_or_insert(bits) != bits {
+                *corner = *further.entry((v, bits)).or_insert_with(|| {
+                    split.origin.push(v);
+                    split.texcoords.push(pair);
+                    split.origin.len() as u32 - 1
+                });
+            }
+        }
+        split
+    }
+}
+
+/// Where the node puts the mesh: a stored number x is center + scale · x.
+struct Placed {
+    center: Point,
+    /// A power of two.
+    scale: f64,
+    low: Point,
+    high: Point,
+}
+
+impl Placed {
+    fn new(positions: &[Point]) -> Placed {
+        let bound = |pick: fn(f64, f64) -> f64, start: f64| -> Point {
+            std::array::from_fn(|k| positions.iter().map(|p| p[k]).fold(start, pick))
+        };
+        let (low, high) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
+        let narrow = |x: &f64| f64::from(*x as f32) == *x;
+        if positions.as_flattened().iter().all(narrow) {
+            return Placed { center: [0.0; 3], scale: 1.0, low, high };
+        }
+        let center = std::array::from_fn(|k| 0.5 * low[k] + 0.5 * high[k]);
+        let extent = (0..3).map(|k| (high[k] - center[k]).max(center[k] - low[k])).fold(0.0, f64::max);
+        let plain = extent == 0.0 || PLAIN.contains(&extent);
+        let scale = if plain { 1.0 } else { extent.log2().floor().clamp(-1000.0, 1000.0).exp2() };
+        Placed { center, scale, low, high }
+    }
+
+    fn stored(&self, p: Point) -> [f32; 3] {
+        std::array::from_fn(|k| ((p[k] - self.center[k]) / self.scale) as f32)
+    }
+
+    fn bounds(&self) -> (Value, Value) {
+        (json!(self.stored(self.low)), json!(self.stored(self.high)))
+    }
+
+    fn node(&self) -> Value {
+        let mut node = json!({"mesh": 0});
+        if self.center != [0.0; 3] {
+            node["translation"] = json!(self.center);
+        }
+        if self.scale != 1.0 {
+            node["scale"] = json!(vec![self.scale; 3]);
+        }
+        node
+    }
+}
+
+/// What the document names, and the binary chunk.
+#[derive(Default)]
+struct Parts {
+    binary: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    attributes: serde_json::Map<String, Value>,
+    indices: Option<usize>,
+    /// Sampler and buffer view of the texture.
+    texture: Option<(Value, usize)>,
+}
+
+impl Parts {
+    const VERTICES: u32 = 34962;
+    const INDICES: u32 = 34963;
+    const FLOAT: u32 = 5126;
+    const UNSIGNED_INT: u32 = 5125;
+
+    /// A buffer view of these bytes.
+    fn view(&mut self, bytes: impl Iterator<Item = u8>, target: Option<u32>) -> usize {
+        let start = self.binary.len();
+        self.binary.extend(bytes);
+        let mut view = json!({"buffer": 0, "byteOffset": start, "byteLength": self.binary.len() - start});
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.views.push(view);
+        self.binary.resize(self.binary.len().next_multiple_of(4), 0);
+        self.views.len() - 1
+    }
+
+    fn attribute<const N: usize>(&mut self, name: &str, values: Vec<[f32; N]>) -> &mut Value {
+        let bytes = values.as_flattened().iter().flat_map(|x| x.to_le_bytes());
+        let view = self.view(bytes, Some(Parts::VERTICES));
+        self.attributes.insert(name.into(), json!(self.accessors.len()));
+        let kind = format!("VEC{N}");
+        self.accessors.push(
+            json!({"bufferView": view, "componentType": Parts::FLOAT, "count": values.len(), "type": kind}),
+        );
+        let last = self.accessors.len() - 1;
+        &mut self.accessors[last]
+    }
+
+    fn indices(&mut self, faces: &[[u32; 3]]) {
+        let corners = faces.as_flattened();
+        let view = self.view(corners.iter().flat_map(|v| v.to_le_bytes()), Some(Parts::INDICES));
+        self.indices = Some(self.accessors.len());
+        self.accessors.push(json!({
+            "bufferView": view, "componentType": Parts::UNSIGNED_INT, "count": corners.len(), "type": "SCALAR"
+        }));
+    }
+
+    fn texture(&mut self, texture: Texture<'_>) {
+        let view = self.view(texture.png.iter().copied(), None);
+        let wrap = texture.wrap.code();
+        let sampler = json!({"magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap});
+        self.texture = Some((sampler, view));
+    }
+
+    /// The JSON and the binary chunk. Without faces the vertices are points; glTF has no mesh without vertices.
+    fn chunks(self, node: Value) -> (Vec<u8>, Vec<u8>) {
+        let mut document = json!({
+            "asset": {"version": "2.0", "generator": concat!("ricci ", env!("CARGO_PKG_VERSION"))},
+            "scene": 0,
+            "scenes": [{}]
+        });
+        let mut material = json!({
+            "doubleSided": true,
+            "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.8}
+        });
+        if let Some((sampler, view)) = self.texture {
+            material["pbrMetallicRoughness"]["baseColorTexture"] = json!({"index": 0});
+            document["textures"] = json!([{"source": 0, "sampler": 0}]);
+            document["samplers"] = json!([sampler]);
+            document["images"] = json!([{"bufferView": view, "mimeType": "image/png"}]);
+        }
+        if !self.attributes.is_empty() {
+            let mut primitive = json!({"attributes": self.attributes, "material": 0});
+            match self.indices {
+                Some(indices) => primitive["indices"] = json!(indices),
+                None => primitive["mode"] = json!(0),
+            }
+            document["scenes"][0]["nodes"] = json!([0]);
+            document["nodes"] = json!([node]);
+            document["meshes"] = json!([{"primitives": [primitive]}]);
+            document["materials"] = json!([material]);
+            document["accessors"] = json!(self.accessors);
+        }
+        if !self.binary.is_empty() {
+            document["bufferViews"] = json!(self.views);
+            document["buffers"] = json!([{"byteLength": self.binary.len()}]);
+        }
+        let mut text = document.to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        (text, self.binary)
+    }
+}
+
+/// A normal of length 1, as glTF wants it; one without a direction stays as it is.
+fn unit(x: Point) -> [f32; 3] {
+    let length = x[0].hypot(x[1]).hypot(x[2]);
+    if length > 0.0 && length.is_finite() { x.map(|x| (x / length) as f32) } else { x.map(|x| x as f32) }
+}

@@ -1,0 +1,139 @@
+/* A torus with attributes goes through every format and comes back. */
+#include "torus.h"
+
+static torus t;
+static double *normals, *colors, *uv;
+
+/* The mesh of a file is the torus, with what that format keeps of its attributes. */
+static void compare(const char *path, double positions_off, int uv_kept) {
+    ricci_mesh *mesh = NULL;
+    ricci_mesh_summary size;
+    double *numbers = (double *)malloc(6 * t.n_faces * sizeof *numbers);
+    uint32_t *faces = (uint32_t *)malloc(3 * t.n_faces * sizeof *faces);
+    CHECK(numbers && faces);
+    OK(ricci_mesh_read(path, &mesh));
+    OK(ricci_mesh_summarise(mesh, &size, sizeof size));
+    CHECK(size.n_vertices == t.n_vertices && size.n_faces == t.n_faces && size.genus == 1);
+    CHECK(size.n_normals == t.n_vertices && size.n_colors == t.n_vertices);
+    CHECK(size.n_uv == (uv_kept ? t.n_faces : 0));
+    OK(ricci_mesh_faces(mesh, faces, 3 * t.n_faces));
+    CHECK(memcmp(faces, t.faces, 3 * t.n_faces * sizeof *faces) == 0);
+    OK(ricci_mesh_positions(mesh, numbers, 3 * t.n_vertices));
+    for (size_t k = 0; k < 3 * t.n_vertices; k++) CHECK(fabs(numbers[k] - t.positions[k]) <= positions_off);
+    FAILS(ricci_mesh_normals(mesh, numbers, 3), RICCI_BUFFER_TOO_SMALL, "normals");
+    OK(ricci_mesh_normals(mesh, numbers, 3 * t.n_vertices));
+    for (size_t k = 0; k < 3 * t.n_vertices; k++) CHECK(fabs(numbers[k] - normals[k]) <= 1e-7);
+    OK(ricci_mesh_colors(mesh, numbers, 4 * t.n_vertices));
+    /* Bytes, six decimals or floats. */
+    for (size_t k = 0; k < 4 * t.n_vertices; k++) CHECK(fabs(numbers[k] - colors[k]) <= 1 / 509.0);
+    if (uv_kept) {
+        OK(ricci_mesh_uv(mesh, numbers, 6 * t.n_faces));
+        for (size_t k = 0; k < 6 * t.n_faces; k++) CHECK(fabs(numbers[k] - uv[k]) <= 1e-7);
+    } else {
+        FAILS(ricci_mesh_uv(mesh, numbers, 6 * t.n_faces), RICCI_ARGUMENT, "uv");
+    }
+    /* What was read is written again as it is. */
+    OK(ricci_mesh_write(mesh, NULL, "again.ply"));
+    ricci_mesh_free(mesh);
+    mesh = NULL;
+    OK(ricci_mesh_read("again.ply", &mesh));
+    OK(ricci_mesh_summarise(mesh, &size, sizeof size));
+    CHECK(size.n_normals == t.n_vertices && size.n_uv == (uv_kept ? t.n_faces : 0));
+    ricci_mesh_free(mesh);
+    free(numbers);
+    free(faces);
+}
+
+/* Two triangles with a slit between them, as ascii STL. */
+static void welded(void) {
+    static const char *const text = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                                    "vertex 1 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
+                                    "vertex 0.001 0 0\nvertex 1.001 1 0\nvertex 0 1 0\nendloop\nendfacet\n"
+                                    "endsolid s\n";
+    ricci_mesh *mesh = NULL;
+    ricci_mesh_summary size;
+    FILE *file = fopen("slit.stl", "w");
+    CHECK(file && fputs(text, file) >= 0 && fclose(file) == 0);
+    FAILS(ricci_mesh_read("slit.stl", &mesh), RICCI_DEFECTS, "components");
+    FAILS(ricci_mesh_read_stl("slit.stl", 0, &mesh), RICCI_DEFECTS, "components");
+    FAILS(ricci_mesh_read_stl("slit.stl", -1, &mesh), RICCI_ARGUMENT, "weld");
+    FAILS(ricci_mesh_read_stl("slit.stl", NAN, &mesh), RICCI_ARGUMENT, "weld");
+    FAILS(ricci_mesh_read_stl(NULL, 0, &mesh), RICCI_NULL_POINTER, "path");
+    CHECK(mesh == NULL);
+    OK(ricci_mesh_read_stl("slit.stl", 0.002, &mesh));
+    OK(ricci_mesh_summarise(mesh, &size, sizeof size));
+    CHECK(size.n_vertices == 4 && size.n_faces == 2);
+    CHECK(size.n_normals == 0 && size.n_colors == 0 && size.n_uv == 0);
+    ricci_mesh_free(mesh);
+}
+
+int main(void) {
+    ricci_mesh *mesh = NULL, *read = NULL;
+    ricci_mesh_attributes attributes;
+    ricci_mesh_summary size;
+    double few[3];
+    t = torus_new(12, 8);
+    normals = (double *)malloc(3 * t.n_vertices * sizeof *normals);
+    colors = (double *)malloc(4 * t.n_vertices * sizeof *colors);
+    uv = (double *)malloc(6 * t.n_faces * sizeof *uv);
+    CHECK(normals && colors && uv);
+    for (size_t v = 0; v < t.n_vertices; v++) {
+        const double a = 0.7 * (double)v, n[3] = {cos(a), 0.6 * sin(a), 0.8 * sin(a)};
+        for (int k = 0; k < 3; k++) normals[3 * v + k] = n[k];
+        for (int k = 0; k < 4; k++) colors[4 * v + k] = k == 3 ? 1 : fmod((double)(v + k) / 7, 1);
+    }
+    /* One pair per vertex: then OFF and GLB keep it too. */
+    for (size_t k = 0; k < 3 * t.n_faces; k++) {
+        uv[2 * k] = (double)(t.faces[k] % 8) / 8;
+        uv[2 * k + 1] = (double)t.faces[k] / (double)t.n_vertices;
+    }
+    mesh = torus_mesh(&t);
+    OK(ricci_mesh_attributes_init(&attributes, sizeof attributes));
+    CHECK(attributes.normals == NULL && attributes.colors == NULL && attributes.uv == NULL);
+    attributes.normals = normals;
+    attributes.colors = colors;
+    attributes.uv = uv;
+    OK(ricci_mesh_write(mesh, &attributes, "files.ply"));
+    OK(ricci_mesh_write(mesh, &attributes, "files.off"));
+    OK(ricci_mesh_write(mesh, &attributes, "files.OBJ"));
+    OK(ricci_mesh_write(mesh, &attributes, "files.glb"));
+    compare("files.ply", 0, 1);
+    compare("files.off", 0, 1);
+    compare("files.OBJ", 0, 1);
+    compare("files.glb", 3e-7, 1);
+
+    /* A seam: the last face has a place of its own in the texture, which OFF cannot say and GLB says by more
+     * vertices. */
+    uv[6 * t.n_faces - 1] += 0.5;
+    OK(ricci_mesh_write(mesh, &attributes, "files.off"));
+    compare("files.off", 0, 0);
+    OK(ricci_mesh_write(mesh, &attributes, "files.ply"));
+    compare("files.ply", 0, 1);
+
+    /* Nothing was read with this mesh, so nothing is written with it. */
+    OK(ricci_mesh_write(mesh, NULL, "plain.ply"));
+    OK(ricci_mesh_read("plain.ply", &read));
+    OK(ricci_mesh_summarise(read, &size, sizeof size));
+    CHECK(size.n_normals == 0 && size.n_colors == 0 && size.n_uv == 0);
+    FAILS(ricci_mesh_normals(read, few, 3), RICCI_ARGUMENT, "normals");
+    FAILS(ricci_mesh_colors(read, few, 3), RICCI_ARGUMENT, "colors");
+    ricci_mesh_free(read);
+
+    FAILS(ricci_mesh_write(mesh, NULL, "files.stl"), RICCI_UNKNOWN_FORMAT, ".glb");
+    FAILS(ricci_mesh_write(mesh, NULL, "no such folder/x.ply"), RICCI_IO, "no such folder");
+    FAILS(ricci_mesh_write(mesh, NULL, NULL), RICCI_NULL_POINTER, "path");
+    FAILS(ricci_mesh_write(NULL, NULL, "x.ply"), RICCI_NULL_POINTER, "mesh");
+    attributes.size = 7;
+    FAILS(ricci_mesh_write(mesh, &attributes, "x.ply"), RICCI_STRUCT_SIZE, "attributes");
+    attributes.size = sizeof attributes;
+    normals[4] = NAN;
+    FAILS(ricci_mesh_write(mesh, &attributes, "x.ply"), RICCI_ARGUMENT, "normal");
+
+    welded();
+    ricci_mesh_free(mesh);
+    free(normals);
+    free(colors);
+    free(uv);
+    torus_free(&t);
+    return 0;
+}
