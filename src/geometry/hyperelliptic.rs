@@ -6,8 +6,6 @@
 
 use crate::error::{Error, Result};
 use crate::geometry::symplectic::symplectic_basis;
-use faer::Mat;
-use faer::prelude::Solve;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
@@ -47,18 +45,42 @@ pub fn period_matrix(branch_points: &[Complex64]) -> Result<Vec<Vec<Complex64>>>
     let period = |k: usize, cycle: &[i64]| -> Complex64 {
         cycle.iter().zip(&cycles).map(|(&times, c)| c.periods[k] * times as f64).sum()
     };
-    let a = Mat::from_fn(genus, genus, |k, j| period(k, &basis[j]));
-    let b = Mat::from_fn(genus, genus, |k, j| period(k, &basis[genus + j]));
-    let tau = a.partial_piv_lu().solve(&b);
-    let largest = (0..genus * genus).map(|i| tau[(i / genus, i % genus)].norm()).fold(0.0, f64::max);
-    let asymmetry = |i: usize, j: usize| (tau[(i, j)] - tau[(j, i)]).norm();
+    let a = (0..genus).map(|k| (0..genus).map(|j| period(k, &basis[j])).collect()).collect();
+    let b = (0..genus).map(|k| (0..genus).map(|j| period(k, &basis[genus + j])).collect()).collect();
+    let tau = solve(a, b);
+    let largest = tau.iter().flatten().map(|z| z.norm()).fold(0.0, f64::max);
     let pairs = (0..genus).flat_map(|i| (0..i).map(move |j| (i, j)));
-    let worst = pairs.map(|(i, j)| asymmetry(i, j)).fold(0.0, f64::max);
+    let worst = pairs.map(|(i, j)| (tau[i][j] - tau[j][i]).norm()).fold(0.0, f64::max);
+    // A NaN compares false.
     if !(largest.is_finite() && worst <= ASYMMETRY * largest) {
         return Err(lost());
     }
-    let entry = |i: usize, j: usize| 0.5 * (tau[(i, j)] + tau[(j, i)]);
+    let entry = |i: usize, j: usize| 0.5 * (tau[i][j] + tau[j][i]);
     Ok((0..genus).map(|i| (0..genus).map(|j| entry(i, j)).collect()).collect())
+}
+
+/// `a⁻¹ b` by elimination with partial pivoting; not finite if `a` is singular. (A few rows: no pool of threads is worth
+/// starting.)
+fn solve(mut a: Vec<Vec<Complex64>>, mut b: Vec<Vec<Complex64>>) -> Vec<Vec<Complex64>> {
+    let n = a.len();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&i, &j| a[i][k].norm().total_cmp(&a[j][k].norm())).unwrap_or(k);
+        a.swap(k, pivot);
+        b.swap(k, pivot);
+        let inverse = a[k][k].inv();
+        for x in a[k].iter_mut().chain(&mut b[k]) {
+            *x *= inverse;
+        }
+        for i in (0..n).filter(|&i| i != k) {
+            let factor = a[i][k];
+            for j in 0..n {
+                let (p, q) = (a[k][j], b[k][j]);
+                a[i][j] -= factor * p;
+                b[i][j] -= factor * q;
+            }
+        }
+    }
+    b
 }
 
 /// The points moved and scaled so that their mean is 0 and their mean square 1: an affine map of x keeps the curve.
