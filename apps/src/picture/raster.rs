@@ -73,6 +73,12 @@ pub fn render(
         let step = 1.0 / SAMPLES as f64;
         for (pixel, out) in rows.chunks_exact_mut(3).enumerate() {
             let (x, y) = (pixel % width, pixel / width);
+            if samples.nothing_in(x, y) {
+                // The background is smooth: one look is enough.
+                let color = painter.paint([x as f64 + 0.5, (band * BAND + y) as f64 + 0.5], None);
+                (0..3).for_each(|k| out[k] = encode(color[k]));
+                continue;
+            }
             let mut sum = [0.0; 3];
             for s in 0..SAMPLES * SAMPLES {
                 let (sx, sy) = (x * SAMPLES + s % SAMPLES, y * SAMPLES + s / SAMPLES);
@@ -139,6 +145,12 @@ pub fn visible(shapes: &[Shape], width: usize, first: usize, rows: usize, per_pi
 }
 
 impl Samples {
+    /// Whether no sample of a pixel shows a shape.
+    fn nothing_in(&self, x: usize, y: usize) -> bool {
+        let row = |s: usize| (y * SAMPLES + s) * self.width + x * SAMPLES;
+        (0..SAMPLES).all(|s| self.nearest[row(s)..row(s) + SAMPLES].iter().all(|n| n.1 == NOTHING))
+    }
+
     /// What is visible at a sample, whose pixel coordinates are `at`.
     pub fn hit(&self, shapes: &[Shape], x: usize, y: usize, at: [f64; 2]) -> Option<Hit> {
         let (_, index) = self.nearest[y * self.width + x];
