@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::picture::{FlowPictureArgs, SurfacePictureArgs};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ricci::geometry::Space;
 use ricci::metric::Scheme;
@@ -38,6 +39,9 @@ pub enum Command {
     /// Run the flow on a torus, a genus-2 surface and a disk, with pictures and reports
     #[command(after_help = DEMO_EXAMPLE)]
     Demo(DemoArgs),
+    /// One picture per kind of surface and of picture, with the commands that make them
+    #[command(after_help = GALLERY_EXAMPLE)]
+    Gallery(GalleryArgs),
     /// Completions for a shell, on stdout
     #[command(after_help = COMPLETIONS_EXAMPLE)]
     Completions {
@@ -76,6 +80,10 @@ const DEMO_EXAMPLE: &str = "\
 Example
     ricci demo out && ls out";
 
+const GALLERY_EXAMPLE: &str = "\
+Example
+    ricci gallery pictures && cat pictures/README.md";
+
 const COMPLETIONS_EXAMPLE: &str = "\
 Example
     ricci completions bash > ~/.local/share/bash-completion/completions/ricci";
@@ -113,9 +121,8 @@ fn threads() -> impl clap::builder::TypedValueParser<Value = u16> {
 pub struct InfoArgs {
     /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json)
     pub mesh: PathBuf,
-    /// Write a picture of the surface
-    #[arg(long, value_name = "P.png")]
-    pub picture: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: SurfacePictureArgs,
     #[command(flatten)]
     pub common: Common,
 }
@@ -142,9 +149,8 @@ pub struct RepairArgs {
     /// Write the input's vertex of each vertex and the input's face of each face
     #[arg(long, value_name = "MAP.json")]
     pub map: Option<PathBuf>,
-    /// Write a picture of the result
-    #[arg(long, value_name = "P.png")]
-    pub picture: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: SurfacePictureArgs,
     #[command(flatten)]
     pub common: Common,
 }
@@ -192,9 +198,8 @@ pub struct FlowArgs {
     /// Write the vertex circles and dual circles of the layout (circle schemes, E²)
     #[arg(long, value_name = "C.json")]
     pub circles: Option<PathBuf>,
-    /// Write a picture of the surface beside its layout, .png or .svg
-    #[arg(long, value_name = "P.png")]
-    pub picture: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: FlowPictureArgs,
     /// Write the steps of the gradient flow
     #[arg(long, value_name = "T.csv")]
     pub trace: Option<PathBuf>,
@@ -219,6 +224,16 @@ with --pin 0 at every vertex that is not pinned]";
 pub struct DemoArgs {
     /// Directory to write into; made if it does not exist
     pub out: PathBuf,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+#[derive(Args, Debug)]
+pub struct GalleryArgs {
+    /// Directory to write into; made if it does not exist
+    pub out: PathBuf,
+    /// A folder of meshes with good/INDEX.csv, for pictures of real surfaces
+    pub meshes: Option<PathBuf>,
     #[command(flatten)]
     pub common: Common,
 }

@@ -137,7 +137,8 @@ fn run_example(example: &Example, args: &DemoArgs, control: &Control) -> Result<
     }
 }
 
-fn parse(line: Vec<String>) -> Result<Command, Failure> {
+/// The command of a line of words.
+pub fn parse(line: Vec<String>) -> Result<Command, Failure> {
     let words = std::iter::once("ricci".to_string()).chain(line);
     Cli::try_parse_from(words).map(|cli| cli.command).map_err(|e| Failure::Usage(e.to_string()))
 }

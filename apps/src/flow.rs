@@ -8,6 +8,7 @@ use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
 use crate::metric_file::MetricFile;
 use crate::output::{Outputs, check_extension, check_writable, extension};
+use crate::picture::{ColorChoice, FlowPictureArgs};
 use crate::progress::Progress;
 use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes, timed};
 use crate::say;
@@ -65,7 +66,7 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     let files = write(args, &input, &outcome, control, start)?;
     drop(progress);
     let checks = outcome.checks();
-    let svg = args.picture.as_ref().is_some_and(|p| show::is_svg(p));
+    let svg = args.picture.base.picture.as_ref().is_some_and(|p| show::is_svg(p));
     let missing = outcome.layout.is_err() && (args.uv.is_some() || args.circles.is_some() || svg);
     let exit_code = if missing { 1 } else { checks.exit_code() };
     Ok(Done { input, outcome, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
@@ -104,10 +105,11 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     if let Some(path) = &args.uv {
         check_extension("--uv", path, &["obj", "glb"])?;
     }
-    if let Some(path) = &args.picture {
+    if let Some(path) = &args.picture.base.picture {
         check_extension("--picture", path, &["png", "svg"])?;
     }
-    let files = [&args.metric, &args.uv, &args.circles, &args.picture, &args.trace, &args.common.report];
+    let files =
+        [&args.metric, &args.uv, &args.circles, &args.picture.base.picture, &args.trace, &args.common.report];
     let mut seen: Vec<&Path> = Vec::new();
     for path in files.into_iter().flatten() {
         if seen.contains(&path.as_path()) {
@@ -138,7 +140,12 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
     if args.uv.is_some() && input.positions.is_none() {
         return Err(Failure::Usage("--uv: an intrinsic metric has no positions in space".into()));
     }
-    if let Some(path) = args.picture.as_ref().filter(|_| space != Space::E2) {
+    if let Some(name) = args.picture.color().filter(|_| space != Space::E2).and_then(ColorChoice::of_layout) {
+        return Err(Failure::Usage(format!(
+            "--color {name}: layouts in {space} are not in this version; use u or curvature"
+        )));
+    }
+    if let Some(path) = args.picture.base.picture.as_ref().filter(|_| space != Space::E2) {
         let nothing = if extension(path) == "svg" {
             "an SVG shows the layout alone, use .png"
         } else if input.positions.is_none() {
@@ -197,8 +204,10 @@ fn write(
             uv::write(&mut outputs, path, positions, &outcome.mesh, &laid.layout)?;
         }
         let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
-        if let Some(path) = args.picture.as_ref().filter(drawable) {
-            outputs.add(path, |out| show::draw(out, path, input, outcome, args.common.threads()))?;
+        if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
+            outputs.add(path, |out| {
+                show::draw(out, path, input, outcome, &args.picture, args.common.threads())
+            })?;
         }
         if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
             let Outcome { mesh, metric, scheme, .. } = outcome;
@@ -233,7 +242,8 @@ pub struct Asked {
     metric: Option<String>,
     uv: Option<String>,
     circles: Option<String>,
-    picture: Option<String>,
+    #[serde(flatten)]
+    picture: FlowPictureArgs,
     trace: Option<String>,
 }
 
@@ -256,7 +266,7 @@ impl Asked {
             metric: text(&args.metric),
             uv: text(&args.uv),
             circles: text(&args.circles),
-            picture: text(&args.picture),
+            picture: args.picture.clone(),
             trace: text(&args.trace),
         }
     }

@@ -4,6 +4,7 @@ use crate::cli::InfoArgs;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::output::{Outputs, check_extension, check_writable, extension};
+use crate::picture::SurfacePictureArgs;
 use crate::report::{InputSummary, Report, Seconds, path_text, peak_bytes, timed};
 use crate::say::{self, count};
 use crate::shape_quality::{self, ShapeQuality};
@@ -64,17 +65,18 @@ impl From<&Defect> for DefectFigures {
 
 #[derive(Serialize)]
 struct Asked {
-    picture: Option<String>,
+    #[serde(flatten)]
+    picture: SurfacePictureArgs,
     threads: usize,
 }
 
 /// Run the command: 0 on every file that can be read, whatever its defects.
 pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
-    for path in [&args.common.report, &args.picture].into_iter().flatten() {
+    for path in [&args.common.report, &args.picture.base.picture].into_iter().flatten() {
         check_writable(path)?;
     }
-    if let Some(path) = &args.picture {
+    if let Some(path) = &args.picture.base.picture {
         check_extension("--picture", path, &["png"])?;
         if extension(&args.mesh) == "json" {
             return Err(Failure::Usage("--picture: an intrinsic metric has no positions in space".into()));
@@ -101,10 +103,11 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
                 shape_of(&soup).unwrap_or_else(|| shape_quality::of_triangles(&soup.positions, &soup.faces));
             (diagnose(&soup.positions, &soup.faces), quality)
         });
-        if let Some(path) = &args.picture {
+        if let Some(path) = &args.picture.base.picture {
             let draw = || {
                 outputs.add(path, |out| {
-                    show::draw_surface(out, &soup.positions, &soup.faces, args.common.threads())
+                    let threads = args.common.threads();
+                    show::draw_surface(out, &soup.positions, &soup.faces, &args.picture, threads)
                 })
             };
             timed(&mut seconds.write, draw)?;
@@ -115,7 +118,7 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
         say::lines(&text(&summary, &info));
     }
     if let Some(path) = &args.common.report {
-        let picture = args.picture.as_deref().map(path_text);
+        let picture = args.picture.clone();
         let asked = Asked { picture, threads: args.common.threads() };
         let mut report = Report::new("info", summary, asked, info);
         seconds.total = start.elapsed().as_secs_f64();

@@ -7,6 +7,7 @@ mod csv;
 mod demo;
 mod failure;
 mod flow;
+mod gallery;
 mod info;
 mod input;
 mod job;
@@ -16,6 +17,7 @@ mod metric_file;
 mod output;
 mod picture;
 mod progress;
+mod quantity;
 mod repair;
 mod report;
 mod say;
@@ -49,6 +51,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Repair(args) => repair::run(args, &control),
         Command::Make(args) => make::run(args),
         Command::Demo(args) => demo::run(args, &control),
+        Command::Gallery(args) => gallery::run(args, &control),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "ricci", &mut script);

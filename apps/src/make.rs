@@ -101,7 +101,7 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Inst
     check_extension("-o", &to.out, &["obj", "off", "ply", "glb", "json"])?;
     check_writable(&to.out)?;
     to.common.report.as_deref().map_or(Ok(()), check_writable)?;
-    if let Some(path) = &to.picture {
+    if let Some(path) = &to.picture.base.picture {
         check_extension("--picture", path, &["png"])?;
         check_writable(path)?;
     }
@@ -116,8 +116,9 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Inst
         let format = Format::of(&to.out)?;
         outputs.add_named(&to.out, |path| io::write_as(path, format, &soup))?;
     }
-    if let Some(path) = &to.picture {
-        outputs.add(path, |out| show::draw_surface(out, positions, faces, to.common.threads()))?;
+    if let Some(path) = &to.picture.base.picture {
+        outputs
+            .add(path, |out| show::draw_surface(out, positions, faces, &to.picture, to.common.threads()))?;
     }
     let made = Made { out: &to.out, mesh: &mesh, geometry: Space::E2, lengths: &lengths };
     made.finish(outputs, shape, &to.common, start)

@@ -4,6 +4,7 @@ use crate::cli::RepairArgs;
 use crate::failure::Failure;
 use crate::info::{DefectCount, DefectFigures, summary_of};
 use crate::output::{Outputs, check_extension, check_writable};
+use crate::picture::SurfacePictureArgs;
 use crate::report::{Report, Seconds, path_text, peak_bytes, timed};
 use crate::say::{self, count};
 use crate::show;
@@ -46,7 +47,8 @@ struct Asked {
     cut_edges: bool,
     component: Option<usize>,
     map: Option<String>,
-    picture: Option<String>,
+    #[serde(flatten)]
+    picture: SurfacePictureArgs,
     threads: usize,
 }
 
@@ -61,10 +63,12 @@ struct MapFile<'a> {
 pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
     check_extension("-o", &args.out, &["obj", "off", "ply", "glb"])?;
-    if let Some(path) = &args.picture {
+    if let Some(path) = &args.picture.base.picture {
         check_extension("--picture", path, &["png"])?;
     }
-    for path in [Some(&args.out), args.map.as_ref(), args.picture.as_ref(), args.common.report.as_ref()] {
+    for path in
+        [Some(&args.out), args.map.as_ref(), args.picture.base.picture.as_ref(), args.common.report.as_ref()]
+    {
         path.map_or(Ok(()), |path| check_writable(path))?;
     }
     let mut seconds = Seconds::default();
@@ -83,9 +87,11 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
             let map = MapFile { vertex_origin: &done.vertex_origin, face_origin: &done.face_origin };
             outputs.add_json(path, &map)?;
         }
-        if let Some(path) = &args.picture {
+        if let Some(path) = &args.picture.base.picture {
             let (threads, soup) = (args.common.threads(), &done.soup);
-            outputs.add(path, |out| show::draw_surface(out, &soup.positions, &soup.faces, threads))?;
+            outputs.add(path, |out| {
+                show::draw_surface(out, &soup.positions, &soup.faces, &args.picture, threads)
+            })?;
         }
         Ok(())
     })?;
@@ -102,7 +108,7 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
             cut_edges: args.cut_edges,
             component: args.component,
             map: text(&args.map),
-            picture: text(&args.picture),
+            picture: args.picture.clone(),
             threads: args.common.threads(),
         };
         let input = summary_of(&diagnose(&soup.positions, &soup.faces), path_text(&args.mesh));

@@ -1,6 +1,7 @@
 //! The shapes that `ricci make` knows, and what can be done to them.
 
 use crate::cli::Common;
+use crate::picture::SurfacePictureArgs;
 use clap::{Args, Subcommand, ValueEnum};
 use num_complex::Complex64;
 use ricci::mesh::io::Soup;
@@ -196,9 +197,9 @@ pub struct ToMesh {
     #[command(flatten)]
     #[serde(flatten)]
     pub spoil: Spoil,
-    /// Write a picture of the surface
-    #[arg(long, value_name = "P.png")]
-    pub picture: Option<PathBuf>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub picture: SurfacePictureArgs,
     #[command(flatten)]
     #[serde(skip)]
     pub common: Common,

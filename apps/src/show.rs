@@ -4,7 +4,8 @@ use crate::circles::circles;
 use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
-use crate::picture::{self, Circle, Flat, Picture, Surface};
+use crate::picture::{self, Circle, Flat, FlowPictureArgs, Picture, Surface, SurfacePictureArgs};
+use crate::quantity;
 use ricci::mesh::{HalfedgeId, Mesh, PerVertex, Point, VertexId};
 use std::io::{self, Write};
 use std::path::Path;
@@ -22,12 +23,15 @@ pub fn draw(
     path: &Path,
     input: &Input,
     outcome: &Outcome,
+    args: &FlowPictureArgs,
     threads: usize,
 ) -> io::Result<()> {
     let parts = outcome.layout.as_ref().ok().map(|laid| Parts::new(outcome, laid));
     let flat = parts.as_ref().map(Parts::flat);
+    let field = args.color().and_then(|choice| quantity::of_flow(choice, input, outcome));
+    let style = args.style();
     if is_svg(path) {
-        return flat.map_or(Ok(()), |flat| picture::write_svg(out, &flat));
+        return flat.map_or(Ok(()), |flat| picture::write_svg(out, &flat, field.as_ref(), &style));
     }
     let faces: Vec<[u32; 3]> =
         outcome.mesh.faces().map(|f| outcome.mesh.face_vertices(f).map(|v| v.0)).collect();
@@ -39,8 +43,8 @@ pub fn draw(
         seams: parts.as_ref().map_or(&[], |p| &p.edges),
         cones: &cones,
     });
-    let bytes = picture::png(&Picture { surface, flat }, threads).map_err(io::Error::other)?;
-    out.write_all(&bytes)
+    let drawn = Picture { surface, flat, field: field.as_ref() };
+    out.write_all(&picture::png(&drawn, &style, threads).map_err(io::Error::other)?)
 }
 
 /// Whether the file is the drawing of a layout alone.
@@ -53,6 +57,7 @@ pub fn draw_surface(
     out: &mut impl Write,
     positions: &[Point],
     faces: &[[u32; 3]],
+    args: &SurfacePictureArgs,
     threads: usize,
 ) -> io::Result<()> {
     let finite = |v: &u32| positions.get(*v as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
@@ -68,9 +73,9 @@ pub fn draw_surface(
     };
     let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut keep)).collect();
     let surface = Surface { positions: &seen, faces: &faces, corner_uv: None, seams: &[], cones: &[] };
-    let bytes =
-        picture::png(&Picture { surface: Some(surface), flat: None }, threads).map_err(io::Error::other)?;
-    out.write_all(&bytes)
+    let field = args.curvature().then(|| quantity::curvature_of_triangles(&seen, &faces));
+    let drawn = Picture { surface: Some(surface), flat: None, field: field.as_ref() };
+    out.write_all(&picture::png(&drawn, &args.style(), threads).map_err(io::Error::other)?)
 }
 
 /// Cone vertices with their curvature, on a surface where few vertices have any.

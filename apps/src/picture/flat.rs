@@ -1,64 +1,96 @@
 //! The layout in the plane.
 
-use super::checker::{Checker, Tiles};
-use super::raster::{Paint, Primitive, Rgb, dot, line};
-use super::{Circle, Fit, Flat, LINE, cone_color, seam_color};
+use super::coat::{Coat, Wish};
+use super::color::{INK, Rgb, cone_color, from_hex, mix, seam_color};
+use super::fit::Fit;
+use super::raster::{Hit, Image, Painter, Shape, render};
+use super::{Circle, Flat, Style};
 
-/// Layouts of at most this many faces show their edges.
-pub const WIRE_FACES: usize = 5000;
 /// Circles of a smaller radius (pixels) are left out.
 const LEAST_RADIUS: f64 = 1.0;
 /// And of a larger one: their piece of arc in the picture is a line.
 const MOST_RADIUS: f64 = 1e5;
-const WIRE: Rgb = [0.35, 0.38, 0.42];
-const BOUNDARY: Rgb = [0.01, 0.01, 0.015];
-const VERTEX_CIRCLE: Rgb = [0.70, 0.06, 0.03];
-const DUAL_CIRCLE: Rgb = [0.02, 0.15, 0.55];
+pub const VERTEX_CIRCLE: u32 = 0xb5342a;
+pub const DUAL_CIRCLE: u32 = 0x26539e;
+/// Distance of layers that are drawn over one another, above every radius in pixels.
+const LAYER: f64 = 1e6;
 
-pub fn primitives(flat: &Flat<'_>, tiles: &Tiles) -> Vec<Primitive> {
-    let fit = Fit::of(flat);
-    let mut out = Vec::new();
-    for (f, uv) in flat.corner_uv.iter().enumerate() {
-        let xy = uv.map(|p| fit.apply(p));
-        let checker = Checker::new(*uv, tiles, f, xy);
-        out.push(Primitive { xy, z: [0.0; 3], paint: Paint::Tiled { checker } });
-    }
-    if flat.corner_uv.len() <= WIRE_FACES && flat.circles.is_empty() {
-        for uv in flat.corner_uv {
-            let [a, b, c] = uv.map(|p| fit.apply(p));
-            for (p, q) in [(a, b), (b, c), (c, a)] {
-                line(&mut out, p, q, [1.0; 2], 0.5, WIRE);
-            }
+/// Draw a layout; the pattern, circles, boundary, seams and cones lie over one another in this order.
+pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style, threads: usize) -> Image {
+    let fit = fit(flat, style.size);
+    let size = style.size as f64;
+    let triangles: Vec<[[f64; 2]; 3]> = flat.corner_uv.iter().map(|uv| uv.map(|p| fit.apply(p))).collect();
+    let mut shapes: Vec<Shape> =
+        triangles.iter().map(|t| Shape::Triangle(t.map(|[x, y]| [x, y, 0.0]))).collect();
+    let mut strokes = Vec::new();
+    let mut line = |a: [f64; 2], b: [f64; 2], layer: f64, radius: f64, color: Rgb| {
+        shapes.push(Shape::Capsule { ends: [a, b].map(|[x, y]| [x, y, layer * LAYER]), radius });
+        strokes.push(color);
+    };
+    let circles = [(flat.dual_circles, DUAL_CIRCLE, 2.0), (flat.circles, VERTEX_CIRCLE, 3.0)];
+    for (circles, color, layer) in circles {
+        for circle in circles {
+            let (points, radius) = outline(&fit, circle, size);
+            points.windows(2).for_each(|p| line(p[0], p[1], layer, radius, from_hex(color)));
         }
     }
-    for (circles, color, z) in [(flat.dual_circles, DUAL_CIRCLE, 2.0), (flat.circles, VERTEX_CIRCLE, 3.0)] {
-        circles.iter().for_each(|circle| outline(&mut out, &fit, circle, z, color));
-    }
     for &(a, b) in flat.boundary {
-        line(&mut out, fit.apply(a), fit.apply(b), [4.0; 2], LINE, BOUNDARY);
+        line(fit.apply(a), fit.apply(b), 4.0, style.line(), INK);
     }
     for &(a, b, seam) in flat.seams {
-        line(&mut out, fit.apply(a), fit.apply(b), [5.0; 2], LINE, seam_color(seam));
+        line(fit.apply(a), fit.apply(b), 5.0, style.line(), seam_color(seam));
     }
     for &(p, curvature) in flat.cones {
-        dot(&mut out, fit.apply(p), 6.0, 4.5, cone_color(curvature));
+        let p = fit.apply(p);
+        line(p, p, 6.0, 1.25 * style.cone(), [1.0; 3]);
+        line(p, p, 7.0, style.cone(), cone_color(curvature));
     }
-    out
+    let coat = Coat::new(wish, &triangles);
+    // Circles are to be seen, not what is under them.
+    let pale = if flat.circles.is_empty() { 0.0 } else { 0.75 };
+    let panel = Panel { n_faces: triangles.len(), coat, strokes, pale };
+    render(&shapes, fit.width, fit.height, &panel, threads)
 }
 
-/// A circle as a polygon with a sagitta below a tenth of a pixel.
-fn outline(out: &mut Vec<Primitive>, fit: &Fit, circle: &Circle, z: f64, color: Rgb) {
+/// The whole layout with its circles.
+pub fn fit(flat: &Flat<'_>, size: usize) -> Fit {
+    let ends = |c: &Circle| [-1.0, 1.0].map(|s| [c.center[0] + s * c.radius, c.center[1] + s * c.radius]);
+    let points = flat.corner_uv.iter().flatten().copied();
+    Fit::new(points.chain(flat.circles.iter().flat_map(ends)), size)
+}
+
+struct Panel<'a> {
+    n_faces: usize,
+    coat: Coat<'a>,
+    strokes: Vec<Rgb>,
+    pale: f64,
+}
+
+impl Painter for Panel<'_> {
+    fn paint(&self, _: [f64; 2], hit: Option<&Hit>) -> Rgb {
+        match hit {
+            None => [1.0; 3],
+            Some(hit) if hit.shape < self.n_faces => {
+                mix(self.coat.color(hit.shape, hit.local), [1.0; 3], self.pale)
+            }
+            Some(hit) => self.strokes[hit.shape - self.n_faces],
+        }
+    }
+}
+
+/// A circle as a polygon with a sagitta below a tenth of a pixel, and half the width of its line.
+fn outline(fit: &Fit, circle: &Circle, size: f64) -> (Vec<[f64; 2]>, f64) {
     let radius = fit.scale * circle.radius;
     let center = fit.apply(circle.center);
     let visible = (LEAST_RADIUS..MOST_RADIUS).contains(&radius);
     if !visible || !center.iter().all(|x| x.is_finite()) {
-        return;
+        return (Vec::new(), 0.0);
     }
     let sides = ((radius * 50.0).sqrt() as usize).clamp(10, 400);
     let point = |k: usize| {
         let (sin, cos) = (std::f64::consts::TAU * k as f64 / sides as f64).sin_cos();
         [center[0] + radius * cos, center[1] + radius * sin]
     };
-    let width = (0.25 * radius).clamp(0.25, 1.1);
-    (0..sides).for_each(|k| line(out, point(k), point(k + 1), [z; 2], width, color));
+    let width = (0.12 * radius).clamp(0.12, (6e-4 * size).max(0.12));
+    ((0..=sides).map(point).collect(), width)
 }

@@ -1,18 +1,38 @@
-//! Pictures: the surface with the checkerboard of its layout beside the flat layout.
+//! Pictures: the surface with the pattern of its layout beside the flat layout, and a legend below.
 //!
-//! A small software renderer: everything becomes triangles (lines are ribbons, dots are fans) that go through one
-//! supersampled z-buffer in linear light. Orthographic, so that attributes interpolate linearly.
+//! A small software renderer. Everything becomes triangles and round strokes that go through one supersampled z-buffer
+//! in linear light; light and shadow come from rays over a tree of boxes. Orthographic, so that attributes interpolate
+//! linearly. Every pixel is a fixed computation: a picture is the same for any number of threads.
 
-mod checker;
+mod args;
+mod camera;
+mod coat;
+mod color;
+mod colormap;
+mod fit;
 mod flat;
+mod font;
+mod legend;
+mod light;
+mod normals;
+mod occlusion;
+mod palette;
 mod raster;
 mod solid;
 mod svg;
+mod texture;
+mod upright;
+mod vector;
 
+pub use args::{ColorChoice, FlowPictureArgs, SurfacePictureArgs};
+pub use camera::View;
+pub use colormap::Scale;
 pub use svg::write_svg;
+pub use texture::Texture;
 
-use checker::{Tiles, doubled_area};
-use raster::Rgb;
+use coat::Wish;
+use raster::{Image, doubled_area};
+use texture::Tiles;
 
 /// A surface in space.
 #[derive(Clone, Copy)]
@@ -38,12 +58,55 @@ pub struct Circle {
 #[derive(Clone, Copy)]
 pub struct Flat<'a> {
     pub corner_uv: &'a [[[f64; 2]; 3]],
-    /// Both copies of each cut edge: ends and the number of their seam.
+    /// Both copies of each cut edge: ends in the order of their face, and the number of their seam.
     pub seams: &'a [([f64; 2], [f64; 2], usize)],
+    /// Boundary edges, ends in the order of their face.
     pub boundary: &'a [([f64; 2], [f64; 2])],
     pub cones: &'a [([f64; 2], f64)],
     pub circles: &'a [Circle],
     pub dual_circles: &'a [Circle],
+}
+
+/// A quantity on the surface, to be shown in colours.
+#[derive(Clone)]
+pub struct Field {
+    /// Its value at each face's corners; NaN where it has none.
+    pub corners: Vec<[f64; 3]>,
+    pub scale: Scale,
+}
+
+/// How a picture is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Style {
+    /// Pixels of the longer side of a panel.
+    pub size: usize,
+    pub view: View,
+    pub texture: Texture,
+    /// Draw the edges of the mesh.
+    pub wire: bool,
+    /// Stand the surface on a ground that takes its shadow.
+    pub ground: bool,
+    /// Write at most 192 colours, for a small file.
+    pub palette: bool,
+}
+
+impl Style {
+    /// Half the width of a line, pixels.
+    fn line(&self) -> f64 {
+        (LINE[0] * self.size as f64).max(LINE[1])
+    }
+
+    /// The radius of a cone's ball, pixels.
+    fn cone(&self) -> f64 {
+        (CONE_RADIUS[0] * self.size as f64).max(CONE_RADIUS[1])
+    }
+}
+
+impl Default for Style {
+    fn default() -> Style {
+        let (view, texture) = (View::default(), Texture::Checker);
+        Style { size: 900, view, texture, wire: false, ground: true, palette: false }
+    }
 }
 
 /// What one picture shows: the surface on the left, the layout on the right, or one of them.
@@ -51,17 +114,24 @@ pub struct Flat<'a> {
 pub struct Picture<'a> {
     pub surface: Option<Surface<'a>>,
     pub flat: Option<Flat<'a>>,
+    pub field: Option<&'a Field>,
 }
 
+/// Half the width of a line and the radius of a cone's ball, over the size of a panel, and in pixels at least.
+const LINE: [f64; 2] = [0.0013, 0.7];
+const CONE_RADIUS: [f64; 2] = [0.0062, 2.6];
+/// Space between two panels, over the size of a panel.
+const BETWEEN: f64 = 0.03;
+
 impl Picture<'_> {
-    /// The checks that both panels show; without a surface those of the layout alone.
+    /// The pattern that both panels show; without a surface that of the layout alone.
     fn tiles(&self) -> Option<Tiles> {
         let uv = self.flat.map(|f| f.corner_uv).or(self.surface.and_then(|s| s.corner_uv))?;
         let layout: Vec<f64> = uv.iter().map(|uv| 0.5 * doubled_area(*uv).abs()).collect();
         Some(match &self.surface {
             Some(s) => {
                 let area =
-                    |f: &[u32; 3]| 0.5 * solid::norm(solid::normal(f.map(|v| s.positions[v as usize])));
+                    |f: &[u32; 3]| 0.5 * vector::norm(vector::normal(f.map(|v| s.positions[v as usize])));
                 let surface: Vec<f64> = s.faces.iter().map(area).collect();
                 Tiles::new(&surface, &layout, s.faces, s.positions.len())
             }
@@ -72,93 +142,60 @@ impl Picture<'_> {
             }
         })
     }
+
+    /// The picture, drawn by this many threads (0: one per core).
+    fn draw(&self, style: &Style, threads: usize) -> Image {
+        let tiles = self.tiles();
+        let wish = |corner_uv| Wish {
+            texture: style.texture,
+            tiles: tiles.as_ref(),
+            corner_uv,
+            field: self.field,
+            wire: style.wire,
+            size: style.size,
+        };
+        let surface = self.surface.map(|s| solid::draw(&s, &wish(s.corner_uv), style, threads));
+        let flat = self.flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style, threads));
+        let panels: Vec<Image> = [surface, flat].into_iter().flatten().collect();
+        let gap = (BETWEEN * style.size as f64) as usize * panels.len().saturating_sub(1);
+        let width = (panels.iter().map(|p| p.width).sum::<usize>() + gap).max(1);
+        let height = panels.iter().map(|p| p.height).max().unwrap_or(1);
+        // A legend needs some width.
+        let width = if self.field.is_some() { width.max(style.size * 3 / 4) } else { width };
+        let legend = self.field.map(|f| legend::draw(&f.scale, width, style.size, threads));
+        let mut image = Image::white(width, height + legend.as_ref().map_or(0, |l| l.height));
+        let used = panels.iter().map(|p| p.width).sum::<usize>() + gap;
+        let mut x = (width - used.min(width)) / 2;
+        for panel in &panels {
+            image.put(panel, x, (height - panel.height) / 2);
+            x += panel.width + gap;
+        }
+        if let Some(legend) = &legend {
+            image.put(legend, 0, height);
+        }
+        image
+    }
 }
 
-/// Pixels of a (square) panel.
-const PANEL: usize = 900;
-/// Share of the panel left free on each side.
-const MARGIN: f64 = 0.04;
-/// Line width in pixels.
-const LINE: f64 = 2.2;
-
-/// The picture as a PNG file, drawn by this many threads (0: one per core).
-pub fn png(picture: &Picture<'_>, threads: usize) -> Result<Vec<u8>, png::EncodingError> {
-    let tiles = picture.tiles();
-    let surface = picture.surface.as_ref().map(|s| solid::primitives(s, tiles.as_ref()));
-    let flat = picture.flat.as_ref().zip(tiles.as_ref()).map(|(f, tiles)| flat::primitives(f, tiles));
-    let panels: Vec<Vec<u8>> =
-        [surface, flat].into_iter().flatten().map(|p| raster::render(&p, PANEL, threads)).collect();
-    let width = PANEL * panels.len().max(1);
-    let mut image = vec![255u8; 3 * width * PANEL];
-    for (p, panel) in panels.iter().enumerate() {
-        for (y, row) in panel.chunks_exact(3 * PANEL).enumerate() {
-            let start = 3 * (y * width + p * PANEL);
-            image[start..start + 3 * PANEL].copy_from_slice(row);
-        }
-    }
+/// The picture as a PNG file.
+pub fn png(picture: &Picture<'_>, style: &Style, threads: usize) -> Result<Vec<u8>, png::EncodingError> {
+    let image = picture.draw(style, threads);
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width as u32, PANEL as u32);
-    encoder.set_color(png::ColorType::Rgb);
+    let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::High);
-    encoder.write_header()?.write_image_data(&image)?;
+    if style.palette {
+        let (colors, indices) = palette::reduce(&image.rgb);
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_palette(colors);
+        // Neighbouring numbers of a palette say nothing about each other.
+        encoder.set_filter(png::Filter::NoFilter);
+        encoder.write_header()?.write_image_data(&indices)?;
+    } else {
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.write_header()?.write_image_data(&image.rgb)?;
+    }
     Ok(bytes)
-}
-
-/// Colours of the seams, in turn (linear light).
-fn seam_color(seam: usize) -> Rgb {
-    const COLORS: [Rgb; 8] = [
-        [0.75, 0.02, 0.03],
-        [0.01, 0.17, 0.65],
-        [0.02, 0.36, 0.05],
-        [0.75, 0.25, 0.0],
-        [0.30, 0.03, 0.52],
-        [0.0, 0.40, 0.42],
-        [0.62, 0.02, 0.30],
-        [0.32, 0.22, 0.02],
-    ];
-    COLORS[seam % COLORS.len()]
-}
-
-/// Red for positive curvature, blue for negative.
-fn cone_color(curvature: f64) -> Rgb {
-    if curvature > 0.0 { [0.80, 0.03, 0.02] } else { [0.01, 0.10, 0.70] }
-}
-
-/// Map of a bounding box onto the panel: equal scales, y up, centred.
-struct Fit {
-    scale: f64,
-    offset: [f64; 2],
-}
-
-impl Fit {
-    /// The whole layout with its circles.
-    fn of(flat: &Flat<'_>) -> Fit {
-        let ends = |c: &Circle| [-1.0, 1.0].map(|s| [c.center[0] + s * c.radius, c.center[1] + s * c.radius]);
-        Fit::new(flat.corner_uv.iter().flatten().copied().chain(flat.circles.iter().flat_map(ends)))
-    }
-
-    fn new(points: impl Iterator<Item = [f64; 2]>) -> Fit {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for p in points.filter(|p| p.iter().all(|x| x.is_finite())) {
-            for k in 0..2 {
-                low[k] = low[k].min(p[k]);
-                high[k] = high[k].max(p[k]);
-            }
-        }
-        if low[0] > high[0] {
-            (low, high) = ([0.0; 2], [1.0; 2]);
-        }
-        let size = (high[0] - low[0]).max(high[1] - low[1]).max(f64::MIN_POSITIVE);
-        let scale = PANEL as f64 * (1.0 - 2.0 * MARGIN) / size;
-        let offset = [0, 1].map(|k| 0.5 * PANEL as f64 - scale * 0.5 * (low[k] + high[k]));
-        Fit { scale, offset }
-    }
-
-    /// Pixel coordinates, y down.
-    fn apply(&self, p: [f64; 2]) -> [f64; 2] {
-        [self.scale * p[0] + self.offset[0], PANEL as f64 - (self.scale * p[1] + self.offset[1])]
-    }
 }
 
 #[cfg(test)]

@@ -1,183 +1,227 @@
-//! A supersampled z-buffer for triangles in pixel coordinates.
+//! A supersampled z-buffer for triangles and round strokes in pixel coordinates.
+//!
+//! The z-buffer knows shapes only; what a visible point looks like is asked of a painter, once per visible sample.
 
-use super::checker::Checker;
+use super::color::{Rgb, encode};
 
-/// Linear light, each channel in [0, 1].
-pub type Rgb = [f64; 3];
-
-/// Samples per pixel side.
-const SAMPLES: usize = 4;
+/// Samples per pixel side of a finished picture.
+pub const SAMPLES: usize = 4;
 /// Rows of one band; fixed, so that the image does not depend on the number of threads.
-const BAND: usize = 45;
+const BAND: usize = 16;
 
-/// A triangle to draw. z grows towards the viewer.
-pub struct Primitive {
-    pub xy: [[f64; 2]; 3],
-    pub z: [f64; 3],
-    pub paint: Paint,
-}
-
-/// How a triangle is coloured.
-pub enum Paint {
-    Plain(Rgb),
-    /// Lit by its corner normals (z towards the viewer), with a checkerboard where there is one.
-    Lit {
-        normals: [[f64; 3]; 3],
-        checker: Option<Checker>,
-        base: Rgb,
-    },
-    /// Unlit checkerboard between two light tones.
-    Tiled {
-        checker: Checker,
+/// Something to draw: x to the right and y down in pixels, z towards the viewer.
+#[derive(Clone, Copy)]
+pub enum Shape {
+    Triangle([[f64; 3]; 3]),
+    /// All points within `radius` of a segment: a tube with round ends, a ball where the ends coincide.
+    Capsule {
+        ends: [[f64; 3]; 2],
+        radius: f64,
     },
 }
 
-/// Draw into a square of `size` pixels with this many threads (0: one per core); 8-bit sRGB, row by row.
-pub fn render(primitives: &[Primitive], size: usize, threads: usize) -> Vec<u8> {
-    let mut image = vec![0u8; 3 * size * size];
-    let bands: Vec<(usize, &mut [u8])> = image.chunks_mut(3 * size * BAND).enumerate().collect();
-    let queue = std::sync::Mutex::new(bands.into_iter());
-    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
-    let threads = if threads == 0 { cores } else { threads };
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let next = queue.lock().map(|mut q| q.next()).unwrap_or(None);
-                    let Some((band, rows)) = next else { break };
-                    draw_band(primitives, size, band * BAND, rows);
-                }
-            });
+/// The visible point of a sample.
+#[derive(Clone, Copy)]
+pub struct Hit {
+    /// Index of the shape.
+    pub shape: usize,
+    /// Barycentric coordinates on a triangle; on a capsule the unit normal (x right, y down, z towards the viewer).
+    pub local: [f64; 3],
+    /// Whether a triangle shows the side from which its corners run counterclockwise.
+    pub front: bool,
+}
+
+/// A rectangle of 8-bit sRGB pixels, row by row.
+#[derive(Clone)]
+pub struct Image {
+    pub width: usize,
+    pub height: usize,
+    pub rgb: Vec<u8>,
+}
+
+impl Image {
+    pub fn white(width: usize, height: usize) -> Image {
+        Image { width, height, rgb: vec![255; 3 * width * height] }
+    }
+
+    /// Put another image into this one, its top left corner at (x, y); it must fit.
+    pub fn put(&mut self, other: &Image, x: usize, y: usize) {
+        for (row, line) in other.rgb.chunks_exact(3 * other.width.max(1)).enumerate() {
+            let start = 3 * ((y + row) * self.width + x);
+            self.rgb[start..start + line.len()].copy_from_slice(line);
+        }
+    }
+}
+
+/// What a painter makes of a sample at (x, y): of the shape that is visible there, or of the background.
+pub trait Painter: Sync {
+    fn paint(&self, at: [f64; 2], hit: Option<&Hit>) -> Rgb;
+}
+
+/// Draw with this many threads (0: one per core).
+pub fn render(
+    shapes: &[Shape],
+    width: usize,
+    height: usize,
+    painter: &impl Painter,
+    threads: usize,
+) -> Image {
+    let mut image = Image::white(width, height);
+    let bands: Vec<&mut [u8]> = image.rgb.chunks_mut((3 * width * BAND).max(1)).collect();
+    in_parallel(bands, threads, |band, rows| {
+        let samples = visible(shapes, width, band * BAND, rows.len() / (3 * width), SAMPLES);
+        let step = 1.0 / SAMPLES as f64;
+        for (pixel, out) in rows.chunks_exact_mut(3).enumerate() {
+            let (x, y) = (pixel % width, pixel / width);
+            if samples.nothing_in(x, y) {
+                // The background is smooth: one look is enough.
+                let color = painter.paint([x as f64 + 0.5, (band * BAND + y) as f64 + 0.5], None);
+                (0..3).for_each(|k| out[k] = encode(color[k]));
+                continue;
+            }
+            let mut sum = [0.0; 3];
+            for s in 0..SAMPLES * SAMPLES {
+                let (sx, sy) = (x * SAMPLES + s % SAMPLES, y * SAMPLES + s / SAMPLES);
+                let at = [(sx as f64 + 0.5) * step, (band * BAND) as f64 + (sy as f64 + 0.5) * step];
+                let color = painter.paint(at, samples.hit(shapes, sx, sy, at).as_ref());
+                (0..3).for_each(|k| sum[k] += color[k]);
+            }
+            (0..3).for_each(|k| out[k] = encode(sum[k] * step * step));
         }
     });
     image
 }
 
-fn draw_band(primitives: &[Primitive], size: usize, first_row: usize, rows: &mut [u8]) {
-    let height = rows.len() / (3 * size);
-    let (w, h) = (size * SAMPLES, height * SAMPLES);
-    let mut depth = vec![f64::NEG_INFINITY; w * h];
-    let mut color = vec![[1.0f32; 3]; w * h];
-    for primitive in primitives {
-        draw(primitive, (w, h), first_row, &mut depth, &mut color);
-    }
-    for y in 0..height {
-        for x in 0..size {
-            let mut sum = [0.0f32; 3];
-            for sy in 0..SAMPLES {
-                for sx in 0..SAMPLES {
-                    let c = color[(y * SAMPLES + sy) * w + x * SAMPLES + sx];
-                    (0..3).for_each(|k| sum[k] += c[k]);
+/// Do the work for each item of a list; which thread does what changes nothing.
+pub fn in_parallel<T: Send>(items: Vec<T>, threads: usize, work: impl Fn(usize, T) + Sync) {
+    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let threads = if threads == 0 { cores } else { threads }.min(items.len());
+    let queue = std::sync::Mutex::new(items.into_iter().enumerate());
+    let take = || queue.lock().map(|mut q| q.next()).unwrap_or(None);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some((index, item)) = take() {
+                    work(index, item);
+                }
+            });
+        }
+    });
+}
+
+/// Which shape is nearest at each sample of a few rows.
+pub struct Samples {
+    width: usize,
+    nearest: Vec<(f64, u32)>,
+}
+
+/// No shape.
+const NOTHING: u32 = u32::MAX;
+
+/// Find the visible shapes of `rows` pixel rows from `first` on, with `per_pixel` samples on each pixel's side.
+pub fn visible(shapes: &[Shape], width: usize, first: usize, rows: usize, per_pixel: usize) -> Samples {
+    let (w, h) = (width * per_pixel, rows * per_pixel);
+    let mut samples = Samples { width: w, nearest: vec![(f64::NEG_INFINITY, NOTHING); w * h] };
+    let scale = per_pixel as f64;
+    let pixel = |x: usize, y: usize| [(x as f64 + 0.5) / scale, first as f64 + (y as f64 + 0.5) / scale];
+    for (index, shape) in shapes.iter().enumerate() {
+        let Some([x, y]) = shape.bounds() else { continue };
+        let range = |[low, high]: [f64; 2], n: usize| {
+            let to = |v: f64| (v - 0.5).ceil().clamp(0.0, n as f64) as usize;
+            to(low * scale)..to(high * scale + 1.0)
+        };
+        for sy in range(y.map(|y| y - first as f64), h) {
+            for sx in range(x, w) {
+                if let Some((z, _)) = shape.cover(pixel(sx, sy)) {
+                    let nearest = &mut samples.nearest[sy * w + sx];
+                    if z > nearest.0 {
+                        *nearest = (z, index as u32);
+                    }
                 }
             }
-            let n = (SAMPLES * SAMPLES) as f32;
-            (0..3).for_each(|k| rows[3 * (y * size + x) + k] = encode(sum[k] / n));
         }
     }
+    samples
 }
 
-/// sRGB transfer function.
-pub fn encode(x: f32) -> u8 {
-    let x = x.clamp(0.0, 1.0);
-    let y = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
-    (255.0 * y + 0.5) as u8
-}
-
-fn draw(p: &Primitive, (w, h): (usize, usize), first_row: usize, depth: &mut [f64], color: &mut [[f32; 3]]) {
-    let s = SAMPLES as f64;
-    let at = p.xy.map(|[x, y]| [s * x, s * (y - first_row as f64)]);
-    if at.iter().flatten().chain(&p.z).any(|x| !x.is_finite()) {
-        return;
+impl Samples {
+    /// Whether no sample of a pixel shows a shape.
+    fn nothing_in(&self, x: usize, y: usize) -> bool {
+        let row = |s: usize| (y * SAMPLES + s) * self.width + x * SAMPLES;
+        (0..SAMPLES).all(|s| self.nearest[row(s)..row(s) + SAMPLES].iter().all(|n| n.1 == NOTHING))
     }
-    let area = cross(at[0], at[1], at[2]);
-    if area == 0.0 {
-        return;
-    }
-    let range = |k: usize, n: usize| {
-        let low = at.iter().map(|a| a[k]).fold(f64::INFINITY, f64::min);
-        let high = at.iter().map(|a| a[k]).fold(f64::NEG_INFINITY, f64::max);
-        ((low - 0.5).ceil().max(0.0) as usize)..((high + 0.5).ceil().clamp(0.0, n as f64) as usize)
-    };
-    for y in range(1, h) {
-        for x in range(0, w) {
-            let sample = [x as f64 + 0.5, y as f64 + 0.5];
-            let b = [
-                cross(sample, at[1], at[2]) / area,
-                cross(at[0], sample, at[2]) / area,
-                cross(at[0], at[1], sample) / area,
-            ];
-            if b.iter().any(|&b| b < 0.0) {
-                continue;
-            }
-            let z = b[0] * p.z[0] + b[1] * p.z[1] + b[2] * p.z[2];
-            let i = y * w + x;
-            if z > depth[i] {
-                depth[i] = z;
-                // y runs down: a triangle seen from its front has negative area.
-                color[i] = shade(&p.paint, b, area < 0.0).map(|x| x as f32);
-            }
-        }
-    }
-}
 
-fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-fn shade(paint: &Paint, b: [f64; 3], front: bool) -> Rgb {
-    match paint {
-        Paint::Plain(color) => *color,
-        Paint::Tiled { checker } => mix([0.94, 0.94, 0.92], [0.62, 0.72, 0.84], checker.value(b)),
-        Paint::Lit { normals, checker, base } => {
-            let n = [0, 1, 2].map(|k| b[0] * normals[0][k] + b[1] * normals[1][k] + b[2] * normals[2][k]);
-            let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
-            // Two-sided: the inside is lit like the outside and tinted.
-            let n = n.map(|x| if length > 0.0 { x / length * if front { 1.0 } else { -1.0 } } else { 0.57 });
-            let albedo = match checker {
-                Some(checker) => mix([0.90, 0.88, 0.84], [0.10, 0.24, 0.48], checker.value(b)),
-                None => *base,
-            };
-            let albedo = if front { albedo } else { mix(albedo, [0.5, 0.18, 0.08], 0.6) };
-            let light = |direction: [f64; 3]| (0..3).map(|k| direction[k] * n[k]).sum::<f64>().max(0.0);
-            let key = light([-0.45, 0.55, 0.70]);
-            let fill = light([0.80, 0.05, 0.60]);
-            let sky = 0.5 + 0.5 * n[1];
-            let shine = light([-0.24, 0.30, 0.923]).powi(40);
-            albedo.map(|a| a * (0.80 * key + 0.22 * fill + 0.10 + 0.14 * sky) + 0.08 * shine)
-        }
-    }
-}
-
-fn mix(a: Rgb, b: Rgb, t: f64) -> Rgb {
-    [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]))
-}
-
-/// A line of `width` pixels with round-ish ends (half a width longer on both sides).
-pub fn line(out: &mut Vec<Primitive>, a: [f64; 2], b: [f64; 2], z: [f64; 2], width: f64, color: Rgb) {
-    let d = [b[0] - a[0], b[1] - a[1]];
-    let length = d[0].hypot(d[1]);
-    let t = if length > 0.0 {
-        [0.5 * width * d[0] / length, 0.5 * width * d[1] / length]
-    } else {
-        [0.5 * width, 0.0]
-    };
-    let (a, b) = ([a[0] - 0.5 * t[0], a[1] - 0.5 * t[1]], [b[0] + 0.5 * t[0], b[1] + 0.5 * t[1]]);
-    let corner = |p: [f64; 2], side: f64| [p[0] - side * t[1], p[1] + side * t[0]];
-    let (p, q, r, s) = (corner(a, 1.0), corner(a, -1.0), corner(b, -1.0), corner(b, 1.0));
-    out.push(Primitive { xy: [p, q, r], z: [z[0], z[0], z[1]], paint: Paint::Plain(color) });
-    out.push(Primitive { xy: [p, r, s], z: [z[0], z[1], z[1]], paint: Paint::Plain(color) });
-}
-
-/// A disk of `radius` pixels facing the viewer, with a white rim.
-pub fn dot(out: &mut Vec<Primitive>, at: [f64; 2], z: f64, radius: f64, color: Rgb) {
-    const SIDES: usize = 20;
-    for (radius, z, color) in [(radius + 1.3, z, [1.0; 3]), (radius, z + 0.1, color)] {
-        let rim = |k: usize| {
-            let (sin, cos) = (std::f64::consts::TAU * k as f64 / SIDES as f64).sin_cos();
-            [at[0] + radius * cos, at[1] + radius * sin]
+    /// What is visible at a sample, whose pixel coordinates are `at`.
+    pub fn hit(&self, shapes: &[Shape], x: usize, y: usize, at: [f64; 2]) -> Option<Hit> {
+        let (_, index) = self.nearest[y * self.width + x];
+        let shape = shapes.get(index as usize)?;
+        let (_, local) = shape.cover(at)?;
+        // y runs down: a triangle seen from its front has negative area.
+        let front = match shape {
+            Shape::Triangle(p) => doubled_area(p.map(|p| [p[0], p[1]])) < 0.0,
+            Shape::Capsule { .. } => true,
         };
-        for k in 0..SIDES {
-            out.push(Primitive { xy: [at, rim(k), rim(k + 1)], z: [z; 3], paint: Paint::Plain(color) });
+        Some(Hit { shape: index as usize, local, front })
+    }
+}
+
+/// Twice the signed area.
+pub fn doubled_area(p: [[f64; 2]; 3]) -> f64 {
+    (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0])
+}
+
+impl Shape {
+    /// Least and largest x and y; nothing where a coordinate is no number.
+    fn bounds(&self) -> Option<[[f64; 2]; 2]> {
+        let of = |points: &[[f64; 3]], by: f64| {
+            let finite = points.iter().flatten().all(|x| x.is_finite());
+            finite.then(|| {
+                [0, 1].map(|k| {
+                    let low = points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+                    let high = points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+                    [low - by, high + by]
+                })
+            })
+        };
+        match self {
+            Shape::Triangle(p) => of(p, 0.0),
+            Shape::Capsule { ends, radius } => of(ends, *radius),
+        }
+    }
+
+    /// Depth and local coordinates where the shape covers a point of the screen.
+    #[inline]
+    fn cover(&self, at: [f64; 2]) -> Option<(f64, [f64; 3])> {
+        match self {
+            Shape::Triangle(p) => {
+                let [a, b, c] = p.map(|p| [p[0], p[1]]);
+                let area = doubled_area([a, b, c]);
+                if area == 0.0 {
+                    return None;
+                }
+                let weights = [
+                    doubled_area([at, b, c]) / area,
+                    doubled_area([a, at, c]) / area,
+                    doubled_area([a, b, at]) / area,
+                ];
+                let inside = weights.iter().all(|&w| w >= 0.0);
+                let z = weights[0] * p[0][2] + weights[1] * p[1][2] + weights[2] * p[2][2];
+                inside.then_some((z, weights))
+            }
+            Shape::Capsule { ends: [a, b], radius } => {
+                let along = [b[0] - a[0], b[1] - a[1]];
+                let square = along[0] * along[0] + along[1] * along[1];
+                let t = (at[0] - a[0]) * along[0] + (at[1] - a[1]) * along[1];
+                let t = if square > 0.0 { (t / square).clamp(0.0, 1.0) } else { 0.0 };
+                let off = [at[0] - a[0] - t * along[0], at[1] - a[1] - t * along[1]];
+                let rest = radius * radius - off[0] * off[0] - off[1] * off[1];
+                if rest < 0.0 {
+                    return None;
+                }
+                let rise = rest.sqrt();
+                let normal = [off[0] / radius, off[1] / radius, rise / radius];
+                Some((a[2] + t * (b[2] - a[2]) + rise, normal))
+            }
         }
     }
 }

@@ -1,158 +1,180 @@
-//! The surface in space: camera, normals, seams and cones on it.
+//! The surface in space.
 
-use super::checker::{Checker, Tiles};
-use super::raster::{Paint, Primitive, Rgb, dot, line};
-use super::{Fit, LINE, Surface, cone_color, seam_color};
+use super::camera::Camera;
+use super::coat::{Coat, Wish};
+use super::color::{INK, Rgb, cone_color, mix, seam_color};
+use super::fit::Fit;
+use super::light::Lights;
+use super::normals::corner_normals;
+use super::occlusion::{Caster, Field, Ground, Open, Point, over};
+use super::raster::{Hit, Image, Painter, Shape, render};
+use super::vector::{V3, add, at, dot, normal, scaled, unit};
+use super::{Style, Surface};
 
-type V3 = [f64; 3];
+/// The ground is shown from this elevation on (sine).
+const LOWEST: f64 = 0.1;
+/// How much of the way to the end of the shadow the picture reaches.
+const SHADOW: f64 = 0.5;
+/// Over this share of the picture's size the ground fades into the white around the panel.
+const FADE: f64 = 0.1;
+/// The inside of a surface has this tint.
+const INSIDE: Rgb = [0.5, 0.18, 0.08];
 
-/// Colour of a surface without layout.
-const CLAY: Rgb = [0.62, 0.56, 0.48];
-/// How far lines and dots are lifted off the surface, as a share of its size.
-const LIFT: f64 = 0.006;
-/// Share of the area that must face one way for a side to be the outside: none does on a closed surface.
-const FACING: f64 = 1e-6;
-/// The view is this far from the normal of the widest side: depth shows without hiding the shape.
-const TILT: [f64; 2] = [0.45, 0.35];
-
-pub fn primitives(surface: &Surface<'_>, tiles: Option<&Tiles>) -> Vec<Primitive> {
+/// Draw a surface with its light and shadows.
+pub fn draw(surface: &Surface<'_>, wish: &Wish<'_>, style: &Style, threads: usize) -> Image {
     let finite = |p: &V3| p.iter().all(|x| x.is_finite());
     if surface.positions.is_empty() || !surface.positions.iter().all(finite) {
-        return Vec::new();
+        return Image::white(style.size, style.size);
     }
-    let (view, centre) = camera(surface.positions, surface.faces);
-    let seen: Vec<V3> =
-        surface.positions.iter().map(|p| view.map(|axis| dot3(axis, sub(*p, centre)))).collect();
-    let fit = Fit::new(seen.iter().map(|p| [p[0], p[1]]));
-    let pixels: Vec<[f64; 2]> = seen.iter().map(|p| fit.apply([p[0], p[1]])).collect();
-    let depth: Vec<f64> = seen.iter().map(|p| fit.scale * p[2]).collect();
-    let corners = |f: usize| surface.faces[f].map(|v| v as usize);
-    let normals = vertex_normals(&seen, surface.faces);
-    let mut out = Vec::with_capacity(surface.faces.len());
-    for f in 0..surface.faces.len() {
-        let c = corners(f);
-        let xy = c.map(|v| pixels[v]);
-        let checker = surface.corner_uv.zip(tiles).map(|(uv, tiles)| Checker::new(uv[f], tiles, f, xy));
-        let paint = Paint::Lit { normals: c.map(|v| normals[v]), checker, base: CLAY };
-        out.push(Primitive { xy, z: c.map(|v| depth[v]), paint });
-    }
-    let lift = LIFT * super::PANEL as f64;
-    for &(a, b, seam) in surface.seams {
-        let (a, b) = (a as usize, b as usize);
-        line(&mut out, pixels[a], pixels[b], [depth[a] + lift, depth[b] + lift], LINE, seam_color(seam));
-    }
-    for &(v, curvature) in surface.cones {
-        let v = v as usize;
-        dot(&mut out, pixels[v], depth[v] + 2.0 * lift, 5.0, cone_color(curvature));
-    }
-    out
+    let scene = Scene::new(surface, wish, style, threads);
+    render(&scene.shapes, scene.size[0], scene.size[1], &scene, threads)
 }
 
-/// Rows: screen x, screen y, towards the viewer. From the principal axes of the points: the longest across, the shortest
-/// nearly towards the viewer. An open surface shows its outside. With the centre of the points.
-fn camera(points: &[V3], faces: &[[u32; 3]]) -> ([V3; 3], V3) {
-    let n = points.len() as f64;
-    let mean = [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
-    let mut m = [[0.0; 3]; 3];
-    for p in points {
-        let d = [0, 1, 2].map(|k| p[k] - mean[k]);
-        for i in 0..3 {
-            (0..3).for_each(|j| m[i][j] += d[i] * d[j]);
+/// Everything that a visible point of the panel needs.
+struct Scene<'a> {
+    /// The faces, then seams, boundary and cones.
+    shapes: Vec<Shape>,
+    size: [usize; 2],
+    n_faces: usize,
+    corners: Vec<[V3; 3]>,
+    normals: Vec<[V3; 3]>,
+    coat: Coat<'a>,
+    /// Colours of what follows the faces.
+    strokes: Vec<Rgb>,
+    lights: Lights,
+    ground: Option<Ground>,
+    caster: Caster,
+    field: Option<Field>,
+    /// Width in pixels over which the ground fades at the edge.
+    margin: f64,
+}
+
+impl<'a> Scene<'a> {
+    fn new(surface: &Surface<'_>, wish: &Wish<'a>, style: &Style, threads: usize) -> Scene<'a> {
+        let unit_size = |points: &[V3]| {
+            let most = points.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+            if most > 0.0 { 1.0 / most } else { 1.0 }
+        };
+        // Scaled, so that neither tiny nor huge coordinates under- or overflow in products.
+        let factor = unit_size(surface.positions);
+        let points: Vec<V3> = surface.positions.iter().map(|p| scaled(*p, factor)).collect();
+        let camera = Camera::choose(&points, surface.faces, &style.view, threads);
+        let turned = |n: V3| {
+            let [x, y, z] = camera.apply(n);
+            [x, -y, z]
+        };
+        let up = [camera.up[0], -camera.up[1], camera.up[2]];
+        let lights = Lights::new(up);
+        let seen: Vec<V3> = points.iter().map(|p| camera.apply(*p)).collect();
+        // With the shadow on the ground, where there is one.
+        let height = |p: &V3| dot(camera.up, *p);
+        let lowest = seen.iter().map(height).fold(f64::INFINITY, f64::min);
+        let has_ground = style.ground && camera.up[2] > LOWEST;
+        let key = [lights.key[0], -lights.key[1], lights.key[2]];
+        let shadow = |p: &V3| {
+            let fall = (height(p) - lowest) / dot(camera.up, key);
+            let [x, y, _] = add(*p, scaled(key, -SHADOW * fall));
+            [x, y]
+        };
+        let shadows = seen.iter().filter(|_| has_ground).map(shadow);
+        let fit = Fit::new(seen.iter().map(|p| [p[0], p[1]]).chain(shadows), style.size);
+        let pixel = |p: &V3| {
+            let [x, y] = fit.apply([p[0], p[1]]);
+            [x, y, fit.scale * p[2]]
+        };
+        let placed: Vec<V3> = seen.iter().map(pixel).collect();
+        let level = placed.iter().map(|p| dot(up, *p)).fold(f64::INFINITY, f64::min);
+        let ground = has_ground.then_some(Ground { up, level });
+
+        let corners: Vec<[V3; 3]> = surface.faces.iter().map(|f| f.map(|v| placed[v as usize])).collect();
+        let normals: Vec<[V3; 3]> =
+            corner_normals(&points, surface.faces).into_iter().map(|n| n.map(turned)).collect();
+        let flat: Vec<[[f64; 2]; 3]> = corners.iter().map(|c| c.map(|p| [p[0], p[1]])).collect();
+        let coat = Coat::new(wish, &flat);
+        let mut shapes: Vec<Shape> = corners.iter().map(|c| Shape::Triangle(*c)).collect();
+        let caster = Caster::new(&shapes, lights.key, style.size);
+        let mut strokes = Vec::new();
+        let mut tube = |a: u32, b: u32, radius: f64, color: Rgb| {
+            let ends = [placed[a as usize], placed[b as usize]];
+            shapes.push(Shape::Capsule { ends, radius });
+            strokes.push(color);
+        };
+        border(surface.faces).into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
+        surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.25 * style.line(), seam_color(seam)));
+        surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, style.cone(), cone_color(curvature)));
+
+        let size = [fit.width, fit.height];
+        let n_faces = corners.len();
+        let mut scene = Scene {
+            shapes,
+            size,
+            n_faces,
+            corners,
+            normals,
+            coat,
+            strokes,
+            lights,
+            ground,
+            caster,
+            field: None,
+            margin: FADE * style.size as f64,
+        };
+        let faces = &scene.shapes[..n_faces];
+        let field = Field::new(&scene.caster, faces, size, threads, |at, hit| scene.describe(at, hit));
+        scene.field = Some(field);
+        scene
+    }
+
+    /// The point of a face, or of the ground behind it all.
+    fn describe(&self, pixel: [f64; 2], hit: Option<&Hit>) -> Option<Point> {
+        let Some(hit) = hit else { return self.ground.map(|g| g.below(pixel)) };
+        let (corners, normals) = (self.corners[hit.shape], self.normals[hit.shape]);
+        let toward = |n: V3| if hit.front { n } else { scaled(n, -1.0) };
+        let smooth = unit(at(hit.local, normals)).map(toward);
+        // The panel is a mirror image of space, so the order of the corners turns the normal around.
+        let flat = unit(normal(corners)).map(|n| if n[2] < 0.0 { scaled(n, -1.0) } else { n });
+        let flat = flat.or(smooth).unwrap_or([0.0, 0.0, 1.0]);
+        let xyz = over(hit.local, corners, normals.map(toward));
+        Some(Point { xyz, normal: smooth.unwrap_or(flat), flat, on_ground: false })
+    }
+
+    /// The ground ends in white before the panel does: 1 inside, 0 at the edge.
+    fn fade(&self, pixel: [f64; 2]) -> f64 {
+        let rest = |k: usize| pixel[k].min(self.size[k] as f64 - pixel[k]);
+        let t = (rest(0).min(rest(1)) / self.margin).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    }
+
+    /// The light at a point near one that a pixel shows.
+    fn open(&self, pixel: [f64; 2], point: &Point) -> Open {
+        let near = self.field.as_ref().and_then(|field| field.at(pixel, point));
+        near.unwrap_or_else(|| self.caster.open(point, 0))
+    }
+}
+
+impl Painter for Scene<'_> {
+    fn paint(&self, pixel: [f64; 2], hit: Option<&Hit>) -> Rgb {
+        let Some(hit) = hit else {
+            let Some(ground) = &self.ground else { return [1.0; 3] };
+            let shade = Lights::on_ground(self.open(pixel, &ground.below(pixel)));
+            return mix([1.0; 3], shade, self.fade(pixel));
+        };
+        if hit.shape < self.n_faces {
+            let Some(point) = self.describe(pixel, Some(hit)) else { return [1.0; 3] };
+            let albedo = self.coat.color(hit.shape, hit.local);
+            let albedo = if hit.front { albedo } else { mix(albedo, INSIDE, 0.45) };
+            return self.lights.on(albedo, point.normal, self.open(pixel, &point));
         }
+        // Tubes and balls are marks on the surface: lit, but not shaded by it.
+        self.lights.on(self.strokes[hit.shape - self.n_faces], hit.local, Open::FULLY)
     }
-    let axes = principal_axes(m);
-    // A right-handed frame whose axes point the way the coordinates do, for want of anything better.
-    let ahead = |a: V3| {
-        let largest = (0..3).fold(0, |l, k| if a[k].abs() > a[l].abs() { k } else { l });
-        if a[largest] < 0.0 { a.map(|x| -x) } else { a }
-    };
-    let x = ahead(axes[0]);
-    let mut y = ahead(axes[1]);
-    let (mut outside, mut total) = ([0.0; 3], 0.0);
-    for face in faces {
-        let n = normal(face.map(|v| points[v as usize]));
-        total += norm(n);
-        (0..3).for_each(|k| outside[k] += n[k]);
-    }
-    // Mostly vertical things stand upright: the longer axis goes up if it is the vertical one of the file.
-    let (x, z) = if x[1].abs() > 0.8 {
-        let z = cross(ahead(y), x);
-        let across = ahead(y);
-        y = x;
-        (across, z)
-    } else {
-        (x, cross(x, y))
-    };
-    // Half a turn about the vertical where the viewer would look at the back.
-    let (x, z) = if dot3(outside, z) < -FACING * total { (x.map(|a| -a), z.map(|a| -a)) } else { (x, z) };
-    let (sa, ca) = TILT[0].sin_cos();
-    let turned_x = [0, 1, 2].map(|k| ca * x[k] - sa * z[k]);
-    let turned_z = [0, 1, 2].map(|k| sa * x[k] + ca * z[k]);
-    let (sb, cb) = TILT[1].sin_cos();
-    let up = [0, 1, 2].map(|k| cb * y[k] - sb * turned_z[k]);
-    let towards = [0, 1, 2].map(|k| sb * y[k] + cb * turned_z[k]);
-    ([turned_x, up, towards], mean)
 }
 
-/// Eigenvectors of a symmetric matrix, largest eigenvalue first, by Jacobi rotations.
-fn principal_axes(mut m: [[f64; 3]; 3]) -> [V3; 3] {
-    let mut v = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    for _ in 0..30 {
-        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            if m[p][q].abs() <= 1e-14 * (m[p][p].abs() + m[q][q].abs()) {
-                continue;
-            }
-            let theta = 0.5 * f64::atan2(2.0 * m[p][q], m[p][p] - m[q][q]);
-            let (s, c) = theta.sin_cos();
-            for row in &mut m {
-                (row[p], row[q]) = (c * row[p] + s * row[q], c * row[q] - s * row[p]);
-            }
-            for k in 0..3 {
-                (m[p][k], m[q][k]) = (c * m[p][k] + s * m[q][k], c * m[q][k] - s * m[p][k]);
-                (v[p][k], v[q][k]) = (c * v[p][k] + s * v[q][k], c * v[q][k] - s * v[p][k]);
-            }
-        }
-    }
-    let mut order = [0, 1, 2];
-    order.sort_by(|&a, &b| m[b][b].total_cmp(&m[a][a]));
-    order.map(|k| v[k])
-}
-
-/// Angle-weighted vertex normals.
-fn vertex_normals(points: &[V3], faces: &[[u32; 3]]) -> Vec<V3> {
-    let mut normals = vec![[0.0; 3]; points.len()];
-    for face in faces {
-        let p = face.map(|v| points[v as usize]);
-        let n = normal(p);
-        let length = norm(n);
-        if length == 0.0 {
-            continue;
-        }
-        for k in 0..3 {
-            let (a, b) = (sub(p[(k + 1) % 3], p[k]), sub(p[(k + 2) % 3], p[k]));
-            let angle = f64::atan2(length, dot3(a, b));
-            (0..3).for_each(|i| normals[face[k] as usize][i] += angle * n[i] / length);
-        }
-    }
-    normals
-}
-
-fn sub(a: V3, b: V3) -> V3 {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn cross(a: V3, b: V3) -> V3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-pub fn normal(p: [V3; 3]) -> V3 {
-    cross(sub(p[1], p[0]), sub(p[2], p[0]))
-}
-
-fn dot3(a: V3, b: V3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub fn norm(a: V3) -> f64 {
-    dot3(a, a).sqrt()
+/// The edges of exactly one face.
+pub fn border(faces: &[[u32; 3]]) -> Vec<(u32, u32)> {
+    let sides = faces.iter().flat_map(|f| [0, 1, 2].map(|k| (f[k], f[(k + 1) % 3])));
+    let mut edges: Vec<(u32, u32)> = sides.map(|(a, b)| (a.min(b), a.max(b))).collect();
+    edges.sort_unstable();
+    let alone = |run: &[(u32, u32)]| (run.len() == 1).then(|| run[0]);
+    edges.chunk_by(|a, b| a == b).filter_map(alone).collect()
 }

@@ -1,108 +1,305 @@
-use super::checker::{Checker, Tiles};
-use super::raster::{Paint, Primitive, render};
+use super::camera::{Camera, View};
+use super::normals::corner_normals;
+use super::occlusion::{Caster, Ground, Point};
+use super::raster::{Hit, Painter, Shape, render};
+use super::vector::{V3, dot, norm, sub, unit};
 use super::*;
+use ricci::mesh::io::Soup;
 use ricci::mesh::shapes;
 
-fn pixel(image: &[u8], x: usize, y: usize) -> [u8; 3] {
-    let i = 3 * (y * PANEL + x);
-    [image[i], image[i + 1], image[i + 2]]
-}
+const SIZE: usize = 240;
 
-fn covered(image: &[u8]) -> f64 {
-    image.chunks_exact(3).filter(|p| **p != [255; 3]).count() as f64 / (PANEL * PANEL) as f64
-}
+/// Paints every shape in one of two colours.
+struct Flags;
 
-fn surface<'a>(soup: &'a ricci::mesh::io::Soup, uv: Option<&'a [[[f64; 2]; 3]]>) -> Surface<'a> {
-    Surface { positions: &soup.positions, faces: &soup.faces, corner_uv: uv, seams: &[], cones: &[] }
-}
-
-#[test]
-fn a_sphere_fills_its_circle() {
-    let soup = shapes::icosphere(20).unwrap();
-    let image = render(&solid::primitives(&surface(&soup, None), None), PANEL, 0);
-    let expected = std::f64::consts::FRAC_PI_4 * (1.0 - 2.0 * MARGIN).powi(2);
-    assert!((covered(&image) - expected).abs() < 0.01, "{} of {expected}", covered(&image));
-}
-
-#[test]
-fn the_nearer_triangle_hides_the_farther_one_in_either_order() {
-    let whole = [[0.0, 0.0], [2000.0, 0.0], [0.0, 2000.0]];
-    let triangle = |z: f64, color| Primitive { xy: whole, z: [z; 3], paint: Paint::Plain(color) };
-    let (near, far) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
-    for order in [[triangle(1.0, near), triangle(0.0, far)], [triangle(0.0, far), triangle(1.0, near)]] {
-        assert_eq!(pixel(&render(&order, PANEL, 0), 100, 100), [255, 0, 0]);
+impl Painter for Flags {
+    fn paint(&self, _: [f64; 2], hit: Option<&Hit>) -> [f64; 3] {
+        hit.map_or([1.0; 3], |h| if h.shape == 0 { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] })
     }
 }
 
+fn style() -> Style {
+    Style { size: SIZE, texture: Texture::None, ground: false, ..Style::default() }
+}
+
+fn surface<'a>(soup: &'a Soup, uv: Option<&'a [[[f64; 2]; 3]]>) -> Surface<'a> {
+    Surface { positions: &soup.positions, faces: &soup.faces, corner_uv: uv, seams: &[], cones: &[] }
+}
+
+fn draw(surface: Surface<'_>, style: &Style) -> Image {
+    Picture { surface: Some(surface), flat: None, field: None }.draw(style, 0)
+}
+
+fn pixels(image: &Image) -> impl Iterator<Item = &[u8]> {
+    image.rgb.chunks_exact(3)
+}
+
+/// A cube of two triangles a side.
+fn cube() -> Soup {
+    let corner = |k: u32| [f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)];
+    let squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let faces = squares.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+    Soup::new((0..8).map(corner).collect(), faces)
+}
+
 #[test]
-fn neighbouring_triangles_leave_no_crack() {
-    let soup = shapes::disk(9).unwrap();
-    let white = |p: [f64; 2]| [p[0] * 437.0 + 450.0, p[1] * 437.0 + 450.0];
-    let primitives: Vec<Primitive> = soup
-        .faces
-        .iter()
-        .map(|f| f.map(|v| white([soup.positions[v as usize][0], soup.positions[v as usize][1]])))
-        .map(|xy| Primitive { xy, z: [0.0; 3], paint: Paint::Plain([0.0; 3]) })
-        .collect();
-    let image = render(&primitives, PANEL, 2);
-    for (x, y) in (60..840).flat_map(|x| (60..840).map(move |y| (x, y))) {
-        if (x as f64 - 450.0).hypot(y as f64 - 450.0) < 400.0 {
-            assert_eq!(pixel(&image, x, y), [0; 3], "({x}, {y})");
+fn a_sphere_fills_its_circle_and_touches_the_margins() {
+    let soup = shapes::icosphere(20).unwrap();
+    let image = draw(surface(&soup, None), &style());
+    let covered = pixels(&image).filter(|p| **p != [255; 3]).count() as f64;
+    let expected = std::f64::consts::FRAC_PI_4 * (1.0 - 2.0 * fit::MARGIN).powi(2) * (SIZE * SIZE) as f64;
+    assert!((covered / expected - 1.0).abs() < 0.03, "{covered} of {expected}");
+}
+
+#[test]
+fn every_view_fills_its_panel_to_the_margin_on_all_sides() {
+    let soup = shapes::ellipsoid([3.0, 2.0, 1.0], 12).unwrap();
+    for angles in [None, Some([0.3, 0.9]), Some([2.0, -0.4])] {
+        let view = View { angles, ..View::default() };
+        let image = draw(surface(&soup, None), &Style { view, ..style() });
+        assert_eq!(image.width.max(image.height), SIZE, "{angles:?}");
+        let used = |x: usize, y: usize| image.rgb[3 * (y * image.width + x)..][..3] != [255; 3];
+        let margin = (SIZE as f64 * fit::MARGIN) as usize;
+        let column = |x: usize| (0..image.height).any(|y| used(x, y));
+        let row = |y: usize| (0..image.width).any(|x| used(x, y));
+        let first_column = (0..image.width).find(|x| column(*x));
+        let first_row = (0..image.height).find(|y| row(*y));
+        let last_column = (0..image.width).rev().find(|x| column(*x)).map(|x| image.width - 1 - x);
+        let last_row = (0..image.height).rev().find(|y| row(*y)).map(|y| image.height - 1 - y);
+        for side in [first_column, last_column, first_row, last_row].into_iter().flatten() {
+            assert!(side.abs_diff(margin) <= 1, "{side} of {margin} at {angles:?}");
         }
     }
 }
 
 #[test]
-fn checks_finer_than_a_pixel_fade_to_their_mean() {
-    let xy = [[0.0, 0.0], [2000.0, 0.0], [0.0, 2000.0]];
-    let tiles = |size| Tiles { size, level: vec![[0.0; 3]] };
-    assert_eq!(Checker::new(xy, &tiles(0.5), 0, xy).value([0.3, 0.3, 0.4]), 0.5);
-    assert!([0.0, 1.0].contains(&Checker::new(xy, &tiles(50.0), 0, xy).value([0.3, 0.3, 0.4])));
-    // Levels count octaves of eight from the median scale.
-    let faces: Vec<[u32; 3]> = (0..5).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
-    let tiles = Tiles::new(&[1.0; 5], &[1.0, 1.0, 1.0, 64.0, 64.0 * 64.0], &faces, 15);
-    assert!((tiles.level[3][0] - 1.0).abs() < 1e-12 && (tiles.level[4][2] - 2.0).abs() < 1e-12);
+fn the_nearer_shape_hides_the_farther_one_in_either_order() {
+    let triangle = |z: f64| Shape::Triangle([[0.0, 0.0, z], [400.0, 0.0, z], [0.0, 400.0, z]]);
+    let ball = |z: f64| Shape::Capsule { ends: [[20.0, 20.0, z]; 2], radius: 5.0 };
+    let middle = |shapes: &[Shape]| {
+        let image = render(shapes, 40, 40, &Flags, 1);
+        [image.rgb[3 * (20 * 40 + 20)], image.rgb[3 * (20 * 40 + 20) + 2]]
+    };
+    for other in [triangle(1.0), ball(-2.0)] {
+        assert_eq!(middle(&[other, triangle(0.0)]), [255, 0]);
+        assert_eq!(middle(&[triangle(0.0), other]), [0, 255]);
+    }
+    // A ball behind the triangle by more than its radius is hidden.
+    assert_eq!(middle(&[ball(-6.0), triangle(0.0)]), [0, 255]);
 }
 
 #[test]
-fn dots_keep_their_colour_wherever_the_surface_lies() {
-    for shift in [0.0, 5.0, -5.0] {
-        let mut soup = shapes::icosphere(6).unwrap();
-        soup.positions.iter_mut().for_each(|p| p.iter_mut().for_each(|x| *x += shift));
-        let cones: Vec<(u32, f64)> = (0..soup.positions.len() as u32).map(|v| (v, 1.0)).collect();
-        let surface = Surface { cones: &cones, ..surface(&soup, None) };
-        let image = render(&solid::primitives(&surface, None), PANEL, 0);
-        let red = image.chunks_exact(3).filter(|p| p[0] > 200 && p[1] < 80 && p[2] < 80).count();
-        assert!(red > 5000, "{red} red pixels with the surface moved by {shift}");
+fn neighbouring_triangles_leave_no_crack() {
+    let soup = shapes::disk(9).unwrap();
+    let place = |v: u32| {
+        let [x, y, _] = soup.positions[v as usize];
+        [x * 93.7 + 100.0, y * 93.7 + 100.0, 0.0]
+    };
+    let shapes: Vec<Shape> = soup.faces.iter().map(|f| Shape::Triangle(f.map(place))).collect();
+    let image = render(&shapes, 200, 200, &Flags, 2);
+    for (i, p) in pixels(&image).enumerate() {
+        if (i as f64 % 200.0 - 100.0).hypot((i / 200) as f64 - 100.0) < 88.0 {
+            assert_eq!(p[1], 0, "({}, {})", i % 200, i / 200);
+        }
     }
 }
 
 #[test]
-fn lines_behind_the_surface_are_hidden() {
-    // Seams all over a sphere: with its faces only those of the near half show.
-    let soup = shapes::icosphere(3).unwrap();
-    let seams: Vec<(u32, u32, usize)> = soup.faces.iter().map(|f| (f[0], f[1], 0)).collect();
-    let count = |faces: &[[u32; 3]]| {
-        let surface = Surface { faces, seams: &seams, ..surface(&soup, None) };
-        let image = render(&solid::primitives(&surface, None), PANEL, 0);
-        image.chunks_exact(3).filter(|p| p[0] > 180 && p[1] < 90 && p[2] < 90).count()
+fn lines_behind_the_surface_are_hidden_and_cones_keep_their_colour() {
+    let red = |image: &Image| pixels(image).filter(|p| p[0] > 150 && p[1] < 90 && p[2] < 90).count();
+    for shift in [0.0, 5.0, -5.0] {
+        let mut soup = shapes::icosphere(6).unwrap();
+        soup.positions.iter_mut().for_each(|p| p.iter_mut().for_each(|x| *x += shift));
+        let cones: Vec<(u32, f64)> = (0..soup.positions.len() as u32).map(|v| (v, 1.0)).collect();
+        let dots = |faces| red(&draw(Surface { faces, cones: &cones, ..surface(&soup, None) }, &style()));
+        let (seen, all) = (dots(&soup.faces), dots(&soup.faces[..1]));
+        assert!(
+            seen > 500 && (seen as f64) < 0.8 * all as f64,
+            "{seen} of {all} with the surface at {shift}"
+        );
+    }
+}
+
+#[test]
+fn creases_are_sharp_and_round_surfaces_smooth() {
+    let soup = cube();
+    for (face, normals) in soup.faces.iter().zip(corner_normals(&soup.positions, &soup.faces)) {
+        let flat = unit(vector::normal(face.map(|v| soup.positions[v as usize]))).unwrap();
+        normals.iter().for_each(|n| assert!(norm(sub(*n, flat)) < 1e-12, "{n:?} on {flat:?}"));
+    }
+    // With a needle of no area on an edge of the cube, whose own direction is noise.
+    let mut sliver = cube();
+    sliver.positions.push([0.5, 1e-9, 1e-9]);
+    sliver.faces.push([0, 1, 8]);
+    let normals = corner_normals(&sliver.positions, &sliver.faces);
+    assert!(normals.iter().flatten().all(|n| (norm(*n) - 1.0).abs() < 1e-12));
+    assert!(normals[0].iter().all(|n| norm(sub(*n, [0.0, 0.0, -1.0])) < 1e-6), "{:?}", normals[0]);
+    let ball = shapes::icosphere(10).unwrap();
+    for (face, normals) in ball.faces.iter().zip(corner_normals(&ball.positions, &ball.faces)) {
+        for (v, n) in face.iter().zip(normals) {
+            assert!(dot(n, ball.positions[*v as usize]) > 0.9995);
+        }
+    }
+}
+
+/// A sphere of this radius at the origin, for casting rays.
+fn sphere(radius: f64, key: V3) -> Caster {
+    let soup = shapes::icosphere(12).unwrap();
+    let corner = |v: u32| soup.positions[v as usize].map(|x| x * radius);
+    let shapes: Vec<Shape> = soup.faces.iter().map(|f| Shape::Triangle(f.map(corner))).collect();
+    Caster::new(&shapes, key, 1000)
+}
+
+/// All sixteen sets of rays.
+fn open(caster: &Caster, point: &Point) -> [f64; 2] {
+    let all: Vec<_> = (0..16).map(|set| caster.open(point, set)).collect();
+    [all.iter().map(|o| o.sky).sum::<f64>() / 16.0, all.iter().map(|o| o.key).sum::<f64>() / 16.0]
+}
+
+#[test]
+fn nothing_is_hidden_on_a_convex_body() {
+    let key = unit([0.3, -0.8, 0.5]).unwrap();
+    let caster = sphere(200.0, key);
+    for k in 0..200 {
+        let t = f64::from(k);
+        let n = unit([t.sin(), (1.7 * t).cos(), (0.3 * t).sin()]).unwrap();
+        let point = Point { xyz: n.map(|x| 200.0 * x), normal: n, flat: n, on_ground: false };
+        let [sky, lit] = open(&caster, &point);
+        assert_eq!(sky, 1.0, "{n:?}");
+        if dot(n, key) > 0.2 {
+            assert_eq!(lit, 1.0, "{n:?}");
+        } else if dot(n, key) < -0.01 {
+            assert_eq!(lit, 0.0, "{n:?}");
+        }
+    }
+}
+
+#[test]
+fn a_sphere_throws_its_shadow_where_the_light_sends_it() {
+    // z up; the light comes from (−1, 0, 1).
+    let key = unit([-1.0, 0.0, 1.0]).unwrap();
+    let caster = sphere(100.0, key);
+    let up = [0.0, 0.0, 1.0];
+    let ground = Ground { up, level: -100.0 };
+    let at = |x: f64, y: f64| open(&caster, &ground.below([x, y]));
+    // The middle of the shadow lies 100 to the right; the shadow is 100 wide across and √2 · 100 along.
+    assert_eq!(at(100.0, 0.0)[1], 0.0);
+    assert_eq!([at(-100.0, 0.0)[1], at(100.0, 150.0)[1], at(400.0, 0.0)[1]], [1.0; 3]);
+    let half = at(100.0, 100.0)[1];
+    assert!((half - 0.5).abs() < 0.15, "{half} at the edge of the shadow");
+    // The sky: at distance d from the point of contact a ball of radius r hides r² h / (h² + d²)^{3/2} of it, with
+    // h = r its height, as long as all of it is above the horizon.
+    let mut before = 0.0;
+    for d in [0.0f64, 50.0, 100.0, 200.0, 400.0] {
+        let sky = at(-d, 0.0)[0];
+        let expected = 1.0 - 1e6 / (1e4 + d * d).powf(1.5);
+        assert!((sky - expected).abs() < 0.03, "{sky} of {expected} at {d}");
+        assert!(sky >= before);
+        before = sky;
+    }
+}
+
+#[test]
+fn a_picture_is_the_same_for_any_number_of_threads() {
+    let soup = shapes::torus(2.0, 0.8, 24, 12).unwrap();
+    let uv: Vec<[[f64; 2]; 3]> =
+        soup.faces.iter().map(|f| f.map(|v| [f64::from(v / 12), f64::from(v % 12)])).collect();
+    let values: Vec<f64> = soup.positions.iter().map(|p| p[0]).collect();
+    let corners = soup.faces.iter().map(|f| f.map(|v| values[v as usize])).collect();
+    let field = Field { corners, scale: Scale::of_signed("x", &values) };
+    let seams = [(0, 1, 0), (1, 2, 1)];
+    let surface = Surface { seams: &seams, cones: &[(7, 1.0)], ..surface(&soup, Some(&uv)) };
+    let flat =
+        Flat { corner_uv: &uv, seams: &[], boundary: &[], cones: &[], circles: &[], dual_circles: &[] };
+    let picture = Picture { surface: Some(surface), flat: Some(flat), field: Some(&field) };
+    let style = Style { texture: Texture::Circles, wire: true, ground: true, ..style() };
+    let one = png(&picture, &style, 1).unwrap();
+    for threads in [2, 3, 0] {
+        assert!(png(&picture, &style, threads).unwrap() == one, "{threads} threads");
+    }
+    // And the view that is chosen.
+    let view = |threads| Camera::choose(&soup.positions, &soup.faces, &View::default(), threads).axes;
+    assert_eq!(view(1), view(3));
+}
+
+#[test]
+fn the_paper_stays_white_around_a_shadow() {
+    let soup = shapes::icosphere(8).unwrap();
+    let image = draw(surface(&soup, None), &Style { ground: true, ..style() });
+    let (w, h) = (image.width, image.height);
+    let rim = |x: usize, y: usize| x < 2 || y < 2 || x >= w - 2 || y >= h - 2;
+    for (i, p) in pixels(&image).enumerate().filter(|(i, _)| rim(i % w, i / w)) {
+        assert!(p.iter().all(|c| *c >= 250), "{p:?} at ({}, {})", i % w, i / w);
+    }
+    assert!(pixels(&image).any(|p| p[0] == p[1] && p[1] == p[2] && p[0] < 220), "no shadow");
+}
+
+/// Tags nest and close, attributes are quoted: what an XML parser asks of a file without entities.
+fn check_xml(text: &str) {
+    let mut open = Vec::new();
+    for piece in text.split('<').skip(1) {
+        let (tag, _) = piece.split_once('>').expect("a tag that ends");
+        let name = |s: &str| s.split_whitespace().next().unwrap_or("").to_string();
+        assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
+        if let Some(closed) = tag.strip_prefix('/') {
+            assert_eq!(open.pop(), Some(name(closed)));
+        } else if !tag.ends_with('/') {
+            open.push(name(tag));
+        }
+    }
+    assert!(open.is_empty(), "{open:?} left open");
+}
+
+#[test]
+fn drawings_are_well_formed_and_small() {
+    let soup = shapes::disk(12).unwrap();
+    let flat_of = |v: u32| [soup.positions[v as usize][0], soup.positions[v as usize][1]];
+    let uv: Vec<[[f64; 2]; 3]> = soup.faces.iter().map(|f| f.map(flat_of)).collect();
+    let border = solid::border(&soup.faces);
+    let boundary: Vec<_> = border.iter().map(|&(a, b)| (flat_of(a), flat_of(b))).collect();
+    let circles = [Circle { center: [0.0; 2], radius: 0.5 }];
+    let flat = Flat {
+        corner_uv: &uv,
+        seams: &[],
+        boundary: &boundary,
+        cones: &[([0.1, 0.1], -1.0)],
+        circles: &circles,
+        dual_circles: &[],
     };
-    let (hidden, all) = (count(&soup.faces), count(&[]));
-    assert!(hidden > 1000 && (hidden as f64) < 0.7 * all as f64, "{hidden} of {all}");
+    let values: Vec<f64> = uv.iter().map(|t| t[0][0]).collect();
+    let scale = Scale::of_signed("x & y < z", &values);
+    let field = Field { corners: values.iter().map(|v| [*v; 3]).collect(), scale };
+    for (texture, field) in [
+        (Texture::Checker, None),
+        (Texture::Circles, None),
+        (Texture::None, None),
+        (Texture::None, Some(&field)),
+    ] {
+        let mut svg = Vec::new();
+        write_svg(&mut svg, &flat, field, &Style { texture, wire: field.is_none(), ..style() }).unwrap();
+        let svg = String::from_utf8(svg).unwrap();
+        check_xml(&svg);
+        assert!(svg.ends_with("</svg>\n") && svg.contains("<circle"));
+        assert!(svg.len() < 60 * uv.len() + 8000, "{} bytes for {} faces", svg.len(), uv.len());
+    }
 }
 
 #[test]
 fn degenerate_input_is_drawn_as_far_as_it_goes() {
-    assert!(!png(&Picture { surface: None, flat: None }, 1).unwrap().is_empty());
-    let soup = ricci::mesh::io::Soup::new(vec![[1.0; 3]; 3], vec![[0, 1, 2]]);
+    assert!(!png(&Picture { surface: None, flat: None, field: None }, &style(), 1).unwrap().is_empty());
     let uv = [[[1e300, 0.0], [f64::NAN, 1.0], [0.0, 1e-300]]];
     let flat =
         Flat { corner_uv: &uv, seams: &[], boundary: &[], cones: &[], circles: &[], dual_circles: &[] };
-    assert!(
-        !png(&Picture { surface: Some(surface(&soup, Some(&uv))), flat: Some(flat) }, 2).unwrap().is_empty()
-    );
+    let everything = Style { wire: true, ground: true, palette: true, texture: Texture::Checker, ..style() };
+    for positions in [vec![[1.0; 3]; 3], vec![[1e300; 3], [-1e300; 3], [1e-300; 3]], vec![[f64::NAN; 3]; 3]] {
+        let soup = Soup::new(positions, vec![[0, 1, 2]]);
+        let field = Field { corners: vec![[f64::NAN; 3]], scale: Scale::of_amounts("nothing", &[]) };
+        let drawn =
+            Picture { surface: Some(surface(&soup, Some(&uv))), flat: Some(flat), field: Some(&field) };
+        assert!(!png(&drawn, &everything, 2).unwrap().is_empty());
+    }
     let mut svg = Vec::new();
-    write_svg(&mut svg, &flat).unwrap();
+    write_svg(&mut svg, &flat, None, &style()).unwrap();
     let svg = String::from_utf8(svg).unwrap();
     assert!(svg.ends_with("</svg>\n") && !svg.contains("NaN"));
 }

@@ -7,6 +7,7 @@ mod files;
 mod flow;
 mod info;
 mod make;
+mod picture;
 mod repair;
 mod run;
 mod surfaces;

@@ -1,0 +1,166 @@
+//! The options of pictures.
+
+use super::{Style, Texture, View};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// What every command takes that draws a surface.
+#[derive(Args, Serialize, Debug, Clone, Default)]
+pub struct PictureArgs {
+    /// Write a picture (.png; of a layout also .svg)
+    #[arg(long, value_name = "P.png")]
+    pub picture: Option<PathBuf>,
+    /// Pixels of the longer side of each panel [default: 900]
+    #[arg(long, value_name = "PIXELS", requires = "picture", value_parser = clap::value_parser!(u16).range(64..=4096))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size: Option<u16>,
+    /// Look from this azimuth (0: from the front, growing to the right) and elevation, degrees [default: chosen]
+    #[arg(long, value_name = "AZIMUTH,ELEVATION", requires = "picture", value_parser = angles, allow_hyphen_values = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub view: Option<Angles>,
+    /// The direction that is up [default: by the shape of the surface]
+    #[arg(long, value_enum, value_name = "AXIS", requires = "picture", allow_hyphen_values = true)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub up: Option<Axis>,
+    /// Draw the edges of the mesh
+    #[arg(long, requires = "picture")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub wire: bool,
+    /// At most 192 colours, for a small file
+    #[arg(long, requires = "picture")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub palette: bool,
+}
+
+/// Pictures of a surface alone.
+#[derive(Args, Serialize, Debug, Clone, Default)]
+pub struct SurfacePictureArgs {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub base: PictureArgs,
+    /// Show a quantity in colours: curvature, of the surface
+    #[arg(long, value_name = "QUANTITY", requires = "picture", value_parser = ["curvature", "none"])]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<String>,
+}
+
+/// Pictures of a surface beside its layout.
+#[derive(Args, Serialize, Debug, Clone, Default)]
+pub struct FlowPictureArgs {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub base: PictureArgs,
+    /// Pattern of the layout on both [default: checker; none under colours]
+    #[arg(long, value_enum, requires = "picture")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub texture: Option<Texture>,
+    /// Show a quantity in colours, with a legend
+    #[arg(long, value_enum, value_name = "QUANTITY", requires = "picture")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<ColorChoice>,
+}
+
+/// Quantities that have a colour map.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum ColorChoice {
+    /// The logarithm of the conformal factor between input and result
+    U,
+    /// Gaussian curvature of the input: angle defect over area
+    Curvature,
+    /// Quasi-conformal dilatation of the layout
+    Qc,
+    /// Area in the layout over area in the input
+    Area,
+    None,
+}
+
+impl ColorChoice {
+    /// The name of a quantity that only a layout has.
+    pub fn of_layout(self) -> Option<&'static str> {
+        match self {
+            ColorChoice::Qc => Some("qc"),
+            ColorChoice::Area => Some("area"),
+            ColorChoice::U | ColorChoice::Curvature | ColorChoice::None => None,
+        }
+    }
+}
+
+/// Azimuth and elevation in degrees.
+pub type Angles = [f64; 2];
+
+/// A coordinate direction.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+pub enum Axis {
+    X,
+    Y,
+    Z,
+    #[value(name = "-x")]
+    #[serde(rename = "-x")]
+    MinusX,
+    #[value(name = "-y")]
+    #[serde(rename = "-y")]
+    MinusY,
+    #[value(name = "-z")]
+    #[serde(rename = "-z")]
+    MinusZ,
+}
+
+impl Axis {
+    fn direction(self) -> [f64; 3] {
+        match self {
+            Axis::X => [1.0, 0.0, 0.0],
+            Axis::Y => [0.0, 1.0, 0.0],
+            Axis::Z => [0.0, 0.0, 1.0],
+            Axis::MinusX => [-1.0, 0.0, 0.0],
+            Axis::MinusY => [0.0, -1.0, 0.0],
+            Axis::MinusZ => [0.0, 0.0, -1.0],
+        }
+    }
+}
+
+impl PictureArgs {
+    pub fn style(&self, texture: Texture) -> Style {
+        let fallback = Style::default();
+        let view = View {
+            up: self.up.map(Axis::direction),
+            angles: self.view.map(|angles| angles.map(f64::to_radians)),
+        };
+        let size = self.size.map_or(fallback.size, usize::from);
+        Style { size, view, texture, wire: self.wire, palette: self.palette, ..fallback }
+    }
+}
+
+impl SurfacePictureArgs {
+    pub fn style(&self) -> Style {
+        self.base.style(Texture::None)
+    }
+
+    /// Whether the curvature is to be shown.
+    pub fn curvature(&self) -> bool {
+        self.color.as_deref() == Some("curvature")
+    }
+}
+
+impl FlowPictureArgs {
+    pub fn style(&self) -> Style {
+        let usual = if self.color().is_some() { Texture::None } else { Texture::Checker };
+        self.base.style(self.texture.unwrap_or(usual))
+    }
+
+    /// The quantity to show.
+    pub fn color(&self) -> Option<ColorChoice> {
+        self.color.filter(|c| *c != ColorChoice::None)
+    }
+}
+
+fn angles(text: &str) -> Result<Angles, String> {
+    let numbers: Vec<f64> = text.split(',').filter_map(|x| x.trim().parse().ok()).collect();
+    match numbers.as_slice() {
+        &[azimuth, elevation] if azimuth.abs() <= 360.0 && elevation.abs() <= 90.0 => {
+            Ok([azimuth, elevation])
+        }
+        _ => Err("must be two numbers of degrees, the second from −90 to 90".into()),
+    }
+}

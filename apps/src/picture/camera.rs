@@ -1,0 +1,200 @@
+//! Where a surface is seen from.
+
+use super::raster::{Shape, in_parallel, visible};
+use super::upright::{Stance, stance};
+use super::vector::{V3, add, cross, dot, norm, normal, scaled, sub, unit};
+
+/// The view that a caller wants; what is left open is chosen.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct View {
+    /// The direction that is up.
+    pub up: Option<V3>,
+    /// Azimuth around the vertical (0: from the front, growing to the right) and elevation above the horizon, radians.
+    pub angles: Option<[f64; 2]>,
+}
+
+/// An orthographic camera.
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    /// Unit vectors to the right and up on the screen, and towards the viewer.
+    pub axes: [V3; 3],
+    /// The vertical of the scene, in the camera's axes.
+    pub up: V3,
+}
+
+/// Side of the small images in which candidate views are compared, pixels.
+const PROBE: usize = 72;
+/// Candidate directions around the vertical.
+const AROUND: usize = 24;
+/// Candidate elevations, degrees: for what stands, and for what lies flat.
+const STANDING: [f64; 3] = [14.0, 24.0, 36.0];
+const LYING: [f64; 3] = [34.0, 44.0, 54.0];
+/// Surface seen at a glancing angle counts at most this many times its projected area.
+const GLANCING: f64 = 2.5;
+/// Of two sides that show as much surface the one with more detail is better: to this power of how much normals turn from
+/// pixel to pixel, of which this much is nothing to look at.
+const DETAIL: f64 = 0.3;
+const LEAST_DETAIL: f64 = 0.01;
+/// A hole through which the background shows makes a view better by this share, up to three of them.
+const HOLE: f64 = 0.12;
+/// The front is better than the back, and an oblique view than one along an axis, by these shares.
+const FRONT: f64 = 0.08;
+const OBLIQUE: f64 = 0.04;
+
+impl Camera {
+    fn new(up: V3, front: V3, azimuth: f64, elevation: f64) -> Camera {
+        let side = cross(up, front);
+        let level = add(scaled(front, azimuth.cos()), scaled(side, azimuth.sin()));
+        let (sin, cos) = elevation.sin_cos();
+        let screen_up = sub(scaled(up, cos), scaled(level, sin));
+        let towards = add(scaled(level, cos), scaled(up, sin));
+        Camera { axes: [cross(up, level), screen_up, towards], up: [0.0, cos, sin] }
+    }
+
+    /// The view that was asked for, or the one of [`STANDING`] or [`LYING`] that shows most.
+    pub fn choose(points: &[V3], faces: &[[u32; 3]], view: &View, threads: usize) -> Camera {
+        let found = stance(points, faces);
+        let Stance { up, lies } = match view.up.and_then(unit) {
+            Some(up) => Stance { up, lies: false },
+            None => found,
+        };
+        let front = front_of(up);
+        if let Some([azimuth, elevation]) = view.angles {
+            return Camera::new(up, front, azimuth, elevation);
+        }
+        let mut candidates = Vec::new();
+        for elevation in if lies { LYING } else { STANDING } {
+            for k in 0..AROUND {
+                let azimuth = std::f64::consts::TAU * k as f64 / AROUND as f64;
+                let taste = 1.0 + FRONT * azimuth.cos() - OBLIQUE * (4.0 * azimuth).cos();
+                candidates.push((Camera::new(up, front, azimuth, elevation.to_radians()), taste, 0.0));
+            }
+        }
+        let (centre, radius) = bounding_ball(points);
+        in_parallel(candidates.iter_mut().collect(), threads, |_, (camera, taste, score)| {
+            *score = *taste * camera.shows(points, faces, centre, radius);
+        });
+        let first = candidates[0];
+        candidates.into_iter().fold(first, |best, c| if c.2 > best.2 { c } else { best }).0
+    }
+
+    /// A point of space as the camera sees it.
+    pub fn apply(&self, p: V3) -> V3 {
+        self.axes.map(|axis| dot(axis, p))
+    }
+
+    /// How much of the surface's outside a small image shows, in pixels, more where one sees through it.
+    fn shows(&self, points: &[V3], faces: &[[u32; 3]], centre: V3, radius: f64) -> f64 {
+        let middle = 0.5 * PROBE as f64;
+        let scale = middle * 0.96 / radius;
+        let seen: Vec<V3> = points
+            .iter()
+            .map(|p| self.apply(sub(*p, centre)))
+            .map(|[x, y, z]| [middle + scale * x, middle - scale * y, scale * z])
+            .collect();
+        let shapes: Vec<Shape> = faces.iter().map(|f| Shape::Triangle(f.map(|v| seen[v as usize]))).collect();
+        let samples = visible(&shapes, PROBE, 0, PROBE, 1);
+        let mut normals = vec![None; PROBE * PROBE];
+        let (mut area, mut bends) = (0.0, 0.0);
+        for i in 0..normals.len() {
+            let (x, y) = (i % PROBE, i / PROBE);
+            if let Some(hit) = samples.hit(&shapes, x, y, [x as f64 + 0.5, y as f64 + 0.5]) {
+                let n = normal(faces[hit.shape].map(|v| points[v as usize]));
+                let n = unit(n).unwrap_or([0.0; 3]);
+                let cosine = dot(n, self.axes[2]);
+                area += if cosine > 0.0 { (1.0 / cosine).min(GLANCING) } else { 0.0 };
+                let bend = |j: Option<usize>| {
+                    j.and_then(|j| normals[j]).map_or(0.0, |m| (1.0 - dot(n, m)).clamp(0.0, 1.0))
+                };
+                bends += bend((x > 0).then(|| i - 1)) + bend((y > 0).then(|| i.wrapping_sub(PROBE)));
+                normals[i] = Some(n);
+            }
+        }
+        let empty = normals.iter().map(Option::is_none).collect();
+        let detail = (bends / f64::max(area, 1.0) + LEAST_DETAIL).powf(DETAIL);
+        area * detail * (1.0 + HOLE * holes(empty).min(3) as f64)
+    }
+}
+
+/// The side that is taken for the front where `up` is up: files with y up mostly face +z, those with z up −y.
+fn front_of(up: V3) -> V3 {
+    let usual = if up[2].abs() > 0.8 { [0.0, -1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    unit(sub(usual, scaled(up, dot(up, usual)))).unwrap_or([1.0, 0.0, 0.0])
+}
+
+/// Centre of the bounding box and the largest distance from it.
+fn bounding_ball(points: &[V3]) -> (V3, f64) {
+    let end = |k: usize, f: fn(f64, f64) -> f64, start: f64| points.iter().map(|p| p[k]).fold(start, f);
+    let centre =
+        [0, 1, 2].map(|k| 0.5 * (end(k, f64::min, f64::INFINITY) + end(k, f64::max, f64::NEG_INFINITY)));
+    let radius = points.iter().map(|p| norm(sub(*p, centre))).fold(0.0, f64::max);
+    (centre, radius.max(f64::MIN_POSITIVE))
+}
+
+/// Connected pieces of the background of a probe image that the surface encloses, single pixels left out.
+fn holes(mut empty: Vec<bool>) -> usize {
+    let mut count = 0;
+    for start in 0..empty.len() {
+        if !empty[start] {
+            continue;
+        }
+        empty[start] = false;
+        let (mut open, mut size, mut touches) = (vec![start], 0, false);
+        while let Some(i) = open.pop() {
+            size += 1;
+            let (x, y) = (i % PROBE, i / PROBE);
+            touches |= x == 0 || y == 0 || x == PROBE - 1 || y == PROBE - 1;
+            let near = [
+                (x > 0).then(|| i - 1),
+                (x + 1 < PROBE).then_some(i + 1),
+                (y > 0).then(|| i - PROBE),
+                (y + 1 < PROBE).then_some(i + PROBE),
+            ];
+            for j in near.into_iter().flatten() {
+                if std::mem::replace(&mut empty[j], false) {
+                    open.push(j);
+                }
+            }
+        }
+        count += usize::from(size > 1 && !touches);
+    }
+    count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ricci::mesh::shapes;
+
+    #[test]
+    fn axes_are_right_handed_and_the_asked_angles_are_taken() {
+        let soup = shapes::icosphere(3).unwrap();
+        let view = View { up: Some([0.0, 1.0, 0.0]), angles: Some([0.0, 0.0]) };
+        let camera = Camera::choose(&soup.positions, &soup.faces, &view, 1);
+        for (axis, expected) in camera.axes.iter().zip([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
+            assert!(norm(sub(*axis, expected)) < 1e-15, "{axis:?}");
+        }
+        // From the right and from above.
+        let view = View { angles: Some([0.5f64, 0.3]), ..view };
+        let [x, y, z] = Camera::choose(&soup.positions, &soup.faces, &view, 1).axes;
+        assert!(norm(sub(cross(x, y), z)) < 1e-15 && z[0] > 0.0 && (z[1] - 0.3f64.sin()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_torus_lies_and_shows_its_hole() {
+        let soup = shapes::torus(2.0, 0.7, 40, 20).unwrap();
+        let camera = Camera::choose(&soup.positions, &soup.faces, &View::default(), 2);
+        let up = [0, 1, 2].map(|k| dot(camera.up, camera.axes.map(|a| a[k])));
+        assert!((up[2] - 1.0).abs() < 1e-12, "{up:?}");
+        assert!(camera.axes[2][2] > 0.5, "{:?}", camera.axes);
+    }
+
+    #[test]
+    fn an_open_surface_shows_its_outside() {
+        // A bowl seen from its convex side: the half sphere z < 0.
+        let mut soup = shapes::icosphere(8).unwrap();
+        soup.faces.retain(|f| f.iter().all(|v| soup.positions[*v as usize][2] < 0.05));
+        let camera = Camera::choose(&soup.positions, &soup.faces, &View::default(), 2);
+        assert!(camera.axes[2][2] < 0.0, "{:?}", camera.axes);
+    }
+}

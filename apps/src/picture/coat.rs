@@ -1,0 +1,126 @@
+//! What covers the faces of a panel: a colour, a pattern, the wire of the mesh.
+
+use super::Field;
+use super::color::{INK, Rgb, from_hex, mix};
+use super::colormap::NO_VALUE;
+use super::raster::doubled_area;
+use super::texture::{Patch, Texture, Tiles};
+
+/// Colour of a surface that shows nothing else.
+const CLAY: u32 = 0xd3c6b4;
+/// The two colours of a pattern.
+const LIGHT: u32 = 0xf3efe6;
+const DARK: u32 = 0x3a6ea5;
+/// Colours of a map that are told apart.
+const TABLE: usize = 512;
+/// How much darker a pattern makes the colours of a quantity.
+const SHADE: f64 = 0.35;
+/// Half the width of a wire, over the size of the picture.
+const WIRE: f64 = 0.00045;
+const WIRE_OPACITY: f64 = 0.75;
+/// The wire of faces with a side (square root of the area) below the first number of pixels is left out; from the
+/// second on it is drawn in full.
+const DENSE: [f64; 2] = [2.0, 9.0];
+
+/// What is drawn on a panel.
+pub struct Coat<'a> {
+    patches: Option<Vec<Patch>>,
+    field: Option<(&'a Field, Vec<Rgb>)>,
+    wire: Option<Vec<Wire>>,
+    clay: Rgb,
+    light: Rgb,
+    dark: Rgb,
+}
+
+/// What a panel's faces are to show.
+#[derive(Clone, Copy)]
+pub struct Wish<'a> {
+    pub texture: Texture,
+    pub tiles: Option<&'a Tiles>,
+    pub corner_uv: Option<&'a [[[f64; 2]; 3]]>,
+    pub field: Option<&'a Field>,
+    pub wire: bool,
+    /// Size of the picture in pixels.
+    pub size: usize,
+}
+
+impl<'a> Coat<'a> {
+    /// `triangles`: each face on the panel.
+    pub fn new(wish: &Wish<'a>, triangles: &[[[f64; 2]; 3]]) -> Coat<'a> {
+        let patch = |uv: &[[[f64; 2]; 3]], tiles: &Tiles| -> Vec<Patch> {
+            let each = triangles.iter().zip(uv).enumerate();
+            each.map(|(f, (pixels, uv))| Patch::new(wish.texture, *uv, tiles, f, *pixels)).collect()
+        };
+        let textured = wish.texture != Texture::None;
+        let patches = wish.corner_uv.zip(wish.tiles).filter(|_| textured).map(|(uv, tiles)| patch(uv, tiles));
+        let half_width = (WIRE * wish.size as f64).max(0.35);
+        let wire = wish.wire.then(|| triangles.iter().map(|t| Wire::new(*t, half_width)).collect());
+        let field = wish.field.filter(|f| f.corners.len() == triangles.len());
+        let field = field.map(|f| (f, f.scale.table(TABLE)));
+        let [clay, light, dark] = [CLAY, LIGHT, DARK].map(from_hex);
+        Coat { patches, field, wire, clay, light, dark }
+    }
+
+    /// The colour of a face at barycentric coordinates.
+    pub fn color(&self, face: usize, b: [f64; 3]) -> Rgb {
+        let value = self.patches.as_ref().map(|p| p[face].value(b));
+        let color = match (&self.field, value) {
+            (Some((field, table)), pattern) => {
+                let c = field.corners[face];
+                let t = field.scale.place(b[0] * c[0] + b[1] * c[1] + b[2] * c[2]);
+                let color =
+                    if t.is_nan() { NO_VALUE } else { table[(t * (TABLE - 1) as f64 + 0.5) as usize] };
+                color.map(|x| x * (1.0 - SHADE * pattern.unwrap_or(0.0)))
+            }
+            (None, Some(pattern)) => mix(self.light, self.dark, pattern),
+            (None, None) => self.clay,
+        };
+        let wire = self.wire.as_ref().map_or(0.0, |w| w[face].opacity(b));
+        mix(color, INK, wire)
+    }
+}
+
+/// The edges of one face on the panel.
+struct Wire {
+    /// Heights of the triangle in pixels: a barycentric coordinate times its height is the distance from its side.
+    heights: [f64; 3],
+    half_width: f64,
+    opacity: f64,
+}
+
+impl Wire {
+    fn new(p: [[f64; 2]; 3], half_width: f64) -> Wire {
+        let area = doubled_area(p).abs();
+        let side = |k: usize| {
+            let (a, b) = (p[(k + 1) % 3], p[(k + 2) % 3]);
+            (b[0] - a[0]).hypot(b[1] - a[1])
+        };
+        let heights = [0, 1, 2].map(|k| area / side(k).max(f64::MIN_POSITIVE));
+        let size = (0.5 * area).sqrt();
+        let opacity = WIRE_OPACITY * ((size - DENSE[0]) / (DENSE[1] - DENSE[0])).clamp(0.0, 1.0);
+        Wire { heights, half_width, opacity }
+    }
+
+    /// Each of the two faces at an edge draws its half, whose outline is softened over half a pixel.
+    fn opacity(&self, b: [f64; 3]) -> f64 {
+        let distance = (0..3).map(|k| b[k] * self.heights[k]).fold(f64::INFINITY, f64::min);
+        self.opacity * ((self.half_width - distance) * 2.0 + 0.5).clamp(0.0, 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wires_have_one_width_and_dense_ones_fade() {
+        // The distance from a side, not a share of the triangle, decides.
+        for size in [50.0, 500.0] {
+            let wire = Wire::new([[0.0, 0.0], [size, 0.0], [0.0, size]], 1.0);
+            let at = |pixels: f64| wire.opacity([0.5 - pixels / size, 0.5, pixels / size]);
+            assert_eq!((at(0.2), at(1.6)), (WIRE_OPACITY, 0.0));
+        }
+        let dense = Wire::new([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]], 1.0);
+        assert_eq!(dense.opacity([0.0, 0.5, 0.5]), 0.0);
+    }
+}

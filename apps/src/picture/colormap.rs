@@ -1,0 +1,172 @@
+//! Colours for numbers, and the range they cover.
+
+use super::color::{Rgb, from_hex, mix};
+
+/// A colour map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ramp {
+    /// For amounts: viridis [SW15], ten of its 256 colours.
+    Viridis,
+    /// For what has a sign: ColorBrewer's RdBu [HB03], blue for negative.
+    BlueRed,
+}
+
+const VIRIDIS: [u32; 10] =
+    [0x440154, 0x482878, 0x3e4a89, 0x31688e, 0x26828e, 0x1f9e89, 0x35b779, 0x6dcd59, 0xb4de2c, 0xfde725];
+const BLUE_RED: [u32; 11] = [
+    0x053061, 0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b,
+    0x67001f,
+];
+/// What has no value.
+pub const NO_VALUE: Rgb = [0.4; 3];
+/// The ends of a range are these percentiles of the data: a few extreme values do not take all the colours.
+pub const PERCENTILES: [f64; 2] = [2.0, 98.0];
+
+impl Ramp {
+    /// The colour at t in [0, 1]; what lies beyond has the colour of the end.
+    pub fn color(self, t: f64) -> Rgb {
+        let table: &[u32] = match self {
+            Ramp::Viridis => &VIRIDIS,
+            Ramp::BlueRed => &BLUE_RED,
+        };
+        if t.is_nan() {
+            return NO_VALUE;
+        }
+        let x = t.clamp(0.0, 1.0) * (table.len() - 1) as f64;
+        let k = (x as usize).min(table.len() - 2);
+        mix(from_hex(table[k]), from_hex(table[k + 1]), x - k as f64)
+    }
+}
+
+/// The colours of a quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scale {
+    /// What is shown, with its unit.
+    pub title: String,
+    pub ramp: Ramp,
+    /// The numbers at the ends of the map.
+    pub range: [f64; 2],
+    /// What the ends of the range are.
+    pub ends: String,
+}
+
+impl Scale {
+    /// For amounts: between the percentiles of the data.
+    pub fn of_amounts(title: &str, values: &[f64]) -> Scale {
+        let [low, high] = PERCENTILES.map(|p| percentile(values, p).unwrap_or(0.0));
+        let ends = format!("colours end at {}% and {}% of the values", PERCENTILES[0], PERCENTILES[1]);
+        Scale { title: title.into(), ramp: Ramp::Viridis, range: [low, high], ends }
+    }
+
+    /// For what has a sign: as far to both sides of 0 as the upper percentile of its size.
+    pub fn of_signed(title: &str, values: &[f64]) -> Scale {
+        let sizes: Vec<f64> = values.iter().map(|x| x.abs()).collect();
+        let most = percentile(&sizes, PERCENTILES[1]).unwrap_or(0.0);
+        let ends = format!("{}% of the values lie within the colours", PERCENTILES[1]);
+        Scale { title: title.into(), ramp: Ramp::BlueRed, range: [-most, most], ends }
+    }
+
+    /// Where a value lies on the map, in [0, 1]; what is no number lies nowhere (NaN).
+    pub fn place(&self, value: f64) -> f64 {
+        let [low, high] = self.range;
+        let t = if high > low { (value - low) / (high - low) } else { 0.5 + 0.0 * value };
+        t.clamp(0.0, 1.0)
+    }
+
+    /// The map as a table of `n` colours.
+    pub fn table(&self, n: usize) -> Vec<Rgb> {
+        (0..n).map(|k| self.ramp.color(k as f64 / (n - 1).max(1) as f64)).collect()
+    }
+
+    /// Round numbers inside the range, away from its ends, which are written too.
+    pub fn ticks(&self) -> Vec<f64> {
+        let [low, high] = self.range;
+        let width = high - low;
+        if !(width > 0.0 && width.is_finite()) {
+            return Vec::new();
+        }
+        let power = 10f64.powf((width / 4.0).log10().floor());
+        let step = [1.0, 2.0, 5.0, 10.0].map(|x| x * power).into_iter().find(|s| width / s <= 5.0);
+        let Some(step) = step else { return Vec::new() };
+        let first = (low / step).ceil();
+        let inside = |x: &f64| (x - low).min(high - x) > 0.13 * width;
+        (0..8).map(|k| (first + f64::from(k)) * step).filter(inside).collect()
+    }
+}
+
+/// The value that this percentage of the (finite) values does not exceed; `None` of nothing.
+pub fn percentile(values: &[f64], percent: f64) -> Option<f64> {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let rank = (percent / 100.0 * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.saturating_sub(1)).copied()
+}
+
+/// A number with three digits, as short as that goes.
+pub fn number(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return "0".into();
+    }
+    let text = format!("{x:.2e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let trimmed = |s: &str| -> String {
+        if s.contains('.') { s.trim_end_matches('0').trim_end_matches('.').into() } else { s.into() }
+    };
+    let text = if (-3..5).contains(&exponent) {
+        trimmed(&format!("{x:.*}", (2 - exponent).max(0) as usize))
+    } else {
+        format!("{}e{exponent}", trimmed(digits))
+    };
+    text.replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_end_at_the_percentiles() {
+        // 1 … 100 in any order, and one value that is none.
+        let mut values: Vec<f64> = (0..100).map(|k| f64::from((k * 37) % 100 + 1)).collect();
+        values.push(f64::NAN);
+        assert_eq!(Scale::of_amounts("x", &values).range, [2.0, 98.0]);
+        assert_eq!(percentile(&values, 100.0), Some(100.0));
+        let signed: Vec<f64> = values.iter().map(|x| if *x > 50.0 { -x } else { *x }).collect();
+        assert_eq!(Scale::of_signed("x", &signed).range, [-98.0, 98.0]);
+        assert_eq!(percentile(&[], 50.0), None);
+    }
+
+    #[test]
+    fn maps_are_monotone_in_lightness_and_signed_ones_are_white_in_the_middle() {
+        let lightness = |c: Rgb| 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+        let viridis = |k: i32| lightness(Ramp::Viridis.color(f64::from(k) / 50.0));
+        assert!((0..50).all(|k| viridis(k) < viridis(k + 1)));
+        let signed = |k: i32| lightness(Ramp::BlueRed.color(0.5 + f64::from(k) / 100.0));
+        assert!((0..50).all(|k| signed(k) > signed(k + 1) && signed(-k) > signed(-k - 1)));
+        assert!(Ramp::BlueRed.color(Scale::of_signed("x", &[-1.0, 2.0]).place(0.0)).iter().all(|c| *c > 0.9));
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        let cases = [
+            (0.0, "0"),
+            (-1.5, "−1.5"),
+            (1234.5, "1234"),
+            (0.001234, "0.00123"),
+            (6.02e23, "6.02e23"),
+            (-1e-7, "−1e−7"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(number(x), text);
+        }
+    }
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        let scale =
+            Scale { title: String::new(), ramp: Ramp::Viridis, range: [0.0, 1.0], ends: String::new() };
+        assert_eq!(scale.ticks(), [0.2, 0.4, 0.6000000000000001, 0.8]);
+        assert!(Scale { range: [2.0, 2.0], ..scale }.ticks().is_empty());
+    }
+}

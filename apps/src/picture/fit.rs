@@ -1,0 +1,47 @@
+//! How a drawing is placed on its panel.
+
+/// Share of the panel's side left free on each side.
+pub const MARGIN: f64 = 0.03;
+
+/// A map onto a panel that ends a margin beyond the drawing: equal scales, y up in the drawing and down in pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct Fit {
+    /// Pixels per unit.
+    pub scale: f64,
+    offset: [f64; 2],
+    /// The panel in pixels.
+    pub width: usize,
+    pub height: usize,
+}
+
+impl Fit {
+    /// The longer side of the points' bounding box spans a panel of `size` pixels less its margins.
+    pub fn new(points: impl Iterator<Item = [f64; 2]>, size: usize) -> Fit {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for p in points.filter(|p| p.iter().all(|x| x.is_finite())) {
+            for k in 0..2 {
+                low[k] = low[k].min(p[k]);
+                high[k] = high[k].max(p[k]);
+            }
+        }
+        if low[0] > high[0] {
+            (low, high) = ([0.0; 2], [1.0; 2]);
+        }
+        let extent = [high[0] - low[0], high[1] - low[1]];
+        let longest = extent[0].max(extent[1]).max(f64::MIN_POSITIVE);
+        let margin = size as f64 * MARGIN;
+        let scale = (size as f64 - 2.0 * margin) / longest;
+        let pixels = |e: f64| ((scale * e + 2.0 * margin).ceil() as usize).clamp(1, size.max(1));
+        let [width, height] = extent.map(pixels);
+        let offset = [
+            0.5 * width as f64 - scale * 0.5 * (low[0] + high[0]),
+            0.5 * height as f64 + scale * 0.5 * (low[1] + high[1]),
+        ];
+        Fit { scale, offset, width, height }
+    }
+
+    /// Pixel coordinates, y down.
+    pub fn apply(&self, p: [f64; 2]) -> [f64; 2] {
+        [self.scale * p[0] + self.offset[0], self.offset[1] - self.scale * p[1]]
+    }
+}

@@ -1,0 +1,62 @@
+//! Normals at the corners of faces: smooth over the surface, sharp at its creases.
+
+use super::vector::{V3, add, dot, norm, normal, scaled, sub, unit};
+
+/// Faces that meet at more than this angle (radians) are shaded as two sides of a crease.
+const CREASE: f64 = 0.75;
+/// A face lower than this share of its longest side has no direction of its own: it takes that of its neighbours.
+const NEEDLE: f64 = 1e-3;
+/// A vertex in more faces than this is smooth; comparing them in pairs would cost the square of their number.
+const MOST_FACES: usize = 64;
+
+/// A unit normal for every corner: the mean over the faces at its vertex that meet the corner's face at less than
+/// [`CREASE`], each weighed with its area and its angle there.
+pub fn corner_normals(points: &[V3], faces: &[[u32; 3]]) -> Vec<[V3; 3]> {
+    let sides: Vec<Side> = faces.iter().map(|f| Side::new(f.map(|v| points[v as usize]))).collect();
+    // The faces around each vertex, one after the other.
+    let mut first = vec![0usize; points.len() + 1];
+    faces.iter().flatten().for_each(|v| first[*v as usize + 1] += 1);
+    for v in 0..points.len() {
+        first[v + 1] += first[v];
+    }
+    let mut next = first.clone();
+    let mut around = vec![(0usize, 0usize); 3 * faces.len()];
+    for (f, face) in faces.iter().enumerate() {
+        for (k, v) in face.iter().enumerate() {
+            around[next[*v as usize]] = (f, k);
+            next[*v as usize] += 1;
+        }
+    }
+    let limit = CREASE.cos();
+    let corner = |f: usize, v: u32| {
+        let fan = &around[first[v as usize]..first[v as usize + 1]];
+        let own = sides[f].direction;
+        let smooth = sides[f].needle || fan.len() > MOST_FACES;
+        let mean = fan.iter().fold([0.0; 3], |sum, &(g, k)| {
+            let joins = smooth || sides[g].needle || dot(own, sides[g].direction) > limit;
+            if joins { add(sum, scaled(sides[g].direction, sides[g].weight[k])) } else { sum }
+        });
+        unit(mean).or(unit(own)).unwrap_or([0.0, 0.0, 1.0])
+    };
+    faces.iter().enumerate().map(|(f, face)| face.map(|v| corner(f, v))).collect()
+}
+
+/// What a face says about the normals at its corners.
+struct Side {
+    direction: V3,
+    weight: [f64; 3],
+    needle: bool,
+}
+
+impl Side {
+    fn new(p: [V3; 3]) -> Side {
+        let n = normal(p);
+        let doubled_area = norm(n);
+        let direction = unit(n).unwrap_or([0.0; 3]);
+        let sides = [0, 1, 2].map(|k| sub(p[(k + 1) % 3], p[k]));
+        let longest = sides.iter().map(|s| norm(*s)).fold(0.0, f64::max);
+        let angle = |k: usize| f64::atan2(doubled_area, -dot(sides[k], sides[(k + 2) % 3]));
+        let weight = [0, 1, 2].map(|k| doubled_area * angle(k));
+        Side { direction, weight, needle: doubled_area <= NEEDLE * longest * longest }
+    }
+}

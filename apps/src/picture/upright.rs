@@ -1,0 +1,142 @@
+//! Which way up a surface is.
+//!
+//! Files do not say it. y is up in most of them; exceptions are told by their shape.
+
+use super::vector::{V3, norm, normal};
+
+/// Which way is up, and whether the surface lies flat on the ground, to be seen from above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stance {
+    pub up: V3,
+    pub lies: bool,
+}
+
+/// A surface whose area, added as vectors, is more than this share of its area is a sheet with an outside.
+const SHEET: f64 = 0.35;
+/// A sheet lower than this share of its width and length lies on the ground.
+const FLAT_SHEET: f64 = 0.34;
+/// A closed surface thinner than this share of its width and length may lie on the ground,
+const FLAT_BODY: f64 = 0.6;
+/// if it is its own mirror image there up to this share of the area, and has handles or is one along every axis.
+const SYMMETRIC: f64 = 0.55;
+const REGULAR: f64 = 0.75;
+/// Boxes per axis in which mirror images are compared.
+const BOXES: usize = 10;
+/// A bottom that covers this share of the bounding box stands on the ground; less than the other share does not.
+const BASE: f64 = 0.3;
+const NO_BASE: f64 = 0.08;
+
+const Y: V3 = [0.0, 1.0, 0.0];
+const Z: V3 = [0.0, 0.0, 1.0];
+
+pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
+    let figure = Figure::new(points, faces);
+    let axis = |k: usize, sign: f64| {
+        let mut axis = [0.0; 3];
+        axis[k] = sign;
+        axis
+    };
+    let thin = |k: usize| figure.extent[k] / figure.extent[(k + 1) % 3].min(figure.extent[(k + 2) % 3]);
+    let outward =
+        (0..3).fold(0, |l, k| if figure.outside[k].abs() > figure.outside[l].abs() { k } else { l });
+    if norm(figure.outside) > SHEET {
+        if thin(outward) < FLAT_SHEET {
+            return Stance { up: axis(outward, figure.outside[outward].signum()), lies: true };
+        }
+        return Stance { up: if outward == 1 { Z } else { Y }, lies: false };
+    }
+    let symmetry = [0, 1, 2].map(|k| figure.symmetry(k));
+    let regular = symmetry.iter().all(|s| *s > REGULAR);
+    let flat = |k: &usize| thin(*k) < FLAT_BODY && symmetry[*k] > SYMMETRIC && (regular || figure.handles);
+    if let Some(k) = [2, 1, 0].into_iter().find(flat) {
+        return Stance { up: axis(k, 1.0), lies: true };
+    }
+    let stands = figure.base[2] > BASE && figure.base[1] < NO_BASE;
+    Stance { up: if stands { Z } else { Y }, lies: false }
+}
+
+/// What the rules look at; a surface of no extent has none of it.
+struct Figure {
+    extent: V3,
+    /// Sum of the faces' area vectors over the area.
+    outside: V3,
+    /// Area per box of the bounding box.
+    boxes: Vec<f64>,
+    /// Area of the faces at the bottom along y and z that face down, over that of the bounding box.
+    base: V3,
+    /// Whether the Euler characteristic is below that of a sphere or disk.
+    handles: bool,
+}
+
+impl Figure {
+    fn new(points: &[V3], faces: &[[u32; 3]]) -> Figure {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for p in points {
+            for k in 0..3 {
+                low[k] = low[k].min(p[k]);
+                high[k] = high[k].max(p[k]);
+            }
+        }
+        let extent = [0, 1, 2].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
+        let mut boxes = vec![0.0; BOXES * BOXES * BOXES];
+        let (mut outside, mut total, mut base) = ([0.0; 3], 0.0, [0.0; 3]);
+        for face in faces {
+            let p = face.map(|v| points[v as usize]);
+            let n = normal(p);
+            let area = norm(n);
+            let place = [0, 1, 2].map(|k| ((p[0][k] + p[1][k] + p[2][k]) / 3.0 - low[k]) / extent[k]);
+            let cell = place.map(|x| ((x * BOXES as f64) as usize).min(BOXES - 1));
+            boxes[(cell[0] * BOXES + cell[1]) * BOXES + cell[2]] += area;
+            total += area;
+            for k in 0..3 {
+                outside[k] += n[k];
+                if place[k] < 0.04 && n[k] < -0.9 * area {
+                    base[k] += 0.5 * area / (extent[(k + 1) % 3] * extent[(k + 2) % 3]);
+                }
+            }
+        }
+        let mut edges: Vec<(u32, u32)> = faces
+            .iter()
+            .flat_map(|f| [0, 1, 2].map(|k| (f[k].min(f[(k + 1) % 3]), f[k].max(f[(k + 1) % 3]))))
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let euler = points.len() as i64 - edges.len() as i64 + faces.len() as i64;
+        let outside = outside.map(|x| x / f64::max(total, f64::MIN_POSITIVE));
+        Figure { extent, outside, boxes, base, handles: euler <= 0 }
+    }
+
+    /// How much of the area lies as its mirror image along axis `k` does, in [0, 1].
+    fn symmetry(&self, k: usize) -> f64 {
+        let (mut common, mut all) = (0.0, f64::MIN_POSITIVE);
+        for i in 0..self.boxes.len() {
+            let mut cell = [i / (BOXES * BOXES), i / BOXES % BOXES, i % BOXES];
+            cell[k] = BOXES - 1 - cell[k];
+            let mirrored = self.boxes[(cell[0] * BOXES + cell[1]) * BOXES + cell[2]];
+            common += self.boxes[i].min(mirrored);
+            all += self.boxes[i].max(mirrored);
+        }
+        common / all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ricci::mesh::shapes;
+
+    #[test]
+    fn flat_things_lie_and_long_things_stand() {
+        let torus = shapes::torus(2.0, 0.7, 40, 20).unwrap();
+        assert_eq!(stance(&torus.positions, &torus.faces), Stance { up: Z, lies: true });
+        let turned = |p: &V3| [p[2], p[0], p[1]];
+        let points: Vec<V3> = torus.positions.iter().map(turned).collect();
+        assert_eq!(stance(&points, &torus.faces).up, [1.0, 0.0, 0.0]);
+        let disk = shapes::disk(10).unwrap();
+        assert_eq!(stance(&disk.positions, &disk.faces), Stance { up: Z, lies: true });
+        let below: Vec<[u32; 3]> = disk.faces.iter().map(|f| [f[0], f[2], f[1]]).collect();
+        assert_eq!(stance(&disk.positions, &below).up, [0.0, 0.0, -1.0]);
+        let tall = shapes::ellipsoid([1.0, 3.0, 1.0], 8).unwrap();
+        assert_eq!(stance(&tall.positions, &tall.faces), Stance { up: Y, lies: false });
+    }
+}

@@ -1,0 +1,131 @@
+//! Quantities that pictures show in colours.
+
+use crate::input::Input;
+use crate::job::Outcome;
+use crate::picture::{ColorChoice, Field, Scale};
+use ricci::geometry::triangle;
+use ricci::mesh::{FaceId, Mesh, PerVertex, Point};
+use ricci::metric::curvature::{curvature, curvature_from_angles};
+
+/// The quantity of a finished flow; `None` where there is none to show: those of a layout where it has none.
+pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<Field> {
+    let mesh = &outcome.mesh;
+    let laid = outcome.layout.as_ref().ok();
+    Some(match choice {
+        ColorChoice::None => return None,
+        ColorChoice::U => {
+            let factor = outcome.initial.conformal_factor(&outcome.metric).ok()?;
+            let scale = Scale::of_amounts("log conformal factor u", &factor);
+            at_vertices(mesh, &factor, scale)
+        }
+        ColorChoice::Curvature => curvature_of_input(input)?,
+        ColorChoice::Qc => {
+            let values: Vec<f64> = laid?.quality.qc.to_vec();
+            let scale = Scale::of_amounts("quasi-conformal dilatation K", &values);
+            at_faces(&values, scale)
+        }
+        ColorChoice::Area => {
+            let values: Vec<f64> = laid?.quality.area_ratio.iter().map(|r| r.log2()).collect();
+            let scale = Scale::of_signed("log2 of area in the layout over area on the surface", &values);
+            at_faces(&values, scale)
+        }
+    })
+}
+
+const CURVATURE: &str = "Gaussian curvature K (1/length²)";
+
+/// Gaussian curvature of a surface: the angle defect of each vertex over a third of the area around it.
+pub fn curvature_of_input(input: &Input) -> Option<Field> {
+    let Input { mesh, lengths, geometry, .. } = input;
+    let defect = curvature(mesh, *geometry, lengths).ok()?.at;
+    let area = |f: FaceId| triangle::area(*geometry, mesh.opposite_edges(f).map(|e| lengths[e]));
+    Some(density(mesh, &defect, area, geometry.curvature()))
+}
+
+/// The same of any triangle list; vertices where it is no surface have none.
+pub fn curvature_of_triangles(points: &[Point], faces: &[[u32; 3]]) -> Field {
+    let corners = |f: FaceId| faces[f.index()].map(|v| points[v as usize]);
+    if let Ok(mesh) = Mesh::from_faces(points.len(), faces) {
+        let angles = mesh.faces().map(|f| angles(corners(f)));
+        let defect = curvature_from_angles(&mesh, angles);
+        return density(&mesh, &defect, |f| area(corners(f)), 0.0);
+    }
+    Field { corners: vec![[f64::NAN; 3]; faces.len()], scale: Scale::of_signed(CURVATURE, &[]) }
+}
+
+/// Angle defects over areas, with what the background geometry adds. A vertex of the boundary has the mean of its
+/// neighbours inside.
+fn density(mesh: &Mesh, defect: &PerVertex<f64>, area: impl Fn(FaceId) -> f64, background: f64) -> Field {
+    let mut around = PerVertex::filled(mesh.n_vertices(), 0.0);
+    for f in mesh.faces() {
+        let third = area(f) / 3.0;
+        mesh.face_vertices(f).into_iter().for_each(|v| around[v] += third);
+    }
+    let inside = |v| !mesh.is_boundary_vertex(v);
+    let own = |v| if inside(v) { defect[v] / around[v] + background } else { f64::NAN };
+    let mut values = PerVertex::from_fn(mesh.n_vertices(), own);
+    let mut sums = PerVertex::filled(mesh.n_vertices(), (0.0, 0.0));
+    for h in mesh.halfedges() {
+        let (a, b) = (mesh.origin(h), mesh.tip(h));
+        if !inside(a) && inside(b) {
+            sums[a].0 += values[b];
+            sums[a].1 += 1.0;
+        }
+    }
+    let scale = Scale::of_signed(CURVATURE, &values);
+    mesh.vertices().filter(|v| !inside(*v)).for_each(|v| values[v] = sums[v].0 / sums[v].1);
+    at_vertices(mesh, &values, scale)
+}
+
+fn at_vertices(mesh: &Mesh, values: &PerVertex<f64>, scale: Scale) -> Field {
+    Field { corners: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| values[v])).collect(), scale }
+}
+
+fn at_faces(values: &[f64], scale: Scale) -> Field {
+    Field { corners: values.iter().map(|v| [*v; 3]).collect(), scale }
+}
+
+fn angles(p: [Point; 3]) -> [f64; 3] {
+    let side = |i: usize, j: usize| [0, 1, 2].map(|k| p[j][k] - p[i][k]);
+    let angle = |k: usize| {
+        let (a, b) = (side(k, (k + 1) % 3), side(k, (k + 2) % 3));
+        f64::atan2(doubled_area(a, b), a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+    };
+    [0, 1, 2].map(angle)
+}
+
+fn area(p: [Point; 3]) -> f64 {
+    let side = |j: usize| [0, 1, 2].map(|k| p[j][k] - p[0][k]);
+    0.5 * doubled_area(side(1), side(2))
+}
+
+fn doubled_area(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    n.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ricci::mesh::shapes;
+
+    #[test]
+    fn spheres_have_the_curvature_of_their_radius() {
+        for radius in [1.0, 3.0] {
+            let soup = shapes::ellipsoid([radius; 3], 24).unwrap();
+            let field = curvature_of_triangles(&soup.positions, &soup.faces);
+            let all = field.corners.as_flattened();
+            let mean = all.iter().sum::<f64>() / all.len() as f64;
+            assert!((mean * radius * radius - 1.0).abs() < 0.01, "{mean} at radius {radius}");
+            assert!((field.scale.range[1] * radius * radius - 1.0).abs() < 0.05, "{:?}", field.scale.range);
+        }
+    }
+
+    #[test]
+    fn what_is_no_surface_has_no_curvature() {
+        let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+        let book = [[0, 1, 2], [0, 1, 3], [0, 1, 4]];
+        let field = curvature_of_triangles(&points, &book);
+        assert!(field.corners.len() == 3 && field.corners.as_flattened().iter().all(|x| x.is_nan()));
+    }
+}

@@ -1,0 +1,109 @@
+//! Pictures.
+
+use crate::run::Place;
+use crate::surfaces::{hill, torus};
+
+fn pixels(place: &Place, name: &str) -> (u32, u32, Vec<u8>) {
+    let file = std::io::BufReader::new(std::fs::File::open(place.path(name)).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let frame = reader.next_frame(&mut bytes).unwrap();
+    (frame.width, frame.height, bytes)
+}
+
+fn place() -> Place {
+    let place = Place::new();
+    place.put("torus.obj", &torus(24, 16).obj()).put("disk.obj", &hill(8).obj());
+    place
+}
+
+#[test]
+fn patterns_colours_wire_and_views_change_the_picture_and_threads_do_not() {
+    let place = place();
+    let draw = |options: &str| {
+        place.expect(0, &format!("flow torus.obj --quiet --size 120 --picture p.png {options}"));
+        pixels(&place, "p.png")
+    };
+    let usual = draw("");
+    assert!(usual == draw("--threads 1") && usual == draw("--threads 3"));
+    assert!(usual.0.max(usual.1) > 120 && usual.1 <= 120, "{} by {}", usual.0, usual.1);
+    let options = [
+        "--texture circles",
+        "--texture none",
+        "--wire",
+        "--view 10,50",
+        "--view -80,-10",
+        "--up x",
+        "--color u",
+        "--color curvature",
+        "--color qc",
+        "--color area",
+        "--color u --texture checker",
+    ];
+    let mut seen = vec![usual];
+    for option in options {
+        let picture = draw(option);
+        assert!(!seen.contains(&picture), "{option}");
+        seen.push(picture);
+    }
+    draw("--palette");
+    place.expect(0, "info torus.obj --quiet --size 100 --picture i.png --color curvature --wire");
+    place.expect(0, "repair disk.obj -o d.obj --quiet --size 100 --picture r.png");
+    place.expect(
+        0,
+        "make sphere -n 4 -o s.obj --quiet --size 100 --picture s.png --view 0,20 --report s.json",
+    );
+    assert_eq!(place.json("s.json")["options"]["sphere"]["to"]["view"], serde_json::json!([0.0, 20.0]));
+}
+
+#[test]
+fn drawings_are_vectors_with_a_legend() {
+    let place = place();
+    for (options, has) in [
+        ("", "<pattern"),
+        ("--texture circles", "<circle"),
+        ("--color u", "log conformal factor"),
+        ("--scheme tangential --wire", "<circle"),
+    ] {
+        place.expect(0, &format!("flow disk.obj --quiet --picture p.svg {options}"));
+        let svg = place.text("p.svg");
+        assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n") && svg.contains(has), "{options}");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+    }
+}
+
+#[test]
+fn wishes_that_cannot_be_met_are_exit_2() {
+    let place = place();
+    for line in [
+        "flow torus.obj --wire",
+        "flow torus.obj --size 300",
+        "flow torus.obj --picture p.png --size 20",
+        "flow torus.obj --picture p.png --view 10",
+        "flow torus.obj --picture p.png --view 10,100",
+        "flow torus.obj --picture p.png --up w",
+        "flow torus.obj --picture p.png --color speed",
+        "flow torus.obj --picture p.png --space h2 --color qc",
+        "info torus.obj --picture p.png --color qc",
+        "info torus.obj --picture p.svg",
+    ] {
+        place.expect(2, line);
+    }
+    assert!(!place.exists("p.png") && !place.exists("p.svg"));
+}
+
+#[test]
+fn the_gallery_draws_every_generator_in_small_files() {
+    let place = Place::new();
+    place.expect(0, "gallery out --quiet");
+    let page = place.text("out/README.md");
+    assert!(!page.contains("left out"), "{page}");
+    let names: Vec<&str> = page.split("](").skip(1).map(|s| s.split(')').next().unwrap()).collect();
+    assert!(names.len() >= 15, "{names:?}");
+    for name in names {
+        let bytes = std::fs::metadata(place.path(&format!("out/{name}"))).unwrap().len();
+        assert!((1000..70_000).contains(&bytes), "{name}: {bytes} bytes");
+    }
+    place.put("file", "").expect(2, "gallery file");
+    place.expect(3, "gallery out nowhere --quiet");
+}

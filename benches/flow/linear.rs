@@ -1,0 +1,112 @@
+//! The linear algebra of one Newton step: the matrix, and what faer needs for it.
+
+use ricci::flow::curvature_derivative;
+use ricci::linalg::{Cholesky, Pattern, Symmetric};
+use ricci::mesh::{Mesh, VertexId};
+use ricci::metric::Metric;
+use std::io::Write;
+use std::time::Instant;
+
+/// What one solver took for one analysis, factorisation and solve.
+#[derive(Clone)]
+pub struct Linear {
+    pub solver: String,
+    /// Seconds.
+    pub analyse: f64,
+    pub factor: f64,
+    pub solve: f64,
+    /// Numbers in the factor.
+    pub entries: usize,
+    /// Processor seconds per second of the factorisation.
+    pub cores: f64,
+    /// ‖A x − b‖∞ for the right-hand side of [`right_hand_side`].
+    pub residual: f64,
+}
+
+impl Linear {
+    /// Seconds of a Newton's method that would do nothing else.
+    pub fn newton(&self, iterations: usize) -> f64 {
+        iterations as f64 * (self.factor + self.solve) + self.analyse
+    }
+}
+
+/// ∂K/∂u with the first vertex held.
+pub struct Matrix {
+    pattern: Pattern,
+    values: Vec<f64>,
+}
+
+impl Matrix {
+    pub fn new(mesh: &Mesh, metric: &Metric) -> Matrix {
+        let free = |i: VertexId| i.0.checked_sub(1);
+        let entries = curvature_derivative(mesh, metric).unwrap();
+        let kept: Vec<_> = entries.iter().filter_map(|&(i, j, x)| Some((free(i)?, free(j)?, x))).collect();
+        let pairs: Vec<_> = kept.iter().map(|&(i, j, _)| (i, j)).collect();
+        let pattern = Pattern::new(mesh.n_vertices() - 1, &pairs).unwrap();
+        let mut values = vec![0.0; pattern.entries()];
+        for (i, j, x) in kept {
+            values[pattern.position(i as usize, j as usize).unwrap()] = x;
+        }
+        Matrix { pattern, values }
+    }
+
+    fn symmetric(&self) -> Symmetric<'_> {
+        Symmetric { pattern: &self.pattern, values: &self.values }
+    }
+
+    /// faer, as the flow uses it. The second factorisation and solve count: their memory is there already, as in all
+    /// steps of Newton but the first. The peers do the same.
+    pub fn faer(&self) -> Linear {
+        let b: Vec<f64> = (0..self.pattern.size()).map(right_hand_side).collect();
+        let (analyse, mut cholesky) = seconds(|| Cholesky::analyse(&self.pattern).unwrap());
+        let mut x = b.clone();
+        let [mut factor, mut solve, mut cores] = [0.0; 3];
+        for _ in 0..2 {
+            let used = processor_seconds();
+            factor = seconds(|| cholesky.factor(self.symmetric()).unwrap()).0;
+            cores = (processor_seconds() - used) / factor;
+            x.copy_from_slice(&b);
+            solve = seconds(|| cholesky.solve(&mut x)).0;
+        }
+        let mut residual = vec![0.0; x.len()];
+        self.symmetric().residual(&x, &b, &mut residual);
+        Linear {
+            solver: "faer AMD".into(),
+            analyse,
+            factor,
+            solve,
+            entries: cholesky.factor_entries(),
+            cores,
+            residual: residual.iter().fold(0.0, |m, r| r.abs().max(m)),
+        }
+    }
+
+    /// In the format that benches/peers reads.
+    pub fn write(&self, out: impl Write) -> std::io::Result<()> {
+        let mut out = std::io::BufWriter::new(out);
+        let (n, entries) = (self.pattern.size(), self.pattern.entries());
+        [n as u64, entries as u64].iter().try_for_each(|x| out.write_all(&x.to_ne_bytes()))?;
+        let starts = (0..n).map(|j| self.pattern.diagonal(j)).chain([entries]);
+        starts.into_iter().try_for_each(|x| out.write_all(&(x as i32).to_ne_bytes()))?;
+        self.symmetric().entries().try_for_each(|(i, ..)| out.write_all(&(i as i32).to_ne_bytes()))?;
+        self.values.iter().try_for_each(|x| out.write_all(&x.to_ne_bytes()))?;
+        out.flush()
+    }
+}
+
+/// 1, −1, 1, −1, …: of mean about 0, so that the solution is of the size of the right-hand side.
+fn right_hand_side(i: usize) -> f64 {
+    if i.is_multiple_of(2) { 1.0 } else { -1.0 }
+}
+
+fn seconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
+    let start = Instant::now();
+    let result = work();
+    (start.elapsed().as_secs_f64(), result)
+}
+
+/// Processor seconds of this thread (faer runs on it alone); NaN where the system does not tell.
+fn processor_seconds() -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    text.split_whitespace().next().and_then(|ns| ns.parse::<f64>().ok()).map_or(f64::NAN, |ns| ns * 1e-9)
+}

@@ -1,0 +1,128 @@
+//! The flow against the linear algebra it stands on: faer, CHOLMOD and Eigen on the same matrix, in one run.
+//!
+//! `cargo bench --bench flow [-- VERTICES… SCHEME…] > docs/results/bench.md` (default: 10000 50000 200000 850000 yamabe
+//! inversive). The target is a flat torus, from a torus of revolution of that size, noisy so that Newton has work to do. A
+//! round is one flow, then one analysis, factorisation and solve by each solver of ∂K/∂u at the solution; several rounds
+//! follow each other, so that what else the machine does hits all sides, and medians are printed.
+//!
+//! CHOLMOD and Eigen are measured by the program of benches/peers: `RICCI_PEERS` names it, or else cmake builds it. Where
+//! cmake, Eigen or CHOLMOD are missing, the page says so and has no columns for them.
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
+
+mod heap;
+mod linear;
+mod page;
+mod peers;
+
+use linear::{Linear, Matrix};
+use peers::Peers;
+use ricci::Control;
+use ricci::flow::{Options, Report, flow};
+use ricci::geometry::Space;
+use ricci::mesh::{Mesh, shapes};
+use ricci::metric::{Scheme, Target, initial_metric, lengths_from_positions};
+
+/// Rounds of measurements, of which the medians are printed: below 100,000 vertices they are short.
+fn rounds(vertices: usize) -> usize {
+    if vertices < 100_000 { 9 } else { 3 }
+}
+
+/// Largest ‖A x − b‖∞ of a solver that solved the system: ‖b‖∞ = 1, and what rounding leaves is below 1e-13.
+const SOLVED: f64 = 1e-10;
+
+/// What one size and scheme took.
+struct Row {
+    vertices: usize,
+    scheme: Scheme,
+    rounds: usize,
+    /// Of the flow of median time.
+    report: Report,
+    /// Most bytes of the heap during the flow: mesh, start, target and solver together.
+    peak: usize,
+    /// faer first, then the peers: medians.
+    linear: Vec<Linear>,
+}
+
+fn median(x: impl Iterator<Item = f64>) -> f64 {
+    let mut x: Vec<f64> = x.collect();
+    x.sort_by(f64::total_cmp);
+    x[x.len() / 2]
+}
+
+/// The medians of the same solver over the rounds.
+fn medians(rounds: &[Vec<Linear>], solver: usize) -> Linear {
+    let of = |field: fn(&Linear) -> f64| median(rounds.iter().map(|round| field(&round[solver])));
+    Linear {
+        analyse: of(|x| x.analyse),
+        factor: of(|x| x.factor),
+        solve: of(|x| x.solve),
+        cores: of(|x| x.cores),
+        ..rounds[0][solver].clone()
+    }
+}
+
+fn measure(vertices: usize, scheme: Scheme, peers: Option<&Peers>) -> Row {
+    let side = (vertices as f64 / 2.0).sqrt();
+    let mut soup = shapes::torus(2.0, 0.9, (2.0 * side) as usize, side as usize).unwrap();
+    shapes::noise(&mut soup, 0.05, 1).unwrap();
+    let mesh = Mesh::from_soup(&soup).unwrap();
+    let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
+    let start = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::E2).unwrap().metric;
+    let target = Target::Uniform.resolve(&mesh, &lengths, Space::E2, scheme).unwrap();
+    drop((soup, lengths));
+    let (mut reports, mut solvers) = (Vec::new(), Vec::new());
+    let mut peak = 0;
+    let rounds = rounds(vertices);
+    for round in 1..=rounds {
+        eprintln!("{vertices} {scheme}: round {round} of {rounds}");
+        let run = || flow(&mesh, &start, &target, &Options::default(), &Control::new()).unwrap();
+        let (most, (metric, report)) = heap::peak(run);
+        assert!(report.converged, "{report:?}");
+        peak = peak.max(most);
+        reports.push(report);
+        let matrix = Matrix::new(&mesh, &metric);
+        let mut linear = vec![matrix.faer()];
+        if let Some(peers) = peers {
+            linear.extend(peers.measure(&matrix));
+        }
+        for solver in &linear {
+            assert!(solver.residual <= SOLVED, "{} leaves {:e}", solver.solver, solver.residual);
+        }
+        solvers.push(linear);
+    }
+    reports.sort_by(|a, b| a.seconds.total.total_cmp(&b.seconds.total));
+    Row {
+        vertices: mesh.n_vertices(),
+        scheme,
+        report: reports.swap_remove(rounds / 2),
+        peak,
+        linear: (0..solvers[0].len()).map(|solver| medians(&solvers, solver)).collect(),
+        rounds,
+    }
+}
+
+fn main() {
+    let (mut sizes, mut schemes) = (Vec::<usize>::new(), Vec::<Scheme>::new());
+    // Cargo adds --bench.
+    for argument in std::env::args().skip(1).filter(|a| a != "--bench") {
+        match (argument.parse(), argument.parse()) {
+            (Ok(size), _) => sizes.push(size),
+            (_, Ok(scheme)) => schemes.push(scheme),
+            _ => panic!("{argument} is neither a number of vertices nor a scheme"),
+        }
+    }
+    if sizes.is_empty() {
+        sizes = vec![10_000, 50_000, 200_000, 850_000];
+    }
+    if schemes.is_empty() {
+        schemes = vec![Scheme::Yamabe, Scheme::Inversive];
+    }
+    let load = page::load();
+    let peers = Peers::find();
+    if let Err(why) = &peers {
+        eprintln!("no peers: {why}");
+    }
+    let cases = sizes.iter().flat_map(|&size| schemes.iter().map(move |&scheme| (size, scheme)));
+    let rows: Vec<Row> = cases.map(|(size, scheme)| measure(size, scheme, peers.as_ref().ok())).collect();
+    println!("{}", page::page(&rows, peers.map(|p| p.libraries()), [load, page::load()]));
+}
