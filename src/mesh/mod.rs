@@ -3,6 +3,7 @@
 pub mod attribute;
 pub mod build;
 pub mod check;
+pub mod double;
 mod flip;
 pub mod halfedge;
 pub mod ids;
@@ -13,6 +14,7 @@ pub mod shapes;
 mod weld;
 
 pub use attribute::{PerEdge, PerFace, PerHalfedge, PerVertex};
+pub use double::Double;
 pub use halfedge::Mesh;
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 

@@ -5,10 +5,12 @@ pub mod delaunay;
 pub mod initial;
 pub mod lengths;
 pub mod scheme;
+pub mod start;
 pub mod target;
 
 pub use curvature::{Curvature, curvature};
 pub use initial::{Initial, initial_metric};
 pub use lengths::{Metric, lengths_from_positions};
 pub use scheme::Scheme;
+pub use start::delaunay_start;
 pub use target::Target;

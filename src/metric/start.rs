@@ -1,0 +1,42 @@
+//! Where a flow with flips starts: a triangulation and circles that depend on the surface alone.
+
+use super::delaunay::intrinsic_delaunay;
+use super::initial::{Initial, initial_metric, initial_mixed};
+use super::scheme::Scheme;
+use crate::error::Result;
+use crate::geometry::Space;
+use crate::mesh::{Double, EdgeId, Mesh, PerEdge, PerVertex};
+
+/// The initial metric of `scheme` on the (weighted) Delaunay triangulation of the surface: flips `mesh` and `lengths`, which stay
+/// the same surface, and so makes the conformal class independent of the triangulation the surface came with, up to ties.
+///
+/// Vertex scaling: on the intrinsic Delaunay triangulation. Circles that represent the lengths exactly (inversive distance,
+/// virtual radius): radii from the corners there, the same at mirrored vertices of a `double`, then the weighted Delaunay
+/// triangulation of those circles. Thurston's and tangential packings, which are Delaunay on any triangulation, stay on the given one.
+///
+/// `record` is told each edge just before its flip. Errors: those of [`initial_metric`] and [`intrinsic_delaunay`].
+pub fn delaunay_start(
+    mesh: &mut Mesh,
+    lengths: &mut PerEdge<f64>,
+    input_geometry: Space,
+    scheme: Scheme,
+    space: Space,
+    double: Option<&Double>,
+    record: &mut dyn FnMut(&Mesh, EdgeId),
+) -> Result<Initial> {
+    if matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
+        return initial_metric(mesh, lengths, input_geometry, scheme, space);
+    }
+    intrinsic_delaunay(mesh, lengths, None, input_geometry, record)?;
+    let initial = initial_metric(mesh, lengths, input_geometry, scheme, space)?;
+    if scheme != Scheme::Inversive {
+        return Ok(initial);
+    }
+    let mut radii = initial.radii;
+    if let Some(double) = double {
+        radii = PerVertex::from_fn(radii.len(), |v| radii[v].min(radii[double.mirror(v)]));
+    }
+    intrinsic_delaunay(mesh, lengths, Some(&radii), input_geometry, record)?;
+    let epsilon = PerVertex::filled(mesh.n_vertices(), scheme.epsilon());
+    initial_mixed(mesh, lengths, input_geometry, epsilon, radii, space)
+}
