@@ -5,9 +5,9 @@ use super::color::{Rgb, from_hex, mix};
 /// A colour map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ramp {
-    /// For amounts: viridis [SW15], ten of its 256 colours.
+    /// For amounts: viridis \[SW15\], ten of its 256 colours.
     Viridis,
-    /// For what has a sign: ColorBrewer's RdBu [HB03], blue for negative.
+    /// For what has a sign: ColorBrewer's RdBu \[HB03\], blue for negative.
     BlueRed,
 }
 

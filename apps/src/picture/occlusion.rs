@@ -1,7 +1,7 @@
 //! How much of the sky and of the key light a point sees past the surface, by casting rays.
 //!
 //! Each pixel casts a few rays, sixteen different sets of them in every square of 4 × 4 pixels; the mean over such a
-//! square of neighbours on the same piece of surface then counts all sets once (interleaved sampling, [KH01]).
+//! square of neighbours on the same piece of surface then counts all sets once (interleaved sampling, \[KH01\]).
 
 use super::raster::{Shape, in_parallel, visible};
 use super::vector::{V3, add, at, complement, dot, scaled, sub};
@@ -129,7 +129,7 @@ fn single<T: From<[f32; 3]>>(p: V3) -> T {
     p.map(|x| x as f32).into()
 }
 
-/// Points spread evenly over the unit disk: any run of consecutive ones is. The sequence of [Rob18] in the square,
+/// Points spread evenly over the unit disk: any run of consecutive ones is. The sequence of \[Rob18\] in the square,
 /// with its first coordinate as the share of the area within and its second as the angle.
 fn disk_point(i: usize) -> [f64; 2] {
     let s = (0.5 + (i + 1) as f64 * 0.754_877_666_246_692_7).fract();
@@ -138,7 +138,7 @@ fn disk_point(i: usize) -> [f64; 2] {
     [s.sqrt() * cos, s.sqrt() * sin]
 }
 
-/// The point of the smooth surface over a point of a face [Han21]: shadows then end where the smooth shading does, not
+/// The point of the smooth surface over a point of a face \[Han21\]: shadows then end where the smooth shading does, not
 /// along the edges of the faces.
 pub fn over(b: V3, corners: [V3; 3], normals: [V3; 3]) -> V3 {
     let p = at(b, corners);

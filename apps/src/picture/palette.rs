@@ -1,4 +1,4 @@
-//! An image in at most 192 colours, by median cut [Hec82].
+//! An image in at most 192 colours, by median cut \[Hec82\].
 
 use std::collections::HashMap;
 
