@@ -1,6 +1,8 @@
 //! The flow `du/dt = K̄ − K` [JKLLG08, Eqn 16] to a prescribed curvature, by Newton's method on its convex energy
 //! or by following it.
 
+mod cone_angles;
+pub mod cones;
 mod evaluate;
 mod flipping;
 mod gradient;
@@ -13,6 +15,7 @@ mod solver;
 mod spherical;
 mod system;
 
+pub use cones::{AutoCones, auto_cones};
 pub use jacobian::curvature_derivative;
 pub use obstruction::Obstruction;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
