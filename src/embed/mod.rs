@@ -1,13 +1,17 @@
-//! Layouts of metrics: developing a cut surface, the isometries between the sides of its seams, and how much
-//! the map distorts.
+//! Layouts of metrics: developing a cut surface, the isometries between the sides of its seams, how much the map distorts, and
+//! charts that do not overlap.
 
+pub mod charts;
 mod corner;
 mod develop;
 pub mod layout;
+pub mod overlap;
+pub mod pack;
 pub mod quality;
 pub mod seam;
 mod triangle;
 
+pub use charts::{ChartOptions, Charts, charts};
 pub use layout::{Layout, layout, layout_of};
 pub use quality::{Quality, quality};
 pub use seam::Seam;

@@ -130,7 +130,9 @@ mod tests {
         for seed in 0..200 {
             let k = 1 + seed as usize % 9;
             let (b, g) = problem(k, seed);
-            for (sum, bound) in [(None, 0.7), (Some(2.0), 2.5), (Some(-3.0), 0.1), (Some(0.4 * k as f64), 0.5)] {
+            for (sum, bound) in
+                [(None, 0.7), (Some(2.0), 2.5), (Some(-3.0), 0.1), (Some(0.4 * k as f64), 0.5)]
+            {
                 let Angles { t, level, .. } = angles(&b, &g, sum, bound).unwrap();
                 let slope: Vec<f64> =
                     (0..k).map(|i| g[i] + (0..k).map(|j| b[i][j] * t[j]).sum::<f64>()).collect();

@@ -74,13 +74,16 @@ pub fn auto_cones(mesh: &Mesh, lengths: &PerEdge<f64>, n: usize, control: &Contr
         control.step(Stage::Flow, (n + k) as f64 / (n + SWEEPS * n) as f64)?;
         place.place_anew(k % n)?;
     }
-    if let Some(last) = distortion.last_mut() {
-        *last = 2.0 * place.energy;
-    }
-    let mut cones: Vec<_> = place.cones.iter().map(|c| c.vertex).zip(place.angles.t.iter().copied()).collect();
+    let mut cones: Vec<_> =
+        place.cones.iter().map(|c| c.vertex).zip(place.angles.t.iter().copied()).collect();
     cones.sort_unstable_by_key(|c| c.0);
     let mut target = PerVertex::filled(mesh.n_vertices(), 0.0);
     cones.iter().for_each(|&(v, curvature)| target[v] = curvature);
+    if n > 0 {
+        // Not from the quadratic form, where a small distortion is the difference of large numbers.
+        let change = place.change(&target);
+        distortion[n] = 2.0 * place.gradient(&change)?.1;
+    }
     if !mesh.is_closed() {
         place.boundary(lengths, mesh, &mut target)?;
     }
@@ -91,8 +94,12 @@ pub fn auto_cones(mesh: &Mesh, lengths: &PerEdge<f64>, n: usize, control: &Contr
 fn check_number(mesh: &Mesh, n: usize) -> Result<()> {
     let interior = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)).count();
     let message = match (mesh.is_closed(), mesh.euler()) {
-        (true, 2) if n < 3 => "a closed surface of genus 0 needs 3 cones or more: each takes less than 2π of 4π".into(),
-        (true, 0) if n == 1 => "one cone on a torus would have curvature 0: ask for none, or 2 or more".into(),
+        (true, 2) if n < 3 => {
+            "a closed surface of genus 0 needs 3 cones or more: each takes less than 2π of 4π".into()
+        }
+        (true, 0) if n == 1 => {
+            "one cone on a torus would have curvature 0: ask for none, or 2 or more".into()
+        }
         (true, euler) if euler < 0 && n == 0 => "a closed surface of genus 2 or more needs a cone".into(),
         _ if n > interior => format!("{n} cones, but only {interior} interior vertices"),
         _ if n > MAX_AUTO_CONES => format!("{n} cones; {MAX_AUTO_CONES} at most are placed"),
@@ -148,8 +155,10 @@ impl<'a> Placing<'a> {
             mesh.face_vertices(f).into_iter().for_each(|v| mass[v.index()] += third);
         }
         let closed = mesh.is_closed();
-        let fixed: Vec<bool> =
-            mesh.vertices().map(|v| if closed { v.index() == 0 } else { mesh.is_boundary_vertex(v) }).collect();
+        let fixed: Vec<bool> = mesh
+            .vertices()
+            .map(|v| if closed { v.index() == 0 } else { mesh.is_boundary_vertex(v) })
+            .collect();
         control.check()?;
         let mut system = System::new(&mesh, &fixed)?;
         system.jacobian.assemble(&mesh, &metric, &state);
@@ -191,12 +200,20 @@ impl<'a> Placing<'a> {
         self.mass.iter().zip(self.state.curvature.iter()).map(|(m, k)| total * m - k).collect()
     }
 
+    /// K̄ − K.
+    fn change(&self, target: &PerVertex<f64>) -> Vec<f64> {
+        target.iter().zip(self.state.curvature.iter()).map(|(wanted, k)| wanted - k).collect()
+    }
+
     /// `u = L⁻¹ rhs`, 0 where it is held.
     fn solve(&mut self, rhs: &[f64]) -> Result<Vec<f64>> {
         self.control.check()?;
         let mut u = vec![0.0; rhs.len()];
         if self.system.unknowns() > 0 && !self.system.solve(rhs, ENOUGH, &mut u) {
-            return Err(factorisation(self.system.unknowns(), "the Laplacian is singular to working precision"));
+            return Err(factorisation(
+                self.system.unknowns(),
+                "the Laplacian is singular to working precision",
+            ));
         }
         Ok(u)
     }
@@ -251,9 +268,13 @@ impl<'a> Placing<'a> {
                 w.iter().map(|w| (w - self.angles.level).abs()).collect()
             }
         };
-        let better = |best: VertexId, v: VertexId| if gain[v.index()] > gain[best.index()] { v } else { best };
+        let better =
+            |best: VertexId, v: VertexId| if gain[v.index()] > gain[best.index()] { v } else { best };
         let best = candidates.into_iter().reduce(better);
-        best.ok_or_else(|| Error::TargetKind { target: "auto", message: "no vertex is left for a cone".into() })
+        best.ok_or_else(|| Error::TargetKind {
+            target: "auto",
+            message: "no vertex is left for a cone".into(),
+        })
     }
 
     /// Take a cone away and place it where the others want it, if that is better than before.
@@ -282,8 +303,7 @@ impl<'a> Placing<'a> {
     /// The curvature that u = 0 on the boundary leaves there, below π − LEAST_ANGLE/2 and with the total of Gauss–Bonnet: what
     /// some vertices cannot take goes to the others in proportion to the boundary's length at each.
     fn boundary(&mut self, lengths: &PerEdge<f64>, mesh: &Mesh, target: &mut PerVertex<f64>) -> Result<()> {
-        let change: Vec<f64> =
-            target.iter().zip(self.state.curvature.iter()).map(|(wanted, k)| wanted - k).collect();
+        let change = self.change(target);
         let u = self.solve(&change)?;
         let mut share = PerVertex::filled(mesh.n_vertices(), 0.0);
         let boundary: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).collect();
