@@ -165,7 +165,7 @@ pub struct FlowArgs {
     /// Discrete conformal structure
     #[arg(long, value_enum, default_value_t = SchemeChoice::Yamabe)]
     pub scheme: SchemeChoice,
-    /// Curvature: uniform, boundary, single:V, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
+    /// Curvature: uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
     #[arg(long, value_name = "TARGET", long_help = TARGET_HELP)]
     pub target: Option<TargetChoice>,
     /// Newton's method, or the flow itself
@@ -203,9 +203,12 @@ pub struct FlowArgs {
     /// Write the steps of the gradient flow
     #[arg(long, value_name = "T.csv")]
     pub trace: Option<PathBuf>,
-    /// Charts of several discs: not in this version.
-    #[arg(long, hide = true)]
+    /// Cut a layout that overlaps itself into charts that do not, packed into the unit square (--uv, --picture)
+    #[arg(long)]
     pub charts: bool,
+    /// Least distance of two charts, in sides of the unit square
+    #[arg(long, value_name = "DISTANCE", default_value_t = 1.0 / 256.0, value_parser = distance, requires = "charts")]
+    pub margin: f64,
     #[command(flatten)]
     pub common: Common,
 }
@@ -215,6 +218,7 @@ Prescribed curvature in radians:
   uniform         2πχ/V at every vertex of a closed surface in E²; 0 everywhere in H² and S²
   boundary        0 inside, 2πχ shared over the boundary in proportion to its length (E², open surfaces)
   single:V        all of 2πχ at vertex V, 0 elsewhere (E²)
+  auto:N          N cones where they lower the distortion of area most, 0 elsewhere inside (E²)
   cones:FILE.csv  the curvatures of the file's rows `vertex,curvature`, 0 elsewhere
   file:FILE.csv   the curvature of every vertex
 [default: boundary on open surfaces in E²; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
@@ -333,6 +337,7 @@ pub enum TargetChoice {
     Uniform,
     Boundary,
     Single(u32),
+    Auto(usize),
     Cones(PathBuf),
     File(PathBuf),
 }
@@ -349,11 +354,10 @@ impl FromStr for TargetChoice {
             }
             Some(("cones", file)) if !file.is_empty() => Ok(TargetChoice::Cones(file.into())),
             Some(("file", file)) if !file.is_empty() => Ok(TargetChoice::File(file.into())),
-            Some(("auto", _)) => {
-                Err("placing cones automatically is not in this version; name them with cones:FILE.csv"
-                    .into())
+            Some(("auto", n)) => {
+                n.parse().map(TargetChoice::Auto).map_err(|_| format!("`{n}` is not a number of cones"))
             }
-            _ => Err("must be uniform, boundary, single:V, cones:FILE.csv or file:FILE.csv".into()),
+            _ => Err("must be uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv".into()),
         }
     }
 }
@@ -364,6 +368,7 @@ impl std::fmt::Display for TargetChoice {
             TargetChoice::Uniform => f.write_str("uniform"),
             TargetChoice::Boundary => f.write_str("boundary"),
             TargetChoice::Single(v) => write!(f, "single:{v}"),
+            TargetChoice::Auto(n) => write!(f, "auto:{n}"),
             TargetChoice::Cones(file) => write!(f, "cones:{}", file.display()),
             TargetChoice::File(file) => write!(f, "file:{}", file.display()),
         }
@@ -407,10 +412,10 @@ mod tests {
 
     #[test]
     fn targets_read_back_as_written() {
-        for text in ["uniform", "boundary", "single:7", "cones:a:b.csv", "file:/x/y.csv"] {
+        for text in ["uniform", "boundary", "single:7", "auto:4", "cones:a:b.csv", "file:/x/y.csv"] {
             assert_eq!(text.parse::<TargetChoice>().unwrap().to_string(), text);
         }
-        for text in ["", "single", "single:-1", "cones:", "auto:4", "Uniform"] {
+        for text in ["", "single", "single:-1", "cones:", "auto:", "auto:-1", "Uniform"] {
             assert!(text.parse::<TargetChoice>().is_err(), "{text}");
         }
     }

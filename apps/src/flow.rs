@@ -1,5 +1,6 @@
 //! `ricci flow`.
 
+use crate::charts;
 use crate::circles::circles;
 use crate::cli::{FlipsChoice, FlowArgs, MethodChoice, PinChoice, SchemeChoice, TargetChoice};
 use crate::csv;
@@ -53,16 +54,21 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     if let Some(geometry) = args.input_geometry {
         input.geometry = geometry.into();
     }
-    let space = args.space.space().unwrap_or_else(|| default_space(&input.mesh));
+    // Placed cones exist in E² alone.
+    let automatic = if matches!(args.target, Some(TargetChoice::Auto(_))) { Some(Space::E2) } else { None };
+    let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(&input.mesh));
     check_outputs(args, &input, space)?;
     let job = Job {
         space,
         scheme: args.scheme.into(),
-        target: args.target.as_ref().map(|t| target(t, &input)).transpose()?,
+        target: args.target.as_ref().map(|t| target(t, &input, space, control)).transpose()?,
         options: options(args),
         pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, &input.mesh)),
     };
-    let outcome = job::run(&input, job, control)?;
+    let mut outcome = job::run(&input, job, control)?;
+    if args.charts {
+        charts::cut(&mut outcome, args.margin, control)?;
+    }
     let files = write(args, &input, &outcome, control, start)?;
     drop(progress);
     let checks = outcome.checks();
@@ -93,8 +99,11 @@ fn options(args: &FlowArgs) -> Options {
 /// What can be refused before anything is read.
 fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     let usage = |message: &str| Err(Failure::Usage(message.into()));
-    if args.charts {
-        return usage("--charts is not in this version");
+    if args.charts && args.circles.is_some() {
+        return usage("--circles: circles belong to the layout as a whole; leave --charts or --circles out");
+    }
+    if args.pin.is_some() && matches!(args.target, Some(TargetChoice::Auto(_))) {
+        return usage("--target auto chooses every curvature, --pin leaves some free; leave one out");
     }
     if args.trace.is_some() && args.method != MethodChoice::Gradient {
         return usage("--trace records the gradient flow; add --method gradient");
@@ -123,8 +132,10 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
 
 /// What can be refused once the surface is known.
 fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
-    for (option, path) in [("--uv", &args.uv), ("--circles", &args.circles)] {
-        if path.is_some() && space != Space::E2 {
+    let wishes =
+        [("--uv", args.uv.is_some()), ("--circles", args.circles.is_some()), ("--charts", args.charts)];
+    for (option, wanted) in wishes {
+        if wanted && space != Space::E2 {
             return Err(Failure::Usage(format!(
                 "{option}: layouts in {space} are not in this version; use --space e2 (with --target single:V or \
                  cones:FILE.csv where the surface needs cones)"
@@ -160,12 +171,13 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
     Ok(())
 }
 
-fn target(choice: &TargetChoice, input: &Input) -> Result<Target, Failure> {
+fn target(choice: &TargetChoice, input: &Input, space: Space, control: &Control) -> Result<Target, Failure> {
     let n = input.mesh.n_vertices();
     Ok(match choice {
         TargetChoice::Uniform => Target::Uniform,
         TargetChoice::Boundary => Target::Boundary,
         TargetChoice::Single(v) => Target::Single(VertexId(*v)),
+        TargetChoice::Auto(n) => charts::auto_target(*n, input, space, control)?,
         TargetChoice::Cones(path) => Target::Cones(csv::read_curvatures(path, n)?),
         TargetChoice::File(path) => Target::All(csv::read_all_curvatures(path, n)?),
     })
@@ -201,7 +213,7 @@ fn write(
             outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace))?;
         }
         if let (Some(path), Ok(laid), Some(positions)) = (&args.uv, &outcome.layout, &input.positions) {
-            uv::write(&mut outputs, path, positions, &outcome.mesh, &laid.layout)?;
+            uv::write(&mut outputs, path, positions, &outcome.mesh, laid)?;
         }
         let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
         if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
@@ -244,6 +256,8 @@ pub struct Asked {
     circles: Option<String>,
     #[serde(flatten)]
     picture: FlowPictureArgs,
+    charts: bool,
+    margin: f64,
     trace: Option<String>,
 }
 
@@ -267,6 +281,8 @@ impl Asked {
             uv: text(&args.uv),
             circles: text(&args.circles),
             picture: args.picture.clone(),
+            charts: args.charts,
+            margin: args.margin,
             trace: text(&args.trace),
         }
     }
@@ -318,6 +334,14 @@ pub struct FlowResult {
     area_ratio_max: Option<f64>,
     /// Faces without area in the input or the layout; the qc figures leave them out.
     degenerate_pieces: Option<usize>,
+    /// Number of charts, and the share of the unit square that they cover.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    charts: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    packing: Option<f64>,
+    /// Cones that were given or placed, `[vertex, curvature]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cones: Option<Vec<(u32, f64)>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     modulus: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -357,6 +381,8 @@ impl FlowResult {
     pub fn new(outcome: &Outcome) -> Self {
         let Outcome { report, initial, layout, .. } = outcome;
         let laid = layout.as_ref().ok();
+        let packed = laid.and_then(|l| l.packed.as_ref());
+        let cones = charts::interior_cones(outcome);
         let seam = |s: &ricci::embed::Seam| SeamFigures {
             rotation: s.rotation,
             translation: s.translation,
@@ -395,6 +421,9 @@ impl FlowResult {
             area_ratio_min: laid.map(|l| l.quality.area_ratio_min),
             area_ratio_max: laid.map(|l| l.quality.area_ratio_max),
             degenerate_pieces: laid.map(|l| l.quality.degenerate.len()),
+            charts: packed.map(|p| p.charts.count()),
+            packing: packed.map(|p| p.charts.efficiency),
+            cones: cones.map(|cones| cones.into_iter().map(|(v, k)| (v.0, k)).collect()),
             modulus: laid.and_then(|l| l.modulus),
             seams: laid.map(|l| l.layout.seams.iter().map(seam).collect()),
             no_layout: layout.as_ref().err().cloned(),

@@ -130,6 +130,9 @@ impl Outcome {
         checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
         if let Ok(laid) = &self.layout {
             checks.add("layout_consistency", laid.consistency(), laid.consistency_limit);
+            if let Some(packed) = &laid.packed {
+                checks.add("overlapping_in_charts", packed.overlapping as f64, 0.0);
+            }
             checks.add("flipped_triangles", laid.layout.flipped.len() as f64, 0.0);
         }
         checks

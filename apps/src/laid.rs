@@ -1,5 +1,6 @@
 //! The layout of a flat metric with what is said about it.
 
+use crate::charts::Packed;
 use crate::failure::Failure;
 use crate::input::Input;
 use ricci::Control;
@@ -21,6 +22,8 @@ const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// A layout scaled to the area of the input.
 pub struct Laid {
     pub layout: Layout,
+    /// The layout in charts, where that was asked for.
+    pub packed: Option<Packed>,
     pub quality: Quality,
     /// Lengths in the layout over lengths in the metric.
     pub scale: f64,
@@ -75,7 +78,7 @@ pub fn lay_out(
         [a, b, ..] if flat_torus => modulus([a.translation, b.translation]),
         _ => None,
     };
-    Ok(Ok(Laid { layout, quality, scale, modulus, consistency_limit }))
+    Ok(Ok(Laid { layout, packed: None, quality, scale, modulus, consistency_limit }))
 }
 
 impl Laid {

@@ -1,5 +1,6 @@
 //! The `ricci` command.
 
+mod charts;
 mod checkerboard;
 mod circles;
 mod cli;

@@ -108,6 +108,14 @@ fn layout(laid: &Laid) -> String {
         q.area_ratio_min,
         q.area_ratio_max
     );
+    if let Some(packed) = &laid.packed {
+        let charts = &packed.charts;
+        text += &format!(
+            "\ncharts   {}, {:.0} % of the unit square",
+            count(charts.count(), "chart", "charts"),
+            100.0 * charts.efficiency
+        );
+    }
     if let Some([re, im]) = laid.modulus {
         text += &format!(", modulus {re:.6} {} {:.6} i", if im < 0.0 { '-' } else { '+' }, im.abs());
     }

@@ -100,34 +100,33 @@ struct Parts {
 impl Parts {
     fn new(outcome: &Outcome, laid: &Laid) -> Parts {
         let (mesh, layout) = (&outcome.mesh, &laid.layout);
-        let side = |h: HalfedgeId| (layout.corner_uv(h), layout.corner_uv(mesh.next(h)));
-        let mut parts =
-            Parts { corner_uv: mesh.faces().map(|f| layout.face_uv(mesh, f)).collect(), ..Parts::default() };
-        for (number, seam) in layout.seams.iter().enumerate() {
-            for &h in &seam.halfedges {
-                parts.edges.push((mesh.origin(h).0, mesh.tip(h).0, number));
-                for h in [h, h.twin()] {
-                    let (a, b) = side(h);
-                    parts.seams.push((a, b, number));
-                }
+        let side = |h: HalfedgeId| (laid.corner_uv(h), laid.corner_uv(mesh.next(h)));
+        let face_uv = |f| mesh.face_halfedges(f).map(|h| laid.corner_uv(h));
+        let mut parts = Parts { corner_uv: mesh.faces().map(face_uv).collect(), ..Parts::default() };
+        for (h, number) in laid.numbered_seams(mesh) {
+            parts.edges.push((mesh.origin(h).0, mesh.tip(h).0, number));
+            for h in [h, h.twin()] {
+                let (a, b) = side(h);
+                parts.seams.push((a, b, number));
             }
         }
         for h in mesh.halfedges().filter(|h| mesh.is_outside(h.twin())) {
             parts.boundary.push(side(h));
         }
-        let mut seen = vec![false; layout.coordinates.len()];
+        let mut seen = vec![false; laid.coordinates().len()];
         let cones: PerVertex<f64> = {
             let mut at = PerVertex::filled(mesh.n_vertices(), 0.0);
             cones(mesh, &outcome.target).into_iter().for_each(|(v, k)| at[VertexId(v)] = k);
             at
         };
         for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h) && cones[mesh.origin(h)] != 0.0) {
-            let uv = layout.corner_index[h] as usize;
+            let uv = laid.corner_index()[h] as usize;
             if !std::mem::replace(&mut seen[uv], true) {
-                parts.cones.push((layout.coordinates[uv], cones[mesh.origin(h)]));
+                parts.cones.push((laid.coordinates()[uv], cones[mesh.origin(h)]));
             }
         }
-        if outcome.scheme.epsilon() != 0 {
+        // Circles belong to the layout, not to its charts.
+        if outcome.scheme.epsilon() != 0 && laid.packed.is_none() {
             let all = circles(mesh, &outcome.metric, outcome.scheme.name(), layout, laid.scale);
             let vertex = all.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
             parts.circles = vertex.collect();

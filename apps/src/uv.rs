@@ -2,8 +2,8 @@
 
 use crate::checkerboard;
 use crate::failure::Failure;
+use crate::laid::Laid;
 use crate::output::{Outputs, extension};
-use ricci::embed::Layout;
 use ricci::mesh::io::{self, Texture, Textured, Wrap};
 use ricci::mesh::{Mesh, Point};
 use std::path::Path;
@@ -14,20 +14,20 @@ pub fn write(
     path: &Path,
     positions: &[Point],
     mesh: &Mesh,
-    layout: &Layout,
+    laid: &Laid,
 ) -> Result<(), Failure> {
     let corners: Vec<[u32; 3]> =
-        mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| layout.corner_index[h])).collect();
+        mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| laid.corner_index()[h])).collect();
     let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
     let data = Textured {
         positions,
-        texcoords: &layout.coordinates,
+        texcoords: laid.coordinates(),
         faces: &faces,
         face_texcoords: &corners,
         ..Textured::default()
     };
     if extension(path) == "glb" {
-        let (texcoords, png) = (checkerboard::coordinates(&layout.coordinates), checkerboard::png()?);
+        let (texcoords, png) = (checkerboard::coordinates(laid.coordinates()), checkerboard::png()?);
         let texture = Texture { png: &png, wrap: Wrap::Repeat };
         let data = Textured { texcoords: &texcoords, ..data };
         return outputs.add_named(path, |path| io::write_glb(path, &data, Some(texture)).map(drop));

@@ -14,14 +14,15 @@ use ricci::mesh::{Mesh, Point, VertexId, io};
 use ricci::metric::curvature::curvature;
 use ricci::topology::cut_graph;
 use std::ffi::c_char;
+use std::path::Path;
 use std::sync::Arc;
 
 /// A flat metric unrolled into the plane along a cut.
 pub struct ricci_layout {
     poison: Poison,
-    mesh: Arc<Mesh>,
-    positions: Option<Arc<Vec<Point>>>,
-    layout: Layout,
+    pub(crate) mesh: Arc<Mesh>,
+    pub(crate) positions: Option<Arc<Vec<Point>>>,
+    pub(crate) layout: Layout,
     quality: Quality,
 }
 
@@ -343,19 +344,8 @@ pub unsafe extern "C" fn ricci_layout_write_obj(
     guard::call(|door| {
         let layout = door.shared(layout)?;
         let path = arrays::path("path", path)?;
-        let positions = layout.positions.as_ref().ok_or_else(|| {
-            Failure::argument("the layout is of an intrinsic mesh: it has no positions to write")
-        })?;
-        let mesh = &layout.mesh;
-        let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
-        let data = io::Textured {
-            positions,
-            faces: &faces,
-            texcoords: &layout.layout.coordinates,
-            face_texcoords: &layout.corners(),
-            ..io::Textured::default()
-        };
-        Ok(io::write_obj(&path, &data)?)
+        let (mesh, positions) = (&layout.mesh, layout.positions.as_ref());
+        write_obj(&path, mesh, positions, &layout.layout.coordinates, &layout.corners())
     })
 }
 
@@ -364,4 +354,26 @@ impl ricci_layout {
         let index = &self.layout.corner_index;
         self.mesh.faces().map(|f| self.mesh.face_halfedges(f).map(|h| index[h])).collect()
     }
+}
+
+/// The mesh with these points of the plane at the corners of its faces.
+pub(crate) fn write_obj(
+    path: &Path,
+    mesh: &Mesh,
+    positions: Option<&Arc<Vec<Point>>>,
+    points: &[[f64; 2]],
+    corners: &[[u32; 3]],
+) -> Outcome {
+    let positions = positions.ok_or_else(|| {
+        Failure::argument("the layout is of an intrinsic mesh: it has no positions to write")
+    })?;
+    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let data = io::Textured {
+        positions,
+        faces: &faces,
+        texcoords: points,
+        face_texcoords: corners,
+        ..io::Textured::default()
+    };
+    Ok(io::write_obj(path, &data)?)
 }

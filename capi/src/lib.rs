@@ -62,4 +62,6 @@ pub mod flow;
 
 pub mod layout;
 
+pub mod charts;
+
 pub mod debug;

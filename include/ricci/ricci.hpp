@@ -39,6 +39,7 @@ struct deleter {
     void operator()(ricci_report *p) const { ricci_report_free(p); }
     void operator()(ricci_solver *p) const { ricci_solver_free(p); }
     void operator()(ricci_layout *p) const { ricci_layout_free(p); }
+    void operator()(ricci_charts *p) const { ricci_charts_free(p); }
     void operator()(ricci_control *p) const { ricci_control_free(p); }
 };
 
@@ -51,6 +52,7 @@ using metric = owned<ricci_metric>;
 using report = owned<ricci_report>;
 using solver = owned<ricci_solver>;
 using layout = owned<ricci_layout>;
+using charts = owned<ricci_charts>;
 using control = owned<ricci_control>;
 
 // The handle that a function of ricci.h hands out through its last parameter.
