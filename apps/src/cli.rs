@@ -66,6 +66,8 @@ const FLOW_EXAMPLE: &str = "\
 Example: a flat torus, its layout as texture coordinates and a picture of both
     ricci make torus -o torus.obj
     ricci flow torus.obj --uv flat.obj --picture flat.png --report flat.json
+Example: eight cones, and charts in the unit square
+    ricci flow torus.obj --target auto:8 --charts --uv atlas.obj --picture atlas.svg
 
 Files
     --target cones:FILE.csv    rows `vertex,curvature` in radians; 0 at every vertex that is not named

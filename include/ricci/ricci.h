@@ -209,6 +209,9 @@ typedef enum {
     RICCI_STEP_FIXED = 2,
 } ricci_step;
 
+/** A layout in charts that do not overlap, packed into the unit square. */
+typedef struct ricci_charts ricci_charts;
+
 /**
  * Progress of a long call and the means to cancel it. Every function on it may be called from any thread at
  * any time between ricci_control_new and ricci_control_free.
@@ -517,6 +520,28 @@ typedef struct {
     /** Largest area distortion. */
     double area_ratio_max;
 } ricci_layout_summary;
+
+/** Figures of charts. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Number of charts. */
+    size_t n_charts;
+    /** F. */
+    size_t n_faces;
+    /** Number of points in the unit square. */
+    size_t n_points;
+    /** Faces that are not counterclockwise, each a chart of its own. */
+    size_t n_flipped;
+    /** Lengths in the unit square over lengths in the layout, the same for all charts. */
+    double scale;
+    /** Share of the unit square that is covered. */
+    double efficiency;
+    /** Total length of the layout's seams, in its units. */
+    double layout_seams;
+    /** Total length of the charts' seams, in units of the layout. */
+    double chart_seams;
+} ricci_charts_summary;
 
 #ifdef __cplusplus
 extern "C" {
@@ -1550,6 +1575,28 @@ ricci_status ricci_target_cones(const ricci_metric *metric,
                                 size_t capacity);
 
 /**
+ * Cones placed by the library: n_cones interior vertices, and their curvatures, such that a conformal map that is flat elsewhere
+ * changes areas as little as it finds. On an open surface the boundary keeps its conformal factor, and has the curvature
+ * that follows. E2 only.
+ *
+ * Deterministic; one factorisation and about 6 n_cones solutions.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_TARGET_KIND (not E2, or a number of cones
+ * that the surface cannot have: closed of genus 0 needs 3, genus 1 none or 2, genus 2 or more 1), RICCI_FACTORISATION,
+ * RICCI_CANCELLED.
+ *
+ * @param metric    the metric that will flow, made from Euclidean lengths.
+ * @param n_cones   number of cones, at most 256.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param target    out: n_vertices curvatures, radians; the cones are the interior vertices where it is not 0.
+ * @param capacity  entries of `target`.
+ */
+ricci_status ricci_target_auto(const ricci_metric *metric,
+                               size_t n_cones,
+                               const ricci_control *control,
+                               double *target,
+                               size_t capacity);
+
+/**
  * Whether a target is admissible: each curvature below 2 pi (pi on the boundary) and the total that
  * Gauss-Bonnet asks for. The flow asks the same.
  *
@@ -1877,6 +1924,88 @@ ricci_status ricci_layout_area_ratio(const ricci_layout *layout, double *ratio, 
  * @param path    file name, NUL-terminated.
  */
 ricci_status ricci_layout_write_obj(const ricci_layout *layout,
+                                    const char *path);
+
+/**
+ * Cut a layout into charts and pack them into the unit square.
+ *
+ * Every chart is connected, and no two of its faces overlap (decided exactly in the layout's coordinates). Charts are turned and
+ * moved, and all scaled by one factor. An injective layout is one chart. Deterministic.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (margin), RICCI_LAYOUT (no area), RICCI_CANCELLED.
+ *
+ * @param layout   the layout.
+ * @param margin   least distance of two charts, in sides of the unit square, from 0 to below 1; 1/256 is usual.
+ * @param control  progress and cancellation; NULL for neither.
+ * @param charts   out: the new handle, to be released by ricci_charts_free.
+ */
+ricci_status ricci_charts_new(const ricci_layout *layout,
+                              double margin,
+                              const ricci_control *control,
+                              ricci_charts **charts);
+
+/**
+ * Release charts.
+ *
+ * @param charts  the handle, or NULL.
+ */
+void ricci_charts_free(ricci_charts *charts);
+
+/**
+ * The figures of charts.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param charts   the charts.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+ricci_status ricci_charts_summarise(const ricci_charts *charts,
+                                    ricci_charts_summary *summary,
+                                    size_t size);
+
+/**
+ * The chart of every face, from 0; charts with more area come first.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param charts    the charts.
+ * @param chart     out: n_faces chart numbers.
+ * @param capacity  entries of `chart`.
+ */
+ricci_status ricci_charts_faces(const ricci_charts *charts, uint32_t *chart, size_t capacity);
+
+/**
+ * The points of the charts, in the unit square.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param charts    the charts.
+ * @param points    out: n_points x 2, from 0 to 1.
+ * @param capacity  entries of `points`, at least 2 n_points.
+ */
+ricci_status ricci_charts_points(const ricci_charts *charts, double *points, size_t capacity);
+
+/**
+ * The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param charts    the charts.
+ * @param corners   out: n_faces x 3 indices of points.
+ * @param capacity  entries of `corners`, at least 3 n_faces.
+ */
+ricci_status ricci_charts_corners(const ricci_charts *charts, uint32_t *corners, size_t capacity);
+
+/**
+ * Write the mesh with its charts as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
+ *
+ * A file of that name is replaced only once the new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
+ *
+ * @param charts  the charts.
+ * @param path    file name, NUL-terminated.
+ */
+ricci_status ricci_charts_write_obj(const ricci_charts *charts,
                                     const char *path);
 
 /**

@@ -6,7 +6,7 @@
 
 use super::corner::number_corners;
 use super::overlap::{BoxTree, Triangle};
-use super::pack::{least_rectangle, pack};
+use super::pack::{least_rectangle, least_square, pack};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::PlaneIsometry;
@@ -159,13 +159,22 @@ fn arrange(
     let mut of_chart: Vec<Vec<[f64; 2]>> = vec![Vec::new(); count];
     points.iter().zip(chart).for_each(|(&p, &c)| of_chart[c as usize].push(p));
     control.step(Stage::Layout, 0.9)?;
-    let rectangles: Vec<(f64, [f64; 2])> = of_chart.iter().map(|points| least_rectangle(points)).collect();
-    drop(of_chart);
-    let sides: Vec<[f64; 2]> = rectangles.iter().map(|r| r.1).collect();
-    let (scale, places) = pack(&sides, margin).ok_or_else(|| {
+    let mut rectangles: Vec<(f64, [f64; 2])> =
+        of_chart.iter().map(|points| least_rectangle(points)).collect();
+    let sides =
+        |rectangles: &[(f64, [f64; 2])]| -> Vec<[f64; 2]> { rectangles.iter().map(|r| r.1).collect() };
+    let (mut scale, mut places) = pack(&sides(&rectangles), margin).ok_or_else(|| {
         let need = "small enough to leave room between the charts";
         Error::Argument { what: "margin", value: format!("{margin} with {count} charts"), need }
     })?;
+    // Where the largest chart alone sets the scale, its least square counts, not its least rectangle.
+    let square = least_square(&of_chart[0]);
+    let first = std::mem::replace(&mut rectangles[0], square);
+    match pack(&sides(&rectangles), margin) {
+        Some(better) if better.0 > scale => (scale, places) = better,
+        _ => rectangles[0] = first,
+    }
+    drop(of_chart);
     control.check()?;
     let angle = |c: usize| rectangles[c].0 + if places[c].turned { FRAC_PI_2 } else { 0.0 };
     let turns: Vec<PlaneIsometry> = (0..count).map(|c| PlaneIsometry::new(angle(c), [0.0; 2])).collect();

@@ -14,14 +14,6 @@ const MANY: usize = 4000;
 pub fn least_rectangle(points: &[[f64; 2]]) -> (f64, [f64; 2]) {
     let hull = convex_hull(points);
     let n = hull.len();
-    let extent = |angle: f64| {
-        let (s, c) = angle.sin_cos();
-        let range = hull.iter().fold([[f64::INFINITY, f64::NEG_INFINITY]; 2], |r, &[x, y]| {
-            let turned = [c * x - s * y, s * x + c * y];
-            [0, 1].map(|k| [r[k][0].min(turned[k]), r[k][1].max(turned[k])])
-        });
-        range.map(|[low, high]| high - low)
-    };
     // Rotating calipers: the corners farthest along, away from and back along the side.
     let at = |i: usize| hull[i % n];
     let (mut best, mut least) = (0.0, f64::INFINITY);
@@ -53,8 +45,48 @@ pub fn least_rectangle(points: &[[f64; 2]]) -> (f64, [f64; 2]) {
             (best, least) = (-d[1].atan2(d[0]), area);
         }
     }
-    let [x, y] = extent(best);
-    if x >= y { (best, [x, y]) } else { (best + FRAC_PI_2, [y, x]) }
+    lengthwise(&hull, best)
+}
+
+/// Angles between 0 and a right one at which the least square is looked for, before the best is refined.
+const SQUARE_ANGLES: usize = 180;
+/// Halvings of the step in that refinement.
+const SQUARE_STEPS: usize = 20;
+
+/// The angle by which some points are to be turned for the smallest square along the axes to hold them, and their extents then, the
+/// longer along x. A long thin shape lies along the diagonal. O(n log n).
+pub fn least_square(points: &[[f64; 2]]) -> (f64, [f64; 2]) {
+    let hull = convex_hull(points);
+    let side = |angle: f64| {
+        let [x, y] = extent(&hull, angle);
+        x.max(y)
+    };
+    let mut step = FRAC_PI_2 / SQUARE_ANGLES as f64;
+    let best = |angles: &mut dyn Iterator<Item = f64>| {
+        angles.map(|a| (side(a), a)).reduce(|a, b| if b.0 < a.0 { b } else { a }).map_or(0.0, |b| b.1)
+    };
+    let mut angle = best(&mut (0..SQUARE_ANGLES).map(|k| k as f64 * step));
+    for _ in 0..SQUARE_STEPS {
+        step *= 0.5;
+        angle = best(&mut [angle, angle - step, angle + step].into_iter());
+    }
+    lengthwise(&hull, angle)
+}
+
+/// Extents along x and y after a turn.
+fn extent(points: &[[f64; 2]], angle: f64) -> [f64; 2] {
+    let (s, c) = angle.sin_cos();
+    let range = points.iter().fold([[f64::INFINITY, f64::NEG_INFINITY]; 2], |r, &[x, y]| {
+        let turned = [c * x - s * y, s * x + c * y];
+        [0, 1].map(|k| [r[k][0].min(turned[k]), r[k][1].max(turned[k])])
+    });
+    range.map(|[low, high]| high - low)
+}
+
+/// The angle, or a right one more, so that the longer extent lies along x.
+fn lengthwise(points: &[[f64; 2]], angle: f64) -> (f64, [f64; 2]) {
+    let [x, y] = extent(points, angle);
+    if x >= y { (angle, [x, y]) } else { (angle + FRAC_PI_2, [y, x]) }
 }
 
 /// Corners of the convex hull, counterclockwise (Andrew's monotone chain).
@@ -206,6 +238,15 @@ mod tests {
                 assert!(long * short <= x * y + 1e-12, "n = {n}: {} at angle {}", x * y, k as f64 * 0.01);
             }
         }
+    }
+
+    #[test]
+    fn a_thin_shape_lies_along_the_diagonal() {
+        let (angle, [x, y]) = least_square(&[[0.0, 0.0], [10.0, 0.0], [10.0, 0.1], [0.0, 0.1]]);
+        assert!((x - 10.1 / 2f64.sqrt()).abs() < 1e-4 && (y - x).abs() < 1e-4, "{x} {y}");
+        assert!((angle.abs() % FRAC_PI_2 - 0.5 * FRAC_PI_2).abs() < 1e-4, "{angle}");
+        let (_, [x, y]) = least_square(&[[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]]);
+        assert_eq!([x, y], [3.0, 3.0]);
     }
 
     #[test]
