@@ -3,7 +3,7 @@
 /// Steps of the active-set method per unknown before it is stopped: each adds or removes one bound, and one or two per unknown
 /// are usual.
 const STEPS_PER_UNKNOWN: usize = 8;
-/// A step is none below this, relative to the unknowns; a multiplier of the wrong sign below this, relative to the gradient, is 0.
+/// A multiplier of the wrong sign below this, relative to the gradient, is 0.
 const NOTHING: f64 = 1e-12;
 
 /// Curvatures, and the multiplier of their sum.
@@ -54,17 +54,6 @@ pub(super) fn angles(b: &[Vec<f64>], g: &[f64], sum: Option<f64>, bound: f64) ->
                 solution
             }
         };
-        let size = |x: &[f64]| x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        if size(&step) <= NOTHING * (1.0 + size(&t)) {
-            // At the least of this set of bounds: let go of the one that pulls hardest the wrong way.
-            let pull = |i: usize| slope[i] - level;
-            let wrong = (0..k).filter(|&i| held[i] && pull(i) > NOTHING * (1.0 + size(&slope)));
-            match wrong.max_by(|&i, &j| pull(i).total_cmp(&pull(j)).then(j.cmp(&i))) {
-                Some(i) if !free.is_empty() || sum.is_none() => held[i] = false,
-                _ => break,
-            }
-            continue;
-        }
         let mut reach = 1.0;
         let mut blocking = None;
         for (&i, &p) in free.iter().zip(&step) {
@@ -75,6 +64,16 @@ pub(super) fn angles(b: &[Vec<f64>], g: &[f64], sum: Option<f64>, bound: f64) ->
         free.iter().zip(&step).for_each(|(&i, p)| t[i] += reach * p);
         if let Some(i) = blocking {
             (t[i], held[i]) = (bound, true);
+            continue;
+        }
+        // At the least for this set of bounds: let go of the one that pulls hardest the wrong way.
+        let slope = gradient(&t);
+        let least = NOTHING * slope.iter().fold(1.0f64, |m, s| m.max(s.abs()));
+        let pull = |i: usize| slope[i] - level;
+        let wrong = (0..k).filter(|&i| held[i] && pull(i) > least);
+        match wrong.max_by(|&i, &j| pull(i).total_cmp(&pull(j)).then(j.cmp(&i))) {
+            Some(i) if !free.is_empty() || sum.is_none() => held[i] = false,
+            _ => break,
         }
     }
     let slope = gradient(&t);
