@@ -226,11 +226,6 @@ pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> 
     mesh.edges().filter(|e| fails[e.index()]).collect()
 }
 
-#[allow(missing_docs)]
-pub fn height(mesh: &Mesh, metric: &Metric, e: EdgeId) -> Option<f64> {
-    let w = weights(metric, &metric.u);
-    hinge(mesh, e.halfedge(), &metric.epsilon, &metric.eta, &w).height()
-}
 
 /// `w` of every vertex at variables `u`.
 fn weights(metric: &Metric, u: &PerVertex<f64>) -> PerVertex<f64> {
