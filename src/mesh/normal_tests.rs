@@ -157,7 +157,8 @@ fn coordinates_follow_curves_that_are_tracked_one_by_one() {
 fn straight_edges_of_a_torus_cross_as_often_as_lines_of_the_lattice() {
     let mut random = SplitMix64::new(8);
     for (n, m) in [(1, 1), (2, 1), (3, 2)] {
-        let (mut mesh, lengths) = shapes::flat_torus([0.0, m as f64 / n as f64], n, m).unwrap().build().unwrap();
+        let (mut mesh, lengths) =
+            shapes::flat_torus([0.0, m as f64 / n as f64], n, m).unwrap().build().unwrap();
         // Edges as integer vectors, one per half-edge, from the lengths 1 and √2 and what closes the triangles.
         let unit = lengths.iter().copied().fold(f64::INFINITY, f64::min);
         let mut vectors = lattice_vectors(&mesh, &lengths.iter().map(|l| l / unit).collect::<Vec<_>>());
