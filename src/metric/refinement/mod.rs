@@ -185,6 +185,11 @@ impl Refinement {
         self.crossings.get(v.index().wrapping_sub(self.n_input_vertices))
     }
 
+    /// The half-edge of the final triangulation that a half-edge of the refinement runs along, in its direction, if it does.
+    pub fn final_halfedge(&self, h: HalfedgeId) -> Option<HalfedgeId> {
+        self.origin[h.edge()].result.map(|e| HalfedgeId(e.halfedge().0 + (h.0 & 1)))
+    }
+
     /// Homogeneous weights of a triangle's corners.
     pub fn weights(&self, f: FaceId) -> [f64; 3] {
         self.mesh.face_vertices(f).map(|v| self.weight[v])
