@@ -5,9 +5,12 @@ mod corner;
 mod develop;
 pub mod layout;
 pub mod quality;
+pub mod refined;
+mod refined_develop;
 pub mod seam;
 mod triangle;
 
 pub use layout::{Layout, layout, layout_of};
 pub use quality::{Quality, quality};
+pub use refined::{RefinedLayout, layout_refined, refined_cut};
 pub use seam::Seam;

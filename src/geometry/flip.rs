@@ -34,6 +34,16 @@ pub struct Hinge {
     unit: f64,
 }
 
+/// The point that the edge ij and the line from k to l across it have in common, as a vector of Lorentz space written twice: from
+/// the vectors of k and l, and from those of i and j. All weights are positive where no ε is negative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meeting {
+    /// Weights of k and l.
+    pub diagonal: [f64; 2],
+    /// Weights of i and j.
+    pub edge: [f64; 2],
+}
+
 /// `w` of a vertex for the Delaunay condition: `e^u` in E², `tan γ`-like elsewhere, `2 e^u/(1 − λ ε e^{2u})`.
 pub fn weight(space: Space, v: Vertex) -> f64 {
     match space {
@@ -97,6 +107,23 @@ impl Hinge {
         let within = (j * ik * il + ij * (ik * jl + jk * il) + i * jk * jl) / d;
         let kl = (within + across_k.sqrt() * across_l.sqrt()) * self.unit;
         kl.is_finite().then_some(kl)
+    }
+
+    /// Where the line from k to l crosses the edge ij; `None` where it cannot be flipped.
+    ///
+    /// With `v_k = p_k + √a_k n`, `v_l = p_l − √a_l n` and p in span(v_i, v_j): `√a_l v_k + √a_k v_l = √a_l p_k + √a_k p_l`.
+    pub fn meeting(&self) -> Option<Meeting> {
+        let d = self.determinant()?;
+        let [k, l] = self.sides(d)?.map(f64::sqrt);
+        let [i, j, ..] = self.square;
+        let [ij, ik, jk, il, jl] = self.product;
+        let edge = [
+            l * (j * ik + ij * jk) + k * (j * il + ij * jl),
+            l * (ij * ik + i * jk) + k * (ij * il + i * jl),
+        ];
+        let meeting = Meeting { diagonal: [l, k], edge: edge.map(|x| x / d) };
+        let sound = meeting.diagonal.iter().chain(&meeting.edge).all(|&x| x > 0.0 && x < f64::INFINITY);
+        sound.then_some(meeting)
     }
 
     /// Whether the edge fails the weighted Delaunay condition `t_k + t_l ≥ 0` by more than [`TOLERANCE`] and can be flipped.
