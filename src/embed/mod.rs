@@ -8,10 +8,13 @@ pub mod layout;
 pub mod overlap;
 pub mod pack;
 pub mod quality;
+pub mod refined;
+mod refined_develop;
 pub mod seam;
 mod triangle;
 
 pub use charts::{ChartOptions, Charts, charts};
 pub use layout::{Layout, layout, layout_of};
 pub use quality::{Quality, quality};
+pub use refined::{RefinedLayout, layout_refined, refined_cut};
 pub use seam::Seam;

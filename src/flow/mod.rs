@@ -4,7 +4,6 @@
 mod cone_angles;
 pub mod cones;
 mod evaluate;
-mod flipping;
 mod gradient;
 mod jacobian;
 mod newton;

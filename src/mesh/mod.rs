@@ -9,6 +9,8 @@ pub mod halfedge;
 pub mod ids;
 mod incidence;
 pub mod io;
+pub mod normal;
+pub mod normal_trace;
 pub mod repair;
 pub mod shapes;
 mod weld;
@@ -17,6 +19,8 @@ pub use attribute::{PerEdge, PerFace, PerHalfedge, PerVertex};
 pub use double::Double;
 pub use halfedge::Mesh;
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+pub use normal::NormalCoordinates;
+pub use normal_trace::Curves;
 
 /// A point of space, `[x, y, z]`.
 pub type Point = [f64; 3];
