@@ -31,15 +31,15 @@ pub fn auto_target(n: usize, input: &Input, space: Space, control: &Control) -> 
 }
 
 /// Interior vertices that a list of cones names.
-pub fn interior_cones(outcome: &Outcome) -> Option<Vec<(VertexId, f64)>> {
+pub fn interior_cones(input: &Input, outcome: &Outcome) -> Option<Vec<(VertexId, f64)>> {
     let Target::Cones(cones) = &outcome.rule else { return None };
-    Some(cones.iter().filter(|c| !outcome.mesh.is_boundary_vertex(c.0)).copied().collect())
+    Some(cones.iter().filter(|c| !input.mesh.is_boundary_vertex(c.0)).copied().collect())
 }
 
 /// Cut the layout of an outcome into charts, if it has one.
 pub fn cut(outcome: &mut Outcome, margin: f64, control: &Control) -> Result<(), Failure> {
-    let mesh = &outcome.mesh;
     let Ok(laid) = &mut outcome.layout else { return Ok(()) };
+    let mesh = &laid.mesh;
     let charts = ricci::embed::charts(mesh, |h| laid.layout.corner_uv(h), &ChartOptions { margin }, control)?;
     let triangles: Vec<Triangle> = mesh.faces().map(|f| charts.face_uv(mesh, f)).collect();
     laid.packed = Some(Packed { overlapping: overlapping(&triangles).len(), charts });

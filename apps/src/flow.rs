@@ -204,16 +204,19 @@ fn write(
     timed(&mut seconds.write, || -> Result<(), Failure> {
         if let Some(path) = &args.metric {
             let factor = outcome.initial.conformal_factor(&outcome.metric)?;
-            let Outcome { mesh, scheme, metric, lengths, target, .. } = outcome;
+            let Outcome { mesh, scheme, metric, lengths, final_target, mirror, .. } = outcome;
             let lost = metric.length_remainders(mesh)?;
-            let file = MetricFile::new(mesh, *scheme, metric, [lengths, &lost], &factor, target);
+            let mirror = mirror.as_deref();
+            let file = MetricFile::new(mesh, *scheme, metric, [lengths, &lost], &factor, final_target, mirror);
             outputs.add_json(path, &file)?;
         }
         if let Some(path) = &args.trace {
             outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace))?;
         }
-        if let (Some(path), Ok(laid), Some(positions)) = (&args.uv, &outcome.layout, &input.positions) {
-            uv::write(&mut outputs, path, positions, &outcome.mesh, laid)?;
+        if let (Some(path), Ok(laid)) = (&args.uv, &outcome.layout) {
+            if let Some(positions) = &laid.positions {
+                uv::write(&mut outputs, path, positions, laid)?;
+            }
         }
         let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
         if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
@@ -223,7 +226,7 @@ fn write(
         }
         if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
             let Outcome { mesh, metric, scheme, .. } = outcome;
-            outputs.add_json(path, &circles(mesh, metric, scheme.name(), &laid.layout, laid.scale))?;
+            outputs.add_json(path, &circles(mesh, metric, scheme.name(), laid))?;
         }
         Ok(())
     })?;
@@ -271,8 +274,7 @@ impl Asked {
             method: args.method,
             area_normalised: args.area_normalised,
             pin: outcome.pinned.iter().map(|v| v.0).collect(),
-            // Until there are flips, auto is never.
-            flips: FlipsChoice::Never,
+            flips: args.flips,
             tolerance: args.tolerance,
             max_iterations: options(args).iteration_limit(),
             input_geometry: input.geometry.name(),
@@ -308,7 +310,10 @@ pub struct FlowResult {
     converged: bool,
     stop_reason: &'static str,
     iterations: usize,
+    /// Edge flips, `start_flips` included.
     flips: usize,
+    /// Isometric flips to the Delaunay triangulation before the flow.
+    start_flips: usize,
     max_curvature_error: f64,
     /// What the error is held against: the tolerance, or the rounding floor of the mesh.
     tolerance: f64,
@@ -334,6 +339,8 @@ pub struct FlowResult {
     area_ratio_max: Option<f64>,
     /// Faces without area in the input or the layout; the qc figures leave them out.
     degenerate_pieces: Option<usize>,
+    /// Vertices of the common refinement that are none of the input's; null where the layout is of the given triangulation.
+    crossings: Option<usize>,
     /// Number of charts, and the share of the unit square that they cover.
     #[serde(skip_serializing_if = "Option::is_none")]
     charts: Option<usize>,
@@ -378,19 +385,22 @@ struct ObstructionFigures {
 }
 
 impl FlowResult {
-    pub fn new(outcome: &Outcome) -> Self {
+    pub fn new(input: &Input, outcome: &Outcome) -> Self {
         let Outcome { report, initial, layout, .. } = outcome;
         let laid = layout.as_ref().ok();
         let packed = laid.and_then(|l| l.packed.as_ref());
-        let cones = charts::interior_cones(outcome);
+        let cones = charts::interior_cones(input, outcome);
         let seam = |s: &ricci::embed::Seam| SeamFigures {
             rotation: s.rotation,
             translation: s.translation,
             residual: s.residual,
             edges: s.halfedges.len(),
         };
-        let worst =
-            |&(v, curvature_error): &(VertexId, f64)| VertexFigures { vertex: v.index(), curvature_error };
+        let given = |v: VertexId| outcome.mirror.as_ref().map_or(v.0, |mirror| v.0.min(mirror[v.index()]));
+        let worst = |&(v, curvature_error): &(VertexId, f64)| VertexFigures {
+            vertex: given(v) as usize,
+            curvature_error,
+        };
         let obstruction = |o: &Obstruction| ObstructionFigures {
             vertices: o.vertices.iter().map(|v| v.index()).collect(),
             target: o.curvature,
@@ -403,7 +413,8 @@ impl FlowResult {
             converged: report.converged,
             stop_reason: report.stop_reason.name(),
             iterations: report.iterations,
-            flips: report.flips,
+            flips: outcome.start_flips + report.flips,
+            start_flips: outcome.start_flips,
             max_curvature_error: report.max_curvature_error,
             tolerance: report.tolerance,
             rounding_floor: report.rounding_floor,
@@ -420,7 +431,8 @@ impl FlowResult {
             qc_max: laid.map(|l| l.quality.qc_max),
             area_ratio_min: laid.map(|l| l.quality.area_ratio_min),
             area_ratio_max: laid.map(|l| l.quality.area_ratio_max),
-            degenerate_pieces: laid.map(|l| l.quality.degenerate.len()),
+            degenerate_pieces: laid.map(|l| l.degenerate),
+            crossings: laid.and_then(|l| l.refinement.as_ref()).map(|r| r.crossings.len()),
             charts: packed.map(|p| p.charts.count()),
             packing: packed.map(|p| p.charts.efficiency),
             cones: cones.map(|cones| cones.into_iter().map(|(v, k)| (v.0, k)).collect()),
@@ -439,7 +451,7 @@ pub fn report<O: Serialize>(
     asked: O,
     seconds: Seconds,
 ) -> Report<O, FlowResult> {
-    let mut report = Report::new("flow", InputSummary::of(input), asked, FlowResult::new(outcome));
+    let mut report = Report::new("flow", InputSummary::of(input), asked, FlowResult::new(input, outcome));
     report.checks = outcome.checks();
     report.seconds = seconds;
     report.peak_bytes = peak_bytes();

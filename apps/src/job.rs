@@ -5,11 +5,11 @@ use crate::input::Input;
 use crate::laid::{self, Laid};
 use crate::report::{Checks, Seconds, timed};
 use ricci::Control;
-use ricci::flow::{self, Solver};
+use ricci::flow::{self, SurfaceFlow};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::target::{check_total, check_vertices, settle_total};
-use ricci::metric::{Curvature, Initial, Metric, Scheme, Target, initial_metric};
+use ricci::metric::{Curvature, Initial, Metric, Scheme, Target};
 
 /// What to compute.
 pub struct Job {
@@ -27,11 +27,19 @@ pub struct Outcome {
     pub scheme: Scheme,
     /// The rule that gave the target.
     pub rule: Target,
-    /// The curvature asked for; at pinned vertices what came out.
+    /// The curvature asked for, per given vertex; at pinned vertices what came out.
     pub target: PerVertex<f64>,
+    /// The same per vertex of `mesh`.
+    pub final_target: PerVertex<f64>,
     /// Vertices whose conformal factor was held.
     pub pinned: Vec<VertexId>,
+    /// Where the flow started, on the Delaunay triangulation if edges were flipped.
     pub initial: Initial,
+    /// Isometric flips before the flow.
+    pub start_flips: usize,
+    /// Per vertex of `mesh` its mirror image, if that is the double of the given surface.
+    pub mirror: Option<Vec<u32>>,
+    /// The final triangulation, of the given surface or of its double.
     pub mesh: Mesh,
     pub metric: Metric,
     pub lengths: PerEdge<f64>,
@@ -50,13 +58,13 @@ pub fn default_space(mesh: &Mesh) -> Space {
 pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failure> {
     let space = job.space;
     let (rule, mut target) = target(&input.mesh, &input.lengths, &job)?;
-    let initial = initial_metric(&input.mesh, &input.lengths, input.geometry, job.scheme, space)?;
-
-    let mut solver = Solver::new(input.mesh.clone(), initial.metric.clone(), job.options)?;
-    solver.pin(&job.pinned)?;
-    let report = solver.solve(&target, control)?;
-    let (mesh, metric) = (solver.mesh().clone(), solver.metric().clone());
-    drop(solver);
+    let mut start = 0.0;
+    let mut flow = timed(&mut start, || {
+        let Input { mesh, lengths, geometry, .. } = input;
+        SurfaceFlow::new(mesh, lengths, *geometry, job.scheme, space, &job.pinned, &job.options)
+    })?;
+    let report = flow.solve(&target, control)?;
+    let (mesh, metric) = (flow.mesh().clone(), flow.metric().clone());
 
     let lengths = metric.lengths(&mesh)?;
     let curvature = metric.curvature(&mesh)?;
@@ -68,17 +76,19 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
         analyse: report.seconds.analyse,
         factor: report.seconds.factor,
         solve: report.seconds.solve,
-        flip: report.seconds.flip,
+        flip: start + report.seconds.flip,
         ..Seconds::default()
     };
-    let layout =
-        timed(&mut seconds.layout, || laid::lay_out(input, &mesh, &metric, &curvature, &target, control))?;
+    let layout = laid::lay_out(input, &flow, &curvature, &target, &mut seconds, control)?;
     Ok(Outcome {
         scheme: job.scheme,
         rule,
+        final_target: flow.target(&target),
         target,
         pinned: job.pinned,
-        initial,
+        initial: flow.initial().clone(),
+        start_flips: flow.start_flips(),
+        mirror: flow.double().map(|double| mesh.vertices().map(|v| double.mirror(v).0).collect()),
         mesh,
         metric,
         lengths,
@@ -116,10 +126,13 @@ fn target(mesh: &Mesh, lengths: &PerEdge<f64>, job: &Job) -> Result<(Target, Per
 /// million faces.
 const GAUSS_BONNET: f64 = 1e-10;
 
+/// u at mirror images may differ by this: what rounding does where edges were flipped in another order.
+const MIRROR: f64 = 1e-8;
+
 impl Outcome {
     /// max |K − K̄| of the metric as it is written.
     pub fn curvature_error(&self) -> f64 {
-        self.curvature.at.iter().zip(&self.target).fold(0.0, |m, (k, t)| f64::max(m, (k - t).abs()))
+        self.curvature.at.iter().zip(&self.final_target).fold(0.0, |m, (k, t)| f64::max(m, (k - t).abs()))
     }
 
     /// What the result is held against.
@@ -127,6 +140,12 @@ impl Outcome {
         let mut checks = Checks::default();
         checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET);
         checks.add("max_curvature_error", self.curvature_error(), self.report.tolerance);
+        if let Some(mirror) = &self.mirror {
+            let u = &self.metric.u;
+            let differs = |(v, &image): (VertexId, &u32)| (u[v] - u[VertexId(image)]).abs();
+            let most = self.mesh.vertices().zip(mirror).map(differs).fold(0.0, f64::max);
+            checks.add("mirror_symmetry", most, MIRROR);
+        }
         checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
         if let Ok(laid) = &self.layout {
             checks.add("layout_consistency", laid.consistency(), laid.consistency_limit);

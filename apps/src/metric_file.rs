@@ -33,6 +33,9 @@ pub struct MetricFile<'a> {
     epsilon: &'a [i8],
     target: &'a [f64],
     boundary: Vec<bool>,
+    /// Per vertex its mirror image, where the surface is the double of the input: its vertices come first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mirror: Option<&'a [u32]>,
 }
 
 impl<'a> MetricFile<'a> {
@@ -44,6 +47,7 @@ impl<'a> MetricFile<'a> {
         lengths: [&PerEdge<f64>; 2],
         conformal_factor: &'a PerVertex<f64>,
         target: &'a PerVertex<f64>,
+        mirror: Option<&'a [u32]>,
     ) -> Self {
         let per_face = |values: &PerEdge<f64>| -> Vec<[f64; 3]> {
             mesh.faces().map(|f| mesh.opposite_edges(f).map(|e| values[e])).collect()
@@ -62,6 +66,7 @@ impl<'a> MetricFile<'a> {
             epsilon: &metric.epsilon,
             target,
             boundary: mesh.vertices().map(|v| mesh.is_boundary_vertex(v)).collect(),
+            mirror,
         }
     }
 }

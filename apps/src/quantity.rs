@@ -2,6 +2,7 @@
 
 use crate::input::Input;
 use crate::job::Outcome;
+use crate::laid::Laid;
 use crate::picture::{ColorChoice, Field, Scale};
 use ricci::geometry::triangle;
 use ricci::mesh::{FaceId, Mesh, PerVertex, Point};
@@ -9,16 +10,21 @@ use ricci::metric::curvature::{curvature, curvature_from_angles};
 
 /// The quantity of a finished flow; `None` where there is none to show: those of a layout where it has none.
 pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<Field> {
-    let mesh = &outcome.mesh;
     let laid = outcome.layout.as_ref().ok();
+    let mesh = laid.map_or(&input.mesh, |laid| &laid.mesh);
     Some(match choice {
         ColorChoice::None => return None,
         ColorChoice::U => {
             let factor = outcome.initial.conformal_factor(&outcome.metric).ok()?;
-            let scale = Scale::of_amounts("log conformal factor u", &factor);
-            at_vertices(mesh, &factor, scale)
+            let all: &[f64] = &factor;
+            let given = &all[..input.mesh.n_vertices()];
+            let scale = Scale::of_amounts("log conformal factor u", given);
+            at_vertices(mesh, &on_layout(given, laid)?, scale)
         }
-        ColorChoice::Curvature => curvature_of_input(input)?,
+        ColorChoice::Curvature => {
+            let (density, scale) = density_of_input(input)?;
+            at_vertices(mesh, &on_layout(&density, laid)?, scale)
+        }
         ColorChoice::Qc => {
             let values: Vec<f64> = laid?.quality.qc.to_vec();
             let scale = Scale::of_amounts("quasi-conformal dilatation K", &values);
@@ -34,8 +40,18 @@ pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<
 
 const CURVATURE: &str = "Gaussian curvature K (1/length²)";
 
+/// Values at given vertices, at those of what is laid out.
+fn on_layout(given: &[f64], laid: Option<&Laid>) -> Option<PerVertex<f64>> {
+    let Some(refinement) = laid.and_then(|laid| laid.refinement.as_ref()) else {
+        return Some(given.to_vec().into());
+    };
+    let given: Vec<[f64; 1]> = given.iter().map(|x| [*x]).collect();
+    let all = refinement.from_input_vertices(&given).ok()?;
+    Some(all.into_iter().map(|[x]| x).collect::<Vec<_>>().into())
+}
+
 /// Gaussian curvature of a surface: the angle defect of each vertex over a third of the area around it.
-pub fn curvature_of_input(input: &Input) -> Option<Field> {
+fn density_of_input(input: &Input) -> Option<(PerVertex<f64>, Scale)> {
     let Input { mesh, lengths, geometry, .. } = input;
     let defect = curvature(mesh, *geometry, lengths).ok()?.at;
     let area = |f: FaceId| triangle::area(*geometry, mesh.opposite_edges(f).map(|e| lengths[e]));
@@ -48,14 +64,20 @@ pub fn curvature_of_triangles(points: &[Point], faces: &[[u32; 3]]) -> Field {
     if let Ok(mesh) = Mesh::from_faces(points.len(), faces) {
         let angles = mesh.faces().map(|f| angles(corners(f)));
         let defect = curvature_from_angles(&mesh, angles);
-        return density(&mesh, &defect, |f| area(corners(f)), 0.0);
+        let (values, scale) = density(&mesh, &defect, |f| area(corners(f)), 0.0);
+        return at_vertices(&mesh, &values, scale);
     }
     Field { corners: vec![[f64::NAN; 3]; faces.len()], scale: Scale::of_signed(CURVATURE, &[]) }
 }
 
 /// Angle defects over areas, with what the background geometry adds. A vertex of the boundary has the mean of its
 /// neighbours inside.
-fn density(mesh: &Mesh, defect: &PerVertex<f64>, area: impl Fn(FaceId) -> f64, background: f64) -> Field {
+fn density(
+    mesh: &Mesh,
+    defect: &PerVertex<f64>,
+    area: impl Fn(FaceId) -> f64,
+    background: f64,
+) -> (PerVertex<f64>, Scale) {
     let mut around = PerVertex::filled(mesh.n_vertices(), 0.0);
     for f in mesh.faces() {
         let third = area(f) / 3.0;
@@ -74,7 +96,7 @@ fn density(mesh: &Mesh, defect: &PerVertex<f64>, area: impl Fn(FaceId) -> f64, b
     }
     let scale = Scale::of_signed(CURVATURE, &values);
     mesh.vertices().filter(|v| !inside(*v)).for_each(|v| values[v] = sums[v].0 / sums[v].1);
-    at_vertices(mesh, &values, scale)
+    (values, scale)
 }
 
 fn at_vertices(mesh: &Mesh, values: &PerVertex<f64>, scale: Scale) -> Field {

@@ -26,17 +26,19 @@ pub fn draw(
     args: &FlowPictureArgs,
     threads: usize,
 ) -> io::Result<()> {
-    let parts = outcome.layout.as_ref().ok().map(|laid| Parts::new(outcome, laid));
+    let parts = outcome.layout.as_ref().ok().map(|laid| Parts::new(input, outcome, laid));
     let flat = parts.as_ref().map(Parts::flat);
     let field = args.color().and_then(|choice| quantity::of_flow(choice, input, outcome));
     let style = args.style();
     if is_svg(path) {
         return flat.map_or(Ok(()), |flat| picture::write_svg(out, &flat, field.as_ref(), &style));
     }
-    let faces: Vec<[u32; 3]> =
-        outcome.mesh.faces().map(|f| outcome.mesh.face_vertices(f).map(|v| v.0)).collect();
-    let cones = cones(&outcome.mesh, &outcome.target);
-    let surface = input.positions.as_ref().map(|positions| Surface {
+    let laid = outcome.layout.as_ref().ok();
+    let (mesh, positions) =
+        laid.map_or((&input.mesh, &input.positions), |laid| (&laid.mesh, &laid.positions));
+    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let cones = cones(&input.mesh, &outcome.target);
+    let surface = positions.as_ref().map(|positions| Surface {
         positions,
         faces: &faces,
         corner_uv: parts.as_ref().map(|p| p.corner_uv.as_slice()),
@@ -98,8 +100,8 @@ struct Parts {
 }
 
 impl Parts {
-    fn new(outcome: &Outcome, laid: &Laid) -> Parts {
-        let (mesh, layout) = (&outcome.mesh, &laid.layout);
+    fn new(input: &Input, outcome: &Outcome, laid: &Laid) -> Parts {
+        let mesh = &laid.mesh;
         let side = |h: HalfedgeId| (laid.corner_uv(h), laid.corner_uv(mesh.next(h)));
         let face_uv = |f| mesh.face_halfedges(f).map(|h| laid.corner_uv(h));
         let mut parts = Parts { corner_uv: mesh.faces().map(face_uv).collect(), ..Parts::default() };
@@ -116,7 +118,7 @@ impl Parts {
         let mut seen = vec![false; laid.coordinates().len()];
         let cones: PerVertex<f64> = {
             let mut at = PerVertex::filled(mesh.n_vertices(), 0.0);
-            cones(mesh, &outcome.target).into_iter().for_each(|(v, k)| at[VertexId(v)] = k);
+            cones(&input.mesh, &outcome.target).into_iter().for_each(|(v, k)| at[VertexId(v)] = k);
             at
         };
         for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h) && cones[mesh.origin(h)] != 0.0) {
@@ -127,7 +129,7 @@ impl Parts {
         }
         // Circles belong to the layout, not to its charts.
         if outcome.scheme.epsilon() != 0 && laid.packed.is_none() {
-            let all = circles(mesh, &outcome.metric, outcome.scheme.name(), layout, laid.scale);
+            let all = circles(&outcome.mesh, &outcome.metric, outcome.scheme.name(), laid);
             let vertex = all.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
             parts.circles = vertex.collect();
             let dual = |c: &crate::circles::DualCircle| Some(Circle { center: c.center, radius: c.radius? });

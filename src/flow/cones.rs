@@ -144,7 +144,7 @@ impl<'a> Placing<'a> {
         initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
         intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &mut |_, _| {})?;
         let metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?.metric;
-        let mut state = State::new(&mesh, &metric.u);
+        let mut state = State::new(&mesh, &metric.u, &metric.u_low);
         if !state.evaluate(&mesh, &metric) {
             return Err(factorisation(0, "an edge without length"));
         }
@@ -160,7 +160,7 @@ impl<'a> Placing<'a> {
             .map(|v| if closed { v.index() == 0 } else { mesh.is_boundary_vertex(v) })
             .collect();
         control.check()?;
-        let mut system = System::new(&mesh, &fixed)?;
+        let mut system = System::new(&mesh, &fixed, None)?;
         system.jacobian.assemble(&mesh, &metric, &state);
         if system.factor().is_err() {
             let shift = SHIFT * system.jacobian.mean_diagonal();
@@ -313,7 +313,7 @@ impl<'a> Placing<'a> {
         }
         boundary.iter().for_each(|&v| target[v] = self.state.curvature[v]);
         for f in self.mesh.faces() {
-            let weights = self.state.weights(&self.mesh, &self.metric, f);
+            let weights = self.state.weights[f.index()];
             let corners = self.mesh.face_vertices(f);
             for k in 0..3 {
                 let (i, j) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);

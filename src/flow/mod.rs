@@ -12,6 +12,7 @@ pub mod options;
 pub mod report;
 mod solver;
 mod spherical;
+pub mod surface;
 mod system;
 
 pub use cones::{AutoCones, auto_cones};
@@ -20,6 +21,7 @@ pub use obstruction::Obstruction;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
 pub use report::{Report, Seconds, StopReason, TraceRow};
 pub use solver::Solver;
+pub use surface::SurfaceFlow;
 
 use crate::control::Control;
 use crate::error::Result;

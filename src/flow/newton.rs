@@ -216,7 +216,12 @@ impl Run<'_> {
             return Ok(timed(&mut report.seconds.assemble, || state.evaluate(self.mesh, self.class)));
         }
         let (mesh, class) = (&mut *self.mesh, &mut *self.class);
-        let (real, flips) = state.evaluate_delaunay(mesh, class, &mut |_, _| {}, &mut report.seconds)?;
+        let mut record = |mesh: &_, e| {
+            if let Some(normal) = &mut self.normal {
+                normal.record(mesh, e);
+            }
+        };
+        let (real, flips) = state.evaluate_delaunay(mesh, class, &mut record, &mut report.seconds)?;
         report.flips += flips;
         Ok(real)
     }

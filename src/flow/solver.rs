@@ -8,7 +8,7 @@ use super::system::System;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
-use crate::mesh::{Mesh, PerVertex, VertexId};
+use crate::mesh::{Mesh, NormalCoordinates, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::gauss_bonnet;
 use crate::metric::target::settle_total;
@@ -27,6 +27,7 @@ pub struct Solver {
     pub(super) options: Options,
     pub(super) pinned: Vec<bool>,
     mirror: Option<Vec<u32>>,
+    normal: Option<NormalCoordinates>,
     pub(super) system: Option<System>,
     pool: Pool,
 }
@@ -43,6 +44,8 @@ pub(super) struct Run<'a> {
     pub pinned: &'a [bool],
     /// Per vertex its mirror image, where the metric is to stay symmetric.
     pub mirror: Option<&'a [u32]>,
+    /// Told every flip.
+    pub normal: Option<&'a mut NormalCoordinates>,
     /// E² without pinned vertices: u is determined up to a constant, and Σ u = 0 is kept.
     pub free_scale: bool,
     pub control: &'a Control,
@@ -56,7 +59,7 @@ impl Solver {
         pool.run(|| metric.lengths(&mesh).map(|_| ()))?;
         let pinned = vec![false; mesh.n_vertices()];
         let (start, start_low) = (metric.u.clone(), metric.u_low.clone());
-        Ok(Solver { mesh, metric, start, start_low, options, pinned, mirror: None, system: None, pool })
+        Ok(Solver { mesh, metric, start, start_low, options, pinned, mirror: None, normal: None, system: None, pool })
     }
 
     /// Hold u at these vertices (Dirichlet); replaces earlier pins. Their curvature is then free.
@@ -87,6 +90,23 @@ impl Solver {
         self.mirror = Some(mirror.iter().map(|v| v.0).collect());
         self.system = None;
         Ok(())
+    }
+
+    /// Record every flip from now on in `normal`, which follows the edges of an earlier triangulation.
+    pub fn follow(&mut self, normal: NormalCoordinates) -> Result<()> {
+        normal.check(&self.mesh)?;
+        self.normal = Some(normal);
+        Ok(())
+    }
+
+    /// What [`Solver::follow`] has recorded.
+    pub fn normal(&self) -> Option<&NormalCoordinates> {
+        self.normal.as_ref()
+    }
+
+    /// Do other work on this solver's threads.
+    pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        self.pool.run(work)
     }
 
     /// Set u (V entries): the start of the next solves, and the values held at pinned vertices.
@@ -127,7 +147,7 @@ impl Solver {
         let mut seconds = 0.0;
         let free_scale = self.metric.space == Space::E2 && !self.pinned.contains(&true);
         let before =
-            (self.options.flips == Flips::Auto).then(|| (self.mesh.clone(), self.metric.eta.clone()));
+            (self.options.flips == Flips::Auto).then(|| (self.mesh.clone(), self.metric.eta.clone(), self.normal.clone()));
         let mut run = Run {
             mesh: &mut self.mesh,
             class: &mut self.metric,
@@ -137,6 +157,7 @@ impl Solver {
             target: &target,
             pinned: &self.pinned,
             mirror: self.mirror.as_deref(),
+            normal: self.normal.as_mut(),
             free_scale,
             control,
         };
@@ -146,9 +167,9 @@ impl Solver {
             *system = None;
         }
         let state = match (state, before) {
-            (Err(error), Some((mesh, eta))) => {
+            (Err(error), Some((mesh, eta, normal))) => {
                 // Nothing happened: the old triangulation, whose system is to be made anew.
-                (self.mesh, self.metric.eta, self.system) = (mesh, eta, None);
+                (self.mesh, self.metric.eta, self.normal, self.system) = (mesh, eta, normal, None);
                 return Err(error);
             }
             (state, _) => state?,
