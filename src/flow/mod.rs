@@ -2,7 +2,6 @@
 //! or by following it.
 
 mod evaluate;
-mod flipping;
 mod gradient;
 mod jacobian;
 mod newton;

@@ -1,7 +1,6 @@
 //! Newton's method on the convex energy (E², H²): full steps with a line search on the slope.
 
 use super::evaluate::State;
-use super::flipping::flip_to_delaunay;
 use super::report::{Report, StopReason, timed};
 use super::solver::{Run, center};
 use super::system::System;
@@ -11,6 +10,9 @@ use crate::error::Result;
 /// Below this max |K − K̄| a smaller residual also accepts a step. Far from the solution only the slope does: mixing
 /// the two there cycles.
 const NEAR: f64 = 1e-2;
+/// A convex energy that at the end of a step rises this much more slowly than it fell at its start has fallen all in all, unless its
+/// slope jumps. Refusing every rise halves good steps: half of all flows then take twice as many.
+const OVERSHOOT: f64 = 0.1;
 /// Halvings of a step before the line search gives up: 2⁻⁵⁰ of a step is below the rounding of u.
 const HALVINGS: usize = 50;
 /// First shift of a matrix that is not positive definite, relative to its mean diagonal; grows by `SHIFT_GROWTH`.
@@ -41,7 +43,7 @@ impl Run<'_> {
     ) -> Result<State> {
         let n = self.mesh.n_vertices();
         let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
-        let mut trial = State::new(self.mesh, self.start);
+        let mut trial = State::new(self.mesh, self.start, self.start_low);
         let mut error = state.residual(self.target, self.pinned, &mut residual);
         let (first, mut best, mut since_best, mut shift, mut factored) = (error, error, 0, 0.0, false);
         report.residuals.push(error);
@@ -55,10 +57,11 @@ impl Run<'_> {
                 break StopReason::IterationLimit;
             }
             self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
-            if std::mem::replace(&mut flipped, report.flips) != report.flips {
-                *kept = None;
+            if error < AT_THE_END && self.lopsided(&residual, error) {
+                (self.mirror, *kept) = (None, None);
             }
-            let system = self.prepare(kept, report)?;
+            let more = report.flips - std::mem::replace(&mut flipped, report.flips);
+            let system = self.prepare(kept, more, report)?;
             timed(&mut report.seconds.assemble, || system.jacobian.assemble(self.mesh, self.class, &state));
             self.control.check()?;
             factored = self.direction(system, &state, &residual, &mut step, &mut shift, report)?;
@@ -66,6 +69,7 @@ impl Run<'_> {
                 break StopReason::Stalled;
             }
             report.iterations += 1;
+            state.hand_on(&mut trial);
             let accepted = self.line_search(&state, &mut trial, &mut residual, &step, error, report)?;
             let Some(now) = accepted else {
                 // Back to the triangulation of the last metric, or one of the same.
@@ -76,7 +80,7 @@ impl Run<'_> {
             std::mem::swap(&mut state, &mut trial);
             error = now;
             report.residuals.push(error);
-            log::debug!("Newton step {}: max |K − K̄| = {error:.3e}", report.iterations);
+            log::debug!("Newton step {}: max |K − K̄| = {error:.3e}, {} flips", report.iterations, report.flips);
             since_best += 1;
             if error < 0.9 * best {
                 (best, since_best) = (error, 0);
@@ -88,12 +92,14 @@ impl Run<'_> {
                 break StopReason::Diverged;
             }
         };
-        if flipped != report.flips {
-            (*kept, factored) = (None, false);
-        }
-        let system = self.prepare(kept, report)?;
+        // A factor of another triangulation is no good, and its matrix is of another pattern.
+        factored &= flipped == report.flips;
+        let system = self.prepare(kept, report.flips - flipped, report)?;
         if factored && report.stop_reason != StopReason::IterationLimit && error > POLISH_TO {
             self.polish(system, &mut state, &mut trial, &mut residual, &mut step, report, &mut error)?;
+        }
+        if !state.is_measured() {
+            timed(&mut report.seconds.assemble, || state.evaluate(self.mesh, self.class));
         }
         report.max_curvature_error = error;
         if report.stop_reason == StopReason::Stalled && error <= report.tolerance {
@@ -112,6 +118,14 @@ impl Run<'_> {
             }
         }
         Ok(state)
+    }
+
+    /// Whether what is left of the error differs between mirror images: flips in another order round η differently, which symmetric
+    /// steps cannot make up for.
+    fn lopsided(&self, residual: &[f64], error: f64) -> bool {
+        let Some(mirror) = self.mirror else { return false };
+        let even = |(r, &image): (&f64, &u32)| 0.5 * (r + residual[image as usize]).abs();
+        residual.iter().zip(mirror).map(even).fold(0.0, f64::max) < 0.5 * error
     }
 
     /// The Newton direction into `step`; false when there is none.
@@ -167,8 +181,9 @@ impl Run<'_> {
 
     /// The largest of `step`, `step/2`, `step/4`, … (after the cap) that is accepted, in `trial`; its error.
     ///
-    /// Accepted: the energy still falls along the step at its end, `step·(K̄ − K) ≥ 0`; near the solution a smaller
-    /// residual will do.
+    /// Accepted: the energy still falls along the step at its end, `step·(K̄ − K) ≥ 0`, or rises there at no more than
+    /// [`OVERSHOOT`] of the rate at which it fell at the start; near the solution a smaller residual will do. `residual`: at the
+    /// start, then of `trial`.
     fn line_search(
         &mut self,
         state: &State,
@@ -178,14 +193,15 @@ impl Run<'_> {
         error: f64,
         report: &mut Report,
     ) -> Result<Option<f64>> {
+        let slope = |residual: &[f64]| -> f64 { step.iter().zip(residual).map(|(d, r)| d * r).sum() };
+        let least = -OVERSHOOT * slope(residual);
         let mut t = (self.options.max_step / norm(step)).min(1.0);
         for _ in 0..HALVINGS {
             self.control.check()?;
-            trial.u.iter_mut().zip(state.u.iter().zip(step)).for_each(|(x, (u, d))| *x = u + t * d);
+            trial.set_step(state, t, step);
             if self.evaluate(trial, report)? {
                 let now = trial.residual(self.target, self.pinned, residual);
-                let slope: f64 = step.iter().zip(residual.iter()).map(|(d, r)| d * r).sum();
-                if (error < NEAR && now < error) || slope >= 0.0 {
+                if (error < NEAR && now < error) || slope(residual) >= least {
                     return Ok(Some(now));
                 }
             }
@@ -196,11 +212,13 @@ impl Run<'_> {
 
     /// Compute a state at its u, on the Delaunay triangulation there if edges may be flipped.
     pub(super) fn evaluate(&mut self, state: &mut State, report: &mut Report) -> Result<bool> {
-        if self.flips() {
-            report.flips +=
-                timed(&mut report.seconds.flip, || flip_to_delaunay(self.mesh, self.class, &state.u))?;
+        if !self.flips() {
+            return Ok(timed(&mut report.seconds.assemble, || state.evaluate(self.mesh, self.class)));
         }
-        Ok(timed(&mut report.seconds.assemble, || state.evaluate(self.mesh, self.class)))
+        let (mesh, class) = (&mut *self.mesh, &mut *self.class);
+        let (real, flips) = state.evaluate_delaunay(mesh, class, &mut |_, _| {}, &mut report.seconds)?;
+        report.flips += flips;
+        Ok(real)
     }
 
     /// Steps with the last factor, as long as they at least halve the error: iterative refinement of the nonlinear
@@ -215,6 +233,7 @@ impl Run<'_> {
         report: &mut Report,
         error: &mut f64,
     ) -> Result<()> {
+        let broken = state.broken();
         for _ in 0..POLISH_STEPS {
             self.control.check()?;
             state.residual(self.target, self.pinned, residual);
@@ -225,14 +244,15 @@ impl Run<'_> {
                 center(step);
             }
             let inside = timed(&mut report.seconds.assemble, || {
-                trial.u.iter_mut().zip(state.u.iter().zip(step.iter())).for_each(|(x, (u, d))| *x = u + d);
+                trial.set_step(state, 1.0, step);
+                state.hand_on(trial);
                 trial.evaluate(self.mesh, self.class)
             });
             if !inside {
                 return Ok(());
             }
             let now = trial.residual(self.target, self.pinned, residual);
-            if now < *error && trial.broken() <= state.broken() {
+            if now < *error && trial.broken() <= broken {
                 std::mem::swap(state, trial);
             } else {
                 return Ok(());

@@ -23,8 +23,10 @@ pub struct Solver {
     pub(super) metric: Metric,
     /// u of the last converged solve, or what was set.
     start: PerVertex<f64>,
+    start_low: PerVertex<f64>,
     pub(super) options: Options,
     pub(super) pinned: Vec<bool>,
+    mirror: Option<Vec<u32>>,
     pub(super) system: Option<System>,
     pool: Pool,
 }
@@ -35,9 +37,12 @@ pub(super) struct Run<'a> {
     pub class: &'a mut Metric,
     /// u to start from.
     pub start: &'a PerVertex<f64>,
+    pub start_low: &'a PerVertex<f64>,
     pub options: &'a Options,
     pub target: &'a [f64],
     pub pinned: &'a [bool],
+    /// Per vertex its mirror image, where the metric is to stay symmetric.
+    pub mirror: Option<&'a [u32]>,
     /// E² without pinned vertices: u is determined up to a constant, and Σ u = 0 is kept.
     pub free_scale: bool,
     pub control: &'a Control,
@@ -50,8 +55,8 @@ impl Solver {
         let pool = Pool::new(options.threads)?;
         pool.run(|| metric.lengths(&mesh).map(|_| ()))?;
         let pinned = vec![false; mesh.n_vertices()];
-        let start = metric.u.clone();
-        Ok(Solver { mesh, metric, start, options, pinned, system: None, pool })
+        let (start, start_low) = (metric.u.clone(), metric.u_low.clone());
+        Ok(Solver { mesh, metric, start, start_low, options, pinned, mirror: None, system: None, pool })
     }
 
     /// Hold u at these vertices (Dirichlet); replaces earlier pins. Their curvature is then free.
@@ -67,11 +72,29 @@ impl Solver {
         Ok(())
     }
 
+    /// Keep u the same at every vertex v and its image `mirror[v]`, an involution: the metric on the double of a surface
+    /// ([`crate::mesh::Double`]) stays symmetric, and its linear systems are half as large. Targets, start and pins must be
+    /// symmetric. Errors: [`Error::Size`], [`Error::Argument`] where it is no involution or u is not symmetric.
+    pub fn keep_symmetric(&mut self, mirror: &[VertexId]) -> Result<()> {
+        check_size("mirror", mirror.len(), self.mesh.n_vertices())?;
+        for (v, &image) in mirror.iter().enumerate() {
+            let back = mirror.get(image.index()).is_some_and(|back| back.index() == v);
+            if !back || self.start[image] != self.start[v.into()] {
+                let value = format!("{v} → {image}");
+                return Err(Error::Argument { what: "mirror", value, need: "an involution that keeps u" });
+            }
+        }
+        self.mirror = Some(mirror.iter().map(|v| v.0).collect());
+        self.system = None;
+        Ok(())
+    }
+
     /// Set u (V entries): the start of the next solves, and the values held at pinned vertices.
     pub fn set_u(&mut self, u: PerVertex<f64>) -> Result<()> {
-        let metric = Metric { u, ..self.metric.clone() };
+        let u_low = PerVertex::filled(u.len(), 0.0);
+        let metric = Metric { u, u_low, ..self.metric.clone() };
         self.pool.run(|| metric.lengths(&self.mesh).map(|_| ()))?;
-        self.start = metric.u.clone();
+        (self.start, self.start_low) = (metric.u.clone(), metric.u_low.clone());
         self.metric = metric;
         Ok(())
     }
@@ -109,14 +132,19 @@ impl Solver {
             mesh: &mut self.mesh,
             class: &mut self.metric,
             start: &self.start,
+            start_low: &self.start_low,
             options: &self.options,
             target: &target,
             pinned: &self.pinned,
+            mirror: self.mirror.as_deref(),
             free_scale,
             control,
         };
         let system = &mut self.system;
         let state = timed(&mut seconds, || self.pool.run(|| run.solve(system, &mut report)));
+        if run.mirror.is_some() != self.mirror.is_some() {
+            *system = None;
+        }
         let state = match (state, before) {
             (Err(error), Some((mesh, eta))) => {
                 // Nothing happened: the old triangulation, whose system is to be made anew.
@@ -127,19 +155,19 @@ impl Solver {
         };
         report.seconds.total = seconds;
         if report.converged {
-            self.start = state.u.clone();
+            (self.start, self.start_low) = (state.u.clone(), state.low.clone());
         }
-        self.metric.u = state.u;
+        (self.metric.u, self.metric.u_low) = (state.u, state.low);
         Ok(report)
     }
 }
 
 impl Run<'_> {
     fn solve(&mut self, system: &mut Option<System>, report: &mut Report) -> Result<State> {
-        let mut state = State::new(self.mesh, self.start);
+        let mut state = State::new(self.mesh, self.start, self.start_low);
         let keeps_area = self.options.method == Method::Gradient && self.options.gradient.area_normalised;
         if self.free_scale && !keeps_area {
-            center(&mut state.u);
+            state.center();
         }
         if !self.evaluate(&mut state, report)? {
             return Err(Error::Argument { what: "u", value: "start".into(), need: "in the metric's domain" });
@@ -210,21 +238,24 @@ impl Run<'_> {
         worst
     }
 
-    /// The system for this run's unknowns: analysed now, or kept from the last solve.
+    /// The system for this run's unknowns: analysed now, or kept from before the last `flips` flips.
     pub(super) fn prepare<'s>(
         &self,
         system: &'s mut Option<System>,
+        flips: usize,
         report: &mut Report,
     ) -> Result<&'s mut System> {
+        let fixed = || {
+            let mut fixed = self.pinned.to_vec();
+            fixed[0] |= self.free_scale;
+            fixed
+        };
         let kept = match system.take() {
-            Some(kept) => kept,
-            None => {
-                let mut fixed = self.pinned.to_vec();
-                if self.free_scale {
-                    fixed[0] = true;
-                }
-                timed(&mut report.seconds.analyse, || System::new(self.mesh, &fixed))?
-            }
+            Some(kept) if flips == 0 => kept,
+            Some(kept) => timed(&mut report.seconds.analyse, || {
+                kept.flipped(self.mesh, &fixed(), self.mirror, flips)
+            })?,
+            None => timed(&mut report.seconds.analyse, || System::new(self.mesh, &fixed(), self.mirror))?,
         };
         let system = system.insert(kept);
         report.unknowns = system.unknowns();

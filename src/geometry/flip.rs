@@ -26,10 +26,12 @@ pub const TOLERANCE: f64 = 1e-12;
 /// The two triangles at an edge ij, with the opposite vertices k and l.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hinge {
-    /// `ε w²` of i, j, k, l.
+    /// `ε w²` of i, j, k, l, over `unit`.
     square: [f64; 4],
-    /// `η w w` of ij, ik, jk, il, jl.
+    /// `η w w` of ij, ik, jk, il, jl, over `unit`.
     product: [f64; 5],
+    /// The largest of them: products of three then stay in the range of doubles, whatever the size of the triangles.
+    unit: f64,
 }
 
 /// The point that the edge ij and the line from k to l across it have in common, as a vector of Lorentz space written twice: from
@@ -55,15 +57,17 @@ impl Hinge {
     pub fn new(epsilon: [f64; 4], w: [f64; 4], eta: [f64; 5]) -> Hinge {
         let [i, j, k, l] = w;
         let ends = [i * j, i * k, j * k, i * l, j * l];
-        Hinge {
-            square: std::array::from_fn(|v| epsilon[v] * w[v] * w[v]),
-            product: std::array::from_fn(|e| eta[e] * ends[e]),
-        }
+        Hinge::from_products(
+            std::array::from_fn(|v| epsilon[v] * w[v] * w[v]),
+            std::array::from_fn(|e| eta[e] * ends[e]),
+        )
     }
 
     /// From `ε w²` of the vertices i, j, k, l and `η w w` of the edges ij, ik, jk, il, jl.
     pub fn from_products(square: [f64; 4], product: [f64; 5]) -> Hinge {
-        Hinge { square, product }
+        let size = |x: &[f64]| x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let unit = size(&square).max(size(&product));
+        Hinge { square: square.map(|x| x / unit), product: product.map(|x| x / unit), unit }
     }
 
     /// D, if the edge can be flipped at all.
@@ -101,7 +105,7 @@ impl Hinge {
         let [i, j, ..] = self.square;
         let [ij, ik, jk, il, jl] = self.product;
         let within = (j * ik * il + ij * (ik * jl + jk * il) + i * jk * jl) / d;
-        let kl = within + across_k.sqrt() * across_l.sqrt();
+        let kl = (within + across_k.sqrt() * across_l.sqrt()) * self.unit;
         kl.is_finite().then_some(kl)
     }
 
@@ -146,7 +150,7 @@ impl Hinge {
         (sum.is_finite() && size.is_finite()).then_some((sum, size))
     }
 
-    /// `t_k + t_l`, which is positive for a Delaunay edge and 0 where the four circles have a common orthogonal one; `None` where
+    /// `t_k + t_l` (up to a positive factor), which is positive for a Delaunay edge and 0 where the four circles have a common orthogonal one; `None` where
     /// the edge cannot be flipped.
     pub fn height(&self) -> Option<f64> {
         self.heights().map(|(sum, _)| sum)

@@ -103,6 +103,7 @@ fn represent(
         epsilon,
         eta: PerEdge::filled(mesh.n_edges(), 0.0),
         u: input_u.clone(),
+        u_low: PerVertex::filled(n, 0.0),
     };
     let radii = metric.radii();
     let mut clamped_edges = 0;

@@ -7,11 +7,16 @@ use crate::error::Result;
 use crate::geometry::Space;
 use crate::mesh::{Double, EdgeId, Mesh, PerEdge, PerVertex};
 
+/// Radii, as a share of the largest that the corners allow. Circles that touch lock their edge: it is Delaunay whatever u, never
+/// flips, and its two radii bound the angles there; targets beyond that bound would be out of reach.
+const APART: f64 = 0.5;
+
 /// The initial metric of `scheme` on the (weighted) Delaunay triangulation of the surface: flips `mesh` and `lengths`, which stay
 /// the same surface, and so makes the conformal class independent of the triangulation the surface came with, up to ties.
 ///
 /// Vertex scaling: on the intrinsic Delaunay triangulation. Circles that represent the lengths exactly (inversive distance,
-/// virtual radius): radii from the corners there, the same at mirrored vertices of a `double`, then the weighted Delaunay
+/// virtual radius): half the radii from the corners there, the same at mirrored
+/// vertices of a `double`, then the weighted Delaunay
 /// triangulation of those circles. Thurston's and tangential packings, which are Delaunay on any triangulation, stay on the given one.
 ///
 /// `record` is told each edge just before its flip. Errors: those of [`initial_metric`] and [`intrinsic_delaunay`].
@@ -33,6 +38,7 @@ pub fn delaunay_start(
         return Ok(initial);
     }
     let mut radii = initial.radii;
+    radii.iter_mut().for_each(|r| *r *= APART);
     if let Some(double) = double {
         radii = PerVertex::from_fn(radii.len(), |v| radii[v].min(radii[double.mirror(v)]));
     }
