@@ -5,6 +5,7 @@ mod check;
 #[path = "../common/mod.rs"]
 mod common;
 mod flown;
+mod normal;
 mod small;
 
 use check::{check, check_layout};
