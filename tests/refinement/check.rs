@@ -159,7 +159,7 @@ pub fn check_layout(
     assert!(laid.layout.broken.is_empty(), "{what}");
 }
 
-pub fn plane_area([a, b, c]: [[f64; 2]; 3]) -> f64 {
+fn plane_area([a, b, c]: [[f64; 2]; 3]) -> f64 {
     0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 }
 

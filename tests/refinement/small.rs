@@ -1,6 +1,6 @@
 //! Small surfaces, Δ-complexes among them, against independent facts.
 
-use crate::check::{determinant, plane_area};
+use crate::check::determinant;
 use crate::common::Random;
 use crate::flown::{default_target, flow};
 use ricci::Control;
@@ -82,6 +82,7 @@ fn refined_from_either_side_the_crossings_are_the_same() {
             epsilon: PerVertex::filled(before.n_vertices(), 0),
             eta: PerEdge::from_fn(before.n_edges(), |_| (3.0 * random.symmetric()).exp()),
             u: PerVertex::from_fn(before.n_vertices(), |_| random.symmetric()),
+            u_low: PerVertex::filled(before.n_vertices(), 0.0),
         };
         let (mut after, mut metric, mut normal) =
             (before.clone(), class.clone(), NormalCoordinates::new(&before));
@@ -138,60 +139,92 @@ fn refined_from_either_side_the_crossings_are_the_same() {
 }
 
 #[test]
-fn edges_across_a_cocircular_quadrilateral_stay_the_straight_lines_of_the_plane() {
+fn edges_across_a_cocircular_quadrilateral_stay_straight() {
     let mut random = Random::new(4);
-    for round in 0..200 {
-        // ε = 0: points on the unit circle. ε = 1: circles orthogonal to it, of radius √(|c|² − 1).
-        let epsilon = i8::from(round % 2 == 1);
-        let place = |k: usize, x: f64, y: f64| {
-            let angle = 0.5 * PI * (k as f64 + 0.4 * x);
-            let distance = if epsilon == 0 { 1.0 } else { 1.3 + 0.1 * y };
-            [distance * angle.cos(), distance * angle.sin()]
+    let mut seen = 0;
+    for round in 0..400 {
+        let (space, epsilon) = ([Space::E2, Space::H2][round / 2 % 2], (round % 2) as i8);
+        // A circle of radius 1 about the origin. ε = 0: four points on it. ε = 1: four circles orthogonal to it, with their centres
+        // outside; radii by Pythagoras.
+        let polar: Vec<[f64; 2]> = (0..4)
+            .map(|k| {
+                let angle = 0.5 * PI * (f64::from(k) + 0.4 * random.symmetric());
+                [if epsilon == 0 { 1.0 } else { 1.1 + 0.02 * random.symmetric() }, angle]
+            })
+            .collect();
+        let radius = |r: f64| match space {
+            Space::E2 => (r * r - 1.0).sqrt(),
+            _ => (r.cosh() / 1f64.cosh()).acosh(),
         };
-        let at: Vec<_> = (0..4).map(|k| place(k, random.symmetric(), random.symmetric())).collect();
-        let mut mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]]).unwrap();
-        let u = PerVertex::from_fn(4, |v: VertexId| {
-            if epsilon == 0 {
-                0.0
-            } else {
-                0.5 * (at[v.index()][0].powi(2) + at[v.index()][1].powi(2) - 1.0).ln()
-            }
+        let u = PerVertex::from_fn(4, |v: VertexId| match (epsilon, space, polar[v.index()][0]) {
+            (0, ..) => 0.3,
+            (_, Space::E2, r) => radius(r).ln(),
+            (_, _, r) => (0.5 * radius(r)).tanh().ln(),
         });
-        let squared = |a: usize, b: usize| (at[a][0] - at[b][0]).powi(2) + (at[a][1] - at[b][1]).powi(2);
+        // Positions as vectors: (x, y, 1), the hyperboloid.
+        let at: Vec<[f64; 3]> = polar
+            .iter()
+            .map(|&[r, angle]| {
+                let (out, up) = if space == Space::E2 { (r, 1.0) } else { (r.sinh(), r.cosh()) };
+                [out * angle.cos(), out * angle.sin(), up]
+            })
+            .collect();
         let eta = |mesh: &Mesh, e: EdgeId| {
-            let [a, b] = mesh.ends(e);
-            let own = f64::from(epsilon) * ((2.0 * u[a]).exp() + (2.0 * u[b]).exp());
-            (squared(a.index(), b.index()) - own) / (2.0 * (u[a] + u[b]).exp())
+            let [a, b] = mesh.ends(e).map(VertexId::index);
+            let [p, q] = [at[a], at[b]];
+            let scales = (u[VertexId::from(a)] + u[VertexId::from(b)]).exp();
+            let r = [a, b].map(|v| radius(polar[v][0]));
+            let flat = p[0] * q[0] + p[1] * q[1];
+            let squared = (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
+            match (space, epsilon) {
+                (Space::E2, 0) => squared / (2.0 * scales),
+                (Space::E2, _) => (squared - r[0] * r[0] - r[1] * r[1]) / (2.0 * scales),
+                (_, 0) => (p[2] * q[2] - flat - 1.0) / (4.0 * scales),
+                _ => (p[2] * q[2] - flat - r[0].cosh() * r[1].cosh()) / (r[0].sinh() * r[1].sinh()),
+            }
         };
-        let before = mesh.clone();
-        let mut normal = NormalCoordinates::new(&mesh);
+        let before = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+        let (mut mesh, mut normal) = (before.clone(), NormalCoordinates::new(&before));
         let diagonal = mesh.edges().find(|&e| !mesh.is_boundary_edge(e)).unwrap();
         normal.record(&mesh, diagonal);
         assert!(mesh.flip(diagonal));
         let metric = Metric {
-            space: Space::E2,
+            space,
             epsilon: PerVertex::filled(4, epsilon),
             eta: PerEdge::from_fn(5, |e| eta(&mesh, e)),
             u: u.clone(),
+            u_low: PerVertex::filled(4, 0.0),
         };
         if epsilon == 1 && metric.eta.iter().any(|&eta| eta < 1.001) {
             continue;
         }
-        let given = Input { mesh: &before, geometry: Space::E2, u: &u };
+        seen += 1;
+        let given = Input { mesh: &before, geometry: space, u: &u };
         let result = Final { mesh: &mesh, metric: &metric, normal: &normal };
         let r = Refinement::new(given, result, &|_| true, &Control::new()).unwrap();
-        // The diagonals' common point, from areas.
-        let area = |a: usize, b: usize, c: usize| plane_area([at[a], at[b], at[c]]);
-        let share = area(0, 1, 3) / (area(0, 1, 3) + area(2, 3, 1));
+        // The diagonals' common point, as a combination of their ends.
+        let volume = |a: usize, b: usize, c: usize| determinant([at[a], at[b], at[c]]);
         let c = r.crossings[0];
-        let along = if c.input_ends[1] == VertexId(2) { c.input_weights[1] } else { c.input_weights[0] };
-        assert!((along - share).abs() < 1e-12, "{along} {share}");
-        let across = area(1, 2, 0) / (area(1, 2, 0) + area(3, 0, 2));
-        let found = if c.final_ends[1] == VertexId(3) { c.final_weights[1] } else { c.final_weights[0] };
-        assert!((found - across).abs() < 1e-12, "{found} {across}");
-        // The plane is mapped to itself.
-        assert!(r.weight.iter().all(|q| (q - 1.0).abs() < 1e-12), "{:?}", r.weight);
+        for (ends, weights, [from, to], [one, other]) in
+            [(c.input_ends, c.input_weights, [0, 2], [1, 3]), (c.final_ends, c.final_weights, [1, 3], [2, 0])]
+        {
+            let share = volume(from, one, other) / (volume(from, one, other) + volume(to, other, one));
+            let found = weights[usize::from(ends[1].index() == to)];
+            assert!((found - share).abs() < 1e-12, "{space} {epsilon}: {found} {share}");
+        }
+        // The surface is mapped to itself: both say the same vector.
+        assert!(r.weight.iter().take(4).all(|q| (q - 1.0).abs() < 1e-14));
+        let point = |ends: [VertexId; 2], w: [f64; 2], i: usize| {
+            w[0] * at[ends[0].index()][i] + w[1] * at[ends[1].index()][i]
+        };
+        let q = r.weight[VertexId(4)];
+        for i in 0..3 {
+            let [p, image] =
+                [point(c.input_ends, c.input_weights, i), q * point(c.final_ends, c.final_weights, i)];
+            assert!((p - image).abs() < 1e-12, "{space} {epsilon}: {p} {image}");
+        }
     }
+    assert!(seen > 250, "{seen}");
 }
 
 #[test]
