@@ -110,7 +110,7 @@ pub(super) fn place(
     let mut vectors = PerHalfedge::filled(mesh.n_halfedges(), [0.0; 2]);
     while let Some(Reverse((Key(distance), entry))) = queue.pop() {
         let Some(f) = mesh.face(entry).filter(|&f| patch_of[f] == NONE) else { continue };
-        if patches.len() % PATCHES_PER_STEP == 0 {
+        if patches.len().is_multiple_of(PATCHES_PER_STEP) {
             control.step(Stage::Layout, patches.len() as f64 / faces.mesh.n_faces() as f64)?;
         }
         let from = mesh.face(entry.twin()).and_then(|g| patches.get(patch_of[g] as usize));

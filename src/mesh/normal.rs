@@ -156,7 +156,3 @@ impl NormalCoordinates {
         }
     }
 }
-
-#[cfg(test)]
-#[path = "normal_tests.rs"]
-mod tests;

@@ -11,7 +11,8 @@
 //! and in a metric with variables u the vector `s_i v_i` stands for the position of vertex i (plane: (x, y, 1), `s = e^u`; hyperboloid
 //! or sphere: `s = 2 e^u/(1 + λ ε e^{2u})`). So P lies at the positions' combination with weights `α_a / s_a(0)` in the input, with
 //! weights `β_i / s_i` in the final face. Weights that are divided by their sum are called *barycentric* here; the quotient of the
-//! two sums is the homogeneous weight of the point, the `q` of a projective texture coordinate.
+//! two sums is the homogeneous weight of the point, the `q` of a projective texture coordinate: q · (final position) is linear in the
+//! input position, as vectors.
 
 mod maps;
 mod pieces;

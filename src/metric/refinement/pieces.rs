@@ -123,7 +123,7 @@ impl<'a> Pieces<'a> {
             }
         }
         for f in mesh.faces() {
-            if f.index() % FACES_PER_STEP == 0 {
+            if f.index().is_multiple_of(FACES_PER_STEP) {
                 control.step(Stage::Layout, f.index() as f64 / mesh.n_faces() as f64)?;
             }
             pieces.cut_face(f, keep)?;

@@ -1,6 +1,9 @@
-use super::*;
-use crate::mesh::normal_trace::{CurveCrossing, Curves};
-use crate::mesh::shapes::{self, SplitMix64};
+//! Normal coordinates against curves tracked by hand, and against straight lines.
+
+use ricci::Error;
+use ricci::mesh::normal_trace::{CurveCrossing, Curves};
+use ricci::mesh::shapes::{self, SplitMix64};
+use ricci::mesh::{EdgeId, HalfedgeId, Mesh, NormalCoordinates};
 use std::collections::HashMap;
 
 /// A curve, tracked by hand: the corner it leaves (a half-edge), the half-edges it crosses, the corner it ends in.
@@ -19,10 +22,16 @@ enum Side {
     D,
 }
 
+/// The sides b → c, c → a, a → d, d → b around the edge a → b.
+fn quadrilateral(mesh: &Mesh, h: HalfedgeId) -> [HalfedgeId; 4] {
+    let t = h.twin();
+    [mesh.next(h), mesh.prev(h), mesh.next(t), mesh.prev(t)]
+}
+
 /// Rewrite a curve for the flip of the edge of h = a → b, passage by passage.
 fn rewrite(mesh: &Mesh, h: HalfedgeId, curve: &Tracked) -> Tracked {
     let t = h.twin();
-    let [bc, ca, ad, db] = mesh.quadrilateral(h);
+    let [bc, ca, ad, db] = quadrilateral(mesh, h);
     // After the flip: faces (d, c, a) and (c, d, b); h = d → c, t = c → d.
     let corner_side = |x: HalfedgeId| match x {
         x if x == h || x == ad => Some(Side::A),
@@ -168,7 +177,7 @@ fn straight_edges_of_a_torus_cross_as_often_as_lines_of_the_lattice() {
         while flips < 120 {
             let e = EdgeId((random.bits() % mesh.n_edges() as u64) as u32);
             let h = e.halfedge();
-            let [bc, ca, ad, db] = mesh.quadrilateral(h).map(|h| vectors[h.index()]);
+            let [bc, ca, ad, db] = quadrilateral(&mesh, h).map(|h| vectors[h.index()]);
             let turn = |[a, b]: [i64; 2], [c, d]: [i64; 2]| a * d - b * c;
             let dc = [db[0] + bc[0], db[1] + bc[1]];
             if turn(ca, ad) <= 0 || turn(db, bc) <= 0 || dc.iter().any(|x| x.abs() > 1000) {
