@@ -17,7 +17,7 @@ use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::delaunay::intrinsic_delaunay;
-use crate::metric::{Metric, Scheme, initial_metric};
+use crate::metric::{Scheme, initial_metric};
 use std::f64::consts::PI;
 
 /// More cones than this are not a few: their dense equations would take longer than the surface.
@@ -115,9 +115,8 @@ struct Cone {
 }
 
 struct Placing<'a> {
-    /// The surface on its intrinsic Delaunay triangulation, its metric at u = 0, and the Laplacian there.
+    /// The surface on its intrinsic Delaunay triangulation, what is measured there at u = 0, and the Laplacian.
     mesh: Mesh,
-    metric: Metric,
     state: State,
     system: System,
     /// u is held there: the boundary, or one vertex of a closed surface.
@@ -144,7 +143,7 @@ impl<'a> Placing<'a> {
         initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
         intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &mut |_, _| {})?;
         let metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?.metric;
-        let mut state = State::new(&mesh, &metric.u);
+        let mut state = State::new(&mesh, &metric.u, &metric.u_low);
         if !state.evaluate(&mesh, &metric) {
             return Err(factorisation(0, "an edge without length"));
         }
@@ -160,7 +159,7 @@ impl<'a> Placing<'a> {
             .map(|v| if closed { v.index() == 0 } else { mesh.is_boundary_vertex(v) })
             .collect();
         control.check()?;
-        let mut system = System::new(&mesh, &fixed)?;
+        let mut system = System::new(&mesh, &fixed, None)?;
         system.jacobian.assemble(&mesh, &metric, &state);
         if system.factor().is_err() {
             let shift = SHIFT * system.jacobian.mean_diagonal();
@@ -172,7 +171,6 @@ impl<'a> Placing<'a> {
         let mut place = Placing {
             sum,
             mesh,
-            metric,
             state,
             system,
             fixed,
@@ -313,7 +311,7 @@ impl<'a> Placing<'a> {
         }
         boundary.iter().for_each(|&v| target[v] = self.state.curvature[v]);
         for f in self.mesh.faces() {
-            let weights = self.state.weights(&self.mesh, &self.metric, f);
+            let weights = self.state.weights[f.index()];
             let corners = self.mesh.face_vertices(f);
             for k in 0..3 {
                 let (i, j) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
