@@ -1,5 +1,5 @@
 //! Layouts cut into charts that do not overlap, packed into the unit square.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
 

@@ -1,5 +1,5 @@
 //! Cones placed to lower the distortion of area.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
 

@@ -261,7 +261,7 @@ impl<'a> Growth<'a> {
                 if self.chart[f] != NONE || refused[f] == number {
                     continue;
                 }
-                if done % FACES_PER_STEP == 0 {
+                if usize::is_multiple_of(done, FACES_PER_STEP) {
                     control.step(Stage::Layout, 0.8 * done as f64 / self.mesh.n_faces() as f64)?;
                 }
                 if self.tree.meeting(f.index()).is_some() {

@@ -22,7 +22,7 @@ pub fn least_rectangle(points: &[[f64; 2]]) -> (f64, [f64; 2]) {
         let [p, q] = [at(i), at(i + 1)];
         let side = [q[0] - p[0], q[1] - p[1]];
         let length = side[0].hypot(side[1]);
-        if !(length > 0.0) {
+        if length == 0.0 {
             continue;
         }
         let d = side.map(|x| x / length);

@@ -17,7 +17,7 @@ use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::delaunay::intrinsic_delaunay;
-use crate::metric::{Metric, Scheme, initial_metric};
+use crate::metric::{Scheme, initial_metric};
 use std::f64::consts::PI;
 
 /// More cones than this are not a few: their dense equations would take longer than the surface.
@@ -115,9 +115,8 @@ struct Cone {
 }
 
 struct Placing<'a> {
-    /// The surface on its intrinsic Delaunay triangulation, its metric at u = 0, and the Laplacian there.
+    /// The surface on its intrinsic Delaunay triangulation, what is measured there at u = 0, and the Laplacian.
     mesh: Mesh,
-    metric: Metric,
     state: State,
     system: System,
     /// u is held there: the boundary, or one vertex of a closed surface.
@@ -172,7 +171,6 @@ impl<'a> Placing<'a> {
         let mut place = Placing {
             sum,
             mesh,
-            metric,
             state,
             system,
             fixed,
