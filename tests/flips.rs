@@ -7,7 +7,7 @@ use common::Random;
 use ricci::Control;
 use ricci::flow::{Flips, Options, Report, Solver, StopReason};
 use ricci::geometry::Space;
-use ricci::mesh::{Double, EdgeId, Mesh, PerEdge, PerVertex, io, shapes};
+use ricci::mesh::{Double, EdgeId, Mesh, PerEdge, PerVertex, VertexId, io, shapes};
 use ricci::metric::delaunay::{failing, intrinsic_delaunay};
 use ricci::metric::{Scheme, Target, curvature, delaunay_start, initial_metric, lengths_from_positions};
 use std::f64::consts::PI;
@@ -27,8 +27,11 @@ fn solve(
 ) -> (Solver, Report) {
     let start = delaunay_start(&mut mesh, &mut lengths, geometry, scheme, space, double, &mut |_, _| {});
     let start = start.unwrap().metric;
-    let options = Options { flips: Flips::Auto, ..Options::default() };
-    let mut solver = Solver::new(mesh, start, options).unwrap();
+    let mut solver = Solver::new(mesh, start, Options::default()).unwrap();
+    if let Some(double) = double {
+        let mirror: Vec<VertexId> = solver.mesh().vertices().map(|v| double.mirror(v)).collect();
+        solver.keep_symmetric(&mirror).unwrap();
+    }
     let report = solver.solve(target, &Control::new()).unwrap();
     (solver, report)
 }

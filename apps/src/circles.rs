@@ -56,11 +56,7 @@ pub fn circles(mesh: &Mesh, metric: &Metric, scheme: &'static str, laid: &Laid) 
     };
     let dual_circle = |(f, uv): (FaceId, [[f64; 2]; 3])| {
         let corners = mesh.face_vertices(f);
-        let circle = power_circle(
-            uv,
-            corners.map(|v| metric.epsilon[v]),
-            corners.map(|v| scale * gamma[v]),
-        )?;
+        let circle = power_circle(uv, corners.map(|v| metric.epsilon[v]), corners.map(|v| scale * gamma[v]))?;
         let radius = (circle.power >= 0.0).then(|| circle.power.sqrt());
         Some(DualCircle { face: f.index(), center: circle.center, power: circle.power, radius })
     };
@@ -88,13 +84,15 @@ fn final_faces(laid: &Laid) -> Vec<(FaceId, [[f64; 2]; 3])> {
     }
     let corners = |(f, (share, piece)): (FaceId, (f64, FaceId))| {
         let (weights, uv) = (refinement.final_barycentric(piece), layout.face_uv(mesh, piece));
-        (share > 0.0).then(|| (f, [0, 1, 2].map(|c| [0, 1].map(|axis| solve(weights, uv.map(|p| p[axis]), c)))))
+        (share > 0.0)
+            .then(|| (f, [0, 1, 2].map(|c| [0, 1].map(|axis| solve(weights, uv.map(|p| p[axis]), c)))))
     };
     largest.into_iter().filter_map(corners).collect()
 }
 
 fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
-    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
 /// Component `c` of the solution of `a x = b`, by Cramer's rule.

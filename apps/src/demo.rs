@@ -90,7 +90,12 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
         notes += &format!("\n{}: {}\n  ricci {line}\n", example.name, example.about);
         exit_code = exit_code.max(done.exit_code);
         let input = InputSummary::of(&done.input);
-        runs.push(Run { name: example.name, command: line, input, result: FlowResult::new(&done.input, &done.outcome) });
+        runs.push(Run {
+            name: example.name,
+            command: line,
+            input,
+            result: FlowResult::new(&done.input, &done.outcome),
+        });
         checks.add(example.name, done.checks.failed().len() as f64, 0.0);
     }
     if let Some(path) = &args.common.report {

@@ -207,16 +207,15 @@ fn write(
             let Outcome { mesh, scheme, metric, lengths, final_target, mirror, .. } = outcome;
             let lost = metric.length_remainders(mesh)?;
             let mirror = mirror.as_deref();
-            let file = MetricFile::new(mesh, *scheme, metric, [lengths, &lost], &factor, final_target, mirror);
+            let file =
+                MetricFile::new(mesh, *scheme, metric, [lengths, &lost], &factor, final_target, mirror);
             outputs.add_json(path, &file)?;
         }
         if let Some(path) = &args.trace {
             outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace))?;
         }
         if let (Some(path), Ok(laid)) = (&args.uv, &outcome.layout) {
-            if let Some(positions) = &laid.positions {
-                uv::write(&mut outputs, path, positions, laid)?;
-            }
+            uv::write(&mut outputs, path, laid)?;
         }
         let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
         if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {

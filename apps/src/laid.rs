@@ -75,7 +75,7 @@ pub fn lay_out(
         let area = area(given, input.geometry, &input.lengths)?;
         let refinement = match mesh == given {
             true => None,
-            false => timed(&mut seconds.refine, || flow.refinement(control))?,
+            false => Some(timed(&mut seconds.refine, || flow.refinement(control))?),
         };
         timed(&mut seconds.layout, || match refinement {
             None => plain(input, mesh, metric, &cones, area, consistency_limit, control),

@@ -111,7 +111,8 @@ impl State {
         if flipped.iter().any(|e| self.edges[e.index()].q2 == 0.0) {
             return false;
         }
-        for f in flipped.iter().flat_map(|e| [e.halfedge(), e.halfedge().twin()]).filter_map(|h| mesh.face(h)) {
+        for f in flipped.iter().flat_map(|e| [e.halfedge(), e.halfedge().twin()]).filter_map(|h| mesh.face(h))
+        {
             let (angles, weights) = measured_face(mesh, class, &self.vertices, &self.edges, f);
             (self.angles[f.index()], self.weights[f.index()]) = (angles, weights);
         }

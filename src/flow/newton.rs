@@ -80,7 +80,11 @@ impl Run<'_> {
             std::mem::swap(&mut state, &mut trial);
             error = now;
             report.residuals.push(error);
-            log::debug!("Newton step {}: max |K − K̄| = {error:.3e}, {} flips", report.iterations, report.flips);
+            log::debug!(
+                "Newton step {}: max |K − K̄| = {error:.3e}, {} flips",
+                report.iterations,
+                report.flips
+            );
             since_best += 1;
             if error < 0.9 * best {
                 (best, since_best) = (error, 0);

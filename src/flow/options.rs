@@ -15,10 +15,10 @@ pub enum Method {
 /// Whether edges may be flipped inside the conformal class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Flips {
-    /// As often as needed: the triangulation is weighted Delaunay throughout. The solver's mesh changes with it.
+    /// As often as needed (Newton in E² and H²): the triangulation is weighted Delaunay throughout. The solver's mesh changes with it.
+    #[default]
     Auto,
     /// The triangulation stays as it is.
-    #[default]
     Never,
 }
 
@@ -54,7 +54,7 @@ pub struct Options {
     pub max_iterations: usize,
     /// Largest change of any u in one Newton step. Default 3: lengths change by at most e³ at a time.
     pub max_step: f64,
-    /// Default `Never`.
+    /// Default `Auto`.
     pub flips: Flips,
     /// Threads of this flow's own pool; 0 (default) is one per core. The result does not depend on it.
     pub threads: usize,
@@ -69,7 +69,7 @@ impl Default for Options {
             tolerance: 1e-10,
             max_iterations: 0,
             max_step: 3.0,
-            flips: Flips::Never,
+            flips: Flips::Auto,
             threads: 0,
             gradient: Gradient::default(),
         }

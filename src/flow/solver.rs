@@ -59,7 +59,18 @@ impl Solver {
         pool.run(|| metric.lengths(&mesh).map(|_| ()))?;
         let pinned = vec![false; mesh.n_vertices()];
         let (start, start_low) = (metric.u.clone(), metric.u_low.clone());
-        Ok(Solver { mesh, metric, start, start_low, options, pinned, mirror: None, normal: None, system: None, pool })
+        Ok(Solver {
+            mesh,
+            metric,
+            start,
+            start_low,
+            options,
+            pinned,
+            mirror: None,
+            normal: None,
+            system: None,
+            pool,
+        })
     }
 
     /// Hold u at these vertices (Dirichlet); replaces earlier pins. Their curvature is then free.
@@ -146,8 +157,8 @@ impl Solver {
         let mut report = Report::new(self.options.tolerance);
         let mut seconds = 0.0;
         let free_scale = self.metric.space == Space::E2 && !self.pinned.contains(&true);
-        let before =
-            (self.options.flips == Flips::Auto).then(|| (self.mesh.clone(), self.metric.eta.clone(), self.normal.clone()));
+        let before = (self.options.flips == Flips::Auto)
+            .then(|| (self.mesh.clone(), self.metric.eta.clone(), self.normal.clone()));
         let mut run = Run {
             mesh: &mut self.mesh,
             class: &mut self.metric,
@@ -273,9 +284,9 @@ impl Run<'_> {
         };
         let kept = match system.take() {
             Some(kept) if flips == 0 => kept,
-            Some(kept) => timed(&mut report.seconds.analyse, || {
-                kept.flipped(self.mesh, &fixed(), self.mirror, flips)
-            })?,
+            Some(kept) => {
+                timed(&mut report.seconds.analyse, || kept.flipped(self.mesh, &fixed(), self.mirror, flips))?
+            }
             None => timed(&mut report.seconds.analyse, || System::new(self.mesh, &fixed(), self.mirror))?,
         };
         let system = system.insert(kept);

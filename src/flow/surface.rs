@@ -113,15 +113,22 @@ impl SurfaceFlow {
     }
 
     /// The common refinement of the given triangulation and the present one, on the given surface alone: the first half of a
-    /// double. `None` where nothing could be flipped or doubled, since it would be the given triangulation.
+    /// double.
     ///
     /// Errors: those of [`Refinement::new`].
-    pub fn refinement(&self, control: &Control) -> Result<Option<Refinement>> {
-        let Some(normal) = self.solver.normal() else { return Ok(None) };
+    pub fn refinement(&self, control: &Control) -> Result<Refinement> {
+        let unflipped;
+        let normal = match self.solver.normal() {
+            Some(normal) => normal,
+            None => {
+                unflipped = NormalCoordinates::new(&self.given);
+                &unflipped
+            }
+        };
         let mesh = self.double.as_ref().map_or(&self.given, |double| &double.mesh);
         let input = Input { mesh, geometry: self.initial.input_geometry, u: &self.initial.input_u };
         let result = Final { mesh: self.solver.mesh(), metric: self.solver.metric(), normal };
         let keep = |f| self.double.as_ref().is_none_or(|double| double.is_original(f));
-        self.solver.run(|| Refinement::new(input, result, &keep, control)).map(Some)
+        self.solver.run(|| Refinement::new(input, result, &keep, control))
     }
 }

@@ -32,7 +32,14 @@ impl System {
         let cholesky = Cholesky::analyse(&jacobian.pattern)?;
         let n = jacobian.pattern.size();
         let zeros = vec![0.0; n];
-        Ok(System { jacobian, cholesky, age: 0, rhs: zeros.clone(), solution: zeros.clone(), correction: zeros })
+        Ok(System {
+            jacobian,
+            cholesky,
+            age: 0,
+            rhs: zeros.clone(),
+            solution: zeros.clone(),
+            correction: zeros,
+        })
     }
 
     /// The same unknowns after `flips` more edge flips: nothing is analysed where the pattern came out the same, and the order is
@@ -50,8 +57,11 @@ impl System {
             return Ok(System { jacobian, age, ..self });
         }
         let keep = age as f64 <= FEW * mesh.n_edges() as f64;
-        let cholesky =
-            if keep { self.cholesky.analyse_again(&jacobian.pattern) } else { Cholesky::analyse(&jacobian.pattern) };
+        let cholesky = if keep {
+            self.cholesky.analyse_again(&jacobian.pattern)
+        } else {
+            Cholesky::analyse(&jacobian.pattern)
+        };
         Ok(System { jacobian, cholesky: cholesky?, age: if keep { age } else { 0 }, ..self })
     }
 

@@ -173,7 +173,3 @@ pub fn diagonal(space: Space, a: f64, b: f64, angle: f64) -> f64 {
         }
     }
 }
-
-#[cfg(test)]
-#[path = "flip_tests.rs"]
-mod tests;

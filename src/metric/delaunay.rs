@@ -226,7 +226,6 @@ pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> 
     mesh.edges().filter(|e| fails[e.index()]).collect()
 }
 
-
 /// `w` of every vertex at variables `u`.
 fn weights(metric: &Metric, u: &PerVertex<f64>) -> PerVertex<f64> {
     PerVertex::from_fn(u.len(), |v| weight(metric.space, Vertex::new(metric.space, metric.epsilon[v], u[v])))

@@ -1,7 +1,12 @@
 //! Flips against brute-force geometry of circles in the plane.
 
-use super::*;
-use crate::mesh::shapes::SplitMix64;
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
+
+mod common;
+
+use common::Random;
+use ricci::geometry::Space;
+use ricci::geometry::flip::{Hinge, diagonal};
 
 /// Circles with centre and ε r², the power of a point p is |p − c|² − ε r².
 #[derive(Clone, Copy)]
@@ -42,9 +47,9 @@ fn orthogonal(c: [Weighted; 3]) -> ([f64; 2], f64) {
     (centre, squared(centre, c[0].centre) - c[0].epsilon * c[0].r * c[0].r)
 }
 
-struct Random(SplitMix64);
+struct Draw(Random);
 
-impl Random {
+impl Draw {
     fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.0.unit()
     }
@@ -65,7 +70,7 @@ impl Random {
 
 #[test]
 fn an_edge_is_delaunay_where_the_fourth_circle_does_not_meet_the_orthogonal_one_of_three() {
-    let mut random = Random(SplitMix64::new(5));
+    let mut random = Draw(Random::new(5));
     let types = [[0.0; 4], [1.0; 4], [1.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [-1.0, 0.0, 0.0, 1.0]];
     let (mut flips, mut stays, mut imaginary) = (0, 0, 0);
     for epsilon in types.into_iter().cycle().take(10_000) {
@@ -87,7 +92,7 @@ fn an_edge_is_delaunay_where_the_fourth_circle_does_not_meet_the_orthogonal_one_
 
 #[test]
 fn a_flip_keeps_the_plane_where_the_four_circles_have_a_common_orthogonal_one() {
-    let mut random = Random(SplitMix64::new(6));
+    let mut random = Draw(Random::new(6));
     let mut seen = [0, 0];
     for round in 0..10_000 {
         let epsilon = [[0.0; 4], [1.0; 4], [1.0, 0.0, 0.0, 1.0], [-1.0, 1.0, 0.0, 1.0]][round % 4];
@@ -116,7 +121,7 @@ fn a_flip_keeps_the_plane_where_the_four_circles_have_a_common_orthogonal_one() 
 #[test]
 fn a_flip_keeps_the_plane_also_where_the_common_circle_is_imaginary() {
     // Large circles around one point: those orthogonal to all of them have negative power there.
-    let mut random = Random(SplitMix64::new(7));
+    let mut random = Draw(Random::new(7));
     let mut seen = 0;
     for _ in 0..10_000 {
         let mut q = random.quadrilateral([1.0; 4]);
@@ -136,7 +141,7 @@ fn a_flip_keeps_the_plane_also_where_the_common_circle_is_imaginary() {
 
 #[test]
 fn flipping_twice_gives_the_weight_back() {
-    let mut random = Random(SplitMix64::new(8));
+    let mut random = Draw(Random::new(8));
     for epsilon in
         [[0.0; 4], [1.0; 4], [1.0, 0.0, 1.0, 0.0], [0.0, 0.0, 1.0, 1.0]].into_iter().cycle().take(10_000)
     {
@@ -161,7 +166,7 @@ fn flipping_twice_gives_the_weight_back() {
 
 #[test]
 fn ptolemy_is_the_case_of_no_circles() {
-    let mut random = Random(SplitMix64::new(9));
+    let mut random = Draw(Random::new(9));
     for _ in 0..1000 {
         let l: [f64; 5] = std::array::from_fn(|_| random.between(-60.0, 60.0).exp());
         let kl = (2.0 * Hinge::new([0.0; 4], [1.0; 4], l.map(|l| 0.5 * l * l)).flipped().unwrap()).sqrt();
@@ -180,7 +185,7 @@ fn tangent_circles_are_never_flipped() {
 
 #[test]
 fn diagonals_agree_with_positions() {
-    let mut random = Random(SplitMix64::new(10));
+    let mut random = Draw(Random::new(10));
     for _ in 0..1000 {
         let (a, b, angle) = (random.between(0.1, 2.0), random.between(0.1, 2.0), random.between(0.01, 3.1));
         let plane = squared([a, 0.0], [b * angle.cos(), b * angle.sin()]).sqrt();
