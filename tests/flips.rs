@@ -5,7 +5,7 @@ mod common;
 
 use common::Random;
 use ricci::Control;
-use ricci::flow::{Flips, Options, Report, Solver, StopReason};
+use ricci::flow::{Flips, Options, Report, Solver, StopReason, SurfaceFlow};
 use ricci::geometry::Space;
 use ricci::mesh::{Double, EdgeId, Mesh, PerEdge, PerVertex, VertexId, io, shapes};
 use ricci::metric::delaunay::{failing, intrinsic_delaunay};
@@ -25,7 +25,7 @@ fn solve(
     target: &PerVertex<f64>,
     double: Option<&Double>,
 ) -> (Solver, Report) {
-    let start = delaunay_start(&mut mesh, &mut lengths, geometry, scheme, space, double, &mut |_, _| {});
+    let start = delaunay_start(&mut mesh, &mut lengths, geometry, scheme, space, double, &[], &mut |_, _| {});
     let start = start.unwrap().metric;
     let mut solver = Solver::new(mesh, start, Options::default()).unwrap();
     if let Some(double) = double {
@@ -218,14 +218,15 @@ fn isometric_flip(mesh: &mut Mesh, lengths: &mut PerEdge<f64>, e: EdgeId) -> boo
 fn intrinsic_delaunay_keeps_the_surface() {
     for (name, mut mesh, mut lengths) in corpus() {
         let before = curvature(&mesh, Space::E2, &lengths).unwrap();
-        intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &mut |_, _| {}).unwrap();
+        intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| {}).unwrap();
         let after = curvature(&mesh, Space::E2, &lengths).unwrap();
         assert!(after.broken.is_empty(), "{name}");
         assert!((after.area / before.area - 1.0).abs() < 1e-9, "{name}: {} {}", before.area, after.area);
         let worst = mesh.vertices().map(|v| (before.at[v] - after.at[v]).abs()).fold(0.0, f64::max);
         // Needles of the input leave their rounding.
         assert!(worst < 1e-5, "{name}: {worst}");
-        let again = intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &mut |_, _| {}).unwrap();
+        let again =
+            intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| {}).unwrap();
         assert_eq!(again, 0, "{name}");
     }
 }
@@ -255,4 +256,31 @@ fn without_flips_the_triangulation_stays_and_a_cancelled_flow_changes_nothing() 
     let uniform = Target::Uniform.resolve(&mesh, &lengths, Space::E2, Scheme::Yamabe).unwrap();
     let report = solver.solve(&uniform, &Control::new()).unwrap();
     check(&solver, &report, &uniform, "after a single cone");
+}
+
+#[test]
+fn fixed_edges_stay() {
+    let soup = shapes::punch(&shapes::genus(2, 4).unwrap(), 1).unwrap();
+    let given = Mesh::from_soup(&soup).unwrap();
+    let lengths = lengths_from_positions(&given, &soup.positions).unwrap();
+    let fixed: Vec<EdgeId> = given.edges().filter(|e| e.index() % 5 == 0).collect();
+    let ends: Vec<[VertexId; 2]> = fixed.iter().map(|&e| given.ends(e)).collect();
+    let target = Target::default_for(&given, &lengths, Space::E2).unwrap();
+    let target = target.values(&given, &lengths, Space::E2).unwrap();
+    let run = |fixed_edges| {
+        let options = Options { fixed_edges, ..Options::default() };
+        let mut flow =
+            SurfaceFlow::new(&given, &lengths, Space::E2, Scheme::Yamabe, Space::E2, &[], &options).unwrap();
+        flow.solve(&target, &Control::new()).unwrap();
+        flow
+    };
+    let kept = |flow: &SurfaceFlow| {
+        let sides = |e: EdgeId| [e.halfedge(), e.halfedge().twin()].map(|h| flow.mesh().prev(h));
+        fixed.iter().zip(&ends).all(|(&e, ends)| flow.mesh().ends(e) == *ends && sides(e)[0] != sides(e)[1])
+    };
+    assert!(!kept(&run(Vec::new())) && kept(&run(fixed.clone())));
+    let missing = vec![EdgeId(given.n_edges() as u32)];
+    let options = Options { fixed_edges: missing, ..Options::default() };
+    let refused = SurfaceFlow::new(&given, &lengths, Space::E2, Scheme::Yamabe, Space::E2, &[], &options);
+    assert!(refused.is_err_and(|e| e.to_string().contains("fixed edge")));
 }

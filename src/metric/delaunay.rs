@@ -26,14 +26,18 @@ pub struct Queue {
 }
 
 impl Queue {
-    /// No edge of a surface with this many.
-    pub fn new(n_edges: usize) -> Queue {
-        Queue { waiting: VecDeque::new(), queued: PerEdge::filled(n_edges, false) }
+    /// No edge of a surface with this many; `fixed` edges never enter it, and so are never flipped.
+    pub fn new(n_edges: usize, fixed: &[EdgeId]) -> Queue {
+        let mut queued = PerEdge::filled(n_edges, false);
+        fixed.iter().for_each(|&e| queued[e] = true);
+        Queue { waiting: VecDeque::new(), queued }
     }
 
-    /// Every edge of a surface.
-    pub fn all(mesh: &Mesh) -> Queue {
-        Queue { waiting: mesh.edges().collect(), queued: PerEdge::filled(mesh.n_edges(), true) }
+    /// Every edge of a surface but the `fixed` ones.
+    pub fn all(mesh: &Mesh, fixed: &[EdgeId]) -> Queue {
+        let mut queue = Queue::new(mesh.n_edges(), fixed);
+        mesh.edges().for_each(|e| queue.push(e));
+        queue
     }
 
     /// Look at this edge.
@@ -126,13 +130,14 @@ pub fn restore_delaunay(
 /// Isometric flips until the triangulation is the intrinsic Delaunay one of the surface (weighted by circles of these `radii`
 /// around its vertices, 0 for none; `lengths` in `geometry`): it depends on the surface and the circles alone, up to ties.
 ///
-/// Returns the number of flips. Errors: sizes; a length out of range, a face that breaks the triangle inequality;
+/// `fixed` edges stay (indices of the mesh). Returns the number of flips. Errors: sizes; a length out of range, a face that breaks the triangle inequality;
 /// [`Error::Connectivity`] if the flips do not end.
 pub fn intrinsic_delaunay(
     mesh: &mut Mesh,
     lengths: &mut PerEdge<f64>,
     radii: Option<&PerVertex<f64>>,
     geometry: Space,
+    fixed: &[EdgeId],
     record: &mut dyn FnMut(&Mesh, EdgeId),
 ) -> Result<usize> {
     check_lengths(mesh, lengths)?;
@@ -163,7 +168,7 @@ pub fn intrinsic_delaunay(
         let length = diagonal(geometry, near, far, at_origin);
         (length > 0.0 && length.is_finite()).then_some(length)
     };
-    Queue::all(mesh).run(mesh, lengths, decide, record).ok_or_else(endless)
+    Queue::all(mesh, fixed).run(mesh, lengths, decide, record).ok_or_else(endless)
 }
 
 /// `cot α + cot β` (scaled) of the angles opposite a common side, or what decides alike in curved spaces: the circumcircles'
