@@ -36,8 +36,16 @@ struct RepairResult {
     turned_faces: usize,
     faces_of_other_components: usize,
     isolated_vertices: usize,
+    /// Edges in which welding would have made more than two faces meet; numbers of the input.
+    weld_refused: Vec<RefusedFigures>,
     defect_counts: Vec<DefectCount>,
     defects: Vec<DefectFigures>,
+}
+
+#[derive(Serialize)]
+struct RefusedFigures {
+    vertices: [u32; 2],
+    faces: Vec<u32>,
 }
 
 #[derive(Serialize)]
@@ -145,6 +153,11 @@ impl RepairResult {
             turned_faces: steps.turned_faces,
             faces_of_other_components: steps.faces_of_other_components,
             isolated_vertices: steps.isolated_vertices,
+            weld_refused: done
+                .weld_refused
+                .iter()
+                .map(|refused| RefusedFigures { vertices: refused.vertices, faces: refused.faces.clone() })
+                .collect(),
             defect_counts: DefectCount::of(diagnosis),
             defects: diagnosis.defects.iter().map(DefectFigures::from).collect(),
         }
@@ -178,6 +191,14 @@ fn text(args: &RepairArgs, steps: &Steps, result: &RepairResult) -> String {
         count(result.components, "component", "components"),
         count(result.boundary_loops, "boundary loop", "boundary loops"),
     );
+    if let Some(RefusedFigures { vertices: [a, b], faces }) = result.weld_refused.first() {
+        text += &format!(
+            "not welded throughout: {} in which more than two faces would meet, such as {} faces between vertices {a} and \
+             {b} of the input: --weld DISTANCE joins them all the same\n",
+            count(result.weld_refused.len(), "edge", "edges"),
+            faces.len(),
+        );
+    }
     let mut told: Vec<&str> = Vec::new();
     for defect in &result.defects {
         if !told.contains(&defect.remedy) {

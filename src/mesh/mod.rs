@@ -7,6 +7,7 @@ pub mod halfedge;
 pub mod ids;
 mod incidence;
 pub mod io;
+mod join;
 pub mod repair;
 pub mod shapes;
 mod weld;
