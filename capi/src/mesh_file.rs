@@ -1,13 +1,15 @@
 //! Meshes from and to files, with their attributes.
 
 use crate::arrays::{self, copy_out};
+use crate::choice::{Choice, choose};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, output};
 use crate::mesh::{face_vertices, ricci_mesh};
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
-use ricci::mesh::io::{self, Attributes, Format, Soup};
+use ricci::mesh::io::{self, Attributes, Format, Soup, Texture, Textured, Wrap};
 use std::ffi::c_char;
+use std::mem::MaybeUninit;
 use std::ptr::null;
 
 /// What is written beside positions and faces. Let ricci_mesh_attributes_init fill it, then change fields.
@@ -207,8 +209,88 @@ pub unsafe extern "C" fn ricci_mesh_uv(
     })
 }
 
-fn present<'a, T>(what: &str, list: &'a Option<Vec<T>>) -> Outcome<&'a [T]> {
+/// The attribute, or that there is none.
+pub fn present<'a, T>(what: &str, list: &'a Option<Vec<T>>) -> Outcome<&'a [T]> {
     list.as_deref().ok_or_else(|| Failure::argument(format!("this mesh was read without {what}")))
+}
+
+/// How a texture goes on outside the unit square.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ricci_wrap {
+    /// Periodically.
+    RICCI_WRAP_REPEAT = 0,
+    /// Periodically, every other time mirrored.
+    RICCI_WRAP_MIRROR = 1,
+    /// With the colours of its border.
+    RICCI_WRAP_CLAMP = 2,
+}
+
+use ricci_wrap::*;
+
+impl Choice for ricci_wrap {
+    const NAME: &'static str = "wrap";
+    type Value = Wrap;
+    const ALL: &'static [(Self, Wrap)] = &[
+        (RICCI_WRAP_REPEAT, Wrap::Repeat),
+        (RICCI_WRAP_MIRROR, Wrap::Mirror),
+        (RICCI_WRAP_CLAMP, Wrap::Clamp),
+    ];
+    fn number(self) -> i32 {
+        self as i32
+    }
+}
+
+/// Write a mesh as binary glTF with a texture, whatever the file's name.
+///
+/// A vertex with several texture coordinates is written once for each. A file of that name is replaced only once the new one
+/// is complete.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (the mesh is intrinsic, a number is not
+/// finite, there are no texture coordinates, the texture is no PNG file, wrap is unknown), RICCI_TOO_LARGE.
+///
+/// @param mesh        the mesh.
+/// @param attributes  what to write beside positions and faces, texture coordinates among it, or NULL for what the mesh was
+///                    read with.
+/// @param png         the texture: a PNG file's png_size bytes.
+/// @param png_size    their number.
+/// @param wrap        what is outside the unit square.
+/// @param path        file name, NUL-terminated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_write_textured(
+    mesh: *const ricci_mesh,
+    attributes: *const ricci_mesh_attributes,
+    png: *const u8,
+    png_size: usize,
+    wrap: MaybeUninit<ricci_wrap>,
+    path: *const c_char,
+) -> ricci_status {
+    guard::call(|door| {
+        let mesh = door.shared(mesh)?;
+        let path = arrays::path("path", path)?;
+        let wrap = choose(wrap)?;
+        let png: Vec<u8> = arrays::array("png", png, png_size)?;
+        if !png.starts_with(b"\x89PNG\r\n\x1a\n") {
+            return Err(Failure::argument("png is no PNG file: its first eight bytes are not that format's"));
+        }
+        let mut soup = whole(mesh)?;
+        if !attributes.is_null() {
+            soup.attributes =
+                ricci_mesh_attributes::read(attributes, soup.positions.len(), soup.faces.len())?;
+        }
+        let uv = present("uv", &soup.attributes.uv)?;
+        // A mesh numbers its half-edges, six to a face, in 32 bits.
+        let corners: Vec<[u32; 3]> = (0..uv.len() as u32).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
+        let data = Textured {
+            positions: &soup.positions,
+            faces: &soup.faces,
+            colors: soup.attributes.colors.as_deref().unwrap_or_default(),
+            normals: soup.attributes.normals.as_deref().unwrap_or_default(),
+            texcoords: uv.as_flattened(),
+            face_texcoords: &corners,
+        };
+        io::write_glb(&path, &data, Some(Texture { png: &png, wrap }))?;
+        Ok(())
+    })
 }
 
 /// The triangle list that the mesh is, with what it was read with.
