@@ -5,10 +5,10 @@ mod common;
 
 use common::Random;
 use proptest::prelude::{any, prop, proptest};
-use ricci::Error;
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::repair::{Repair, repair};
 use ricci::mesh::{Mesh, shapes};
+use ricci::{At, Error};
 use std::path::Path;
 
 /// A tetrahedron with an isolated vertex, and an attribute of each kind.
@@ -286,23 +286,21 @@ fn stl_is_welded_within_a_distance_on_request() {
 #[test]
 fn stl_that_is_cut_off_or_garbled_names_the_place() {
     let triangle = [[0.0f32; 3]; 3];
-    for (bytes, line, says) in [
-        (Vec::new(), 1, "no STL file"),
-        (b"plain text".to_vec(), 1, "no STL file"),
-        (binary_stl(b"x", &[triangle], 2), 0, "in triangle 1 of the 2"),
-        (binary_stl(b"x", &[triangle], u32::MAX), 0, "in triangle 1 of the 4294967295"),
+    for (bytes, place, says) in [
+        (Vec::new(), At::Whole, "no STL file"),
+        (b"plain text".to_vec(), At::Line(1), "no STL file"),
+        (binary_stl(b"x", &[triangle], 2), At::Byte(134), "in triangle 1 of the 2"),
+        (binary_stl(b"x", &[triangle], u32::MAX), At::Byte(134), "in triangle 1 of the 4294967295"),
         (
             ASCII_STL.replace("1 1 0\n  endloop", "1 one 0\n  endloop").into_bytes(),
-            6,
+            At::Line(6),
             "`one` is not a number",
         ),
-        (ASCII_STL.replacen("vertex", "vortex", 1).into_bytes(), 4, "`vortex` has no place"),
-        (ASCII_STL.split("  endloop").next().unwrap().as_bytes().to_vec(), 6, "ends inside a loop"),
+        (ASCII_STL.replacen("vertex", "vortex", 1).into_bytes(), At::Line(4), "`vortex` has no place"),
+        (ASCII_STL.split("  endloop").next().unwrap().as_bytes().to_vec(), At::Line(6), "ends inside a loop"),
     ] {
-        let Err(Error::Parse { message, line: found, .. }) = io::parse_stl(&bytes, "t.stl") else {
-            panic!("{says}")
-        };
-        assert!(message.contains(says) && found == line, "{found}: {message}");
+        let Err(Error::Parse { message, at, .. }) = io::parse_stl(&bytes, "t.stl") else { panic!("{says}") };
+        assert!(message.contains(says) && at == place, "{at}: {message}");
     }
 }
 

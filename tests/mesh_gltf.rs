@@ -295,9 +295,11 @@ fn nothing_in_the_file_is_trusted() {
     let mut beyond = binary.clone();
     beyond[54] = 4;
     let error = parse(&document, &beyond).unwrap_err().to_string();
+    let index = whole.len() - binary.len() + 54;
+    assert!(error.starts_with(&format!("t.glb, byte {index}: ")), "{error}");
     assert!(error.contains("index 3 of a mesh names vertex 4 of 4"), "{error}");
     for (at, byte, says) in
-        [(0, b'G', "no GLB"), (4, 1, "version 1"), (8, 255, "ends at byte"), (16, b'j', "not JSON")]
+        [(0, b'G', "no GLB"), (4, 1, "version 1"), (8, 255, "the file ends here"), (16, b'j', "not JSON")]
     {
         let mut bytes = whole.clone();
         bytes[at] = byte;

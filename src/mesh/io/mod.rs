@@ -6,6 +6,7 @@ mod budget;
 mod gifti;
 mod gifti_data;
 mod gltf;
+mod kind;
 mod obj;
 mod off;
 mod off_binary;
@@ -15,7 +16,7 @@ mod scan;
 mod stl;
 mod textured;
 
-pub use atomic::write_atomically;
+pub use atomic::{destination, write_atomically};
 pub use gifti::parse_gifti;
 pub use gltf::{Texture, Wrap, parse_glb, write_glb};
 pub use obj::{parse_obj, write_obj};

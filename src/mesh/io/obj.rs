@@ -3,7 +3,7 @@
 
 use super::budget::Budget;
 use super::polygon::Polygons;
-use super::scan::Place;
+use super::scan::{Place, Quoted};
 use super::{Attributes, Point, Soup, Textured, write_atomically};
 use crate::error::Result;
 use std::io::Write;
@@ -19,7 +19,7 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
     let mut lines = super::scan::lines(&text);
     let mut joined = String::new();
     while let Some((number, line)) = lines.next() {
-        let place = Place { path, line: number };
+        let place = Place::line(path, number);
         let mut line = line;
         if line.ends_with('\\') {
             joined.clear();
@@ -55,7 +55,7 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
             _ => {}
         }
     }
-    file.soup(Budget::of(bytes), Place { path, line: 0 })
+    file.soup(Budget::of(bytes), Place::whole(path))
 }
 
 /// No entry.
@@ -140,13 +140,14 @@ fn attribute(number: Option<&str>, count: usize) -> u32 {
 fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
     let index = token.split('/').next().unwrap_or("");
     let Ok(number) = index.parse::<i64>() else {
-        return place.error(format!("corner `{token}` does not start with a vertex number"));
+        return place.error(format!("corner {} does not start with a vertex number", Quoted(token)));
     };
     let zero_based = match number {
         0 => return place.error("vertex number 0: OBJ counts from 1".into()),
         n if n < 0 && n.unsigned_abs() > vertices as u64 => {
             return place.error(format!(
-                "corner `{token}` counts back past the first of the {vertices} vertices so far"
+                "corner {} counts back past the first of the {vertices} vertices so far",
+                Quoted(token)
             ));
         }
         n if n < 0 => vertices as i64 + n,
@@ -154,7 +155,7 @@ fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
     };
     match u32::try_from(zero_based) {
         Ok(v) => Ok(v),
-        Err(_) => place.error(format!("corner `{token}` is more than can be numbered")),
+        Err(_) => place.error(format!("corner {} is more than can be numbered", Quoted(token))),
     }
 }
 

@@ -4,7 +4,7 @@
 use super::budget::Budget;
 use super::off_binary::parse_off_binary;
 use super::polygon::Polygons;
-use super::scan::{Place, lines};
+use super::scan::{Place, Quoted, tokens};
 use super::{Attributes, Point, Soup, write_atomically};
 use crate::error::Result;
 use std::io::Write;
@@ -26,17 +26,24 @@ fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Pla
         let line = line.split(|&b| b == b'#').next().unwrap_or_default();
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         if let Some(first) = words.next() {
-            let place = Place { path, line: i + 1 };
+            let place = Place::line(path, i + 1);
             let header = String::from_utf8_lossy(first);
-            return match header.strip_suffix("OFF") {
-                Some(prefix) if words.next() == Some(b"BINARY") => {
-                    Ok(Some((columns(prefix, place)?, end, place)))
+            return match split_header(&header) {
+                Some((prefix, "")) if words.next().is_some_and(|w| w.eq_ignore_ascii_case(b"BINARY")) => {
+                    Ok(Some((columns(&prefix, place)?, end, place)))
                 }
                 _ => Ok(None),
             };
         }
     }
     Ok(None)
+}
+
+/// What is before and behind `OFF`. In a header that begins in lower case throughout, as some programs write it, the letters mean
+/// what their capitals do.
+fn split_header(word: &str) -> Option<(String, &str)> {
+    let upper = word.split_once("OFF").map(|(prefix, rest)| (prefix.to_string(), rest));
+    upper.or_else(|| word.split_once("off").map(|(prefix, rest)| (prefix.to_ascii_uppercase(), rest)))
 }
 
 /// What each vertex has besides its coordinates, in this order.
@@ -72,21 +79,51 @@ fn columns(prefix: &str, place: Place<'_>) -> Result<Columns> {
     }
 }
 
+/// Without letters before `OFF` a vertex has three numbers, and what is behind them on its line can be one of two things: columns
+/// that the header does not announce, or the next vertex. Only with the right one do the counts come out; vertices that share a
+/// line are whole ones, so that a file with a number missing is not taken for one of these.
 fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
-    let mut tokens = Tokens { lines: lines(text), path, line: 0, rest: "" };
+    match (read_text(text, path, true), Layout::of(text)) {
+        (Err(error), Layout::Lines) => Err(error),
+        (Err(error), Layout::Open) => read_text(text, path, false).or(Err(error)),
+        (soup, _) => soup,
+    }
+}
+
+/// Whether each vertex must have a line of its own.
+enum Layout {
+    Lines,
+    Open,
+}
+
+impl Layout {
+    fn of(text: &str) -> Layout {
+        let header = tokens(text, "").next().and_then(split_header);
+        if header.is_some_and(|(prefix, _)| !prefix.trim_start_matches('\u{feff}').is_empty()) {
+            Layout::Lines
+        } else {
+            Layout::Open
+        }
+    }
+}
+
+/// Read the text; `by_line`: each vertex on a line of its own, perhaps with further columns.
+fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
+    let mut tokens = tokens(text, path);
     let Some(header) = tokens.next() else {
         return tokens.place().error("the file is empty; OFF begins with `OFF` and its counts".into());
     };
     // The header word is optional, and the first count may stick to it.
     let mut has = Columns::default();
-    let first = match header.split_once("OFF") {
+    let first = match split_header(header) {
         Some((prefix, count)) => {
-            has = columns(prefix, tokens.place())?;
+            has = columns(&prefix, tokens.place())?;
             if count.is_empty() { tokens.next() } else { Some(count) }
         }
         None if header.starts_with(|c: char| c.is_ascii_digit()) => Some(header),
         None => {
-            return tokens.place().error(format!("`{header}` begins no OFF file; that begins with `OFF`"));
+            let message = format!("{} begins no OFF file; that begins with `OFF`", Quoted(header));
+            return tokens.place().error(message);
         }
     };
     let n_vertices = tokens.place().count(first, format_args!("number of vertices"))?;
@@ -101,13 +138,19 @@ fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
     let (mut positions, mut extras, mut polygons) = (Vec::new(), Extras::new(has), Polygons::default());
     for v in 0..n_vertices {
         let mut point: Point = [0.0; 3];
+        let mut line = None;
         for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
             let token = tokens.next();
+            if !by_line && *line.get_or_insert(tokens.line) != tokens.line {
+                return tokens.place().error(format!("vertex {v} (of {n_vertices}) is on two lines"));
+            }
             *x = tokens.place().number(token, format_args!("{name} of vertex {v} (of {n_vertices})"))?;
         }
-        let rest: Vec<f64> = tokens.rest.split_ascii_whitespace().map_while(|t| t.parse().ok()).collect();
-        extras.push(&rest);
-        tokens.end_line();
+        if by_line {
+            let rest: Vec<f64> = tokens.rest.split_ascii_whitespace().map_while(|t| t.parse().ok()).collect();
+            extras.push(&rest);
+            tokens.end_line();
+        }
         positions.push(point);
     }
     let mut corners = Vec::new();
@@ -132,9 +175,10 @@ fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
         polygons.push(corners.iter().copied());
     }
     match tokens.next() {
-        None => extras.soup(positions, &polygons, Budget::of(text.as_bytes()), tokens.place()),
+        None => extras.soup(positions, &polygons, Budget::of(text.as_bytes()), Place::whole(path)),
         Some(token) => tokens.place().error(format!(
-            "`{token}` comes after the last face: the header promises {n_vertices} vertices and {n_faces} faces, each on a line of its own"
+            "{} comes after the last face: the header promises {n_vertices} vertices and {n_faces} faces, each on a line of its own",
+            Quoted(token)
         )),
     }
 }
@@ -225,40 +269,4 @@ pub fn write_off(path: &Path, soup: &Soup) -> Result<()> {
         }
         Ok(())
     })
-}
-
-/// Tokens over line ends, without comments, and the line they stand on.
-struct Tokens<'a, L> {
-    lines: L,
-    path: &'a str,
-    line: usize,
-    rest: &'a str,
-}
-
-impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
-    fn place(&self) -> Place<'a> {
-        Place { path: self.path, line: self.line }
-    }
-
-    /// Skip what is left of the current line.
-    fn end_line(&mut self) {
-        self.rest = "";
-    }
-
-    fn next(&mut self) -> Option<&'a str> {
-        loop {
-            self.rest = self.rest.trim_start();
-            if !self.rest.is_empty() {
-                let end = self.rest.find(|c: char| c.is_ascii_whitespace()).unwrap_or(self.rest.len());
-                let (token, rest) = self.rest.split_at(end);
-                self.rest = rest;
-                return Some(token);
-            }
-            let (line, text) = self.lines.next()?;
-            // Blank lines do not count as the place of an error: at the end of the file that is its last
-            // word.
-            self.line = if text.is_empty() { self.line } else { line };
-            self.rest = text;
-        }
-    }
 }

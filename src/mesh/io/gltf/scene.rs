@@ -15,7 +15,7 @@ const PRIMITIVE: usize = 64;
 
 /// All meshes below the roots of the scene: the default one, else the first, else every mesh where it stands.
 pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
-    let (document, place) = (file.document, file.place);
+    let document = file.document;
     let mut out = Collected {
         file,
         budget,
@@ -25,7 +25,9 @@ pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
         colors: Vec::new(),
     };
     let scene = match document.scene {
-        Some(i) if i >= document.scenes.len() => return place.error(format!("scene {i} does not exist")),
+        Some(i) if i >= document.scenes.len() => {
+            return file.whole().error(format!("scene {i} does not exist"));
+        }
         Some(i) => Some(&document.scenes[i]),
         None => document.scenes.first(),
     };
@@ -42,10 +44,12 @@ pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
     while let Some((index, above)) = open.pop() {
         let (Some(node), Some(met)) = (document.nodes.get(index as usize), met.get_mut(index as usize))
         else {
-            return place.error(format!("node {index} does not exist"));
+            return file.whole().error(format!("node {index} does not exist"));
         };
         if std::mem::replace(met, true) {
-            return place.error(format!("node {index} has two parents, or is below itself"));
+            return file
+                .place_of("nodes", index as usize)
+                .error(format!("node {index} has two parents, or is below itself"));
         }
         let here = node.transform.as_ref().map_or(above, |local| above.after(local));
         if let Some(mesh) = node.mesh {
@@ -69,17 +73,17 @@ struct Collected<'a> {
 impl Collected<'_> {
     fn mesh(&mut self, index: u32, map: &Affine) -> Result<()> {
         let Some(mesh) = self.file.document.meshes.get(index as usize) else {
-            return self.file.place.error(format!("mesh {index} does not exist"));
+            return self.file.whole().error(format!("mesh {index} does not exist"));
         };
         for primitive in &mesh.primitives {
-            self.budget.take(1, PRIMITIVE, "primitives", self.file.place)?;
+            self.budget.take(1, PRIMITIVE, "primitives", self.file.whole())?;
             self.primitive(primitive, map)?;
         }
         Ok(())
     }
 
     fn primitive(&mut self, primitive: &Primitive, map: &Affine) -> Result<()> {
-        let (file, place) = (self.file, self.file.place);
+        let (file, place) = (self.file, self.file.whole());
         let named = &primitive.attributes;
         let Some(position) = named.position else { return Ok(()) };
         let positions = file.accessor(position, "POSITION", &[Shape::Vec3])?;
@@ -89,19 +93,21 @@ impl Collected<'_> {
             return Err(Error::TooLarge { what: "vertices", count: first.saturating_add(n) });
         }
         let budget = &mut self.budget;
-        let mut positions: Vec<Point> = positions.numbers(0.0, "POSITION", budget, place)?;
+        let mut positions: Vec<Point> = positions.numbers(0.0, "POSITION", budget, file)?;
         if *map != Affine::IDENTITY {
             positions.iter_mut().for_each(|p| *p = map.apply(*p));
         }
         let (turn, mirrors) = map.of_normals();
-        let check = |what: &str, count: usize| match count == n {
+        let check = |what: &str, index: u32, count: usize| match count == n {
             true => Ok(()),
-            false => place.error(format!("{what} has {count} elements, POSITION {n}")),
+            false => file
+                .place_of("accessors", index as usize)
+                .error(format!("{what} has {count} elements, POSITION {n}")),
         };
         if let Some(index) = named.normal {
             let normals = file.accessor(index, "NORMAL", &[Shape::Vec3])?;
-            check("NORMAL", normals.count)?;
-            let mut normals: Vec<Point> = normals.numbers(0.0, "NORMAL", budget, place)?;
+            check("NORMAL", index, normals.count)?;
+            let mut normals: Vec<Point> = normals.numbers(0.0, "NORMAL", budget, file)?;
             if map.linear != Affine::IDENTITY.linear {
                 normals.iter_mut().for_each(|x| *x = unit(turn.apply(*x)));
             }
@@ -109,14 +115,14 @@ impl Collected<'_> {
         }
         if let Some(index) = named.color {
             let colors = file.accessor(index, "COLOR_0", &[Shape::Vec3, Shape::Vec4])?;
-            check("COLOR_0", colors.count)?;
-            self.colors.append(&mut colors.numbers(1.0, "COLOR_0", budget, place)?);
+            check("COLOR_0", index, colors.count)?;
+            self.colors.append(&mut colors.numbers(1.0, "COLOR_0", budget, file)?);
         }
         let texcoords: Option<Vec<[f64; 2]>> = match named.texcoord {
             Some(index) => {
                 let texcoords = file.accessor(index, "TEXCOORD_0", &[Shape::Vec2])?;
-                check("TEXCOORD_0", texcoords.count)?;
-                Some(texcoords.numbers(0.0, "TEXCOORD_0", budget, place)?)
+                check("TEXCOORD_0", index, texcoords.count)?;
+                Some(texcoords.numbers(0.0, "TEXCOORD_0", budget, file)?)
             }
             None => None,
         };
@@ -126,7 +132,7 @@ impl Collected<'_> {
             return Ok(());
         }
         let indices = match primitive.indices {
-            Some(index) => file.accessor(index, "indices", &[Shape::Scalar])?.indices(n, budget, place)?,
+            Some(index) => file.accessor(index, "indices", &[Shape::Scalar])?.indices(n, budget, file)?,
             None => {
                 budget.take(n, size_of::<u32>(), "indices", place)?;
                 (0..n as u32).collect()
