@@ -229,7 +229,8 @@ fn obj_and_off_dialects_are_read() {
     let soup = read_obj(obj).unwrap();
     assert_eq!(soup.faces, [[0, 1, 2], [0, 2, 3]]);
     let odd = "\u{feff}v 0 0 0\rv 1 0 0\r# back\\\rv 1 1 0\rv 0 1 0\rf 1 2 3 4\r";
-    assert_eq!(read_obj(odd).unwrap(), soup);
+    let plain = read_obj(odd).unwrap();
+    assert_eq!((plain.positions, plain.faces), (soup.positions.clone(), soup.faces.clone()));
     let latin1 = [b"usemtl \xFF\xFE\ng f 1 2 3\n", obj.as_bytes()].concat();
     assert_eq!(io::parse_obj(&latin1, "t.obj").unwrap(), soup);
     for off in [

@@ -93,7 +93,7 @@ fn round_trip(soup: &Soup, format: Format) {
     };
     let path: PathBuf = folder.path().join("m").with_extension(extension);
     match io::write_as(&path, format, soup) {
-        Ok(()) => {}
+        Ok(_) => {}
         Err(Error::Argument { .. }) => return,
         Err(other) => panic!("written as {extension}: {other}"),
     }

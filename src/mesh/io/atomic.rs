@@ -46,13 +46,13 @@ pub fn destination(path: &Path) -> (PathBuf, Option<Permissions>) {
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests {
-    use super::*;
-    use std::os::unix::fs::{PermissionsExt, symlink};
-
+    #[cfg(unix)]
     #[test]
     fn links_stay_links_and_files_keep_their_permissions() {
+        use super::*;
+        use std::os::unix::fs::{PermissionsExt, symlink};
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         fs::write(at("secret"), "old").unwrap();

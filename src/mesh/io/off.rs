@@ -5,7 +5,7 @@ use super::budget::Budget;
 use super::off_binary::parse_off_binary;
 use super::polygon::Polygons;
 use super::scan::{Place, Quoted, tokens};
-use super::{Attributes, Point, Soup, write_atomically};
+use super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, write_atomically};
 use crate::error::Result;
 use std::io::Write;
 use std::path::Path;
@@ -186,6 +186,8 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
 /// The attributes of the vertices read so far.
 pub(super) struct Extras {
     has: Columns,
+    /// What some vertex has.
+    any: Columns,
     normals: Vec<Point>,
     colors: Vec<[f64; 4]>,
     texture: Vec<[f64; 2]>,
@@ -193,23 +195,36 @@ pub(super) struct Extras {
 
 impl Extras {
     pub fn new(has: Columns) -> Extras {
-        Extras { has, normals: Vec::new(), colors: Vec::new(), texture: Vec::new() }
+        Extras { has, any: Columns::default(), normals: Vec::new(), colors: Vec::new(), texture: Vec::new() }
     }
 
     /// The numbers behind the coordinates of a vertex. A colour is what the others leave over, three numbers or four.
     pub fn push(&mut self, rest: &[f64]) {
         let (normal, rest) = rest.split_at(if self.has.normal { rest.len().min(3) } else { 0 });
         let (color, texture) = rest.split_at(rest.len().saturating_sub(if self.has.texture { 2 } else { 0 }));
-        self.normals.extend(<Point>::try_from(normal));
-        self.texture.extend(<[f64; 2]>::try_from(texture));
-        match *color {
-            [r, g, b] => self.colors.push([r, g, b, f64::NAN]),
-            [r, g, b, a, ..] => self.colors.push([r, g, b, a]),
-            _ => {}
+        let finite = |list: &&[f64]| list.iter().all(|x| x.is_finite());
+        let normal = Some(normal).filter(finite).and_then(|x| <Point>::try_from(x).ok());
+        let texture = Some(texture).filter(finite).and_then(|x| <[f64; 2]>::try_from(x).ok());
+        let color = match *color {
+            [r, g, b] => Some([r, g, b, f64::NAN]),
+            [r, g, b, a, ..] => Some([r, g, b, a]),
+            _ => None,
+        };
+        self.any.normal |= normal.is_some();
+        self.any.texture |= texture.is_some();
+        self.any.color |= self.has.color && color.is_some();
+        if self.has.normal {
+            self.normals.push(normal.unwrap_or(NO_NORMAL));
+        }
+        if self.has.texture {
+            self.texture.push(texture.unwrap_or(NO_TEXCOORD));
+        }
+        if self.has.color {
+            self.colors.push(color.unwrap_or([f64::NAN; 4]));
         }
     }
 
-    /// The triangle list, with the attributes that every vertex has.
+    /// The triangle list, with the attributes that vertices have.
     pub fn soup(
         self,
         positions: Vec<Point>,
@@ -217,29 +232,28 @@ impl Extras {
         mut budget: Budget,
         place: Place<'_>,
     ) -> Result<Soup> {
-        let n = positions.len();
         let triangles = polygons.triangles(&positions, &mut budget, place)?;
         // Components are from 0 to 1, or from 0 to 255 as soon as one is larger.
         let full = if self.colors.iter().flatten().any(|&x| x > 1.0) { 255.0 } else { 1.0 };
         let color = |c: [f64; 4]| c.map(|x| if x.is_nan() { 1.0 } else { x / full });
         let uv = |v: u32| self.texture.get(v as usize).copied().unwrap_or_default();
         let attributes = Attributes {
-            normals: (self.has.normal && self.normals.len() == n).then_some(self.normals),
-            colors: (self.has.color && self.colors.len() == n)
-                .then(|| self.colors.into_iter().map(color).collect()),
-            uv: (self.has.texture && self.texture.len() == n)
-                .then(|| triangles.iter().map(|&t| polygons.face(t).map(uv)).collect()),
+            normals: self.any.normal.then_some(self.normals),
+            colors: self.any.color.then(|| self.colors.into_iter().map(color).collect()),
+            uv: self.any.texture.then(|| triangles.iter().map(|&t| polygons.face(t).map(uv)).collect()),
+            ..Attributes::default()
         };
         Ok(Soup { faces: triangles.iter().map(|&t| polygons.face(t)).collect(), positions, attributes })
     }
 }
 
 /// Write text OFF with 17 significant digits (which read back to the same doubles), with normals, colours (0 to 255) where there
-/// are any, and texture coordinates where each vertex has a single pair; atomically.
+/// are any, and texture coordinates where each vertex has a single pair; atomically. Returned is what was left out, by name: normals
+/// and texture coordinates that differ between the corners of a vertex.
 ///
 /// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`crate::Error::Size`] for attributes of another size, [`crate::Error::Io`].
-pub fn write_off(path: &Path, soup: &Soup) -> Result<()> {
+pub fn write_off(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     soup.check_writable()?;
     let Soup { positions, faces, attributes } = soup;
     let Attributes { normals, colors, .. } = attributes;
@@ -268,5 +282,6 @@ pub fn write_off(path: &Path, soup: &Soup) -> Result<()> {
             writeln!(out, "3 {a} {b} {c}")?;
         }
         Ok(())
-    })
+    })?;
+    Ok(attributes.left_out(texture.is_some()))
 }

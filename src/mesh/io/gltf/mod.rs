@@ -5,6 +5,7 @@ mod accessor;
 mod document;
 mod locate;
 mod scene;
+mod seams;
 mod write;
 
 pub use write::{Texture, Wrap, write_glb};
@@ -24,10 +25,13 @@ const KNOWN_EXTENSIONS: [&str; 5] =
 
 /// Parse a glTF 2.0 file, binary or, if it begins with `{`, text: the meshes of its scene in space, one after the other.
 ///
-/// Nodes are applied (mirrors turn faces around), vertices keep the order of the file: those that it gives twice, along seams of
-/// normals or texture, stay two, and [`crate::mesh::repair`] welds them. Triangles, strips and fans are faces; the vertices of
+/// Nodes are applied (mirrors turn faces around). A vertex of glTF has one normal and one pair of texture coordinates, so that files
+/// give those along seams and hard edges more than once: vertices of a mesh in exactly the same place become one, which keeps the
+/// number of the first, its colour, and the normals and texture coordinates of all at their corners; our own files say in the
+/// attribute `_RICCI_VERTEX` where that would be one too many. Triangles, strips and fans are faces; the vertices of
 /// points and lines have none. Attributes are `NORMAL`, `COLOR_0` (linear, as they stand) and `TEXCOORD_0`, with v upwards as
-/// everywhere else here: glTF counts it downwards. Skins and morph targets are left as stored. Buffers are the binary chunk and
+/// everywhere else here: glTF counts it downwards. What a primitive
+/// lacks and another has is filled up with the defaults of [`super::Attributes`]. Skins and morph targets are left as stored. Buffers are the binary chunk and
 /// base64 data; other files are refused by name, and so is what an extension compresses. `path` is used in errors.
 pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
     let place = Place::whole(path);

@@ -157,6 +157,7 @@ impl Vertices {
             normals: self.normal.map(|_| self.normals),
             colors: self.color.map(|_| self.colors),
             uv,
+            ..Attributes::default()
         };
         let faces = triangles.iter().map(|&t| polygons.face(t)).collect();
         Soup { positions: self.positions, faces, attributes }

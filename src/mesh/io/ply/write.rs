@@ -7,14 +7,14 @@ use std::path::Path;
 
 /// Write binary PLY (little-endian, positions as doubles, so that they read back as they are), with normals, colours (8 bits)
 /// and texture coordinates where there are any: at the vertices (s, t) if each has a single pair, else at the corners of the faces
-/// (texcoord); atomically.
+/// (texcoord); atomically. Returned is what was left out, by name: normals that differ between the corners of a vertex.
 ///
 /// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`crate::Error::Size`] for attributes of another size, [`crate::Error::Io`].
-pub fn write_ply(path: &Path, soup: &Soup) -> Result<()> {
+pub fn write_ply(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     soup.check_writable()?;
     let Soup { positions, faces, attributes } = soup;
-    let Attributes { normals, colors, uv } = attributes;
+    let Attributes { normals, colors, uv, .. } = attributes;
     let vertex_uv = attributes.vertex_uv(positions.len(), faces);
     let corner_uv = uv.as_ref().filter(|_| vertex_uv.is_none());
     write_atomically(path, |out| {
@@ -65,5 +65,6 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<()> {
             }
         }
         Ok(())
-    })
+    })?;
+    Ok(attributes.left_out(true))
 }
