@@ -222,7 +222,7 @@ fn vertices_of_off_may_share_a_line_and_its_header_be_small() {
 /// A star of `n` corners, every other of which turns inwards.
 fn star(n: usize) -> String {
     let point = |i: usize| {
-        let (t, r) = (i as f64 / n as f64 * std::f64::consts::TAU, if i % 2 == 0 { 1.0 } else { 0.9 });
+        let (t, r) = (i as f64 / n as f64 * std::f64::consts::TAU, [1.0, 0.9][i % 2]);
         format!("v {} {} 0\n", r * t.cos(), r * t.sin())
     };
     (0..n).map(point).collect()

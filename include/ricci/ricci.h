@@ -266,12 +266,14 @@ typedef struct {
     int64_t euler;
     /** (2 - euler - boundary loops) / 2. */
     size_t genus;
-    /** Number of normals: V, or 0 if the mesh was not read from a file that has them. */
+    /** Number of normals of vertices: V, or 0 if the mesh was not read from a file that has them. */
     size_t n_normals;
     /** Number of colours: V, or 0. */
     size_t n_colors;
     /** Number of faces with texture coordinates: F, or 0. */
     size_t n_uv;
+    /** Number of faces with normals at their corners, instead of those of the vertices: F, or 0. */
+    size_t n_corner_normals;
 } ricci_mesh_summary;
 
 /** What is written beside positions and faces. Let ricci_mesh_attributes_init fill it, then change fields. */
