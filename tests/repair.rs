@@ -283,6 +283,7 @@ fn sheets_that_touch_in_a_point_come_apart_and_keep_their_attributes() {
         normals: Some(vec![[0.0, 0.0, 1.0]; vertices]),
         colors: Some((0..vertices).map(|v| [v as f64 / vertices as f64, 0.0, 0.0, 1.0]).collect()),
         uv: Some((0..faces).map(|f| [[f as f64, 0.0], [f as f64, 1.0], [f as f64, 2.0]]).collect()),
+        ..Attributes::default()
     };
     let done = mend(&soup);
     assert_eq!((done.steps.split_vertices, done.soup.positions.len()), (1, vertices + 1));

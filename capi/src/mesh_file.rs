@@ -7,7 +7,7 @@ use crate::guard::{self, output};
 use crate::mesh::{face_vertices, ricci_mesh};
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
-use ricci::mesh::io::{self, Attributes, Format, Soup, Texture, Textured, Wrap};
+use ricci::mesh::io::{self, Attributes, Format, Soup, Texture, Wrap};
 use std::ffi::c_char;
 use std::mem::MaybeUninit;
 use std::ptr::null;
@@ -24,6 +24,8 @@ pub struct ricci_mesh_attributes {
     pub colors: *const f64,
     /// Texture coordinates of the faces' corners, n_faces x 3 x 2, v upwards; NULL (default): none.
     pub uv: *const f64,
+    /// Normals of the faces' corners, n_faces x 3 x 3, of any length, in place of those of the vertices; NULL (default): none.
+    pub corner_normals: *const f64,
 }
 
 // SAFETY: pointers of 8 bytes that are only read through `arrays`, size first.
@@ -36,7 +38,13 @@ unsafe impl Sized64 for ricci_mesh_attributes {
 
 impl ricci_mesh_attributes {
     fn none() -> Self {
-        ricci_mesh_attributes { size: size_of::<Self>(), normals: null(), colors: null(), uv: null() }
+        ricci_mesh_attributes {
+            size: size_of::<Self>(),
+            normals: null(),
+            colors: null(),
+            uv: null(),
+            corner_normals: null(),
+        }
     }
 
     fn read(
@@ -52,6 +60,7 @@ impl ricci_mesh_attributes {
             normals: list("normals", given.normals, n_vertices)?,
             colors: list("colors", given.colors, n_vertices)?,
             uv: list("uv", given.uv, n_faces)?,
+            corner_normals: list("corner_normals", given.corner_normals, n_faces)?,
         })
     }
 }
@@ -112,7 +121,8 @@ pub unsafe extern "C" fn ricci_mesh_attributes_init(
 /// Write a mesh in the format that the file's name says, with the attributes that the format has.
 ///
 /// OBJ and OFF are text with 17 significant digits, PLY is binary, and positions read back as they are; GLB has 24 bits of the
-/// distance from the centre of the mesh. A file of that name is replaced only once the new one is complete.
+/// distance from the centre of the mesh. What the format has no place for (in PLY and OFF, several normals at a vertex; in OFF,
+/// several texture coordinates) is left out, with a warning to the callback of ricci_log_set. A file of that name is replaced only once the new one is complete.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (the mesh is
 /// intrinsic, or a number is not finite), RICCI_TOO_LARGE.
 ///
@@ -133,7 +143,10 @@ pub unsafe extern "C" fn ricci_mesh_write(
             soup.attributes =
                 ricci_mesh_attributes::read(attributes, soup.positions.len(), soup.faces.len())?;
         }
-        Ok(io::write(&path, &soup)?)
+        for what in io::write(&path, &soup)? {
+            log::warn!("{}: the format has no place for {what}: left out", path.display());
+        }
+        Ok(())
     })
 }
 
@@ -148,11 +161,12 @@ pub unsafe extern "C" fn ricci_mesh_write(
 pub unsafe extern "C" fn ricci_mesh_write_obj(mesh: *const ricci_mesh, path: *const c_char) -> ricci_status {
     guard::call(|door| {
         let mesh = door.shared(mesh)?;
-        Ok(io::write_as(&arrays::path("path", path)?, Format::Obj, &whole(mesh)?)?)
+        io::write_as(&arrays::path("path", path)?, Format::Obj, &whole(mesh)?)?;
+        Ok(())
     })
 }
 
-/// The normals that the mesh was read with.
+/// The normals of vertices that the mesh was read with.
 ///
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
 ///
@@ -206,6 +220,25 @@ pub unsafe extern "C" fn ricci_mesh_uv(
     guard::call(|door| {
         let list = present("uv", &door.shared(mesh)?.attributes.uv)?;
         copy_out("uv", list.as_flattened().as_flattened(), uv, capacity)
+    })
+}
+
+/// The normals of corners that the mesh was read with: of one whose vertices have several, as at hard edges.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+///
+/// @param mesh            the mesh.
+/// @param corner_normals  out: n_faces x 3 x 3, of any length.
+/// @param capacity        entries of `corner_normals`, at least 9 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_corner_normals(
+    mesh: *const ricci_mesh,
+    corner_normals: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let list = present("corner normals", &door.shared(mesh)?.attributes.corner_normals)?;
+        copy_out("corner_normals", list.as_flattened().as_flattened(), corner_normals, capacity)
     })
 }
 
@@ -277,18 +310,8 @@ pub unsafe extern "C" fn ricci_mesh_write_textured(
             soup.attributes =
                 ricci_mesh_attributes::read(attributes, soup.positions.len(), soup.faces.len())?;
         }
-        let uv = present("uv", &soup.attributes.uv)?;
-        // A mesh numbers its half-edges, six to a face, in 32 bits.
-        let corners: Vec<[u32; 3]> = (0..uv.len() as u32).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
-        let data = Textured {
-            positions: &soup.positions,
-            faces: &soup.faces,
-            colors: soup.attributes.colors.as_deref().unwrap_or_default(),
-            normals: soup.attributes.normals.as_deref().unwrap_or_default(),
-            texcoords: uv.as_flattened(),
-            face_texcoords: &corners,
-        };
-        io::write_glb(&path, &data, Some(Texture { png: &png, wrap }))?;
+        present("uv", &soup.attributes.uv)?;
+        io::write_glb_textured(&path, &soup, Texture { png: &png, wrap })?;
         Ok(())
     })
 }

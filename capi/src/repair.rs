@@ -370,7 +370,27 @@ pub unsafe extern "C" fn ricci_repair_uv(
     })
 }
 
-/// Write the result, whatever defects are left, in the format that the file's name says, with its attributes.
+/// The normals of corners of the result, for a file that has them: at hard edges.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (there are none).
+///
+/// @param repair          the repair.
+/// @param corner_normals  out: n_faces x 3 x 3, of any length.
+/// @param capacity        entries of `corner_normals`, at least 9 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_repair_corner_normals(
+    repair: *const ricci_repair,
+    corner_normals: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let list = present("corner normals", &door.shared(repair)?.done.soup.attributes.corner_normals)?;
+        copy_out("corner_normals", list.as_flattened().as_flattened(), corner_normals, capacity)
+    })
+}
+
+/// Write the result, whatever defects are left, in the format that the file's name says, with its attributes; what the format
+/// has no place for is left out, with a warning to the callback of ricci_log_set.
 ///
 /// A file of that name is replaced only once the new one is complete.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (an attribute is not finite),
@@ -385,7 +405,11 @@ pub unsafe extern "C" fn ricci_repair_write(
 ) -> ricci_status {
     guard::call(|door| {
         let soup = &door.shared(repair)?.done.soup;
-        Ok(io::write(&arrays::path("path", path)?, soup)?)
+        let path = arrays::path("path", path)?;
+        for what in io::write(&path, soup)? {
+            log::warn!("{}: the format has no place for {what}: left out", path.display());
+        }
+        Ok(())
     })
 }
 

@@ -29,6 +29,7 @@ pub fn read(parse: impl Fn(&[u8], &str) -> ricci::Result<Soup>, bytes: &[u8]) {
                 (attributes.normals.as_ref().map(Vec::len), positions.len()),
                 (attributes.colors.as_ref().map(Vec::len), positions.len()),
                 (attributes.uv.as_ref().map(Vec::len), faces.len()),
+                (attributes.corner_normals.as_ref().map(Vec::len), faces.len()),
             ];
             assert!(
                 counts.iter().all(|&(got, expected)| got.is_none_or(|got| got == expected)),
@@ -92,8 +93,12 @@ pub fn mend(soup: &Soup, options: &Repair) {
     }
     let old = &soup.attributes;
     if !positions.is_empty() {
-        let has = |a: &Attributes| [a.normals.is_some(), a.colors.is_some(), a.uv.is_some()];
+        let has = |a: &Attributes| [a.normals.is_some(), a.colors.is_some()];
         assert_eq!(has(attributes), has(old), "attributes");
+    }
+    if !faces.is_empty() {
+        let has = |a: &Attributes| [a.corner_normals.is_some(), a.uv.is_some()];
+        assert_eq!(has(attributes), has(old), "attributes of corners");
     }
     // Each face has its origin's corners, in their order or turned: the same vertices, or vertices that were welded to these.
     let tolerance = options.weld.unwrap_or(-1.0);
@@ -106,7 +111,11 @@ pub fn mend(soup: &Soup, options: &Repair) {
                 (Some(new), Some(old)) => (0..3).all(|k| same(&new[f][k], &old[origin as usize][order[k]])),
                 _ => true,
             };
-            uv && (0..3).all(|k| joined(now[k], then[order[k]]))
+            let normals = match (&attributes.corner_normals, &old.corner_normals) {
+                (Some(new), Some(old)) => (0..3).all(|k| same(&new[f][k], &old[origin as usize][order[k]])),
+                _ => true,
+            };
+            uv && normals && (0..3).all(|k| joined(now[k], then[order[k]]))
         };
         assert!(corners([0, 1, 2]) || corners([0, 2, 1]), "face {f}: {now:?} was {then:?}");
     }
@@ -153,7 +162,7 @@ fn round_trip(soup: &Soup, format: Format) {
     };
     let path: PathBuf = folder.path().join("m").with_extension(extension);
     match io::write_as(&path, format, soup) {
-        Ok(()) => {}
+        Ok(_) => {}
         Err(Error::Argument { .. }) => return,
         Err(other) => panic!("written as {extension}: {other}"),
     }
@@ -165,43 +174,32 @@ fn round_trip(soup: &Soup, format: Format) {
     assert!(back.faces == soup.faces, "{extension}: other faces");
     // +0 and −0 are one number to a text.
     assert!(back.positions == soup.positions, "{extension}: other positions");
-    let vertices: Vec<usize> = (0..soup.positions.len()).collect();
-    survive(soup, &back, &vertices, extension);
+    survive(soup, &back, extension);
 }
 
-/// Vertices are given again where their corners have different texture coordinates, and nothing else changes.
+/// Positions are stored with 24 bits of the distance from the centre, and nothing else changes.
 fn survives_glb(soup: &Soup, back: &Soup) {
-    assert_eq!(back.faces.len(), soup.faces.len());
-    let mut origin = vec![usize::MAX; back.positions.len()];
-    for (new, old) in back.faces.as_flattened().iter().zip(soup.faces.as_flattened()) {
-        let known = std::mem::replace(&mut origin[*new as usize], *old as usize);
-        assert!(known == usize::MAX || known == *old as usize, "two vertices became one");
-    }
-    // Those in no face come in order, before any that is given again.
-    for (v, known) in origin.iter_mut().enumerate().filter(|(_, known)| **known == usize::MAX) {
-        assert!(v < soup.positions.len());
-        *known = v;
-    }
+    assert!(back.faces == soup.faces, "glb: other faces");
+    assert_eq!(back.positions.len(), soup.positions.len());
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for p in &soup.positions {
         low = [0, 1, 2].map(|k| low[k].min(p[k]));
         high = [0, 1, 2].map(|k| high[k].max(p[k]));
     }
     let half = (0..3).map(|k| 0.5 * high[k] - 0.5 * low[k]).fold(0.0, f64::max);
-    for (p, &v) in back.positions.iter().zip(&origin) {
-        let q = soup.positions[v];
-        // 24 bits of the distance from the centre, and the rounding of the sum with it.
+    for (p, q) in back.positions.iter().zip(&soup.positions) {
+        // And the rounding of the sum with the centre.
         let near = |k: usize| {
             let size = q[k].abs().max(low[k].abs()).max(high[k].abs());
             (p[k] - q[k]).abs() <= half * f64::from(f32::EPSILON) + 4.0 * f64::EPSILON * size
         };
         assert!((0..3).all(near), "{p:?} was {q:?}");
     }
-    survive(soup, back, &origin, "glb");
+    survive(soup, back, "glb");
 }
 
-/// Attributes that the format has are there again, to its digits. `origin`: the vertex that each vertex was.
-fn survive(soup: &Soup, back: &Soup, origin: &[usize], extension: &str) {
+/// Attributes that the format has are there again, to its digits.
+fn survive(soup: &Soup, back: &Soup, extension: &str) {
     let (old, new) = (&soup.attributes, &back.attributes);
     let (float, byte) = (f64::from(f32::EPSILON), 1.0 / 509.0);
     if let Some(old) = old.colors.as_ref().filter(|list| !list.is_empty()) {
@@ -209,31 +207,33 @@ fn survive(soup: &Soup, back: &Soup, origin: &[usize], extension: &str) {
         let new = new.colors.as_ref().unwrap_or_else(|| panic!("{extension}: no colours"));
         // OFF does not say whether its numbers reach to 1 or to 255; none above 1 are taken for the former.
         let dark = old.iter().flatten().all(|x| x.clamp(0.0, 1.0) * 255.0 < 1.5);
-        let old = if extension == "off" && dark { &new[..0] } else { &old[..] };
-        let origin = &origin[..origin.len().min(if old.is_empty() { 0 } else { usize::MAX })];
-        for (new, &v) in new.iter().zip(origin) {
-            let near = |k: usize| (new[k].clamp(0.0, 1.0) - old[v][k].clamp(0.0, 1.0)).abs() <= byte;
-            assert!((0..3).all(near), "{extension}: {new:?} was {:?}", old[v]);
+        for (new, old) in new.iter().zip(old).filter(|_| extension != "off" || !dark) {
+            let near = |k: usize| (new[k].clamp(0.0, 1.0) - old[k].clamp(0.0, 1.0)).abs() <= byte;
+            assert!((0..3).all(near), "{extension}: {new:?} was {old:?}");
         }
     }
-    // OBJ has normals at the corners of faces: none at vertices of no face.
-    let mut in_face = vec![extension != "obj"; soup.positions.len()];
-    soup.faces.as_flattened().iter().for_each(|&v| in_face[v as usize] = true);
-    let whole = in_face.iter().all(|&yes| yes);
-    if let Some(old) = old.normals.as_ref().filter(|list| !list.is_empty() && whole) {
-        let new = new.normals.as_ref().unwrap_or_else(|| panic!("{extension}: no normals"));
-        for (new, &v) in new.iter().zip(origin) {
-            let unit = |n: Point| {
-                let length = n[0].hypot(n[1]).hypot(n[2]);
-                n.map(|x| x / length)
-            };
-            // Of any length, or of length 1.
-            let (new, old) = (unit(*new), unit(old[v]));
-            let compared = old.iter().chain(&new).all(|x| x.is_finite());
-            assert!(
-                !compared || (0..3).all(|k| (new[k] - old[k]).abs() <= 4.0 * float),
-                "{extension}: {new:?} was {old:?}"
-            );
+    let unit = |n: Point| {
+        let length = n[0].hypot(n[1]).hypot(n[2]);
+        n.map(|x| x / length)
+    };
+    // Of any length, or of length 1.
+    let parallel = |new: Point, old: Point| {
+        let (new, old) = (unit(new), unit(old));
+        let compared = old.iter().chain(&new).all(|x| x.is_finite());
+        !compared || (0..3).all(|k| (new[k] - old[k]).abs() <= 4.0 * float)
+    };
+    // Of a corner: its own, or its vertex's. OBJ and GLTF have one kind, PLY and OFF that of vertices only.
+    let normal = |soup: &Soup, f: usize, k: usize| match &soup.attributes {
+        Attributes { corner_normals: Some(list), .. } => Some(list[f][k]),
+        Attributes { normals: Some(list), .. } => Some(list[soup.faces[f][k] as usize]),
+        _ => None,
+    };
+    if matches!(extension, "obj" | "glb") || old.corner_normals.is_none() {
+        for (f, k) in (0..soup.faces.len()).flat_map(|f| [0, 1, 2].map(|k| (f, k))) {
+            if let Some(old) = normal(soup, f, k) {
+                let new = normal(back, f, k).unwrap_or_else(|| panic!("{extension}: no normals"));
+                assert!(parallel(new, old), "{extension}: {new:?} was {old:?}");
+            }
         }
     }
     if let Some(old) = old.uv.as_ref().filter(|list| !list.is_empty() && extension != "off") {

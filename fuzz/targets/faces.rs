@@ -16,6 +16,9 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     soup.attributes = Attributes {
         normals: Some(vertices.clone().map(|v| [1.0, v.into(), 0.0]).collect()),
         colors: Some(vertices.map(|v| [f64::from(v) / 128.0, 0.0, 0.0, 1.0]).collect()),
+        corner_normals: Some(
+            (0..soup.faces.len()).map(|f| [0.0, 1.0, 2.0].map(|k| [f as f64, k, 1.0])).collect(),
+        ),
         uv: Some((0..soup.faces.len()).map(|f| [0.0, 1.0, 2.0].map(|k| [f as f64, k])).collect()),
     };
     mend(&soup, &options(how));

@@ -276,12 +276,14 @@ typedef struct {
     int64_t euler;
     /** (2 - euler - boundary loops) / 2. */
     size_t genus;
-    /** Number of normals: V, or 0 if the mesh was not read from a file that has them. */
+    /** Number of normals of vertices: V, or 0 if the mesh was not read from a file that has them. */
     size_t n_normals;
     /** Number of colours: V, or 0. */
     size_t n_colors;
     /** Number of faces with texture coordinates: F, or 0. */
     size_t n_uv;
+    /** Number of faces with normals at their corners, instead of those of the vertices: F, or 0. */
+    size_t n_corner_normals;
 } ricci_mesh_summary;
 
 /** What is written beside positions and faces. Let ricci_mesh_attributes_init fill it, then change fields. */
@@ -294,6 +296,8 @@ typedef struct {
     const double *colors;
     /** Texture coordinates of the faces' corners, n_faces x 3 x 2, v upwards; NULL (default): none. */
     const double *uv;
+    /** Normals of the faces' corners, n_faces x 3 x 3, of any length, in place of those of the vertices; NULL (default): none. */
+    const double *corner_normals;
 } ricci_mesh_attributes;
 
 /** Counts of a triangle list. */
@@ -837,7 +841,8 @@ ricci_status ricci_mesh_attributes_init(ricci_mesh_attributes *attributes, size_
  * Write a mesh in the format that the file's name says, with the attributes that the format has.
  *
  * OBJ and OFF are text with 17 significant digits, PLY is binary, and positions read back as they are; GLB has 24 bits of the
- * distance from the centre of the mesh. A file of that name is replaced only once the new one is complete.
+ * distance from the centre of the mesh. What the format has no place for (in PLY and OFF, several normals at a vertex; in OFF,
+ * several texture coordinates) is left out, with a warning to the callback of ricci_log_set. A file of that name is replaced only once the new one is complete.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (the mesh is
  * intrinsic, or a number is not finite), RICCI_TOO_LARGE.
  *
@@ -862,7 +867,7 @@ ricci_status ricci_mesh_write_obj(const ricci_mesh *mesh,
                                   const char *path);
 
 /**
- * The normals that the mesh was read with.
+ * The normals of vertices that the mesh was read with.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
  *
@@ -893,6 +898,19 @@ ricci_status ricci_mesh_colors(const ricci_mesh *mesh, double *colors, size_t ca
  * @param capacity  entries of `uv`, at least 6 n_faces.
  */
 ricci_status ricci_mesh_uv(const ricci_mesh *mesh, double *uv, size_t capacity);
+
+/**
+ * The normals of corners that the mesh was read with: of one whose vertices have several, as at hard edges.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+ *
+ * @param mesh            the mesh.
+ * @param corner_normals  out: n_faces x 3 x 3, of any length.
+ * @param capacity        entries of `corner_normals`, at least 9 n_faces.
+ */
+ricci_status ricci_mesh_corner_normals(const ricci_mesh *mesh,
+                                       double *corner_normals,
+                                       size_t capacity);
 
 /**
  * Write a mesh as binary glTF with a texture, whatever the file's name.
@@ -1418,7 +1436,21 @@ ricci_status ricci_repair_colors(const ricci_repair *repair, double *colors, siz
 ricci_status ricci_repair_uv(const ricci_repair *repair, double *uv, size_t capacity);
 
 /**
- * Write the result, whatever defects are left, in the format that the file's name says, with its attributes.
+ * The normals of corners of the result, for a file that has them: at hard edges.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (there are none).
+ *
+ * @param repair          the repair.
+ * @param corner_normals  out: n_faces x 3 x 3, of any length.
+ * @param capacity        entries of `corner_normals`, at least 9 n_faces.
+ */
+ricci_status ricci_repair_corner_normals(const ricci_repair *repair,
+                                         double *corner_normals,
+                                         size_t capacity);
+
+/**
+ * Write the result, whatever defects are left, in the format that the file's name says, with its attributes; what the format
+ * has no place for is left out, with a warning to the callback of ricci_log_set.
  *
  * A file of that name is replaced only once the new one is complete.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (an attribute is not finite),

@@ -277,14 +277,18 @@ impl Work {
             list.as_ref()?.first()?;
             list.as_ref().map(|list| origin.iter().map(|&v| list[v as usize]).collect())
         }
-        let mut uv = picked(&soup.attributes.uv, &self.origin);
-        for (uv, _) in uv.iter_mut().flatten().zip(&self.turned).filter(|(_, turned)| **turned) {
-            uv.swap(1, 2);
+        fn at_corners<T: Copy>(list: &Option<Vec<[T; 3]>>, work: &Work) -> Option<Vec<[T; 3]>> {
+            let mut list = picked(list, &work.origin);
+            for (corners, _) in list.iter_mut().flatten().zip(&work.turned).filter(|(_, turned)| **turned) {
+                corners.swap(1, 2);
+            }
+            list
         }
         let attributes = Attributes {
             normals: picked(&soup.attributes.normals, &vertex_origin),
             colors: picked(&soup.attributes.colors, &vertex_origin),
-            uv,
+            corner_normals: at_corners(&soup.attributes.corner_normals, &self),
+            uv: at_corners(&soup.attributes.uv, &self),
         };
         let positions: Vec<_> = vertex_origin.iter().map(|&v| soup.positions[v as usize]).collect();
         let mut diagnosis = diagnose(&positions, &faces);

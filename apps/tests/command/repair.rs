@@ -120,3 +120,21 @@ fn corners_of_stl_are_welded_for_every_command() {
     place.expect(2, "info t.obj --weld 1");
     place.expect(2, "flow t.json --weld 1");
 }
+
+#[test]
+fn what_the_format_has_no_place_for_is_said() {
+    let place = Place::new();
+    // A square whose halves have different normals and places in the texture.
+    place.put(
+        "hard.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nvn 0 1 1\nf 1/1/1 2/1/1 3/1/1\nf 1/2/2 3/2/2 4/2/2\n",
+    );
+    let left_out = |out: &str| {
+        let said = place.expect(0, &format!("repair hard.obj -o {out} --report r.json")).out;
+        let list = place.json("r.json")["result"]["left_out"].as_array().unwrap().clone();
+        assert!(list.iter().all(|what| said.contains(&format!("left out: {}", what.as_str().unwrap()))));
+        assert_eq!(said.contains("left out"), !list.is_empty());
+        list.len()
+    };
+    assert_eq!(["o.obj", "o.glb", "o.ply", "o.off"].map(left_out), [0, 0, 1, 2]);
+}
