@@ -51,7 +51,7 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.common.quiet);
-    let mut input = input::read(&args.mesh, control)?;
+    let mut input = input::read(&args.mesh, args.weld, control)?;
     if let Some(geometry) = args.input_geometry {
         input.geometry = geometry.into();
     }
@@ -243,6 +243,7 @@ fn write(
 /// What was asked, defaults put in: a run with these options is this run.
 #[derive(Serialize)]
 pub struct Asked {
+    weld: Option<f64>,
     space: &'static str,
     scheme: SchemeChoice,
     target: String,
@@ -268,6 +269,7 @@ impl Asked {
     fn new(args: &FlowArgs, input: &Input, outcome: &Outcome) -> Self {
         let text = |path: &Option<PathBuf>| path.as_deref().map(path_text);
         Asked {
+            weld: args.weld,
             space: outcome.metric.space.name(),
             scheme: args.scheme,
             target: args.target.as_ref().map_or_else(|| rule_text(&outcome.rule), ToString::to_string),
