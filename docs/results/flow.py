@@ -27,8 +27,10 @@ RIGID = ["yamabe", "inversive", "thurston", "tangential"]
 TARGETS = {
     "default": "Default space and target: four cones of π on closed genus 0, flat tori, H² with curvature 0 for closed genus ≥ 2, "
                "curvature on the boundary in proportion to its length on open surfaces.",
-    "cones": "E², eight random cones: vertices at random, their curvature 2πχ/8 with up to ±π/2 added, drawn anew until all are below 2π "
-             "(π on the boundary) and the total is 2πχ; every other vertex, boundary included, is flat. Seeded by the mesh's name.",
+    "cones": "E², eight random cones on vertices that are flat otherwise, seeded by the mesh's name: on closed surfaces they carry 2πχ, each "
+             "an eighth of it with up to ±π/2 added; on open ones, inside, they add up to 0 and the boundary carries 2πχ in proportion to "
+             "its length.",
+    "straight": "E², open surfaces: eight random cones carry all of 2πχ and the boundary is straight.",
     "single": "E², genus 1 to 3: all of 2πχ at vertex 0.",
 }
 TOLERANCE = 1e-10
@@ -55,30 +57,49 @@ def euler(mesh):
 
 
 def boundary(mesh):
-    sides = set()
+    """The boundary's length at each of its vertices: half of the two edges there."""
+    points, sides = [], set()
     with open(os.path.join(corpus, mesh["file"])) as file:
         for line in file:
-            if line.startswith("f "):
-                f = [int(corner.split("/")[0]) - 1 for corner in line.split()[1:]]
+            word = line.split()
+            if word and word[0] == "v":
+                points.append([float(x) for x in word[1:4]])
+            elif word and word[0] == "f":
+                f = [int(corner.split("/")[0]) - 1 for corner in word[1:]]
                 sides.update(zip(f, f[1:] + f[:1]))
-    return {a for a, b in sides if (b, a) not in sides}
+    length = {}
+    for a, b in sides:
+        if (b, a) not in sides:
+            for v in (a, b):
+                length[v] = length.get(v, 0.0) + math.dist(points[a], points[b]) / 2
+    return length
 
 
-def cones(mesh):
-    draw, total, edge = random.Random(mesh["name"]), 2 * math.pi * euler(mesh), boundary(mesh)
+def random_cones(mesh, target):
+    """Vertices with their curvature; all others are flat. Drawn anew until all of it is admissible."""
+    draw, edge = random.Random(mesh["name"]), boundary(mesh)
+    total, n = 2 * math.pi * euler(mesh), int(mesh["V"])
+    carried = target == "cones" and edge
+    inside = [v for v in range(n) if v not in edge] if carried else range(n)
     while True:
-        at = draw.sample(range(int(mesh["V"])), 8)
+        at = draw.sample(inside, 8)
         k = [draw.uniform(-math.pi / 2, math.pi / 2) for _ in at]
-        k = [x + (total - sum(k)) / 8 for x in k]
-        if all(x < (math.pi if v in edge else 2 * math.pi) for v, x in zip(at, k)):
-            return list(zip(at, k))
+        miss = ((0 if carried else total) - sum(k)) / 8
+        curvature = {v: x + miss for v, x in zip(at, k)}
+        if all(x < (math.pi if v in edge else 2 * math.pi) for v, x in curvature.items()):
+            break
+    if carried:
+        whole, most = sum(edge.values()), max(edge.values())
+        equal = total * most / whole >= math.pi
+        curvature |= {v: total * (1 / len(edge) if equal else x / whole) for v, x in edge.items()}
+    return curvature
 
 
 def options(mesh, target, folder):
-    if target == "cones":
+    if target in ("cones", "straight"):
         path = os.path.join(folder, "cones.csv")
         with open(path, "w") as out:
-            out.write("vertex,curvature\n" + "".join(f"{v},{k!r}\n" for v, k in cones(mesh)))
+            out.write("vertex,curvature\n" + "".join(f"{v},{k!r}\n" for v, k in random_cones(mesh, target).items()))
         return ["--space", "e2", "--target", f"cones:{path}"]
     return ["--space", "e2", "--target", "single:0"] if target == "single" else []
 
@@ -113,7 +134,7 @@ def run(mesh, scheme, target, flips="auto"):
 def work(mesh):
     print(mesh["name"], file=sys.stderr)
     genus, small = int(mesh["genus"]), int(mesh["V"]) <= LARGE
-    targets = ["default"] + ["cones"] * small + ["single"] * (small and 1 <= genus <= 3)
+    targets = ["default"] + ["cones"] * small + ["straight"] * (small and int(mesh["boundary_loops"]) > 0) + ["single"] * (small and 1 <= genus <= 3)
     flown = {(target, scheme): run(mesh, scheme, target) for target in targets for scheme in SCHEMES}
     return flown, {scheme: run(mesh, scheme, "default", "never") for scheme in RIGID}
 
