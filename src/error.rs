@@ -7,6 +7,28 @@ use crate::mesh::check::Diagnosis;
 /// Result of every fallible call of the library.
 pub type Result<T> = std::result::Result<T, Error>;
 
+/// A place in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum At {
+    /// This line of a text, from 1.
+    Line(usize),
+    /// This byte, from 0: where what is wrong begins, or the file's size if it is what is missing.
+    Byte(usize),
+    /// No place of its own: the file lacks something, or is too much as a whole.
+    Whole,
+}
+
+/// As it follows the file's name: `:12`, `, byte 40`, or nothing.
+impl std::fmt::Display for At {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            At::Line(line) => write!(f, ":{line}"),
+            At::Byte(byte) => write!(f, ", byte {byte}"),
+            At::Whole => Ok(()),
+        }
+    }
+}
+
 /// What went wrong, where, and what to do. Every variant that concerns an element carries its index (0-based).
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -52,12 +74,12 @@ pub enum Error {
         message: String,
     },
     /// A file's content is not what its format says.
-    #[error("{path}:{line}: {message}")]
+    #[error("{path}{at}: {message}")]
     Parse {
         /// The file.
         path: String,
-        /// 1-based line (0: the file as a whole).
-        line: usize,
+        /// Where in it.
+        at: At,
         /// What is wrong.
         message: String,
     },

@@ -26,7 +26,7 @@ pub mod parallel;
 pub mod topology;
 
 pub use control::Control;
-pub use error::{Error, Result};
+pub use error::{At, Error, Result};
 
 /// The README's Rust example is compiled and run with the tests.
 #[cfg(doctest)]

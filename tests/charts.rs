@@ -202,9 +202,17 @@ fn bad_input_is_refused_by_name() {
 /// The flat metric with these curvatures, laid out.
 fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> (Mesh, Layout) {
     let (mut mesh, mut lengths) = (mesh.clone(), lengths.clone());
-    let start =
-        delaunay_start(&mut mesh, &mut lengths, Space::E2, Scheme::Yamabe, Space::E2, None, &mut |_, _| {})
-            .unwrap();
+    let start = delaunay_start(
+        &mut mesh,
+        &mut lengths,
+        Space::E2,
+        Scheme::Yamabe,
+        Space::E2,
+        None,
+        &[],
+        &mut |_, _| {},
+    )
+    .unwrap();
     let mut solver =
         Solver::new(mesh, start.metric, Options { flips: Flips::Auto, ..Options::default() }).unwrap();
     assert!(solver.solve(target, &Control::new()).unwrap().converged);

@@ -40,9 +40,17 @@ fn measured(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> f64
         mesh.face_vertices(f).into_iter().for_each(|v| mass[v] += area / 3.0);
     }
     let (mut mesh, mut lengths) = (mesh.clone(), lengths.clone());
-    let start =
-        delaunay_start(&mut mesh, &mut lengths, Space::E2, Scheme::Yamabe, Space::E2, None, &mut |_, _| {})
-            .unwrap();
+    let start = delaunay_start(
+        &mut mesh,
+        &mut lengths,
+        Space::E2,
+        Scheme::Yamabe,
+        Space::E2,
+        None,
+        &[],
+        &mut |_, _| {},
+    )
+    .unwrap();
     let options = Options { flips: Flips::Auto, ..Options::default() };
     let mut solver = Solver::new(mesh, start.metric, options).unwrap();
     let report = solver.solve(target, &Control::new()).unwrap();
@@ -208,9 +216,14 @@ fn the_triangulation_does_not_matter() {
     let (mut mesh, mut lengths) = surface(&noisy(shapes::genus(2, 6).unwrap(), 0.003));
     let before = place(&mesh, &lengths, 6);
     let mut flips = 0;
-    ricci::metric::delaunay::intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &mut |_, _| {
-        flips += 1
-    })
+    ricci::metric::delaunay::intrinsic_delaunay(
+        &mut mesh,
+        &mut lengths,
+        None,
+        Space::E2,
+        &[],
+        &mut |_, _| flips += 1,
+    )
     .unwrap();
     assert!(flips > 0);
     let after = place(&mesh, &lengths, 6);

@@ -21,7 +21,7 @@ const MOST: usize = 50;
 fn random_target(mesh: &Mesh, round: usize, random: &mut Random) -> PerVertex<f64> {
     let (n, total) = (mesh.n_vertices(), 2.0 * PI * mesh.euler() as f64);
     let below = 2.0 * PI - 0.05;
-    if round % 3 == 2 {
+    if round.is_multiple_of(3) {
         let mut at = PerVertex::from_fn(8, |_: ricci::mesh::VertexId| 2.0 * PI * random.symmetric());
         drawn_below(&mut at, total, below);
         let mut target = PerVertex::filled(n, 0.0);
@@ -30,7 +30,7 @@ fn random_target(mesh: &Mesh, round: usize, random: &mut Random) -> PerVertex<f6
         at.iter().enumerate().for_each(|(k, x)| target[((first + k * stride) % n).into()] = *x);
         return target;
     }
-    let every = if round % 3 == 0 { 1 } else { 20 };
+    let every = if round % 3 == 1 { 1 } else { 20 };
     let mut target = PerVertex::from_fn(n, |_| {
         let k = 2.0 * PI * random.symmetric();
         if random.below(every) == 0 { k } else { 0.0 }

@@ -9,7 +9,7 @@ use common::flow::{distance, surface};
 use ricci::flow::{Flips, Options, Report, Solver, StopReason, SurfaceFlow};
 use ricci::geometry::Space;
 use ricci::mesh::io::Soup;
-use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId, shapes};
+use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::{Metric, Refinement, Scheme, Target, initial_metric};
 use ricci::{Control, Error};
 use std::f64::consts::PI;
@@ -131,6 +131,31 @@ fn without_flips_the_triangulation_stays() {
     let report = free.solve(&target, &Control::new()).unwrap();
     assert_eq!(report.stop_reason, StopReason::Converged);
     assert!(report.flips > 0 && free.mesh() != &mesh);
+}
+
+#[test]
+fn fixed_edges_stay() {
+    let (given, lengths) = surface(&shapes::punch(&shapes::genus(2, 4).unwrap(), 1).unwrap());
+    let fixed: Vec<EdgeId> = given.edges().filter(|e| e.index() % 5 == 0).collect();
+    let ends: Vec<[VertexId; 2]> = fixed.iter().map(|&e| given.ends(e)).collect();
+    let target = Target::default_for(&given, &lengths, Space::E2).unwrap();
+    let target = target.values(&given, &lengths, Space::E2).unwrap();
+    let run = |fixed_edges| {
+        let options = Options { fixed_edges, ..Options::default() };
+        let mut flow =
+            SurfaceFlow::new(&given, &lengths, Space::E2, Scheme::Yamabe, Space::E2, &[], &options).unwrap();
+        flow.solve(&target, &Control::new()).unwrap();
+        flow
+    };
+    let kept = |flow: &SurfaceFlow| {
+        let sides = |e: EdgeId| [e.halfedge(), e.halfedge().twin()].map(|h| flow.mesh().prev(h));
+        fixed.iter().zip(&ends).all(|(&e, ends)| flow.mesh().ends(e) == *ends && sides(e)[0] != sides(e)[1])
+    };
+    assert!(!kept(&run(Vec::new())) && kept(&run(fixed.clone())));
+    let missing = vec![EdgeId(given.n_edges() as u32)];
+    let options = Options { fixed_edges: missing, ..Options::default() };
+    let refused = SurfaceFlow::new(&given, &lengths, Space::E2, Scheme::Yamabe, Space::E2, &[], &options);
+    assert!(refused.is_err_and(|e| e.to_string().contains("fixed edge")));
 }
 
 #[test]

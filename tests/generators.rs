@@ -1,6 +1,7 @@
 //! Generators of surfaces with holes, knots, unequal handles, given boundary lengths or branch points, and bad triangles.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ricci::Error;
 use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::io::Soup;
@@ -57,7 +58,23 @@ fn holes_are_boundary_loops_and_nothing_else_changes() {
             assert!(angle > 0.4 * smallest_angle(soup).to_degrees().min(30.0), "{angle}");
         }
     }
-    assert!(shapes::punch(&shapes::icosphere(1).unwrap(), 1).is_err());
+    // Where a round hole has no room, the faces around a vertex are one: loops share no vertex.
+    for (soup, most) in [
+        (shapes::disk(3).unwrap(), 1),
+        (shapes::disk(8).unwrap(), 5),
+        (shapes::icosphere(1).unwrap(), 2),
+        (shapes::icosphere(3).unwrap(), 4),
+        (shapes::genus(2, 2).unwrap(), 5),
+        (shapes::torus(2.0, 1.0, 8, 6).unwrap(), 2),
+    ] {
+        let whole = build(&soup);
+        for count in 1..=most {
+            let mesh = build(&shapes::punch(&soup, count).unwrap());
+            let loops = whole.boundary_loops().len() + count;
+            assert_eq!((mesh.genus(), mesh.boundary_loops().len()), (whole.genus(), loops));
+        }
+    }
+    assert!(shapes::punch(&shapes::icosphere(1).unwrap(), 3).is_err());
     assert!(shapes::punch(&shapes::icosphere(8).unwrap(), 300).is_err());
     assert!(shapes::punch(&shapes::disk(2).unwrap(), usize::MAX).is_err());
 }
@@ -101,18 +118,9 @@ fn knotted_torus_is_a_tube_around_its_knot() {
         let length: f64 = (0..20 * n)
             .map(|i| distance(core(i as f64 / (20 * n) as f64), core((i + 1) as f64 / (20 * n) as f64)))
             .sum();
-        let volume: f64 = soup
-            .faces
-            .iter()
-            .map(|f| {
-                let [a, b, c] = f.map(|v| soup.positions[v as usize]);
-                (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
-                    + a[2] * (b[0] * c[1] - b[1] * c[0]))
-                    / 6.0
-            })
-            .sum();
         let known = PI * tube * tube * length;
-        assert!((volume / known - 1.0).abs() < 0.02, "({p}, {q}): {volume} {known}");
+        let got = volume(&soup);
+        assert!((got / known - 1.0).abs() < 0.02, "({p}, {q}): {got} {known}");
         // A tube twice as thick as there is room for is refused.
         assert!(knot.torus(2.5, n, m).is_err());
     }
@@ -122,6 +130,53 @@ fn knotted_torus_is_a_tube_around_its_knot() {
     let knot = TorusKnot { p: 2, q: 3, big: 2.0, small: 0.9 };
     assert!(knot.torus(f64::NAN, 50, 8).is_err() && knot.torus(0.1, 2, 8).is_err());
     assert!(TorusKnot { small: 2.0, ..knot }.torus(0.1, 50, 8).is_err());
+}
+
+#[test]
+fn knots_have_no_fewer_sections_than_make_them() {
+    let least = |knot: TorusKnot, tube: f64| {
+        let Err(Error::Argument { what: "cross-sections", value, .. }) = knot.torus(tube, 3, 12) else {
+            panic!()
+        };
+        let words: Vec<&str> = value.split(' ').collect();
+        words[4].parse::<usize>().unwrap()
+    };
+    for (p, q, tube) in [(2, 3, 0.4), (3, 2, 0.3), (2, 5, 0.3), (1, 4, 0.3), (3, 1, 0.2), (5, 3, 0.1)] {
+        let knot = TorusKnot { p, q, big: 2.0, small: 0.9 };
+        let n = least(knot, tube);
+        assert!(knot.torus(tube, n - 1, 12).is_err());
+        // At the bound the surface is right side out, with the volume of a much finer one but for what the chords cut off.
+        let (coarse, fine) = (knot.torus(tube, n, 12).unwrap(), knot.torus(tube, 20 * n, 12).unwrap());
+        let ratio = volume(&coarse) / volume(&fine);
+        println!("({p}, {q}), tube {tube}: {n} sections, volume {ratio:.3} of the limit");
+        assert!(build(&coarse).genus() == 1 && (0.85..1.0).contains(&ratio));
+        // No two sections meet: the core of each is further from every other's than in the tube.
+        let centre = |i: usize| {
+            let sum = (0..12)
+                .fold([0.0; 3], |s: Point, j| [0, 1, 2].map(|k| s[k] + coarse.positions[i + n * j][k]));
+            sum.map(|x| x / 12.0)
+        };
+        for i in 0..n {
+            let (x, next) = (centre(i), centre((i + 1) % n));
+            let ahead = |v: usize| {
+                let p = coarse.positions[v];
+                (0..3).map(|k| (p[k] - x[k]) * (next[k] - x[k])).sum::<f64>()
+            };
+            // Corresponding vertices of the next section lie ahead.
+            for j in 0..12 {
+                assert!(i + 1 == n || ahead((i + 1) % n + n * j) > ahead(i + n * j));
+            }
+        }
+    }
+}
+
+fn volume(soup: &Soup) -> f64 {
+    let det = |f: &[u32; 3]| {
+        let [a, b, c] = f.map(|v| soup.positions[v as usize]);
+        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
+    };
+    soup.faces.iter().map(det).sum::<f64>() / 6.0
 }
 
 #[test]
@@ -163,7 +218,10 @@ fn tapered_handles_are_the_equal_ones_up_to_a_conformal_map() {
         }
         assert!(smallest_angle(&tapered) > 0.7 * smallest_angle(&equal));
     }
-    for (genus, ratio) in [(1, 2.0), (2, 0.5), (2, 100.0), (2, f64::NAN)] {
+    for (genus, ratio) in [(2, 6.7), (3, 17.1), (4, 32.0)] {
+        assert_eq!(build(&shapes::tapered_genus(genus, 3, ratio).unwrap()).genus(), genus);
+    }
+    for (genus, ratio) in [(1, 2.0), (2, 0.5), (2, 6.9), (3, 17.3), (2, f64::NAN)] {
         assert!(shapes::tapered_genus(genus, 3, ratio).is_err(), "{genus} {ratio}");
     }
 }
@@ -251,6 +309,19 @@ fn grading_halves_edges_towards_a_vertex() {
     assert!((total_area(&soup) / area - 1.0).abs() < 1e-13);
     assert!(smallest_angle(&soup) > 0.45 * least);
     assert!(shapes::grade(&mut soup, 100_000, 1).is_err() && shapes::grade(&mut soup, 5, 101).is_err());
+    // As many levels as are allowed make triangles, away from the origin and at it.
+    for (mut soup, vertex) in
+        [(shapes::icosphere(4).unwrap(), 0), (shapes::disk(3).unwrap(), 0), (shapes::disk(3).unwrap(), 20)]
+    {
+        let least = smallest_angle(&soup);
+        let Err(Error::Argument { value, .. }) = shapes::grade(&mut soup, vertex, 101) else { panic!() };
+        let most: usize = value.split(' ').nth(4).unwrap().parse().unwrap();
+        let at_origin = soup.positions[vertex as usize] == [0.0; 3];
+        assert!(if at_origin { most == 100 } else { (35..45).contains(&most) }, "{value}");
+        assert!(shapes::grade(&mut soup, vertex, most + 1).is_err());
+        shapes::grade(&mut soup, vertex, most).unwrap();
+        assert!(smallest_angle(&soup) > 0.45 * least);
+    }
     // A boundary vertex too.
     let mut disk = shapes::disk(3).unwrap();
     shapes::grade(&mut disk, 20, 3).unwrap();

@@ -5,10 +5,10 @@ mod common;
 
 use common::Random;
 use proptest::prelude::{any, prop, proptest};
-use ricci::Error;
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::repair::{Repair, repair};
 use ricci::mesh::{Mesh, shapes};
+use ricci::{At, Error};
 use std::path::Path;
 
 /// A tetrahedron with an isolated vertex, and an attribute of each kind.
@@ -21,6 +21,7 @@ fn decorated() -> Soup {
         normals: Some((0..5).map(|v| [0.0, 0.6, if v == 4 { 0.0 } else { 0.8 }]).collect()),
         colors: Some((0..5).map(|v| [f64::from(v) / 5.0, 1.0, 0.0, 0.6]).collect()),
         uv: Some((0..4).map(|f| [[0.1, f64::from(f)], [0.2, 0.3], [1.0 / 3.0, 0.4]]).collect()),
+        ..Attributes::default()
     };
     soup
 }
@@ -286,23 +287,21 @@ fn stl_is_welded_within_a_distance_on_request() {
 #[test]
 fn stl_that_is_cut_off_or_garbled_names_the_place() {
     let triangle = [[0.0f32; 3]; 3];
-    for (bytes, line, says) in [
-        (Vec::new(), 1, "no STL file"),
-        (b"plain text".to_vec(), 1, "no STL file"),
-        (binary_stl(b"x", &[triangle], 2), 0, "in triangle 1 of the 2"),
-        (binary_stl(b"x", &[triangle], u32::MAX), 0, "in triangle 1 of the 4294967295"),
+    for (bytes, place, says) in [
+        (Vec::new(), At::Whole, "no STL file"),
+        (b"plain text".to_vec(), At::Line(1), "no STL file"),
+        (binary_stl(b"x", &[triangle], 2), At::Byte(134), "in triangle 1 of the 2"),
+        (binary_stl(b"x", &[triangle], u32::MAX), At::Byte(134), "in triangle 1 of the 4294967295"),
         (
             ASCII_STL.replace("1 1 0\n  endloop", "1 one 0\n  endloop").into_bytes(),
-            6,
+            At::Line(6),
             "`one` is not a number",
         ),
-        (ASCII_STL.replacen("vertex", "vortex", 1).into_bytes(), 4, "`vortex` has no place"),
-        (ASCII_STL.split("  endloop").next().unwrap().as_bytes().to_vec(), 6, "ends inside a loop"),
+        (ASCII_STL.replacen("vertex", "vortex", 1).into_bytes(), At::Line(4), "`vortex` has no place"),
+        (ASCII_STL.split("  endloop").next().unwrap().as_bytes().to_vec(), At::Line(6), "ends inside a loop"),
     ] {
-        let Err(Error::Parse { message, line: found, .. }) = io::parse_stl(&bytes, "t.stl") else {
-            panic!("{says}")
-        };
-        assert!(message.contains(says) && found == line, "{found}: {message}");
+        let Err(Error::Parse { message, at, .. }) = io::parse_stl(&bytes, "t.stl") else { panic!("{says}") };
+        assert!(message.contains(says) && at == place, "{at}: {message}");
     }
 }
 
@@ -310,16 +309,22 @@ fn stl_that_is_cut_off_or_garbled_names_the_place() {
 fn obj_and_off_attributes_are_kept() {
     let obj = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 2\nf 1/1/1 2/2/1 3/-1/-1\n";
     let soup = io::parse_obj(obj.as_bytes(), "t.obj").unwrap();
-    let Attributes { normals, colors, uv } = soup.attributes;
+    let Attributes { normals, colors, uv, .. } = soup.attributes;
     assert_eq!(normals, Some(vec![[0.0, 0.0, 2.0]; 3]));
     assert_eq!(colors.unwrap()[1], [0.0, 1.0, 0.0, 1.0]);
     assert_eq!(uv, Some(vec![[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]]));
-    // Half of it missing, out of range or no number: none of it.
+    // What is missing, out of range or no number has the default; the rest is kept.
     let poor = "v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0 nan 0 0\nvt 0 0\nvn 0 0 1\nvn 0 1 0\nf 1/1/1 2/7/1 3//1\nf 1//2 3//1 2//1\n";
     let soup = io::parse_obj(poor.as_bytes(), "t.obj").unwrap();
-    assert_eq!((soup.attributes, soup.faces.len()), (Attributes::default(), 2));
+    let Attributes { normals, corner_normals, colors, uv } = soup.attributes;
+    assert_eq!(colors.unwrap(), [[1.0, 0.0, 0.0, 1.0], [1.0; 4], [1.0; 4]]);
+    assert_eq!((normals, uv), (None, Some(vec![[[0.0; 2]; 3]; 2])));
+    assert_eq!(
+        corner_normals.unwrap(),
+        [[[0.0, 0.0, 1.0]; 3], [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]]
+    );
     let off = "STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 51 0.5 0.25\n1 0 0 0 0 1 0 255 0 1 0\n1 1 0 0 0 1 0 0 255 1 1\n3 0 1 2\n";
-    let Attributes { normals, colors, uv } = io::parse_off(off.as_bytes(), "t.off").unwrap().attributes;
+    let Attributes { normals, colors, uv, .. } = io::parse_off(off.as_bytes(), "t.off").unwrap().attributes;
     assert_eq!(normals, Some(vec![[0.0, 0.0, 1.0]; 3]));
     assert_eq!(colors.unwrap()[0], [1.0, 0.0, 0.2, 1.0]);
     assert_eq!(uv.unwrap()[0][0], [0.5, 0.25]);
@@ -338,7 +343,7 @@ fn binary_off_has_colours_of_bytes_too() {
         let data: Vec<u8> = words.iter().flat_map(|&w| order(w)).collect();
         let soup = io::parse_off(&[b"STCNOFF BINARY\n", &data[..]].concat(), "t.off").unwrap();
         assert_eq!((soup.positions[1], soup.faces), ([1.0, 0.0, 0.5], vec![[0, 1, 2]]));
-        let Attributes { normals, colors, uv } = soup.attributes;
+        let Attributes { normals, colors, uv, .. } = soup.attributes;
         assert_eq!(normals.unwrap()[2], [0.0, 0.0, 1.0]);
         assert_eq!(colors.unwrap()[2], [0.0, 0.2, 1.0, 1.0]);
         assert_eq!(uv.unwrap(), [[[0.0, 0.25], [1.0, 0.25], [0.0, 0.25]]]);

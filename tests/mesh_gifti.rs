@@ -5,9 +5,9 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::{GzEncoder, ZlibEncoder};
-use ricci::Error;
 use ricci::mesh::Mesh;
 use ricci::mesh::io::{self, Soup};
+use ricci::{At, Error};
 use std::io::Write;
 
 const POINTS: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.5, 0.0, 0.0], [0.0, -2.25, 0.0], [0.1, 0.0, 3e-3]];
@@ -184,10 +184,10 @@ fn what_cannot_be_read_is_refused_by_line() {
         (base64("GZipBase64Binary", "AAAA"), 7, "damaged"),
         (base64("GZipBase64Binary", ""), 7, "cannot hold"),
     ] {
-        let Err(Error::Parse { line: found, message, .. }) = parse(&text) else {
-            panic!("{says}: read\n{text}")
-        };
-        assert!(message.contains(says) && found == line, "line {found}, not {line}: {message}");
+        // 0: the file as a whole.
+        let place = if line == 0 { At::Whole } else { At::Line(line) };
+        let Err(Error::Parse { at, message, .. }) = parse(&text) else { panic!("{says}: read\n{text}") };
+        assert!(message.contains(says) && at == place, "{at}, not {place}: {message}");
     }
     // Cut anywhere it is refused.
     for end in 0..text.trim_end().len() {

@@ -223,7 +223,7 @@ fn all_component_types_strides_and_sparse_accessors_are_read() {
     assert_eq!(soup.positions[1], [8191.0 / 32767.0, -1.0, -1.0]);
     assert_eq!(soup.positions[3], [0.0, 1.0 / 32767.0, 1.0]);
     assert_eq!(soup.faces, [[0, 1, 2]]);
-    let Attributes { normals, colors, uv } = soup.attributes;
+    let Attributes { normals, colors, uv, .. } = soup.attributes;
     assert_eq!(colors.unwrap()[2], [1.0, 0.2, 0.0, 0.4]);
     assert_eq!(normals.unwrap()[0], [0.0, -1.0, 1.0]);
     assert_eq!(uv.unwrap(), [[[1.0, 1.0], [1.0, 1.0 - 0.2], [1.0, 1.0 - 0.4]]]);
@@ -232,14 +232,18 @@ fn all_component_types_strides_and_sparse_accessors_are_read() {
     zeros["accessors"][0].as_object_mut().unwrap().remove("bufferView");
     zeros["accessors"][1]["type"] = json!("VEC3");
     let soup = parse(&zeros, &binary).unwrap();
-    assert_eq!(soup.positions[2..], [[0.0; 3], [0.0, 1.0 / 32767.0, 1.0]]);
-    assert_eq!(soup.attributes.colors.unwrap()[2], [1.0, 0.2, 0.0, 1.0]);
-    // A second primitive without colours: none has them.
+    // Three zeros are one vertex, with the colour of the first.
+    assert_eq!(soup.positions, [[0.0; 3], [0.0, 1.0 / 32767.0, 1.0]]);
+    assert_eq!(soup.attributes.colors.unwrap()[0], [1.0, 0.2, 0.0, 1.0]);
+    // A second primitive without attributes: its own have the defaults; the vertices of both are the same.
     let mut two = document.clone();
     let first = two["meshes"][0]["primitives"][0].take();
     two["meshes"][0]["primitives"] = json!([first, {"attributes": {"POSITION": 0}, "indices": 4}]);
     let soup = parse(&two, &binary).unwrap();
-    assert_eq!((soup.faces.len(), soup.attributes), (2, Attributes::default()));
+    assert_eq!((soup.positions.len(), soup.faces.as_slice()), (4, &[[0, 1, 2]; 2][..]));
+    assert_eq!(soup.attributes.colors.unwrap()[2], [1.0, 0.2, 0.0, 0.4]);
+    assert_eq!(soup.attributes.uv.unwrap()[1], [[0.0; 2]; 3]);
+    assert_eq!(soup.attributes.corner_normals.unwrap()[1], [[0.0; 3]; 3]);
 }
 
 #[test]
@@ -295,9 +299,11 @@ fn nothing_in_the_file_is_trusted() {
     let mut beyond = binary.clone();
     beyond[54] = 4;
     let error = parse(&document, &beyond).unwrap_err().to_string();
+    let index = whole.len() - binary.len() + 54;
+    assert!(error.starts_with(&format!("t.glb, byte {index}: ")), "{error}");
     assert!(error.contains("index 3 of a mesh names vertex 4 of 4"), "{error}");
     for (at, byte, says) in
-        [(0, b'G', "no GLB"), (4, 1, "version 1"), (8, 255, "ends at byte"), (16, b'j', "not JSON")]
+        [(0, b'G', "no GLB"), (4, 1, "version 1"), (8, 255, "the file ends here"), (16, b'j', "not JSON")]
     {
         let mut bytes = whole.clone();
         bytes[at] = byte;
@@ -333,10 +339,9 @@ fn a_vertex_is_given_again_for_each_further_pair_of_texture_coordinates() {
     // Vertex 2 has two places in the texture; entries 1 and 4 are the same place.
     assert_eq!(origin, [0, 1, 2, 3, 2]);
     let soup = io::read(&path).unwrap();
-    assert_eq!(soup.faces, [[0, 1, 2], [1, 3, 4]]);
-    assert_eq!(soup.positions[4], data.positions[2]);
+    assert_eq!((&soup.faces[..], &soup.positions[..]), (data.faces, data.positions));
     let Attributes { normals, uv, .. } = soup.attributes;
-    assert_eq!(normals.unwrap(), [[0.0, 0.0, 1.0]; 5]);
+    assert_eq!(normals.unwrap(), [[0.0, 0.0, 1.0]; 4]);
     assert_eq!(
         uv.unwrap(),
         data.face_texcoords.iter().map(|f| f.map(|t| data.texcoords[t as usize])).collect::<Vec<_>>()

@@ -260,14 +260,26 @@ fn honest(cases: &mut Vec<Case>) {
                 normals: Some(soup.positions.clone()),
                 colors: Some(vec![[0.1, 0.2, 0.3, 1.0]; count]),
                 uv: Some(soup.faces.iter().map(|f| f.map(place)).collect()),
+                ..Attributes::default()
             };
-            let folder = tempfile::tempdir().unwrap();
-            let path = folder.path().join(format!("m.{extension}"));
-            io::write(&path, &soup).unwrap();
-            std::fs::read(&path).unwrap()
+            written(&soup, extension)
+        }));
+        // Every edge hard: a normal for each corner.
+        cases.push(Case::new(format!("{extension} with hard edges"), parse, Some(true), move || {
+            let mut soup = shapes::torus(2.0, 1.0, 600, 300).unwrap();
+            let normal = |(f, _): (usize, _)| [[1.0 / (1.0 + f as f64), 1.0, 0.0]; 3];
+            soup.attributes.corner_normals = Some(soup.faces.iter().enumerate().map(normal).collect());
+            written(&soup, extension)
         }));
     }
     cases.push(Case::new("GIFTI", io::parse_gifti, Some(true), || gifti(MB / 2, 6 * MB)));
+}
+
+fn written(soup: &Soup, extension: &str) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(format!("m.{extension}"));
+    io::write(&path, soup).unwrap();
+    std::fs::read(&path).unwrap()
 }
 
 /// Names the case to a process that reads only that one: memory that an earlier case has freed would hide some.

@@ -5,7 +5,7 @@ mod common;
 
 use common::Random;
 use ricci::Error;
-use ricci::mesh::check::diagnose;
+use ricci::mesh::check::{Defect, diagnose};
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::repair::{Repair, Repaired, Steps, repair};
 use ricci::mesh::{Mesh, shapes};
@@ -17,7 +17,11 @@ fn mend(soup: &Soup) -> Repaired {
 /// Repair, and hold the result against what every repair must satisfy.
 fn check(soup: &Soup, options: &Repair) -> Repaired {
     let done = repair(soup, options).unwrap();
-    assert_eq!(done.diagnosis, diagnose(&done.soup.positions, &done.soup.faces));
+    let mut left = diagnose(&done.soup.positions, &done.soup.faces);
+    if let Some(Defect::Empty { collapsed }) = left.defects.first_mut() {
+        *collapsed = done.steps.degenerate_faces;
+    }
+    assert_eq!(done.diagnosis, left);
     assert_eq!(done.vertex_origin.len(), done.soup.positions.len());
     assert_eq!(done.face_origin.len(), done.soup.faces.len());
     assert!(done.face_origin.is_sorted_by(|a, b| a < b));
@@ -33,11 +37,142 @@ fn check(soup: &Soup, options: &Repair) -> Repaired {
         there.sort_unstable();
         assert!(here == there || options.weld.is_some_and(|w| w > 0.0));
     }
-    // What is repaired stays as it is. (Welding is tried on the whole: the piece that was taken may allow it now.)
+    for refused in &done.weld_refused {
+        // Each face has corners in both places.
+        let place = |v: u32| soup.positions[v as usize].map(|x| x + 0.0);
+        let at = |f: u32, end: u32| soup.faces[f as usize].iter().any(|&v| place(v) == place(end));
+        assert!(refused.faces.len() > 2);
+        assert!(refused.faces.iter().all(|&f| refused.vertices.iter().all(|&v| at(f, v))));
+    }
+    // What is repaired stays as it is. (Welding looks at the whole: what was dropped may allow more of it now.)
     let again = repair(&done.soup, &Repair { weld: None, component: None, ..*options }).unwrap();
     assert_eq!(again.steps, Steps::default());
     assert!(again.soup.positions == done.soup.positions && again.soup.faces == done.soup.faces);
     done
+}
+
+/// Every face with corners of its own.
+fn torn(whole: &Soup) -> Soup {
+    let corners = whole.faces.as_flattened();
+    let positions = corners.iter().map(|&v| whole.positions[v as usize]).collect();
+    Soup::new(positions, (0..whole.faces.len() as u32).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect())
+}
+
+/// A cube's surface with a corner at `at`, two triangles to a side.
+fn cube(at: [f64; 3]) -> Soup {
+    let bit = |v: u32, k: u32| f64::from(v >> k & 1);
+    let positions = (0..8).map(|v| [at[0] + bit(v, 0), at[1] + bit(v, 1), at[2] + bit(v, 2)]).collect();
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    Soup::new(positions, sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect())
+}
+
+fn beside(soups: &[Soup]) -> Soup {
+    let mut all = Soup::default();
+    for soup in soups {
+        let n = all.positions.len() as u32;
+        all.positions.extend(&soup.positions);
+        all.faces.extend(soup.faces.iter().map(|f| f.map(|v| v + n)));
+    }
+    all
+}
+
+/// Euler characteristic, boundary loops and number of the components, and the codes of the defects.
+fn shape(done: &Repaired) -> (i64, usize, usize, Vec<&'static str>) {
+    let d = &done.diagnosis;
+    (d.euler, d.boundary_loops, d.components, d.counts().into_iter().map(|(code, _)| code).collect())
+}
+
+#[test]
+fn a_fin_in_a_torn_surface_stays_apart_and_is_reported() {
+    let mut finned = cube([0.0; 3]);
+    finned.positions.push([0.5, -1.0, -1.0]);
+    finned.faces.push([0, 1, 8]);
+    let loose = torn(&finned);
+    for cut in [false, true] {
+        let options = Repair { cut_non_manifold_edges: cut, ..Repair::default() };
+        // The cube is closed; the fin is a triangle of its own.
+        let done = check(&loose, &options);
+        assert_eq!(shape(&done), (3, 1, 2, vec!["several_components"]));
+        assert_eq!(done.weld_refused.len(), 1);
+        assert_eq!(done.weld_refused[0].faces, [1, 4, 12]);
+        let again = check(&done.soup, &options);
+        assert!(again.soup == done.soup && again.weld_refused.len() == 1);
+        assert_eq!(done.steps.welded_vertices, 36 + 3 - 8 - 3);
+        let largest = check(&loose, &Repair { component: Some(0), ..options });
+        assert_eq!(
+            (shape(&largest).0, largest.soup.faces.len(), largest.diagnosis.defects.len()),
+            (2, 12, 0)
+        );
+        // The same beside a sound surface, and with another fin.
+        let two =
+            beside(&[loose.clone(), torn(&cube([5.0, 0.0, 0.0])), torn(&shapes::icosphere(2).unwrap())]);
+        assert_eq!(shape(&check(&two, &options)), (7, 1, 4, vec!["several_components"]));
+    }
+    // A distance asks for all of it.
+    let joined = check(&loose, &Repair { weld: Some(1e-9), ..Repair::default() });
+    assert_eq!(shape(&joined).3, ["non_manifold_edge", "non_manifold_vertex", "inconsistent_orientation"]);
+    let cut = Repair { weld: Some(1e-9), cut_non_manifold_edges: true, ..Repair::default() };
+    assert_eq!(shape(&check(&loose, &cut)), (3, 1, 2, vec!["several_components"]));
+    // Three pages of a book that were never one: nothing says which two belong together.
+    let back = |k: f64| [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [k.cos(), k.sin(), 0.0]];
+    let pages = beside(&[0.0, 2.0, 4.0].map(|k| Soup::new(back(k).to_vec(), vec![[0, 1, 2]])));
+    let done = check(&pages, &Repair::default());
+    assert_eq!((done.soup.faces.len(), done.steps, done.weld_refused.len()), (3, Steps::default(), 1));
+}
+
+#[test]
+fn closed_surfaces_that_touch_stay_what_they_are() {
+    // In a point, along an edge, in a square of two triangles, and twice at once.
+    for (at, refused) in [([1.0; 3], 0), ([1.0, 1.0, 0.0], 1), ([1.0, 0.0, 0.0], 4)] {
+        let both = beside(&[cube([0.0; 3]), cube(at)]);
+        let done = check(&both, &Repair::default());
+        assert_eq!(shape(&done), (4, 0, 2, vec!["several_components"]));
+        assert!(done.soup.faces == both.faces && done.steps == Steps::default(), "{:?}", done.steps);
+        assert_eq!(done.weld_refused.len(), refused);
+    }
+    // As loose triangles: a point is no matter; along an edge the neighbours say who belongs to whom.
+    for at in [[1.0; 3], [1.0, 1.0, 0.0]] {
+        let loose = beside(&[torn(&cube([0.0; 3])), torn(&cube(at))]);
+        assert_eq!(shape(&check(&loose, &Repair::default())), (4, 0, 2, vec!["several_components"]));
+    }
+    // A sheet given twice is one.
+    let disk = shapes::disk(3).unwrap();
+    let mut twice = beside(&[disk.clone(), disk.clone()]);
+    twice.faces[disk.faces.len()..].iter_mut().for_each(|f| f.swap(0, 1));
+    let done = check(&twice, &Repair::default());
+    assert_eq!((done.steps.duplicate_faces, done.soup.faces), (disk.faces.len(), disk.faces));
+}
+
+#[test]
+fn welding_makes_no_edge_of_more_than_two_faces() {
+    // Surfaces on few places, torn in part: every kind of contact comes up.
+    let mut random = Random::new(17);
+    let mut below = |n: usize| (random.unit() * n as f64) as u32;
+    let mut refused = 0;
+    for _ in 0..3000 {
+        let places = 3 + below(5);
+        let copies = 1 + below(3);
+        let positions: Vec<_> = (0..places * copies).map(|v| position_of(v % places)).collect();
+        let faces: Vec<[u32; 3]> =
+            (0..2 + below(12)).map(|_| [0; 3].map(|_| below((places * copies) as usize))).collect();
+        let soup = Soup::new(positions, faces);
+        let apart = repair(&soup, &Repair { weld: None, ..Repair::default() }).unwrap();
+        let crowded = |done: &Repaired| {
+            done.diagnosis.defects.iter().filter(|d| d.code() == "non_manifold_edge").count()
+        };
+        let done = check(&soup, &Repair::default());
+        assert!(crowded(&done) <= crowded(&apart), "{soup:?}");
+        refused += usize::from(!done.weld_refused.is_empty());
+        let cut = check(&soup, &Repair { cut_non_manifold_edges: true, ..Repair::default() });
+        assert_eq!(crowded(&cut), 0);
+    }
+    assert!(refused > 300, "{refused}");
+}
+
+/// Places of which no three are in line.
+fn position_of(place: u32) -> [f64; 3] {
+    let t = f64::from(place);
+    [t, t * t, t * t * t]
 }
 
 #[test]
@@ -152,6 +287,7 @@ fn sheets_that_touch_in_a_point_come_apart_and_keep_their_attributes() {
         normals: Some(vec![[0.0, 0.0, 1.0]; vertices]),
         colors: Some((0..vertices).map(|v| [v as f64 / vertices as f64, 0.0, 0.0, 1.0]).collect()),
         uv: Some((0..faces).map(|f| [[f as f64, 0.0], [f as f64, 1.0], [f as f64, 2.0]]).collect()),
+        ..Attributes::default()
     };
     let done = mend(&soup);
     assert_eq!((done.steps.split_vertices, done.soup.positions.len()), (1, vertices + 1));

@@ -5,7 +5,7 @@ mod common;
 
 use common::Random;
 use common::flow::{converged, rigid, solve, surface};
-use ricci::flow::{Options, StopReason, flow};
+use ricci::flow::{StopReason, flow};
 use ricci::geometry::Space;
 use ricci::mesh::shapes;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};

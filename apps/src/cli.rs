@@ -58,8 +58,9 @@ const REPAIR_EXAMPLE: &str = "\
 Example: the largest piece of a scan, welded within 1e-6, and where its vertices and faces came from
     ricci repair scan.stl -o clean.ply --weld 1e-6 --component 0 --map origin.json
 
-Always: weld vertices in the same place (unless that joins sheets in a non-manifold way), drop faces that use a vertex twice
-or repeat a face, give every fan of faces a vertex of its own, turn faces until neighbours agree, drop isolated vertices.
+Always: weld vertices in the same place (but not in edges in which more than two faces would meet: these are told), drop faces
+that use a vertex twice or repeat a face, give every fan of faces a vertex of its own, turn faces until neighbours agree, drop
+isolated vertices.
 The exit code is 1 if a defect is left that needs a guess; the file is written all the same.";
 
 const FLOW_EXAMPLE: &str = "\
@@ -123,6 +124,9 @@ fn threads() -> impl clap::builder::TypedValueParser<Value = u16> {
 pub struct InfoArgs {
     /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json)
     pub mesh: PathBuf,
+    /// STL: corners within this distance are one vertex; 0: those in exactly the same place
+    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
+    pub weld: Option<f64>,
     #[command(flatten)]
     pub picture: SurfacePictureArgs,
     #[command(flatten)]
@@ -161,6 +165,9 @@ pub struct RepairArgs {
 pub struct FlowArgs {
     /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json: `faces` and `lengths` suffice)
     pub mesh: PathBuf,
+    /// STL: corners within this distance are one vertex; 0: those in exactly the same place
+    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
+    pub weld: Option<f64>,
     /// Background geometry; auto is h2 on closed surfaces of genus ≥ 2 and e2 elsewhere
     #[arg(long, value_enum, default_value_t = SpaceChoice::Auto)]
     pub space: SpaceChoice,
@@ -179,7 +186,7 @@ pub struct FlowArgs {
     /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,…
     #[arg(long, value_name = "VERTICES")]
     pub pin: Option<PinChoice>,
-    /// Edge flips inside the conformal class; auto is never in this version
+    /// Edge flips inside the conformal class: as needed, with the layout carried back to the given triangulation, or never
     #[arg(long, value_enum, default_value_t = FlipsChoice::Auto)]
     pub flips: FlipsChoice,
     /// Largest |K − K̄| of a converged metric, radians

@@ -2,7 +2,8 @@
 
 use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
-use crate::flow::{self, Done, FlowResult};
+use crate::figures::FlowResult;
+use crate::flow::{self, Done};
 use crate::output::{Outputs, check_writable};
 use crate::report::{Checks, InputSummary, Report, path_text, peak_bytes};
 use crate::{make, say};

@@ -49,20 +49,31 @@ const GENERATORS: &[Row] = &[
     ),
     row("genus4", Made("genus --genus 4 --ratio 2"), "", "handles in a row, the first hole twice as wide"),
     row("holes", Made("sphere --n 24 --holes 5"), "flow {}", "a sphere with five round holes"),
-    row("handlebody-holes", Made("genus --holes 3"), "", "genus 2 with three boundary loops"),
+    row(
+        "disk-holes",
+        Made("disk --n 16 --height 0.4 --holes 4"),
+        "flow {} --color u",
+        "a bumpy disk with four holes: its conformal factor",
+    ),
+    row(
+        "handlebody-holes",
+        Made("genus --n 5 --holes 3"),
+        "info {} --up=-z --view 180,35",
+        "genus 2 with three boundary loops, seen from below",
+    ),
     row("knot", Made("knot"), "flow {} --color u", "a knotted torus is a torus: its conformal factor"),
     row("noise", Made("torus --noise 0.25 --seed 1"), "flow {}", "vertices moved by a quarter of an edge"),
     row(
         "graded",
-        Made("sphere --n 8 --grade 0,6"),
-        "info {} --wire --view 0,25",
-        "edges halved around a vertex, six times",
+        Made("sphere --n 1 --grade 0,7"),
+        "info {} --wire --view 20,30",
+        "an icosahedron, edges halved around a vertex, seven times",
     ),
     row(
         "slivers",
-        Made("torus --n 32 --slivers 60 --sliver-angle 0.02"),
-        "info {} --wire",
-        "bad triangles made on purpose",
+        Made("disk --n 4 --slivers 24 --sliver-angle 0.08"),
+        "info {} --wire --view 0,90",
+        "24 faces cut into three, one of them a cap with angles of 0.08",
     ),
     row(
         "flat-torus",
@@ -196,7 +207,9 @@ const PREFACE: &str = "\
 
 Written by `ricci gallery docs/pictures MESHES`, MESHES being a folder of meshes with `good/INDEX.csv`. On the left of a picture the
 surface, on the right its layout; seams have one colour on both of their sides, cones are red where curvature is positive and blue where
-it is negative. Every picture is made by the commands beside it (with `--size 320 --palette`).
+it is negative. Where the layout's scale varies by more than a factor of 8, checks and circles are drawn 8 times as large or small, on
+both sides alike, so that they stay visible: along the line where that happens they are cut off. Every picture is made by the commands
+beside it (with `--size 320 --palette`).
 ";
 
 /// Draw a row; returns the command lines as a reader would type them.

@@ -12,7 +12,7 @@ use crate::show;
 use ricci::Control;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::check::{Defect, Diagnosis, diagnose};
-use ricci::mesh::io::{self, Soup};
+use ricci::mesh::io::Soup;
 use ricci::mesh::{FaceId, Mesh};
 use ricci::metric::lengths_from_positions;
 use serde::Serialize;
@@ -65,6 +65,7 @@ impl From<&Defect> for DefectFigures {
 
 #[derive(Serialize)]
 struct Asked {
+    weld: Option<f64>,
     #[serde(flatten)]
     picture: SurfacePictureArgs,
     threads: usize,
@@ -78,14 +79,14 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     }
     if let Some(path) = &args.picture.base.picture {
         check_extension("--picture", path, &["png"])?;
-        if extension(&args.mesh) == "json" {
+        if extension(&args.mesh) == "json" && args.weld.is_none() {
             return Err(Failure::Usage("--picture: an intrinsic metric has no positions in space".into()));
         }
     }
     let mut outputs = Outputs::default();
     let mut seconds = Seconds::default();
-    let (summary, info) = if extension(&args.mesh) == "json" {
-        match input::read(&args.mesh, control) {
+    let (summary, info) = if extension(&args.mesh) == "json" && args.weld.is_none() {
+        match input::read(&args.mesh, None, control) {
             Ok(surface) => {
                 (seconds.read, seconds.build) = (surface.seconds_read, surface.seconds_build);
                 (InputSummary::of(&surface), Info::of_metric(&surface))
@@ -97,7 +98,7 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
             Err(failure) => return Err(failure),
         }
     } else {
-        let soup = timed(&mut seconds.read, || io::read(&args.mesh))?;
+        let soup = timed(&mut seconds.read, || input::read_soup(&args.mesh, args.weld))?;
         let (diagnosis, quality) = timed(&mut seconds.build, || {
             let quality =
                 shape_of(&soup).unwrap_or_else(|| shape_quality::of_triangles(&soup.positions, &soup.faces));
@@ -119,7 +120,7 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     }
     if let Some(path) = &args.common.report {
         let picture = args.picture.clone();
-        let asked = Asked { picture, threads: args.common.threads() };
+        let asked = Asked { weld: args.weld, picture, threads: args.common.threads() };
         let mut report = Report::new("info", summary, asked, info);
         seconds.total = start.elapsed().as_secs_f64();
         report.seconds = seconds;

@@ -7,7 +7,8 @@ use crate::report::timed;
 use ricci::Control;
 use ricci::control::Stage;
 use ricci::geometry::Space;
-use ricci::mesh::{Mesh, PerEdge, Point, io};
+use ricci::mesh::io::{self, Soup};
+use ricci::mesh::{Mesh, PerEdge, Point};
 use ricci::metric::lengths_from_positions;
 use std::path::{Path, PathBuf};
 
@@ -24,17 +25,17 @@ pub struct Input {
     pub seconds_build: f64,
 }
 
-/// Read a mesh file or, from a name that ends in `.json`, an intrinsic metric.
-pub fn read(path: &Path, control: &Control) -> Result<Input, Failure> {
+/// Read a mesh file ([`read_soup`]) or, from a name that ends in `.json`, an intrinsic metric.
+pub fn read(path: &Path, weld: Option<f64>, control: &Control) -> Result<Input, Failure> {
     let (mut seconds_read, mut seconds_build) = (0.0, 0.0);
     control.step(Stage::Read, 0.0)?;
-    let (mesh, lengths, geometry, positions) = if extension(path) == "json" {
+    let (mesh, lengths, geometry, positions) = if extension(path) == "json" && weld.is_none() {
         let text = timed(&mut seconds_read, || read_text(path))?;
         let Intrinsic { mesh, lengths, geometry } =
             timed(&mut seconds_build, || metric_file::parse(path, &text))?;
         (mesh, lengths, geometry, None)
     } else {
-        let soup = timed(&mut seconds_read, || io::read(path))?;
+        let soup = timed(&mut seconds_read, || read_soup(path, weld))?;
         control.step(Stage::Build, 0.0)?;
         let build = || -> Result<_, Failure> {
             let mesh = Mesh::from_soup(&soup)?;
@@ -46,6 +47,17 @@ pub fn read(path: &Path, control: &Control) -> Result<Input, Failure> {
     };
     control.check()?;
     Ok(Input { path: path.into(), mesh, lengths, geometry, positions, seconds_read, seconds_build })
+}
+
+/// Read a mesh file; the corners of an STL file are one vertex within the distance `weld`.
+pub fn read_soup(path: &Path, weld: Option<f64>) -> Result<Soup, Failure> {
+    match weld {
+        None => Ok(io::read(path)?),
+        Some(weld) if extension(path) == "stl" => Ok(io::read_stl(path, weld)?),
+        Some(_) => Err(Failure::Usage(
+            "--weld: only an STL file has no vertices of its own; ricci repair welds".into(),
+        )),
+    }
 }
 
 /// The text of a file, with the file's name in the error.

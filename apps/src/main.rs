@@ -7,6 +7,7 @@ mod cli;
 mod csv;
 mod demo;
 mod failure;
+mod figures;
 mod flow;
 mod gallery;
 mod info;

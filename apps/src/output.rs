@@ -1,7 +1,9 @@
 //! Files are written beside their destination and renamed into place when all of them are complete.
 
 use crate::failure::Failure;
+use ricci::mesh::io::destination;
 use serde::Serialize;
+use std::fs::{self, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
@@ -9,7 +11,35 @@ use tempfile::{Builder, NamedTempFile};
 /// The files of one run, all of them or none.
 #[derive(Default)]
 pub struct Outputs {
-    pending: Vec<(NamedTempFile, PathBuf)>,
+    pending: Vec<Pending>,
+}
+
+/// A complete file under a temporary name.
+struct Pending {
+    file: NamedTempFile,
+    /// The name that was asked for, and what it names once links are followed.
+    path: PathBuf,
+    target: PathBuf,
+    /// Of the file that is replaced.
+    permissions: Option<Permissions>,
+}
+
+impl Pending {
+    fn new(path: &Path) -> io::Result<Pending> {
+        let (target, permissions) = destination(path);
+        Ok(Pending { file: temporary(directory_of(&target))?, path: path.into(), target, permissions })
+    }
+
+    fn commit(self) -> Result<PathBuf, Failure> {
+        let Pending { file, path, target, permissions } = self;
+        let failed = |e: io::Error| Failure::Failed(format!("{}: {e}", path.display()));
+        if let Some(permissions) = permissions {
+            // The library may have replaced the file itself, so that its handle is that of another.
+            fs::set_permissions(file.path(), permissions).map_err(failed)?;
+        }
+        file.persist(&target).map_err(|e| failed(e.error))?;
+        Ok(path)
+    }
 }
 
 impl Outputs {
@@ -20,25 +50,25 @@ impl Outputs {
         write: impl FnOnce(&mut BufWriter<&mut NamedTempFile>) -> io::Result<()>,
     ) -> Result<(), Failure> {
         let failed = |e: io::Error| Failure::Failed(format!("{}: {e}", path.display()));
-        let mut file = temporary(directory_of(path)).map_err(failed)?;
-        let mut buffer = BufWriter::new(&mut file);
+        let mut pending = Pending::new(path).map_err(failed)?;
+        let mut buffer = BufWriter::new(&mut pending.file);
         write(&mut buffer).and_then(|()| buffer.flush()).map_err(failed)?;
         drop(buffer);
-        self.pending.push((file, path.into()));
+        self.pending.push(pending);
         Ok(())
     }
 
     /// Let the library write a file by name.
-    pub fn add_named(
+    pub fn add_named<T>(
         &mut self,
         path: &Path,
-        write: impl FnOnce(&Path) -> ricci::Result<()>,
-    ) -> Result<(), Failure> {
+        write: impl FnOnce(&Path) -> ricci::Result<T>,
+    ) -> Result<T, Failure> {
         let failed = |e: String| Failure::Failed(format!("{}: {e}", path.display()));
-        let file = temporary(directory_of(path)).map_err(|e| failed(e.to_string()))?;
-        write(file.path()).map_err(|e| failed(e.to_string()))?;
-        self.pending.push((file, path.into()));
-        Ok(())
+        let pending = Pending::new(path).map_err(|e| failed(e.to_string()))?;
+        let written = write(pending.file.path()).map_err(|e| failed(e.to_string()))?;
+        self.pending.push(pending);
+        Ok(written)
     }
 
     /// Write a JSON file, indented for people.
@@ -57,14 +87,9 @@ impl Outputs {
         })
     }
 
-    /// Rename every file into place; returns their names.
+    /// Rename every file into place; returns their names. Links stay links, and permissions those of what is replaced.
     pub fn commit(self) -> Result<Vec<PathBuf>, Failure> {
-        let mut written = Vec::new();
-        for (file, path) in self.pending {
-            file.persist(&path).map_err(|e| Failure::Failed(format!("{}: {}", path.display(), e.error)))?;
-            written.push(path);
-        }
-        Ok(written)
+        self.pending.into_iter().map(Pending::commit).collect()
     }
 }
 
@@ -78,7 +103,7 @@ pub fn check_writable(path: &Path) -> Result<(), Failure> {
     if !directory.is_dir() {
         return refuse(format!("the directory {} does not exist", directory.display()));
     }
-    match temporary(directory) {
+    match Pending::new(path) {
         Ok(_) => Ok(()),
         Err(e) => refuse(format!("cannot be written: {}", e.kind())),
     }
@@ -109,7 +134,7 @@ fn temporary(directory: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
+        builder.permissions(Permissions::from_mode(0o666));
     }
     builder.tempfile_in(directory)
 }

@@ -3,7 +3,7 @@
 use crate::cli::RepairArgs;
 use crate::failure::Failure;
 use crate::info::{DefectCount, DefectFigures, summary_of};
-use crate::output::{Outputs, check_extension, check_writable};
+use crate::output::{Outputs, check_extension, check_writable, extension};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{Report, Seconds, path_text, peak_bytes, timed};
 use crate::say::{self, count};
@@ -36,8 +36,18 @@ struct RepairResult {
     turned_faces: usize,
     faces_of_other_components: usize,
     isolated_vertices: usize,
+    /// Edges in which welding would have made more than two faces meet; numbers of the input.
+    weld_refused: Vec<RefusedFigures>,
+    /// Attributes that the format of the output has no place for.
+    left_out: Vec<&'static str>,
     defect_counts: Vec<DefectCount>,
     defects: Vec<DefectFigures>,
+}
+
+#[derive(Serialize)]
+struct RefusedFigures {
+    vertices: [u32; 2],
+    faces: Vec<u32>,
 }
 
 #[derive(Serialize)]
@@ -80,9 +90,9 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     let done = timed(&mut seconds.build, || repair(&soup, &options))?;
     control.step(Stage::Write, 0.0)?;
     let mut outputs = Outputs::default();
-    timed(&mut seconds.write, || -> Result<(), Failure> {
+    let left_out = timed(&mut seconds.write, || -> Result<_, Failure> {
         let format = Format::of(&args.out)?;
-        outputs.add_named(&args.out, |path| io::write_as(path, format, &done.soup))?;
+        let left_out = outputs.add_named(&args.out, |path| io::write_as(path, format, &done.soup))?;
         if let Some(path) = &args.map {
             let map = MapFile { vertex_origin: &done.vertex_origin, face_origin: &done.face_origin };
             outputs.add_json(path, &map)?;
@@ -93,9 +103,9 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
                 show::draw_surface(out, &soup.positions, &soup.faces, &args.picture, threads)
             })?;
         }
-        Ok(())
+        Ok(left_out)
     })?;
-    let result = RepairResult::new(&done);
+    let result = RepairResult::new(&done, left_out);
     let exit_code = u8::from(!result.admissible);
     if !args.common.quiet {
         say::lines(&text(args, &done.steps, &result));
@@ -126,7 +136,7 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
 }
 
 impl RepairResult {
-    fn new(done: &Repaired) -> Self {
+    fn new(done: &Repaired, left_out: Vec<&'static str>) -> Self {
         let (diagnosis, steps) = (&done.diagnosis, &done.steps);
         RepairResult {
             admissible: diagnosis.defects.is_empty(),
@@ -145,6 +155,12 @@ impl RepairResult {
             turned_faces: steps.turned_faces,
             faces_of_other_components: steps.faces_of_other_components,
             isolated_vertices: steps.isolated_vertices,
+            weld_refused: done
+                .weld_refused
+                .iter()
+                .map(|refused| RefusedFigures { vertices: refused.vertices, faces: refused.faces.clone() })
+                .collect(),
+            left_out,
             defect_counts: DefectCount::of(diagnosis),
             defects: diagnosis.defects.iter().map(DefectFigures::from).collect(),
         }
@@ -178,6 +194,17 @@ fn text(args: &RepairArgs, steps: &Steps, result: &RepairResult) -> String {
         count(result.components, "component", "components"),
         count(result.boundary_loops, "boundary loop", "boundary loops"),
     );
+    if let Some(RefusedFigures { vertices: [a, b], faces }) = result.weld_refused.first() {
+        text += &format!(
+            "not welded throughout: {} in which more than two faces would meet, such as {} faces between vertices {a} and \
+             {b} of the input: --weld DISTANCE joins them all the same\n",
+            count(result.weld_refused.len(), "edge", "edges"),
+            faces.len(),
+        );
+    }
+    for what in &result.left_out {
+        text += &format!("left out: {what} (.{} has no place for them)\n", extension(&args.out));
+    }
     let mut told: Vec<&str> = Vec::new();
     for defect in &result.defects {
         if !told.contains(&defect.remedy) {

@@ -86,7 +86,7 @@ pub enum Shape {
         /// Layers over a quarter of the tube; 8 (5 G + 1) N² + 2 − 2 G vertices
         #[arg(short, long, default_value_t = 6)]
         n: usize,
-        /// How many times as wide the first hole is as the last
+        /// How many times as wide the first hole is as the last: at most 6.8 for two handles, 17 for three
         #[arg(long, default_value_t = 1.0)]
         ratio: f64,
         #[command(flatten)]
@@ -109,7 +109,7 @@ pub enum Shape {
         /// Radius of the tube around the knot
         #[arg(long, default_value_t = 0.4)]
         tube: f64,
-        /// Cross-sections
+        /// Cross-sections; at least about 40 for a trefoil
         #[arg(short, long, default_value_t = 240)]
         n: usize,
         /// Vertices around the tube [default: as far apart as the cross-sections]
@@ -216,12 +216,15 @@ pub struct ToMetric {
     pub common: Common,
 }
 
-/// Holes, noise and bad triangles, in this order.
+/// Holes, noise, an inversion and bad triangles, in this order.
 #[derive(Args, Serialize, Debug)]
 pub struct Spoil {
     /// Cut this many round holes, far from each other
     #[arg(long, default_value_t = 0, value_name = "COUNT")]
     pub holes: usize,
+    /// Map by the inversion in the sphere about X, Y, Z of this radius: a conformal map
+    #[arg(long, value_name = "X,Y,Z,RADIUS", value_parser = sphere, allow_hyphen_values = true)]
+    pub invert: Option<[f64; 4]>,
     /// Halve the edges around a vertex, again and again
     #[arg(long, value_name = "VERTEX,LEVELS", value_parser = grading)]
     pub grade: Option<(u32, usize)>,
@@ -250,6 +253,9 @@ impl Spoil {
         }
         if self.noise != 0.0 {
             shapes::noise(&mut soup, self.noise, self.seed)?;
+        }
+        if let Some([x, y, z, radius]) = self.invert {
+            shapes::invert(&mut soup, [x, y, z], radius)?;
         }
         if let Some((vertex, levels)) = self.grade {
             shapes::grade(&mut soup, vertex, levels)?;
@@ -287,6 +293,11 @@ fn complex(text: &str) -> Result<Complex64, String> {
 
 fn pairs<S: Serializer>(points: &[Complex64], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(points.iter().map(|z| [z.re, z.im]))
+}
+
+fn sphere(text: &str) -> Result<[f64; 4], String> {
+    let numbers: Vec<f64> = text.split(',').map(|x| finite(x.trim())).collect::<Result<_, _>>()?;
+    numbers.try_into().map_err(|_| "must be X,Y,Z,RADIUS".into())
 }
 
 fn grading(text: &str) -> Result<(u32, usize), String> {

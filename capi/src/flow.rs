@@ -141,6 +141,7 @@ fn read_options(options: *const ricci_flow_options) -> Outcome<Options> {
     };
     Ok(Options {
         method: choose(options.method)?,
+        fixed_edges: Vec::new(),
         flips: choose(options.flips)?,
         tolerance: options.tolerance,
         max_iterations: options.max_iterations,

@@ -89,12 +89,14 @@ pub struct ricci_mesh_summary {
     pub euler: i64,
     /// (2 - euler - boundary loops) / 2.
     pub genus: usize,
-    /// Number of normals: V, or 0 if the mesh was not read from a file that has them.
+    /// Number of normals of vertices: V, or 0 if the mesh was not read from a file that has them.
     pub n_normals: usize,
     /// Number of colours: V, or 0.
     pub n_colors: usize,
     /// Number of faces with texture coordinates: F, or 0.
     pub n_uv: usize,
+    /// Number of faces with normals at their corners, instead of those of the vertices: F, or 0.
+    pub n_corner_normals: usize,
 }
 
 // SAFETY: integers of 8 bytes, size first.
@@ -243,6 +245,7 @@ pub unsafe extern "C" fn ricci_mesh_summarise(
             n_normals: attributes.normals.as_ref().map_or(0, Vec::len),
             n_colors: attributes.colors.as_ref().map_or(0, Vec::len),
             n_uv: attributes.uv.as_ref().map_or(0, Vec::len),
+            n_corner_normals: attributes.corner_normals.as_ref().map_or(0, Vec::len),
         };
         sized::write(counts, summary, size)
     })

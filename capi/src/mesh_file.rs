@@ -1,13 +1,15 @@
 //! Meshes from and to files, with their attributes.
 
 use crate::arrays::{self, copy_out};
+use crate::choice::{Choice, choose};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, output};
 use crate::mesh::{face_vertices, ricci_mesh};
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
-use ricci::mesh::io::{self, Attributes, Format, Soup};
+use ricci::mesh::io::{self, Attributes, Format, Soup, Texture, Wrap};
 use std::ffi::c_char;
+use std::mem::MaybeUninit;
 use std::ptr::null;
 
 /// What is written beside positions and faces. Let ricci_mesh_attributes_init fill it, then change fields.
@@ -22,6 +24,8 @@ pub struct ricci_mesh_attributes {
     pub colors: *const f64,
     /// Texture coordinates of the faces' corners, n_faces x 3 x 2, v upwards; NULL (default): none.
     pub uv: *const f64,
+    /// Normals of the faces' corners, n_faces x 3 x 3, of any length, in place of those of the vertices; NULL (default): none.
+    pub corner_normals: *const f64,
 }
 
 // SAFETY: pointers of 8 bytes that are only read through `arrays`, size first.
@@ -34,7 +38,13 @@ unsafe impl Sized64 for ricci_mesh_attributes {
 
 impl ricci_mesh_attributes {
     fn none() -> Self {
-        ricci_mesh_attributes { size: size_of::<Self>(), normals: null(), colors: null(), uv: null() }
+        ricci_mesh_attributes {
+            size: size_of::<Self>(),
+            normals: null(),
+            colors: null(),
+            uv: null(),
+            corner_normals: null(),
+        }
     }
 
     fn read(
@@ -50,6 +60,7 @@ impl ricci_mesh_attributes {
             normals: list("normals", given.normals, n_vertices)?,
             colors: list("colors", given.colors, n_vertices)?,
             uv: list("uv", given.uv, n_faces)?,
+            corner_normals: list("corner_normals", given.corner_normals, n_faces)?,
         })
     }
 }
@@ -110,7 +121,8 @@ pub unsafe extern "C" fn ricci_mesh_attributes_init(
 /// Write a mesh in the format that the file's name says, with the attributes that the format has.
 ///
 /// OBJ and OFF are text with 17 significant digits, PLY is binary, and positions read back as they are; GLB has 24 bits of the
-/// distance from the centre of the mesh. A file of that name is replaced only once the new one is complete.
+/// distance from the centre of the mesh. What the format has no place for (in PLY and OFF, several normals at a vertex; in OFF,
+/// several texture coordinates) is left out, with a warning to the callback of ricci_log_set. A file of that name is replaced only once the new one is complete.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (the mesh is
 /// intrinsic, or a number is not finite), RICCI_TOO_LARGE.
 ///
@@ -131,7 +143,10 @@ pub unsafe extern "C" fn ricci_mesh_write(
             soup.attributes =
                 ricci_mesh_attributes::read(attributes, soup.positions.len(), soup.faces.len())?;
         }
-        Ok(io::write(&path, &soup)?)
+        for what in io::write(&path, &soup)? {
+            log::warn!("{}: the format has no place for {what}: left out", path.display());
+        }
+        Ok(())
     })
 }
 
@@ -146,11 +161,12 @@ pub unsafe extern "C" fn ricci_mesh_write(
 pub unsafe extern "C" fn ricci_mesh_write_obj(mesh: *const ricci_mesh, path: *const c_char) -> ricci_status {
     guard::call(|door| {
         let mesh = door.shared(mesh)?;
-        Ok(io::write_as(&arrays::path("path", path)?, Format::Obj, &whole(mesh)?)?)
+        io::write_as(&arrays::path("path", path)?, Format::Obj, &whole(mesh)?)?;
+        Ok(())
     })
 }
 
-/// The normals that the mesh was read with.
+/// The normals of vertices that the mesh was read with.
 ///
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
 ///
@@ -207,8 +223,97 @@ pub unsafe extern "C" fn ricci_mesh_uv(
     })
 }
 
-fn present<'a, T>(what: &str, list: &'a Option<Vec<T>>) -> Outcome<&'a [T]> {
+/// The normals of corners that the mesh was read with: of one whose vertices have several, as at hard edges.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+///
+/// @param mesh            the mesh.
+/// @param corner_normals  out: n_faces x 3 x 3, of any length.
+/// @param capacity        entries of `corner_normals`, at least 9 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_corner_normals(
+    mesh: *const ricci_mesh,
+    corner_normals: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let list = present("corner normals", &door.shared(mesh)?.attributes.corner_normals)?;
+        copy_out("corner_normals", list.as_flattened().as_flattened(), corner_normals, capacity)
+    })
+}
+
+/// The attribute, or that there is none.
+pub fn present<'a, T>(what: &str, list: &'a Option<Vec<T>>) -> Outcome<&'a [T]> {
     list.as_deref().ok_or_else(|| Failure::argument(format!("this mesh was read without {what}")))
+}
+
+/// How a texture goes on outside the unit square.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ricci_wrap {
+    /// Periodically.
+    RICCI_WRAP_REPEAT = 0,
+    /// Periodically, every other time mirrored.
+    RICCI_WRAP_MIRROR = 1,
+    /// With the colours of its border.
+    RICCI_WRAP_CLAMP = 2,
+}
+
+use ricci_wrap::*;
+
+impl Choice for ricci_wrap {
+    const NAME: &'static str = "wrap";
+    type Value = Wrap;
+    const ALL: &'static [(Self, Wrap)] = &[
+        (RICCI_WRAP_REPEAT, Wrap::Repeat),
+        (RICCI_WRAP_MIRROR, Wrap::Mirror),
+        (RICCI_WRAP_CLAMP, Wrap::Clamp),
+    ];
+    fn number(self) -> i32 {
+        self as i32
+    }
+}
+
+/// Write a mesh as binary glTF with a texture, whatever the file's name.
+///
+/// A vertex with several texture coordinates is written once for each. A file of that name is replaced only once the new one
+/// is complete.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (the mesh is intrinsic, a number is not
+/// finite, there are no texture coordinates, the texture is no PNG file, wrap is unknown), RICCI_TOO_LARGE.
+///
+/// @param mesh        the mesh.
+/// @param attributes  what to write beside positions and faces, texture coordinates among it, or NULL for what the mesh was
+///                    read with.
+/// @param png         the texture: a PNG file's png_size bytes.
+/// @param png_size    their number.
+/// @param wrap        what is outside the unit square.
+/// @param path        file name, NUL-terminated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_write_textured(
+    mesh: *const ricci_mesh,
+    attributes: *const ricci_mesh_attributes,
+    png: *const u8,
+    png_size: usize,
+    wrap: MaybeUninit<ricci_wrap>,
+    path: *const c_char,
+) -> ricci_status {
+    guard::call(|door| {
+        let mesh = door.shared(mesh)?;
+        let path = arrays::path("path", path)?;
+        let wrap = choose(wrap)?;
+        let png: Vec<u8> = arrays::array("png", png, png_size)?;
+        if !png.starts_with(b"\x89PNG\r\n\x1a\n") {
+            return Err(Failure::argument("png is no PNG file: its first eight bytes are not that format's"));
+        }
+        let mut soup = whole(mesh)?;
+        if !attributes.is_null() {
+            soup.attributes =
+                ricci_mesh_attributes::read(attributes, soup.positions.len(), soup.faces.len())?;
+        }
+        present("uv", &soup.attributes.uv)?;
+        io::write_glb_textured(&path, &soup, Texture { png: &png, wrap })?;
+        Ok(())
+    })
 }
 
 /// The triangle list that the mesh is, with what it was read with.

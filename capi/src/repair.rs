@@ -1,9 +1,10 @@
 //! Repair of triangle lists, with the way back.
 
-use crate::arrays::{self, copy_out};
+use crate::arrays::{self, copy_out, copy_rows};
 use crate::diagnosis::ricci_diagnosis;
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, Handle, Poison, output};
+use crate::mesh_file::present;
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::mesh::io::{self, Soup};
@@ -31,8 +32,9 @@ impl Handle for ricci_repair {
 pub struct ricci_repair_options {
     /// Bytes of this struct that are filled.
     pub size: usize,
-    /// Vertices within this distance become one; 0 (default): those in exactly the same place, unless that
-    /// joins sheets in a non-manifold way; negative: no welding.
+    /// Vertices within this distance become one; 0 (default): those in exactly the same place, where their faces
+    /// are then connected through edges, but not in edges in which more than two faces would meet
+    /// (ricci_repair_refused); negative: no welding.
     pub weld: f64,
     /// 1 cuts the surface open along edges in which more than two faces meet; default 0.
     pub cut_non_manifold_edges: i32,
@@ -97,6 +99,10 @@ pub struct ricci_repair_summary {
     pub faces_of_other_components: usize,
     /// Vertices dropped because no face uses them.
     pub isolated_vertices: usize,
+    /// Edges in which welding would have made more than two faces meet: ricci_repair_refused lists them.
+    pub refused_edges: usize,
+    /// Faces of all these edges together.
+    pub refused_faces: usize,
 }
 
 // SAFETY: integers of 8 bytes, size first.
@@ -128,7 +134,7 @@ pub unsafe extern "C" fn ricci_repair_options_init(
 
 /// Mend what can be mended without a guess. Defects that are left are a result, not an error.
 ///
-/// Elements keep their order. Attributes are the caller's: the origins say where each element came from.
+/// Elements keep their order. Attributes of arrays are the caller's: the origins say where each element came from.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride, options, no such component), RICCI_TOO_LARGE,
 /// RICCI_STRUCT_SIZE, RICCI_DEFECTS (a face that names no vertex or one without finite coordinates).
 ///
@@ -157,7 +163,7 @@ pub unsafe extern "C" fn ricci_repair_arrays(
     })
 }
 
-/// ricci_repair_arrays for a mesh file.
+/// ricci_repair_arrays for a mesh file, whose attributes stay with their elements.
 ///
 /// @return as ricci_repair_arrays; RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT.
 ///
@@ -200,7 +206,7 @@ pub unsafe extern "C" fn ricci_repair_summarise(
     size: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let Repaired { soup, steps, diagnosis, .. } = &door.shared(repair)?.done;
+        let Repaired { soup, steps, diagnosis, weld_refused, .. } = &door.shared(repair)?.done;
         let figures = ricci_repair_summary {
             size,
             n_vertices: soup.positions.len(),
@@ -214,6 +220,8 @@ pub unsafe extern "C" fn ricci_repair_summarise(
             turned_faces: steps.turned_faces,
             faces_of_other_components: steps.faces_of_other_components,
             isolated_vertices: steps.isolated_vertices,
+            refused_edges: weld_refused.len(),
+            refused_faces: weld_refused.iter().map(|refused| refused.faces.len()).sum(),
         };
         sized::write(figures, summary, size)
     })
@@ -266,6 +274,142 @@ pub unsafe extern "C" fn ricci_repair_origins(
         arrays::check_buffer("faces", done.face_origin.len(), faces, faces_capacity)?;
         copy_out("vertices", &done.vertex_origin, vertices, vertices_capacity)?;
         copy_out("faces", &done.face_origin, faces, faces_capacity)
+    })
+}
+
+/// The edges that kept vertices in exactly the same place from being welded throughout.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param repair             the repair.
+/// @param vertices           out: refused_edges x 2 input vertices: the first in the place of either end.
+/// @param vertices_capacity  entries of `vertices`.
+/// @param faces              out: the refused_faces input faces that would meet, edge by edge.
+/// @param faces_capacity     entries of `faces`.
+/// @param starts             out: refused_edges + 1 entries: where each edge's faces start in `faces`, and their end.
+/// @param starts_capacity    entries of `starts`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_repair_refused(
+    repair: *const ricci_repair,
+    vertices: *mut u32,
+    vertices_capacity: usize,
+    faces: *mut u32,
+    faces_capacity: usize,
+    starts: *mut usize,
+    starts_capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let refused = &door.shared(repair)?.done.weld_refused;
+        let ends: Vec<u32> = refused.iter().flat_map(|edge| edge.vertices).collect();
+        let entries: Vec<u32> = refused.iter().flat_map(|edge| edge.faces.iter().copied()).collect();
+        let mut rows = vec![0];
+        rows.extend(refused.iter().scan(0, |end, edge| {
+            *end += edge.faces.len();
+            Some(*end)
+        }));
+        arrays::check_buffer("vertices", ends.len(), vertices, vertices_capacity)?;
+        copy_rows("faces", &entries, faces, faces_capacity, &rows, starts, starts_capacity)?;
+        copy_out("vertices", &ends, vertices, vertices_capacity)
+    })
+}
+
+/// The normals of the result, for a file that has them.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (there are none).
+///
+/// @param repair    the repair.
+/// @param normals   out: n_vertices x 3, of any length.
+/// @param capacity  entries of `normals`, at least 3 n_vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_repair_normals(
+    repair: *const ricci_repair,
+    normals: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let list = present("normals", &door.shared(repair)?.done.soup.attributes.normals)?;
+        copy_out("normals", list.as_flattened(), normals, capacity)
+    })
+}
+
+/// The colours of the result, for a file that has them.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (there are none).
+///
+/// @param repair    the repair.
+/// @param colors    out: n_vertices x 4: red, green, blue, opacity, from 0 to 1.
+/// @param capacity  entries of `colors`, at least 4 n_vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_repair_colors(
+    repair: *const ricci_repair,
+    colors: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let list = present("colors", &door.shared(repair)?.done.soup.attributes.colors)?;
+        copy_out("colors", list.as_flattened(), colors, capacity)
+    })
+}
+
+/// The texture coordinates of the result, for a file that has them.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (there are none).
+///
+/// @param repair    the repair.
+/// @param uv        out: n_faces x 3 x 2: u, v of every corner, v upwards.
+/// @param capacity  entries of `uv`, at least 6 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_repair_uv(
+    repair: *const ricci_repair,
+    uv: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let list = present("uv", &door.shared(repair)?.done.soup.attributes.uv)?;
+        copy_out("uv", list.as_flattened().as_flattened(), uv, capacity)
+    })
+}
+
+/// The normals of corners of the result, for a file that has them: at hard edges.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (there are none).
+///
+/// @param repair          the repair.
+/// @param corner_normals  out: n_faces x 3 x 3, of any length.
+/// @param capacity        entries of `corner_normals`, at least 9 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_repair_corner_normals(
+    repair: *const ricci_repair,
+    corner_normals: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let list = present("corner normals", &door.shared(repair)?.done.soup.attributes.corner_normals)?;
+        copy_out("corner_normals", list.as_flattened().as_flattened(), corner_normals, capacity)
+    })
+}
+
+/// Write the result, whatever defects are left, in the format that the file's name says, with its attributes; what the format
+/// has no place for is left out, with a warning to the callback of ricci_log_set.
+///
+/// A file of that name is replaced only once the new one is complete.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (an attribute is not finite),
+/// RICCI_TOO_LARGE.
+///
+/// @param repair  the repair.
+/// @param path    file name ending in .obj, .off, .ply or .glb, NUL-terminated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_repair_write(
+    repair: *const ricci_repair,
+    path: *const c_char,
+) -> ricci_status {
+    guard::call(|door| {
+        let soup = &door.shared(repair)?.done.soup;
+        let path = arrays::path("path", path)?;
+        for what in io::write(&path, soup)? {
+            log::warn!("{}: the format has no place for {what}: left out", path.display());
+        }
+        Ok(())
     })
 }
 

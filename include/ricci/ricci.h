@@ -140,6 +140,16 @@ typedef enum {
     RICCI_SPACE_S2 = 2,
 } ricci_space;
 
+/** How a texture goes on outside the unit square. */
+typedef enum {
+    /** Periodically. */
+    RICCI_WRAP_REPEAT = 0,
+    /** Periodically, every other time mirrored. */
+    RICCI_WRAP_MIRROR = 1,
+    /** With the colours of its border. */
+    RICCI_WRAP_CLAMP = 2,
+} ricci_wrap;
+
 /** Which bad triangles. */
 typedef enum {
     /** A vertex near the middle of a side: one angle near pi. */
@@ -269,12 +279,14 @@ typedef struct {
     int64_t euler;
     /** (2 - euler - boundary loops) / 2. */
     size_t genus;
-    /** Number of normals: V, or 0 if the mesh was not read from a file that has them. */
+    /** Number of normals of vertices: V, or 0 if the mesh was not read from a file that has them. */
     size_t n_normals;
     /** Number of colours: V, or 0. */
     size_t n_colors;
     /** Number of faces with texture coordinates: F, or 0. */
     size_t n_uv;
+    /** Number of faces with normals at their corners, instead of those of the vertices: F, or 0. */
+    size_t n_corner_normals;
 } ricci_mesh_summary;
 
 /** What is written beside positions and faces. Let ricci_mesh_attributes_init fill it, then change fields. */
@@ -287,6 +299,8 @@ typedef struct {
     const double *colors;
     /** Texture coordinates of the faces' corners, n_faces x 3 x 2, v upwards; NULL (default): none. */
     const double *uv;
+    /** Normals of the faces' corners, n_faces x 3 x 3, of any length, in place of those of the vertices; NULL (default): none. */
+    const double *corner_normals;
 } ricci_mesh_attributes;
 
 /** Counts of a triangle list. */
@@ -340,8 +354,9 @@ typedef struct {
     /** Bytes of this struct that are filled. */
     size_t size;
     /**
-     * Vertices within this distance become one; 0 (default): those in exactly the same place, unless that
-     * joins sheets in a non-manifold way; negative: no welding.
+     * Vertices within this distance become one; 0 (default): those in exactly the same place, where their faces
+     * are then connected through edges, but not in edges in which more than two faces would meet
+     * (ricci_repair_refused); negative: no welding.
      */
     double weld;
     /** 1 cuts the surface open along edges in which more than two faces meet; default 0. */
@@ -378,6 +393,10 @@ typedef struct {
     size_t faces_of_other_components;
     /** Vertices dropped because no face uses them. */
     size_t isolated_vertices;
+    /** Edges in which welding would have made more than two faces meet: ricci_repair_refused lists them. */
+    size_t refused_edges;
+    /** Faces of all these edges together. */
+    size_t refused_faces;
 } ricci_repair_summary;
 
 /** Figures of a metric. */
@@ -847,7 +866,8 @@ ricci_status ricci_mesh_attributes_init(ricci_mesh_attributes *attributes, size_
  * Write a mesh in the format that the file's name says, with the attributes that the format has.
  *
  * OBJ and OFF are text with 17 significant digits, PLY is binary, and positions read back as they are; GLB has 24 bits of the
- * distance from the centre of the mesh. A file of that name is replaced only once the new one is complete.
+ * distance from the centre of the mesh. What the format has no place for (in PLY and OFF, several normals at a vertex; in OFF,
+ * several texture coordinates) is left out, with a warning to the callback of ricci_log_set. A file of that name is replaced only once the new one is complete.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (the mesh is
  * intrinsic, or a number is not finite), RICCI_TOO_LARGE.
  *
@@ -872,7 +892,7 @@ ricci_status ricci_mesh_write_obj(const ricci_mesh *mesh,
                                   const char *path);
 
 /**
- * The normals that the mesh was read with.
+ * The normals of vertices that the mesh was read with.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
  *
@@ -903,6 +923,42 @@ ricci_status ricci_mesh_colors(const ricci_mesh *mesh, double *colors, size_t ca
  * @param capacity  entries of `uv`, at least 6 n_faces.
  */
 ricci_status ricci_mesh_uv(const ricci_mesh *mesh, double *uv, size_t capacity);
+
+/**
+ * The normals of corners that the mesh was read with: of one whose vertices have several, as at hard edges.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+ *
+ * @param mesh            the mesh.
+ * @param corner_normals  out: n_faces x 3 x 3, of any length.
+ * @param capacity        entries of `corner_normals`, at least 9 n_faces.
+ */
+ricci_status ricci_mesh_corner_normals(const ricci_mesh *mesh,
+                                       double *corner_normals,
+                                       size_t capacity);
+
+/**
+ * Write a mesh as binary glTF with a texture, whatever the file's name.
+ *
+ * A vertex with several texture coordinates is written once for each. A file of that name is replaced only once the new one
+ * is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (the mesh is intrinsic, a number is not
+ * finite, there are no texture coordinates, the texture is no PNG file, wrap is unknown), RICCI_TOO_LARGE.
+ *
+ * @param mesh        the mesh.
+ * @param attributes  what to write beside positions and faces, texture coordinates among it, or NULL for what the mesh was
+ *                    read with.
+ * @param png         the texture: a PNG file's png_size bytes.
+ * @param png_size    their number.
+ * @param wrap        what is outside the unit square.
+ * @param path        file name, NUL-terminated.
+ */
+ricci_status ricci_mesh_write_textured(const ricci_mesh *mesh,
+                                       const ricci_mesh_attributes *attributes,
+                                       const uint8_t *png,
+                                       size_t png_size,
+                                       ricci_wrap wrap,
+                                       const char *path);
 
 /**
  * The unit sphere: an icosahedron with each edge cut into n. 10 n^2 + 2 vertices.
@@ -1263,7 +1319,7 @@ ricci_status ricci_repair_options_init(ricci_repair_options *options, size_t siz
 /**
  * Mend what can be mended without a guess. Defects that are left are a result, not an error.
  *
- * Elements keep their order. Attributes are the caller's: the origins say where each element came from.
+ * Elements keep their order. Attributes of arrays are the caller's: the origins say where each element came from.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride, options, no such component), RICCI_TOO_LARGE,
  * RICCI_STRUCT_SIZE, RICCI_DEFECTS (a face that names no vertex or one without finite coordinates).
  *
@@ -1284,7 +1340,7 @@ ricci_status ricci_repair_arrays(const double *positions,
                                  ricci_repair **repair);
 
 /**
- * ricci_repair_arrays for a mesh file.
+ * ricci_repair_arrays for a mesh file, whose attributes stay with their elements.
  *
  * @return as ricci_repair_arrays; RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT.
  *
@@ -1349,6 +1405,87 @@ ricci_status ricci_repair_origins(const ricci_repair *repair,
                                   size_t vertices_capacity,
                                   uint32_t *faces,
                                   size_t faces_capacity);
+
+/**
+ * The edges that kept vertices in exactly the same place from being welded throughout.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param repair             the repair.
+ * @param vertices           out: refused_edges x 2 input vertices: the first in the place of either end.
+ * @param vertices_capacity  entries of `vertices`.
+ * @param faces              out: the refused_faces input faces that would meet, edge by edge.
+ * @param faces_capacity     entries of `faces`.
+ * @param starts             out: refused_edges + 1 entries: where each edge's faces start in `faces`, and their end.
+ * @param starts_capacity    entries of `starts`.
+ */
+ricci_status ricci_repair_refused(const ricci_repair *repair,
+                                  uint32_t *vertices,
+                                  size_t vertices_capacity,
+                                  uint32_t *faces,
+                                  size_t faces_capacity,
+                                  size_t *starts,
+                                  size_t starts_capacity);
+
+/**
+ * The normals of the result, for a file that has them.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (there are none).
+ *
+ * @param repair    the repair.
+ * @param normals   out: n_vertices x 3, of any length.
+ * @param capacity  entries of `normals`, at least 3 n_vertices.
+ */
+ricci_status ricci_repair_normals(const ricci_repair *repair, double *normals, size_t capacity);
+
+/**
+ * The colours of the result, for a file that has them.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (there are none).
+ *
+ * @param repair    the repair.
+ * @param colors    out: n_vertices x 4: red, green, blue, opacity, from 0 to 1.
+ * @param capacity  entries of `colors`, at least 4 n_vertices.
+ */
+ricci_status ricci_repair_colors(const ricci_repair *repair, double *colors, size_t capacity);
+
+/**
+ * The texture coordinates of the result, for a file that has them.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (there are none).
+ *
+ * @param repair    the repair.
+ * @param uv        out: n_faces x 3 x 2: u, v of every corner, v upwards.
+ * @param capacity  entries of `uv`, at least 6 n_faces.
+ */
+ricci_status ricci_repair_uv(const ricci_repair *repair, double *uv, size_t capacity);
+
+/**
+ * The normals of corners of the result, for a file that has them: at hard edges.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (there are none).
+ *
+ * @param repair          the repair.
+ * @param corner_normals  out: n_faces x 3 x 3, of any length.
+ * @param capacity        entries of `corner_normals`, at least 9 n_faces.
+ */
+ricci_status ricci_repair_corner_normals(const ricci_repair *repair,
+                                         double *corner_normals,
+                                         size_t capacity);
+
+/**
+ * Write the result, whatever defects are left, in the format that the file's name says, with its attributes; what the format
+ * has no place for is left out, with a warning to the callback of ricci_log_set.
+ *
+ * A file of that name is replaced only once the new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (an attribute is not finite),
+ * RICCI_TOO_LARGE.
+ *
+ * @param repair  the repair.
+ * @param path    file name ending in .obj, .off, .ply or .glb, NUL-terminated.
+ */
+ricci_status ricci_repair_write(const ricci_repair *repair,
+                                const char *path);
 
 /**
  * The defects that are left.

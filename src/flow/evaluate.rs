@@ -47,7 +47,7 @@ impl State {
     }
 
     /// [`State::evaluate`] after flips inside the class to the weighted Delaunay triangulation at `self.u`; returns also their
-    /// number, and tells `record` each edge before its flip.
+    /// number, keeps the `fixed` edges, and tells `record` each edge before its flip.
     ///
     /// An edge is Delaunay where its Laplacian weight, which Newton needs anyway, is not negative: the flips start at the others
     /// and at broken faces, and only what they touch is measured again.
@@ -55,13 +55,14 @@ impl State {
         &mut self,
         mesh: &mut Mesh,
         class: &mut Metric,
+        fixed: &[EdgeId],
         record: &mut dyn FnMut(&Mesh, EdgeId),
         seconds: &mut Seconds,
     ) -> Result<(bool, usize)> {
         let real = timed(&mut seconds.assemble, || self.measure(mesh, class));
         let mut touched = Vec::new();
         let flips = timed(&mut seconds.flip, || {
-            let mut queue = if real { self.suspects(mesh) } else { Queue::all(mesh) };
+            let mut queue = if real { self.suspects(mesh, fixed) } else { Queue::all(mesh, fixed) };
             restore_delaunay(mesh, class, &self.u, &mut queue, &mut |mesh, e| {
                 touched.push(e);
                 record(mesh, e);
@@ -120,8 +121,8 @@ impl State {
     }
 
     /// Edges of negative weight, and those of faces that have none: the only ones that may fail the Delaunay condition.
-    fn suspects(&self, mesh: &Mesh) -> Queue {
-        let mut queue = Queue::new(mesh.n_edges());
+    fn suspects(&self, mesh: &Mesh, fixed: &[EdgeId]) -> Queue {
+        let mut queue = Queue::new(mesh.n_edges(), fixed);
         let mut weight = vec![0.0; mesh.n_edges()];
         for f in mesh.faces() {
             let weights = self.weights[f.index()];

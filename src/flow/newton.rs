@@ -225,7 +225,13 @@ impl Run<'_> {
                 normal.record(mesh, e);
             }
         };
-        let (real, flips) = state.evaluate_delaunay(mesh, class, &mut record, &mut report.seconds)?;
+        let (real, flips) = state.evaluate_delaunay(
+            mesh,
+            class,
+            &self.options.fixed_edges,
+            &mut record,
+            &mut report.seconds,
+        )?;
         report.flips += flips;
         Ok(real)
     }

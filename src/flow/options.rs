@@ -1,6 +1,7 @@
 //! What a flow can be asked.
 
 use crate::error::{Error, Result};
+use crate::mesh::EdgeId;
 
 /// How the target is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -56,6 +57,8 @@ pub struct Options {
     pub max_step: f64,
     /// Default `Auto`.
     pub flips: Flips,
+    /// Edges that are not flipped: seams, feature lines. Default none. Targets that only their flips would reach are then out of reach.
+    pub fixed_edges: Vec<EdgeId>,
     /// Threads of this flow's own pool; 0 (default) is one per core. The result does not depend on it.
     pub threads: usize,
     /// Options of [`Method::Gradient`].
@@ -70,6 +73,7 @@ impl Default for Options {
             max_iterations: 0,
             max_step: 3.0,
             flips: Flips::Auto,
+            fixed_edges: Vec::new(),
             threads: 0,
             gradient: Gradient::default(),
         }

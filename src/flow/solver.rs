@@ -55,6 +55,10 @@ impl Solver {
     /// A solver for `metric` on `mesh`. Errors: wrong sizes, variables outside the metric's domain, bad options.
     pub fn new(mesh: Mesh, metric: Metric, options: Options) -> Result<Solver> {
         options.check()?;
+        if let Some(e) = options.fixed_edges.iter().find(|e| e.index() >= mesh.n_edges()) {
+            let value = e.to_string();
+            return Err(Error::Argument { what: "fixed edge", value, need: "an existing edge" });
+        }
         let pool = Pool::new(options.threads)?;
         pool.run(|| metric.lengths(&mesh).map(|_| ()))?;
         let pinned = vec![false; mesh.n_vertices()];

@@ -4,7 +4,7 @@ use super::options::{Flips, Method, Options};
 use super::report::Report;
 use super::solver::Solver;
 use crate::control::Control;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::mesh::{Double, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::refinement::{Final, Input};
@@ -59,6 +59,14 @@ impl SurfaceFlow {
             Some(double) => (double.mesh.clone(), double.spread_edges(lengths).into()),
             None => (given.clone(), lengths.clone()),
         };
+        if let Some(e) = options.fixed_edges.iter().find(|e| e.index() >= given.n_edges()) {
+            let value = e.to_string();
+            return Err(Error::Argument { what: "fixed edge", value, need: "an existing edge" });
+        }
+        let fixed = match &double {
+            Some(double) => double.with_images(&options.fixed_edges),
+            None => options.fixed_edges.clone(),
+        };
         let mut normal = NormalCoordinates::new(&mesh);
         let mut start_flips = 0;
         let initial = Pool::new(options.threads)?.run(|| {
@@ -67,9 +75,10 @@ impl SurfaceFlow {
                 start_flips += 1;
             };
             let double = double.as_ref();
-            delaunay_start(&mut mesh, &mut lengths, geometry, scheme, space, double, &mut record)
+            delaunay_start(&mut mesh, &mut lengths, geometry, scheme, space, double, &fixed, &mut record)
         })?;
-        let mut solver = Solver::new(mesh, initial.metric.clone(), options.clone())?;
+        let options = Options { fixed_edges: fixed, ..options.clone() };
+        let mut solver = Solver::new(mesh, initial.metric.clone(), options)?;
         solver.follow(normal)?;
         solver.pin(pinned)?;
         if let Some(double) = &double {

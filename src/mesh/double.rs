@@ -85,6 +85,14 @@ impl Double {
         self.edge_origin.iter().map(|&e| values[e as usize]).collect()
     }
 
+    /// These edges of the surface, and their mirror images.
+    pub fn with_images(&self, edges: &[EdgeId]) -> Vec<EdgeId> {
+        let mut chosen = vec![false; self.counts[1]];
+        edges.iter().filter(|e| e.index() < self.counts[1]).for_each(|e| chosen[e.index()] = true);
+        let all = (0..self.edge_origin.len()).filter(|&e| chosen[self.edge_origin[e] as usize]);
+        all.map(|e| EdgeId(e as u32)).collect()
+    }
+
     /// Per vertex of the double, the value of the vertex that it is or mirrors (V entries).
     pub fn spread_vertices<T: Copy>(&self, values: &[T]) -> Vec<T> {
         let n = self.counts[0];

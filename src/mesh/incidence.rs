@@ -50,20 +50,30 @@ impl Incidence {
 
     /// The corners in sets: those of one fan of faces around a vertex, connected through edges of at most `most` faces.
     pub fn fans(&self, faces: &[[u32; 3]], most: usize) -> UnionFind {
+        let mut corners = UnionFind::new(3 * faces.len());
+        self.join_fans(faces, |sides| sides.len() <= most, &mut corners);
+        corners
+    }
+
+    /// Join the corners of each fan through edges that are to hold it together.
+    pub fn join_fans(
+        &self,
+        faces: &[[u32; 3]],
+        mut through: impl FnMut(&[u32]) -> bool,
+        corners: &mut UnionFind,
+    ) {
         // Corner 3f + k is where side 3f + k starts; the next corner is where it ends.
         let corners_of = |s: u32| {
             let (start, end) = (s, 3 * (s / 3) + (s % 3 + 1) % 3);
             if is_forward(faces, s) { (start, end) } else { (end, start) }
         };
-        let mut corners = UnionFind::new(3 * faces.len());
-        for sides in self.edges().filter(|sides| sides.len() <= most) {
+        for sides in self.edges().filter(|sides| through(sides)) {
             for pair in sides.windows(2) {
                 let ((a, b), (c, d)) = (corners_of(pair[0]), corners_of(pair[1]));
                 corners.join(a, c);
                 corners.join(b, d);
             }
         }
-        corners
     }
 
     /// Per vertex: how many fans of edge-connected faces touch it.

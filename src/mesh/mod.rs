@@ -9,6 +9,7 @@ pub mod halfedge;
 pub mod ids;
 mod incidence;
 pub mod io;
+mod join;
 pub mod normal;
 pub mod normal_trace;
 pub mod repair;

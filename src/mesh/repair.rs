@@ -1,8 +1,10 @@
 //! Repair of triangle lists, as far as it needs no guess.
 
-use super::check::{Diagnosis, diagnose};
+use super::check::{Defect, Diagnosis, diagnose};
 use super::incidence::{Incidence, NONE, UnionFind, components, is_forward};
 use super::io::{Attributes, Soup};
+pub use super::join::RefusedWeld;
+use super::join::join;
 use super::weld::{check_tolerance, coincident};
 use crate::error::{Error, Result};
 use std::collections::{HashSet, VecDeque};
@@ -12,7 +14,8 @@ use std::collections::{HashSet, VecDeque};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Repair {
     /// Vertices within this distance become one (transitively; the first one's position stays); 0: those in exactly the same
-    /// place, unless that would join sheets in a non-manifold way; `None`: no welding. Default 0.
+    /// place, where their faces are then connected through edges; in edges in which more than two faces would meet it is refused
+    /// ([`Repaired::weld_refused`]); `None`: no welding. Default 0.
     pub weld: Option<f64>,
     /// Cut the surface open along edges in which more than two faces meet. Default no: which faces belong together would be a
     /// guess.
@@ -59,6 +62,8 @@ pub struct Repaired {
     pub face_origin: Vec<u32>,
     /// What was done.
     pub steps: Steps,
+    /// The edges that kept vertices in exactly the same place from being welded throughout.
+    pub weld_refused: Vec<RefusedWeld>,
     /// What is left: defects that cannot be mended without a guess.
     pub diagnosis: Diagnosis,
 }
@@ -75,7 +80,9 @@ pub fn repair(soup: &Soup, options: &Repair) -> Result<Repaired> {
         turned: vec![false; soup.faces.len()],
         vertex_origin: (0..soup.positions.len() as u32).collect(),
         steps: Steps::default(),
+        weld_refused: Vec::new(),
     };
+    work.drop_bad_faces();
     work.weld(soup, options.weld)?;
     work.drop_bad_faces();
     work.separate(options.cut_non_manifold_edges);
@@ -110,16 +117,6 @@ fn sorted(mut face: [u32; 3]) -> [u32; 3] {
     face
 }
 
-/// Edges with more than two faces and vertices with more than one fan, among the faces that will be kept.
-fn non_manifold(faces: &[[u32; 3]], n_vertices: usize) -> usize {
-    let mut seen = HashSet::with_capacity(faces.len());
-    let kept = |face: &&[u32; 3]| is_proper(face) && seen.insert(sorted(**face));
-    let faces: Vec<[u32; 3]> = faces.iter().filter(kept).copied().collect();
-    let incidence = Incidence::new(n_vertices, &faces);
-    let edges = incidence.edges().filter(|sides| sides.len() > 2).count();
-    edges + incidence.sheets(&faces).into_iter().filter(|&fans| fans > 1).count()
-}
-
 /// The list under repair.
 struct Work {
     faces: Vec<[u32; 3]>,
@@ -129,6 +126,7 @@ struct Work {
     /// Per vertex: the input's vertex.
     vertex_origin: Vec<u32>,
     steps: Steps,
+    weld_refused: Vec<RefusedWeld>,
 }
 
 impl Work {
@@ -140,16 +138,18 @@ impl Work {
         let Some(tolerance) = tolerance else { return Ok(()) };
         check_tolerance(tolerance)?;
         let first = coincident(&soup.positions, tolerance);
-        let welded = first.iter().enumerate().filter(|&(v, &to)| v as u32 != to).count();
-        if welded == 0 {
-            return Ok(());
+        if tolerance == 0.0 {
+            (self.faces, self.weld_refused) = join(&self.faces, &first);
+            for face in self.weld_refused.iter_mut().flat_map(|refused| &mut refused.faces) {
+                *face = self.origin[*face as usize];
+            }
+        } else {
+            self.faces.as_flattened_mut().iter_mut().for_each(|v| *v = first[*v as usize]);
         }
-        let faces: Vec<[u32; 3]> = self.faces.iter().map(|f| f.map(|v| first[v as usize])).collect();
-        if tolerance == 0.0 && non_manifold(&faces, first.len()) > non_manifold(&self.faces, first.len()) {
-            return Ok(());
-        }
-        self.faces = faces;
-        self.steps.welded_vertices = welded;
+        let mut used = vec![false; first.len()];
+        self.faces.as_flattened().iter().for_each(|&v| used[v as usize] = true);
+        let gone = |&(v, &to): &(usize, &u32)| v as u32 != to && !used[v];
+        self.steps.welded_vertices = first.iter().enumerate().filter(gone).count();
         Ok(())
     }
 
@@ -168,10 +168,10 @@ impl Work {
 
     fn drop_bad_faces(&mut self) {
         let proper: Vec<bool> = self.faces.iter().map(is_proper).collect();
-        self.steps.degenerate_faces = self.retain(&proper);
+        self.steps.degenerate_faces += self.retain(&proper);
         let mut seen = HashSet::with_capacity(self.faces.len());
         let first: Vec<bool> = self.faces.iter().map(|&face| seen.insert(sorted(face))).collect();
-        self.steps.duplicate_faces = self.retain(&first);
+        self.steps.duplicate_faces += self.retain(&first);
     }
 
     /// A vertex of its own for every fan of faces. With `cut`, edges with more than two faces hold no fan together.
@@ -277,22 +277,30 @@ impl Work {
             list.as_ref()?.first()?;
             list.as_ref().map(|list| origin.iter().map(|&v| list[v as usize]).collect())
         }
-        let mut uv = picked(&soup.attributes.uv, &self.origin);
-        for (uv, _) in uv.iter_mut().flatten().zip(&self.turned).filter(|(_, turned)| **turned) {
-            uv.swap(1, 2);
+        fn at_corners<T: Copy>(list: &Option<Vec<[T; 3]>>, work: &Work) -> Option<Vec<[T; 3]>> {
+            let mut list = picked(list, &work.origin);
+            for (corners, _) in list.iter_mut().flatten().zip(&work.turned).filter(|(_, turned)| **turned) {
+                corners.swap(1, 2);
+            }
+            list
         }
         let attributes = Attributes {
             normals: picked(&soup.attributes.normals, &vertex_origin),
             colors: picked(&soup.attributes.colors, &vertex_origin),
-            uv,
+            corner_normals: at_corners(&soup.attributes.corner_normals, &self),
+            uv: at_corners(&soup.attributes.uv, &self),
         };
         let positions: Vec<_> = vertex_origin.iter().map(|&v| soup.positions[v as usize]).collect();
-        let diagnosis = diagnose(&positions, &faces);
+        let mut diagnosis = diagnose(&positions, &faces);
+        if let Some(Defect::Empty { collapsed }) = diagnosis.defects.first_mut() {
+            *collapsed = self.steps.degenerate_faces;
+        }
         Repaired {
             soup: Soup { positions, faces, attributes },
             vertex_origin,
             face_origin: self.origin,
             steps: self.steps,
+            weld_refused: self.weld_refused,
             diagnosis,
         }
     }

@@ -26,25 +26,30 @@ pub struct Queue {
 }
 
 impl Queue {
-    /// No edge of a surface with this many.
-    pub fn new(n_edges: usize) -> Queue {
-        Queue { waiting: VecDeque::new(), queued: PerEdge::filled(n_edges, false) }
+    /// No edge of a surface with this many; `fixed` edges never enter it, and so are never flipped.
+    pub fn new(n_edges: usize, fixed: &[EdgeId]) -> Queue {
+        let mut queued = PerEdge::filled(n_edges, false);
+        fixed.iter().for_each(|&e| queued[e] = true);
+        Queue { waiting: VecDeque::new(), queued }
     }
 
-    /// Every edge of a surface.
-    pub fn all(mesh: &Mesh) -> Queue {
-        Queue { waiting: mesh.edges().collect(), queued: PerEdge::filled(mesh.n_edges(), true) }
+    /// Every edge of a surface but the `fixed` ones.
+    pub fn all(mesh: &Mesh, fixed: &[EdgeId]) -> Queue {
+        let mut queue = Queue::new(mesh.n_edges(), fixed);
+        mesh.edges().for_each(|e| queue.push(e));
+        queue
     }
 
-    /// The edges between two faces of which `holds`, looked at in parallel, says so of a half-edge.
-    fn where_holds(mesh: &Mesh, holds: impl Fn(HalfedgeId) -> bool + Sync) -> Queue {
-        let mut queued = vec![false; mesh.n_edges()];
-        parallel::fill(&mut queued, |e| {
+    /// The edges between two faces of which `holds`, asked in parallel, says so of a half-edge; `fixed` ones never.
+    fn where_holds(mesh: &Mesh, fixed: &[EdgeId], holds: impl Fn(HalfedgeId) -> bool + Sync) -> Queue {
+        let mut held = vec![false; mesh.n_edges()];
+        parallel::fill(&mut held, |e| {
             let h = EdgeId::from(e).halfedge();
             between(mesh, h) && holds(h)
         });
-        let waiting = mesh.edges().filter(|e| queued[e.index()]).collect();
-        Queue { waiting, queued: queued.into() }
+        let mut queue = Queue::new(mesh.n_edges(), fixed);
+        mesh.edges().filter(|e| held[e.index()]).for_each(|e| queue.push(e));
+        queue
     }
 
     /// Look at this edge.
@@ -142,13 +147,14 @@ pub fn restore_delaunay(
 /// Isometric flips until the triangulation is the intrinsic Delaunay one of the surface (weighted by circles of these `radii`
 /// around its vertices, 0 for none; `lengths` in `geometry`): it depends on the surface and the circles alone, up to ties.
 ///
-/// Returns the number of flips. Errors: sizes; a length out of range, a face that breaks the triangle inequality;
+/// `fixed` edges stay (indices of the mesh). Returns the number of flips. Errors: sizes; a length out of range, a face that breaks the triangle inequality;
 /// [`Error::Connectivity`] if the flips do not end.
 pub fn intrinsic_delaunay(
     mesh: &mut Mesh,
     lengths: &mut PerEdge<f64>,
     radii: Option<&PerVertex<f64>>,
     geometry: Space,
+    fixed: &[EdgeId],
     record: &mut dyn FnMut(&Mesh, EdgeId),
 ) -> Result<usize> {
     check_lengths(mesh, lengths)?;
@@ -175,7 +181,7 @@ pub fn intrinsic_delaunay(
         let length = diagonal(geometry, near, far, at_origin);
         (length > 0.0 && length.is_finite()).then_some(length)
     };
-    let mut queue = Queue::where_holds(mesh, |h| fails(mesh, lengths, h));
+    let mut queue = Queue::where_holds(mesh, fixed, |h| fails(mesh, lengths, h));
     queue.run(mesh, lengths, decide, record).ok_or_else(endless)
 }
 
@@ -235,7 +241,8 @@ fn endless() -> Error {
 /// The edges that fail the weighted Delaunay condition at variables `u` and can be flipped, ascending.
 pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> {
     let w = weights(metric, u);
-    Queue::where_holds(mesh, |h| hinge(mesh, h, &metric.epsilon, &metric.eta, &w).wants_flip()).waiting.into()
+    let fails = |h| hinge(mesh, h, &metric.epsilon, &metric.eta, &w).wants_flip();
+    Queue::where_holds(mesh, &[], fails).waiting.into()
 }
 
 /// `w` of every vertex at variables `u`.

@@ -19,7 +19,7 @@ const APART: f64 = 0.5;
 /// vertices of a `double`, then the weighted Delaunay
 /// triangulation of those circles. Thurston's and tangential packings, which are Delaunay on any triangulation, stay on the given one.
 ///
-/// `record` is told each edge just before its flip. Errors: those of [`initial_metric`] and [`intrinsic_delaunay`].
+/// `fixed` edges are not flipped; `record` is told each edge just before its flip. Errors: those of [`initial_metric`] and [`intrinsic_delaunay`].
 pub fn delaunay_start(
     mesh: &mut Mesh,
     lengths: &mut PerEdge<f64>,
@@ -27,12 +27,13 @@ pub fn delaunay_start(
     scheme: Scheme,
     space: Space,
     double: Option<&Double>,
+    fixed: &[EdgeId],
     record: &mut dyn FnMut(&Mesh, EdgeId),
 ) -> Result<Initial> {
     if matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
         return initial_metric(mesh, lengths, input_geometry, scheme, space);
     }
-    intrinsic_delaunay(mesh, lengths, None, input_geometry, record)?;
+    intrinsic_delaunay(mesh, lengths, None, input_geometry, fixed, record)?;
     let initial = initial_metric(mesh, lengths, input_geometry, scheme, space)?;
     if scheme != Scheme::Inversive {
         return Ok(initial);
@@ -42,7 +43,7 @@ pub fn delaunay_start(
     if let Some(double) = double {
         radii = PerVertex::from_fn(radii.len(), |v| radii[v].min(radii[double.mirror(v)]));
     }
-    intrinsic_delaunay(mesh, lengths, Some(&radii), input_geometry, record)?;
+    intrinsic_delaunay(mesh, lengths, Some(&radii), input_geometry, fixed, record)?;
     let epsilon = PerVertex::filled(mesh.n_vertices(), scheme.epsilon());
     initial_mixed(mesh, lengths, input_geometry, epsilon, radii, space)
 }

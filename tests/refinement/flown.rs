@@ -36,7 +36,7 @@ pub fn flow(
         normal.record(mesh, e);
     };
     let start =
-        delaunay_start(&mut mesh, &mut lengths, Space::E2, scheme, space, double, &mut record).unwrap();
+        delaunay_start(&mut mesh, &mut lengths, Space::E2, scheme, space, double, &[], &mut record).unwrap();
     let mut metric = start.metric;
     let options = Options { flips: Flips::Auto, ..Options::default() };
     let mut solver = Solver::new(mesh.clone(), metric.clone(), options).unwrap();
@@ -48,7 +48,7 @@ pub fn flow(
     for step in 1..=20 {
         let s = f64::from(step) / 20.0;
         let u = PerVertex::from_fn(from.len(), |v: VertexId| (1.0 - s) * from[v] + s * to[v]);
-        let mut queue = Queue::new(mesh.n_edges());
+        let mut queue = Queue::new(mesh.n_edges(), &[]);
         failing(&mesh, &metric, &u).into_iter().for_each(|e| queue.push(e));
         restore_delaunay(&mut mesh, &mut metric, &u, &mut queue, &mut record).unwrap();
         metric.u = u;

@@ -5,6 +5,7 @@
 
 mod charts;
 mod files;
+mod flips;
 mod flow;
 mod info;
 mod make;

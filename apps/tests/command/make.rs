@@ -80,6 +80,26 @@ fn noise_is_seeded() {
 }
 
 #[test]
+fn inversions_are_made_on_demand() {
+    let place = Place::new();
+    // About a point of its axis: a torus of revolution again, with the outside outside.
+    place.expect(0, "make torus -n 24 -o t.obj");
+    place.expect(0, "make torus -n 24 --invert -5,0,0,4 -o i.obj --report r.json");
+    place.expect(0, "make torus -n 24 --invert -5,0,0,4 -o i.obj --quiet");
+    assert_eq!(place.json("r.json")["input"]["genus"], 1);
+    let modulus = |file: &str| {
+        place.expect(0, &format!("flow {file} --report f.json"));
+        numbers(&place.json("f.json")["result"]["modulus"])
+    };
+    // A conformal map of space: the same modulus, but for what a coarse mesh makes of it.
+    let (before, after) = (modulus("t.obj"), modulus("i.obj"));
+    assert!((before[1] - after[1]).abs() < 0.05 * before[1], "{before:?} {after:?}");
+    for wrong in ["0,0,0", "0,0,0,0", "3,0,0,1", "0,0,0,x"] {
+        place.expect(2, &format!("make torus -n 24 --invert {wrong} -o x.obj"));
+    }
+}
+
+#[test]
 fn holes_and_bad_triangles_are_made_on_demand() {
     let place = Place::new();
     for (line, genus, loops) in [
@@ -88,6 +108,8 @@ fn holes_and_bad_triangles_are_made_on_demand() {
         ("torus -n 40 --holes 2 --slivers 9 --sliver-angle 1e-5", 1, 2),
         ("genus -g 3 -n 3 --ratio 2", 3, 0),
         ("knot -n 120", 1, 0),
+        ("disk -n 8 --holes 2", 0, 3),
+        ("genus -n 2 --holes 3", 2, 3),
         ("sphere --grade 3,10 --slivers 5 --sliver-kind needle", 0, 0),
     ] {
         place.expect(0, &format!("make {line} -o m.ply --report r.json"));
@@ -144,7 +166,9 @@ fn what_cannot_be_made_is_exit_2() {
         "make hyperelliptic --at 0 --at 1,0 --at 2,0 -o m.json",
         "make knot -p 2 -q 4 -o m.obj",
         "make genus -g 2 --ratio 50 -o m.obj",
-        "make sphere -n 1 --holes 1 -o m.obj",
+        "make sphere -n 1 --holes 3 -o m.obj",
+        "make knot -n 3 -o m.obj",
+        "make sphere -n 4 --grade 0,50 -o m.obj",
         "make sphere --grade 3 -o m.obj",
         "make sphere --slivers 1 --sliver-angle 1 -o m.obj",
         "make bolza -l 40 -o m.json",

@@ -77,3 +77,64 @@ fn welding_is_asked_for_by_distance() {
     place.expect(0, "info out.obj --report r.json");
     assert_eq!(place.json("r.json")["input"]["vertices"], 4);
 }
+
+#[test]
+fn a_weld_that_is_refused_is_told() {
+    let place = Place::new();
+    // Three loose pages of a book, and the corners of a fourth triangle all within the tolerance.
+    let pages = "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 0 0\nv 0 0 1\nv -1 1 0\nv 0 0 0\nv 0 0 1\nv -1 -1 0\n";
+    place.put("book.obj", &format!("{pages}f 1 2 3\nf 4 5 6\nf 7 8 9\n"));
+    let ended = place.expect(1, "repair book.obj -o out.obj --report r.json");
+    assert!(ended.out.contains("not welded throughout: 1 edge"), "{}", ended.out);
+    let refused = place.json("r.json")["result"]["weld_refused"][0].clone();
+    assert_eq!(refused["faces"], serde_json::json!([0, 1, 2]));
+    let ended = place.expect(1, "repair book.obj -o out.obj --weld 1e-9");
+    assert!(ended.out.contains("ricci repair --cut-edges"), "{}", ended.out);
+    // Everything collapses: the remedy is a smaller distance, not another file.
+    let ended = place.expect(1, "repair book.obj -o out.obj --weld 9");
+    assert!(
+        ended.out.contains("all 3 use a vertex twice") && ended.out.contains("smaller distance"),
+        "{}",
+        ended.out
+    );
+}
+
+#[test]
+fn corners_of_stl_are_welded_for_every_command() {
+    let place = Place::new();
+    // A square whose triangles miss each other.
+    let facet = |corners: [&str; 3]| {
+        let loops: String = corners.iter().map(|c| format!("vertex {c}\n")).collect();
+        format!("facet normal 0 0 1\nouter loop\n{loops}endloop\nendfacet\n")
+    };
+    let (one, two) = (facet(["0 0 0", "1 0 0", "1 1 0"]), facet(["0 0.001 0", "1 1.001 0", "0 1 0"]));
+    place.put("slit.stl", &format!("solid s\n{one}{two}endsolid s\n"));
+    place.expect(3, "flow slit.stl");
+    place.expect(0, "flow slit.stl --weld 0.002 --report f.json");
+    assert_eq!(place.json("f.json")["options"]["weld"], 0.002);
+    for (weld, vertices) in [("", 6), (" --weld 0", 6), (" --weld 0.002", 4)] {
+        place.expect(0, &format!("info slit.stl{weld} --report r.json"));
+        assert_eq!(place.json("r.json")["input"]["vertices"], vertices);
+    }
+    place.expect(0, "make torus -o t.obj");
+    place.expect(2, "info t.obj --weld 1");
+    place.expect(2, "flow t.json --weld 1");
+}
+
+#[test]
+fn what_the_format_has_no_place_for_is_said() {
+    let place = Place::new();
+    // A square whose halves have different normals and places in the texture.
+    place.put(
+        "hard.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nvn 0 1 1\nf 1/1/1 2/1/1 3/1/1\nf 1/2/2 3/2/2 4/2/2\n",
+    );
+    let left_out = |out: &str| {
+        let said = place.expect(0, &format!("repair hard.obj -o {out} --report r.json")).out;
+        let list = place.json("r.json")["result"]["left_out"].as_array().unwrap().clone();
+        assert!(list.iter().all(|what| said.contains(&format!("left out: {}", what.as_str().unwrap()))));
+        assert_eq!(said.contains("left out"), !list.is_empty());
+        list.len()
+    };
+    assert_eq!(["o.obj", "o.glb", "o.ply", "o.off"].map(left_out), [0, 0, 1, 2]);
+}

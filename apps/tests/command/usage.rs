@@ -178,3 +178,22 @@ fn quiet_says_nothing() {
     let ended = place.expect(0, "flow torus.obj --quiet --metric m.json");
     assert!(ended.out.is_empty() && ended.err.is_empty());
 }
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_is_replaced_keeps_its_permissions_and_its_links() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let place = surfaces();
+    let at = |name: &str| place.path(name);
+    for name in ["real.obj", "real.json"] {
+        std::fs::write(at(name), "old").unwrap();
+        std::fs::set_permissions(at(name), std::fs::Permissions::from_mode(0o600)).unwrap();
+        symlink(name, at(&format!("link-{name}"))).unwrap();
+    }
+    place.expect(0, "repair torus.obj -o link-real.obj --report link-real.json");
+    for name in ["real.obj", "real.json"] {
+        assert!(std::fs::symlink_metadata(at(&format!("link-{name}"))).unwrap().is_symlink(), "{name}");
+        let file = std::fs::metadata(at(name)).unwrap();
+        assert!(file.len() > 100 && file.permissions().mode() & 0o777 == 0o600, "{name}");
+    }
+}

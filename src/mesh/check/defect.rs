@@ -5,7 +5,10 @@
 #[non_exhaustive]
 pub enum Defect {
     /// There is no face.
-    Empty,
+    Empty {
+        /// Faces that were given to a repair and collapsed, all of them; 0 where there were none.
+        collapsed: usize,
+    },
     /// A face names a vertex that does not exist.
     IndexOutOfRange {
         /// The face.
@@ -84,7 +87,7 @@ impl Defect {
     /// Stable name of the kind.
     pub fn code(&self) -> &'static str {
         match self {
-            Defect::Empty => "empty",
+            Defect::Empty { .. } => "empty",
             Defect::IndexOutOfRange { .. } => "index_out_of_range",
             Defect::NonFiniteCoordinate { .. } => "non_finite_coordinate",
             Defect::DegenerateFace { .. } => "degenerate_face",
@@ -102,26 +105,35 @@ impl Defect {
     /// What can be done about it.
     pub fn remedy(&self) -> &'static str {
         match self {
-            Defect::Empty => "give a file with triangles (a point cloud has no surface)",
+            Defect::Empty { collapsed: 0 } => "give a file with triangles (a point cloud has no surface)",
+            Defect::Empty { .. } => "weld within a smaller distance: ricci repair --weld DISTANCE",
             Defect::IndexOutOfRange { .. } => {
                 "the file is cut short or its indices are wrong; export it again"
             }
             Defect::NonFiniteCoordinate { .. } => "export the file again with finite coordinates",
             Defect::DegenerateFace { .. } => "drop the face: ricci repair",
             Defect::DuplicateFace { .. } => "drop the later face: ricci repair",
-            Defect::NonManifoldEdge { .. } => "remove the surplus faces, or cut the surface open there",
-            Defect::NonManifoldVertex { sheets: 0..=1, .. } => "mend the non-manifold edge that ends there",
+            Defect::NonManifoldEdge { .. } => {
+                "cut the surface open there: ricci repair --cut-edges; or remove the surplus faces"
+            }
+            Defect::NonManifoldVertex { sheets: 0..=1, .. } => {
+                "mend the non-manifold edge that ends there: ricci repair --cut-edges"
+            }
             Defect::NonManifoldVertex { .. } => "give each sheet a vertex of its own: ricci repair",
             Defect::InconsistentOrientation { meeting: 0..=2, .. } => {
                 "turn faces until neighbours agree: ricci repair"
             }
             Defect::InconsistentOrientation { .. } => {
-                "turning faces cannot help where more than two meet; mend the non-manifold edge first"
+                "turning faces cannot help where more than two meet; mend the non-manifold edge first: ricci repair --cut-edges"
             }
             Defect::NonOrientable { .. } => {
-                "one-sided surfaces have no conformal structure; use its double cover"
+                "one-sided surfaces have no conformal structure and no command makes a two-sided one of it: remove the \
+                 strip's faces, or another band across it, where the file was made"
             }
-            Defect::ZeroAreaFace { .. } => "collapse its shortest edge or flip its longest",
+            Defect::ZeroAreaFace { .. } => {
+                "join corners that nearly coincide: ricci repair --weld DISTANCE; no command mends three corners on a \
+                 line, so remesh there"
+            }
             Defect::IsolatedVertex { .. } => "drop the vertex: ricci repair",
             Defect::SeveralComponents { .. } => "take one: ricci repair --component K",
         }
@@ -160,7 +172,10 @@ impl Defect {
 impl std::fmt::Display for Defect {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Defect::Empty => write!(f, "there are no faces"),
+            Defect::Empty { collapsed: 0 } => write!(f, "there are no faces"),
+            Defect::Empty { collapsed } => {
+                write!(f, "no face is left: all {collapsed} use a vertex twice after welding")
+            }
             Defect::IndexOutOfRange { face, index } => {
                 write!(f, "face {face} uses vertex {index}, which does not exist")
             }

@@ -13,7 +13,7 @@ pub(in crate::mesh) fn diagnose_gluing(
 ) -> Diagnosis {
     let mut defects = Vec::new();
     if faces.is_empty() {
-        defects.push(Defect::Empty);
+        defects.push(Defect::Empty { collapsed: 0 });
     }
     // Half-edges leaving a vertex are in one fan when a corner or a gluing joins them: h and the half-edge
     // opposite the previous one of its face.

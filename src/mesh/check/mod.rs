@@ -102,7 +102,7 @@ pub(super) fn diagnose_incidence(faces: &[[u32; 3]], incidence: &Incidence) -> D
     let n = incidence.n_vertices;
     let mut defects = Vec::new();
     if faces.is_empty() {
-        defects.push(Defect::Empty);
+        defects.push(Defect::Empty { collapsed: 0 });
     }
     let in_range = |v: &u32| (*v as usize) < n;
     for (face, corners) in (0u32..).zip(faces) {

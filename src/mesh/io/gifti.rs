@@ -25,7 +25,7 @@ pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
     let mut root = false;
     loop {
         let event = reader.read_event();
-        let place = Place { path, line: lines.until(reader.buffer_position()) };
+        let place = Place::line(path, lines.until(reader.buffer_position()));
         match event {
             Ok(Event::Start(tag)) if !root => {
                 if tag.name().0 != "GIFTI" {
@@ -50,7 +50,7 @@ pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
             Err(e) => return place.error(format!("this is no XML: {e}")),
         }
     }
-    arrays.soup(Place { path, line: 0 })
+    arrays.soup(Place::whole(path))
 }
 
 /// Line numbers of positions that grow.

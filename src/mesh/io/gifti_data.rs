@@ -2,8 +2,9 @@
 
 use super::base64;
 use super::budget::Budget;
-use super::scan::Place;
-use crate::error::Result;
+use super::kind::Kind;
+use super::scan::{Place, Quoted};
+use crate::error::{At, Result};
 use flate2::read::{GzDecoder, ZlibDecoder};
 use quick_xml::events::BytesStart;
 use std::io::Read;
@@ -84,10 +85,11 @@ impl Header {
         budget: &mut Budget,
         place: Place<'_>,
     ) -> Result<Table> {
-        let Some(kind) = Kind::new(&self.data_type) else {
+        let name = self.data_type.strip_prefix("NIFTI_TYPE_").map(str::to_ascii_lowercase);
+        let Some(kind) = name.and_then(|name| Kind::named(&name)) else {
             return place.error(format!("{what} of DataType=\"{}\" are not known", self.data_type));
         };
-        if what == "triangles" && matches!(kind, Kind::F32 | Kind::F64) {
+        if what == "triangles" && !kind.is_integer() {
             return place.error(format!("{what} of DataType=\"{}\" have no integers", self.data_type));
         }
         let (rows, true) = (self.dims[0], self.dimensionality == 2 && self.dims[1] == 3) else {
@@ -179,10 +181,13 @@ fn ascii(what: &str, text: &str, count: usize, place: Place<'_>) -> Result<Vec<f
     let mut numbers = Vec::new();
     let mut last = place;
     for (i, line) in text.split('\n').enumerate() {
-        last = Place { line: place.line + i, ..place };
+        if let At::Line(first) = place.at {
+            last = Place::line(place.path, first + i);
+        }
         for token in line.split_ascii_whitespace() {
             if numbers.len() == count {
-                return last.error(format!("{what}: `{token}` comes after the last of {count} numbers"));
+                return last
+                    .error(format!("{what}: {} comes after the last of {count} numbers", Quoted(token)));
             }
             numbers.push(last.number(Some(token), format_args!("{what}:"))?);
         }
@@ -191,65 +196,6 @@ fn ascii(what: &str, text: &str, count: usize, place: Place<'_>) -> Result<Vec<f
         return last.error(format!("{what}: the data end after {} of {count} numbers", numbers.len()));
     }
     Ok(numbers)
-}
-
-/// Types of numbers.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    I64,
-    U64,
-    F32,
-    F64,
-}
-
-impl Kind {
-    fn new(name: &str) -> Option<Kind> {
-        Some(match name.strip_prefix("NIFTI_TYPE_")? {
-            "INT8" => Kind::I8,
-            "UINT8" => Kind::U8,
-            "INT16" => Kind::I16,
-            "UINT16" => Kind::U16,
-            "INT32" => Kind::I32,
-            "UINT32" => Kind::U32,
-            "INT64" => Kind::I64,
-            "UINT64" => Kind::U64,
-            "FLOAT32" => Kind::F32,
-            "FLOAT64" => Kind::F64,
-            _ => return None,
-        })
-    }
-
-    fn size(self) -> usize {
-        match self {
-            Kind::I8 | Kind::U8 => 1,
-            Kind::I16 | Kind::U16 => 2,
-            Kind::I32 | Kind::U32 | Kind::F32 => 4,
-            Kind::I64 | Kind::U64 | Kind::F64 => 8,
-        }
-    }
-
-    /// The number of these bytes, the lowest first.
-    fn number(self, bytes: [u8; 8]) -> f64 {
-        let [a, b, c, d, ..] = bytes;
-        match self {
-            Kind::I8 => f64::from(a as i8),
-            Kind::U8 => f64::from(a),
-            Kind::I16 => f64::from(i16::from_le_bytes([a, b])),
-            Kind::U16 => f64::from(u16::from_le_bytes([a, b])),
-            Kind::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
-            Kind::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
-            Kind::I64 => i64::from_le_bytes(bytes) as f64,
-            Kind::U64 => u64::from_le_bytes(bytes) as f64,
-            Kind::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
-            Kind::F64 => f64::from_le_bytes(bytes),
-        }
-    }
 }
 
 enum Numbers {

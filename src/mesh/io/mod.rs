@@ -6,6 +6,7 @@ mod budget;
 mod gifti;
 mod gifti_data;
 mod gltf;
+mod kind;
 mod obj;
 mod off;
 mod off_binary;
@@ -15,7 +16,7 @@ mod scan;
 mod stl;
 mod textured;
 
-pub use atomic::write_atomically;
+pub use atomic::{destination, write_atomically};
 pub use gifti::parse_gifti;
 pub use gltf::{Texture, Wrap, parse_glb, write_glb};
 pub use obj::{parse_obj, write_obj};
@@ -40,18 +41,34 @@ pub struct Soup {
     pub attributes: Attributes,
 }
 
-/// What a file says beside positions and faces.
+/// What a file says beside positions and faces. Where it gives an attribute to some elements only, the others have the default.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Attributes {
-    /// Normal of each vertex (V entries), of any length.
+    /// Normal of each vertex (V entries), of any length; by default 0.
     pub normals: Option<Vec<Point>>,
-    /// Colour of each vertex (V entries): red, green, blue, opacity, from 0 to 1.
+    /// Normals of each face's corners (F entries), of any length, by default 0: in place of those of the vertices where the corners
+    /// of a vertex have different ones, as at hard edges. Formats that have both write these.
+    pub corner_normals: Option<Vec<[Point; 3]>>,
+    /// Colour of each vertex (V entries): red, green, blue, opacity, from 0 to 1; by default opaque white.
     pub colors: Option<Vec<[f64; 4]>>,
-    /// Texture coordinates of each face's corners (F entries).
+    /// Texture coordinates of each face's corners (F entries); by default (0, 0).
     pub uv: Option<Vec<[[f64; 2]; 3]>>,
 }
 
+/// The defaults of [`Attributes`].
+const NO_NORMAL: Point = [0.0; 3];
+const WHITE: [f64; 4] = [1.0; 4];
+const NO_TEXCOORD: [f64; 2] = [0.0; 2];
+
 impl Attributes {
+    /// What a format leaves out that has one normal per vertex only and, unless `corner_uv`, one pair of texture coordinates.
+    fn left_out(&self, corner_uv: bool) -> Vec<&'static str> {
+        let corner_normals = self.corner_normals.as_ref().map(|_| "normals at hard edges");
+        let seams =
+            self.uv.as_ref().filter(|_| !corner_uv).map(|_| "texture coordinates, for they have seams");
+        corner_normals.into_iter().chain(seams).collect()
+    }
+
     /// Texture coordinates per vertex, if the corners of each of the `n` vertices agree on them.
     pub(crate) fn vertex_uv(&self, n: usize, faces: &[[u32; 3]]) -> Option<Vec<[f64; 2]>> {
         let mut at: Vec<Option<[f64; 2]>> = vec![None; n];
@@ -75,12 +92,16 @@ impl Soup {
     /// Numbers are finite, corners name vertices, attributes have an entry for each element.
     pub(crate) fn check_writable(&self) -> Result<()> {
         let Soup { positions, faces, attributes } = self;
-        let Attributes { normals, colors, uv } = attributes;
+        let Attributes { normals, corner_normals, colors, uv } = attributes;
         finite("position", positions)?;
         in_range("vertex", faces, positions.len())?;
         if let Some(normals) = normals {
             check_size("normals", normals.len(), positions.len())?;
             finite("normal", normals)?;
+        }
+        if let Some(normals) = corner_normals {
+            check_size("corner_normals", normals.len(), faces.len())?;
+            finite("normal", normals.as_flattened())?;
         }
         if let Some(colors) = colors {
             check_size("colors", colors.len(), positions.len())?;
@@ -153,21 +174,27 @@ impl Format {
 }
 
 /// Write a mesh file by its extension: [`write_as`] the format of that.
-pub fn write(path: &Path, soup: &Soup) -> Result<()> {
+pub fn write(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     write_as(path, Format::of(path)?, soup)
 }
 
+/// Write binary glTF with a texture over the texture coordinates of a mesh: [`write_glb`].
+pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Result<()> {
+    textured::with_textured(soup, |data| write_glb(path, data, Some(texture))).map(drop)
+}
+
 /// Write a mesh file, atomically, with the attributes that the format has: text with 17 significant digits, PLY binary, so that
-/// positions read back as they are; GLB has 24 bits, see [`write_glb`].
+/// positions read back as they are; GLB has 24 bits, see [`write_glb`]. Returned is what was left out because the format has no
+/// place for it, by name: normals and texture coordinates with more than one value at a vertex, in PLY and OFF.
 ///
 /// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range;
 /// [`Error::Size`] for attributes of another size; [`Error::Io`].
-pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<()> {
+pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<Vec<&'static str>> {
     match format {
         Format::Ply => write_ply(path, soup),
         Format::Off => write_off(path, soup),
-        Format::Obj => textured::with_textured(soup, |data| write_obj(path, data)),
-        Format::Glb => textured::with_textured(soup, |data| write_glb(path, data, None)).map(drop),
+        Format::Obj => textured::with_textured(soup, |data| write_obj(path, data)).map(|()| Vec::new()),
+        Format::Glb => textured::with_textured(soup, |data| write_glb(path, data, None)).map(|_| Vec::new()),
     }
 }
 

@@ -3,8 +3,8 @@
 
 use super::budget::Budget;
 use super::polygon::Polygons;
-use super::scan::Place;
-use super::{Attributes, Point, Soup, Textured, write_atomically};
+use super::scan::{Place, Quoted};
+use super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, Textured, WHITE, write_atomically};
 use crate::error::Result;
 use std::io::Write;
 use std::path::Path;
@@ -12,14 +12,15 @@ use std::path::Path;
 /// Parse OBJ text: `v` (with colours behind the coordinates, if there are any), `vt`, `vn` and `f` (polygons, negative indices,
 /// `v/vt/vn` corners), line continuations; everything else is skipped. `path` is used in errors.
 ///
-/// Texture coordinates are kept where every corner has them, normals where all corners of a vertex name equal ones.
+/// Normals are those of the vertices where all corners of each vertex name equal ones, else those of the corners. What is missing,
+/// or no number, has the default of [`Attributes`].
 pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
     let text = String::from_utf8_lossy(bytes);
     let mut file = File::default();
     let mut lines = super::scan::lines(&text);
     let mut joined = String::new();
     while let Some((number, line)) = lines.next() {
-        let place = Place { path, line: number };
+        let place = Place::line(path, number);
         let mut line = line;
         if line.ends_with('\\') {
             joined.clear();
@@ -39,7 +40,10 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
                     *x = place.number(tokens.next(), format_args!("coordinate {name}"))?;
                 }
                 file.positions.push(point);
-                file.colors.extend(color(tokens));
+                if let Some(color) = color(tokens) {
+                    file.colors.resize(file.positions.len() - 1, WHITE);
+                    file.colors.push(color);
+                }
             }
             Some("vt") => file.texcoords.push(numbers(tokens)),
             Some("vn") => file.normals.push(numbers(tokens)),
@@ -55,7 +59,7 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
             _ => {}
         }
     }
-    file.soup(Budget::of(bytes), Place { path, line: 0 })
+    file.soup(Budget::of(bytes), Place::whole(path))
 }
 
 /// No entry.
@@ -75,39 +79,67 @@ struct File {
 }
 
 impl File {
-    fn soup(self, mut budget: Budget, place: Place<'_>) -> Result<Soup> {
+    fn soup(mut self, mut budget: Budget, place: Place<'_>) -> Result<Soup> {
         let triangles = self.polygons.triangles(&self.positions, &mut budget, place)?;
-        let texcoord = |corner: usize| self.texcoords.get(self.corner_texcoords[corner] as usize).copied();
-        let corners_of = |t: &[usize; 3]| Some([texcoord(t[0])?, texcoord(t[1])?, texcoord(t[2])?]);
-        let uv: Option<Vec<_>> = triangles.iter().map(corners_of).collect();
-        let attributes = Attributes {
-            normals: self.vertex_normals(),
-            // Every vertex has a colour, or none.
-            colors: (self.colors.len() == self.positions.len()).then_some(self.colors),
-            uv: uv.filter(|uv| {
-                !uv.is_empty() && uv.as_flattened().as_flattened().iter().all(|x| x.is_finite())
-            }),
-        };
-        let colors = attributes.colors.filter(|c| !c.is_empty());
+        fn of<const N: usize>(list: &[[f64; N]], entries: &[u32], corner: usize) -> Option<[f64; N]> {
+            let entry = list.get(entries[corner] as usize).copied();
+            entry.filter(|x| x.iter().all(|x| x.is_finite()))
+        }
+        let texcoord = |corner: usize| of(&self.texcoords, &self.corner_texcoords, corner);
+        let any = triangles.as_flattened().iter().any(|&corner| texcoord(corner).is_some());
+        let uv = |t: &[usize; 3]| t.map(|corner| texcoord(corner).unwrap_or(NO_TEXCOORD));
+        let uv = any.then(|| triangles.iter().map(uv).collect());
+        let normal = |corner: usize| of(&self.normals, &self.corner_normals, corner);
+        let (mut normals, mut corner_normals) = (None, None);
+        match self.vertex_normals(&triangles, normal) {
+            VertexNormals::None => {}
+            VertexNormals::Single(list) => normals = Some(list),
+            VertexNormals::Several => {
+                budget.take(triangles.len(), size_of::<[Point; 3]>(), "normals", place)?;
+                let of = |t: &[usize; 3]| t.map(|corner| normal(corner).unwrap_or(NO_NORMAL));
+                corner_normals = Some(triangles.iter().map(of).collect());
+            }
+        }
         let faces = triangles.iter().map(|&t| self.polygons.face(t)).collect();
-        Ok(Soup { positions: self.positions, faces, attributes: Attributes { colors, ..attributes } })
+        let colors = (!self.colors.is_empty()).then(|| {
+            self.colors.resize(self.positions.len(), WHITE);
+            self.colors
+        });
+        let attributes = Attributes { normals, corner_normals, colors, uv };
+        Ok(Soup { positions: self.positions, faces, attributes })
     }
 
-    /// The normal of every vertex, if all its corners name equal ones.
-    fn vertex_normals(&self) -> Option<Vec<Point>> {
-        let mut normals: Vec<Option<Point>> = vec![None; self.positions.len()];
-        for (&v, &normal) in self.polygons.corners.iter().zip(&self.corner_normals) {
-            let normal = *self.normals.get(normal as usize)?;
-            let slot = normals.get_mut(v as usize)?;
-            if slot.is_some_and(|known| known != normal) || !normal.iter().all(|x| x.is_finite()) {
-                return None;
+    /// What the corners of each vertex say of its normal.
+    fn vertex_normals(
+        &self,
+        triangles: &[[usize; 3]],
+        normal: impl Fn(usize) -> Option<Point>,
+    ) -> VertexNormals {
+        let mut normals: Vec<Option<Point>> = Vec::new();
+        for &corner in triangles.as_flattened() {
+            let Some(normal) = normal(corner) else { continue };
+            normals.resize(self.positions.len(), None);
+            // A vertex that does not exist has no entry; the diagnosis finds it.
+            if let Some(slot) = normals.get_mut(self.polygons.corners[corner] as usize)
+                && *slot.get_or_insert(normal) != normal
+            {
+                return VertexNormals::Several;
             }
-            *slot = Some(normal);
         }
-        // Vertices without a face have none.
-        let any = normals.iter().any(Option::is_some);
-        any.then(|| normals.into_iter().map(|n| n.unwrap_or([0.0; 3])).collect())
+        if normals.is_empty() {
+            return VertexNormals::None;
+        }
+        VertexNormals::Single(normals.into_iter().map(|n| n.unwrap_or(NO_NORMAL)).collect())
     }
+}
+
+enum VertexNormals {
+    /// There are none.
+    None,
+    /// One per vertex.
+    Single(Vec<Point>),
+    /// Some vertex has more than one.
+    Several,
 }
 
 /// The colour behind the three coordinates of a vertex: red, green, blue and perhaps opacity (a fourth coordinate alone is a
@@ -140,13 +172,14 @@ fn attribute(number: Option<&str>, count: usize) -> u32 {
 fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
     let index = token.split('/').next().unwrap_or("");
     let Ok(number) = index.parse::<i64>() else {
-        return place.error(format!("corner `{token}` does not start with a vertex number"));
+        return place.error(format!("corner {} does not start with a vertex number", Quoted(token)));
     };
     let zero_based = match number {
         0 => return place.error("vertex number 0: OBJ counts from 1".into()),
         n if n < 0 && n.unsigned_abs() > vertices as u64 => {
             return place.error(format!(
-                "corner `{token}` counts back past the first of the {vertices} vertices so far"
+                "corner {} counts back past the first of the {vertices} vertices so far",
+                Quoted(token)
             ));
         }
         n if n < 0 => vertices as i64 + n,
@@ -154,7 +187,7 @@ fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
     };
     match u32::try_from(zero_based) {
         Ok(v) => Ok(v),
-        Err(_) => place.error(format!("corner `{token}` is more than can be numbered")),
+        Err(_) => place.error(format!("corner {} is more than can be numbered", Quoted(token))),
     }
 }
 
@@ -184,10 +217,11 @@ pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
         let normals = !data.normals.is_empty();
         for (f, corners) in data.faces.iter().enumerate() {
             let [a, b, c] = corners.map(|v| v + 1);
+            let [l, m, n] = data.face_normals.get(f).map_or([a, b, c], |n| n.map(|n| n + 1));
             match data.face_texcoords.get(f).map(|t| t.map(|t| t + 1)) {
-                Some([s, t, u]) if normals => writeln!(out, "f {a}/{s}/{a} {b}/{t}/{b} {c}/{u}/{c}")?,
+                Some([s, t, u]) if normals => writeln!(out, "f {a}/{s}/{l} {b}/{t}/{m} {c}/{u}/{n}")?,
                 Some([s, t, u]) => writeln!(out, "f {a}/{s} {b}/{t} {c}/{u}")?,
-                None if normals => writeln!(out, "f {a}//{a} {b}//{b} {c}//{c}")?,
+                None if normals => writeln!(out, "f {a}//{l} {b}//{m} {c}//{n}")?,
                 None => writeln!(out, "f {a} {b} {c}")?,
             }
         }

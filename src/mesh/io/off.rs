@@ -4,8 +4,8 @@
 use super::budget::Budget;
 use super::off_binary::parse_off_binary;
 use super::polygon::Polygons;
-use super::scan::{Place, lines};
-use super::{Attributes, Point, Soup, write_atomically};
+use super::scan::{Place, Quoted, tokens};
+use super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, write_atomically};
 use crate::error::Result;
 use std::io::Write;
 use std::path::Path;
@@ -26,17 +26,24 @@ fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Pla
         let line = line.split(|&b| b == b'#').next().unwrap_or_default();
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         if let Some(first) = words.next() {
-            let place = Place { path, line: i + 1 };
+            let place = Place::line(path, i + 1);
             let header = String::from_utf8_lossy(first);
-            return match header.strip_suffix("OFF") {
-                Some(prefix) if words.next() == Some(b"BINARY") => {
-                    Ok(Some((columns(prefix, place)?, end, place)))
+            return match split_header(&header) {
+                Some((prefix, "")) if words.next().is_some_and(|w| w.eq_ignore_ascii_case(b"BINARY")) => {
+                    Ok(Some((columns(&prefix, place)?, end, place)))
                 }
                 _ => Ok(None),
             };
         }
     }
     Ok(None)
+}
+
+/// What is before and behind `OFF`. In a header that begins in lower case throughout, as some programs write it, the letters mean
+/// what their capitals do.
+fn split_header(word: &str) -> Option<(String, &str)> {
+    let upper = word.split_once("OFF").map(|(prefix, rest)| (prefix.to_string(), rest));
+    upper.or_else(|| word.split_once("off").map(|(prefix, rest)| (prefix.to_ascii_uppercase(), rest)))
 }
 
 /// What each vertex has besides its coordinates, in this order.
@@ -72,21 +79,51 @@ fn columns(prefix: &str, place: Place<'_>) -> Result<Columns> {
     }
 }
 
+/// Without letters before `OFF` a vertex has three numbers, and what is behind them on its line can be one of two things: columns
+/// that the header does not announce, or the next vertex. Only with the right one do the counts come out; vertices that share a
+/// line are whole ones, so that a file with a number missing is not taken for one of these.
 fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
-    let mut tokens = Tokens { lines: lines(text), path, line: 0, rest: "" };
+    match (read_text(text, path, true), Layout::of(text)) {
+        (Err(error), Layout::Lines) => Err(error),
+        (Err(error), Layout::Open) => read_text(text, path, false).or(Err(error)),
+        (soup, _) => soup,
+    }
+}
+
+/// Whether each vertex must have a line of its own.
+enum Layout {
+    Lines,
+    Open,
+}
+
+impl Layout {
+    fn of(text: &str) -> Layout {
+        let header = tokens(text, "").next().and_then(split_header);
+        if header.is_some_and(|(prefix, _)| !prefix.trim_start_matches('\u{feff}').is_empty()) {
+            Layout::Lines
+        } else {
+            Layout::Open
+        }
+    }
+}
+
+/// Read the text; `by_line`: each vertex on a line of its own, perhaps with further columns.
+fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
+    let mut tokens = tokens(text, path);
     let Some(header) = tokens.next() else {
         return tokens.place().error("the file is empty; OFF begins with `OFF` and its counts".into());
     };
     // The header word is optional, and the first count may stick to it.
     let mut has = Columns::default();
-    let first = match header.split_once("OFF") {
+    let first = match split_header(header) {
         Some((prefix, count)) => {
-            has = columns(prefix, tokens.place())?;
+            has = columns(&prefix, tokens.place())?;
             if count.is_empty() { tokens.next() } else { Some(count) }
         }
         None if header.starts_with(|c: char| c.is_ascii_digit()) => Some(header),
         None => {
-            return tokens.place().error(format!("`{header}` begins no OFF file; that begins with `OFF`"));
+            let message = format!("{} begins no OFF file; that begins with `OFF`", Quoted(header));
+            return tokens.place().error(message);
         }
     };
     let n_vertices = tokens.place().count(first, format_args!("number of vertices"))?;
@@ -101,13 +138,19 @@ fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
     let (mut positions, mut extras, mut polygons) = (Vec::new(), Extras::new(has), Polygons::default());
     for v in 0..n_vertices {
         let mut point: Point = [0.0; 3];
+        let mut line = None;
         for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
             let token = tokens.next();
+            if !by_line && *line.get_or_insert(tokens.line) != tokens.line {
+                return tokens.place().error(format!("vertex {v} (of {n_vertices}) is on two lines"));
+            }
             *x = tokens.place().number(token, format_args!("{name} of vertex {v} (of {n_vertices})"))?;
         }
-        let rest: Vec<f64> = tokens.rest.split_ascii_whitespace().map_while(|t| t.parse().ok()).collect();
-        extras.push(&rest);
-        tokens.end_line();
+        if by_line {
+            let rest: Vec<f64> = tokens.rest.split_ascii_whitespace().map_while(|t| t.parse().ok()).collect();
+            extras.push(&rest);
+            tokens.end_line();
+        }
         positions.push(point);
     }
     let mut corners = Vec::new();
@@ -132,9 +175,10 @@ fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
         polygons.push(corners.iter().copied());
     }
     match tokens.next() {
-        None => extras.soup(positions, &polygons, Budget::of(text.as_bytes()), tokens.place()),
+        None => extras.soup(positions, &polygons, Budget::of(text.as_bytes()), Place::whole(path)),
         Some(token) => tokens.place().error(format!(
-            "`{token}` comes after the last face: the header promises {n_vertices} vertices and {n_faces} faces, each on a line of its own"
+            "{} comes after the last face: the header promises {n_vertices} vertices and {n_faces} faces, each on a line of its own",
+            Quoted(token)
         )),
     }
 }
@@ -142,6 +186,8 @@ fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
 /// The attributes of the vertices read so far.
 pub(super) struct Extras {
     has: Columns,
+    /// What some vertex has.
+    any: Columns,
     normals: Vec<Point>,
     colors: Vec<[f64; 4]>,
     texture: Vec<[f64; 2]>,
@@ -149,23 +195,36 @@ pub(super) struct Extras {
 
 impl Extras {
     pub fn new(has: Columns) -> Extras {
-        Extras { has, normals: Vec::new(), colors: Vec::new(), texture: Vec::new() }
+        Extras { has, any: Columns::default(), normals: Vec::new(), colors: Vec::new(), texture: Vec::new() }
     }
 
     /// The numbers behind the coordinates of a vertex. A colour is what the others leave over, three numbers or four.
     pub fn push(&mut self, rest: &[f64]) {
         let (normal, rest) = rest.split_at(if self.has.normal { rest.len().min(3) } else { 0 });
         let (color, texture) = rest.split_at(rest.len().saturating_sub(if self.has.texture { 2 } else { 0 }));
-        self.normals.extend(<Point>::try_from(normal));
-        self.texture.extend(<[f64; 2]>::try_from(texture));
-        match *color {
-            [r, g, b] => self.colors.push([r, g, b, f64::NAN]),
-            [r, g, b, a, ..] => self.colors.push([r, g, b, a]),
-            _ => {}
+        let finite = |list: &&[f64]| list.iter().all(|x| x.is_finite());
+        let normal = Some(normal).filter(finite).and_then(|x| <Point>::try_from(x).ok());
+        let texture = Some(texture).filter(finite).and_then(|x| <[f64; 2]>::try_from(x).ok());
+        let color = match *color {
+            [r, g, b] => Some([r, g, b, f64::NAN]),
+            [r, g, b, a, ..] => Some([r, g, b, a]),
+            _ => None,
+        };
+        self.any.normal |= normal.is_some();
+        self.any.texture |= texture.is_some();
+        self.any.color |= self.has.color && color.is_some();
+        if self.has.normal {
+            self.normals.push(normal.unwrap_or(NO_NORMAL));
+        }
+        if self.has.texture {
+            self.texture.push(texture.unwrap_or(NO_TEXCOORD));
+        }
+        if self.has.color {
+            self.colors.push(color.unwrap_or([f64::NAN; 4]));
         }
     }
 
-    /// The triangle list, with the attributes that every vertex has.
+    /// The triangle list, with the attributes that vertices have.
     pub fn soup(
         self,
         positions: Vec<Point>,
@@ -173,29 +232,28 @@ impl Extras {
         mut budget: Budget,
         place: Place<'_>,
     ) -> Result<Soup> {
-        let n = positions.len();
         let triangles = polygons.triangles(&positions, &mut budget, place)?;
         // Components are from 0 to 1, or from 0 to 255 as soon as one is larger.
         let full = if self.colors.iter().flatten().any(|&x| x > 1.0) { 255.0 } else { 1.0 };
         let color = |c: [f64; 4]| c.map(|x| if x.is_nan() { 1.0 } else { x / full });
         let uv = |v: u32| self.texture.get(v as usize).copied().unwrap_or_default();
         let attributes = Attributes {
-            normals: (self.has.normal && self.normals.len() == n).then_some(self.normals),
-            colors: (self.has.color && self.colors.len() == n)
-                .then(|| self.colors.into_iter().map(color).collect()),
-            uv: (self.has.texture && self.texture.len() == n)
-                .then(|| triangles.iter().map(|&t| polygons.face(t).map(uv)).collect()),
+            normals: self.any.normal.then_some(self.normals),
+            colors: self.any.color.then(|| self.colors.into_iter().map(color).collect()),
+            uv: self.any.texture.then(|| triangles.iter().map(|&t| polygons.face(t).map(uv)).collect()),
+            ..Attributes::default()
         };
         Ok(Soup { faces: triangles.iter().map(|&t| polygons.face(t)).collect(), positions, attributes })
     }
 }
 
 /// Write text OFF with 17 significant digits (which read back to the same doubles), with normals, colours (0 to 255) where there
-/// are any, and texture coordinates where each vertex has a single pair; atomically.
+/// are any, and texture coordinates where each vertex has a single pair; atomically. Returned is what was left out, by name: normals
+/// and texture coordinates that differ between the corners of a vertex.
 ///
 /// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`crate::Error::Size`] for attributes of another size, [`crate::Error::Io`].
-pub fn write_off(path: &Path, soup: &Soup) -> Result<()> {
+pub fn write_off(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     soup.check_writable()?;
     let Soup { positions, faces, attributes } = soup;
     let Attributes { normals, colors, .. } = attributes;
@@ -224,41 +282,6 @@ pub fn write_off(path: &Path, soup: &Soup) -> Result<()> {
             writeln!(out, "3 {a} {b} {c}")?;
         }
         Ok(())
-    })
-}
-
-/// Tokens over line ends, without comments, and the line they stand on.
-struct Tokens<'a, L> {
-    lines: L,
-    path: &'a str,
-    line: usize,
-    rest: &'a str,
-}
-
-impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
-    fn place(&self) -> Place<'a> {
-        Place { path: self.path, line: self.line }
-    }
-
-    /// Skip what is left of the current line.
-    fn end_line(&mut self) {
-        self.rest = "";
-    }
-
-    fn next(&mut self) -> Option<&'a str> {
-        loop {
-            self.rest = self.rest.trim_start();
-            if !self.rest.is_empty() {
-                let end = self.rest.find(|c: char| c.is_ascii_whitespace()).unwrap_or(self.rest.len());
-                let (token, rest) = self.rest.split_at(end);
-                self.rest = rest;
-                return Some(token);
-            }
-            let (line, text) = self.lines.next()?;
-            // Blank lines do not count as the place of an error: at the end of the file that is its last
-            // word.
-            self.line = if text.is_empty() { self.line } else { line };
-            self.rest = text;
-        }
-    }
+    })?;
+    Ok(attributes.left_out(texture.is_some()))
 }

@@ -98,18 +98,22 @@ impl Words<'_> {
         let left = self.bytes[self.at..].trim_ascii().len();
         if left > 0 {
             let end = self.at;
-            return self.place.error(format!(
-                "the {n_vertices} vertices and {n_faces} faces that the header promises end at byte {end}, {left} bytes before the file does"
+            return self.at(end).error(format!(
+                "the {n_vertices} vertices and {n_faces} faces that the header promises end here, {left} bytes before the file does"
             ));
         }
-        extras.soup(positions, &polygons, Budget::of(self.bytes), self.place)
+        extras.soup(positions, &polygons, Budget::of(self.bytes), Place::whole(self.place.path))
+    }
+
+    fn at(&self, byte: usize) -> Place<'_> {
+        Place::byte(self.place.path, byte)
     }
 
     fn word(&mut self, what: impl Fn() -> String) -> Result<u32> {
         let word = self.bytes[self.at..].first_chunk::<4>();
         let Some(&word) = word else {
-            let (what, end) = (what(), self.bytes.len());
-            return self.place.error(format!("the file ends at byte {end}, in {what}; export it again"));
+            let what = what();
+            return self.at(self.bytes.len()).error(format!("the file ends in {what}; export it again"));
         };
         self.at += 4;
         Ok(if self.dialect.big_endian { u32::from_be_bytes(word) } else { u32::from_le_bytes(word) })
@@ -119,10 +123,9 @@ impl Words<'_> {
     fn count(&mut self, what: impl Fn() -> String) -> Result<u32> {
         let word = self.word(&what)?;
         if word > i32::MAX as u32 {
-            let (what, at) = (what(), self.at - 4);
-            return self
-                .place
-                .error(format!("{what} is {} at byte {at}: it cannot be negative", word as i32));
+            let what = what();
+            let message = format!("{what} is {}: it cannot be negative", word as i32);
+            return self.at(self.at - 4).error(message);
         }
         Ok(word)
     }

@@ -24,6 +24,10 @@ impl Polygons {
         self.end();
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
     /// The corners pushed onto `corners` since the last polygon are one.
     pub fn end(&mut self) {
         self.ends.push(self.corners.len());
@@ -62,6 +66,17 @@ impl Polygons {
     }
 }
 
+/// What is known of a corner of a polygon while ears are cut off it.
+#[derive(Clone, Copy)]
+enum Corner {
+    /// Nothing: one of its neighbours was cut off.
+    New,
+    /// It turns inwards.
+    Reflex,
+    /// The triangle with its neighbours has this corner in it.
+    Blocked(usize),
+}
+
 fn polygon(corners: &[u32], start: usize, positions: &[Point], triangles: &mut Vec<[usize; 3]>) {
     let mut left: Vec<usize> = (0..corners.len()).collect();
     if let Some(plane) = in_plane(corners, positions) {
@@ -71,24 +86,48 @@ fn polygon(corners: &[u32], start: usize, positions: &[Point], triangles: &mut V
             [left[(k + n - 1) % n], left[k], left[(k + 1) % n]]
         };
         let convex = (0..left.len()).all(|k| turn(around(&left, k)) != Ordering::Less);
+        let mut known = vec![Corner::New; corners.len()];
+        let mut gone = vec![false; corners.len()];
         while !convex && left.len() > 3 {
+            // The first ear in the polygon's order. What blocks a corner does so until it is cut off itself.
             let ear = (0..left.len()).find(|&k| {
                 let ear = around(&left, k);
-                let [a, b, c] = ear;
-                let inside = |p: usize| {
-                    [[a, b, p], [b, c, p], [c, a, p]].into_iter().all(|t| turn(t) != Ordering::Less)
-                };
-                let same_place = |p: usize| ear.iter().any(|&q| corners[p] == corners[q]);
-                turn(ear) == Ordering::Greater && !left.iter().any(|&p| !same_place(p) && inside(p))
+                match known[ear[1]] {
+                    Corner::Reflex => return false,
+                    Corner::Blocked(p) if !gone[p] => return false,
+                    _ => {}
+                }
+                if turn(ear) != Ordering::Greater {
+                    known[ear[1]] = Corner::Reflex;
+                    return false;
+                }
+                let blocking = blocking(ear, &left, corners, &plane);
+                blocking.inspect(|&p| known[ear[1]] = Corner::Blocked(p)).is_none()
             });
             // A polygon that crosses itself has no ears at some point: what is left becomes a fan.
             let Some(k) = ear else { break };
-            triangles.push(around(&left, k).map(|k| start + k));
+            let ear = around(&left, k);
+            triangles.push(ear.map(|k| start + k));
+            gone[ear[1]] = true;
+            (known[ear[0]], known[ear[2]]) = (Corner::New, Corner::New);
             left.remove(k);
         }
     }
     let fan = left.windows(2).skip(1).map(|w| [left[0], w[0], w[1]].map(|k| start + k));
     triangles.extend(fan);
+}
+
+/// The first corner that is left and in this counter-clockwise triangle, at its edge included, but not one of its vertices.
+fn blocking(ear: [usize; 3], left: &[usize], corners: &[u32], plane: &[[f64; 2]]) -> Option<usize> {
+    let [a, b, c] = ear.map(|k| plane[k]);
+    let low: [f64; 2] = std::array::from_fn(|i| a[i].min(b[i]).min(c[i]));
+    let high: [f64; 2] = std::array::from_fn(|i| a[i].max(b[i]).max(c[i]));
+    left.iter().copied().find(|&k| {
+        let p = plane[k];
+        let near = (0..2).all(|i| low[i] <= p[i] && p[i] <= high[i]);
+        near && !ear.iter().any(|&q| corners[k] == corners[q])
+            && [[a, b], [b, c], [c, a]].into_iter().all(|[u, v]| orientation(u, v, p) != Ordering::Less)
+    })
 }
 
 /// The corners in the coordinate plane onto which the area vector projects largest, counter-clockwise. `None` for corners
@@ -118,7 +157,7 @@ mod tests {
     use super::*;
 
     fn triangles(polygons: &Polygons, positions: &[Point]) -> Vec<[usize; 3]> {
-        polygons.triangles(positions, &mut Budget::of(&[]), Place { path: "t", line: 0 }).unwrap()
+        polygons.triangles(positions, &mut Budget::of(&[]), Place::whole("t")).unwrap()
     }
 
     fn area(p: [[f64; 2]; 3]) -> f64 {

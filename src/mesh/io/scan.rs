@@ -1,7 +1,7 @@
-//! Numbers out of text lines, with errors that name the line.
+//! Tokens and numbers out of text lines, with errors that name the place.
 
-use crate::error::{Error, Result};
-use std::fmt::Arguments;
+use crate::error::{At, Error, Result};
+use std::fmt::{self, Arguments};
 
 /// The lines of a text (ended by LF, CR LF or CR) with their 1-based numbers, without comments, trailing blanks and byte
 /// order mark.
@@ -17,27 +17,110 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 #[derive(Clone, Copy)]
 pub(super) struct Place<'a> {
     pub path: &'a str,
-    /// 1-based.
-    pub line: usize,
+    pub at: At,
 }
 
-impl Place<'_> {
+impl<'a> Place<'a> {
+    /// Lines count from 1.
+    pub fn line(path: &'a str, line: usize) -> Self {
+        Place { path, at: At::Line(line) }
+    }
+
+    /// Bytes count from 0.
+    pub fn byte(path: &'a str, byte: usize) -> Self {
+        Place { path, at: At::Byte(byte) }
+    }
+
+    pub fn whole(path: &'a str) -> Self {
+        Place { path, at: At::Whole }
+    }
+
     pub fn error<T>(self, message: String) -> Result<T> {
-        Err(Error::Parse { path: self.path.into(), line: self.line, message })
+        Err(Error::Parse { path: self.path.into(), at: self.at, message })
     }
 
     /// A coordinate; `nan` and `inf` are numbers here, the diagnosis refuses them by vertex.
     pub fn number(self, token: Option<&str>, what: Arguments<'_>) -> Result<f64> {
         match token {
-            Some(t) => t.parse().or_else(|_| self.error(format!("{what} `{t}` is not a number"))),
+            Some(t) => t.parse().or_else(|_| self.error(format!("{what} {} is not a number", Quoted(t)))),
             None => self.error(format!("{what} is missing")),
         }
     }
 
     pub fn count(self, token: Option<&str>, what: Arguments<'_>) -> Result<usize> {
         match token {
-            Some(t) => t.parse().or_else(|_| self.error(format!("{what} `{t}` is not a count"))),
+            Some(t) => t.parse().or_else(|_| self.error(format!("{what} {} is not a count", Quoted(t)))),
             None => self.error(format!("{what} is missing")),
         }
+    }
+}
+
+/// Text of a file inside a message: between quotes, and cut where it goes on.
+pub(super) struct Quoted<'a>(pub &'a str);
+
+impl fmt::Display for Quoted<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        const MOST: usize = 80;
+        match self.0.char_indices().nth(MOST) {
+            Some((end, _)) => write!(f, "`{}…`", &self.0[..end]),
+            None => write!(f, "`{}`", self.0),
+        }
+    }
+}
+
+/// Tokens over line ends, without comments, and the line they stand on.
+pub(super) struct Tokens<'a, L> {
+    lines: L,
+    path: &'a str,
+    pub line: usize,
+    pub rest: &'a str,
+}
+
+/// The tokens of a text.
+pub(super) fn tokens<'a>(
+    text: &'a str,
+    path: &'a str,
+) -> Tokens<'a, impl Iterator<Item = (usize, &'a str)> + use<'a>> {
+    Tokens { lines: lines(text), path, line: 0, rest: "" }
+}
+
+impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
+    /// That of the last token.
+    pub fn place(&self) -> Place<'a> {
+        if self.line == 0 { Place::whole(self.path) } else { Place::line(self.path, self.line) }
+    }
+
+    /// Skip what is left of the current line.
+    pub fn end_line(&mut self) {
+        self.rest = "";
+    }
+
+    pub fn next(&mut self) -> Option<&'a str> {
+        loop {
+            self.rest = self.rest.trim_start();
+            if !self.rest.is_empty() {
+                let end = self.rest.find(|c: char| c.is_ascii_whitespace()).unwrap_or(self.rest.len());
+                let (token, rest) = self.rest.split_at(end);
+                self.rest = rest;
+                return Some(token);
+            }
+            let (line, text) = self.lines.next()?;
+            // Blank lines do not count as the place of an error: at the end of the file that is its last
+            // word.
+            self.line = if text.is_empty() { self.line } else { line };
+            self.rest = text;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quoted_text_is_cut_at_a_character() {
+        assert_eq!(Quoted("ab").to_string(), "`ab`");
+        assert_eq!(Quoted(&"é".repeat(80)).to_string(), format!("`{}`", "é".repeat(80)));
+        assert_eq!(Quoted(&"é".repeat(3_000_000)).to_string(), format!("`{}…`", "é".repeat(80)));
     }
 }

@@ -3,7 +3,7 @@
 
 use super::budget::Budget;
 use super::polygon::Polygons;
-use super::scan::{Place, lines};
+use super::scan::{Place, Quoted, tokens};
 use super::{Point, Soup};
 use crate::error::Result;
 use crate::mesh::weld::{check_tolerance, coincident};
@@ -15,19 +15,26 @@ const TRIANGLE: usize = 50;
 
 /// Parse an STL file. Corners in exactly the same place are one vertex, numbered in order of appearance; normals, which the
 /// corners determine, are skipped. `path` is used in errors.
+///
+/// A file is binary if its size is that of the triangles it promises, or if it begins with bytes that no text has: what its
+/// first word is says nothing. A binary file may end in less than another triangle, and promise none at all as programs do that
+/// write the number last; any other disagreement is an error that names both numbers.
 pub fn parse_stl(bytes: &[u8], path: &str) -> Result<Soup> {
     let count = bytes.get(HEADER..HEADER + 4).and_then(|b| b.first_chunk()).map(|b| u32::from_le_bytes(*b));
     let exact =
         count.is_some_and(|n| bytes.len() as u64 == (HEADER + 4) as u64 + TRIANGLE as u64 * u64::from(n));
-    let text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     match count {
-        Some(count) if exact || !text => binary(bytes, count, path),
-        _ if text => ascii(&String::from_utf8_lossy(bytes), path),
-        _ => Place { path, line: 1 }.error(format!(
-            "this is no STL file: it neither begins with `solid` nor has the {} bytes of a binary header",
-            HEADER + 4
-        )),
+        Some(count) if exact || !is_text(bytes) => binary(bytes, count, path),
+        _ => ascii(&String::from_utf8_lossy(bytes), path),
     }
+}
+
+/// Whether there are no control characters but those of text at the beginning: the number of triangles has them, or what
+/// fills up the 80 bytes before it, or the first numbers.
+fn is_text(bytes: &[u8]) -> bool {
+    const BEGINNING: usize = 1024;
+    let of_text = |b: &u8| *b >= b' ' || b.is_ascii_whitespace() || matches!(*b, 0x0b | 0x1a);
+    bytes.iter().take(BEGINNING).all(of_text)
 }
 
 /// [`parse_stl`], where corners within the distance `weld` of each other, also by a chain of such corners, are one vertex: that
@@ -72,15 +79,20 @@ impl Weld {
 
 fn binary(bytes: &[u8], count: u32, path: &str) -> Result<Soup> {
     let body = &bytes[HEADER + 4..];
-    let whole = body.len() / TRIANGLE;
-    if (count as usize) > whole {
-        return Place { path, line: 0 }.error(format!(
-            "the file ends at byte {} in triangle {whole} of the {count} that its header promises",
-            bytes.len()
+    let (whole, more) = (body.len() / TRIANGLE, body.len() % TRIANGLE);
+    let count = if count == 0 && more == 0 { whole } else { count as usize };
+    if count > whole {
+        return Place::byte(path, bytes.len()).error(format!(
+            "the file ends in triangle {whole} of the {count} that its header promises; export it again"
+        ));
+    }
+    if count < whole {
+        return Place::byte(path, HEADER).error(format!(
+            "the header promises {count} triangles, behind it are {whole} and {more} bytes; export it again"
         ));
     }
     let mut weld = Weld::default();
-    for triangle in body.chunks_exact(TRIANGLE).take(count as usize) {
+    for triangle in body.chunks_exact(TRIANGLE) {
         let number = |k: usize| {
             let at = 12 + 4 * k; // behind the normal
             triangle[at..at + 4].first_chunk().map_or(f64::NAN, |b| f64::from(f32::from_le_bytes(*b)))
@@ -91,40 +103,80 @@ fn binary(bytes: &[u8], count: u32, path: &str) -> Result<Soup> {
     Ok(weld.soup)
 }
 
+/// What the next word of a text file can be.
+enum Expect {
+    /// The beginning or end of a solid, a facet or a loop.
+    Part,
+    /// Anything up to a facet or the end of this line, the name of a solid; no facet is in the one behind `endsolid`.
+    Name { line: usize, last: bool },
+    /// Anything up to a loop: the normal, for which programs write all sorts of things.
+    Normal,
+    /// `loop`, behind `outer`.
+    Loop,
+    /// A corner, or the end of the loop of these corners.
+    Corner(Vec<u32>),
+}
+
+/// The words count, whatever lines they are on.
 fn ascii(text: &str, path: &str) -> Result<Soup> {
+    let mut words = tokens(text, path);
     let (mut weld, mut polygons) = (Weld::default(), Polygons::default());
-    let mut corners: Option<Vec<u32>> = None;
-    let mut last = 1;
-    for (line, content) in lines(text) {
-        let place = Place { path, line };
-        let mut words = content.split_ascii_whitespace();
-        let Some(word) = words.next() else { continue };
-        last = line;
-        match (word.to_ascii_lowercase().as_str(), &mut corners) {
-            ("outer", None) => corners = Some(Vec::new()),
-            ("vertex", Some(corners)) => {
+    let (mut expect, mut begun, mut ended) = (Expect::Part, false, false);
+    while let Some(word) = words.next() {
+        let place = words.place();
+        let lower = if word.len() <= 8 { word.to_ascii_lowercase() } else { String::new() };
+        if let Expect::Name { line, .. } = expect
+            && line != words.line
+        {
+            expect = Expect::Part;
+        }
+        expect = match (lower.as_str(), expect) {
+            ("solid", Expect::Part | Expect::Name { .. }) => Expect::Name { line: words.line, last: false },
+            ("endsolid", Expect::Part | Expect::Name { last: false, .. }) => {
+                ended = true;
+                Expect::Name { line: words.line, last: true }
+            }
+            ("facet", Expect::Part | Expect::Name { last: false, .. }) => Expect::Normal,
+            ("endfacet", Expect::Part) => Expect::Part,
+            ("outer", Expect::Part | Expect::Normal) => Expect::Loop,
+            ("loop", Expect::Loop) => Expect::Corner(Vec::new()),
+            ("vertex", Expect::Corner(mut corners)) => {
                 let mut point: Point = [0.0; 3];
                 for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
-                    *x = place.number(words.next(), format_args!("coordinate {name}"))?;
+                    let token = words.next();
+                    *x = words.place().number(token, format_args!("coordinate {name}"))?;
                 }
                 corners.push(weld.vertex(point));
+                Expect::Corner(corners)
             }
-            ("endloop", Some(list)) => {
-                if list.len() < 3 {
-                    return place.error(format!("a loop of {} corners; a face has three", list.len()));
-                }
-                polygons.push(std::mem::take(list));
-                corners = None;
+            ("endloop", Expect::Corner(corners)) if corners.len() >= 3 => {
+                polygons.push(corners);
+                Expect::Part
             }
-            ("solid" | "endsolid" | "facet" | "endfacet", None) => {}
-            _ => return place.error(format!("`{word}` has no place here in an STL file")),
+            ("endloop", Expect::Corner(corners)) => {
+                return place.error(format!("a loop of {} corners; a face has three", corners.len()));
+            }
+            (_, name @ Expect::Name { .. }) => name,
+            (_, Expect::Normal) => Expect::Normal,
+            _ if !begun => return place.error(NO_STL.into()),
+            _ => return place.error(format!("{} has no place here in an STL file", Quoted(word))),
+        };
+        begun = true;
+    }
+    let place = words.place();
+    match expect {
+        Expect::Corner(_) | Expect::Loop => return place.error("the file ends inside a loop".into()),
+        Expect::Normal => return place.error("the file ends inside a facet".into()),
+        _ if !begun => return Place::whole(path).error(NO_STL.into()),
+        _ if polygons.is_empty() && !ended => {
+            return place.error("the file has neither a facet nor the word `endsolid`".into());
         }
+        _ => {}
     }
-    if corners.is_some() {
-        return Place { path, line: last }.error("the file ends inside a loop".into());
-    }
-    let (mut budget, place) = (Budget::of(text.as_bytes()), Place { path, line: last });
-    let triangles = polygons.triangles(&weld.soup.positions, &mut budget, place)?;
+    let mut budget = Budget::of(text.as_bytes());
+    let triangles = polygons.triangles(&weld.soup.positions, &mut budget, Place::whole(path))?;
     weld.soup.faces = triangles.iter().map(|&t| polygons.face(t)).collect();
     Ok(weld.soup)
 }
+
+const NO_STL: &str = "this is no STL file: it neither begins with `solid` or `facet` nor has the 84 bytes before the triangles of a binary one";

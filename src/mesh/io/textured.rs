@@ -2,6 +2,7 @@
 
 use super::{Attributes, Point, Soup, finite, in_range};
 use crate::error::{Error, Result, check_size};
+use std::collections::HashMap;
 
 /// What [`super::write_obj`] and [`super::write_glb`] write.
 #[derive(Debug, Clone, Copy, Default)]
@@ -10,7 +11,7 @@ pub struct Textured<'a> {
     pub positions: &'a [Point],
     /// Colours of the vertices: red, green, blue, opacity, from 0 to 1; empty for none.
     pub colors: &'a [[f64; 4]],
-    /// Normals of the vertices; empty for none.
+    /// Normals, of the vertices unless `face_normals` says whose; empty for none.
     pub normals: &'a [Point],
     /// Texture coordinates; empty for none.
     pub texcoords: &'a [[f64; 2]],
@@ -18,6 +19,8 @@ pub struct Textured<'a> {
     pub faces: &'a [[u32; 3]],
     /// Corners of the faces, 0-based into `texcoords`; as many as faces, or empty for none.
     pub face_texcoords: &'a [[u32; 3]],
+    /// Corners of the faces, 0-based into `normals`; as many as faces, or empty where each vertex has its own.
+    pub face_normals: &'a [[u32; 3]],
 }
 
 impl Textured<'_> {
@@ -26,35 +29,56 @@ impl Textured<'_> {
         if !self.face_texcoords.is_empty() {
             check_size("face_texcoords", self.face_texcoords.len(), self.faces.len())?;
         }
-        for (what, len) in [("colors", self.colors.len()), ("normals", self.normals.len())] {
-            if len > 0 {
-                check_size(what, len, self.positions.len())?;
-            }
+        if !self.face_normals.is_empty() {
+            check_size("face_normals", self.face_normals.len(), self.faces.len())?;
+        } else if !self.normals.is_empty() {
+            check_size("normals", self.normals.len(), self.positions.len())?;
+        }
+        if !self.colors.is_empty() {
+            check_size("colors", self.colors.len(), self.positions.len())?;
         }
         finite("position", self.positions)?;
         finite("colour", self.colors)?;
         finite("normal", self.normals)?;
         finite("texture coordinate", self.texcoords)?;
         in_range("vertex", self.faces, self.positions.len())?;
+        in_range("normal", self.face_normals, self.normals.len())?;
         in_range("texture vertex", self.face_texcoords, self.texcoords.len())
     }
 }
 
-/// Call `write` with the triangle list that a soup is, with texture coordinates of their own for each corner.
+/// Call `write` with the triangle list that a soup is; equal texture coordinates are one entry, and so are equal normals of corners.
 pub(super) fn with_textured<T>(soup: &Soup, write: impl FnOnce(&Textured<'_>) -> Result<T>) -> Result<T> {
     soup.check_writable()?;
-    let Attributes { normals, colors, uv } = &soup.attributes;
-    let uv = uv.as_deref().unwrap_or_default();
-    if uv.len() > u32::MAX as usize / 3 {
-        return Err(Error::TooLarge { what: "texture coordinates", count: uv.len().saturating_mul(3) });
-    }
-    let corners: Vec<[u32; 3]> = (0..uv.len() as u32).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
+    let Attributes { normals, corner_normals, colors, uv } = &soup.attributes;
+    let (texcoords, face_texcoords) = indexed("texture coordinates", uv.as_deref().unwrap_or_default())?;
+    let (of_corners, face_normals) = indexed("normals", corner_normals.as_deref().unwrap_or_default())?;
     write(&Textured {
         positions: &soup.positions,
         faces: &soup.faces,
         colors: colors.as_deref().unwrap_or_default(),
-        normals: normals.as_deref().unwrap_or_default(),
-        texcoords: uv.as_flattened(),
-        face_texcoords: &corners,
+        normals: if face_normals.is_empty() { normals.as_deref().unwrap_or_default() } else { &of_corners },
+        texcoords: &texcoords,
+        face_texcoords: &face_texcoords,
+        face_normals: &face_normals,
     })
+}
+
+/// The different values in order of appearance, and which of them the corners have.
+fn indexed<const N: usize>(
+    what: &'static str,
+    corners: &[[[f64; N]; 3]],
+) -> Result<(Vec<[f64; N]>, Vec<[u32; 3]>)> {
+    if corners.len() > u32::MAX as usize / 3 {
+        return Err(Error::TooLarge { what, count: corners.len().saturating_mul(3) });
+    }
+    let (mut values, mut known) = (Vec::new(), HashMap::new());
+    let mut number = |value: [f64; N]| {
+        *known.entry(value.map(f64::to_bits)).or_insert_with(|| {
+            values.push(value);
+            values.len() as u32 - 1
+        })
+    };
+    let numbers = corners.iter().map(|values| values.map(&mut number)).collect();
+    Ok((values, numbers))
 }

@@ -17,8 +17,9 @@ use crate::mesh::io::Soup;
 ///      a___\___b
 /// ```
 ///
-/// Errors: [`Error::Argument`] for a vertex that does not exist or is in no face, or more than 100 levels;
-/// [`Error::TooLarge`].
+/// Errors: [`Error::Argument`] for a vertex that does not exist or is in no face, or for too many levels; [`Error::TooLarge`].
+/// The error for levels names the largest number: 100 for a vertex at the origin, and elsewhere as many as leave the edges
+/// at it 1024 times what doubles resolve at its coordinates (about 40 on the unit sphere), so that angles keep three digits.
 pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
     let star: Vec<usize> = (0..soup.faces.len()).filter(|&f| soup.faces[f].contains(&vertex)).collect();
     check_corners(soup)?;
@@ -26,9 +27,10 @@ pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
         let need = "a vertex of a face";
         return Err(Error::Argument { what: "vertex to grade towards", value: vertex.to_string(), need });
     }
-    if levels > MOST_LEVELS {
-        let need = "at most 100: edges would vanish in rounding";
-        return Err(Error::Argument { what: "levels", value: levels.to_string(), need });
+    let most = most_levels(soup, vertex, &star);
+    if levels > most {
+        let value = format!("{levels}, of at most {most} at vertex {vertex}");
+        return Err(Error::Argument { what: "levels", value, need: "fewer: edges would vanish in rounding" });
     }
     check_room(soup, 2 * levels * star.len())?;
     for _ in 0..levels {
@@ -56,8 +58,20 @@ pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
     Ok(())
 }
 
-/// 2⁻¹⁰⁰ of an edge is still a hundred million times what doubles resolve at coordinate 0, and nothing elsewhere.
+/// Beyond this, edges are of no use even at the origin, where doubles resolve them.
 const MOST_LEVELS: usize = 100;
+/// Edges at the graded vertex stay this many roundings of its largest coordinate long.
+const RESOLVED: f64 = 1024.0 * f64::EPSILON;
+
+fn most_levels(soup: &Soup, vertex: u32, star: &[usize]) -> usize {
+    let at = |v: u32| soup.positions[v as usize];
+    let others = star.iter().flat_map(|&f| soup.faces[f]).filter(|&v| v != vertex);
+    let shortest = others.map(|v| distance(at(v), at(vertex))).fold(f64::INFINITY, f64::min);
+    let largest = at(vertex).into_iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let levels = (shortest / (RESOLVED * largest)).log2().floor();
+    // Infinite at the origin; not a number for positions that are none, which the mesh refuses.
+    if levels < MOST_LEVELS as f64 { levels.max(0.0) as usize } else { MOST_LEVELS }
+}
 
 /// Which sliver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

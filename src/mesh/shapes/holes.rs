@@ -21,49 +21,23 @@ const CHOICE: f64 = 0.7;
 /// from the boundary. A hole is the piece of the surface around its centre within a ball; its rim lies on the ball's
 /// sphere: the vertices nearest to the rim move onto it, along edges. The radius is 0.3 of the least distance of two
 /// centres or of a centre and the boundary, less at a hole around which the surface curves away, and by up to a third
-/// where that makes better triangles.
+/// where that makes better triangles. On a mesh too coarse for that, a hole is the faces around a vertex, such that no two
+/// holes, nor a hole and the boundary, share a vertex.
 /// Vertices and faces keep their order, those cut out are dropped, and so are attributes.
 ///
-/// Errors: those of [`Mesh::from_soup`] for the surface; [`Error::Argument`] if there is no room for a hole of at least
-/// one ring of triangles.
+/// Errors: those of [`Mesh::from_soup`] for the surface; [`Error::Argument`] if there is no room for as many holes of
+/// either kind.
 pub fn punch(soup: &Soup, count: usize) -> Result<Soup> {
     let mesh = Mesh::from_soup(soup)?;
     if count == 0 {
         return Ok(soup.clone());
     }
     let surface = Surface::new(&mesh, &soup.positions);
-    let no_room = || Error::Argument {
-        what: "holes",
-        value: count.to_string(),
-        need: "fewer, or more vertices: there is no room for one more hole",
-    };
-    let (centres, apart) = surface.centres(count).ok_or_else(no_room)?;
-    let mut state = State::new(&mesh, &soup.positions);
-    for (done, &c) in centres.iter().enumerate() {
-        let attempt = |radius: f64| {
-            let mut next = state.clone();
-            surface.cut(c, radius, &mut next)?;
-            let rest = surface.rest(&next);
-            let punched = Mesh::from_soup(&rest).ok()?;
-            let loops = mesh.boundary_loops().len() + done + 1;
-            let right = punched.boundary_loops().len() == loops && punched.genus() == mesh.genus();
-            right.then(|| (smallest_sine(&rest), radius, next))
-        };
-        let mut best: Option<(f64, f64, State)> = None;
-        let mut radius = SHARE * apart;
-        let least = surface.ring_radius(c);
-        while radius > least.max(best.as_ref().map_or(0.0, |(_, largest, _)| CHOICE * largest)) {
-            if let Some((sine, _, next)) = attempt(radius) {
-                let largest = best.as_ref().map_or(radius, |&(_, largest, _)| largest);
-                if best.as_ref().is_none_or(|&(known, ..)| sine > known) {
-                    best = Some((sine, largest, next));
-                }
-            }
-            radius *= SHRINK;
-        }
-        state = best.ok_or_else(no_room)?.2;
+    if let Some(punched) = surface.round(count).or_else(|| surface.stars(count)) {
+        return Ok(punched);
     }
-    Ok(surface.rest(&state))
+    let need = "fewer, or more vertices: there is no room for one more hole";
+    Err(Error::Argument { what: "holes", value: count.to_string(), need })
 }
 
 /// The sine of the smallest angle, nearly: the least height over the longest side.
@@ -109,16 +83,76 @@ impl<'a> Surface<'a> {
         self.positions[v.index()]
     }
 
+    /// The surface with round holes.
+    fn round(&self, count: usize) -> Option<Soup> {
+        let (centres, apart) = self.centres(count)?;
+        let mut state = State::new(self.mesh, self.positions);
+        for (done, &c) in centres.iter().enumerate() {
+            let attempt = |radius: f64| {
+                let mut next = state.clone();
+                self.cut(c, radius, &mut next)?;
+                let rest = self.rest(&next);
+                self.is_punched(&rest, done + 1).then(|| (smallest_sine(&rest), next))
+            };
+            // Sine, largest radius that works, state.
+            let mut best: Option<(f64, f64, State)> = None;
+            let mut radius = SHARE * apart;
+            let least = self.ring_radius(c);
+            while radius > least.max(best.as_ref().map_or(0.0, |(_, largest, _)| CHOICE * largest)) {
+                if let Some((sine, next)) = attempt(radius) {
+                    let largest = best.as_ref().map_or(radius, |&(_, largest, _)| largest);
+                    if best.as_ref().is_none_or(|&(known, ..)| sine > known) {
+                        best = Some((sine, largest, next));
+                    }
+                }
+                radius *= SHRINK;
+            }
+            state = best?.2;
+        }
+        Some(self.rest(&state))
+    }
+
+    /// The surface without the faces around some vertices, each the farthest from those before it and from the boundary.
+    fn stars(&self, count: usize) -> Option<Soup> {
+        let mut state = State::new(self.mesh, self.positions);
+        let mut free = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
+        // On a hole's rim or on the boundary.
+        let mut taken = PerVertex::from_fn(self.mesh.n_vertices(), |v| self.mesh.is_boundary_vertex(v));
+        for v in self.mesh.vertices().filter(|&v| self.mesh.is_boundary_vertex(v)) {
+            self.keep_off(&mut free, self.at(v));
+        }
+        let ring = |v: VertexId| self.mesh.outgoing(v).map(|h| self.mesh.tip(h));
+        for _ in 0..count {
+            let open = |v: &VertexId| !taken[*v] && ring(*v).all(|w| !taken[w]);
+            let c = self.mesh.vertices().filter(open).max_by(|&v, &w| free[v].total_cmp(&free[w]))?;
+            state.place[c] = Place::Inside;
+            taken[c] = true;
+            ring(c).for_each(|v| taken[v] = true);
+            self.keep_off(&mut free, self.at(c));
+        }
+        let rest = self.rest(&state);
+        self.is_punched(&rest, count).then_some(rest)
+    }
+
+    /// Whether that many holes were cut, and nothing else was.
+    fn is_punched(&self, rest: &Soup, holes: usize) -> bool {
+        let loops = self.mesh.boundary_loops().len() + holes;
+        let right = |m: Mesh| m.boundary_loops().len() == loops && m.genus() == self.mesh.genus();
+        Mesh::from_soup(rest).is_ok_and(right)
+    }
+
+    /// Take the distance to a point into account.
+    fn keep_off(&self, free: &mut PerVertex<f64>, p: Point) {
+        for v in self.mesh.vertices() {
+            free[v] = free[v].min(distance(self.at(v), p));
+        }
+    }
+
     /// Farthest-point centres, and the least distance among them and to the boundary.
     fn centres(&self, count: usize) -> Option<(Vec<VertexId>, f64)> {
         let mut free = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
-        let keep_off = |free: &mut PerVertex<f64>, p: Point| {
-            for v in self.mesh.vertices() {
-                free[v] = free[v].min(distance(self.at(v), p));
-            }
-        };
         for v in self.mesh.vertices().filter(|&v| self.mesh.is_boundary_vertex(v)) {
-            keep_off(&mut free, self.at(v));
+            self.keep_off(&mut free, self.at(v));
         }
         let flat: Vec<VertexId> = self.mesh.vertices().filter(|&v| self.is_flat(v)).collect();
         let farthest =
@@ -132,7 +166,7 @@ impl<'a> Surface<'a> {
                 return None;
             }
             centres.push(v);
-            keep_off(&mut free, self.at(v));
+            self.keep_off(&mut free, self.at(v));
         }
         // A single hole in a closed surface: nothing to keep off but the far side.
         let far =

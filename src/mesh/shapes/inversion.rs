@@ -39,6 +39,11 @@ const CLEARANCE: f64 = 1.2;
 /// The row of equal handles is inverted in a sphere about a point of its axis, which leaves all angles as they are up
 /// to the mesh's fineness, and so the conformal structure. The scale is 1 at the middle of the row.
 ///
+/// The map is one of all space, so that one number says everything: handles cannot be sized one by one, for equal holes
+/// are what the smooth plate of [`genus`] and its regular mesh are built on. Nor can the ratio be any: the inversion's centre
+/// lies beyond the last rim. The largest is 6.8 for two handles, 17 for three, 32 for four, in proportion to the square of
+/// their number.
+///
 /// Errors: those of [`genus`]; [`Error::Argument`] for a ratio below 1, another one than 1 for a single handle, and
 /// one too large for so few handles.
 pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
@@ -59,7 +64,11 @@ pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
         return refuse("1 for a single handle");
     }
     if centre < c + CLEARANCE * RIM {
-        return refuse("smaller: the largest handle would swallow the rest");
+        let reach = CLEARANCE * RIM;
+        let most = ((2.0 * c + reach).powi(2) - HOLE) / (reach * reach - HOLE);
+        let value = format!("{ratio}, of at most {most:.1} for {handles} handles");
+        let need = "smaller: the largest handle would swallow the rest";
+        return Err(Error::Argument { what: "ratio of the handles", value, need });
     }
     invert(&mut soup, [-centre, 0.0, 0.0], centre)?;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

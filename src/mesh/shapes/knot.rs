@@ -10,6 +10,9 @@ use std::f64::consts::{PI, TAU};
 /// Points of the core curve at which the room for a tube is measured, for each time it goes round.
 const SAMPLES: usize = 128;
 
+/// Largest turn of the curve from one cross-section to the next.
+const TURN: f64 = 0.25 * PI;
+
 /// The core of a knotted torus: the curve on the torus of revolution with radii `big` and `small` that goes `p`
 /// times around the axis while it goes `q` times around the tube.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,12 +73,14 @@ impl TorusKnot {
 
     /// The tube of radius `tube` around the curve: a torus, knotted unless p or q is 1.
     ///
-    /// A grid of `n` ≥ 3 cross-sections, which are circles of `m` ≥ 3 vertices, each cell halved by a diagonal.
+    /// A grid of `n` cross-sections, which are circles of `m` ≥ 3 vertices, each cell halved by a diagonal.
+    /// `n` must be such that the curve turns by at most π/4 from one section to the next, and that chords leave it by less
+    /// than the room around the tube: fewer sections do not make this knot (about 40 for a trefoil).
     /// Vertex (i, j) is `i + n j`. From one section to the next the circle is carried along with as little rotation
     /// as possible, and what is missing to close up after one round is shared out evenly.
     ///
     /// Errors: [`Error::Argument`] for p, q that are 0 or not coprime, radii out of range, a tube that would meet
-    /// itself, and counts out of range.
+    /// itself, and counts out of range; the error for too few sections names the least number.
     pub fn torus(&self, tube: f64, n: usize, m: usize) -> Result<Soup> {
         let TorusKnot { p, q, big, small } = *self;
         if p.min(q) == 0 || p.max(q) > 1000 || gcd(p, q) != 1 {
@@ -96,11 +101,32 @@ impl TorusKnot {
                 need,
             });
         }
-        if !(THIN * big..self.room()).contains(&tube) {
+        let room = self.room();
+        if !(THIN * big..room).contains(&tube) {
             let need = "thinner than the room between the strands, and not lost in rounding";
             return Err(Error::Argument { what: "radius of the tube", value: tube.to_string(), need });
         }
+        let least = self.least_sections(room - tube);
+        if n < least {
+            let value = format!("{n}, of at least {least} for this curve and tube");
+            let need = "enough for the tube to follow the curve";
+            return Err(Error::Argument { what: "cross-sections", value, need });
+        }
         Ok(self.sweep(tube, n, m))
+    }
+
+    /// The least number of equal steps in t after which the tangent has turned by at most [`TURN`], and whose chords are
+    /// within `slack` of the curve: an arc of length s that turns by θ leaves its chord by s θ/8 at most.
+    fn least_sections(&self, slack: f64) -> usize {
+        let n = SAMPLES * (self.p + self.q) as usize;
+        let velocity = |i: usize| self.velocity(i as f64 / n as f64);
+        let (mut turn, mut speed) = (0.0f64, 0.0f64);
+        for i in 0..n {
+            let (a, b) = (velocity(i), velocity(i + 1));
+            turn = turn.max(norm(cross(a, b)).atan2(dot(a, b)) * n as f64);
+            speed = speed.max(norm(a));
+        }
+        (turn / TURN).max((0.125 * speed * turn / slack).sqrt()).ceil().max(3.0) as usize
     }
 
     fn sweep(&self, tube: f64, n: usize, m: usize) -> Soup {

@@ -44,6 +44,37 @@ static void compare(const char *path, double positions_off, int uv_kept) {
     free(faces);
 }
 
+static int warnings = 0;
+
+static void listen(ricci_log_level level, const char *message, void *user_data) {
+    (void)user_data;
+    warnings += level == RICCI_LOG_WARN && strstr(message, "seams") != NULL;
+}
+
+/* Normals of corners, each its own, through OBJ. */
+static void hard_edges(const ricci_mesh *mesh) {
+    const size_t count = 9 * t.n_faces;
+    ricci_mesh *read = NULL;
+    ricci_mesh_attributes attributes;
+    ricci_mesh_summary size;
+    double *given = (double *)malloc(count * sizeof *given), *got = (double *)malloc(count * sizeof *got);
+    CHECK(given && got);
+    for (size_t k = 0; k < count; k++) given[k] = (double)k;
+    OK(ricci_mesh_attributes_init(&attributes, sizeof attributes));
+    attributes.corner_normals = given;
+    OK(ricci_mesh_write(mesh, &attributes, "hard.obj"));
+    OK(ricci_mesh_read("hard.obj", &read));
+    OK(ricci_mesh_summarise(read, &size, sizeof size));
+    CHECK(size.n_vertices == t.n_vertices && size.n_normals == 0 && size.n_corner_normals == t.n_faces);
+    FAILS(ricci_mesh_corner_normals(read, got, count - 1), RICCI_BUFFER_TOO_SMALL, "corner_normals");
+    OK(ricci_mesh_corner_normals(read, got, count));
+    CHECK(memcmp(given, got, count * sizeof *got) == 0);
+    FAILS(ricci_mesh_corner_normals(mesh, got, count), RICCI_ARGUMENT, "corner normals");
+    ricci_mesh_free(read);
+    free(given);
+    free(got);
+}
+
 /* Two triangles with a slit between them, as ascii STL. */
 static void welded(void) {
     static const char *const text = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
@@ -103,9 +134,15 @@ int main(void) {
     compare("files.glb", 3e-7, 1);
 
     /* A seam: the last face has a place of its own in the texture, which OFF cannot say and GLB says by more
-     * vertices. */
+     * vertices, of which there are as many as before when it is read. */
     uv[6 * t.n_faces - 1] += 0.5;
+    OK(ricci_log_set(listen, NULL, RICCI_LOG_WARN));
+    OK(ricci_mesh_write(mesh, &attributes, "files.glb"));
+    compare("files.glb", 3e-7, 1);
+    CHECK(warnings == 0);
     OK(ricci_mesh_write(mesh, &attributes, "files.off"));
+    CHECK(warnings == 1);
+    OK(ricci_log_set(NULL, NULL, RICCI_LOG_WARN));
     compare("files.off", 0, 0);
     OK(ricci_mesh_write(mesh, &attributes, "files.ply"));
     compare("files.ply", 0, 1);
@@ -130,6 +167,7 @@ int main(void) {
     FAILS(ricci_mesh_write(mesh, &attributes, "x.ply"), RICCI_ARGUMENT, "normal");
 
     welded();
+    hard_edges(mesh);
     ricci_mesh_free(mesh);
     free(normals);
     free(colors);

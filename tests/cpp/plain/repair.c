@@ -1,7 +1,77 @@
 /* A torn and shuffled torus through the C face: mended, and every element traced back. */
 #include "torus.h"
 
+/* A closed cube and a fin, as loose triangles: the fin stays apart, and its edge is reported. */
+static void fin(void) {
+    const double place[9][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}, {0.5, -1, -1}};
+    const uint32_t corner[39] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6,
+                                 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 8};
+    double positions[39][3];
+    uint32_t faces[39], vertices[2], meeting[3];
+    size_t starts[2];
+    ricci_repair *repair = NULL;
+    ricci_repair_summary summary;
+    for (uint32_t k = 0; k < 39; k++) {
+        memcpy(positions[k], place[corner[k]], sizeof positions[k]);
+        faces[k] = k;
+    }
+    OK(ricci_repair_arrays(positions[0], 0, 39, faces, 13, NULL, &repair));
+    OK(ricci_repair_summarise(repair, &summary, sizeof summary));
+    CHECK(summary.n_vertices == 11 && summary.refused_edges == 1 && summary.refused_faces == 3);
+    FAILS(ricci_repair_refused(repair, vertices, 2, meeting, 2, starts, 2), RICCI_BUFFER_TOO_SMALL, "faces");
+    OK(ricci_repair_refused(repair, vertices, 2, meeting, 3, starts, 2));
+    CHECK(starts[0] == 0 && starts[1] == 3 && meeting[0] == 1 && meeting[1] == 4 && meeting[2] == 12);
+    CHECK(corner[vertices[0]] + corner[vertices[1]] == 1);
+    FAILS(ricci_repair_uv(repair, positions[0], 117), RICCI_ARGUMENT, "uv");
+    /* Two components are a defect of a mesh, and none of a file. */
+    CHECK(summary.n_defects == 1);
+    OK(ricci_repair_write(repair, "fin.ply"));
+    FAILS(ricci_repair_write(repair, "fin.stl"), RICCI_UNKNOWN_FORMAT, ".glb");
+    ricci_repair_free(repair);
+}
+
+/* Attributes stay with their elements: a triangle, given twice, the second time turned and with an unused vertex. */
+static void attributes(void) {
+    const char *text = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 9\nvn 0 0 1\nvn 0 0 2\nvn 0 0 3\n"
+                       "vt 0 0.5\nvt 1 0\nvt 0.25 1\nf 2/1/2 3/2/3 4/3/4\nf 3/2/3 2/1/2 4/3/4\n";
+    double normals[9], uv[6], colors[12];
+    ricci_repair *repair = NULL;
+    ricci_mesh *mesh = NULL;
+    ricci_repair_summary summary;
+    FILE *file = fopen("attributes.obj", "w");
+    CHECK(file && fputs(text, file) >= 0 && fclose(file) == 0);
+    OK(ricci_repair_file("attributes.obj", NULL, &repair));
+    OK(ricci_repair_summarise(repair, &summary, sizeof summary));
+    CHECK(summary.n_vertices == 3 && summary.n_faces == 1 && summary.isolated_vertices == 1);
+    FAILS(ricci_repair_normals(repair, normals, 8), RICCI_BUFFER_TOO_SMALL, "normals");
+    OK(ricci_repair_normals(repair, normals, 9));
+    OK(ricci_repair_uv(repair, uv, 6));
+    FAILS(ricci_repair_colors(repair, colors, 12), RICCI_ARGUMENT, "colors");
+    CHECK(normals[2] == 1 && normals[5] == 2 && normals[8] == 3);
+    CHECK(uv[1] == 0.5 && uv[2] == 1 && uv[4] == 0.25 && uv[5] == 1);
+    OK(ricci_repair_write(repair, "attributes.ply"));
+    ricci_repair_free(repair);
+
+    /* And go out again with a texture. */
+    const unsigned char png[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R', 0, 0, 0, 1, 0, 0, 0, 1,
+                                 8, 2, 0, 0, 0, 0x90, 0x77, 0x53, 0xde, 0, 0, 0, 12, 'I', 'D', 'A', 'T', 8, 0xd7, 0x63, 0xf8, 0xff, 0xff,
+                                 0x3f, 0, 5, 0xfe, 2, 0xfe, 0xdc, 0xcc, 0x59, 0xe7, 0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+    OK(ricci_mesh_read("attributes.ply", &mesh));
+    OK(ricci_mesh_write_textured(mesh, NULL, png, sizeof png, RICCI_WRAP_MIRROR, "attributes.glb"));
+    FAILS(ricci_mesh_write_textured(mesh, NULL, png + 1, sizeof png - 1, RICCI_WRAP_CLAMP, "x.glb"), RICCI_ARGUMENT, "PNG");
+    FAILS(ricci_mesh_write_textured(mesh, NULL, NULL, 9, RICCI_WRAP_CLAMP, "x.glb"), RICCI_NULL_POINTER, "png");
+    FAILS(ricci_mesh_write_textured(mesh, NULL, png, sizeof png, (ricci_wrap)3, "x.glb"), RICCI_ARGUMENT, "wrap");
+    ricci_mesh_free(mesh);
+    mesh = NULL;
+    OK(ricci_mesh_read("attributes.glb", &mesh));
+    OK(ricci_mesh_uv(mesh, uv, 6));
+    CHECK(uv[1] == 0.5 && uv[2] == 1 && uv[4] == 0.25 && uv[5] == 1);
+    ricci_mesh_free(mesh);
+}
+
 int main(void) {
+    fin();
+    attributes();
     torus t = torus_new(12, 8);
     const size_t n_faces = t.n_faces + 2, n_vertices = 3 * t.n_faces + 1;
     double *positions = (double *)malloc(3 * n_vertices * sizeof *positions);

@@ -4,14 +4,24 @@
 use super::super::budget::Budget;
 use super::super::scan::Place;
 use super::document::{Document, Shape, Sparse};
+use super::locate::locate;
 use crate::error::Result;
 use std::borrow::Cow;
 
 /// A document with the bytes of its buffers.
 pub(super) struct File<'a> {
     pub document: &'a Document,
-    pub buffers: Vec<Cow<'a, [u8]>>,
-    pub place: Place<'a>,
+    pub buffers: Vec<Stored<'a>>,
+    pub path: &'a str,
+    /// The text of the document, and the byte of the file at which it begins.
+    pub json: &'a [u8],
+    pub json_start: usize,
+}
+
+/// The bytes of a buffer, and where in the file they are as they stand.
+pub(super) struct Stored<'a> {
+    pub bytes: Cow<'a, [u8]>,
+    pub start: Option<usize>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -73,6 +83,8 @@ impl Component {
 #[derive(Clone, Copy)]
 struct Elements<'a> {
     bytes: &'a [u8],
+    /// Where in the file they begin, if they are there as they stand.
+    start: Option<usize>,
     component: Component,
     width: usize,
     stride: usize,
@@ -80,6 +92,11 @@ struct Elements<'a> {
 }
 
 impl Elements<'_> {
+    /// Where element `i` stands, or the place of what names it.
+    fn place<'p>(&self, i: usize, else_at: Place<'p>) -> Place<'p> {
+        self.start.map_or(else_at, |start| Place::byte(else_at.path, start + i * self.stride))
+    }
+
     fn number(&self, i: usize, k: usize) -> f64 {
         self.component.read(&self.bytes[i * self.stride + k * self.component.size()..])
     }
@@ -87,6 +104,7 @@ impl Elements<'_> {
 
 /// Numbers of one accessor.
 pub(super) struct Accessor<'a> {
+    index: u32,
     pub count: usize,
     width: usize,
     component: Component,
@@ -98,12 +116,26 @@ pub(super) struct Accessor<'a> {
 }
 
 impl<'a> File<'a> {
+    /// Where entry `index` of an array of the document stands.
+    pub fn place_of(&self, array: &str, index: usize) -> Place<'a> {
+        match locate(self.json, array, index) {
+            Some(at) => Place::byte(self.path, self.json_start + at),
+            None => Place::whole(self.path),
+        }
+    }
+
+    pub fn whole(&self) -> Place<'a> {
+        Place::whole(self.path)
+    }
+
     /// The accessor that `what` names; it holds one of these shapes.
     pub fn accessor(&'a self, index: u32, what: &str, shapes: &[Shape]) -> Result<Accessor<'a>> {
         let Some(text) = self.document.accessors.get(index as usize) else {
-            return self.place.error(format!("{what} names accessor {index}, which does not exist"));
+            return self.whole().error(format!("{what} names accessor {index}, which does not exist"));
         };
-        let fail = |message: String| self.place.error(format!("accessor {index} ({what}): {message}"));
+        let fail = |message: String| {
+            self.place_of("accessors", index as usize).error(format!("accessor {index} ({what}): {message}"))
+        };
         let Some(component) = Component::new(text.component_type) else {
             return fail(format!("component type {} does not exist", text.component_type));
         };
@@ -127,7 +159,15 @@ impl<'a> File<'a> {
             Ok(sparse) => sparse,
             Err(message) => return fail(message),
         };
-        Ok(Accessor { count: text.count, width, component, normalized: text.normalized, dense, sparse })
+        Ok(Accessor {
+            index,
+            count: text.count,
+            width,
+            component,
+            normalized: text.normalized,
+            dense,
+            sparse,
+        })
     }
 
     fn sparse(
@@ -163,8 +203,8 @@ impl<'a> File<'a> {
             return Err(format!("buffer {} of buffer view {view} does not exist", text.buffer));
         };
         let end = text.byte_offset.checked_add(text.byte_length);
-        let Some(bytes) = end.and_then(|end| buffer.get(text.byte_offset..end)) else {
-            return Err(format!("buffer view {view} ends behind its buffer of {} bytes", buffer.len()));
+        let Some(bytes) = end.and_then(|end| buffer.bytes.get(text.byte_offset..end)) else {
+            return Err(format!("buffer view {view} ends behind its buffer of {} bytes", buffer.bytes.len()));
         };
         let size = width * component.size();
         let stride = text.byte_stride.unwrap_or(size);
@@ -176,22 +216,34 @@ impl<'a> File<'a> {
             n => (n - 1).checked_mul(stride).and_then(|n| n.checked_add(size)?.checked_add(offset)),
         };
         match end.and_then(|end| bytes.get(offset..end)) {
-            Some(bytes) => Ok(Elements { bytes, component, width, stride, count }),
+            Some(bytes) => Ok(Elements {
+                bytes,
+                start: buffer.start.map(|at| at + text.byte_offset + offset),
+                component,
+                width,
+                stride,
+                count,
+            }),
             None => Err(format!("{count} elements end behind buffer view {view} of {} bytes", bytes.len())),
         }
     }
 }
 
 impl Accessor<'_> {
+    /// Where the document names it.
+    fn place<'p>(&self, file: &File<'p>) -> Place<'p> {
+        file.place_of("accessors", self.index as usize)
+    }
+
     /// All elements, filled up to N components with `fill`.
     pub fn numbers<const N: usize>(
         &self,
         fill: f64,
         what: &str,
         budget: &mut Budget,
-        place: Place<'_>,
+        file: &File<'_>,
     ) -> Result<Vec<[f64; N]>> {
-        budget.take(self.count, size_of::<[f64; N]>(), what, place)?;
+        budget.take(self.count, size_of::<[f64; N]>(), what, file.whole())?;
         let value = |x: f64| if self.normalized { (x / self.component.full()).max(-1.0) } else { x };
         let element = |from: &Elements<'_>, i: usize| -> [f64; N] {
             std::array::from_fn(|k| if k < from.width { value(from.number(i, k)) } else { fill })
@@ -209,7 +261,9 @@ impl Accessor<'_> {
                 match numbers.get_mut(at) {
                     Some(slot) => *slot = element(values, i),
                     None => {
-                        return place.error(format!("{what}: element {at} of {} is replaced", self.count));
+                        return indices
+                            .place(i, self.place(file))
+                            .error(format!("{what}: element {at} of {} is replaced", self.count));
                     }
                 }
             }
@@ -218,13 +272,17 @@ impl Accessor<'_> {
     }
 
     /// All elements as vertex numbers below `n`.
-    pub fn indices(&self, n: usize, budget: &mut Budget, place: Place<'_>) -> Result<Vec<u32>> {
+    pub fn indices(&self, n: usize, budget: &mut Budget, file: &File<'_>) -> Result<Vec<u32>> {
         if !matches!(self.component, Component::U8 | Component::U16 | Component::U32) {
-            return place.error("indices are no unsigned integers".into());
+            return self.place(file).error("indices are no unsigned integers".into());
         }
-        let numbers: Vec<[f64; 1]> = self.numbers(0.0, "indices", budget, place)?;
+        let numbers: Vec<[f64; 1]> = self.numbers(0.0, "indices", budget, file)?;
         match numbers.iter().position(|&[v]| v >= n as f64) {
-            Some(i) => place.error(format!("index {i} of a mesh names vertex {} of {n}", numbers[i][0])),
+            Some(i) => {
+                let place = self.place(file);
+                let place = self.dense.map_or(place, |dense| dense.place(i, place));
+                place.error(format!("index {i} of a mesh names vertex {} of {n}", numbers[i][0]))
+            }
             None => Ok(numbers.into_iter().map(|[v]| v as u32).collect()),
         }
     }

@@ -167,6 +167,8 @@ pub(super) struct Named {
     pub color: Option<u32>,
     #[serde(rename = "TEXCOORD_0")]
     pub texcoord: Option<u32>,
+    #[serde(rename = "_RICCI_VERTEX")]
+    pub vertex: Option<u32>,
 }
 
 #[derive(Deserialize)]

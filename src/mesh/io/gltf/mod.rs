@@ -3,17 +3,20 @@
 
 mod accessor;
 mod document;
+mod locate;
 mod scene;
+mod seams;
 mod write;
 
 pub use write::{Texture, Wrap, write_glb};
 
 use super::budget::Budget;
-use super::scan::Place;
+use super::scan::{Place, Quoted};
 use super::{Soup, base64};
 use crate::error::Result;
-use accessor::File;
+use accessor::{File, Stored};
 use document::{Buffer, Document};
+use locate::byte_of;
 use std::borrow::Cow;
 
 /// Extensions that may be required: those that change no triangle, and integers for positions.
@@ -22,21 +25,32 @@ const KNOWN_EXTENSIONS: [&str; 5] =
 
 /// Parse a glTF 2.0 file, binary or, if it begins with `{`, text: the meshes of its scene in space, one after the other.
 ///
-/// Nodes are applied (mirrors turn faces around), vertices keep the order of the file: those that it gives twice, along seams of
-/// normals or texture, stay two, and [`crate::mesh::repair`] welds them. Triangles, strips and fans are faces; the vertices of
+/// Nodes are applied (mirrors turn faces around). A vertex of glTF has one normal and one pair of texture coordinates, so that files
+/// give those along seams and hard edges more than once: vertices of a mesh in exactly the same place become one, which keeps the
+/// number of the first, its colour, and the normals and texture coordinates of all at their corners; our own files say in the
+/// attribute `_RICCI_VERTEX` where that would be one too many. Triangles, strips and fans are faces; the vertices of
 /// points and lines have none. Attributes are `NORMAL`, `COLOR_0` (linear, as they stand) and `TEXCOORD_0`, with v upwards as
-/// everywhere else here: glTF counts it downwards. Skins and morph targets are left as stored. Buffers are the binary chunk and
+/// everywhere else here: glTF counts it downwards. What a primitive
+/// lacks and another has is filled up with the defaults of [`super::Attributes`]. Skins and morph targets are left as stored. Buffers are the binary chunk and
 /// base64 data; other files are refused by name, and so is what an extension compresses. `path` is used in errors.
 pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
-    let place = Place { path, line: 0 };
-    let (json, binary) = if bytes.trim_ascii_start().starts_with(b"{") || bytes.starts_with(b"\xef\xbb\xbf") {
-        (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None)
+    let place = Place::whole(path);
+    let bom = b"\xef\xbb\xbf";
+    let (json, binary) = if bytes.trim_ascii_start().starts_with(b"{") || bytes.starts_with(bom) {
+        (Chunk { start: if bytes.starts_with(bom) { bom.len() } else { 0 }, end: bytes.len() }, None)
     } else {
-        chunks(bytes, place)?
+        chunks(bytes, path)?
     };
-    let document: Document = match serde_json::from_slice(json) {
+    let text = &bytes[json.start..json.end];
+    let document: Document = match serde_json::from_slice(text) {
         Ok(document) => document,
-        Err(e) => return place.error(format!("the JSON of the file is not that of glTF: {e}")),
+        Err(e) => {
+            let said = e.to_string();
+            let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
+            let said: String = said.chars().take(200).collect();
+            return Place::byte(path, json.start + byte_of(text, e.line(), e.column()))
+                .error(format!("the JSON of the file is not that of glTF: {said}"));
+        }
     };
     if !document.asset.version.starts_with("2.") {
         return place.error(format!("this is glTF {}; version 2 is read", document.asset.version));
@@ -45,77 +59,83 @@ pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
     if let Some(name) = document.extensions_required.iter().find(|name| !known(name)) {
         return place.error(format!("the file needs the extension {name}; export it without"));
     }
-    let buffers: Result<_> =
-        document.buffers.iter().enumerate().map(|(i, b)| buffer(i, b, binary, place)).collect();
-    let file = File { document: &document, buffers: buffers?, place };
+    let mut file =
+        File { document: &document, buffers: Vec::new(), path, json: text, json_start: json.start };
+    for (i, text) in document.buffers.iter().enumerate() {
+        match buffer(i, text, bytes, binary) {
+            Ok(found) => file.buffers.push(found),
+            Err(message) => return file.place_of("buffers", i).error(format!("buffer {i} {message}")),
+        }
+    }
     scene::soup(&file, Budget::of(bytes))
 }
 
+/// A part of the file.
+#[derive(Clone, Copy)]
+struct Chunk {
+    start: usize,
+    end: usize,
+}
+
 /// The JSON and the binary chunk of a GLB file [glTF 2.0, section 4.4].
-fn chunks<'a>(bytes: &'a [u8], place: Place<'_>) -> Result<(&'a [u8], Option<&'a [u8]>)> {
+fn chunks(bytes: &[u8], path: &str) -> Result<(Chunk, Option<Chunk>)> {
     let word =
         |at: usize| bytes.get(at..at + 4).and_then(|b| b.first_chunk()).map(|b| u32::from_le_bytes(*b));
     let (true, Some(version), Some(length)) = (bytes.starts_with(b"glTF"), word(4), word(8)) else {
-        return place
+        return Place::byte(path, 0)
             .error("this is no GLB file: that begins with `glTF`, its version and its length".into());
     };
     if version != 2 {
-        return place.error(format!("this is version {version} of GLB; version 2 is read"));
+        return Place::byte(path, 4).error(format!("this is version {version} of GLB; version 2 is read"));
     }
     if length as usize > bytes.len() {
-        return place.error(format!(
-            "the file ends at byte {}, its header promises {length}; export it again",
-            bytes.len()
-        ));
+        return Place::byte(path, bytes.len())
+            .error(format!("the file ends here, its header promises {length} bytes; export it again"));
     }
     let end = length as usize;
     let mut at = 12;
-    let mut chunk = |kind: &[u8; 4]| -> Result<Option<&'a [u8]>> {
+    let mut chunk = |kind: &[u8; 4]| -> Result<Option<Chunk>> {
         let Some(size) = word(at).filter(|_| at + 8 <= end) else { return Ok(None) };
         if size as usize > end - at - 8 {
-            return place
-                .error(format!("the chunk at byte {at} promises {size} bytes, {} follow", end - at - 8));
+            return Place::byte(path, at)
+                .error(format!("this chunk promises {size} bytes, {} follow", end - at - 8));
         }
-        let data = &bytes[at + 8..at + 8 + size as usize];
+        let data = Chunk { start: at + 8, end: at + 8 + size as usize };
         let found = bytes[at + 4..at + 8] == *kind;
-        at += 8 + size as usize;
+        at = data.end;
         Ok(found.then_some(data))
     };
     match chunk(b"JSON")? {
         Some(json) => Ok((json, chunk(b"BIN\0")?)),
-        None => place.error("the first chunk of the file is not JSON".into()),
+        None => Place::byte(path, 12).error("the first chunk of the file is not JSON".into()),
     }
 }
 
-/// The bytes of buffer `i`.
+/// The bytes of buffer `i`; the error says what is wrong with it.
 fn buffer<'a>(
     i: usize,
     buffer: &Buffer,
-    binary: Option<&'a [u8]>,
-    place: Place<'_>,
-) -> Result<Cow<'a, [u8]>> {
-    let bytes = match (&buffer.uri, binary) {
+    file: &'a [u8],
+    binary: Option<Chunk>,
+) -> std::result::Result<Stored<'a>, String> {
+    let stored = match (&buffer.uri, binary) {
         (Some(uri), _) => match uri.strip_prefix("data:").and_then(|data| data.split_once(";base64,")) {
-            Some((_, text)) => match base64::decode(text.as_bytes()) {
-                Ok(bytes) => Cow::Owned(bytes),
-                Err(message) => return place.error(format!("buffer {i}: {message}")),
-            },
+            Some((_, text)) => {
+                let bytes =
+                    base64::decode(text.as_bytes()).map_err(|message| format!("is damaged: {message}"))?;
+                Stored { bytes: Cow::Owned(bytes), start: None }
+            }
             None => {
-                let name: String = uri.chars().take(80).collect();
-                return place.error(format!(
-                    "buffer {i} is in another file, `{name}`; export it as a single .glb file"
-                ));
+                return Err(format!("is in another file, {}; export it as a single .glb file", Quoted(uri)));
             }
         },
-        (None, Some(binary)) if i == 0 => Cow::Borrowed(binary),
-        (None, _) => return place.error(format!("buffer {i} has no data in the file")),
+        (None, Some(Chunk { start, end })) if i == 0 => {
+            Stored { bytes: Cow::Borrowed(&file[start..end]), start: Some(start) }
+        }
+        (None, _) => return Err("has no data in the file".into()),
     };
-    if bytes.len() < buffer.byte_length {
-        return place.error(format!(
-            "buffer {i} has {} bytes, {} are promised",
-            bytes.len(),
-            buffer.byte_length
-        ));
+    if stored.bytes.len() < buffer.byte_length {
+        return Err(format!("has {} bytes, {} are promised", stored.bytes.len(), buffer.byte_length));
     }
-    Ok(bytes)
+    Ok(stored)
 }

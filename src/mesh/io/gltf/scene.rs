@@ -1,9 +1,10 @@
 //! The meshes of a scene, in space.
 
 use super::super::budget::Budget;
-use super::super::{Attributes, Point, Soup};
+use super::super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, WHITE};
 use super::accessor::File;
 use super::document::{Affine, Primitive, Shape};
+use super::seams::{first_alike, place_key};
 use crate::error::{Error, Result};
 
 /// Modes of a primitive with faces.
@@ -15,7 +16,7 @@ const PRIMITIVE: usize = 64;
 
 /// All meshes below the roots of the scene: the default one, else the first, else every mesh where it stands.
 pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
-    let (document, place) = (file.document, file.place);
+    let document = file.document;
     let mut out = Collected {
         file,
         budget,
@@ -23,9 +24,13 @@ pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
         uv: Vec::new(),
         normals: Vec::new(),
         colors: Vec::new(),
+        given: Vec::new(),
+        first: Vec::new(),
     };
     let scene = match document.scene {
-        Some(i) if i >= document.scenes.len() => return place.error(format!("scene {i} does not exist")),
+        Some(i) if i >= document.scenes.len() => {
+            return file.whole().error(format!("scene {i} does not exist"));
+        }
         Some(i) => Some(&document.scenes[i]),
         None => document.scenes.first(),
     };
@@ -33,7 +38,7 @@ pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
         for mesh in 0..document.meshes.len() {
             out.mesh(mesh as u32, &Affine::IDENTITY)?;
         }
-        return Ok(out.finish());
+        return out.finish();
     };
     // Nodes are a forest: one that is met twice would be its own ancestor, or count its meshes twice.
     let mut met = vec![false; document.nodes.len()];
@@ -42,10 +47,12 @@ pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
     while let Some((index, above)) = open.pop() {
         let (Some(node), Some(met)) = (document.nodes.get(index as usize), met.get_mut(index as usize))
         else {
-            return place.error(format!("node {index} does not exist"));
+            return file.whole().error(format!("node {index} does not exist"));
         };
         if std::mem::replace(met, true) {
-            return place.error(format!("node {index} has two parents, or is below itself"));
+            return file
+                .place_of("nodes", index as usize)
+                .error(format!("node {index} has two parents, or is below itself"));
         }
         let here = node.transform.as_ref().map_or(above, |local| above.after(local));
         if let Some(mesh) = node.mesh {
@@ -53,10 +60,10 @@ pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
         }
         open.extend(node.children.iter().rev().map(|&child| (child, here)));
     }
-    Ok(out.finish())
+    out.finish()
 }
 
-/// What has been read so far; attributes that some primitive lacks stay short.
+/// What has been read so far; attributes are as long as the last primitive that has them made them.
 struct Collected<'a> {
     file: &'a File<'a>,
     budget: Budget,
@@ -64,22 +71,40 @@ struct Collected<'a> {
     normals: Vec<Point>,
     colors: Vec<[f64; 4]>,
     uv: Vec<[[f64; 2]; 3]>,
+    /// Per vertex of the file, the number that our writer gave it, or `NO_NUMBER`.
+    given: Vec<u32>,
+    /// Per vertex of the file, the first one that is the same.
+    first: Vec<u32>,
 }
+
+/// Of vertices that other programs wrote.
+const NO_NUMBER: u32 = u32::MAX;
 
 impl Collected<'_> {
     fn mesh(&mut self, index: u32, map: &Affine) -> Result<()> {
         let Some(mesh) = self.file.document.meshes.get(index as usize) else {
-            return self.file.place.error(format!("mesh {index} does not exist"));
+            return self.file.whole().error(format!("mesh {index} does not exist"));
         };
         for primitive in &mesh.primitives {
-            self.budget.take(1, PRIMITIVE, "primitives", self.file.place)?;
+            self.budget.take(1, PRIMITIVE, "primitives", self.file.whole())?;
             self.primitive(primitive, map)?;
         }
+        self.weld()
+    }
+
+    /// Vertices of the mesh that was read last are one where they are in one place, and have one number if they have any.
+    fn weld(&mut self) -> Result<()> {
+        let (start, end) = (self.first.len() as u32, self.soup.positions.len() as u32);
+        self.budget.take((end - start) as usize, 2 * size_of::<u32>(), "vertices", self.file.whole())?;
+        let place = |v: u32| place_key(self.soup.positions[v as usize]);
+        let number = |v: u32| self.given.get(v as usize).copied().unwrap_or(NO_NUMBER);
+        let first = first_alike(start..end, |v| (place(v), number(v)));
+        self.first.extend(first);
         Ok(())
     }
 
     fn primitive(&mut self, primitive: &Primitive, map: &Affine) -> Result<()> {
-        let (file, place) = (self.file, self.file.place);
+        let (file, place) = (self.file, self.file.whole());
         let named = &primitive.attributes;
         let Some(position) = named.position else { return Ok(()) };
         let positions = file.accessor(position, "POSITION", &[Shape::Vec3])?;
@@ -89,44 +114,58 @@ impl Collected<'_> {
             return Err(Error::TooLarge { what: "vertices", count: first.saturating_add(n) });
         }
         let budget = &mut self.budget;
-        let mut positions: Vec<Point> = positions.numbers(0.0, "POSITION", budget, place)?;
+        let mut positions: Vec<Point> = positions.numbers(0.0, "POSITION", budget, file)?;
         if *map != Affine::IDENTITY {
             positions.iter_mut().for_each(|p| *p = map.apply(*p));
         }
         let (turn, mirrors) = map.of_normals();
-        let check = |what: &str, count: usize| match count == n {
+        let check = |what: &str, index: u32, count: usize| match count == n {
             true => Ok(()),
-            false => place.error(format!("{what} has {count} elements, POSITION {n}")),
+            false => file
+                .place_of("accessors", index as usize)
+                .error(format!("{what} has {count} elements, POSITION {n}")),
         };
         if let Some(index) = named.normal {
             let normals = file.accessor(index, "NORMAL", &[Shape::Vec3])?;
-            check("NORMAL", normals.count)?;
-            let mut normals: Vec<Point> = normals.numbers(0.0, "NORMAL", budget, place)?;
+            check("NORMAL", index, normals.count)?;
+            let mut normals: Vec<Point> = normals.numbers(0.0, "NORMAL", budget, file)?;
             if map.linear != Affine::IDENTITY.linear {
                 normals.iter_mut().for_each(|x| *x = unit(turn.apply(*x)));
             }
+            budget.take(first - self.normals.len(), size_of::<Point>(), "NORMAL", place)?;
+            self.normals.resize(first, NO_NORMAL);
             self.normals.append(&mut normals);
         }
         if let Some(index) = named.color {
             let colors = file.accessor(index, "COLOR_0", &[Shape::Vec3, Shape::Vec4])?;
-            check("COLOR_0", colors.count)?;
-            self.colors.append(&mut colors.numbers(1.0, "COLOR_0", budget, place)?);
+            check("COLOR_0", index, colors.count)?;
+            budget.take(first - self.colors.len(), size_of::<[f64; 4]>(), "COLOR_0", place)?;
+            self.colors.resize(first, WHITE);
+            self.colors.append(&mut colors.numbers(1.0, "COLOR_0", budget, file)?);
         }
         let texcoords: Option<Vec<[f64; 2]>> = match named.texcoord {
             Some(index) => {
                 let texcoords = file.accessor(index, "TEXCOORD_0", &[Shape::Vec2])?;
-                check("TEXCOORD_0", texcoords.count)?;
-                Some(texcoords.numbers(0.0, "TEXCOORD_0", budget, place)?)
+                check("TEXCOORD_0", index, texcoords.count)?;
+                Some(texcoords.numbers(0.0, "TEXCOORD_0", budget, file)?)
             }
             None => None,
         };
+        if let Some(index) = named.vertex {
+            let numbers = file.accessor(index, "_RICCI_VERTEX", &[Shape::Vec2])?;
+            check("_RICCI_VERTEX", index, numbers.count)?;
+            let halves: Vec<[f64; 2]> = numbers.numbers(0.0, "_RICCI_VERTEX", budget, file)?;
+            budget.take(first - self.given.len(), size_of::<u32>(), "_RICCI_VERTEX", place)?;
+            self.given.resize(first, NO_NUMBER);
+            self.given.extend(halves.into_iter().map(|[low, high]| low as u32 | (high as u32) << 16));
+        }
         self.soup.positions.append(&mut positions);
         let mode = primitive.mode.unwrap_or(TRIANGLES);
         if !(TRIANGLES..=FAN).contains(&mode) {
             return Ok(());
         }
         let indices = match primitive.indices {
-            Some(index) => file.accessor(index, "indices", &[Shape::Scalar])?.indices(n, budget, place)?,
+            Some(index) => file.accessor(index, "indices", &[Shape::Scalar])?.indices(n, budget, file)?,
             None => {
                 budget.take(n, size_of::<u32>(), "indices", place)?;
                 (0..n as u32).collect()
@@ -136,6 +175,11 @@ impl Collected<'_> {
         budget.take(faces, size_of::<[u32; 3]>(), "faces", place)?;
         if texcoords.is_some() {
             budget.take(faces, size_of::<[[f64; 2]; 3]>(), "faces", place)?;
+        }
+        if texcoords.is_some() {
+            let before = self.soup.faces.len();
+            budget.take(before - self.uv.len(), size_of::<[[f64; 2]; 3]>(), "TEXCOORD_0", place)?;
+            self.uv.resize(before, [NO_TEXCOORD; 3]);
         }
         for f in 0..faces {
             let at = |k: usize| indices[k];
@@ -159,16 +203,50 @@ impl Collected<'_> {
         Ok(())
     }
 
-    fn finish(self) -> Soup {
-        let Collected { mut soup, normals, colors, uv, .. } = self;
-        let n = soup.positions.len();
-        let whole = |len: usize, needed: usize| needed > 0 && len == needed;
-        soup.attributes = Attributes {
-            normals: whole(normals.len(), n).then_some(normals),
-            colors: whole(colors.len(), n).then_some(colors),
-            uv: whole(uv.len(), soup.faces.len()).then_some(uv),
+    /// Attributes that some primitives lack are filled up, and vertices renumbered.
+    fn finish(mut self) -> Result<Soup> {
+        let Collected { mut soup, mut normals, mut colors, mut uv, mut first, .. } = self;
+        let (whole, n) = (self.file.whole(), soup.positions.len());
+        let budget = &mut self.budget;
+        let mut fill = |have: usize, wanted: usize, size: usize| match have {
+            0 => Ok(()),
+            have => budget.take(wanted - have, size, "attributes", whole),
         };
-        soup
+        fill(normals.len(), n, size_of::<Point>())?;
+        fill(colors.len(), n, size_of::<[f64; 4]>())?;
+        fill(uv.len(), soup.faces.len(), size_of::<[[f64; 2]; 3]>())?;
+        normals.resize(if normals.is_empty() { 0 } else { n }, NO_NORMAL);
+        colors.resize(if colors.is_empty() { 0 } else { n }, WHITE);
+        uv.resize(if uv.is_empty() { 0 } else { soup.faces.len() }, [NO_TEXCOORD; 3]);
+        let mut corner_normals = None;
+        if (0..normals.len()).any(|v| normals[v] != normals[first[v] as usize]) {
+            budget.take(soup.faces.len(), size_of::<[Point; 3]>(), "normals", whole)?;
+            corner_normals = Some(soup.faces.iter().map(|f| f.map(|v| normals[v as usize])).collect());
+            normals.clear();
+        }
+        // From here on a vertex that is the first of its kind has its final number in `first`, and the others that of theirs.
+        let mut kept = 0;
+        for v in 0..n {
+            if first[v] as usize == v {
+                first[v] = kept as u32;
+                soup.positions[kept] = soup.positions[v];
+                normals.get(v).copied().into_iter().for_each(|x| normals[kept] = x);
+                colors.get(v).copied().into_iter().for_each(|x| colors[kept] = x);
+                kept += 1;
+            } else {
+                first[v] = first[first[v] as usize];
+            }
+        }
+        soup.positions.truncate(kept);
+        normals.truncate(kept);
+        colors.truncate(kept);
+        soup.faces.as_flattened_mut().iter_mut().for_each(|v| *v = first[*v as usize]);
+        fn some<T>(list: Vec<T>) -> Option<Vec<T>> {
+            Some(list).filter(|list| !list.is_empty())
+        }
+        soup.attributes =
+            Attributes { normals: some(normals), corner_normals, colors: some(colors), uv: some(uv) };
+        Ok(soup)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Binary glTF 2.0 from a triangle list, with texture.
 
 use super::super::{Point, Textured, write_atomically};
+use super::seams::{first_alike, place_key};
 use crate::error::{Error, Result};
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -49,9 +50,11 @@ const PLAIN: std::ops::RangeInclusive<f64> = 1e-25..=1e30;
 /// the translation of the mesh's node in doubles: each coordinate is right to 2⁻²⁴ of its largest distance from the centre, far
 /// from the origin too.
 ///
-/// A vertex of glTF has one pair of texture coordinates. Vertices keep their numbers with the pair of their first corner; one
-/// with other pairs is given again for each of these, behind all others, in the order of the corners. Returned is the input's
-/// vertex of each vertex of the file: 0, 1, …, V − 1 and those that were given again. Faces keep order and corners.
+/// A vertex of glTF has one normal and one pair of texture coordinates. Vertices keep their numbers with those of their first
+/// corner; one with others is given again for each of these, behind all others, in the order of the corners. Returned is the
+/// input's vertex of each vertex of the file: 0, 1, …, V − 1 and those that were given again. Faces keep order and corners. Where
+/// the places of the vertices do not tell which of them are one, the file says so in an attribute of ours, `_RICCI_VERTEX`: the
+/// number as two of 16 bits, the lower one first.
 ///
 /// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`Error::Size`], [`Error::TooLarge`] for more than the 4 GB that glTF can count, [`Error::Io`].
@@ -62,11 +65,16 @@ pub fn write_glb(path: &Path, data: &Textured<'_>, texture: Option<Texture<'_>>)
     let mut parts = Parts::default();
     let vertices = split.origin.iter().map(|&v| v as usize);
     if !data.positions.is_empty() {
-        let stored = vertices.clone().map(|v| placed.stored(data.positions[v])).collect();
+        let stored: Vec<[f32; 3]> = vertices.clone().map(|v| placed.stored(data.positions[v])).collect();
+        let places = |v: u32| place_key(placed.read(stored[v as usize]));
+        let told = first_alike(0..stored.len() as u32, places) == split.origin;
         let position = parts.attribute("POSITION", stored);
         (position["min"], position["max"]) = placed.bounds();
+        if !told {
+            parts.vertex_numbers(&split.origin);
+        }
         if !data.normals.is_empty() {
-            parts.attribute("NORMAL", vertices.clone().map(|v| unit(data.normals[v])).collect());
+            parts.attribute("NORMAL", split.normals);
         }
         if !data.colors.is_empty() {
             let color = |v: usize| data.colors[v].map(|x| x.clamp(0.0, 1.0) as f32);
@@ -101,36 +109,56 @@ pub fn write_glb(path: &Path, data: &Textured<'_>, texture: Option<Texture<'_>>)
     Ok(split.origin)
 }
 
-/// Vertices with one pair of texture coordinates each.
+/// Vertices with one normal and one pair of texture coordinates each.
 struct Split {
     /// Per vertex, that of the input.
     origin: Vec<u32>,
     /// Per vertex, with v downwards.
     texcoords: Vec<[f32; 2]>,
+    normals: Vec<[f32; 3]>,
     faces: Vec<[u32; 3]>,
 }
 
 impl Split {
     fn new(data: &Textured<'_>) -> Split {
         let n = data.positions.len();
-        let mut split =
-            Split { origin: (0..n as u32).collect(), texcoords: Vec::new(), faces: data.faces.to_vec() };
-        let mut first: Vec<Option<[u32; 2]>> = vec![None; if data.face_texcoords.is_empty() { 0 } else { n }];
-        split.texcoords.resize(first.len(), [0.0; 2]);
-        let mut further: HashMap<(u32, [u32; 2]), u32> = HashMap::new();
-        let corners = split.faces.as_flattened_mut().iter_mut().zip(data.face_texcoords.as_flattened());
-        for (corner, &t) in corners {
-            let [s, t] = data.texcoords[t as usize];
-            let pair = [s as f32, (1.0 - t) as f32];
-            let (v, bits) = (*corner, pair.map(f32::to_bits));
-            let slot = &mut first[v as usize];
-            if slot.is_none() {
-                split.texcoords[v as usize] = pair;
+        let texcoord = |corner: usize| match data.face_texcoords.as_flattened().get(corner) {
+            Some(&t) => {
+                let [s, t] = data.texcoords[t as usize];
+                [s as f32, (1.0 - t) as f32]
             }
-            if *slot.get_or_insert(bits) != bits {
-                *corner = *further.entry((v, bits)).or_insert_with(|| {
-                    split.origin.push(v);
-                    split.texcoords.push(pair);
+            None => [0.0; 2],
+        };
+        let normal = |corner: usize| match data.face_normals.as_flattened().get(corner) {
+            Some(&k) => unit(data.normals[k as usize]),
+            None => [0.0; 3],
+        };
+        let at_vertices = data.face_normals.is_empty() && !data.normals.is_empty();
+        let mut split = Split {
+            origin: (0..n as u32).collect(),
+            texcoords: vec![[0.0; 2]; n],
+            normals: if at_vertices {
+                data.normals.iter().map(|&x| unit(x)).collect()
+            } else {
+                vec![[0.0; 3]; n]
+            },
+            faces: data.faces.to_vec(),
+        };
+        let mut first = vec![None; n];
+        let mut further = HashMap::new();
+        for (corner, vertex) in split.faces.as_flattened_mut().iter_mut().enumerate() {
+            let v = *vertex as usize;
+            let (texcoord, normal) = (texcoord(corner), normal(corner));
+            let normal = if at_vertices { split.normals[v] } else { normal };
+            let bits = (texcoord.map(f32::to_bits), normal.map(f32::to_bits));
+            if first[v].is_none() {
+                (split.texcoords[v], split.normals[v]) = (texcoord, normal);
+            }
+            if *first[v].get_or_insert(bits) != bits {
+                *vertex = *further.entry((*vertex, bits)).or_insert_with(|| {
+                    split.origin.push(v as u32);
+                    split.texcoords.push(texcoord);
+                    split.normals.push(normal);
                     split.origin.len() as u32 - 1
                 });
             }
@@ -169,6 +197,11 @@ impl Placed {
         std::array::from_fn(|k| ((p[k] - self.center[k]) / self.scale) as f32)
     }
 
+    /// What is read back for a stored number.
+    fn read(&self, stored: [f32; 3]) -> Point {
+        std::array::from_fn(|k| self.center[k] + self.scale * f64::from(stored[k]))
+    }
+
     fn bounds(&self) -> (Value, Value) {
         (json!(self.stored(self.low)), json!(self.stored(self.high)))
     }
@@ -201,6 +234,7 @@ impl Parts {
     const VERTICES: u32 = 34962;
     const INDICES: u32 = 34963;
     const FLOAT: u32 = 5126;
+    const UNSIGNED_SHORT: u32 = 5123;
     const UNSIGNED_INT: u32 = 5125;
 
     /// A buffer view of these bytes.
@@ -226,6 +260,14 @@ impl Parts {
         );
         let last = self.accessors.len() - 1;
         &mut self.accessors[last]
+    }
+
+    fn vertex_numbers(&mut self, numbers: &[u32]) {
+        let view = self.view(numbers.iter().flat_map(|v| v.to_le_bytes()), Some(Parts::VERTICES));
+        self.attributes.insert("_RICCI_VERTEX".into(), json!(self.accessors.len()));
+        self.accessors.push(json!({
+            "bufferView": view, "componentType": Parts::UNSIGNED_SHORT, "count": numbers.len(), "type": "VEC2"
+        }));
     }
 
     fn indices(&mut self, faces: &[[u32; 3]]) {

@@ -1,0 +1,20 @@
+//! Vertices that glTF gives more than once: one for each pair of texture coordinates and each normal that its corners have.
+
+use super::super::Point;
+
+/// For each of these vertices, the first of them with the same key. Scratch is 8 bytes a vertex: a hash table would be more than
+/// the vertices are.
+pub(super) fn first_alike<K: Ord>(vertices: std::ops::Range<u32>, key: impl Fn(u32) -> K) -> Vec<u32> {
+    let mut order: Vec<u32> = vertices.clone().collect();
+    order.sort_unstable_by_key(|&v| (key(v), v));
+    let mut first: Vec<u32> = vertices.clone().collect();
+    for alike in order.chunk_by(|&a, &b| key(a) == key(b)) {
+        alike.iter().for_each(|v| first[(v - vertices.start) as usize] = alike[0]);
+    }
+    first
+}
+
+/// A place as a key; −0 is 0.
+pub(super) fn place_key(p: Point) -> [u64; 3] {
+    p.map(|x| if x == 0.0 { 0 } else { x.to_bits() })
+}

@@ -1,0 +1,177 @@
+//! The rows of a PLY file, one number after the other.
+
+use super::super::kind::Kind;
+use super::super::scan::{Place, Quoted};
+use super::header::{Element, Encoding, Header};
+use crate::error::Result;
+use std::iter::Peekable;
+
+/// What is left of the body. A row of text is a line, on which further numbers may follow; blank lines are none.
+pub(super) struct Body<'a> {
+    path: &'a str,
+    bytes: &'a [u8],
+    source: Source<'a>,
+}
+
+enum Source<'a> {
+    Text {
+        lines: Peekable<Box<dyn Iterator<Item = (usize, &'a [u8])> + 'a>>,
+        /// What is left of the line, and its number.
+        rest: &'a [u8],
+        line: usize,
+    },
+    Binary {
+        at: usize,
+        big_endian: bool,
+    },
+}
+
+/// What a row has of interest: the values of some properties.
+pub(super) struct Row {
+    /// Per property with one number, that number; otherwise 0.
+    pub numbers: Vec<f64>,
+    /// The lists that were asked for.
+    pub lists: Vec<Vec<f64>>,
+}
+
+impl<'a> Body<'a> {
+    pub fn new(bytes: &'a [u8], header: &Header<'_>, path: &'a str) -> Body<'a> {
+        let source = match header.encoding {
+            Encoding::Ascii => {
+                let (body, first) = (&bytes[header.body..], header.line);
+                // In a file with LF a CR is a blank at the end of its line.
+                let end = if body.contains(&b'\n') { b'\n' } else { b'\r' };
+                let lines = body.split(move |&b| b == end).map(<[u8]>::trim_ascii);
+                let lines = lines.enumerate().map(move |(i, line)| (first + i, line));
+                let lines: Box<dyn Iterator<Item = _>> = Box::new(lines.filter(|(_, line)| !line.is_empty()));
+                Source::Text { lines: lines.peekable(), rest: &[], line: first }
+            }
+            encoding => Source::Binary { at: header.body, big_endian: encoding == Encoding::Big },
+        };
+        Body { path, bytes, source }
+    }
+
+    /// The row that was read last, or the byte behind it.
+    pub fn place(&self) -> Place<'a> {
+        match self.source {
+            Source::Text { line, .. } => Place::line(self.path, line),
+            Source::Binary { at, .. } => Place::byte(self.path, at),
+        }
+    }
+
+    /// Hand on each row of an element with its number and its place, with the lists of these properties. A row takes a byte of
+    /// the file at least: one without properties is none.
+    pub fn each(
+        &mut self,
+        element: &Element<'_>,
+        lists: &[Option<usize>],
+        mut take: impl FnMut(usize, &Row, Place<'a>) -> Result<()>,
+    ) -> Result<()> {
+        if element.properties.is_empty() {
+            return Ok(());
+        }
+        let mut row =
+            Row { numbers: vec![0.0; element.properties.len()], lists: vec![Vec::new(); lists.len()] };
+        for number in 0..element.count {
+            let place = self.row(element, number, lists, &mut row)?;
+            take(number, &row, place)?;
+        }
+        Ok(())
+    }
+
+    /// Skip all rows of an element.
+    pub fn skip(&mut self, element: &Element<'_>) -> Result<()> {
+        self.each(element, &[], |_, _, _| Ok(()))
+    }
+
+    /// Read a row; where it begins.
+    fn row(
+        &mut self,
+        element: &Element<'_>,
+        number: usize,
+        lists: &[Option<usize>],
+        row: &mut Row,
+    ) -> Result<Place<'a>> {
+        if let Source::Text { lines, rest, line } = &mut self.source {
+            let Some((next, text)) = lines.next() else { return self.ended(element) };
+            (*rest, *line) = (text, next);
+        }
+        let place = self.place();
+        for (k, property) in element.properties.iter().enumerate() {
+            let Some(count) = property.count else {
+                row.numbers[k] = self.number(property.kind, element, number, k)?;
+                continue;
+            };
+            let count = self.number(count, element, number, k)?;
+            if !(count >= 0.0 && count.fract() == 0.0) {
+                let name = String::from_utf8_lossy(property.name);
+                return place.error(format!("list `{name}` of row {number} has {count} entries"));
+            }
+            let mut list = lists.iter().position(|list| *list == Some(k)).map(|i| &mut row.lists[i]);
+            if let Some(list) = &mut list {
+                list.clear();
+            }
+            for _ in 0..count as u64 {
+                let x = self.number(property.kind, element, number, k)?;
+                if let Some(list) = &mut list {
+                    list.push(x);
+                }
+            }
+        }
+        Ok(place)
+    }
+
+    /// The next number, of property `k`.
+    fn number(&mut self, kind: Kind, element: &Element<'_>, row: usize, k: usize) -> Result<f64> {
+        match &mut self.source {
+            Source::Binary { at, big_endian } => {
+                let size = kind.size();
+                let Some(bytes) = self.bytes.get(*at..*at + size) else { return self.ended(element) };
+                let mut word = [0; 8];
+                word[..size].copy_from_slice(bytes);
+                if *big_endian {
+                    word[..size].reverse();
+                }
+                *at += size;
+                Ok(kind.number(word))
+            }
+            Source::Text { lines, rest, line } => {
+                let place = Place::line(self.path, *line);
+                let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+                let (token, behind) = rest.split_at(end);
+                *rest = behind.trim_ascii_start();
+                let token = std::str::from_utf8(token).ok();
+                let number = match kind {
+                    // As the file says: what 32 bits keep.
+                    Kind::F32 => token.and_then(|t| t.parse::<f32>().ok()).map(f64::from),
+                    _ => token.and_then(|t| t.parse::<f64>().ok()),
+                };
+                if let Some(number) = number {
+                    return Ok(number);
+                }
+                let name = String::from_utf8_lossy(element.properties[k].name);
+                match token {
+                    Some("") if lines.peek().is_none() => self.ended(element),
+                    Some("") => place.error(format!("row {row} of {} ends before `{name}`", said(element))),
+                    token => place.error(format!(
+                        "`{name}` of row {row} of {}: {} is not a number",
+                        said(element),
+                        Quoted(token.unwrap_or("�"))
+                    )),
+                }
+            }
+        }
+    }
+
+    fn ended<T>(&self, element: &Element<'_>) -> Result<T> {
+        let place = match self.source {
+            Source::Text { line, .. } => Place::line(self.path, line),
+            Source::Binary { .. } => Place::byte(self.path, self.bytes.len()),
+        };
+        place.error(format!("the file ends inside {} of {} rows", said(element), element.count))
+    }
+}
+
+fn said(element: &Element<'_>) -> String {
+    format!("element `{}`", String::from_utf8_lossy(element.name))
+}

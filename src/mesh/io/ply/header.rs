@@ -1,0 +1,166 @@
+//! The header of a PLY file: what its body holds, and where that begins.
+
+use super::super::kind::Kind;
+use super::super::scan::{Place, Quoted};
+use crate::error::Result;
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Encoding {
+    Ascii,
+    Little,
+    Big,
+}
+
+/// One number of each row, or a list of them behind their count.
+pub(super) struct Property<'a> {
+    pub name: &'a [u8],
+    /// The type of a list's count.
+    pub count: Option<Kind>,
+    pub kind: Kind,
+}
+
+/// Rows of the same properties.
+pub(super) struct Element<'a> {
+    pub name: &'a [u8],
+    pub count: usize,
+    pub properties: Vec<Property<'a>>,
+    /// The line that names it.
+    line: usize,
+}
+
+impl<'a> Element<'a> {
+    /// The number of the property with one number per row of this name (case does not matter).
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.property(|p| p.count.is_none() && p.name.eq_ignore_ascii_case(name.as_bytes()))
+    }
+
+    /// The number of the property with a list per row of one of these names.
+    pub fn list(&self, names: &[&str]) -> Option<usize> {
+        self.property(|p| p.count.is_some() && names.iter().any(|name| p.name == name.as_bytes()))
+    }
+
+    fn property(&self, is: impl FnMut(&Property<'a>) -> bool) -> Option<usize> {
+        self.properties.iter().position(is)
+    }
+
+    /// The header's line of this element.
+    pub fn place<'p>(&self, path: &'p str) -> Place<'p> {
+        Place::line(path, self.line)
+    }
+}
+
+pub(super) struct Header<'a> {
+    pub encoding: Encoding,
+    pub elements: Vec<Element<'a>>,
+    /// Where the body begins: its first byte and its first line, from 1.
+    pub body: usize,
+    pub line: usize,
+}
+
+/// The lines of a header with the byte behind each. Lone carriage returns end a line too, wherever they occur: only a file whose
+/// first line they end has no line feeds behind them, for there one belongs to a binary body.
+struct Lines<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    number: usize,
+    only_returns: bool,
+}
+
+impl<'a> Lines<'a> {
+    fn next(&mut self) -> Option<&'a [u8]> {
+        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        let end = rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
+        let pair = rest[end..].starts_with(b"\r\n");
+        if self.number == 0 {
+            self.only_returns = rest.get(end) == Some(&b'\r') && !pair;
+        }
+        self.at += (end + 1 + usize::from(pair && !self.only_returns)).min(rest.len());
+        self.number += 1;
+        Some(rest[..end].trim_ascii())
+    }
+}
+
+/// Parse the header. Blank lines, indentation and any names are accepted; each element has a name of its own.
+pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<Header<'a>> {
+    let start = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+    let mut lines = Lines { bytes, at: start, number: 0, only_returns: false };
+    if lines.next() != Some(b"ply") {
+        let what = "this is no PLY file: that begins with the line `ply`";
+        return Place::line(path, 1).error(what.into());
+    }
+    let mut encoding = None;
+    let mut elements: Vec<Element<'a>> = Vec::new();
+    while let Some(line) = lines.next() {
+        let place = Place::line(path, lines.number);
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        match words.next() {
+            None | Some(b"comment" | b"obj_info") => {}
+            Some(b"format") => encoding = Some(format(words.next(), place)?),
+            Some(b"element") => {
+                let (name, count) = (words.next().unwrap_or_default(), words.next().map(text));
+                let count =
+                    place.count(count.as_deref(), format_args!("rows of element `{}`:", text(name)))?;
+                // Of those that are not read there may be any number, and looking through them takes time.
+                if READ.contains(&name) && elements.iter().any(|e| e.name == name) {
+                    return place.error(format!("a second element `{}`", text(name)));
+                }
+                elements.push(Element { name, count, properties: Vec::new(), line: lines.number });
+            }
+            Some(b"property") => match elements.last_mut() {
+                Some(element) => element.properties.push(property(words, place)?),
+                None => return place.error("a property before the first element".into()),
+            },
+            Some(b"end_header") => {
+                let Some(encoding) = encoding else {
+                    return place.error("the header has no line `format`".into());
+                };
+                return Ok(Header { encoding, elements, body: lines.at, line: lines.number + 1 });
+            }
+            Some(word) => {
+                return place.error(format!("{} begins no line of a PLY header", Quoted(&text(word))));
+            }
+        }
+    }
+    Place::line(path, lines.number).error("the header has no line `end_header`".into())
+}
+
+/// The elements that are read.
+const READ: [&[u8]; 3] = [b"vertex", b"face", b"tristrips"];
+
+fn text(word: &[u8]) -> String {
+    String::from_utf8_lossy(word).into_owned()
+}
+
+fn format(word: Option<&[u8]>, place: Place<'_>) -> Result<Encoding> {
+    match word {
+        Some(b"ascii") => Ok(Encoding::Ascii),
+        Some(b"binary_little_endian") => Ok(Encoding::Little),
+        Some(b"binary_big_endian") => Ok(Encoding::Big),
+        _ => place.error(format!(
+            "format {} is not ascii, binary_little_endian or binary_big_endian",
+            Quoted(&text(word.unwrap_or_default()))
+        )),
+    }
+}
+
+fn property<'a>(mut words: impl Iterator<Item = &'a [u8]>, place: Place<'_>) -> Result<Property<'a>> {
+    let kind = |word: Option<&[u8]>| {
+        let name = text(word.unwrap_or_default());
+        match Kind::named(&name) {
+            Some(kind) => Ok(kind),
+            None => place.error(format!("{} is no type of a property", Quoted(&name))),
+        }
+    };
+    let first = words.next();
+    let (count, kind) = match first {
+        Some(b"list") => (Some(kind(words.next())?), kind(words.next())?),
+        _ => (None, kind(first)?),
+    };
+    if count.is_some_and(|count| !count.is_integer()) {
+        return place.error("the count of a list is no integer".into());
+    }
+    match words.next() {
+        Some(name) => Ok(Property { name, count, kind }),
+        None => place.error("a property without a name".into()),
+    }
+}

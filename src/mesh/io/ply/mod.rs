@@ -1,0 +1,186 @@
+//! PLY, ascii and both binary byte orders. Our own reader: files in the wild have numbers, names and blank lines that the grammars
+//! of the PLY crates refuse, and errors name the line or the byte. The format is Greg Turk's,
+//! <https://paulbourke.net/dataformats/ply/>.
+
+mod body;
+mod header;
+mod write;
+
+pub use write::write_ply;
+
+use super::budget::Budget;
+use super::kind::Kind;
+use super::polygon::Polygons;
+use super::scan::Place;
+use super::{Attributes, Point, Soup};
+use crate::error::Result;
+use body::{Body, Row};
+use header::{Element, header};
+
+/// Parse a PLY file: elements `vertex` (x, y, z; nx, ny, nz; red, green, blue, alpha, also as diffuse_red, …; s, t or u, v or
+/// texture_u, texture_v), `face` (vertex_indices or vertex_index, texcoord) and `tristrips`; everything else is skipped. `path` is
+/// used in errors.
+///
+/// Colours of integers are divided by the largest of their type (of 255, from 32 bits on).
+pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
+    let header = header(bytes, path)?;
+    let Some(vertex) = header.elements.iter().find(|e| e.name == b"vertex") else {
+        return Place::line(path, header.line - 1).error("the header has no element `vertex`".into());
+    };
+    let mut vertices = Vertices::new(vertex, path)?;
+    let (mut polygons, mut corner_uv) = (Polygons::default(), Vec::new());
+    let mut budget = Budget::of(bytes);
+    let mut body = Body::new(bytes, &header, path);
+    for element in &header.elements {
+        match element.name {
+            b"vertex" => body.each(element, &[], |_, row, _| {
+                vertices.push(row);
+                Ok(())
+            })?,
+            b"face" => {
+                let lists = [corners_of(element, path)?, element.list(&["texcoord"])];
+                body.each(element, &lists, |f, row, place| {
+                    for &v in &row.lists[0] {
+                        polygons.corners.push(index(v, f, place)?);
+                    }
+                    if row.lists[1].len() == 2 * row.lists[0].len() {
+                        corner_uv.extend(row.lists[1].chunks_exact(2).map(|uv| [uv[0], uv[1]]));
+                    }
+                    polygons.end();
+                    Ok(())
+                })?;
+            }
+            b"tristrips" => {
+                let lists = [corners_of(element, path)?];
+                body.each(element, &lists, |f, row, place| {
+                    // A triangle for each corner, which may take a byte.
+                    budget.take(row.lists[0].len(), size_of::<([u32; 3], usize)>(), "strips", place)?;
+                    strips(&row.lists[0], f, place, &mut polygons)
+                })?;
+            }
+            _ => body.skip(element)?,
+        }
+    }
+    let triangles = polygons.triangles(&vertices.positions, &mut budget, Place::whole(path))?;
+    Ok(vertices.soup(&polygons, &triangles, &corner_uv))
+}
+
+/// The list of corners that the rows of an element have, if it has rows.
+fn corners_of(element: &Element<'_>, path: &str) -> Result<Option<usize>> {
+    match element.list(&["vertex_indices", "vertex_index"]) {
+        None if element.count > 0 => element.place(path).error(format!(
+            "element `{}` has no list property `vertex_indices`",
+            String::from_utf8_lossy(element.name)
+        )),
+        list => Ok(list),
+    }
+}
+
+/// The rows of element `vertex`: what it has is kept.
+struct Vertices {
+    /// The properties of each.
+    position: [usize; 3],
+    normal: Option<[usize; 3]>,
+    color: Option<[usize; 3]>,
+    opacity: Option<[usize; 1]>,
+    texture: Option<[usize; 2]>,
+    /// Per property, the value of a colour of full strength.
+    full: Vec<f64>,
+    positions: Vec<Point>,
+    normals: Vec<Point>,
+    colors: Vec<[f64; 4]>,
+    uv: Vec<[f64; 2]>,
+}
+
+/// The properties of these names: of the first alternative that is there as a whole.
+fn columns<const N: usize>(element: &Element<'_>, alternatives: &[[&str; N]]) -> Option<[usize; N]> {
+    alternatives.iter().find_map(|names| {
+        let mut columns = [0; N];
+        for (column, name) in columns.iter_mut().zip(names) {
+            *column = element.column(name)?;
+        }
+        Some(columns)
+    })
+}
+
+impl Vertices {
+    fn new(element: &Element<'_>, path: &str) -> Result<Vertices> {
+        let Some(position) = columns(element, &[["x", "y", "z"]]) else {
+            let missing = ["x", "y", "z"].into_iter().find(|name| element.column(name).is_none());
+            let missing = missing.unwrap_or_default();
+            return element.place(path).error(format!("element `vertex` has no property `{missing}`"));
+        };
+        let full = |kind| match kind {
+            Kind::I8 => 127.0,
+            Kind::I16 => 32767.0,
+            Kind::U16 => 65535.0,
+            Kind::F32 | Kind::F64 => 1.0,
+            _ => 255.0,
+        };
+        Ok(Vertices {
+            position,
+            normal: columns(element, &[["nx", "ny", "nz"]]),
+            color: columns(
+                element,
+                &[["red", "green", "blue"], ["diffuse_red", "diffuse_green", "diffuse_blue"]],
+            ),
+            opacity: columns(element, &[["alpha"], ["diffuse_alpha"]]),
+            texture: columns(element, &[["s", "t"], ["u", "v"], ["texture_u", "texture_v"]]),
+            full: element.properties.iter().map(|p| full(p.kind)).collect(),
+            positions: Vec::new(),
+            normals: Vec::new(),
+            colors: Vec::new(),
+            uv: Vec::new(),
+        })
+    }
+
+    fn push(&mut self, row: &Row) {
+        let value = |k: usize| row.numbers[k];
+        let color = |k: usize| row.numbers[k] / self.full[k];
+        self.positions.push(self.position.map(value));
+        self.normals.extend(self.normal.map(|columns| columns.map(value)));
+        self.uv.extend(self.texture.map(|columns| columns.map(value)));
+        if let Some(rgb) = self.color {
+            let [r, g, b] = rgb.map(color);
+            self.colors.push([r, g, b, self.opacity.map_or(1.0, |[a]| color(a))]);
+        }
+    }
+
+    fn soup(self, polygons: &Polygons, triangles: &[[usize; 3]], corner_uv: &[[f64; 2]]) -> Soup {
+        let uv = if corner_uv.len() == polygons.corners.len() && !corner_uv.is_empty() {
+            Some(triangles.iter().map(|t| t.map(|k| corner_uv[k])).collect())
+        } else {
+            let at = |v: u32| self.uv.get(v as usize).copied().unwrap_or_default();
+            self.texture.map(|_| triangles.iter().map(|&t| polygons.face(t).map(at)).collect())
+        };
+        let attributes = Attributes {
+            normals: self.normal.map(|_| self.normals),
+            colors: self.color.map(|_| self.colors),
+            uv,
+            ..Attributes::default()
+        };
+        let faces = triangles.iter().map(|&t| polygons.face(t)).collect();
+        Soup { positions: self.positions, faces, attributes }
+    }
+}
+
+fn index(number: f64, face: usize, place: Place<'_>) -> Result<u32> {
+    if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {
+        return Ok(number as u32);
+    }
+    place.error(format!("face {face} names vertex {number}, which cannot be"))
+}
+
+/// Triangles of the strips of one list, which −1 separates; every other triangle of a strip is turned around.
+fn strips(list: &[f64], row: usize, place: Place<'_>, polygons: &mut Polygons) -> Result<()> {
+    for strip in list.split(|&v| v == -1.0) {
+        for (k, w) in strip.windows(3).enumerate() {
+            let [a, b, c] = [index(w[0], row, place)?, index(w[1], row, place)?, index(w[2], row, place)?];
+            // A repeated vertex stitches strips together.
+            if a != b && b != c && c != a {
+                polygons.push(if k % 2 == 0 { [a, b, c] } else { [b, a, c] });
+            }
+        }
+    }
+    Ok(())
+}
