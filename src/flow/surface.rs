@@ -9,6 +9,7 @@ use crate::geometry::Space;
 use crate::mesh::{Double, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::refinement::{Final, Input};
 use crate::metric::{Initial, Metric, Refinement, Scheme, delaunay_start, initial_metric};
+use crate::parallel::Pool;
 
 /// A surface in a conformal class, which flows to one target after the other.
 ///
@@ -68,20 +69,14 @@ impl SurfaceFlow {
         };
         let mut normal = NormalCoordinates::new(&mesh);
         let mut start_flips = 0;
-        let mut record = |mesh: &Mesh, e| {
-            normal.record(mesh, e);
-            start_flips += 1;
-        };
-        let initial = delaunay_start(
-            &mut mesh,
-            &mut lengths,
-            geometry,
-            scheme,
-            space,
-            double.as_ref(),
-            &fixed,
-            &mut record,
-        )?;
+        let initial = Pool::new(options.threads)?.run(|| {
+            let mut record = |mesh: &Mesh, e| {
+                normal.record(mesh, e);
+                start_flips += 1;
+            };
+            let double = double.as_ref();
+            delaunay_start(&mut mesh, &mut lengths, geometry, scheme, space, double, &fixed, &mut record)
+        })?;
         let options = Options { fixed_edges: fixed, ..options.clone() };
         let mut solver = Solver::new(mesh, initial.metric.clone(), options)?;
         solver.follow(normal)?;
