@@ -189,6 +189,9 @@ pub struct FlowArgs {
     /// Edge flips inside the conformal class: as needed, with the layout carried back to the given triangulation, or never
     #[arg(long, value_enum, default_value_t = FlipsChoice::Auto)]
     pub flips: FlipsChoice,
+    /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex
+    #[arg(long, value_name = "E.csv")]
+    pub keep_edges: Option<PathBuf>,
     /// Largest |K − K̄| of a converged metric, radians
     #[arg(long, value_name = "T", default_value = "1e-10", value_parser = positive)]
     pub tolerance: f64,

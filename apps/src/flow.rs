@@ -63,7 +63,13 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
         space,
         scheme: args.scheme.into(),
         target: args.target.as_ref().map(|t| target(t, &input, space, control)).transpose()?,
-        options: options(args),
+        options: Options {
+            fixed_edges: match &args.keep_edges {
+                Some(path) => csv::read_edges(path, &input.mesh)?,
+                None => Vec::new(),
+            },
+            ..options(args)
+        },
         pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, &input.mesh)),
     };
     let mut outcome = job::run(&input, job, control)?;
@@ -251,6 +257,7 @@ pub struct Asked {
     area_normalised: bool,
     pin: Vec<u32>,
     flips: FlipsChoice,
+    keep_edges: Option<String>,
     tolerance: f64,
     max_iterations: usize,
     input_geometry: &'static str,
@@ -278,6 +285,7 @@ impl Asked {
             area_normalised: args.area_normalised,
             pin: outcome.pinned.iter().map(|v| v.0).collect(),
             flips: args.flips,
+            keep_edges: text(&args.keep_edges),
             tolerance: args.tolerance,
             max_iterations: options(args).iteration_limit(),
             input_geometry: input.geometry.name(),

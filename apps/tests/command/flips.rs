@@ -112,3 +112,27 @@ fn homogeneous_coordinates_are_the_plain_ones_times_a_weight() {
     }
     assert!(weighted.iter().any(|w| (w[2] / weighted[0][2] - 1.0).abs() > 0.1));
 }
+
+#[test]
+fn edges_are_kept_on_demand() {
+    let place = Place::new();
+    place.put("hill.obj", &hill(8).obj());
+    let faces = parse_faces(&place.text("hill.obj"));
+    let rows = faces.iter().step_by(3).map(|f| format!("{},{}\n", f[0], f[1]));
+    place.put("e.csv", &rows.clone().collect::<String>());
+    place.expect(0, "flow hill.obj --metric m.json");
+    let has_all = |place: &Place| {
+        let kept: Vec<[f64; 3]> = crate::run::triples(&place.json("m.json")["faces"]);
+        faces.iter().step_by(3).all(|f| {
+            let side = |g: &[f64; 3]| [f[0], f[1]].iter().all(|v| g.contains(&(*v as f64)));
+            kept.iter().filter(|g| side(g)).count() == 2
+        })
+    };
+    assert!(!has_all(&place));
+    place.run("flow hill.obj --keep-edges e.csv --metric m.json --report r.json");
+    assert!(has_all(&place));
+    assert_eq!(place.json("r.json")["options"]["keep_edges"], "e.csv");
+    place.put("bad.csv", "0,0\n");
+    let ended = place.expect(3, "flow hill.obj --keep-edges bad.csv");
+    assert!(ended.err.contains("bad.csv:1: there is no edge between"), "{}", ended.err);
+}
