@@ -204,6 +204,9 @@ pub struct FlowArgs {
     /// Write the surface with its layout as texture coordinates (E²), .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<PathBuf>,
+    /// Write homogeneous texture coordinates to --uv, `vt qx qy q`: the projective map of each piece is linear in them
+    #[arg(long, requires = "uv")]
+    pub homogeneous: bool,
     /// Write the vertex circles and dual circles of the layout (circle schemes, E²)
     #[arg(long, value_name = "C.json")]
     pub circles: Option<PathBuf>,
