@@ -195,6 +195,15 @@ def classes(flown):
         yield row
 
 
+def missing(flown):
+    for target in TARGETS:
+        for m, x in flown:
+            for scheme in SCHEMES:
+                r = x.get((target, scheme))
+                if r and not r["done"]:
+                    yield m["name"], target, scheme, why(r), r.get("iterations", "–"), number(r.get("max_curvature_error"), ".0e")
+
+
 def details(flown, target):
     for m, x in flown:
         for scheme in SCHEMES:
@@ -238,11 +247,14 @@ if absent:
 else:
     print("The last two columns are the verdict of a program that shares nothing with this project (`check.py metric`, `check.py uv`), on the "
           "files written: how many metrics have max |K − K̄| ≤ 1e-10 and no broken triangle, recomputed from faces and lengths in long "
-          "doubles; how many layouts have no flipped triangle and keep the input's vertices.\n")
+          "doubles (which slivers of 1e-9 and thinner exhaust); how many layouts have no flipped triangle and keep the input's vertices.\n")
 table(["target", "scheme", "reached", "steps: median, most", "median flips", "largest error", "layouts without flipped triangles",
        "degenerate pieces", "outside: metrics", "outside: layouts"], summary(flown))
 print("Per class: steps (median, most), median flips.\n")
 table(["class", "meshes"] + [f"{target} {scheme}" for target in TARGETS for scheme in SCHEMES], classes(flown))
+print("Not reached: the range of lengths is beyond doubles (diverged), rounding holds the error above 1e-10 (rounding floor: the report "
+      "states it; stalled), or Newton's method takes more than 200 steps.\n")
+table(["mesh", "target", "scheme", "why", "steps", "error"], missing(flown))
 print("## Every flow\n")
 print("Error: max |K − K̄| of the flow. qc: quasi-conformal dilatation of the layout, area-weighted mean and maximum. Flipped and "
       "degenerate: pieces of the layout. Crossings: vertices of the common refinement that are none of the input's. Outside: error of the "
