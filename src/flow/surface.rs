@@ -46,6 +46,16 @@ impl SurfaceFlow {
         options: &Options,
     ) -> Result<SurfaceFlow> {
         let (given, lengths) = (Arc::new(given.clone()), Arc::new(lengths.clone()));
+        SurfaceFlow::begin(given, lengths, (geometry, scheme, space), pinned, options)
+    }
+
+    fn begin(
+        given: Arc<Mesh>,
+        lengths: Arc<PerEdge<f64>>,
+        (geometry, scheme, space): (Space, Scheme, Space),
+        pinned: &[VertexId],
+        options: &Options,
+    ) -> Result<SurfaceFlow> {
         let from = match is_rigid(geometry, scheme, space, options) {
             true => SurfaceMetric::new(given, lengths, geometry, scheme, space)?,
             false => {
@@ -70,7 +80,8 @@ impl SurfaceFlow {
         if fits || is_rigid(geometry, scheme, space, options) {
             return SurfaceFlow::go_on(from.clone(), pinned, options);
         }
-        SurfaceFlow::new(given, from.given_lengths(), geometry, scheme, space, pinned, options)
+        let lengths = from.given_lengths().clone();
+        SurfaceFlow::begin(given.clone(), lengths, (geometry, scheme, space), pinned, options)
     }
 
     fn go_on(from: SurfaceMetric, pinned: &[VertexId], options: &Options) -> Result<SurfaceFlow> {
