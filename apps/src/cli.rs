@@ -186,7 +186,7 @@ pub struct FlowArgs {
     /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,…
     #[arg(long, value_name = "VERTICES")]
     pub pin: Option<PinChoice>,
-    /// Edge flips inside the conformal class; auto is never in this version
+    /// Edge flips inside the conformal class: as needed, with the layout carried back to the given triangulation, or never
     #[arg(long, value_enum, default_value_t = FlipsChoice::Auto)]
     pub flips: FlipsChoice,
     /// Largest |K − K̄| of a converged metric, radians
@@ -204,6 +204,9 @@ pub struct FlowArgs {
     /// Write the surface with its layout as texture coordinates (E²), .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<PathBuf>,
+    /// Write homogeneous texture coordinates to --uv, `vt qx qy q`: the projective map of each piece is linear in them
+    #[arg(long, requires = "uv")]
+    pub homogeneous: bool,
     /// Write the vertex circles and dual circles of the layout (circle schemes, E²)
     #[arg(long, value_name = "C.json")]
     pub circles: Option<PathBuf>,

@@ -113,7 +113,7 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
         return usage("--area-normalised is a variant of the gradient flow; add --method gradient");
     }
     if let Some(path) = &args.uv {
-        check_extension("--uv", path, &["obj", "glb"])?;
+        check_extension("--uv", path, if args.homogeneous { &["obj"] } else { &["obj", "glb"] })?;
     }
     if let Some(path) = &args.picture.base.picture {
         check_extension("--picture", path, &["png", "svg"])?;
@@ -216,7 +216,7 @@ fn write(
             outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace))?;
         }
         if let (Some(path), Ok(laid)) = (&args.uv, &outcome.layout) {
-            uv::write(&mut outputs, path, laid)?;
+            uv::write(&mut outputs, path, laid, args.homogeneous)?;
         }
         let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
         if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
@@ -260,6 +260,7 @@ pub struct Asked {
     circles: Option<String>,
     #[serde(flatten)]
     picture: FlowPictureArgs,
+    homogeneous: bool,
     charts: bool,
     margin: f64,
     trace: Option<String>,
@@ -285,6 +286,7 @@ impl Asked {
             uv: text(&args.uv),
             circles: text(&args.circles),
             picture: args.picture.clone(),
+            homogeneous: args.homogeneous,
             charts: args.charts,
             margin: args.margin,
             trace: text(&args.trace),

@@ -12,7 +12,7 @@ use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
 use ricci::mesh::{Mesh, PerVertex, Point, VertexId};
 use ricci::metric::curvature::area;
-use ricci::metric::{Curvature, Metric, Refinement};
+use ricci::metric::{Curvature, Refinement};
 use ricci::topology::cut_graph;
 
 /// An interior vertex with more target curvature than this is a cone, and the cut passes it. Left inside, the vertex opens
@@ -27,6 +27,8 @@ pub struct Laid {
     pub mesh: Mesh,
     /// The way back, where edges were flipped.
     pub refinement: Option<Refinement>,
+    /// Homogeneous weight of each vertex of `mesh`: (q x, q y, q) is linear on its faces, (x, y) the layout \[SSP08, §3.4\].
+    pub weight: PerVertex<f64>,
     /// Positions of the vertices of `mesh`.
     pub positions: Option<Vec<Point>>,
     pub layout: Layout,
@@ -78,7 +80,7 @@ pub fn lay_out(
             false => Some(timed(&mut seconds.refine, || flow.refinement(control))?),
         };
         timed(&mut seconds.layout, || match refinement {
-            None => plain(input, mesh, metric, &cones, area, consistency_limit, control),
+            None => plain(input, flow, &cones, area, consistency_limit, control),
             Some(refinement) => refined(input, flow, refinement, &cones, area, consistency_limit, control),
         })
     })();
@@ -92,13 +94,13 @@ pub fn lay_out(
 /// The layout of the given triangulation.
 fn plain(
     input: &Input,
-    mesh: &Mesh,
-    metric: &Metric,
+    flow: &SurfaceFlow,
     cones: &[VertexId],
     area: f64,
     consistency_limit: f64,
     control: &Control,
 ) -> ricci::Result<Laid> {
+    let (mesh, metric) = (flow.mesh(), flow.metric());
     let cut = cut_graph(mesh, &metric.lengths(mesh)?, cones)?;
     control.step(Stage::Layout, 0.3)?;
     let mut layout = layout_of(mesh, metric, &cut, control)?;
@@ -107,6 +109,7 @@ fn plain(
     let quality = quality(mesh, &input.lengths, &layout)?;
     Ok(Laid {
         mesh: mesh.clone(),
+        weight: PerVertex::from_fn(mesh.n_vertices(), |v| (flow.initial().input_u[v] - metric.u[v]).exp()),
         refinement: None,
         positions: input.positions.clone(),
         packed: None,
@@ -142,6 +145,7 @@ fn refined(
     };
     Ok(Laid {
         mesh: refinement.mesh.clone(),
+        weight: refinement.weight.clone(),
         refinement: Some(refinement),
         positions,
         packed: None,
@@ -164,6 +168,15 @@ fn modulus_of(input: &Input, layout: &Layout, cones: &[VertexId]) -> Option<[f64
 }
 
 impl Laid {
+    /// Homogeneous weights of the coordinates.
+    pub fn weights(&self) -> Vec<f64> {
+        let mut weights = vec![1.0; self.coordinates().len()];
+        for h in self.mesh.halfedges() {
+            weights[self.corner_index()[h] as usize] = self.weight[self.mesh.origin(h)];
+        }
+        weights
+    }
+
     /// Largest disagreement between the layout and the metric or between the two sides of a seam, relative to the layout's
     /// diameter.
     pub fn consistency(&self) -> f64 {

@@ -8,16 +8,18 @@ use ricci::mesh::io::{self, Texture, Textured, Wrap};
 use std::path::Path;
 
 /// Add OBJ (`v` of the input, then the crossings of its edges with flipped ones, `vt` of the layout, `f v/vt`) or, from a name that ends in `.glb`, binary glTF with a checkerboard.
-pub fn write(outputs: &mut Outputs, path: &Path, laid: &Laid) -> Result<(), Failure> {
+pub fn write(outputs: &mut Outputs, path: &Path, laid: &Laid, homogeneous: bool) -> Result<(), Failure> {
     // Without positions `--uv` is refused before the flow.
     let Some(positions) = &laid.positions else { return Ok(()) };
     let mesh = &laid.mesh;
     let corners: Vec<[u32; 3]> =
         mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| laid.corner_index()[h])).collect();
     let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let weights = if homogeneous { laid.weights() } else { Vec::new() };
     let data = Textured {
         positions,
         texcoords: laid.coordinates(),
+        texcoord_weights: &weights,
         faces: &faces,
         face_texcoords: &corners,
         ..Textured::default()

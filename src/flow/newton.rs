@@ -57,7 +57,7 @@ impl Run<'_> {
                 break StopReason::IterationLimit;
             }
             self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
-            if error < AT_THE_END && self.lopsided(&residual, error) {
+            if error < NEAR && self.lopsided(&residual, error) {
                 (self.mirror, *kept) = (None, None);
             }
             let more = report.flips - std::mem::replace(&mut flipped, report.flips);

@@ -10,6 +10,7 @@ use crate::geometry::Space;
 use crate::mesh::{Double, Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::surface::{Start, check_fixed};
 use crate::metric::{Initial, Metric, Refinement, Scheme, SurfaceMetric};
+use crate::parallel::Pool;
 use std::sync::Arc;
 
 /// A surface in a conformal class, which flows to one target after the other.
@@ -61,7 +62,9 @@ impl SurfaceFlow {
             false => {
                 let doubled = !given.is_closed() && pinned.is_empty();
                 let fixed = &options.fixed_edges;
-                SurfaceMetric::delaunay(given, lengths, geometry, scheme, space, doubled, fixed)?
+                let start =
+                    || SurfaceMetric::delaunay(given, lengths, geometry, scheme, space, doubled, fixed);
+                Pool::new(options.threads)?.run(start)?
             }
         };
         SurfaceFlow::go_on(from, pinned, options)

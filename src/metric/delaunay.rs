@@ -40,6 +40,18 @@ impl Queue {
         queue
     }
 
+    /// The edges between two faces of which `holds`, asked in parallel, says so of a half-edge; `fixed` ones never.
+    fn where_holds(mesh: &Mesh, fixed: &[EdgeId], holds: impl Fn(HalfedgeId) -> bool + Sync) -> Queue {
+        let mut held = vec![false; mesh.n_edges()];
+        parallel::fill(&mut held, |e| {
+            let h = EdgeId::from(e).halfedge();
+            between(mesh, h) && holds(h)
+        });
+        let mut queue = Queue::new(mesh.n_edges(), fixed);
+        mesh.edges().filter(|e| held[e.index()]).for_each(|e| queue.push(e));
+        queue
+    }
+
     /// Look at this edge.
     pub fn push(&mut self, e: EdgeId) {
         if !std::mem::replace(&mut self.queued[e], true) {
@@ -66,8 +78,7 @@ impl Queue {
         let (mut flips, most) = (0, MOST_FLIPS * mesh.n_edges());
         while let Some(e) = self.pop() {
             let h = e.halfedge();
-            if mesh.face(h).is_none() || mesh.face(h.twin()).is_none() || mesh.face(h) == mesh.face(h.twin())
-            {
+            if !between(mesh, h) {
                 continue;
             }
             let Some(value) = decide(mesh, values, h) else { continue };
@@ -83,6 +94,12 @@ impl Queue {
         }
         Some(flips)
     }
+}
+
+/// Whether an edge lies between two different faces.
+fn between(mesh: &Mesh, h: HalfedgeId) -> bool {
+    let [f, g] = [h, h.twin()].map(|h| mesh.face(h));
+    f.is_some() && g.is_some() && f != g
 }
 
 /// The Delaunay hinge of half-edge h, `w` per vertex: vertices origin, tip, left, right.
@@ -144,31 +161,33 @@ pub fn intrinsic_delaunay(
     if let Some(radii) = radii {
         check_size("radii", radii.len(), mesh.n_vertices())?;
     }
+    let fails = |mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId| match radii {
+        None => local_defect(geometry, sides(mesh, lengths, h)) < -crate::geometry::flip::TOLERANCE,
+        Some(radii) => weighted_hinge(mesh, lengths, radii, geometry, h).wants_flip(),
+    };
     let decide = |mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId| {
-        let sides = [h, h.twin()].map(|h| {
-            // Sides of the face in the order opposite, next, previous of its corner at the origin of h.
-            let [next, prev] = [mesh.next(h), mesh.prev(h)];
-            [lengths[next.edge()], lengths[prev.edge()], lengths[h.edge()]]
-        });
-        let [left, right] = sides.map(|l| triangle::angles(geometry, l));
-        if left.broken() || right.broken() {
+        if !fails(mesh, lengths, h) {
             return None;
         }
-        let fails = match radii {
-            None => local_defect(geometry, sides) < -crate::geometry::flip::TOLERANCE,
-            Some(radii) => weighted_hinge(mesh, lengths, radii, geometry, h).wants_flip(),
-        };
+        let sides = sides(mesh, lengths, h);
+        let [left, right] = sides.map(|l| triangle::angles(geometry, l));
         // Angle at the origin of h: corner 0 on the left; on the right its twin starts at the other end.
         let at_origin = left.at[0] + right.at[1];
         let at_tip = left.at[1] + right.at[0];
-        if !fails || at_origin >= PI || at_tip >= PI {
+        if left.broken() || right.broken() || at_origin >= PI || at_tip >= PI {
             return None;
         }
         let [near, far] = [sides[0][1], sides[1][0]];
         let length = diagonal(geometry, near, far, at_origin);
         (length > 0.0 && length.is_finite()).then_some(length)
     };
-    Queue::all(mesh, fixed).run(mesh, lengths, decide, record).ok_or_else(endless)
+    let mut queue = Queue::where_holds(mesh, fixed, |h| fails(mesh, lengths, h));
+    queue.run(mesh, lengths, decide, record).ok_or_else(endless)
+}
+
+/// Sides of the faces left and right of h, in the order opposite, next, previous of the corner at the origin of h, of its twin.
+fn sides(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> [[f64; 3]; 2] {
+    [h, h.twin()].map(|h| [mesh.next(h), mesh.prev(h), h].map(|side| lengths[side.edge()]))
 }
 
 /// `cot α + cot β` (scaled) of the angles opposite a common side, or what decides alike in curved spaces: the circumcircles'
@@ -222,13 +241,8 @@ fn endless() -> Error {
 /// The edges that fail the weighted Delaunay condition at variables `u` and can be flipped, ascending.
 pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> {
     let w = weights(metric, u);
-    let mut fails = vec![false; mesh.n_edges()];
-    parallel::fill(&mut fails, |e| {
-        let h = EdgeId::from(e).halfedge();
-        let [f, g] = [h, h.twin()].map(|h| mesh.face(h));
-        f.is_some() && g.is_some() && f != g && hinge(mesh, h, &metric.epsilon, &metric.eta, &w).wants_flip()
-    });
-    mesh.edges().filter(|e| fails[e.index()]).collect()
+    let fails = |h| hinge(mesh, h, &metric.epsilon, &metric.eta, &w).wants_flip();
+    Queue::where_holds(mesh, &[], fails).waiting.into()
 }
 
 /// `w` of every vertex at variables `u`.

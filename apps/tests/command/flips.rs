@@ -90,3 +90,25 @@ fn area([a, b, c]: [[f64; 3]; 3]) -> f64 {
     let cross = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
     0.5 * cross.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
+
+#[test]
+fn homogeneous_coordinates_are_the_plain_ones_times_a_weight() {
+    let place = Place::new();
+    place.expect(0, "make genus -g 2 -n 6 -o two.obj");
+    let line = "flow two.obj --space e2 --target single:0";
+    place.expect(0, &format!("{line} --uv plain.obj"));
+    place.expect(0, &format!("{line} --uv q.obj --homogeneous"));
+    place.expect(2, &format!("{line} --uv q.glb --homogeneous"));
+    let read = |name: &str| -> Vec<Vec<f64>> {
+        let text = place.text(name);
+        let lines = text.lines().filter_map(|l| l.strip_prefix("vt "));
+        lines.map(|l| l.split_whitespace().map(|x| x.parse().unwrap()).collect()).collect()
+    };
+    let (plain, weighted) = (read("plain.obj"), read("q.obj"));
+    assert_eq!(plain.len(), weighted.len());
+    let size = plain.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    for (p, w) in plain.iter().zip(&weighted) {
+        assert!(w[2] > 0.0 && (0..2).all(|k| (w[k] / w[2] - p[k]).abs() < 1e-12 * size));
+    }
+    assert!(weighted.iter().any(|w| (w[2] / weighted[0][2] - 1.0).abs() > 0.1));
+}

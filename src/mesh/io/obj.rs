@@ -208,8 +208,11 @@ pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
             }
             writeln!(out)?;
         }
-        for [s, t] in data.texcoords {
-            writeln!(out, "vt {s:.16e} {t:.16e}")?;
+        for (k, [s, t]) in data.texcoords.iter().enumerate() {
+            match data.texcoord_weights.get(k) {
+                Some(q) => writeln!(out, "vt {:.16e} {:.16e} {q:.16e}", q * s, q * t)?,
+                None => writeln!(out, "vt {s:.16e} {t:.16e}")?,
+            }
         }
         for [x, y, z] in data.normals {
             writeln!(out, "vn {x:.16e} {y:.16e} {z:.16e}")?;

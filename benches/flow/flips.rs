@@ -1,0 +1,146 @@
+//! What edge flips cost: where none is needed, where many are, and the way back.
+
+use super::{heap, median};
+use ricci::Control;
+use ricci::flow::{Flips, Options, Report, SurfaceFlow};
+use ricci::geometry::Space;
+use ricci::mesh::{Mesh, PerEdge, PerVertex, shapes};
+use ricci::metric::{Scheme, Target, lengths_from_positions};
+use std::f64::consts::PI;
+use std::time::Instant;
+
+/// Rounds of measurements, of which the medians are printed.
+const ROUNDS: usize = 5;
+/// Cones of the surface that needs flips.
+const CONES: usize = 8;
+
+/// Seconds of one flow from the input to the metric, and to the refinement.
+#[derive(Clone)]
+pub struct Run {
+    /// [`SurfaceFlow::new`]: the double, Delaunay, circles, the solver.
+    pub start: f64,
+    /// [`SurfaceFlow::solve`].
+    pub report: Report,
+    pub start_flips: usize,
+}
+
+impl Run {
+    pub fn whole(&self) -> f64 {
+        self.start + self.report.seconds.total
+    }
+}
+
+/// What one size and scheme took.
+pub struct Row {
+    pub vertices: usize,
+    pub scheme: Scheme,
+    /// No flips needed: never and auto, of median time.
+    pub plain: [Run; 2],
+    /// Medians over the rounds of auto over never: the flow alone, and with its start.
+    pub ratio: [f64; 2],
+    /// Flips needed.
+    pub flipped: Run,
+    /// Seconds of the refinement, and its triangles.
+    pub refinement: (f64, usize),
+    /// Heap bytes of flow and refinement per vertex of the input.
+    pub bytes: usize,
+}
+
+type Surface = (Mesh, PerEdge<f64>);
+
+fn seconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
+    let start = Instant::now();
+    let result = work();
+    (start.elapsed().as_secs_f64(), result)
+}
+
+fn run(
+    (mesh, lengths): &Surface,
+    scheme: Scheme,
+    target: &PerVertex<f64>,
+    flips: Flips,
+) -> (Run, SurfaceFlow) {
+    let options = Options { flips, ..Options::default() };
+    let make = || SurfaceFlow::new(mesh, lengths, Space::E2, scheme, Space::E2, &[], &options).unwrap();
+    let (start, mut flow) = seconds(make);
+    let report = flow.solve(target, &Control::new()).unwrap();
+    assert!(report.converged, "{report:?}");
+    (Run { start, report, start_flips: flow.start_flips() }, flow)
+}
+
+/// A flat torus of equilateral triangles.
+fn acute(vertices: usize) -> Surface {
+    let side = (vertices as f64).sqrt() as usize;
+    shapes::flat_torus([-0.5, 0.75f64.sqrt()], side, side).unwrap().build().unwrap()
+}
+
+/// A torus of revolution whose triangles are twice as long as wide, with noise.
+fn rough(vertices: usize) -> Surface {
+    let side = (vertices as f64 / 4.0).sqrt();
+    let mut soup = shapes::torus(2.0, 0.9, (4.0 * side) as usize, side as usize).unwrap();
+    shapes::noise(&mut soup, 0.2, 1).unwrap();
+    let mesh = Mesh::from_soup(&soup).unwrap();
+    let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
+    (mesh, lengths)
+}
+
+/// Curvature in waves, so small that no edge loses the Delaunay property.
+fn waves(mesh: &Mesh) -> PerVertex<f64> {
+    let mut target =
+        PerVertex::from_fn(mesh.n_vertices(), |v: ricci::mesh::VertexId| 0.02 * (v.0 as f64).sin());
+    let mean = target.iter().sum::<f64>() / target.len() as f64;
+    target.iter_mut().for_each(|k| *k -= mean);
+    target
+}
+
+/// Cones of ±π in turn, evenly spread over the vertices.
+fn cones(surface: &Surface) -> PerVertex<f64> {
+    let n = surface.0.n_vertices();
+    let at = (0..CONES).map(|k| ((n / CONES * k).into(), if k % 2 == 0 { PI } else { -PI }));
+    Target::Cones(at.collect()).resolve(&surface.0, &surface.1, Space::E2, Scheme::Yamabe).unwrap()
+}
+
+pub fn measure(vertices: usize, scheme: Scheme) -> Row {
+    let surface = acute(vertices);
+    let target = waves(&surface.0);
+    let (mut never, mut auto) = (Vec::new(), Vec::new());
+    for round in 1..=ROUNDS {
+        eprintln!("{vertices} {scheme}: round {round} of {ROUNDS}");
+        never.push(run(&surface, scheme, &target, Flips::Never).0);
+        auto.push(run(&surface, scheme, &target, Flips::Auto).0);
+        let last = &auto[round - 1];
+        assert_eq!((last.start_flips, last.report.flips), (0, 0), "flips where none should be");
+        assert_eq!(last.report.iterations, never[0].report.iterations);
+    }
+    let ratio = |of: fn(&Run) -> f64| median(auto.iter().zip(&never).map(|(a, n)| of(a) / of(n)));
+    let ratio = [ratio(|run| run.report.seconds.total), ratio(Run::whole)];
+    let surface = rough(vertices);
+    let target = cones(&surface);
+    let (mut flipped, mut refined, mut bytes, mut triangles) = (Vec::new(), Vec::new(), 0, 0);
+    for _ in 0..ROUNDS {
+        let (peak, (took, run)) = heap::peak(|| {
+            let (run, flow) = run(&surface, scheme, &target, Flips::Auto);
+            let (took, refinement) = seconds(|| flow.refinement(&Control::new()).unwrap());
+            triangles = refinement.mesh.n_faces();
+            (took, run)
+        });
+        flipped.push(run);
+        refined.push(took);
+        bytes = peak / surface.0.n_vertices();
+    }
+    Row {
+        vertices: surface.0.n_vertices(),
+        scheme,
+        plain: [middle(never), middle(auto)],
+        ratio,
+        flipped: middle(flipped),
+        refinement: (median(refined.into_iter()), triangles),
+        bytes,
+    }
+}
+
+/// The run of median time.
+fn middle(mut runs: Vec<Run>) -> Run {
+    runs.sort_by(|a, b| a.whole().total_cmp(&b.whole()));
+    runs.swap_remove(runs.len() / 2)
+}
