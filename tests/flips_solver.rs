@@ -307,3 +307,45 @@ fn the_final_triangulation_is_weighted_delaunay_by_the_circles_themselves() {
         }
     }
 }
+
+#[test]
+fn flows_that_go_on_from_a_metric_end_where_new_ones_do() {
+    for soup in [shapes::genus(1, 3).unwrap(), shapes::punch(&shapes::genus(1, 3).unwrap(), 2).unwrap()] {
+        let (given, lengths) = surface(&soup);
+        let first = Target::default_for(&given, &lengths, Space::E2).unwrap();
+        let first = first.values(&given, &lengths, Space::E2).unwrap();
+        let inside: Vec<VertexId> = given.vertices().filter(|&v| !given.is_boundary_vertex(v)).collect();
+        let mut second = first.clone();
+        (second[inside[3]], second[inside[40]]) = (1.5, -1.5);
+        for scheme in SCHEMES {
+            let options = Options::default();
+            let begin =
+                || SurfaceFlow::new(&given, &lengths, Space::E2, scheme, Space::E2, &[], &options).unwrap();
+            let (mut straight, mut aside) = (begin(), begin());
+            assert!(straight.solve(&second, &Control::new()).unwrap().converged);
+            assert!(aside.solve(&first, &Control::new()).unwrap().converged);
+            let halfway = aside.now();
+            assert_eq!(halfway.double().is_some(), !given.is_closed());
+            let k = halfway.curvature().unwrap().at;
+            assert!(given.vertices().all(|v| (k[v] - first[v]).abs() < 1e-9));
+            let mut resumed = SurfaceFlow::resume(&halfway, &[], &options).unwrap();
+            assert!(resumed.solve(&second, &Control::new()).unwrap().converged);
+            let (a, b) = (straight.now(), resumed.now());
+            assert!(b.flips() >= halfway.flips() && a.start_flips() == b.start_flips());
+            let [a, b] = [a, b].map(|end| end.conformal_factor().unwrap());
+            // Up to scale.
+            let shift = a[inside[0]] - b[inside[0]];
+            let worst = given.vertices().map(|v| (a[v] - b[v] - shift).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-8, "{scheme}: {worst}");
+
+            // Without flips the triangulation stays where it is; other fixed edges begin anew.
+            let never = Options { flips: Flips::Never, ..Options::default() };
+            let mut rigid = SurfaceFlow::resume(&halfway, &[], &never).unwrap();
+            rigid.solve(&first, &Control::new()).unwrap();
+            assert!(rigid.now().mesh() == halfway.mesh() && rigid.now().flips() == halfway.flips());
+            let fixed = Options { fixed_edges: given.edges().collect(), ..Options::default() };
+            let anew = SurfaceFlow::resume(&halfway, &[], &fixed).unwrap().now();
+            assert!(anew.flips() == 0 && (anew.is_unflipped() || anew.double().is_some()));
+        }
+    }
+}

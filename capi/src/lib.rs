@@ -54,6 +54,8 @@ pub mod scheme;
 
 pub mod metric;
 
+pub mod triangulation;
+
 pub mod target;
 
 pub mod report;
@@ -61,6 +63,8 @@ pub mod report;
 pub mod flow;
 
 pub mod layout;
+
+pub mod refined;
 
 pub mod charts;
 

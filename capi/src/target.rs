@@ -13,7 +13,7 @@ use ricci::metric::target::Target;
 
 impl ricci_metric {
     fn vertex(&self, v: u32) -> Outcome<VertexId> {
-        let n = self.mesh.n_vertices();
+        let n = self.given().n_vertices();
         if (v as usize) < n {
             Ok(VertexId(v))
         } else {
@@ -26,13 +26,14 @@ impl ricci_metric {
     }
 
     fn resolve(&self, target: &Target) -> Outcome<PerVertex<f64>> {
-        let origin = &self.origin;
-        Ok(target.resolve(&origin.mesh, &origin.lengths, self.metric.space, origin.scheme)?)
+        let surface = &self.surface;
+        let (space, scheme) = (surface.metric().space, surface.scheme());
+        Ok(target.resolve(surface.given(), surface.given_lengths(), space, scheme)?)
     }
 
     /// An admissible target from a caller's array.
     pub(crate) fn target(&self, target: *const f64, n: usize) -> Outcome<PerVertex<f64>> {
-        let values = arrays::array_of("target", target, n, self.mesh.n_vertices())?;
+        let values = arrays::array_of("target", target, n, self.given().n_vertices())?;
         self.resolve(&Target::All(values.into()))
     }
 }
@@ -53,8 +54,8 @@ pub unsafe extern "C" fn ricci_target_default(
 ) -> ricci_status {
     guard::call(|door| {
         let metric = door.shared(metric)?;
-        let origin = &metric.origin;
-        let choice = Target::default_for(&origin.mesh, &origin.lengths, metric.metric.space)?;
+        let surface = &metric.surface;
+        let choice = Target::default_for(surface.given(), surface.given_lengths(), surface.metric().space)?;
         copy_out("target", &metric.resolve(&choice)?, target, capacity)
     })
 }
@@ -170,14 +171,13 @@ pub unsafe extern "C" fn ricci_target_auto(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let metric = door.shared(metric)?;
-        let origin = &metric.origin;
-        let spaces = [metric.metric.space, origin.initial.input_geometry];
+        let surface = &door.shared(metric)?.surface;
+        let spaces = [surface.metric().space, surface.initial().input_geometry];
         if spaces != [Space::E2; 2] {
             let message = "cones are placed in e2, by Euclidean lengths".to_string();
             return Err(Failure::new(ricci_status::RICCI_TARGET_KIND, message));
         }
-        let placed = auto_cones(&origin.mesh, &origin.lengths, n_cones, &control::of(control))?;
+        let placed = auto_cones(surface.given(), surface.given_lengths(), n_cones, &control::of(control))?;
         copy_out("target", &placed.target, target, capacity)
     })
 }

@@ -1,4 +1,5 @@
-//! A surface with everything a flow with flips takes: its double, its Delaunay triangulation, and the way back.
+//! A surface with everything a flow with flips takes: its double, its Delaunay triangulation, and the way
+//! back.
 
 use super::options::{Flips, Method, Options};
 use super::report::Report;
@@ -6,33 +7,36 @@ use super::solver::Solver;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::mesh::{Double, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
-use crate::metric::refinement::{Final, Input};
-use crate::metric::{Initial, Metric, Refinement, Scheme, delaunay_start, initial_metric};
+use crate::mesh::{Double, Mesh, PerEdge, PerVertex, VertexId};
+use crate::metric::surface::{Start, check_fixed};
+use crate::metric::{Initial, Metric, Refinement, Scheme, SurfaceMetric};
 use crate::parallel::Pool;
+use std::sync::Arc;
 
 /// A surface in a conformal class, which flows to one target after the other.
 ///
-/// With [`Flips::Auto`] the class is that of the surface's (weighted) Delaunay triangulation and edges are flipped inside it, so
-/// that every admissible target is reached; a surface with boundary is solved on its double, whose metric is kept symmetric, since
-/// only closed surfaces have that guarantee. [`SurfaceFlow::refinement`] carries the result back to the given triangulation.
+/// With [`Flips::Auto`] the class is that of the surface's (weighted) Delaunay triangulation and edges are
+/// flipped inside it, so that every admissible target is reached; a surface with boundary is solved on its
+/// double, whose metric is kept symmetric, since only closed surfaces have that guarantee.
+/// [`SurfaceFlow::refinement`] carries the result back to the given triangulation.
 ///
-/// Edges stay as they are with [`Flips::Never`], and where flips have no part: in S², in the gradient flow, for Thurston's and
-/// tangential packings (Delaunay on any triangulation). Pinned vertices keep a boundary from being doubled: interior edges alone
-/// are flipped.
+/// Edges stay as they are with [`Flips::Never`], and where flips have no part: in S², in the gradient flow,
+/// for Thurston's and tangential packings (Delaunay on any triangulation). Pinned vertices keep a boundary
+/// from being doubled: interior edges alone are flipped.
 pub struct SurfaceFlow {
-    given: Mesh,
-    double: Option<Double>,
-    initial: Initial,
-    start_flips: usize,
+    start: Arc<Start>,
     solver: Solver,
+    options: Options,
+    /// All flips since the given triangulation.
+    flips: usize,
 }
 
 impl SurfaceFlow {
-    /// The surface with these `lengths` (E entries, read in `geometry`), to be deformed in the class of `scheme` to metrics in
-    /// `space`; `pinned` vertices hold their u.
+    /// The surface with these `lengths` (E entries, read in `geometry`), to be deformed in the class of
+    /// `scheme` to metrics in `space`; `pinned` vertices hold their u.
     ///
-    /// Errors: those of [`initial_metric`], [`delaunay_start`] and [`Solver::new`]; a pinned vertex that does not exist.
+    /// Errors: those of [`SurfaceMetric::new`], [`SurfaceMetric::delaunay`] and [`Solver::new`]; a pinned
+    /// vertex that does not exist.
     pub fn new(
         given: &Mesh,
         lengths: &PerEdge<f64>,
@@ -42,61 +46,120 @@ impl SurfaceFlow {
         pinned: &[VertexId],
         options: &Options,
     ) -> Result<SurfaceFlow> {
-        let packing = matches!(scheme, Scheme::Thurston | Scheme::Tangential);
-        let rigid = options.flips == Flips::Never
-            || options.method != Method::Newton
-            || [space, geometry].contains(&Space::S2)
-            || packing;
-        if rigid {
-            let initial = initial_metric(given, lengths, geometry, scheme, space)?;
-            let options = Options { flips: Flips::Never, ..options.clone() };
-            let mut solver = Solver::new(given.clone(), initial.metric.clone(), options)?;
-            solver.pin(pinned)?;
-            return Ok(SurfaceFlow { given: given.clone(), double: None, initial, start_flips: 0, solver });
-        }
-        let double = if given.is_closed() || !pinned.is_empty() { None } else { Some(Double::new(given)?) };
-        let (mut mesh, mut lengths) = match &double {
-            Some(double) => (double.mesh.clone(), double.spread_edges(lengths).into()),
-            None => (given.clone(), lengths.clone()),
+        let (given, lengths) = (Arc::new(given.clone()), Arc::new(lengths.clone()));
+        SurfaceFlow::begin(given, lengths, (geometry, scheme, space), pinned, options)
+    }
+
+    fn begin(
+        given: Arc<Mesh>,
+        lengths: Arc<PerEdge<f64>>,
+        (geometry, scheme, space): (Space, Scheme, Space),
+        pinned: &[VertexId],
+        options: &Options,
+    ) -> Result<SurfaceFlow> {
+        let from = match is_rigid(geometry, scheme, space, options) {
+            true => SurfaceMetric::new(given, lengths, geometry, scheme, space)?,
+            false => {
+                let doubled = !given.is_closed() && pinned.is_empty();
+                let fixed = &options.fixed_edges;
+                let start =
+                    || SurfaceMetric::delaunay(given, lengths, geometry, scheme, space, doubled, fixed);
+                Pool::new(options.threads)?.run(start)?
+            }
         };
-        if let Some(e) = options.fixed_edges.iter().find(|e| e.index() >= given.n_edges()) {
-            let value = e.to_string();
-            return Err(Error::Argument { what: "fixed edge", value, need: "an existing edge" });
+        SurfaceFlow::go_on(from, pinned, options)
+    }
+
+    /// Go on from a metric of the surface: on its triangulation, from its u.
+    ///
+    /// If edges are to be flipped, and have not been, or with other `fixed_edges`, or other than
+    /// [`SurfaceFlow::new`] does on the double or not, the flow is a new one, which starts from the given
+    /// lengths. Errors: those of [`SurfaceFlow::new`].
+    pub fn resume(from: &SurfaceMetric, pinned: &[VertexId], options: &Options) -> Result<SurfaceFlow> {
+        let (initial, given) = (from.initial(), from.given());
+        let (geometry, scheme, space) = (initial.input_geometry, from.scheme(), initial.metric.space);
+        let doubled = !given.is_closed() && pinned.is_empty();
+        let fits = from.was_flipped_without(&options.fixed_edges) && from.double().is_some() == doubled;
+        if fits || is_rigid(geometry, scheme, space, options) {
+            return SurfaceFlow::go_on(from.clone(), pinned, options);
         }
-        let fixed = match &double {
-            Some(double) => double.with_images(&options.fixed_edges),
-            None => options.fixed_edges.clone(),
+        let lengths = from.given_lengths().clone();
+        SurfaceFlow::begin(given.clone(), lengths, (geometry, scheme, space), pinned, options)
+    }
+
+    fn go_on(from: SurfaceMetric, pinned: &[VertexId], options: &Options) -> Result<SurfaceFlow> {
+        let (start, mesh, mut metric, normal, flips) = from.into_parts();
+        check_fixed(&start.given, &options.fixed_edges)?;
+        let fixed = &options.fixed_edges;
+        let rigid = is_rigid(start.initial.input_geometry, start.scheme, metric.space, options);
+        let inner = Options {
+            flips: if rigid { Flips::Never } else { Flips::Auto },
+            fixed_edges: start.double.as_ref().map_or_else(|| fixed.clone(), |d| d.with_images(fixed)),
+            ..options.clone()
         };
-        let mut normal = NormalCoordinates::new(&mesh);
-        let mut start_flips = 0;
-        let initial = Pool::new(options.threads)?.run(|| {
-            let mut record = |mesh: &Mesh, e| {
-                normal.record(mesh, e);
-                start_flips += 1;
-            };
-            let double = double.as_ref();
-            delaunay_start(&mut mesh, &mut lengths, geometry, scheme, space, double, &fixed, &mut record)
-        })?;
-        let options = Options { fixed_edges: fixed, ..options.clone() };
-        let mut solver = Solver::new(mesh, initial.metric.clone(), options)?;
-        solver.follow(normal)?;
-        solver.pin(pinned)?;
-        if let Some(double) = &double {
+        if let Some(double) = &start.double {
+            // Images that rounding has told apart: they must be the same to begin with.
+            for v in mesh.vertices().skip(double.n_half_vertices()) {
+                let image = double.mirror(v);
+                (metric.u[v], metric.u_low[v]) = (metric.u[image], metric.u_low[image]);
+            }
+        }
+        let mut solver = Solver::new(mesh, metric, inner)?;
+        if let Some(normal) = normal {
+            solver.follow(normal)?;
+        }
+        if let Some(double) = &start.double {
             let mirror: Vec<VertexId> = solver.mesh().vertices().map(|v| double.mirror(v)).collect();
             solver.keep_symmetric(&mirror)?;
         }
-        Ok(SurfaceFlow { given: given.clone(), double, initial, start_flips, solver })
+        let mut flow = SurfaceFlow { start, solver, options: options.clone(), flips };
+        flow.hold(pinned)?;
+        Ok(flow)
+    }
+
+    /// Hold u at these vertices, and at no others; their curvature is then free.
+    ///
+    /// A surface with boundary whose edges flip is on its double if no vertex is pinned: going there and leaving
+    /// it the flow begins anew, as in [`SurfaceFlow::resume`]. Errors: those of [`SurfaceFlow::new`].
+    pub fn pin(&mut self, pinned: &[VertexId]) -> Result<()> {
+        let given = &self.start.given;
+        let initial = &self.start.initial;
+        let rigid = is_rigid(initial.input_geometry, self.start.scheme, initial.metric.space, &self.options);
+        let doubled = !given.is_closed() && pinned.is_empty();
+        if rigid || self.start.double.is_some() == doubled {
+            return self.hold(pinned);
+        }
+        *self = SurfaceFlow::resume(&self.now(), pinned, &self.options)?;
+        Ok(())
+    }
+
+    fn hold(&mut self, pinned: &[VertexId]) -> Result<()> {
+        let n = self.start.given.n_vertices();
+        if let Some(v) = pinned.iter().find(|v| v.index() >= n) {
+            let value = v.to_string();
+            return Err(Error::Argument { what: "pinned vertex", value, need: "an existing vertex" });
+        }
+        let images = self.double().map_or_else(Vec::new, |d| pinned.iter().map(|&v| d.mirror(v)).collect());
+        self.solver.pin(&[pinned, &images].concat())
     }
 
     /// Flow to curvature `target` (an entry per vertex of the given surface, radians): [`Solver::solve`].
     pub fn solve(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<Report> {
-        crate::error::check_size("target", target.len(), self.given.n_vertices())?;
-        self.solver.solve(&self.target(target), control)
+        crate::error::check_size("target", target.len(), self.start.given.n_vertices())?;
+        let report = self.solver.solve(&self.target(target), control)?;
+        self.flips += report.flips;
+        Ok(report)
     }
 
-    /// A target on the given surface as one on [`SurfaceFlow::mesh`]: curvature on both sides of the boundary adds up.
+    /// A target on the given surface as one on [`SurfaceFlow::mesh`]: curvature on both sides of the boundary
+    /// adds up.
     pub fn target(&self, target: &PerVertex<f64>) -> PerVertex<f64> {
-        self.double.as_ref().map_or_else(|| target.clone(), |double| double.target(target).into())
+        self.start.target(target)
+    }
+
+    /// The given triangulation.
+    pub fn given(&self) -> &Mesh {
+        &self.start.given
     }
 
     /// The triangulation that flips have led to: of the surface, or of its double.
@@ -111,36 +174,41 @@ impl SurfaceFlow {
 
     /// Where the flow started, after the flips to Delaunay.
     pub fn initial(&self) -> &Initial {
-        &self.initial
+        &self.start.initial
     }
 
     /// The double, if the flow is one on it.
     pub fn double(&self) -> Option<&Double> {
-        self.double.as_ref()
+        self.start.double.as_ref()
     }
 
     /// Isometric flips before the flow.
     pub fn start_flips(&self) -> usize {
-        self.start_flips
+        self.start.flips
     }
 
-    /// The common refinement of the given triangulation and the present one, on the given surface alone: the first half of a
-    /// double.
+    /// The present metric with its way back, apart from the flow.
+    pub fn now(&self) -> SurfaceMetric {
+        let (mesh, metric) = (self.mesh().clone(), self.metric().clone());
+        SurfaceMetric::at(self.start.clone(), mesh, metric, self.solver.normal().cloned(), self.flips)
+    }
+
+    /// The common refinement of the given triangulation and the present one, on the given surface alone: the
+    /// first half of a double.
     ///
     /// Errors: those of [`Refinement::new`].
     pub fn refinement(&self, control: &Control) -> Result<Refinement> {
-        let unflipped;
-        let normal = match self.solver.normal() {
-            Some(normal) => normal,
-            None => {
-                unflipped = NormalCoordinates::new(&self.given);
-                &unflipped
-            }
-        };
-        let mesh = self.double.as_ref().map_or(&self.given, |double| &double.mesh);
-        let input = Input { mesh, geometry: self.initial.input_geometry, u: &self.initial.input_u };
-        let result = Final { mesh: self.solver.mesh(), metric: self.solver.metric(), normal };
-        let keep = |f| self.double.as_ref().is_none_or(|double| double.is_original(f));
-        self.solver.run(|| Refinement::new(input, result, &keep, control))
+        let (start, solver) = (&*self.start, &self.solver);
+        let (mesh, metric, normal) = (solver.mesh(), solver.metric(), solver.normal());
+        solver.run(|| start.refinement(mesh, metric, normal, control))
     }
+}
+
+/// Whether edges stay as they are.
+fn is_rigid(geometry: Space, scheme: Scheme, space: Space, options: &Options) -> bool {
+    let packing = matches!(scheme, Scheme::Thurston | Scheme::Tangential);
+    options.flips == Flips::Never
+        || options.method != Method::Newton
+        || [space, geometry].contains(&Space::S2)
+        || packing
 }

@@ -7,6 +7,7 @@ pub mod lengths;
 pub mod refinement;
 pub mod scheme;
 pub mod start;
+pub mod surface;
 pub mod target;
 
 pub use curvature::{Curvature, curvature};
@@ -15,4 +16,5 @@ pub use lengths::{Metric, lengths_from_positions};
 pub use refinement::Refinement;
 pub use scheme::Scheme;
 pub use start::delaunay_start;
+pub use surface::SurfaceMetric;
 pub use target::Target;

@@ -3,7 +3,8 @@
 
 /* A closed cube and a fin, as loose triangles: the fin stays apart, and its edge is reported. */
 static void fin(void) {
-    const double place[9][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}, {0.5, -1, -1}};
+    const double place[9][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},    {0, 0, 1},
+                                {1, 0, 1}, {0, 1, 1}, {1, 1, 1}, {0.5, -1, -1}};
     const uint32_t corner[39] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6,
                                  7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 8};
     double positions[39][3];
@@ -30,7 +31,8 @@ static void fin(void) {
     ricci_repair_free(repair);
 }
 
-/* Attributes stay with their elements: a triangle, given twice, the second time turned and with an unused vertex. */
+/* Attributes stay with their elements: a triangle, given twice, the second time turned and with an unused
+ * vertex. */
 static void attributes(void) {
     const char *text = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 9\nvn 0 0 1\nvn 0 0 2\nvn 0 0 3\n"
                        "vt 0 0.5\nvt 1 0\nvt 0.25 1\nf 2/1/2 3/2/3 4/3/4\nf 3/2/3 2/1/2 4/3/4\n";
@@ -53,14 +55,20 @@ static void attributes(void) {
     ricci_repair_free(repair);
 
     /* And go out again with a texture. */
-    const unsigned char png[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R', 0, 0, 0, 1, 0, 0, 0, 1,
-                                 8, 2, 0, 0, 0, 0x90, 0x77, 0x53, 0xde, 0, 0, 0, 12, 'I', 'D', 'A', 'T', 8, 0xd7, 0x63, 0xf8, 0xff, 0xff,
-                                 0x3f, 0, 5, 0xfe, 2, 0xfe, 0xdc, 0xcc, 0x59, 0xe7, 0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+    const unsigned char png[] = {0x89, 'P', 'N',  'G', '\r', '\n', 0x1a, '\n', 0,    0,    0,    13,
+                                 'I',  'H', 'D',  'R', 0,    0,    0,    1,    0,    0,    0,    1,
+                                 8,    2,   0,    0,   0,    0x90, 0x77, 0x53, 0xde, 0,    0,    0,
+                                 12,   'I', 'D',  'A', 'T',  8,    0xd7, 0x63, 0xf8, 0xff, 0xff, 0x3f,
+                                 0,    5,   0xfe, 2,   0xfe, 0xdc, 0xcc, 0x59, 0xe7, 0,    0,    0,
+                                 0,    'I', 'E',  'N', 'D',  0xae, 0x42, 0x60, 0x82};
     OK(ricci_mesh_read("attributes.ply", &mesh));
     OK(ricci_mesh_write_textured(mesh, NULL, png, sizeof png, RICCI_WRAP_MIRROR, "attributes.glb"));
-    FAILS(ricci_mesh_write_textured(mesh, NULL, png + 1, sizeof png - 1, RICCI_WRAP_CLAMP, "x.glb"), RICCI_ARGUMENT, "PNG");
-    FAILS(ricci_mesh_write_textured(mesh, NULL, NULL, 9, RICCI_WRAP_CLAMP, "x.glb"), RICCI_NULL_POINTER, "png");
-    FAILS(ricci_mesh_write_textured(mesh, NULL, png, sizeof png, (ricci_wrap)3, "x.glb"), RICCI_ARGUMENT, "wrap");
+    FAILS(ricci_mesh_write_textured(mesh, NULL, png + 1, sizeof png - 1, RICCI_WRAP_CLAMP, "x.glb"),
+          RICCI_ARGUMENT, "PNG");
+    FAILS(ricci_mesh_write_textured(mesh, NULL, NULL, 9, RICCI_WRAP_CLAMP, "x.glb"), RICCI_NULL_POINTER,
+          "png");
+    FAILS(ricci_mesh_write_textured(mesh, NULL, png, sizeof png, (ricci_wrap)3, "x.glb"), RICCI_ARGUMENT,
+          "wrap");
     ricci_mesh_free(mesh);
     mesh = NULL;
     OK(ricci_mesh_read("attributes.glb", &mesh));
