@@ -30,14 +30,18 @@ pub(super) fn coincident(positions: &[Point], tolerance: f64) -> Vec<u32> {
     (0..positions.len() as u32).map(|v| tree.sets.root(v)).collect()
 }
 
+/// A place as a key; −0 is 0.
+pub(super) fn place_key(p: Point) -> [u64; 3] {
+    p.map(|x| if x == 0.0 { 0 } else { x.to_bits() })
+}
+
 fn same_place(positions: &[Point]) -> Vec<u32> {
     let mut known: HashMap<[u64; 3], u32> = HashMap::with_capacity(positions.len());
     let first = |(v, p): (u32, &Point)| {
         if !p.iter().all(|x| x.is_finite()) {
             return v;
         }
-        // −0 is 0.
-        *known.entry(p.map(|x| if x == 0.0 { 0 } else { x.to_bits() })).or_insert(v)
+        *known.entry(place_key(*p)).or_insert(v)
     };
     (0u32..).zip(positions).map(first).collect()
 }

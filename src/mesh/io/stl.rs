@@ -6,7 +6,7 @@ use super::polygon::Polygons;
 use super::scan::{Place, Quoted, tokens};
 use super::{Point, Soup};
 use crate::error::Result;
-use crate::mesh::weld::{check_tolerance, coincident};
+use crate::mesh::weld::{check_tolerance, coincident, place_key};
 use std::collections::HashMap;
 
 /// Bytes of text before the number of triangles in a binary file, and of each triangle.
@@ -68,9 +68,8 @@ struct Weld {
 
 impl Weld {
     fn vertex(&mut self, point: Point) -> u32 {
-        // −0 is 0; every NaN is a vertex of its own kind, which the diagnosis finds.
-        let place = point.map(|x| if x == 0.0 { 0 } else { x.to_bits() });
-        *self.known.entry(place).or_insert_with(|| {
+        // Every NaN is a vertex of its own kind, which the diagnosis finds.
+        *self.known.entry(place_key(point)).or_insert_with(|| {
             self.soup.positions.push(point);
             self.soup.positions.len() as u32 - 1
         })

@@ -4,8 +4,9 @@ use super::super::budget::Budget;
 use super::super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, WHITE};
 use super::accessor::File;
 use super::document::{Affine, Primitive, Shape};
-use super::seams::{first_alike, place_key};
+use super::seams::first_alike;
 use crate::error::{Error, Result};
+use crate::mesh::weld::place_key;
 
 /// Modes of a primitive with faces.
 const TRIANGLES: u32 = 4;

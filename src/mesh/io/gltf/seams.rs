@@ -1,7 +1,5 @@
 //! Vertices that glTF gives more than once: one for each pair of texture coordinates and each normal that its corners have.
 
-use super::super::Point;
-
 /// For each of these vertices, the first of them with the same key. Scratch is 8 bytes a vertex: a hash table would be more than
 /// the vertices are.
 pub(super) fn first_alike<K: Ord>(vertices: std::ops::Range<u32>, key: impl Fn(u32) -> K) -> Vec<u32> {
@@ -12,9 +10,4 @@ pub(super) fn first_alike<K: Ord>(vertices: std::ops::Range<u32>, key: impl Fn(u
         alike.iter().for_each(|v| first[(v - vertices.start) as usize] = alike[0]);
     }
     first
-}
-
-/// A place as a key; −0 is 0.
-pub(super) fn place_key(p: Point) -> [u64; 3] {
-    p.map(|x| if x == 0.0 { 0 } else { x.to_bits() })
 }
