@@ -195,7 +195,7 @@ pub struct FlowArgs {
     /// Largest |K − K̄| of a converged metric, radians
     #[arg(long, value_name = "T", default_value = "1e-10", value_parser = positive)]
     pub tolerance: f64,
-    /// Steps before giving up [default: 200 for newton, 200000 for gradient]
+    /// Steps before giving up [default: 500 for newton, 200000 for gradient]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub max_iterations: Option<u64>,
     /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]

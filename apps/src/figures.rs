@@ -25,6 +25,8 @@ pub struct FlowResult {
     tolerance: f64,
     /// Where a flow stalled: what rounding can do to the curvature there.
     rounding_floor: Option<f64>,
+    /// Whether u, lengths and curvature were carried to twice the digits of a double.
+    double_double: bool,
     broken_triangles: usize,
     /// Faces that break the triangle inequality.
     broken_faces: Vec<usize>,
@@ -124,6 +126,7 @@ impl FlowResult {
             max_curvature_error: report.max_curvature_error,
             tolerance: report.tolerance,
             rounding_floor: report.rounding_floor,
+            double_double: report.double_double,
             broken_triangles: report.broken_triangles,
             broken_faces: outcome.curvature.broken.iter().map(|f| f.index()).collect(),
             worst_vertices: report.worst.iter().map(worst).collect(),

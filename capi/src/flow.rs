@@ -97,7 +97,7 @@ pub struct ricci_flow_options {
     pub flips: MaybeUninit<ricci_flips>,
     /// Largest |K - target| of a converged metric, radians, positive; default 1e-10.
     pub tolerance: f64,
-    /// Steps before giving up; default 0: 200 for Newton, 200,000 for the gradient flow.
+    /// Steps before giving up; default 0: 500 for Newton, 200,000 for the gradient flow.
     pub max_iterations: usize,
     /// Threads of this flow, in a pool of its own; default 0: one per core. The result does not depend on it.
     pub threads: usize,

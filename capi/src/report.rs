@@ -116,6 +116,8 @@ pub struct ricci_report_summary {
     /// Largest curvature error that rounding can cause at the final metric, radians; determined where a flow
     /// stalls, else 0.
     pub rounding_floor: f64,
+    /// 1 if u, lengths and curvature were carried to twice the digits of a double (Newton in E2), else 0.
+    pub double_double: i32,
     /// |sum of curvatures + lambda area - 2 pi chi| of the result.
     pub gauss_bonnet: f64,
     /// Seconds in the assembly of curvature and its derivative.
@@ -201,6 +203,7 @@ pub unsafe extern "C" fn ricci_report_summarise(
             max_curvature_error: report.max_curvature_error,
             tolerance: report.tolerance,
             rounding_floor: report.rounding_floor.unwrap_or(0.0),
+            double_double: report.double_double.into(),
             gauss_bonnet: report.gauss_bonnet,
             seconds_assemble: seconds.assemble,
             seconds_analyse: seconds.analyse,

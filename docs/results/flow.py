@@ -253,7 +253,7 @@ table(["target", "scheme", "reached", "steps: median, most", "median flips", "la
 print("Per class: steps (median, most), median flips.\n")
 table(["class", "meshes"] + [f"{target} {scheme}" for target in TARGETS for scheme in SCHEMES], classes(flown))
 print("Not reached: the range of lengths is beyond doubles (diverged), rounding holds the error above 1e-10 (rounding floor: the report "
-      "states it; stalled), or Newton's method takes more than 200 steps.\n")
+      "states it; stalled), or Newton's method takes more than 500 steps.\n")
 table(["mesh", "target", "scheme", "why", "steps", "error"], missing(flown))
 print("## Every flow\n")
 print("Error: max |K − K̄| of the flow. qc: quasi-conformal dilatation of the layout, area-weighted mean and maximum. Flipped and "

@@ -534,7 +534,7 @@ typedef struct {
     ricci_flips flips;
     /** Largest |K - target| of a converged metric, radians, positive; default 1e-10. */
     double tolerance;
-    /** Steps before giving up; default 0: 200 for Newton, 200,000 for the gradient flow. */
+    /** Steps before giving up; default 0: 500 for Newton, 200,000 for the gradient flow. */
     size_t max_iterations;
     /** Threads of this flow, in a pool of its own; default 0: one per core. The result does not depend on it. */
     size_t threads;

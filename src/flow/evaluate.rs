@@ -3,8 +3,9 @@
 use super::report::{Seconds, timed};
 use crate::error::Result;
 use crate::geometry::Space;
-use crate::geometry::conformal::{Edge, Vertex, differences, edge, two_sum, weights};
+use crate::geometry::conformal::{Edge, Vertex, differences, edge, weights};
 use crate::geometry::triangle::{self, Angles};
+use crate::geometry::twofold::two_sum;
 use crate::mesh::{EdgeId, FaceId, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_from_angles;

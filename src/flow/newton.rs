@@ -13,8 +13,14 @@ const NEAR: f64 = 1e-2;
 /// A convex energy that at the end of a step rises this much more slowly than it fell at its start has fallen all in all, unless its
 /// slope jumps. Refusing every rise halves good steps: half of all flows then take twice as many.
 const OVERSHOOT: f64 = 0.1;
-/// Halvings of a step before the line search gives up: 2⁻⁵⁰ of a step is below the rounding of u.
-const HALVINGS: usize = 50;
+/// Trials before the line search gives up: 2⁻⁵⁰ of a step is below the rounding of u.
+const TRIALS: usize = 50;
+/// Where vertices that are far smaller than all else have large curvature, dK/du changes within a tiny change of u, and a step meets
+/// a bend of the energy that its start knows nothing of. A step that ends before the bend gains nothing, since the next one meets it
+/// too; one that ends in it knows it. So the line search goes on until the slope is at most this share of that at the start …
+const FLAT: f64 = 0.5;
+/// … or so many more points were tried.
+const BISECTIONS: usize = 10;
 /// First shift of a matrix that is not positive definite, relative to its mean diagonal; grows by `SHIFT_GROWTH`.
 const SHIFT: f64 = 1e-12;
 const SHIFT_GROWTH: f64 = 100.0;
@@ -183,11 +189,12 @@ impl Run<'_> {
         Ok(false)
     }
 
-    /// The largest of `step`, `step/2`, `step/4`, … (after the cap) that is accepted, in `trial`; its error.
+    /// A fraction of `step` that is accepted, in `trial`; its error. The first tried is all of it (after the cap), then halves.
     ///
     /// Accepted: the energy still falls along the step at its end, `step·(K̄ − K) ≥ 0`, or rises there at no more than
-    /// [`OVERSHOOT`] of the rate at which it fell at the start; near the solution a smaller residual will do. `residual`: at the
-    /// start, then of `trial`.
+    /// [`OVERSHOOT`] of the rate at which it fell at the start; near the solution a smaller residual will do. After a step that was
+    /// too long the lowest point lies between: it is sought until the energy falls at no more than [`FLAT`] of that rate.
+    /// `residual`: at the start, then of `trial`.
     fn line_search(
         &mut self,
         state: &State,
@@ -198,18 +205,28 @@ impl Run<'_> {
         report: &mut Report,
     ) -> Result<Option<f64>> {
         let slope = |residual: &[f64]| -> f64 { step.iter().zip(residual).map(|(d, r)| d * r).sum() };
-        let least = -OVERSHOOT * slope(residual);
+        let first = slope(residual);
+        let (mut short, mut long, mut between) = (0.0, None, 0);
         let mut t = (self.options.max_step / norm(step)).min(1.0);
-        for _ in 0..HALVINGS {
+        for _ in 0..TRIALS {
             self.control.check()?;
             trial.set_step(state, t, step);
-            if self.evaluate(trial, report)? {
-                let now = trial.residual(self.target, self.pinned, residual);
-                if (error < NEAR && now < error) || slope(residual) >= least {
-                    return Ok(Some(now));
-                }
+            let real = self.evaluate(trial, report)?;
+            let now = if real { trial.residual(self.target, self.pinned, residual) } else { f64::INFINITY };
+            let slope = if real { slope(residual) } else { f64::NEG_INFINITY };
+            let falls = slope >= -OVERSHOOT * first;
+            let settled = long.is_none() || slope <= FLAT * first || between >= BISECTIONS;
+            if (error < NEAR && now < error) || (falls && settled) {
+                return Ok(Some(now));
             }
-            t *= 0.5;
+            match falls {
+                true => short = t,
+                false if t == short => (short, long) = (0.0, Some(t)),
+                false => long = Some(t),
+            }
+            between += usize::from(short > 0.0);
+            let long = long.unwrap_or(t);
+            t = if short > 0.0 && between >= BISECTIONS { short } else { 0.5 * (short + long) };
         }
         Ok(None)
     }

@@ -51,7 +51,7 @@ pub struct Options {
     pub method: Method,
     /// Largest |K − K̄| of a converged metric, radians. Default 1e-10.
     pub tolerance: f64,
-    /// Iterations before giving up; 0 (default) means 200 for Newton, 200 000 for the gradient flow.
+    /// Iterations before giving up; 0 (default) means 500 for Newton, 200 000 for the gradient flow.
     pub max_iterations: usize,
     /// Largest change of any u in one Newton step. Default 3: lengths change by at most e³ at a time.
     pub max_step: f64,
@@ -100,7 +100,7 @@ impl Options {
     /// The limit that `max_iterations` stands for.
     pub fn iteration_limit(&self) -> usize {
         match (self.max_iterations, self.method) {
-            (0, Method::Newton) => 200,
+            (0, Method::Newton) => 500,
             (0, Method::Gradient) => 200_000,
             (n, _) => n,
         }

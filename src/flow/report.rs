@@ -108,6 +108,8 @@ pub struct Report {
     pub tolerance: f64,
     /// Largest curvature error that rounding can cause at the final metric; determined where a flow stalls.
     pub rounding_floor: Option<f64>,
+    /// Whether u, lengths and curvature were carried to twice the digits of a double (Newton in E²; the corrections are doubles).
+    pub double_double: bool,
     /// Faces that break the triangle inequality.
     pub broken_triangles: usize,
     /// The vertices of largest |K − K̄| with their K − K̄ (radians), largest first: at most [`WORST`], none where the
@@ -141,6 +143,7 @@ impl Report {
             max_curvature_error: f64::INFINITY,
             tolerance,
             rounding_floor: None,
+            double_double: false,
             broken_triangles: 0,
             worst: Vec::new(),
             obstruction: None,

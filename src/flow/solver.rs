@@ -159,6 +159,7 @@ impl Solver {
             settle_total(&self.mesh, self.metric.space, &mut target);
         }
         let mut report = Report::new(self.options.tolerance);
+        report.double_double = self.metric.space == Space::E2 && self.options.method == Method::Newton;
         let mut seconds = 0.0;
         let free_scale = self.metric.space == Space::E2 && !self.pinned.contains(&true);
         let before = (self.options.flips == Flips::Auto)

@@ -19,6 +19,7 @@
 
 use super::Space;
 use super::triangle::half_differences;
+use super::twofold::{self, two_product, two_sum};
 use std::f64::consts::PI;
 
 /// A vertex at its current u.
@@ -69,7 +70,9 @@ impl Vertex {
     pub fn precise(space: Space, epsilon: i8, u: f64, low: f64) -> Vertex {
         let rounded = Vertex::new(space, epsilon, u);
         if space == Space::E2 {
-            return Vertex { low, ..rounded };
+            let (scale, lost) = twofold::exp(u);
+            let radius = if epsilon == 1 { scale } else { 0.0 };
+            return Vertex { scale, low: lost + low, radius, ..rounded };
         }
         let lambda = space.curvature() * f64::from(epsilon);
         // dγ/du = γ, sinh γ, sin γ
@@ -150,25 +153,6 @@ impl Edge {
         let (sum, more) = two_sum(sum, self.gap);
         (sum - length) + (lost + more + self.low)
     }
-}
-
-/// The sum of two doubles and what it loses, exactly (Knuth).
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
-}
-
-/// The product of two doubles and what it loses (Dekker; exact unless it over- or underflows).
-fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let split = |x: f64| {
-        let high = 134_217_729.0 * x;
-        let high = high - (high - x);
-        (high, x - high)
-    };
-    let product = a * b;
-    let ((a, a_low), (b, b_low)) = (split(a), split(b));
-    (product, ((a * b - product) + a * b_low + a_low * b) + a_low * b_low)
 }
 
 /// The length of a squared half chord; NaN in S² where q² > 1.

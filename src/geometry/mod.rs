@@ -10,6 +10,7 @@ pub mod predicates;
 pub mod space;
 pub mod symplectic;
 pub mod triangle;
+pub(crate) mod twofold;
 pub mod vector;
 
 pub use isometry::PlaneIsometry;
