@@ -66,6 +66,10 @@ pub mod layout;
 
 pub mod refined;
 
+pub mod transfer;
+
 pub mod charts;
+
+pub mod layout_file;
 
 pub mod debug;
