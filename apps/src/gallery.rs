@@ -145,10 +145,10 @@ const ATLASES: &[Row] = &[
         "an open scan with six cones, its boundary free, in charts",
     ),
     row(
-        "fertility-charts",
-        Corpus("fertility_4494"),
-        "flow {} --space e2 --target auto:12 --charts --up y",
-        "genus 4, flat but for twelve cones, in charts",
+        "pretzel-charts",
+        Corpus("pretzel"),
+        "flow {} --space e2 --target auto:16 --charts",
+        "genus 3, flat but for sixteen cones, in charts",
     ),
     row(
         "pieces",
