@@ -163,6 +163,19 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
             "--color {name}: layouts in {space} are not in this version; use u or curvature"
         )));
     }
+    if let Some(zoom) = args.picture.zoom {
+        let n = input.mesh.n_vertices();
+        if zoom.vertex as usize >= n {
+            return Err(Failure::Usage(format!(
+                "--zoom: there is no vertex {}, they are 0 to {}",
+                zoom.vertex,
+                n - 1
+            )));
+        }
+        if space != Space::E2 {
+            return Err(Failure::Usage(format!("--zoom: layouts in {space} are not in this version")));
+        }
+    }
     if let Some(path) = args.picture.base.picture.as_ref().filter(|_| space != Space::E2) {
         let nothing = if extension(path) == "svg" {
             "an SVG shows the layout alone, use .png"

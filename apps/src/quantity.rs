@@ -3,9 +3,10 @@
 use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
-use crate::picture::{ColorChoice, Field, Scale};
+use crate::picture::{CLASSES, ColorChoice, Field, Scale};
 use ricci::geometry::triangle;
-use ricci::mesh::{FaceId, Mesh, PerVertex, Point};
+use ricci::mesh::{FaceId, Mesh, PerFace, PerVertex, Point};
+use ricci::metric::Refinement;
 use ricci::metric::curvature::{curvature, curvature_from_angles};
 
 /// The quantity of a finished flow; `None` where there is none to show: those of a layout where it has none.
@@ -35,7 +36,43 @@ pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<
             let scale = Scale::of_signed("log2 of area in the layout over area on the surface", &values);
             at_faces(&values, scale)
         }
+        ColorChoice::Pieces => pieces(laid?),
     })
+}
+
+/// Pieces in colours: a hue for the face of the final triangulation, a shade for that of the input. Faces side by side differ.
+fn pieces(laid: &Laid) -> Field {
+    let mesh = &laid.mesh;
+    let parts = |of: fn(&Refinement) -> &PerFace<FaceId>| match &laid.refinement {
+        Some(refinement) => of(refinement).clone(),
+        None => mesh.faces().collect::<Vec<_>>().into(),
+    };
+    let hue = classes(mesh, &parts(|r| &r.final_face));
+    let shade = classes(mesh, &parts(|r| &r.input_face));
+    let values: Vec<f64> = hue.iter().zip(shade).map(|(hue, shade)| (CLASSES * hue + shade) as f64).collect();
+    let title = "hue by face of the final triangulation, shade by face of the input";
+    at_faces(&values, Scale::of_pairs(title, "what a face of each has in common is a piece"))
+}
+
+/// Per face of the mesh, a class of the whole that it is part of: wholes that share an edge differ. Each has at most three
+/// neighbours, so taking the first class that none of them has needs four.
+fn classes(mesh: &Mesh, whole: &PerFace<FaceId>) -> Vec<usize> {
+    let n = whole.iter().map(|f| f.index() + 1).fold(0, usize::max);
+    let mut neighbours = vec![Vec::new(); n];
+    for h in mesh.edges().map(|e| e.halfedge()) {
+        if let (Some(f), Some(g)) = (mesh.face(h), mesh.face(h.twin()))
+            && whole[f] != whole[g]
+        {
+            neighbours[whole[f].index()].push(whole[g].index());
+            neighbours[whole[g].index()].push(whole[f].index());
+        }
+    }
+    let mut class = vec![CLASSES; n];
+    for f in 0..n {
+        let free = |c: &usize| neighbours[f].iter().all(|&g| class[g] != *c);
+        class[f] = (0..CLASSES).find(free).unwrap_or(0);
+    }
+    whole.iter().map(|f| class[f.index()]).collect()
 }
 
 const CURVATURE: &str = "Gaussian curvature K (1/length²)";
@@ -141,6 +178,20 @@ mod tests {
             assert!((mean * radius * radius - 1.0).abs() < 0.01, "{mean} at radius {radius}");
             assert!((field.scale.range[1] * radius * radius - 1.0).abs() < 0.05, "{:?}", field.scale.range);
         }
+    }
+
+    #[test]
+    fn faces_side_by_side_have_different_classes() {
+        let mesh = Mesh::from_soup(&shapes::icosphere(6).unwrap()).unwrap();
+        let own: Vec<FaceId> = mesh.faces().collect();
+        let class = classes(&mesh, &own.into());
+        for h in mesh.halfedges() {
+            let [f, g] = [h, h.twin()].map(|h| class[mesh.face(h).unwrap().index()]);
+            assert!(f != g && f < CLASSES, "{f} {g}");
+        }
+        // One whole has one class.
+        let one = PerFace::filled(mesh.n_faces(), FaceId(0));
+        assert!(classes(&mesh, &one).iter().all(|c| *c == 0));
     }
 
     #[test]

@@ -1,22 +1,25 @@
 //! Layouts cut into charts that do not overlap, packed into the unit square.
 
-use crate::arrays::{self, copy_out};
+use crate::arrays::copy_out;
 use crate::control::{self, ricci_control};
 use crate::guard::{self, Handle, Poison, output};
-use crate::layout::{ricci_layout, write_obj};
+use crate::layout::ricci_layout;
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::embed::{ChartOptions, Charts, charts};
 use ricci::mesh::{Mesh, Point};
-use std::ffi::c_char;
+use ricci::metric::{Refinement, SurfaceMetric};
 use std::sync::Arc;
 
 /// A layout in charts that do not overlap, packed into the unit square.
 pub struct ricci_charts {
     poison: Poison,
-    mesh: Arc<Mesh>,
-    positions: Option<Arc<Vec<Point>>>,
-    charts: Charts,
+    pub(crate) mesh: Arc<Mesh>,
+    pub(crate) positions: Option<Arc<Vec<Point>>>,
+    pub(crate) charts: Charts,
+    /// Of the layout.
+    pub(crate) surface: Arc<SurfaceMetric>,
+    pub(crate) refinement: Option<Arc<Refinement>>,
 }
 
 impl Handle for ricci_charts {
@@ -77,11 +80,17 @@ pub unsafe extern "C" fn ricci_charts_new(
 ) -> ricci_status {
     guard::call(|door| {
         let place = output("charts", charts)?;
-        let ricci_layout { mesh, positions, layout, .. } = door.shared(layout)?;
+        let ricci_layout { mesh, positions, layout, surface, refinement, .. } = door.shared(layout)?;
         let charts =
             self::charts(mesh, |h| layout.corner_uv(h), &ChartOptions { margin }, &control::of(control))?;
-        let (mesh, positions) = (mesh.clone(), positions.clone());
-        place.hand_over(ricci_charts { poison: Poison::default(), mesh, positions, charts });
+        place.hand_over(ricci_charts {
+            poison: Poison::default(),
+            mesh: mesh.clone(),
+            positions: positions.clone(),
+            charts,
+            surface: surface.clone(),
+            refinement: refinement.clone(),
+        });
         Ok(())
     })
 }
@@ -177,28 +186,8 @@ pub unsafe extern "C" fn ricci_charts_corners(
     })
 }
 
-/// Write the mesh with its charts as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
-///
-/// A file of that name is replaced only once the new one is complete.
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
-///
-/// @param charts  the charts.
-/// @param path    file name, NUL-terminated.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_charts_write_obj(
-    charts: *const ricci_charts,
-    path: *const c_char,
-) -> ricci_status {
-    guard::call(|door| {
-        let charts = door.shared(charts)?;
-        let path = arrays::path("path", path)?;
-        let (mesh, positions) = (&charts.mesh, charts.positions.as_ref());
-        write_obj(&path, mesh, positions, &charts.charts.coordinates, &charts.corners())
-    })
-}
-
 impl ricci_charts {
-    fn corners(&self) -> Vec<[u32; 3]> {
+    pub(crate) fn corners(&self) -> Vec<[u32; 3]> {
         let index = &self.charts.corner_index;
         self.mesh.faces().map(|f| self.mesh.face_halfedges(f).map(|h| index[h])).collect()
     }

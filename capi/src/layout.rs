@@ -12,12 +12,10 @@ use crate::status::ricci_status;
 use ricci::Control;
 use ricci::embed::{Layout, Quality, layout_of, layout_refined, quality, refined_cut};
 use ricci::geometry::space::Space;
-use ricci::mesh::{Mesh, Point, VertexId, io};
+use ricci::mesh::{Mesh, Point, VertexId};
 use ricci::metric::curvature::curvature;
 use ricci::metric::{Refinement, SurfaceMetric};
 use ricci::topology::cut_graph;
-use std::ffi::c_char;
-use std::path::Path;
 use std::sync::Arc;
 
 /// A flat metric unrolled into the plane along a cut.
@@ -33,9 +31,9 @@ pub struct ricci_layout {
     pub(crate) positions: Option<Arc<Vec<Point>>>,
     pub(crate) layout: Layout,
     quality: Quality,
-    pub(crate) surface: SurfaceMetric,
+    pub(crate) surface: Arc<SurfaceMetric>,
     /// If edges were flipped.
-    pub(crate) refinement: Option<Refinement>,
+    pub(crate) refinement: Option<Arc<Refinement>>,
 }
 
 impl Handle for ricci_layout {
@@ -115,7 +113,7 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
         Space::E2 => Some(curvature(given, Space::E2, given_lengths)?.area),
         _ => None,
     };
-    let (poison, surface) = (Poison::default(), surface.clone());
+    let (poison, surface) = (Poison::default(), Arc::new(surface.clone()));
     if surface.is_unflipped() {
         let cut = cut_graph(mesh, &metric.lengths, cones)?;
         let mut layout = layout_of(mesh, class, &cut, control)?;
@@ -138,7 +136,8 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
         None => None,
     };
     let (mesh, layout) = (Arc::new(refinement.mesh.clone()), refined.layout);
-    Ok(ricci_layout { poison, mesh, positions, layout, quality, surface, refinement: Some(refinement) })
+    let refinement = Some(Arc::new(refinement));
+    Ok(ricci_layout { poison, mesh, positions, layout, quality, surface, refinement })
 }
 
 /// Unroll a Euclidean metric into the plane.
@@ -217,7 +216,7 @@ pub unsafe extern "C" fn ricci_layout_summarise(
             n_edges: mesh.n_edges(),
             n_given_vertices,
             n_crossings: mesh.n_vertices() - n_given_vertices,
-            n_pieces: refinement.as_ref().map_or(mesh.n_faces(), refined::n_pieces),
+            n_pieces: refinement.as_deref().map_or(mesh.n_faces(), refined::n_pieces),
             n_degenerate: quality.degenerate.len(),
         };
         sized::write(figures, summary, size)
@@ -387,52 +386,9 @@ pub unsafe extern "C" fn ricci_layout_area_ratio(
     guard::call(|door| copy_out("ratio", &door.shared(layout)?.quality.area_ratio, ratio, capacity))
 }
 
-/// Write the mesh with the layout as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
-///
-/// If edges were flipped it is the common refinement: the `v` of the mesh come first, unchanged, then the
-/// crossings. A file of that name is replaced only once the new one is complete.
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
-///
-/// @param layout  the layout.
-/// @param path    file name, NUL-terminated.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_layout_write_obj(
-    layout: *const ricci_layout,
-    path: *const c_char,
-) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
-        let path = arrays::path("path", path)?;
-        let (mesh, positions) = (&layout.mesh, layout.positions.as_ref());
-        write_obj(&path, mesh, positions, &layout.layout.coordinates, &layout.corners())
-    })
-}
-
 impl ricci_layout {
-    fn corners(&self) -> Vec<[u32; 3]> {
+    pub(crate) fn corners(&self) -> Vec<[u32; 3]> {
         let index = &self.layout.corner_index;
         self.mesh.faces().map(|f| self.mesh.face_halfedges(f).map(|h| index[h])).collect()
     }
-}
-
-/// The mesh with these points of the plane at the corners of its faces.
-pub(crate) fn write_obj(
-    path: &Path,
-    mesh: &Mesh,
-    positions: Option<&Arc<Vec<Point>>>,
-    points: &[[f64; 2]],
-    corners: &[[u32; 3]],
-) -> Outcome {
-    let positions = positions.ok_or_else(|| {
-        Failure::argument("the layout is of an intrinsic mesh: it has no positions to write")
-    })?;
-    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
-    let data = io::Textured {
-        positions,
-        faces: &faces,
-        texcoords: points,
-        face_texcoords: corners,
-        ..io::Textured::default()
-    };
-    Ok(io::write_obj(path, &data)?)
 }

@@ -9,9 +9,9 @@ use crate::mesh::{Shape, ricci_mesh};
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::geometry::space::Space;
-use ricci::mesh::{EdgeId, FaceId, PerEdge};
-use ricci::metric::Refinement;
+use ricci::mesh::{EdgeId, FaceId, PerEdge, PerVertex};
 use ricci::metric::refinement::Crossing;
+use ricci::metric::{Refinement, SurfaceMetric};
 use std::sync::Arc;
 
 /// Which of the two triangulations a function asks about.
@@ -173,14 +173,9 @@ pub unsafe extern "C" fn ricci_layout_weights(
 ) -> ricci_status {
     guard::call(|door| {
         let layout = door.shared(layout)?;
-        match &layout.refinement {
-            Some(refinement) => copy_out("weights", &refinement.weight, weights, capacity),
-            None => {
-                check_buffer("weights", layout.mesh.n_vertices(), weights, capacity)?;
-                let refinement = layout.surface.refinement(&Control::new())?;
-                copy_out("weights", &refinement.weight, weights, capacity)
-            }
-        }
+        check_buffer("weights", layout.mesh.n_vertices(), weights, capacity)?;
+        let values = self::weights(&layout.surface, layout.refinement.as_ref())?;
+        copy_out("weights", &values, weights, capacity)
     })
 }
 
@@ -219,6 +214,17 @@ pub unsafe extern "C" fn ricci_layout_final_crossings(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| door.shared(layout)?.crossings(Side::Final, edges, fractions, capacity))
+}
+
+/// Homogeneous weight of every vertex of what a layout unrolls.
+pub(crate) fn weights(
+    surface: &SurfaceMetric,
+    refinement: Option<&Arc<Refinement>>,
+) -> Outcome<PerVertex<f64>> {
+    Ok(match refinement {
+        Some(refinement) => refinement.weight.clone(),
+        None => surface.refinement(&Control::new())?.weight,
+    })
 }
 
 impl ricci_layout {

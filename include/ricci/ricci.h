@@ -2161,19 +2161,6 @@ ricci_status ricci_layout_qc(const ricci_layout *layout, double *qc, size_t capa
 ricci_status ricci_layout_area_ratio(const ricci_layout *layout, double *ratio, size_t capacity);
 
 /**
- * Write the mesh with the layout as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
- *
- * If edges were flipped it is the common refinement: the `v` of the mesh come first, unchanged, then the
- * crossings. A file of that name is replaced only once the new one is complete.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
- *
- * @param layout  the layout.
- * @param path    file name, NUL-terminated.
- */
-ricci_status ricci_layout_write_obj(const ricci_layout *layout,
-                                    const char *path);
-
-/**
  * What a layout unrolls as a mesh: the mesh that the metric was made from, or the common refinement.
  *
  * The given vertices come first, where they were bit for bit; crossings lie on the edges of the given mesh.
@@ -2299,6 +2286,90 @@ ricci_status ricci_layout_final_crossings(const ricci_layout *layout,
                                           size_t capacity);
 
 /**
+ * Carry values at the vertices of the given mesh to those of the layout: linear along the edges of the given
+ * mesh. At the given vertices they stay as they are.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not finite),
+ * RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout        the layout.
+ * @param values        n_values x n_components, row by row.
+ * @param n_values      number of vertices of the mesh that the metric was made from.
+ * @param n_components  numbers per vertex, such as 3 of a normal.
+ * @param carried       out: n_vertices x n_components.
+ * @param capacity      entries of `carried`.
+ */
+ricci_status ricci_layout_from_input_vertices(const ricci_layout *layout,
+                                              const double *values,
+                                              size_t n_values,
+                                              size_t n_components,
+                                              double *carried,
+                                              size_t capacity);
+
+/**
+ * Carry values at the vertices of the metric's triangulation to those of the layout: linear along its edges,
+ * with its lengths.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not finite),
+ * RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout        the layout.
+ * @param values        n_values x n_components, row by row.
+ * @param n_values      number of vertices of ricci_metric_mesh.
+ * @param n_components  numbers per vertex.
+ * @param carried       out: n_vertices x n_components.
+ * @param capacity      entries of `carried`.
+ */
+ricci_status ricci_layout_from_final_vertices(const ricci_layout *layout,
+                                              const double *values,
+                                              size_t n_values,
+                                              size_t n_components,
+                                              double *carried,
+                                              size_t capacity);
+
+/**
+ * Carry values at the corners of the given mesh's faces to the corners of the layout's: linear in every face
+ * of the given mesh, such as texture coordinates or normals with creases.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not finite),
+ * RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout        the layout.
+ * @param values        n_values x 3 x n_components [face, corner, component].
+ * @param n_values      number of faces of the mesh that the metric was made from.
+ * @param n_components  numbers per corner.
+ * @param carried       out: n_faces x 3 x n_components.
+ * @param capacity      entries of `carried`.
+ */
+ricci_status ricci_layout_from_input_corners(const ricci_layout *layout,
+                                             const double *values,
+                                             size_t n_values,
+                                             size_t n_components,
+                                             double *carried,
+                                             size_t capacity);
+
+/**
+ * Carry values at the corners of the faces of the metric's triangulation to the corners of the layout's:
+ * linear in every face of that triangulation, with its lengths.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not finite),
+ * RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout        the layout.
+ * @param values        n_values x 3 x n_components [face, corner, component].
+ * @param n_values      number of faces of ricci_metric_mesh.
+ * @param n_components  numbers per corner.
+ * @param carried       out: n_faces x 3 x n_components.
+ * @param capacity      entries of `carried`.
+ */
+ricci_status ricci_layout_from_final_corners(const ricci_layout *layout,
+                                             const double *values,
+                                             size_t n_values,
+                                             size_t n_components,
+                                             double *carried,
+                                             size_t capacity);
+
+/**
  * Cut a layout into charts and pack them into the unit square.
  *
  * Every chart is connected, and no two of its faces overlap (decided exactly in the layout's coordinates). Charts are turned and
@@ -2369,6 +2440,31 @@ ricci_status ricci_charts_points(const ricci_charts *charts, double *points, siz
 ricci_status ricci_charts_corners(const ricci_charts *charts, uint32_t *corners, size_t capacity);
 
 /**
+ * Write the mesh with the layout as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
+ *
+ * If edges were flipped it is the common refinement: the `v` of the mesh come first, unchanged, then the
+ * crossings. A file of that name is replaced only once the new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
+ *
+ * @param layout  the layout.
+ * @param path    file name, NUL-terminated.
+ */
+ricci_status ricci_layout_write_obj(const ricci_layout *layout,
+                                    const char *path);
+
+/**
+ * The same with homogeneous texture coordinates, `vt qx qy q` with the q of ricci_layout_weights: the
+ * projective map of every piece is linear in these three, and divided by the third.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN.
+ *
+ * @param layout  the layout.
+ * @param path    file name, NUL-terminated.
+ */
+ricci_status ricci_layout_write_obj_homogeneous(const ricci_layout *layout,
+                                                const char *path);
+
+/**
  * Write the mesh with its charts as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
  *
  * A file of that name is replaced only once the new one is complete.
@@ -2379,6 +2475,17 @@ ricci_status ricci_charts_corners(const ricci_charts *charts, uint32_t *corners,
  */
 ricci_status ricci_charts_write_obj(const ricci_charts *charts,
                                     const char *path);
+
+/**
+ * The same with homogeneous texture coordinates, `vt qx qy q`.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN.
+ *
+ * @param charts  the charts.
+ * @param path    file name, NUL-terminated.
+ */
+ricci_status ricci_charts_write_obj_homogeneous(const ricci_charts *charts,
+                                                const char *path);
 
 /**
  * For tests: an internal error inside the library, on one of its threads, while it uses this mesh.

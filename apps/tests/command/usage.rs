@@ -38,6 +38,7 @@ fn requests_that_do_not_exist_are_exit_2() {
         ("flow torus.obj --target boundary", "uniform"),
         ("flow disk.obj --target uniform", "boundary"),
         ("flow torus.obj --target single:96", "0 to 95"),
+        ("flow torus.obj --picture p.png --zoom 96,2", "0 to 95"),
         ("flow two.obj --uv o.obj", "--space e2"),
         ("flow ball.obj --space s2 --uv o.obj", "s2"),
         ("flow torus.obj --circles c.json", "yamabe has no circles"),
