@@ -10,6 +10,7 @@
 
 use super::evaluate::State;
 use crate::error::{Error, Result};
+use crate::geometry::Space;
 use crate::linalg::{Pattern, Symmetric};
 use crate::mesh::{Mesh, VertexId};
 use crate::metric::Metric;
