@@ -6,6 +6,7 @@ use super::solver::{Run, center};
 use super::system::System;
 use crate::control::Stage;
 use crate::error::Result;
+use crate::metric::delaunay::boundary_fails;
 
 /// Below this max |K − K̄| a smaller residual also accepts a step. Far from the solution only the slope does: mixing
 /// the two there cycles.
@@ -100,6 +101,11 @@ impl Run<'_> {
             }
             if range(&state.u) > MAX_RANGE {
                 break StopReason::Diverged;
+            }
+            if self.one_copy && boundary_fails(self.mesh, self.class, &state.u, &self.options.fixed_edges) {
+                self.left = true;
+                report.max_curvature_error = error;
+                return Ok(state);
             }
         };
         // A factor of another triangulation is no good, and its matrix is of another pattern.

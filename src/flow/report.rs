@@ -156,4 +156,25 @@ impl Report {
             seconds: Seconds::default(),
         }
     }
+
+    /// This flow and the one that took it to its end.
+    pub(super) fn then(mut self, rest: Report) -> Report {
+        self.residuals.extend(rest.residuals);
+        let (a, b) = (self.seconds, rest.seconds);
+        Report {
+            iterations: self.iterations + rest.iterations,
+            flips: self.flips + rest.flips,
+            shifted: self.shifted + rest.shifted,
+            residuals: self.residuals,
+            seconds: Seconds {
+                assemble: a.assemble + b.assemble,
+                analyse: a.analyse + b.analyse,
+                factor: a.factor + b.factor,
+                solve: a.solve + b.solve,
+                flip: a.flip + b.flip,
+                total: a.total + b.total,
+            },
+            ..rest
+        }
+    }
 }

@@ -48,6 +48,9 @@ pub(super) struct Run<'a> {
     pub normal: Option<&'a mut NormalCoordinates>,
     /// E² without pinned vertices: u is determined up to a constant, and Σ u = 0 is kept.
     pub free_scale: bool,
+    /// Stop where the surface's double would flip a boundary edge; then `left` is set.
+    pub one_copy: bool,
+    pub left: bool,
     pub control: &'a Control,
 }
 
@@ -149,6 +152,17 @@ impl Solver {
     /// Not reaching it is reported, not an error. Errors: wrong size, a target that is not finite, cancelled, out
     /// of memory; the metric is then unchanged.
     pub fn solve(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<Report> {
+        self.solve_on(target, false, control).map(|(report, _)| report)
+    }
+
+    /// [`Solver::solve`], which on `one_copy` of a symmetric surface stops where its double would flip an edge of the axis: then the
+    /// other value is true.
+    pub(super) fn solve_on(
+        &mut self,
+        target: &PerVertex<f64>,
+        one_copy: bool,
+        control: &Control,
+    ) -> Result<(Report, bool)> {
         check_size("target", target.len(), self.mesh.n_vertices())?;
         if let Some(v) = self.mesh.vertices().find(|&v| !target[v].is_finite()) {
             let value = format!("{} at vertex {v}", target[v]);
@@ -175,10 +189,13 @@ impl Solver {
             mirror: self.mirror.as_deref(),
             normal: self.normal.as_mut(),
             free_scale,
+            one_copy,
+            left: false,
             control,
         };
         let system = &mut self.system;
         let state = timed(&mut seconds, || self.pool.run(|| run.solve(system, &mut report)));
+        let left = run.left;
         if run.mirror.is_some() != self.mirror.is_some() {
             *system = None;
         }
@@ -195,7 +212,7 @@ impl Solver {
             (self.start, self.start_low) = (state.u.clone(), state.low.clone());
         }
         (self.metric.u, self.metric.u_low) = (state.u, state.low);
-        Ok(report)
+        Ok((report, left))
     }
 }
 

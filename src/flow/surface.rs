@@ -17,18 +17,22 @@ use std::sync::Arc;
 ///
 /// With [`Flips::Auto`] the class is that of the surface's (weighted) Delaunay triangulation and edges are
 /// flipped inside it, so that every admissible target is reached; a surface with boundary is solved on its
-/// double, whose metric is kept symmetric, since only closed surfaces have that guarantee.
+/// double, whose metric is kept symmetric, since only closed surfaces have that guarantee: on one copy for as long
+/// as no edge is to be flipped across the boundary, which is all there is to do on surfaces that need no flips.
 /// [`SurfaceFlow::refinement`] carries the result back to the given triangulation.
 ///
 /// Edges stay as they are with [`Flips::Never`], and where flips have no part: in S², in the gradient flow,
-/// for Thurston's and tangential packings (Delaunay on any triangulation). Pinned vertices keep a boundary
-/// from being doubled: interior edges alone are flipped.
+/// for Thurston's and tangential packings (Delaunay on any triangulation). Between imaginary circles (virtual
+/// radii) an edge need not have another diagonal: flips help there, without a guarantee. Pinned vertices keep a
+/// boundary from being doubled: interior edges alone are flipped.
 pub struct SurfaceFlow {
     start: Arc<Start>,
     solver: Solver,
     options: Options,
     /// All flips since the given triangulation.
     flips: usize,
+    /// On one copy of a surface with boundary, as long as nothing is flipped across its boundary.
+    one_copy: bool,
 }
 
 impl SurfaceFlow {
@@ -60,14 +64,43 @@ impl SurfaceFlow {
         let from = match is_rigid(geometry, scheme, space, options) {
             true => SurfaceMetric::new(given, lengths, geometry, scheme, space)?,
             false => {
-                let doubled = !given.is_closed() && pinned.is_empty();
                 let fixed = &options.fixed_edges;
-                let start =
-                    || SurfaceMetric::delaunay(given, lengths, geometry, scheme, space, doubled, fixed);
-                Pool::new(options.threads)?.run(start)?
+                let start = |doubled| {
+                    let (given, lengths) = (given.clone(), lengths.clone());
+                    SurfaceMetric::delaunay(given, lengths, geometry, scheme, space, doubled, fixed)
+                };
+                let begin = || {
+                    let one_copy = start(false)?;
+                    let fits = given.is_closed() || !pinned.is_empty() || one_copy.is_symmetric();
+                    if fits { Ok(one_copy) } else { start(true) }
+                };
+                Pool::new(options.threads)?.run(begin)?
             }
         };
         SurfaceFlow::go_on(from, pinned, options)
+    }
+
+    /// The same flow on the double, from the present u.
+    fn doubled(&self) -> Result<SurfaceFlow> {
+        let (start, fixed) = (&self.start, &self.options.fixed_edges);
+        let space = start.initial.metric.space;
+        let double = || {
+            let (given, lengths) = (start.given.clone(), start.lengths.clone());
+            SurfaceMetric::delaunay(
+                given,
+                lengths,
+                start.initial.input_geometry,
+                start.scheme,
+                space,
+                true,
+                fixed,
+            )
+        };
+        let mut flow = SurfaceFlow::go_on(self.solver.run(double)?, &[], &self.options)?;
+        if let Some(double) = &flow.start.double {
+            flow.solver.set_u(double.spread_vertices(&self.metric().u).into())?;
+        }
+        Ok(flow)
     }
 
     /// Go on from a metric of the surface: on its triangulation, from its u.
@@ -79,7 +112,7 @@ impl SurfaceFlow {
         let (initial, given) = (from.initial(), from.given());
         let (geometry, scheme, space) = (initial.input_geometry, from.scheme(), initial.metric.space);
         let doubled = !given.is_closed() && pinned.is_empty();
-        let fits = from.was_flipped_without(&options.fixed_edges) && from.double().is_some() == doubled;
+        let fits = from.was_flipped_without(&options.fixed_edges) && suits(from, doubled);
         if fits || is_rigid(geometry, scheme, space, options) {
             return SurfaceFlow::go_on(from.clone(), pinned, options);
         }
@@ -112,7 +145,7 @@ impl SurfaceFlow {
             let mirror: Vec<VertexId> = solver.mesh().vertices().map(|v| double.mirror(v)).collect();
             solver.keep_symmetric(&mirror)?;
         }
-        let mut flow = SurfaceFlow { start, solver, options: options.clone(), flips };
+        let mut flow = SurfaceFlow { start, solver, options: options.clone(), flips, one_copy: false };
         flow.hold(pinned)?;
         Ok(flow)
     }
@@ -126,7 +159,7 @@ impl SurfaceFlow {
         let initial = &self.start.initial;
         let rigid = is_rigid(initial.input_geometry, self.start.scheme, initial.metric.space, &self.options);
         let doubled = !given.is_closed() && pinned.is_empty();
-        if rigid || self.start.double.is_some() == doubled {
+        if rigid || suits(&self.now(), doubled) {
             return self.hold(pinned);
         }
         *self = SurfaceFlow::resume(&self.now(), pinned, &self.options)?;
@@ -140,15 +173,38 @@ impl SurfaceFlow {
             return Err(Error::Argument { what: "pinned vertex", value, need: "an existing vertex" });
         }
         let images = self.double().map_or_else(Vec::new, |d| pinned.iter().map(|&v| d.mirror(v)).collect());
-        self.solver.pin(&[pinned, &images].concat())
+        self.solver.pin(&[pinned, &images].concat())?;
+        let start = &self.start;
+        let flips = self.solver.options.flips == Flips::Auto;
+        self.one_copy = flips && start.double.is_none() && !start.given.is_closed() && pinned.is_empty();
+        Ok(())
     }
 
     /// Flow to curvature `target` (an entry per vertex of the given surface, radians): [`Solver::solve`].
     pub fn solve(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<Report> {
         crate::error::check_size("target", target.len(), self.start.given.n_vertices())?;
-        let report = self.solver.solve(&self.target(target), control)?;
+        if !self.one_copy {
+            let report = self.solver.solve(&self.target(target), control)?;
+            self.flips += report.flips;
+            return Ok(report);
+        }
+        let before = self.now();
+        let (report, left) = self.solver.solve_on(target, true, control)?;
         self.flips += report.flips;
-        Ok(report)
+        if !left {
+            return Ok(report);
+        }
+        let rest = self.doubled().and_then(|mut doubled| Ok((doubled.solve(target, control)?, doubled)));
+        match rest {
+            Ok((rest, doubled)) => {
+                *self = doubled;
+                Ok(report.then(rest))
+            }
+            Err(error) => {
+                *self = SurfaceFlow::resume(&before, &[], &self.options)?;
+                Err(error)
+            }
+        }
     }
 
     /// A target on the given surface as one on [`SurfaceFlow::mesh`]: curvature on both sides of the boundary
@@ -202,6 +258,11 @@ impl SurfaceFlow {
         let (mesh, metric, normal) = (solver.mesh(), solver.metric(), solver.normal());
         solver.run(|| start.refinement(mesh, metric, normal, control))
     }
+}
+
+/// Whether a flow can go on from a metric with its symmetry: `doubled`, or with a boundary that is an end.
+fn suits(from: &SurfaceMetric, doubled: bool) -> bool {
+    if doubled { from.is_symmetric() } else { from.double().is_none() }
 }
 
 /// Whether edges stay as they are.

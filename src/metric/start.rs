@@ -14,9 +14,8 @@ const APART: f64 = 0.5;
 /// The initial metric of `scheme` on the (weighted) Delaunay triangulation of the surface: flips `mesh` and `lengths`, which stay
 /// the same surface, and so makes the conformal class independent of the triangulation the surface came with, up to ties.
 ///
-/// Vertex scaling: on the intrinsic Delaunay triangulation. Circles that represent the lengths exactly (inversive distance,
-/// virtual radius): half the radii from the corners there, the same at mirrored
-/// vertices of a `double`, then the weighted Delaunay
+/// Vertex scaling: on the intrinsic Delaunay triangulation. Circles that represent the lengths exactly: with the radii from the
+/// corners there, the smaller at mirrored vertices of a `double`; for inversive distance half of them, on the weighted Delaunay
 /// triangulation of those circles. Thurston's and tangential packings, which are Delaunay on any triangulation, stay on the given one.
 ///
 /// `fixed` edges are not flipped; `record` is told each edge just before its flip. Errors: those of [`initial_metric`] and [`intrinsic_delaunay`].
@@ -35,15 +34,17 @@ pub fn delaunay_start(
     }
     intrinsic_delaunay(mesh, lengths, None, input_geometry, fixed, record)?;
     let initial = initial_metric(mesh, lengths, input_geometry, scheme, space)?;
-    if scheme != Scheme::Inversive {
+    if scheme == Scheme::Yamabe {
         return Ok(initial);
     }
     let mut radii = initial.radii;
-    radii.iter_mut().for_each(|r| *r *= APART);
     if let Some(double) = double {
         radii = PerVertex::from_fn(radii.len(), |v| radii[v].min(radii[double.mirror(v)]));
     }
-    intrinsic_delaunay(mesh, lengths, Some(&radii), input_geometry, fixed, record)?;
+    if scheme == Scheme::Inversive {
+        radii.iter_mut().for_each(|r| *r *= APART);
+        intrinsic_delaunay(mesh, lengths, Some(&radii), input_geometry, fixed, record)?;
+    }
     let epsilon = PerVertex::filled(mesh.n_vertices(), scheme.epsilon());
     initial_mixed(mesh, lengths, input_geometry, epsilon, radii, space)
 }

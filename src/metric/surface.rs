@@ -2,6 +2,7 @@
 //! given.
 
 use super::curvature::Curvature;
+use super::delaunay::boundary_fails;
 use super::initial::{Initial, initial_metric};
 use super::lengths::Metric;
 use super::refinement::{Final, Input, Refinement};
@@ -26,6 +27,8 @@ pub(crate) struct Start {
     pub flips: usize,
     /// Given edges that are not flipped, ascending.
     pub fixed: Vec<EdgeId>,
+    /// Whether the start, of one copy, is half of what its double's is: there no boundary edge would be flipped.
+    pub is_half: bool,
 }
 
 impl Start {
@@ -83,7 +86,16 @@ impl SurfaceMetric {
     ) -> Result<SurfaceMetric> {
         let initial = initial_metric(&given, &lengths, geometry, scheme, space)?;
         let (mesh, metric) = (given.clone(), initial.metric.clone());
-        let start = Start { given, lengths, scheme, double: None, initial, flips: 0, fixed: Vec::new() };
+        let start = Start {
+            given,
+            lengths,
+            scheme,
+            double: None,
+            initial,
+            flips: 0,
+            fixed: Vec::new(),
+            is_half: false,
+        };
         Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, normal: None, flips: 0 })
     }
 
@@ -121,7 +133,9 @@ impl SurfaceMetric {
             &mut record,
         )?;
         let metric = initial.metric.clone();
-        let start = Start { given, lengths, scheme, double, initial, flips, fixed: ascending(fixed) };
+        let is_half = double.is_none() && !boundary_fails(&mesh, &metric, &metric.u, fixed);
+        let fixed = ascending(fixed);
+        let start = Start { given, lengths, scheme, double, initial, flips, fixed, is_half };
         Ok(SurfaceMetric {
             start: Arc::new(start),
             mesh: Arc::new(mesh),
@@ -195,6 +209,13 @@ impl SurfaceMetric {
     /// Whether flips were allowed on the way here, and these given edges kept from them.
     pub(crate) fn was_flipped_without(&self, fixed: &[EdgeId]) -> bool {
         self.normal.is_some() && self.start.fixed == ascending(fixed)
+    }
+
+    /// Whether it lives on the surface's double, or on one copy that it could be reflected from: Delaunay along the boundary too, and
+    /// so it was at the start.
+    pub(crate) fn is_symmetric(&self) -> bool {
+        let fails = || boundary_fails(&self.mesh, &self.metric, &self.metric.u, &self.start.fixed);
+        self.double().is_some() || (self.start.is_half && !fails())
     }
 
     /// Whether it lives on the given triangulation itself.
