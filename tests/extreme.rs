@@ -10,7 +10,8 @@ use common::flow::surface;
 use ricci::flow::{Options, Report, StopReason, SurfaceFlow};
 use ricci::geometry::Space;
 use ricci::mesh::shapes::{self, Sliver};
-use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, VertexId};
+use ricci::metric::delaunay::intrinsic_delaunay;
 use ricci::metric::target::check_admissible;
 use ricci::metric::{Scheme, Target};
 use ricci::{Control, Error};
@@ -313,5 +314,26 @@ fn what_cannot_be_is_refused_by_name() {
         );
         let Err(error) = made else { panic!("edge {edge} of length {length} passed") };
         println!("refused: {error}");
+    }
+}
+
+/// The flat torus with periods 1 and k + τ is that with periods 1 and τ, sheared k times: it takes k flips to see it.
+#[test]
+fn sheared_tori_are_unwound() {
+    let tau = [0.3, 0.9];
+    let mut reduced = [1.0, f64::hypot(tau[0], tau[1]), f64::hypot(1.0 - tau[0], tau[1])];
+    reduced.sort_by(f64::total_cmp);
+    for k in [10.0f64, 1e3, 5e3] {
+        let torus = shapes::flat_torus([k + tau[0], tau[1]], 1, 1).unwrap();
+        let (mut mesh, mut lengths) = torus.build().unwrap();
+        let flips =
+            intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| ()).unwrap();
+        let mut found = [0, 1, 2].map(|e| lengths[EdgeId(e)]);
+        found.sort_by(f64::total_cmp);
+        let worst = (0..3).map(|i| (found[i] - reduced[i]).abs()).fold(0.0, f64::max);
+        println!("sheared {k:.0} times: {flips} flips, lengths off by {worst:.1e}");
+        assert!((flips as f64 - k).abs() <= 2.0, "{k}: {flips}");
+        // Two sides of a triangle sheared j times exceed the third by 1/j² and say so to j³ ulp, anew for each j.
+        assert!(worst < 4.0 * f64::EPSILON * k.powf(3.5), "{k}: {worst:e}");
     }
 }
