@@ -44,7 +44,7 @@ fn slow_flows_to_random_targets(surface: &(Mesh, PerEdge<f64>), rounds: usize, s
     let mut random = Random::new(seed);
     let mut counts = BTreeMap::<usize, usize>::new();
     let mut most_flips = 0;
-    let options = Options { max_iterations: 400, ..Options::default() };
+    let options = Options::default();
     for round in 0..rounds {
         let target = random_target(&surface.0, round, &mut random);
         let scheme = SCHEMES[round / 3 % 2];
@@ -66,10 +66,10 @@ fn a_thousand_random_targets_on_a_sphere_are_reached() {
 
 #[test]
 fn two_hundred_random_targets_on_genus_two_are_reached() {
+    assert_eq!(slow_flows_to_random_targets(&surface(&shapes::genus(2, 2).unwrap()), 200, 12), 0);
+    assert_eq!(slow_flows_to_random_targets(&surface(&shapes::genus(2, 3).unwrap()), 20, 12), 0);
     // Random curvature at every vertex asks for lengths of a range that grows with their number, and for more steps.
-    assert!(slow_flows_to_random_targets(&surface(&shapes::genus(2, 2).unwrap()), 200, 12) <= 4);
-    slow_flows_to_random_targets(&surface(&shapes::genus(2, 3).unwrap()), 20, 12);
-    slow_flows_to_random_targets(&surface(&shapes::genus(2, 4).unwrap()), 20, 12);
+    assert!(slow_flows_to_random_targets(&surface(&shapes::genus(2, 4).unwrap()), 20, 12) <= 4);
 }
 
 #[test]
