@@ -4,7 +4,7 @@
 use super::curvature::Curvature;
 use super::initial::{Initial, initial_metric};
 use super::lengths::Metric;
-use super::refinement::{Final, Input, Refinement};
+use super::refinement::{Final, Input, Intrinsic, Refinement};
 use super::scheme::Scheme;
 use super::start::delaunay_start;
 use crate::control::Control;
@@ -24,8 +24,20 @@ pub(crate) struct Start {
     pub initial: Initial,
     /// Isometric flips from the given triangulation to that of `initial`.
     pub flips: usize,
+    /// The latter, if that is another one.
+    pub flipped: Option<Flipped>,
     /// Given edges that are not flipped, ascending.
     pub fixed: Vec<EdgeId>,
+}
+
+/// The triangulation that isometric flips have made.
+#[derive(Debug)]
+pub(crate) struct Flipped {
+    pub mesh: Arc<Mesh>,
+    /// In `initial.input_geometry`.
+    pub lengths: PerEdge<f64>,
+    /// The given edges on it.
+    pub given: NormalCoordinates,
 }
 
 impl Start {
@@ -39,21 +51,25 @@ impl Start {
         &self,
         mesh: &Mesh,
         metric: &Metric,
-        normal: Option<&NormalCoordinates>,
+        followed: &[NormalCoordinates],
         control: &Control,
     ) -> Result<Refinement> {
         let unflipped;
-        let normal = match normal {
-            Some(normal) => normal,
-            None => {
+        let normal = match followed {
+            [normal, ..] => normal,
+            [] => {
                 unflipped = NormalCoordinates::new(mesh);
                 &unflipped
             }
         };
+        let intrinsic = self.flipped.as_ref().zip(followed.get(1)).map(|(flipped, normal)| {
+            let Flipped { mesh, lengths, given } = flipped;
+            Intrinsic { mesh, lengths, given, normal }
+        });
         let given = self.double.as_ref().map_or(&*self.given, |double| &double.mesh);
         let input = Input { mesh: given, geometry: self.initial.input_geometry, u: &self.initial.input_u };
         let keep = |f| self.double.as_ref().is_none_or(|double| double.is_original(f));
-        Refinement::new(input, Final { mesh, metric, normal }, &keep, control)
+        Refinement::new(input, intrinsic, Final { mesh, metric, normal }, &keep, control)
     }
 }
 
@@ -67,8 +83,9 @@ pub struct SurfaceMetric {
     pub(crate) start: Arc<Start>,
     mesh: Arc<Mesh>,
     metric: Metric,
-    /// The given edges on `mesh`; none where no edge was ever to be flipped.
-    normal: Option<NormalCoordinates>,
+    /// Triangulations on `mesh`: that of the given edges, and that of the start if it is another one. None where no edge was ever to
+    /// be flipped.
+    followed: Vec<NormalCoordinates>,
     flips: usize,
 }
 
@@ -83,8 +100,9 @@ impl SurfaceMetric {
     ) -> Result<SurfaceMetric> {
         let initial = initial_metric(&given, &lengths, geometry, scheme, space)?;
         let (mesh, metric) = (given.clone(), initial.metric.clone());
-        let start = Start { given, lengths, scheme, double: None, initial, flips: 0, fixed: Vec::new() };
-        Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, normal: None, flips: 0 })
+        let (flipped, fixed) = (None, Vec::new());
+        let start = Start { given, lengths, scheme, double: None, initial, flips: 0, flipped, fixed };
+        Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, followed: Vec::new(), flips: 0 })
     }
 
     /// The initial metric on the (weighted) Delaunay triangulation, of the surface or, if it is `doubled`, of
@@ -120,15 +138,15 @@ impl SurfaceMetric {
             &all_fixed,
             &mut record,
         )?;
-        let metric = initial.metric.clone();
-        let start = Start { given, lengths, scheme, double, initial, flips, fixed: ascending(fixed) };
-        Ok(SurfaceMetric {
-            start: Arc::new(start),
-            mesh: Arc::new(mesh),
-            metric,
-            normal: Some(normal),
-            flips,
-        })
+        let (mesh, metric) = (Arc::new(mesh), initial.metric.clone());
+        let mut followed = vec![normal];
+        let flipped = (flips > 0).then(|| {
+            followed.push(NormalCoordinates::new(&mesh));
+            Flipped { mesh: mesh.clone(), lengths: all, given: followed[0].clone() }
+        });
+        let start =
+            Start { given, lengths, scheme, double, initial, flips, flipped, fixed: ascending(fixed) };
+        Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, followed, flips })
     }
 
     /// What the metric has become. `flips`: all from the given triangulation to this one.
@@ -136,15 +154,15 @@ impl SurfaceMetric {
         start: Arc<Start>,
         mesh: Mesh,
         metric: Metric,
-        normal: Option<NormalCoordinates>,
+        followed: Vec<NormalCoordinates>,
         flips: usize,
     ) -> SurfaceMetric {
         let mesh = if mesh == *start.given { start.given.clone() } else { Arc::new(mesh) };
-        SurfaceMetric { start, mesh, metric, normal, flips }
+        SurfaceMetric { start, mesh, metric, followed, flips }
     }
 
-    pub(crate) fn into_parts(self) -> (Arc<Start>, Mesh, Metric, Option<NormalCoordinates>, usize) {
-        (self.start, Arc::unwrap_or_clone(self.mesh), self.metric, self.normal, self.flips)
+    pub(crate) fn into_parts(self) -> (Arc<Start>, Mesh, Metric, Vec<NormalCoordinates>, usize) {
+        (self.start, Arc::unwrap_or_clone(self.mesh), self.metric, self.followed, self.flips)
     }
 
     /// The given triangulation.
@@ -194,7 +212,7 @@ impl SurfaceMetric {
 
     /// Whether flips were allowed on the way here, and these given edges kept from them.
     pub(crate) fn was_flipped_without(&self, fixed: &[EdgeId]) -> bool {
-        self.normal.is_some() && self.start.fixed == ascending(fixed)
+        !self.followed.is_empty() && self.start.fixed == ascending(fixed)
     }
 
     /// Whether it lives on the given triangulation itself.
@@ -227,7 +245,7 @@ impl SurfaceMetric {
     ///
     /// Errors: those of [`Refinement::new`].
     pub fn refinement(&self, control: &Control) -> Result<Refinement> {
-        self.start.refinement(&self.mesh, &self.metric, self.normal.as_ref(), control)
+        self.start.refinement(&self.mesh, &self.metric, &self.followed, control)
     }
 }
 

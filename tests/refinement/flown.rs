@@ -61,7 +61,7 @@ impl Flown {
         let keep = |f| double.is_none_or(|double| double.is_original(f));
         let given = Input { mesh: input, geometry: Space::E2, u: &self.input_u };
         let result = Final { mesh: &self.mesh, metric: &self.metric, normal: &self.normal };
-        Refinement::new(given, result, &keep, &Control::new()).unwrap()
+        Refinement::new(given, None, result, &keep, &Control::new()).unwrap()
     }
 }
 
