@@ -15,7 +15,7 @@
 //! what rounding of the intrinsic lengths does too.
 
 use super::Intrinsic;
-use super::order::{Place, restore_order};
+use super::order::{Place, restore_order, restore_order_across};
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Curves, EdgeId, HalfedgeId, PerEdge, PerHalfedge};
 use crate::parallel;
@@ -51,36 +51,12 @@ pub(super) fn straight(intrinsic: &Intrinsic, geometry: Space, curves: &Curves) 
     let mut found = vec![Vec::new(); intrinsic.mesh.n_edges()];
     parallel::fill(&mut found, |e| frames.along(curves, EdgeId::from(e)));
     let mut all = found.concat();
-    restore_order_across(intrinsic, curves, &mut all);
-    all
-}
-
-/// Bring the crossings of every intrinsic edge into the order that `curves` says they have.
-fn restore_order_across(intrinsic: &Intrinsic, curves: &Curves, all: &mut [Straight]) {
-    let mesh = intrinsic.mesh;
-    let mut start = vec![0usize];
-    for e in mesh.edges() {
-        start.push(start[e.index()] + intrinsic.given.crossings(e).max(0) as usize);
-    }
-    // Along half-edge 2e, as the crossings of the curves themselves are along theirs.
-    let mut number = vec![0; all.len()];
-    let mut places = vec![[0.0; 2]; all.len()];
+    let crossed = || intrinsic.mesh.edges().flat_map(|e| curves.crossings(e)).map(|at| at.halfedge);
     let turned = |h: HalfedgeId, [x, y]: Place| if h.0 & 1 == 0 { [x, y] } else { [y, x] };
-    let crossed: Vec<HalfedgeId> =
-        mesh.edges().flat_map(|e| curves.crossings(e)).map(|crossing| crossing.halfedge).collect();
-    for (c, crossing) in mesh.edges().flat_map(|e| curves.crossings(e)).enumerate() {
-        let (h, position) = (crossing.halfedge, crossing.position as usize);
-        let [begin, end] = [0, 1].map(|k| start[h.edge().index() + k]);
-        let slot = if h.0 & 1 == 0 { begin + position } else { end - 1 - position };
-        number[slot] = c;
-        places[slot] = turned(h, all[c].across);
-    }
-    for e in mesh.edges() {
-        restore_order(&mut places[start[e.index()]..start[e.index() + 1]]);
-    }
-    for (c, place) in number.into_iter().zip(places) {
-        all[c].across = turned(crossed[c], place);
-    }
+    let mut places: Vec<Place> = crossed().zip(&all).map(|(h, s)| turned(h, s.across)).collect();
+    restore_order_across(intrinsic.mesh, curves, &mut places);
+    crossed().zip(&mut all).zip(places).for_each(|((h, s), place)| s.across = turned(h, place));
+    all
 }
 
 impl<'a> Frames<'a> {
@@ -186,7 +162,7 @@ fn back([sine, cosine]: [f64; 2]) -> [f64; 2] {
 }
 
 /// Weights in this proportion. Of two that must be positive one may be rounded to less than that: it becomes [`LEAST`].
-fn place(weights: [f64; 2]) -> Place {
+pub(super) fn place(weights: [f64; 2]) -> Place {
     let [x, y] = weights.map(|w| if w > 0.0 && w < f64::INFINITY { w } else { 0.0 });
     match x + y {
         total if total > 0.0 && total < f64::INFINITY => match [x / total, y / total] {

@@ -3,25 +3,24 @@
 //! Isometric flips have led from the input to an intrinsic triangulation of the same surface, flips inside the class from there to
 //! the final one. The map of the first step is the identity, that of the second projective on the pieces into which intrinsic
 //! edges cut the final triangles. A line that is straight in the class is straight on the surface only where it follows an
-//! intrinsic edge; what other edges of the input cross is therefore placed anew:
+//! intrinsic edge. Any other edge of the input is followed through the intrinsic faces, on a straight line ([`super::geodesic`]),
+//! and its crossings with the final edges there ([`super::chords`]) are those of the map itself.
 //!
-//! - on a final edge that is an intrinsic one too: where the edge of the input, straight on the surface, crosses it
-//!   ([`super::geodesic`]); the image of a point w_i, w_j of an edge has the weights q_i w_i, q_j w_j. That is the map itself;
-//! - on other final edges: on these where the straight line of the class is, so that the order there is kept; on the edge of the input
-//!   between the nearest crossings of the first kind, or ends, in the proportion that the straight line of the class has there, with
-//!   the weight q that the point there has on the surface.
-//!
-//! Both orders of crossings, along either edge, are kept, which is all that a bijection takes.
+//! That line may cross final edges forth and back, which a curve pulled tight does not: what it meets is reduced to the crossings
+//! that normal coordinates tell of, by taking out passages forth and at once back, and around its ends. What is left may be out of
+//! order along either edge, there or by rounding: it is pooled ([`restore_order`]). The order of the crossings along both edges is all
+//! that a bijection takes.
 
+use super::chords::{Border, Chords, Passing, Station};
 use super::geodesic::{Straight, straight};
-use super::order::{ORIGIN, Place, TIP, between, share};
+use super::order::{ORIGIN, Place, TIP, restore_order, restore_order_across};
 use super::pieces::torn;
-use super::{Crossing, Final, HALFEDGES};
+use super::{Crossing, Final, HALFEDGES, Scales, Strips};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::mesh::normal_trace::CurveCrossing;
-use crate::mesh::{Curves, EdgeId, HalfedgeId, Mesh, NormalCoordinates, PerEdge};
+use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates, PerEdge};
 
 /// Another triangulation of the same surface, which a flow starts from.
 #[derive(Debug, Clone, Copy)]
@@ -38,127 +37,147 @@ pub struct Intrinsic<'a> {
 
 /// Where crossings are to be placed.
 pub(super) struct Placement<'a> {
-    intrinsic: Intrinsic<'a>,
-    result: Final<'a>,
-    /// Homogeneous weights of the vertices.
-    weight: Vec<f64>,
-    /// The input's edges on the intrinsic triangulation, with all their crossings.
+    /// The input's edges on the intrinsic triangulation, with their crossings.
     curves: Curves,
     straight: Vec<Straight>,
-    /// Per intrinsic edge: whether it is a final one.
-    stays: Vec<bool>,
+    /// Per intrinsic edge: the final half-edge along its half-edge 2e, if it stays.
+    stays: PerEdge<Option<HalfedgeId>>,
+    chords: Chords<'a>,
 }
 
 impl<'a> Placement<'a> {
-    /// O(edges + crossings of the input with the intrinsic triangulation). Errors: [`Error::Size`], [`Error::TooLarge`],
-    /// [`Error::Connectivity`] as those of [`super::Refinement::new`].
+    /// O(edges + crossings of any two of the three triangulations). Errors: [`Error::Size`], [`Error::TooLarge`],
+    /// [`Error::Connectivity`], [`Error::EdgeWeight`] as those of [`super::Refinement::new`].
     pub fn new(
         intrinsic: Intrinsic<'a>,
         geometry: Space,
-        result: Final<'a>,
-        weight: &[f64],
+        result: &Final,
+        strips: &Strips,
+        scales: &Scales,
         control: &Control,
     ) -> Result<Placement<'a>> {
         let mesh = intrinsic.mesh;
         check_size("intrinsic edges", mesh.n_edges(), result.mesh.n_edges())?;
         check_size("intrinsic lengths", intrinsic.lengths.len(), mesh.n_edges())?;
-        intrinsic.normal.check(result.mesh)?;
-        let count = intrinsic.given.check(mesh)?;
-        if count > u32::MAX as usize / HALFEDGES {
-            return Err(Error::TooLarge { what: "crossings of input and intrinsic edges", count });
+        for (what, count) in [
+            ("crossings of input and intrinsic edges", intrinsic.given.check(mesh)?),
+            ("crossings of intrinsic and final edges", intrinsic.normal.check(result.mesh)?),
+        ] {
+            if count > u32::MAX as usize / HALFEDGES {
+                return Err(Error::TooLarge { what, count });
+            }
         }
         let curves = Curves::trace(mesh, intrinsic.given)?;
         control.check()?;
         let straight = straight(&intrinsic, geometry, &curves);
-        let mut stays = vec![false; mesh.n_edges()];
-        for e in result.mesh.edges() {
-            if let Some(h) = intrinsic.normal.along(result.mesh, e.halfedge()) {
-                stays[h.edge().index()] = true;
+        control.check()?;
+        let on_final = Curves::trace(result.mesh, intrinsic.normal)?;
+        let ends: Vec<_> = mesh.edges().map(|e| mesh.ends(e)).collect();
+        let raw = strips.crossings(&ends, &on_final)?;
+        control.check()?;
+        let mut crossings = Vec::with_capacity(raw.len());
+        for e in mesh.edges() {
+            for (raw, at) in raw[on_final.numbers(e)].iter().zip(on_final.crossings(e)) {
+                crossings.push(scales.crossing(raw, e, ends[e.index()], at.halfedge, result.mesh));
             }
         }
-        Ok(Placement { intrinsic, result, weight: weight.to_vec(), curves, straight, stays })
+        let stays = PerEdge::from_fn(mesh.n_edges(), |e| on_final.along(e));
+        let chords = Chords { mesh, curves: on_final, crossings, weight: scales.vertices() };
+        Ok(Placement { curves, straight, stays, chords })
     }
 
     /// Place the crossings of an edge of the input, which are on straight lines of the class; whether they have been moved.
     pub fn place(&self, e: EdgeId, strip: &[CurveCrossing], placed: &mut [(Crossing, f64)]) -> Result<bool> {
-        let Some(&(Crossing { input_ends, .. }, _)) = placed.first() else { return Ok(false) };
-        if self.curves.along(e).is_some() {
+        if strip.is_empty() || self.curves.along(e).is_some() {
             return Ok(false);
         }
-        // The same edges are met in the same order, whatever lies between.
-        let on_intrinsic = |at: &CurveCrossing| self.intrinsic.normal.along(self.result.mesh, at.halfedge);
-        let ours = self.curves.numbers(e).zip(self.curves.crossings(e));
-        let mut common = ours.filter(|(_, at)| self.stays[at.halfedge.edge().index()]);
-        let mut anchors: Vec<(usize, usize)> = Vec::new();
-        for (k, at) in strip.iter().enumerate() {
-            let Some(h) = on_intrinsic(at) else { continue };
-            match common.next() {
-                Some((c, ours)) if ours.halfedge == h => anchors.push((k, c)),
-                _ => return Err(torn()),
-            }
-        }
-        if common.next().is_some() {
-            return Err(torn());
-        }
-        if anchors.is_empty() {
-            return Ok(false);
-        }
-        let class: Vec<Place> = placed.iter().map(|(crossing, _)| crossing.input_weights).collect();
-        let profile = self.profile(e, input_ends.map(|v| self.weight[v.index()]));
-        let mut last = (None, ORIGIN);
-        let ends = anchors.iter().map(|&(k, c)| (Some(k), self.straight[c].edge));
-        for (next, place) in ends.chain([(None, TIP)]) {
-            let (begin, end) = (last.0.map_or(0, |k: usize| k + 1), next.unwrap_or(placed.len()));
-            let on_class = [last.0.map_or(ORIGIN, |k| class[k]), next.map_or(TIP, |k| class[k])];
-            for k in begin..end {
-                let even = (k + 1 - begin) as f64 / (end + 1 - begin) as f64;
-                let t = share(on_class[0], on_class[1], class[k]).unwrap_or(even);
-                placed[k].0.input_weights = between(last.1, place, t);
-                placed[k].1 = weight_at(&profile, placed[k].0.input_weights);
-            }
-            last = (next, place);
-        }
-        for (k, c) in anchors {
-            let (crossing, q) = &mut placed[k];
-            let across = self.image(c, self.crossed(e, c));
-            let total = across[0] + across[1];
-            let weights = across.map(|x| x / total);
-            let backward = strip[k].halfedge.0 & 1 == 1;
-            crossing.final_weights = if backward { [weights[1], weights[0]] } else { weights };
-            crossing.input_weights = self.straight[c].edge;
-            *q = total;
+        let passed = reduced(self.line(e), strip)?;
+        let mut places: Vec<Place> = passed.iter().map(|passing| passing.line).collect();
+        restore_order(&mut places);
+        for (((crossing, weight), passing), line) in placed.iter_mut().zip(passed).zip(places) {
+            let Passing { halfedge, across: [x, y], weight: q, .. } = passing;
+            crossing.input_weights = line;
+            crossing.final_weights = if halfedge.0 & 1 == 0 { [x, y] } else { [y, x] };
+            *weight = q;
         }
         Ok(true)
     }
 
-    /// The intrinsic half-edge that crossing c of edge e of the input is on.
-    fn crossed(&self, e: EdgeId, c: usize) -> HalfedgeId {
-        self.curves.crossings(e)[c - self.curves.numbers(e).start].halfedge
+    /// Bring the crossings of each final edge with the input's edges into order, once all are placed: marks those that this moves.
+    pub fn settle(result: &Mesh, curves: &Curves, crossings: &mut [Crossing], moved: &mut [bool]) {
+        let mut places: Vec<Place> = crossings.iter().map(|c| c.final_weights).collect();
+        restore_order_across(result, curves, &mut places);
+        for ((crossing, place), moved) in crossings.iter_mut().zip(places).zip(moved) {
+            *moved |= crossing.final_weights != place;
+            crossing.final_weights = place;
+        }
     }
 
-    /// A crossing with an intrinsic half-edge as a vector of the final metric: coefficients of the positions of its ends.
-    fn image(&self, c: usize, h: HalfedgeId) -> [f64; 2] {
-        let Straight { across, ratio, .. } = self.straight[c];
-        let mesh = self.intrinsic.mesh;
-        let ends = [mesh.origin(h), mesh.tip(h)];
-        [0, 1].map(|k| ratio * across[k] * self.weight[ends[k].index()])
-    }
-
-    /// The homogeneous weight along an edge of the input: linear between these places.
-    fn profile(&self, e: EdgeId, ends: [f64; 2]) -> Vec<(Place, f64)> {
-        let crossings = self.curves.numbers(e).zip(self.curves.crossings(e));
-        let inside = crossings.map(|(c, at)| {
-            let [x, y] = self.image(c, at.halfedge);
-            (self.straight[c].edge, x + y)
-        });
-        std::iter::once((ORIGIN, ends[0])).chain(inside).chain([(TIP, ends[1])]).collect()
+    /// All that the straight line of an edge of the input passes.
+    fn line(&self, e: EdgeId) -> Vec<Passing> {
+        let (mesh, crossings) = (self.chords.mesh, self.curves.crossings(e));
+        let local =
+            |f: FaceId, h: HalfedgeId| mesh.face_halfedges(f).iter().position(|&x| x == h).unwrap_or(0);
+        let corner = |f: FaceId, k: usize, line: Place| {
+            let mut vector = [0.0; 3];
+            vector[k] = 1.0;
+            (f, Station { border: Border::Corner(k), line, vector })
+        };
+        let face = |h: HalfedgeId| mesh.face(h).unwrap_or(FaceId(0));
+        let mut passed = Vec::new();
+        let mut from = None;
+        for (straight, at) in self.straight[self.curves.numbers(e)].iter().zip(crossings) {
+            let h = at.halfedge;
+            // Half-edges h and its twin share what rank the crossing has.
+            let rank = self.chords.rank(h, straight.across);
+            let on = |h: HalfedgeId, [x, y]: Place, rank: i64| {
+                let f = face(h);
+                let k = local(f, h);
+                let mut vector = [0.0; 3];
+                (vector[k], vector[(k + 1) % 3]) = (straight.ratio * x, straight.ratio * y);
+                (f, Station { border: Border::Side(k, rank), line: straight.edge, vector })
+            };
+            let (f, to) = on(h, straight.across, rank);
+            let (_, start) = from.unwrap_or_else(|| corner(f, (local(f, h) + 2) % 3, ORIGIN));
+            self.chords.pass(f, start, to, &mut passed);
+            let [x, y] = straight.across;
+            if let Some(along) = self.stays[h.edge()] {
+                let ends = [mesh.origin(h), mesh.tip(h)].map(|v| self.chords.weight[v.index()]);
+                let image = [x * ends[0], y * ends[1]];
+                let total = image[0] + image[1];
+                let halfedge = if h.0 & 1 == 0 { along } else { along.twin() };
+                let across = image.map(|x| x / total);
+                passed.push(Passing {
+                    halfedge,
+                    line: straight.edge,
+                    across,
+                    weight: straight.ratio * total,
+                });
+            }
+            from = Some(on(h.twin(), [y, x], self.chords.count(h) - rank));
+        }
+        if let (Some((f, start)), Some(last)) = (from, crossings.last()) {
+            let (_, end) = corner(f, (local(f, last.halfedge.twin()) + 2) % 3, TIP);
+            self.chords.pass(f, start, end, &mut passed);
+        }
+        passed
     }
 }
 
-fn weight_at(profile: &[(Place, f64)], at: Place) -> f64 {
-    let next =
-        profile.partition_point(|(place, _)| super::order::before(*place, at)).clamp(1, profile.len() - 1);
-    let ((from, q), (to, r)) = (profile[next - 1], profile[next]);
-    let t = share(from, to, at).unwrap_or(0.5);
-    (1.0 - t) * q + t * r
+/// What a line passes, pulled tight: the passages of `strip`.
+fn reduced(passed: Vec<Passing>, strip: &[CurveCrossing]) -> Result<Vec<Passing>> {
+    let mut tight: Vec<Passing> = Vec::with_capacity(strip.len());
+    for passing in passed {
+        match tight.last() {
+            Some(last) if last.halfedge == passing.halfedge.twin() => drop(tight.pop()),
+            _ => tight.push(passing),
+        }
+    }
+    // Before and after come passages around the ends.
+    let same =
+        |window: &[Passing]| window.iter().zip(strip).all(|(passing, at)| passing.halfedge == at.halfedge);
+    let start = tight.windows(strip.len()).position(same).ok_or_else(torn)?;
+    tight.drain(..start);
+    tight.truncate(strip.len());
+    Ok(tight)
 }

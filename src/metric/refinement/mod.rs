@@ -14,6 +14,7 @@
 //! two sums is the homogeneous weight of the point, the `q` of a projective texture coordinate: q · (final position) is linear in the
 //! input position, as vectors.
 
+mod chords;
 mod geodesic;
 mod intrinsic;
 mod maps;
@@ -140,13 +141,14 @@ impl Refinement {
         control.step(Stage::Layout, 0.0)?;
         let curves = Curves::trace(result.mesh, result.normal)?;
         let ends: Vec<_> = input.mesh.edges().map(|e| input.mesh.ends(e)).collect();
-        let raw = Strips::new(&result).crossings(&ends, &curves)?;
+        let strips = Strips::new(&result);
+        let raw = strips.crossings(&ends, &curves)?;
         control.check()?;
         let scales = Scales::new(input, result)?;
         let mut crossings = Vec::with_capacity(raw.len());
         let mut weight = scales.vertices();
         let placement = intrinsic
-            .map(|intrinsic| Placement::new(intrinsic, input.geometry, result, &weight, control))
+            .map(|intrinsic| Placement::new(intrinsic, input.geometry, &result, &strips, &scales, control))
             .transpose()?;
         let mut moved = Vec::new();
         for e in input.mesh.edges() {
@@ -168,6 +170,9 @@ impl Refinement {
                 crossings.push(crossing);
                 weight.push(q);
             }
+        }
+        if placement.is_some() {
+            Placement::settle(result.mesh, &curves, &mut crossings, &mut moved);
         }
         let pieces = Pieces::cut(input.mesh, &result, &curves, &moved, keep, control)?;
         assemble(input.mesh, result.mesh, crossings, weight, pieces)

@@ -3,6 +3,9 @@
 //! A place is the pair of weights of an edge's ends, which add up to 1: near either end the smaller one tells how near, to the
 //! relative accuracy of doubles.
 
+use crate::mesh::normal_trace::CurveCrossing;
+use crate::mesh::{Curves, Mesh};
+
 /// Weights of the origin and of the tip.
 pub(super) type Place = [f64; 2];
 
@@ -22,15 +25,6 @@ pub(super) fn before(a: Place, b: Place) -> bool {
 /// `(1 − t) a + t b`.
 pub(super) fn between(a: Place, b: Place, t: f64) -> Place {
     [0, 1].map(|k| (1.0 - t) * a[k] + t * b[k])
-}
-
-/// How far from a to b x lies, from 0 to 1; `None` where a and b coincide.
-pub(super) fn share(a: Place, b: Place, x: Place) -> Option<f64> {
-    // The difference of the weights that are smaller.
-    let gap = |from: Place, to: Place| if to[1] < 0.5 { to[1] - from[1] } else { from[0] - to[0] };
-    let (near, far) = (gap(a, x), gap(x, b));
-    let whole = near.max(0.0) + far.max(0.0);
-    (whole > 0.0).then(|| near.max(0.0) / whole)
 }
 
 /// Bring places into strict order that should be so already, but for rounding.
@@ -62,6 +56,23 @@ pub(super) fn restore_order(places: &mut [Place]) {
         }
         at += n;
     }
+}
+
+/// The same for the crossings of all `curves` with the edges of a triangulation, in the order of the curves: places along the
+/// half-edges 2e.
+pub(super) fn restore_order_across(mesh: &Mesh, curves: &Curves, places: &mut [Place]) {
+    let crossings = || mesh.edges().flat_map(|e| curves.crossings(e));
+    let mut start = vec![0; mesh.n_edges() + 1];
+    crossings().for_each(|at| start[at.halfedge.edge().index() + 1] += 1);
+    (0..mesh.n_edges()).for_each(|e| start[e + 1] += start[e]);
+    let slot = |at: &CurveCrossing| {
+        let (e, position) = (at.halfedge.edge().index(), at.position as usize);
+        if at.halfedge.0 & 1 == 0 { start[e] + position } else { start[e + 1] - 1 - position }
+    };
+    let mut sorted = vec![ORIGIN; places.len()];
+    crossings().zip(places.iter()).for_each(|(at, &place)| sorted[slot(at)] = place);
+    (0..mesh.n_edges()).for_each(|e| restore_order(&mut sorted[start[e]..start[e + 1]]));
+    crossings().zip(places).for_each(|(at, place)| *place = sorted[slot(at)]);
 }
 
 #[cfg(test)]
@@ -103,15 +114,5 @@ mod tests {
                 assert!((place[0] + place[1] - 1.0).abs() < 1e-15);
             }
         }
-    }
-
-    #[test]
-    fn shares_keep_their_accuracy_at_either_end() {
-        for (a, b) in [([1.0, 1e-30], [1.0, 2e-30]), ([2e-30, 1.0], [1e-30, 1.0]), (ORIGIN, TIP)] {
-            for t in [0.0, 0.25, 0.5, 1.0] {
-                assert!((share(a, b, between(a, b, t)).unwrap() - t).abs() < 1e-15);
-            }
-        }
-        assert_eq!(share(at(0.5), at(0.5), at(0.5)), None);
     }
 }
