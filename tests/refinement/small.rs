@@ -38,7 +38,7 @@ fn without_flips_the_refinement_is_the_input() {
 }
 
 /// Flip at random inside the class (ε = 0: every edge can be flipped), recording.
-fn shuffle(
+pub fn shuffle(
     mesh: &mut Mesh,
     metric: &mut Metric,
     normal: &mut NormalCoordinates,
