@@ -88,19 +88,23 @@ impl<'a> Placement<'a> {
 
     /// Place the crossings of an edge of the input, which are on straight lines of the class; whether they have been moved.
     pub fn place(&self, e: EdgeId, strip: &[CurveCrossing], placed: &mut [(Crossing, f64)]) -> Result<bool> {
-        if strip.is_empty() || self.curves.along(e).is_some() {
-            return Ok(false);
+        let along_intrinsic = self.curves.along(e).is_some();
+        if !along_intrinsic && !strip.is_empty() {
+            for ((crossing, weight), passing) in placed.iter_mut().zip(reduced(self.line(e), strip)?) {
+                let Passing { halfedge, line, across: [x, y], weight: q } = passing;
+                crossing.input_weights = line;
+                crossing.final_weights = if halfedge.0 & 1 == 0 { [x, y] } else { [y, x] };
+                *weight = q;
+            }
         }
-        let passed = reduced(self.line(e), strip)?;
-        let mut places: Vec<Place> = passed.iter().map(|passing| passing.line).collect();
+        let mut places: Vec<Place> = placed.iter().map(|(crossing, _)| crossing.input_weights).collect();
         restore_order(&mut places);
-        for (((crossing, weight), passing), line) in placed.iter_mut().zip(passed).zip(places) {
-            let Passing { halfedge, across: [x, y], weight: q, .. } = passing;
-            crossing.input_weights = line;
-            crossing.final_weights = if halfedge.0 & 1 == 0 { [x, y] } else { [y, x] };
-            *weight = q;
+        let mut moved = !along_intrinsic;
+        for ((crossing, _), place) in placed.iter_mut().zip(places) {
+            moved |= crossing.input_weights != place;
+            crossing.input_weights = place;
         }
-        Ok(true)
+        Ok(moved)
     }
 
     /// Bring the crossings of each final edge with the input's edges into order, once all are placed: marks those that this moves.
