@@ -1,9 +1,10 @@
 //! Final edges inside intrinsic faces, and where a straight line through such a face crosses them.
 //!
-//! Within an intrinsic face the map to the final triangulation is projective on each of the parts into which final edges cut it, and
-//! final edges are straight in it: *chords* that cut off a corner or leave one ([`Strands`]). The line from one place on the face's
-//! border to another crosses those that separate the two: first outward those around the corner near which it starts, then some of the
-//! fan, then inward those around the corner near which it ends.
+//! Within an intrinsic face the map to the final triangulation is projective on each of the parts into which
+//! final edges cut it, and final edges are straight in it: *chords* that cut off a corner or leave one
+//! ([`Strands`]). The line from one place on the face's border to another crosses those that separate the
+//! two: first outward those around the corner near which it starts, then some of the fan, then inward those
+//! around the corner near which it ends.
 //!
 //! ```text
 //!            2               All vectors are combinations of those of the corners. A line from A to B and a chord from C to D meet in
@@ -102,7 +103,8 @@ impl Chords<'_> {
             }
         }
         if let Some(k) = (0..3).find(|&k| fan[k] > 0) {
-            // Chords of the fan that lie between the side k → k + 1 and the place; the fan's own corner lies on all of them.
+            // Chords of the fan that lie between the side k → k + 1 and the place; the fan's own corner lies
+            // on all of them.
             let (far, skip) = ((k + 1) % 3, arc[(k + 1) % 3]);
             let beyond = |at: Station| match at.border {
                 Border::Corner(corner) if corner == k => None,
@@ -131,8 +133,8 @@ impl Chords<'_> {
         }
     }
 
-    /// The end of a chord at this position along side k → k + 1; and the final half-edge that the side crosses there from left to
-    /// right, along which, or along `halfedge`, its place is given.
+    /// The end of a chord at this position along side k → k + 1; and the final half-edge that the side
+    /// crosses there from left to right, along which, or along `halfedge`, its place is given.
     fn end(
         &self,
         sides: [HalfedgeId; 3],

@@ -1,7 +1,8 @@
 //! Where the edges of the input, straight on the surface, cross those of an intrinsic triangulation of it.
 //!
-//! An edge a → b of the input runs through a strip of intrinsic triangles. Points are vectors of R³ in which lines are planes: (x, y, 1)
-//! in E², the hyperboloid in H², the sphere in S². Each crossed edge ij has a frame, with i at (0, 0, 1) and j on the x axis:
+//! An edge a → b of the input runs through a strip of intrinsic triangles. Points are vectors of R³ in which
+//! lines are planes: (x, y, 1) in E², the hyperboloid in H², the sphere in S². Each crossed edge ij has a
+//! frame, with i at (0, 0, 1) and j on the x axis:
 //!
 //! ```text
 //!         a ·  y_a > 0               In it a is carried forward from edge to edge, b backward: turns about a common vertex of
@@ -11,8 +12,8 @@
 //!               ·  b  y_b < 0        (S(l) = l, sinh l, sin l).
 //! ```
 //!
-//! The error is that of a chain of triangles whose sides and angles are rounded: a few ulp of the length of the edge, which is
-//! what rounding of the intrinsic lengths does too.
+//! The error is that of a chain of triangles whose sides and angles are rounded: a few ulp of the length of
+//! the edge, which is what rounding of the intrinsic lengths does too.
 
 use super::Intrinsic;
 use super::order::{Place, restore_order, restore_order_across};
@@ -23,7 +24,8 @@ use crate::parallel;
 /// Weight of an end that rounding has put on the wrong side of it.
 const LEAST: f64 = f64::EPSILON;
 
-/// A crossing of an edge of the input with an intrinsic half-edge, from its left to its right. Weights are those of positions.
+/// A crossing of an edge of the input with an intrinsic half-edge, from its left to its right. Weights are
+/// those of positions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Straight {
     /// Of the ends of the input's edge.
@@ -44,8 +46,8 @@ struct Frames<'a> {
     turn: PerHalfedge<[f64; 2]>,
 }
 
-/// All crossings, in the order of `curves`: those of every edge follow each other along it, and so do those of every intrinsic
-/// edge.
+/// All crossings, in the order of `curves`: those of every edge follow each other along it, and so do those
+/// of every intrinsic edge.
 pub(super) fn straight(intrinsic: &Intrinsic, geometry: Space, curves: &Curves) -> Vec<Straight> {
     let frames = Frames::new(intrinsic, geometry);
     let mut found = vec![Vec::new(); intrinsic.mesh.n_edges()];
@@ -161,7 +163,8 @@ fn back([sine, cosine]: [f64; 2]) -> [f64; 2] {
     [-sine, cosine]
 }
 
-/// Weights in this proportion. Of two that must be positive one may be rounded to less than that: it becomes [`LEAST`].
+/// Weights in this proportion. Of two that must be positive one may be rounded to less than that: it becomes
+/// [`LEAST`].
 pub(super) fn place(weights: [f64; 2]) -> Place {
     let [x, y] = weights.map(|w| if w > 0.0 && w < f64::INFINITY { w } else { 0.0 });
     match x + y {

@@ -1,15 +1,16 @@
 //! Crossings where the input's edges are straight on the surface, not in the class.
 //!
-//! Isometric flips have led from the input to an intrinsic triangulation of the same surface, flips inside the class from there to
-//! the final one. The map of the first step is the identity, that of the second projective on the pieces into which intrinsic
-//! edges cut the final triangles. A line that is straight in the class is straight on the surface only where it follows an
-//! intrinsic edge. Any other edge of the input is followed through the intrinsic faces, on a straight line ([`super::geodesic`]),
-//! and its crossings with the final edges there ([`super::chords`]) are those of the map itself.
+//! Isometric flips have led from the input to an intrinsic triangulation of the same surface, flips inside
+//! the class from there to the final one. The map of the first step is the identity, that of the second
+//! projective on the pieces into which intrinsic edges cut the final triangles. A line that is straight in
+//! the class is straight on the surface only where it follows an intrinsic edge. Any other edge of the input
+//! is followed through the intrinsic faces, on a straight line ([`super::geodesic`]), and its crossings with
+//! the final edges there ([`super::chords`]) are those of the map itself.
 //!
-//! That line may cross final edges forth and back, which a curve pulled tight does not: what it meets is reduced to the crossings
-//! that normal coordinates tell of, by taking out passages forth and at once back, and around its ends. What is left may be out of
-//! order along either edge, there or by rounding: it is pooled ([`restore_order`]). The order of the crossings along both edges is all
-//! that a bijection takes.
+//! That line may cross final edges forth and back, which a curve pulled tight does not: what it meets is
+//! reduced to the crossings that normal coordinates tell of, by taking out passages forth and at once back,
+//! and around its ends. What is left may be out of order along either edge, there or by rounding: it is
+//! pooled ([`restore_order`]). The order of the crossings along both edges is all that a bijection takes.
 
 use super::chords::{Border, Chords, Passing, Station};
 use super::geodesic::{Straight, straight};
@@ -46,8 +47,9 @@ pub(super) struct Placement<'a> {
 }
 
 impl<'a> Placement<'a> {
-    /// O(edges + crossings of any two of the three triangulations). Errors: [`Error::Size`], [`Error::TooLarge`],
-    /// [`Error::Connectivity`], [`Error::EdgeWeight`] as those of [`super::Refinement::new`].
+    /// O(edges + crossings of any two of the three triangulations). Errors: [`Error::Size`],
+    /// [`Error::TooLarge`], [`Error::Connectivity`], [`Error::EdgeWeight`] as those of
+    /// [`super::Refinement::new`].
     pub fn new(
         intrinsic: Intrinsic<'a>,
         geometry: Space,
@@ -86,7 +88,8 @@ impl<'a> Placement<'a> {
         Ok(Placement { curves, straight, stays, chords })
     }
 
-    /// Place the crossings of an edge of the input, which are on straight lines of the class; whether they have been moved.
+    /// Place the crossings of an edge of the input, which are on straight lines of the class; whether they
+    /// have been moved.
     pub fn place(&self, e: EdgeId, strip: &[CurveCrossing], placed: &mut [(Crossing, f64)]) -> Result<bool> {
         let along_intrinsic = self.curves.along(e).is_some();
         if !along_intrinsic && !strip.is_empty() {
@@ -107,7 +110,8 @@ impl<'a> Placement<'a> {
         Ok(moved)
     }
 
-    /// Bring the crossings of each final edge with the input's edges into order, once all are placed: marks those that this moves.
+    /// Bring the crossings of each final edge with the input's edges into order, once all are placed: marks
+    /// those that this moves.
     pub fn settle(result: &Mesh, curves: &Curves, crossings: &mut [Crossing], moved: &mut [bool]) {
         let mut places: Vec<Place> = crossings.iter().map(|c| c.final_weights).collect();
         restore_order_across(result, curves, &mut places);

@@ -13,6 +13,9 @@
 //! weights `β_i / s_i` in the final face. Weights that are divided by their sum are called *barycentric* here; the quotient of the
 //! two sums is the homogeneous weight of the point, the `q` of a projective texture coordinate: q · (final position) is linear in the
 //! input position, as vectors.
+//!
+//! Where isometric flips come before those inside the class ([`Intrinsic`]), edges of the input are drawn straight on the
+//! surface; in the class they are straight otherwise.
 
 mod chords;
 mod geodesic;

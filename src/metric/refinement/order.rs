@@ -1,7 +1,7 @@
 //! Places along an edge, and their order.
 //!
-//! A place is the pair of weights of an edge's ends, which add up to 1: near either end the smaller one tells how near, to the
-//! relative accuracy of doubles.
+//! A place is the pair of weights of an edge's ends, which add up to 1: near either end the smaller one tells
+//! how near, to the relative accuracy of doubles.
 
 use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, Mesh};
@@ -13,8 +13,9 @@ pub(super) type Place = [f64; 2];
 pub(super) const ORIGIN: Place = [1.0, 0.0];
 pub(super) const TIP: Place = [0.0, 1.0];
 
-/// Share of the way to its neighbours over which places are spread that rounding has swapped or merged. Small, since the true places
-/// are nearer to each other than rounding; large against it, so that the spread places differ.
+/// Share of the way to its neighbours over which places are spread that rounding has swapped or merged.
+/// Small, since the true places are nearer to each other than rounding; large against it, so that the spread
+/// places differ.
 const SPREAD: f64 = 1.0 / (1 << 20) as f64;
 
 /// Whether a lies nearer to the origin than b, and neither weight says otherwise.
@@ -29,10 +30,10 @@ pub(super) fn between(a: Place, b: Place, t: f64) -> Place {
 
 /// Bring places into strict order that should be so already, but for rounding.
 ///
-/// Places out of order, or equal to their neighbour, are pooled: the least change that leaves none out of order (in the mean
-/// square) puts them into one place. Around it they are then spread evenly over [`SPREAD`] of the way to the next on both sides.
-/// Places in order stay as they are, bit for bit. What doubles cannot tell apart still coincides, but is not swapped: afterwards neither
-/// weight runs back anywhere.
+/// Places out of order, or equal to their neighbour, are pooled: the least change that leaves none out of
+/// order (in the mean square) puts them into one place. Around it they are then spread evenly over [`SPREAD`]
+/// of the way to the next on both sides. Places in order stay as they are, bit for bit. What doubles cannot
+/// tell apart still coincides, but is not swapped: afterwards neither weight runs back anywhere.
 pub(super) fn restore_order(places: &mut [Place]) {
     if places.windows(2).all(|pair| before(pair[0], pair[1])) {
         return;
@@ -64,8 +65,8 @@ pub(super) fn restore_order(places: &mut [Place]) {
     }
 }
 
-/// The same for the crossings of all `curves` with the edges of a triangulation, in the order of the curves: places along the
-/// half-edges 2e.
+/// The same for the crossings of all `curves` with the edges of a triangulation, in the order of the curves:
+/// places along the half-edges 2e.
 pub(super) fn restore_order_across(mesh: &Mesh, curves: &Curves, places: &mut [Place]) {
     let crossings = || mesh.edges().flat_map(|e| curves.crossings(e));
     let mut start = vec![0; mesh.n_edges() + 1];
