@@ -243,11 +243,7 @@ impl Run<'_> {
             return Ok(timed(&mut report.seconds.assemble, || state.evaluate(self.mesh, self.class)));
         }
         let (mesh, class) = (&mut *self.mesh, &mut *self.class);
-        let mut record = |mesh: &_, e| {
-            if let Some(normal) = &mut self.normal {
-                normal.record(mesh, e);
-            }
-        };
+        let mut record = |mesh: &_, e| self.followed.iter_mut().for_each(|normal| normal.record(mesh, e));
         let (real, flips) = state.evaluate_delaunay(
             mesh,
             class,

@@ -27,7 +27,7 @@ pub struct Solver {
     pub(super) options: Options,
     pub(super) pinned: Vec<bool>,
     mirror: Option<Vec<u32>>,
-    normal: Option<NormalCoordinates>,
+    followed: Vec<NormalCoordinates>,
     pub(super) system: Option<System>,
     pool: Pool,
 }
@@ -45,7 +45,7 @@ pub(super) struct Run<'a> {
     /// Per vertex its mirror image, where the metric is to stay symmetric.
     pub mirror: Option<&'a [u32]>,
     /// Told every flip.
-    pub normal: Option<&'a mut NormalCoordinates>,
+    pub followed: &'a mut [NormalCoordinates],
     /// E² without pinned vertices: u is determined up to a constant, and Σ u = 0 is kept.
     pub free_scale: bool,
     /// Stop where the surface's double would flip a boundary edge; then `left` is set.
@@ -74,7 +74,7 @@ impl Solver {
             options,
             pinned,
             mirror: None,
-            normal: None,
+            followed: Vec::new(),
             system: None,
             pool,
         })
@@ -110,16 +110,17 @@ impl Solver {
         Ok(())
     }
 
-    /// Record every flip from now on in `normal`, which follows the edges of an earlier triangulation.
+    /// Record every flip from now on in `normal`, which follows the edges of an earlier triangulation, beside those that are told
+    /// already.
     pub fn follow(&mut self, normal: NormalCoordinates) -> Result<()> {
         normal.check(&self.mesh)?;
-        self.normal = Some(normal);
+        self.followed.push(normal);
         Ok(())
     }
 
-    /// What [`Solver::follow`] has recorded.
-    pub fn normal(&self) -> Option<&NormalCoordinates> {
-        self.normal.as_ref()
+    /// What each [`Solver::follow`] has recorded.
+    pub fn followed(&self) -> &[NormalCoordinates] {
+        &self.followed
     }
 
     /// Do other work on this solver's threads.
@@ -177,7 +178,7 @@ impl Solver {
         let mut seconds = 0.0;
         let free_scale = self.metric.space == Space::E2 && !self.pinned.contains(&true);
         let before = (self.options.flips == Flips::Auto)
-            .then(|| (self.mesh.clone(), self.metric.eta.clone(), self.normal.clone()));
+            .then(|| (self.mesh.clone(), self.metric.eta.clone(), self.followed.clone()));
         let mut run = Run {
             mesh: &mut self.mesh,
             class: &mut self.metric,
@@ -187,7 +188,7 @@ impl Solver {
             target: &target,
             pinned: &self.pinned,
             mirror: self.mirror.as_deref(),
-            normal: self.normal.as_mut(),
+            followed: &mut self.followed,
             free_scale,
             one_copy,
             left: false,
@@ -200,9 +201,9 @@ impl Solver {
             *system = None;
         }
         let state = match (state, before) {
-            (Err(error), Some((mesh, eta, normal))) => {
+            (Err(error), Some((mesh, eta, followed))) => {
                 // Nothing happened: the old triangulation, whose system is to be made anew.
-                (self.mesh, self.metric.eta, self.normal, self.system) = (mesh, eta, normal, None);
+                (self.mesh, self.metric.eta, self.followed, self.system) = (mesh, eta, followed, None);
                 return Err(error);
             }
             (state, _) => state?,

@@ -121,7 +121,7 @@ impl SurfaceFlow {
     }
 
     fn go_on(from: SurfaceMetric, pinned: &[VertexId], options: &Options) -> Result<SurfaceFlow> {
-        let (start, mesh, mut metric, normal, flips) = from.into_parts();
+        let (start, mesh, mut metric, followed, flips) = from.into_parts();
         check_fixed(&start.given, &options.fixed_edges)?;
         let fixed = &options.fixed_edges;
         let rigid = is_rigid(start.initial.input_geometry, start.scheme, metric.space, options);
@@ -138,7 +138,7 @@ impl SurfaceFlow {
             }
         }
         let mut solver = Solver::new(mesh, metric, inner)?;
-        if let Some(normal) = normal {
+        for normal in followed {
             solver.follow(normal)?;
         }
         if let Some(double) = &start.double {
@@ -246,7 +246,7 @@ impl SurfaceFlow {
     /// The present metric with its way back, apart from the flow.
     pub fn now(&self) -> SurfaceMetric {
         let (mesh, metric) = (self.mesh().clone(), self.metric().clone());
-        SurfaceMetric::at(self.start.clone(), mesh, metric, self.solver.normal().cloned(), self.flips)
+        SurfaceMetric::at(self.start.clone(), mesh, metric, self.solver.followed().to_vec(), self.flips)
     }
 
     /// The common refinement of the given triangulation and the present one, on the given surface alone: the
@@ -255,8 +255,8 @@ impl SurfaceFlow {
     /// Errors: those of [`Refinement::new`].
     pub fn refinement(&self, control: &Control) -> Result<Refinement> {
         let (start, solver) = (&*self.start, &self.solver);
-        let (mesh, metric, normal) = (solver.mesh(), solver.metric(), solver.normal());
-        solver.run(|| start.refinement(mesh, metric, normal, control))
+        let (mesh, metric, followed) = (solver.mesh(), solver.metric(), solver.followed());
+        solver.run(|| start.refinement(mesh, metric, followed, control))
     }
 }
 

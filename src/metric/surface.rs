@@ -5,7 +5,7 @@ use super::curvature::Curvature;
 use super::delaunay::boundary_fails;
 use super::initial::{Initial, initial_metric};
 use super::lengths::Metric;
-use super::refinement::{Final, Input, Refinement};
+use super::refinement::{Final, Input, Intrinsic, Refinement};
 use super::scheme::Scheme;
 use super::start::delaunay_start;
 use crate::control::Control;
@@ -25,10 +25,22 @@ pub(crate) struct Start {
     pub initial: Initial,
     /// Isometric flips from the given triangulation to that of `initial`.
     pub flips: usize,
+    /// The latter, if that is another one.
+    pub flipped: Option<Flipped>,
     /// Given edges that are not flipped, ascending.
     pub fixed: Vec<EdgeId>,
     /// Whether the start, of one copy, is half of what its double's is: there no boundary edge would be flipped.
     pub is_half: bool,
+}
+
+/// The triangulation that isometric flips have made.
+#[derive(Debug)]
+pub(crate) struct Flipped {
+    pub mesh: Arc<Mesh>,
+    /// In `initial.input_geometry`.
+    pub lengths: PerEdge<f64>,
+    /// The given edges on it.
+    pub given: NormalCoordinates,
 }
 
 impl Start {
@@ -42,21 +54,25 @@ impl Start {
         &self,
         mesh: &Mesh,
         metric: &Metric,
-        normal: Option<&NormalCoordinates>,
+        followed: &[NormalCoordinates],
         control: &Control,
     ) -> Result<Refinement> {
         let unflipped;
-        let normal = match normal {
-            Some(normal) => normal,
-            None => {
+        let normal = match followed {
+            [normal, ..] => normal,
+            [] => {
                 unflipped = NormalCoordinates::new(mesh);
                 &unflipped
             }
         };
+        let intrinsic = self.flipped.as_ref().zip(followed.get(1)).map(|(flipped, normal)| {
+            let Flipped { mesh, lengths, given } = flipped;
+            Intrinsic { mesh, lengths, given, normal }
+        });
         let given = self.double.as_ref().map_or(&*self.given, |double| &double.mesh);
         let input = Input { mesh: given, geometry: self.initial.input_geometry, u: &self.initial.input_u };
         let keep = |f| self.double.as_ref().is_none_or(|double| double.is_original(f));
-        Refinement::new(input, Final { mesh, metric, normal }, &keep, control)
+        Refinement::new(input, intrinsic, Final { mesh, metric, normal }, &keep, control)
     }
 }
 
@@ -70,8 +86,9 @@ pub struct SurfaceMetric {
     pub(crate) start: Arc<Start>,
     mesh: Arc<Mesh>,
     metric: Metric,
-    /// The given edges on `mesh`; none where no edge was ever to be flipped.
-    normal: Option<NormalCoordinates>,
+    /// Triangulations on `mesh`: that of the given edges, and that of the start if it is another one. None where no edge was ever to
+    /// be flipped.
+    followed: Vec<NormalCoordinates>,
     flips: usize,
 }
 
@@ -93,10 +110,11 @@ impl SurfaceMetric {
             double: None,
             initial,
             flips: 0,
+            flipped: None,
             fixed: Vec::new(),
             is_half: false,
         };
-        Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, normal: None, flips: 0 })
+        Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, followed: Vec::new(), flips: 0 })
     }
 
     /// The initial metric on the (weighted) Delaunay triangulation, of the surface or, if it is `doubled`, of
@@ -132,17 +150,16 @@ impl SurfaceMetric {
             &all_fixed,
             &mut record,
         )?;
-        let metric = initial.metric.clone();
+        let (mesh, metric) = (Arc::new(mesh), initial.metric.clone());
+        let mut followed = vec![normal];
+        let flipped = (flips > 0).then(|| {
+            followed.push(NormalCoordinates::new(&mesh));
+            Flipped { mesh: mesh.clone(), lengths: all, given: followed[0].clone() }
+        });
         let is_half = double.is_none() && !boundary_fails(&mesh, &metric, &metric.u, fixed);
         let fixed = ascending(fixed);
-        let start = Start { given, lengths, scheme, double, initial, flips, fixed, is_half };
-        Ok(SurfaceMetric {
-            start: Arc::new(start),
-            mesh: Arc::new(mesh),
-            metric,
-            normal: Some(normal),
-            flips,
-        })
+        let start = Start { given, lengths, scheme, double, initial, flips, flipped, fixed, is_half };
+        Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, followed, flips })
     }
 
     /// What the metric has become. `flips`: all from the given triangulation to this one.
@@ -150,15 +167,15 @@ impl SurfaceMetric {
         start: Arc<Start>,
         mesh: Mesh,
         metric: Metric,
-        normal: Option<NormalCoordinates>,
+        followed: Vec<NormalCoordinates>,
         flips: usize,
     ) -> SurfaceMetric {
         let mesh = if mesh == *start.given { start.given.clone() } else { Arc::new(mesh) };
-        SurfaceMetric { start, mesh, metric, normal, flips }
+        SurfaceMetric { start, mesh, metric, followed, flips }
     }
 
-    pub(crate) fn into_parts(self) -> (Arc<Start>, Mesh, Metric, Option<NormalCoordinates>, usize) {
-        (self.start, Arc::unwrap_or_clone(self.mesh), self.metric, self.normal, self.flips)
+    pub(crate) fn into_parts(self) -> (Arc<Start>, Mesh, Metric, Vec<NormalCoordinates>, usize) {
+        (self.start, Arc::unwrap_or_clone(self.mesh), self.metric, self.followed, self.flips)
     }
 
     /// The given triangulation.
@@ -208,7 +225,7 @@ impl SurfaceMetric {
 
     /// Whether flips were allowed on the way here, and these given edges kept from them.
     pub(crate) fn was_flipped_without(&self, fixed: &[EdgeId]) -> bool {
-        self.normal.is_some() && self.start.fixed == ascending(fixed)
+        !self.followed.is_empty() && self.start.fixed == ascending(fixed)
     }
 
     /// Whether it lives on the surface's double, or on one copy that it could be reflected from: Delaunay along the boundary too, and
@@ -248,7 +265,7 @@ impl SurfaceMetric {
     ///
     /// Errors: those of [`Refinement::new`].
     pub fn refinement(&self, control: &Control) -> Result<Refinement> {
-        self.start.refinement(&self.mesh, &self.metric, self.normal.as_ref(), control)
+        self.start.refinement(&self.mesh, &self.metric, &self.followed, control)
     }
 }
 

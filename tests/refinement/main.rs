@@ -5,6 +5,7 @@ mod check;
 #[path = "../common/mod.rs"]
 mod common;
 mod flown;
+mod intrinsic;
 mod normal;
 mod small;
 

@@ -23,6 +23,7 @@ fn without_flips_the_refinement_is_the_input() {
     let given = Input { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
     let r = Refinement::new(
         given,
+        None,
         Final { mesh: &mesh, metric: &metric, normal: &normal },
         &|_| true,
         &Control::new(),
@@ -37,7 +38,7 @@ fn without_flips_the_refinement_is_the_input() {
 }
 
 /// Flip at random inside the class (ε = 0: every edge can be flipped), recording.
-fn shuffle(
+pub fn shuffle(
     mesh: &mut Mesh,
     metric: &mut Metric,
     normal: &mut NormalCoordinates,
@@ -95,7 +96,7 @@ fn refined_from_either_side_the_crossings_are_the_same() {
         let refine = |a: &Mesh, b: &Mesh, metric: &Metric, normal: &NormalCoordinates| {
             let given = Input { mesh: a, geometry: Space::E2, u: &metric.u };
             let result = Final { mesh: b, metric, normal };
-            Refinement::new(given, result, &|_| true, &Control::new()).unwrap()
+            Refinement::new(given, None, result, &|_| true, &Control::new()).unwrap()
         };
         let there = refine(&before, &after, &metric, &normal);
         let here = refine(&after, &back, &again, &reverse);
@@ -201,7 +202,7 @@ fn edges_across_a_cocircular_quadrilateral_stay_straight() {
         seen += 1;
         let given = Input { mesh: &before, geometry: space, u: &u };
         let result = Final { mesh: &mesh, metric: &metric, normal: &normal };
-        let r = Refinement::new(given, result, &|_| true, &Control::new()).unwrap();
+        let r = Refinement::new(given, None, result, &|_| true, &Control::new()).unwrap();
         // The diagonals' common point, as a combination of their ends.
         let volume = |a: usize, b: usize, c: usize| determinant([at[a], at[b], at[c]]);
         let c = r.crossings[0];
@@ -289,7 +290,7 @@ fn any_number_of_threads_gives_the_same_and_a_cancelled_call_says_so() {
     let refine = |control: &Control| {
         let given = Input { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
         let result = Final { mesh: &after, metric: &metric, normal: &normal };
-        Refinement::new(given, result, &|_| true, control)
+        Refinement::new(given, None, result, &|_| true, control)
     };
     let one = refine(&Control::new()).unwrap();
     assert!(one.crossings.len() > mesh.n_edges());
@@ -304,5 +305,5 @@ fn any_number_of_threads_gives_the_same_and_a_cancelled_call_says_so() {
     let blind = NormalCoordinates::new(&mesh);
     let given = Input { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
     let result = Final { mesh: &after, metric: &metric, normal: &blind };
-    assert!(Refinement::new(given, result, &|_| true, &Control::new()).is_err());
+    assert!(Refinement::new(given, None, result, &|_| true, &Control::new()).is_err());
 }

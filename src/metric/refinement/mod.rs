@@ -13,11 +13,19 @@
 //! weights `β_i / s_i` in the final face. Weights that are divided by their sum are called *barycentric* here; the quotient of the
 //! two sums is the homogeneous weight of the point, the `q` of a projective texture coordinate: q · (final position) is linear in the
 //! input position, as vectors.
+//!
+//! Where isometric flips come before those inside the class ([`Intrinsic`]), edges of the input are drawn straight on the
+//! surface; in the class they are straight otherwise.
 
+mod chords;
+mod geodesic;
+mod intrinsic;
 mod maps;
+mod order;
 mod pieces;
 mod strip;
 
+pub use intrinsic::Intrinsic;
 pub use maps::{PointMap, Values};
 pub use pieces::Origin;
 
@@ -26,8 +34,10 @@ use crate::control::{Control, Stage};
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::geometry::conformal::Vertex;
+use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates};
 use crate::mesh::{PerEdge, PerFace, PerVertex, VertexId};
+use intrinsic::Placement;
 use pieces::{Corner, Pieces};
 use strip::{Raw, Strips};
 
@@ -109,11 +119,15 @@ impl Refinement {
     /// The common refinement; only the pieces in those faces of the input that `keep` names (of a double: [`crate::mesh::Double::
     /// is_original`]; the vertices kept must come first, as they do there). O(input + output), parallel inside a pool.
     ///
+    /// `intrinsic` is the triangulation that isometric flips of the input have led to and the flow has started from, if they are not
+    /// the same: edges are then drawn straight on the surface.
+    ///
     /// Errors: [`Error::Size`]; [`Error::TooLarge`] for more crossings than can be numbered; [`Error::Connectivity`] if `normal` did
     /// not see every flip; [`Error::EdgeWeight`] where imaginary circles leave no straight line; [`Error::Domain`] at a vertex whose
     /// weights leave the range of doubles; [`Error::Cancelled`].
     pub fn new(
         input: Input,
+        intrinsic: Option<Intrinsic>,
         result: Final,
         keep: &dyn Fn(FaceId) -> bool,
         control: &Control,
@@ -130,15 +144,27 @@ impl Refinement {
         control.step(Stage::Layout, 0.0)?;
         let curves = Curves::trace(result.mesh, result.normal)?;
         let ends: Vec<_> = input.mesh.edges().map(|e| input.mesh.ends(e)).collect();
-        let raw = Strips::new(&result).crossings(&ends, &curves)?;
+        let strips = Strips::new(&result);
+        let raw = strips.crossings(&ends, &curves)?;
         control.check()?;
         let scales = Scales::new(input, result)?;
         let mut crossings = Vec::with_capacity(raw.len());
         let mut weight = scales.vertices();
+        let placement = intrinsic
+            .map(|intrinsic| Placement::new(intrinsic, input.geometry, &result, &strips, &scales, control))
+            .transpose()?;
+        let mut moved = Vec::new();
         for e in input.mesh.edges() {
-            for (c, crossing) in curves.numbers(e).zip(curves.crossings(e)) {
-                let (crossing, q) =
-                    scales.crossing(&raw[c], e, ends[e.index()], crossing.halfedge, result.mesh);
+            let strip = curves.crossings(e);
+            let along = |(c, at): (usize, &CurveCrossing)| {
+                scales.crossing(&raw[c], e, ends[e.index()], at.halfedge, result.mesh)
+            };
+            let mut placed: Vec<_> = curves.numbers(e).zip(strip).map(along).collect();
+            if let Some(placement) = &placement {
+                let is_moved = placement.place(e, strip, &mut placed)?;
+                moved.resize(moved.len() + strip.len(), is_moved);
+            }
+            for (crossing, q) in placed {
                 if !(q > 0.0 && q < f64::INFINITY) {
                     let vertex = ends[e.index()][0];
                     let need = "nearer to the start: a homogeneous weight on an edge there is beyond doubles";
@@ -148,7 +174,10 @@ impl Refinement {
                 weight.push(q);
             }
         }
-        let pieces = Pieces::cut(input.mesh, &result, &curves, keep, control)?;
+        if placement.is_some() {
+            Placement::settle(result.mesh, &curves, &mut crossings, &mut moved);
+        }
+        let pieces = Pieces::cut(input.mesh, &result, &curves, &moved, keep, control)?;
         assemble(input.mesh, result.mesh, crossings, weight, pieces)
     }
 

@@ -61,6 +61,8 @@ pub(super) struct Pieces<'a> {
     input: &'a Mesh,
     result: &'a Final<'a>,
     curves: &'a Curves,
+    /// Per crossing, if any: whether the pieces at it are one projective map in each triangle only.
+    moved: &'a [bool],
     /// Per final edge: its first slot; slots hold the crossings in order along half-edge 2e.
     slot_start: Vec<u32>,
     slots: Vec<u32>,
@@ -79,11 +81,13 @@ pub(super) struct Pieces<'a> {
 }
 
 impl<'a> Pieces<'a> {
-    /// Cut all final triangles, O(output); keep the pieces of those faces of the input that `keep` names.
+    /// Cut all final triangles, O(output); keep the pieces of those faces of the input that `keep` names. A piece with a crossing that
+    /// is `moved` (an entry for each, or none at all) is taken apart into its triangles.
     pub fn cut(
         input: &'a Mesh,
         result: &'a Final<'a>,
         curves: &'a Curves,
+        moved: &'a [bool],
         keep: &dyn Fn(FaceId) -> bool,
         control: &Control,
     ) -> Result<Pieces<'a>> {
@@ -93,6 +97,7 @@ impl<'a> Pieces<'a> {
             input,
             result,
             curves,
+            moved,
             slot_start: running_sum(mesh.edges().map(n)),
             slots: vec![NONE; curves.n_crossings()],
             crossed_by: vec![0; curves.n_crossings()],
@@ -240,6 +245,11 @@ impl<'a> Pieces<'a> {
         if !face.is_some_and(keep) {
             return Ok(());
         }
+        // Numbers of crossings follow those of the vertices.
+        let n = self.result.mesh.n_vertices();
+        let is_moved =
+            |c: &Corner| self.moved.get((c.vertex as usize).wrapping_sub(n)).is_some_and(|&moved| moved);
+        let apart = corners.iter().any(is_moved);
         // A fan of triangles, each cut off by a new edge.
         let mut left = sides[0];
         for i in 1..size - 1 {
@@ -253,8 +263,8 @@ impl<'a> Pieces<'a> {
             self.corners.push([corners[0], corners[i], corners[i + 1]]);
             self.piece.push(self.n_pieces);
             left = closing ^ 1;
+            self.n_pieces += u32::from(apart || i + 2 == size);
         }
-        self.n_pieces += 1;
         Ok(())
     }
 
@@ -300,7 +310,7 @@ fn running_sum(counts: impl Iterator<Item = u32>) -> Vec<u32> {
     std::iter::once(0).chain(sums.collect::<Vec<_>>()).collect()
 }
 
-fn torn() -> Error {
+pub(super) fn torn() -> Error {
     let message = "its faces and those of the final triangulation do not overlap as the flips say";
     Error::Connectivity { element: "mesh", index: 0, message }
 }
