@@ -40,6 +40,8 @@ pub struct Row {
     pub plain: [Run; 2],
     /// Medians over the rounds of auto over never: the flow alone, and with its start.
     pub ratio: [f64; 2],
+    /// The same on a surface with boundary, from the input on: never, auto, and the ratio of their times.
+    pub open: ([Run; 2], f64),
     /// Flips needed.
     pub flipped: Run,
     /// Seconds of the refinement, and its triangles.
@@ -68,6 +70,15 @@ fn acute(vertices: usize) -> Surface {
     shapes::flat_torus([-0.5, 0.75f64.sqrt()], side, side).unwrap().build().unwrap()
 }
 
+/// A flat disk of nearly equilateral triangles.
+fn acute_disk(vertices: usize) -> Surface {
+    let rings = (vertices as f64 / 3.0).sqrt() as usize;
+    let soup = shapes::disk(rings).unwrap();
+    let mesh = Mesh::from_soup(&soup).unwrap();
+    let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
+    (mesh, lengths)
+}
+
 /// A torus of revolution whose triangles are twice as long as wide, with noise.
 fn rough(vertices: usize) -> Surface {
     let side = (vertices as f64 / 4.0).sqrt();
@@ -92,6 +103,26 @@ fn cones(surface: &Surface) -> PerVertex<f64> {
     let n = surface.0.n_vertices();
     let at = (0..CONES).map(|k| ((n / CONES * k).into(), if k % 2 == 0 { PI } else { -PI }));
     Target::Cones(at.collect()).resolve(&surface.0, &surface.1, Space::E2, Scheme::Yamabe).unwrap()
+}
+
+/// From the input to a disk of waves, with and without flips.
+fn open(vertices: usize, scheme: Scheme) -> ([Run; 2], f64) {
+    let surface = acute_disk(vertices);
+    let mut target = Target::Boundary.values(&surface.0, &surface.1, Space::E2).unwrap();
+    target.iter_mut().zip(waves(&surface.0).iter()).for_each(|(k, wave)| *k += wave);
+    let run = |flips| {
+        let (start, mut flow) = start(&surface, scheme, flips);
+        let report = flow.solve(&target, &Control::new()).unwrap();
+        assert!(
+            report.converged && report.flips == 0 && flow.double().is_none(),
+            "flips where none should be"
+        );
+        Run { start, report, start_flips: 0 }
+    };
+    let (never, auto): (Vec<_>, Vec<_>) =
+        (0..rounds(vertices)).map(|_| (run(Flips::Never), run(Flips::Auto))).unzip();
+    let ratio = median(auto.iter().zip(&never).map(|(a, n)| a.whole() / n.whole()));
+    ([middle(never), middle(auto)], ratio)
 }
 
 pub fn measure(vertices: usize, scheme: Scheme) -> Row {
@@ -138,6 +169,7 @@ pub fn measure(vertices: usize, scheme: Scheme) -> Row {
         scheme,
         plain: [middle(never), middle(auto)],
         ratio,
+        open: open(vertices, scheme),
         flipped: middle(flipped),
         refinement: (median(refined.into_iter()), triangles),
         bytes,

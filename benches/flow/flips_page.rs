@@ -47,6 +47,24 @@ medians of auto over never in the same round.
             ),
         );
     }
+    page += "
+A flat disk of nearly equilateral triangles, from the input on: with flips it would be solved on its double if an edge were to be
+flipped across the boundary.
+
+| vertices | scheme | steps never | steps auto | start and solve never | start and solve auto | ratio |
+|---|---|---|---|---|---|---|
+";
+    for row in rows {
+        let ([never, auto], ratio) = &row.open;
+        let (steps, more) = (never.report.iterations, auto.report.iterations);
+        let (vertices, scheme, before, after) = (row.vertices, row.scheme, never.whole(), auto.whole());
+        put(
+            &mut page,
+            format_args!(
+                "| {vertices} | {scheme} | {steps} | {more} | {before:.3} | {after:.3} | {ratio:.2} |\n"
+            ),
+        );
+    }
     let above = named(rows, |row| row.ratio[0] > RATIO);
     put(&mut page, format_args!("\nAsked: at most {RATIO:.2} × never for the solve. Rows above: {above}.\n"));
     page += "

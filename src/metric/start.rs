@@ -1,7 +1,7 @@
 //! Where a flow with flips starts: a triangulation and circles that depend on the surface alone.
 
 use super::delaunay::intrinsic_delaunay;
-use super::initial::{Initial, initial_metric, initial_mixed};
+use super::initial::{Initial, check_triangles, corner_radii, initial_metric, initial_mixed};
 use super::scheme::Scheme;
 use crate::error::Result;
 use crate::geometry::Space;
@@ -33,11 +33,11 @@ pub fn delaunay_start(
         return initial_metric(mesh, lengths, input_geometry, scheme, space);
     }
     intrinsic_delaunay(mesh, lengths, None, input_geometry, fixed, record)?;
-    let initial = initial_metric(mesh, lengths, input_geometry, scheme, space)?;
     if scheme == Scheme::Yamabe {
-        return Ok(initial);
+        return initial_metric(mesh, lengths, input_geometry, scheme, space);
     }
-    let mut radii = initial.radii;
+    check_triangles(mesh, lengths, input_geometry)?;
+    let mut radii = corner_radii(mesh, lengths).min;
     if let Some(double) = double {
         radii = PerVertex::from_fn(radii.len(), |v| radii[v].min(radii[double.mirror(v)]));
     }
