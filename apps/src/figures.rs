@@ -43,7 +43,8 @@ pub struct FlowResult {
     qc_max: Option<f64>,
     area_ratio_min: Option<f64>,
     area_ratio_max: Option<f64>,
-    /// Faces without area in the input or the layout; the qc figures leave them out.
+    /// Faces without area in the input or the layout; the qc figures leave them out. With charts also those that are smaller than
+    /// the coordinates of the unit square resolve, which the check for overlaps leaves out.
     degenerate_pieces: Option<usize>,
     /// Vertices of the common refinement that are none of the input's; null where the layout is of the given triangulation.
     crossings: Option<usize>,
@@ -137,7 +138,7 @@ impl FlowResult {
             qc_max: laid.map(|l| l.quality.qc_max),
             area_ratio_min: laid.map(|l| l.quality.area_ratio_min),
             area_ratio_max: laid.map(|l| l.quality.area_ratio_max),
-            degenerate_pieces: laid.map(|l| l.degenerate),
+            degenerate_pieces: laid.map(|l| l.degenerate.len()),
             crossings: laid.and_then(|l| l.refinement.as_ref()).map(|r| r.crossings.len()),
             charts: packed.map(|p| p.charts.count()),
             packing: packed.map(|p| p.charts.efficiency),
