@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
+use crate::report::timed;
 use ricci::Control;
 use ricci::embed::overlap::{Triangle, overlapping};
 use ricci::embed::{ChartOptions, Charts};
@@ -40,15 +41,19 @@ pub fn interior_cones(input: &Input, outcome: &Outcome) -> Option<Vec<(VertexId,
 /// Cut the layout of an outcome into charts, if it has one.
 pub fn cut(outcome: &mut Outcome, margin: f64, control: &Control) -> Result<(), Failure> {
     let Ok(laid) = &mut outcome.layout else { return Ok(()) };
-    let mesh = &laid.mesh;
-    let charts = ricci::embed::charts(mesh, |h| laid.layout.corner_uv(h), &ChartOptions { margin }, control)?;
-    let counts = |f: &FaceId| charts.degenerate.binary_search(f).is_err();
-    let triangles: Vec<Triangle> = mesh.faces().filter(counts).map(|f| charts.face_uv(mesh, f)).collect();
-    let overlapping = overlapping(&triangles, control)?.len();
-    laid.degenerate.extend(&charts.degenerate);
+    let packed = timed(&mut outcome.seconds.layout, || -> ricci::Result<Packed> {
+        let mesh = &laid.mesh;
+        let options = ChartOptions { margin };
+        let charts = ricci::embed::charts(mesh, |h| laid.layout.corner_uv(h), &options, control)?;
+        let counts = |f: &FaceId| charts.degenerate.binary_search(f).is_err();
+        let triangles: Vec<Triangle> =
+            mesh.faces().filter(counts).map(|f| charts.face_uv(mesh, f)).collect();
+        Ok(Packed { overlapping: overlapping(&triangles, control)?.len(), charts })
+    })?;
+    laid.degenerate.extend(&packed.charts.degenerate);
     laid.degenerate.sort_unstable();
     laid.degenerate.dedup();
-    laid.packed = Some(Packed { overlapping, charts });
+    laid.packed = Some(packed);
     Ok(())
 }
 

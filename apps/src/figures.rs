@@ -6,6 +6,7 @@ use crate::job::Outcome;
 use ricci::flow::Obstruction;
 use ricci::mesh::VertexId;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The figures of a flow. Those of the layout are null where there is none.
 #[derive(Serialize)]
@@ -62,6 +63,9 @@ pub struct FlowResult {
     seams: Option<Vec<SeamFigures>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     no_layout: Option<String>,
+    /// What was asked for and could not be done, by option, with the reason.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    failed: BTreeMap<&'static str, String>,
     residuals: Vec<f64>,
 }
 
@@ -146,6 +150,7 @@ impl FlowResult {
             modulus: laid.and_then(|l| l.modulus),
             seams: laid.map(|l| l.layout.seams.iter().map(seam).collect()),
             no_layout: layout.as_ref().err().cloned(),
+            failed: outcome.failed.clone(),
             residuals: report.residuals.clone(),
         }
     }
