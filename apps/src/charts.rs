@@ -46,8 +46,7 @@ pub fn cut(outcome: &mut Outcome, margin: f64, control: &Control) -> Result<(), 
         let options = ChartOptions { margin };
         let charts = ricci::embed::charts(mesh, |h| laid.layout.corner_uv(h), &options, control)?;
         let counts = |f: &FaceId| charts.degenerate.binary_search(f).is_err();
-        let triangles: Vec<Triangle> =
-            mesh.faces().filter(counts).map(|f| charts.face_uv(mesh, f)).collect();
+        let triangles: Vec<Triangle> = mesh.faces().filter(counts).map(|f| charts.face_uv(mesh, f)).collect();
         Ok(Packed { overlapping: overlapping(&triangles, control)?.len(), charts })
     })?;
     laid.degenerate.extend(&packed.charts.degenerate);

@@ -66,6 +66,8 @@ pub struct FlowResult {
     /// What was asked for and could not be done, by option, with the reason.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     failed: BTreeMap<&'static str, String>,
+    /// What the input's file holds and the one with the layout does not.
+    left_out: Vec<&'static str>,
     residuals: Vec<f64>,
 }
 
@@ -151,6 +153,7 @@ impl FlowResult {
             seams: laid.map(|l| l.layout.seams.iter().map(seam).collect()),
             no_layout: layout.as_ref().err().cloned(),
             failed: outcome.failed.clone(),
+            left_out: outcome.left_out.clone(),
             residuals: report.residuals.clone(),
         }
     }

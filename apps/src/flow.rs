@@ -1,5 +1,6 @@
 //! `ricci flow`.
 
+use crate::carry;
 use crate::charts;
 use crate::circles::circles;
 use crate::cli::{FlipsChoice, FlowArgs, MethodChoice, PinChoice, SchemeChoice, TargetChoice};
@@ -110,6 +111,9 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     if args.charts && args.circles.is_some() {
         return usage("--circles: circles belong to the layout as a whole; leave --charts or --circles out");
     }
+    if args.margin >= 1.0 {
+        return usage("--margin: a share of the unit square's side, in [0, 1)");
+    }
     if args.pin.is_some() && matches!(args.target, Some(TargetChoice::Auto(_))) {
         return usage("--target auto chooses every curvature, --pin leaves some free; leave one out");
     }
@@ -219,15 +223,16 @@ fn write(
     }
     control.check()?;
     if let (Some(path), Ok(laid)) = (&args.uv, &outcome.layout) {
-        let written = uv::write(&mut outputs, path, laid, args.homogeneous);
-        outcome.attempt("uv", written)?;
+        let written = uv::write(&mut outputs, path, input, laid, args.homogeneous);
+        if outcome.attempt("uv", written)?.is_some() {
+            outcome.left_out = carry::left_out(input);
+        }
     }
     control.check()?;
     let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
     if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
         let threads = args.common.threads();
-        let written =
-            outputs.add(path, |out| show::draw(out, path, input, outcome, &args.picture, threads));
+        let written = outputs.add(path, |out| show::draw(out, path, input, outcome, &args.picture, threads));
         outcome.attempt("picture", written)?;
     }
     if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {

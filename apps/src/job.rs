@@ -50,6 +50,8 @@ pub struct Outcome {
     pub layout: Result<Laid, String>,
     /// Wishes that the flow was no obstacle to but something else was, by option, with the reason.
     pub failed: BTreeMap<&'static str, String>,
+    /// What the input's file holds and the layout's file does not.
+    pub left_out: Vec<&'static str>,
     pub seconds: Seconds,
 }
 
@@ -101,6 +103,7 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
         report,
         layout,
         failed: BTreeMap::new(),
+        left_out: Vec::new(),
         seconds,
     })
 }
@@ -138,7 +141,11 @@ const MIRROR: f64 = 1e-8;
 impl Outcome {
     /// Go on where a wish could not be fulfilled, and remember it: what else was asked for is still delivered. Errors:
     /// [`Failure::Cancelled`] alone.
-    pub fn attempt<T>(&mut self, wish: &'static str, result: Result<T, Failure>) -> Result<Option<T>, Failure> {
+    pub fn attempt<T>(
+        &mut self,
+        wish: &'static str,
+        result: Result<T, Failure>,
+    ) -> Result<Option<T>, Failure> {
         match result {
             Ok(value) => Ok(Some(value)),
             Err(Failure::Cancelled) => Err(Failure::Cancelled),

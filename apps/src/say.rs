@@ -52,6 +52,9 @@ pub fn flow(done: &Done) {
         Ok(laid) => format!("layout   {}\n", layout(laid)),
         Err(why) => format!("layout   none: {why}\n"),
     };
+    for what in &outcome.left_out {
+        text += &format!("left out {what}\n");
+    }
     for (wish, why) in &outcome.failed {
         text += &format!("FAILED   --{wish}: {why}\n");
     }

@@ -84,7 +84,8 @@ fn charts_that_fail_take_no_output_with_them() {
     let place = Place::new();
     place.expect(0, "make genus -g 4 -n 8 -o four.obj");
     let line = "flow four.obj --space e2 --target single:0 --charts --margin 0.9";
-    let ended = place.expect(1, &format!("{line} --uv uv.obj --metric m.json --picture p.png --report r.json"));
+    let ended =
+        place.expect(1, &format!("{line} --uv uv.obj --metric m.json --picture p.png --report r.json"));
     assert!(ended.out.contains("FAILED   --charts: ") && ended.out.contains("margin"), "{}", ended.out);
     let report = place.json("r.json");
     assert_eq!(report["result"]["converged"], true);
