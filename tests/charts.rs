@@ -71,7 +71,7 @@ fn verify(mesh: &Mesh, uv: &impl Fn(HalfedgeId) -> [f64; 2], charts: &Charts) {
         assert_eq!(sides, [charts.flipped.binary_search(&f).is_err(); 2], "face {f}");
     }
     // Degenerate ones are lower than 3 roundings in the square or the layout, or no higher than 1e-11 of their length.
-    let size = mesh.halfedges().map(|h| uv(h)).flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    let size = mesh.halfedges().flat_map(uv).fold(0.0f64, |m, x| m.max(x.abs()));
     for &f in &charts.degenerate {
         let low = |t: Triangle, size: f64| {
             let longest = (0..3).map(|k| distance(t[k], t[(k + 1) % 3])).fold(0.0, f64::max);
@@ -315,6 +315,7 @@ fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> (Mes
         None,
         &[],
         &mut |_, _| {},
+        &Control::new(),
     )
     .unwrap();
     let mut solver =
@@ -323,7 +324,7 @@ fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> (Mes
     let (mesh, metric) = (solver.mesh().clone(), solver.metric().clone());
     let cones: Vec<_> =
         mesh.vertices().filter(|&v| target[v] != 0.0 && !mesh.is_boundary_vertex(v)).collect();
-    let cut = cut_graph(&mesh, &metric.lengths(&mesh).unwrap(), &cones).unwrap();
+    let cut = cut_graph(&mesh, &metric.lengths(&mesh).unwrap(), &cones, &Control::new()).unwrap();
     let layout = layout_of(&mesh, &metric, &cut, &Control::new()).unwrap();
     (mesh, layout)
 }
@@ -394,11 +395,20 @@ fn layouts_with_a_single_cone_come_apart_into_few_charts() {
         let (given, lengths) = surface(&soup);
         let target = Target::Single(VertexId(0)).values(&given, &lengths, Space::E2).unwrap();
         let (options, control) = (Options::default(), Control::new());
-        let mut flow =
-            SurfaceFlow::new(&given, &lengths, Space::E2, Scheme::Yamabe, Space::E2, &[], &options).unwrap();
+        let mut flow = SurfaceFlow::new(
+            &given,
+            &lengths,
+            Space::E2,
+            Scheme::Yamabe,
+            Space::E2,
+            &[],
+            &options,
+            &Control::new(),
+        )
+        .unwrap();
         assert!(flow.solve(&target, &control).unwrap().converged);
         let r = flow.refinement(&control).unwrap();
-        let cut = refined_cut(&r, flow.mesh(), flow.metric(), &[VertexId(0)]).unwrap();
+        let cut = refined_cut(&r, flow.mesh(), flow.metric(), &[VertexId(0)], &Control::new()).unwrap();
         let layout = layout_refined(&r, flow.mesh(), flow.metric(), &cut, &control).unwrap().layout;
         let start = Instant::now();
         let result = charts(&r.mesh, |h| layout.corner_uv(h), &ChartOptions::default(), &control).unwrap();

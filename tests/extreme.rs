@@ -28,7 +28,8 @@ fn flow(
 ) -> Result<Report, Error> {
     let what = format!("{what}, {space} {scheme}");
     check_admissible(mesh, space, scheme, target).unwrap();
-    let mut flow = SurfaceFlow::new(mesh, lengths, geometry, scheme, space, &[], &Options::default())?;
+    let mut flow =
+        SurfaceFlow::new(mesh, lengths, geometry, scheme, space, &[], &Options::default(), &Control::new())?;
     let report = flow.solve(target, &Control::new()).unwrap();
     let reached = honest(&flow, &report, target, &what);
     println!(
@@ -128,7 +129,16 @@ fn a_sphere_a_million_times_as_long_as_wide() {
         flow(&stretched, Space::E2, kind, &balanced(&stretched.0, &ends), "cones at the ends").unwrap();
         let target = balanced(&stretched.0, &middle);
         let (mesh, lengths) = &stretched;
-        let made = SurfaceFlow::new(mesh, lengths, Space::E2, scheme, Space::E2, &[], &Options::default());
+        let made = SurfaceFlow::new(
+            mesh,
+            lengths,
+            Space::E2,
+            scheme,
+            Space::E2,
+            &[],
+            &Options::default(),
+            &Control::new(),
+        );
         let mut flow = made.unwrap();
         let report = flow.solve(&target, &Control::new()).unwrap();
         println!("cones in the middle, {scheme}: {} after {}", report.stop_reason, report.iterations);
@@ -279,7 +289,8 @@ fn what_cannot_be_is_refused_by_name() {
     for scheme in SCHEMES {
         let start = |space| {
             let options = Options { max_iterations: 60, ..Options::default() };
-            SurfaceFlow::new(&sphere.0, &sphere.1, Space::E2, scheme, space, &[], &options).unwrap()
+            SurfaceFlow::new(&sphere.0, &sphere.1, Space::E2, scheme, space, &[], &options, &Control::new())
+                .unwrap()
         };
         for (space, target) in [
             (Space::E2, at(3, 2.5 * PI)),
@@ -310,6 +321,7 @@ fn what_cannot_be_is_refused_by_name() {
             Space::E2,
             &[],
             &Options::default(),
+            &Control::new(),
         );
         let Err(error) = made else { panic!("edge {edge} of length {length} passed") };
         println!("refused: {error}");

@@ -66,7 +66,7 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     let mut start = 0.0;
     let mut flow = timed(&mut start, || {
         let Input { mesh, lengths, geometry, .. } = input;
-        SurfaceFlow::new(mesh, lengths, *geometry, job.scheme, space, &job.pinned, &job.options)
+        SurfaceFlow::new(mesh, lengths, *geometry, job.scheme, space, &job.pinned, &job.options, control)
     })?;
     let report = flow.solve(&target, control)?;
     let (mesh, metric) = (flow.mesh().clone(), flow.metric().clone());

@@ -102,7 +102,7 @@ fn plain(
     control: &Control,
 ) -> ricci::Result<Laid> {
     let (mesh, metric) = (flow.mesh(), flow.metric());
-    let cut = cut_graph(mesh, &metric.lengths(mesh)?, cones)?;
+    let cut = cut_graph(mesh, &metric.lengths(mesh)?, cones, control)?;
     control.step(Stage::Layout, 0.3)?;
     let mut layout = layout_of(mesh, metric, &cut, control)?;
     let scale = layout.scale_to_area(mesh, area)?;
@@ -134,7 +134,7 @@ fn refined(
     control: &Control,
 ) -> ricci::Result<Laid> {
     let (mesh, metric) = (flow.mesh(), flow.metric());
-    let cut = refined_cut(&refinement, mesh, metric, cones)?;
+    let cut = refined_cut(&refinement, mesh, metric, cones, control)?;
     control.step(Stage::Layout, 0.3)?;
     let mut refined = layout_refined(&refinement, mesh, metric, &cut, control)?;
     let scale = refined.scale_to_area(&refinement, area)?;

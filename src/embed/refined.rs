@@ -35,11 +35,18 @@ pub struct RefinedLayout {
 /// of the final metric (E²) on the final triangulation `mesh`.
 ///
 /// Errors: those of [`cut_graph`] and [`Metric::lengths`]; [`Error::Layout`] in another space.
-pub fn refined_cut(r: &Refinement, mesh: &Mesh, metric: &Metric, cones: &[VertexId]) -> Result<CutGraph> {
+pub fn refined_cut(
+    r: &Refinement,
+    mesh: &Mesh,
+    metric: &Metric,
+    cones: &[VertexId],
+    control: &Control,
+) -> Result<CutGraph> {
+    control.check()?;
     let mut lengths = Faces::new(mesh, metric)?.refined_lengths(r);
     let least = SHORTEST * lengths.iter().copied().fold(0.0, f64::max);
     lengths.iter_mut().for_each(|l| *l = l.max(least));
-    cut_graph(&r.mesh, &lengths, cones)
+    cut_graph(&r.mesh, &lengths, cones, control)
 }
 
 /// Lay a refinement out with its final metric (E²) on the final triangulation `mesh`, O(E log E).

@@ -36,7 +36,7 @@ impl SurfaceFlow {
     /// `scheme` to metrics in `space`; `pinned` vertices hold their u.
     ///
     /// Errors: those of [`SurfaceMetric::new`], [`SurfaceMetric::delaunay`] and [`Solver::new`]; a pinned
-    /// vertex that does not exist.
+    /// vertex that does not exist; [`Error::Cancelled`].
     pub fn new(
         given: &Mesh,
         lengths: &PerEdge<f64>,
@@ -45,9 +45,10 @@ impl SurfaceFlow {
         space: Space,
         pinned: &[VertexId],
         options: &Options,
+        control: &Control,
     ) -> Result<SurfaceFlow> {
         let (given, lengths) = (Arc::new(given.clone()), Arc::new(lengths.clone()));
-        SurfaceFlow::begin(given, lengths, (geometry, scheme, space), pinned, options)
+        SurfaceFlow::begin(given, lengths, (geometry, scheme, space), pinned, options, control)
     }
 
     fn begin(
@@ -56,14 +57,17 @@ impl SurfaceFlow {
         (geometry, scheme, space): (Space, Scheme, Space),
         pinned: &[VertexId],
         options: &Options,
+        control: &Control,
     ) -> Result<SurfaceFlow> {
+        control.check()?;
         let from = match is_rigid(geometry, scheme, space, options) {
             true => SurfaceMetric::new(given, lengths, geometry, scheme, space)?,
             false => {
                 let doubled = !given.is_closed() && pinned.is_empty();
                 let fixed = &options.fixed_edges;
-                let start =
-                    || SurfaceMetric::delaunay(given, lengths, geometry, scheme, space, doubled, fixed);
+                let start = || {
+                    SurfaceMetric::delaunay(given, lengths, geometry, scheme, space, doubled, fixed, control)
+                };
                 Pool::new(options.threads)?.run(start)?
             }
         };
@@ -75,7 +79,13 @@ impl SurfaceFlow {
     /// If edges are to be flipped, and have not been, or with other `fixed_edges`, or other than
     /// [`SurfaceFlow::new`] does on the double or not, the flow is a new one, which starts from the given
     /// lengths. Errors: those of [`SurfaceFlow::new`].
-    pub fn resume(from: &SurfaceMetric, pinned: &[VertexId], options: &Options) -> Result<SurfaceFlow> {
+    pub fn resume(
+        from: &SurfaceMetric,
+        pinned: &[VertexId],
+        options: &Options,
+        control: &Control,
+    ) -> Result<SurfaceFlow> {
+        control.check()?;
         let (initial, given) = (from.initial(), from.given());
         let (geometry, scheme, space) = (initial.input_geometry, from.scheme(), initial.metric.space);
         let doubled = !given.is_closed() && pinned.is_empty();
@@ -84,7 +94,7 @@ impl SurfaceFlow {
             return SurfaceFlow::go_on(from.clone(), pinned, options);
         }
         let lengths = from.given_lengths().clone();
-        SurfaceFlow::begin(given.clone(), lengths, (geometry, scheme, space), pinned, options)
+        SurfaceFlow::begin(given.clone(), lengths, (geometry, scheme, space), pinned, options, control)
     }
 
     fn go_on(from: SurfaceMetric, pinned: &[VertexId], options: &Options) -> Result<SurfaceFlow> {
@@ -121,7 +131,7 @@ impl SurfaceFlow {
     ///
     /// A surface with boundary whose edges flip is on its double if no vertex is pinned: going there and leaving
     /// it the flow begins anew, as in [`SurfaceFlow::resume`]. Errors: those of [`SurfaceFlow::new`].
-    pub fn pin(&mut self, pinned: &[VertexId]) -> Result<()> {
+    pub fn pin(&mut self, pinned: &[VertexId], control: &Control) -> Result<()> {
         let given = &self.start.given;
         let initial = &self.start.initial;
         let rigid = is_rigid(initial.input_geometry, self.start.scheme, initial.metric.space, &self.options);
@@ -129,7 +139,7 @@ impl SurfaceFlow {
         if rigid || self.start.double.is_some() == doubled {
             return self.hold(pinned);
         }
-        *self = SurfaceFlow::resume(&self.now(), pinned, &self.options)?;
+        *self = SurfaceFlow::resume(&self.now(), pinned, &self.options, control)?;
         Ok(())
     }
 

@@ -5,6 +5,7 @@
 //! weighted Delaunay. Only edges around what has changed are looked at.
 
 use super::lengths::Metric;
+use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::Vertex;
 use crate::geometry::flip::{Hinge, diagonal, weight};
@@ -17,6 +18,9 @@ use std::f64::consts::PI;
 
 /// Flips per edge before a flip sequence is given up: real surfaces need less than one, and rounding could make one go in circles.
 const MOST_FLIPS: usize = 1000;
+
+/// Edges looked at between two looks at the control.
+const EDGES_PER_STEP: usize = 4096;
 
 /// Edges that may fail the Delaunay condition, first come first served.
 #[derive(Debug, Clone)]
@@ -66,24 +70,30 @@ impl Queue {
     }
 
     /// Flip edges until the queue is empty. `decide` gives an edge's value after its flip, or `None` where it stays; `record` is
-    /// told each flip. Edges with a face on one side only, or the same on both, stay. Returns the flips, or `None` if they do not
-    /// end.
+    /// told each flip. Edges with a face on one side only, or the same on both, stay. Returns the flips. Errors: flips that do not end;
+    /// [`Error::Cancelled`], some flips being done.
     fn run<T>(
         &mut self,
         mesh: &mut Mesh,
         values: &mut PerEdge<T>,
         mut decide: impl FnMut(&Mesh, &PerEdge<T>, HalfedgeId) -> Option<T>,
         record: &mut dyn FnMut(&Mesh, EdgeId),
-    ) -> Option<usize> {
+        control: &Control,
+    ) -> Result<usize> {
         let (mut flips, most) = (0, MOST_FLIPS * mesh.n_edges());
+        let mut looked_at = 0;
         while let Some(e) = self.pop() {
+            if usize::is_multiple_of(looked_at, EDGES_PER_STEP) {
+                control.check()?;
+            }
+            looked_at += 1;
             let h = e.halfedge();
             if !between(mesh, h) {
                 continue;
             }
             let Some(value) = decide(mesh, values, h) else { continue };
             if flips == most {
-                return None;
+                return Err(endless());
             }
             record(mesh, e);
             let sides = mesh.quadrilateral(h);
@@ -92,7 +102,7 @@ impl Queue {
             flips += 1;
             sides.into_iter().for_each(|side| self.push(side.edge()));
         }
-        Some(flips)
+        Ok(flips)
     }
 }
 
@@ -122,13 +132,15 @@ fn hinge(
 /// Flip inside the conformal class, from the edges of `queue` on, until every edge is weighted Delaunay at variables `u`
 /// or cannot be flipped (E², H²). η changes on the edges flipped; `record` is told each edge just before its flip.
 ///
-/// Returns the number of flips. Errors: [`Error::Connectivity`] if the flips do not end, which rounding alone could cause.
+/// Returns the number of flips. Errors: [`Error::Connectivity`] if the flips do not end, which rounding alone could cause;
+/// [`Error::Cancelled`]. Some flips are done then.
 pub fn restore_delaunay(
     mesh: &mut Mesh,
     metric: &mut Metric,
     u: &PerVertex<f64>,
     queue: &mut Queue,
     record: &mut dyn FnMut(&Mesh, EdgeId),
+    control: &Control,
 ) -> Result<usize> {
     let w = weights(metric, u);
     let epsilon = &metric.epsilon;
@@ -141,14 +153,15 @@ pub fn restore_delaunay(
         let scale = w[k] * w[l];
         hinge.flipped().map(|product| product / scale).filter(|eta| eta.is_finite())
     };
-    queue.run(mesh, &mut metric.eta, decide, record).ok_or_else(endless)
+    queue.run(mesh, &mut metric.eta, decide, record, control)
 }
 
 /// Isometric flips until the triangulation is the intrinsic Delaunay one of the surface (weighted by circles of these `radii`
 /// around its vertices, 0 for none; `lengths` in `geometry`): it depends on the surface and the circles alone, up to ties.
 ///
 /// `fixed` edges stay (indices of the mesh). Returns the number of flips. Errors: sizes; a length out of range, a face that breaks the triangle inequality;
-/// [`Error::Connectivity`] if the flips do not end.
+/// [`Error::Connectivity`] if the flips do not end; [`Error::Cancelled`]. Mesh and lengths are then as they were, whatever `record`
+/// was told.
 pub fn intrinsic_delaunay(
     mesh: &mut Mesh,
     lengths: &mut PerEdge<f64>,
@@ -156,7 +169,9 @@ pub fn intrinsic_delaunay(
     geometry: Space,
     fixed: &[EdgeId],
     record: &mut dyn FnMut(&Mesh, EdgeId),
+    control: &Control,
 ) -> Result<usize> {
+    control.check()?;
     check_lengths(mesh, lengths)?;
     if let Some(radii) = radii {
         check_size("radii", radii.len(), mesh.n_vertices())?;
@@ -182,7 +197,12 @@ pub fn intrinsic_delaunay(
         (length > 0.0 && length.is_finite()).then_some(length)
     };
     let mut queue = Queue::where_holds(mesh, fixed, |h| fails(mesh, lengths, h));
-    queue.run(mesh, lengths, decide, record).ok_or_else(endless)
+    let before = (mesh.clone(), lengths.clone());
+    let flips = queue.run(mesh, lengths, decide, record, control);
+    if flips.is_err() {
+        (*mesh, *lengths) = before;
+    }
+    flips
 }
 
 /// Sides of the faces left and right of h, in the order opposite, next, previous of the corner at the origin of h, of its twin.

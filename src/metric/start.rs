@@ -3,6 +3,7 @@
 use super::delaunay::intrinsic_delaunay;
 use super::initial::{Initial, initial_metric, initial_mixed};
 use super::scheme::Scheme;
+use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::Space;
 use crate::mesh::{Double, EdgeId, Mesh, PerEdge, PerVertex};
@@ -19,7 +20,8 @@ const APART: f64 = 0.5;
 /// vertices of a `double`, then the weighted Delaunay
 /// triangulation of those circles. Thurston's and tangential packings, which are Delaunay on any triangulation, stay on the given one.
 ///
-/// `fixed` edges are not flipped; `record` is told each edge just before its flip. Errors: those of [`initial_metric`] and [`intrinsic_delaunay`].
+/// `fixed` edges are not flipped; `record` is told each edge just before its flip. Errors: those of [`initial_metric`] and [`intrinsic_delaunay`],
+/// with the surface as it was, maybe on another triangulation.
 pub fn delaunay_start(
     mesh: &mut Mesh,
     lengths: &mut PerEdge<f64>,
@@ -29,11 +31,12 @@ pub fn delaunay_start(
     double: Option<&Double>,
     fixed: &[EdgeId],
     record: &mut dyn FnMut(&Mesh, EdgeId),
+    control: &Control,
 ) -> Result<Initial> {
     if matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
         return initial_metric(mesh, lengths, input_geometry, scheme, space);
     }
-    intrinsic_delaunay(mesh, lengths, None, input_geometry, fixed, record)?;
+    intrinsic_delaunay(mesh, lengths, None, input_geometry, fixed, record, control)?;
     let initial = initial_metric(mesh, lengths, input_geometry, scheme, space)?;
     if scheme != Scheme::Inversive {
         return Ok(initial);
@@ -43,7 +46,7 @@ pub fn delaunay_start(
     if let Some(double) = double {
         radii = PerVertex::from_fn(radii.len(), |v| radii[v].min(radii[double.mirror(v)]));
     }
-    intrinsic_delaunay(mesh, lengths, Some(&radii), input_geometry, fixed, record)?;
+    intrinsic_delaunay(mesh, lengths, Some(&radii), input_geometry, fixed, record, control)?;
     let epsilon = PerVertex::filled(mesh.n_vertices(), scheme.epsilon());
     initial_mixed(mesh, lengths, input_geometry, epsilon, radii, space)
 }

@@ -97,6 +97,7 @@ impl SurfaceMetric {
         space: Space,
         doubled: bool,
         fixed: &[EdgeId],
+        control: &Control,
     ) -> Result<SurfaceMetric> {
         check_fixed(&given, fixed)?;
         let double = if doubled { Some(Double::new(&given)?) } else { None };
@@ -119,6 +120,7 @@ impl SurfaceMetric {
             double.as_ref(),
             &all_fixed,
             &mut record,
+            control,
         )?;
         let metric = initial.metric.clone();
         let start = Start { given, lengths, scheme, double, initial, flips, fixed: ascending(fixed) };

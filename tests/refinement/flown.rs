@@ -35,8 +35,18 @@ pub fn flow(
         flips += 1;
         normal.record(mesh, e);
     };
-    let start =
-        delaunay_start(&mut mesh, &mut lengths, Space::E2, scheme, space, double, &[], &mut record).unwrap();
+    let start = delaunay_start(
+        &mut mesh,
+        &mut lengths,
+        Space::E2,
+        scheme,
+        space,
+        double,
+        &[],
+        &mut record,
+        &Control::new(),
+    )
+    .unwrap();
     let mut metric = start.metric;
     let options = Options { flips: Flips::Auto, ..Options::default() };
     let mut solver = Solver::new(mesh.clone(), metric.clone(), options).unwrap();
@@ -50,7 +60,7 @@ pub fn flow(
         let u = PerVertex::from_fn(from.len(), |v: VertexId| (1.0 - s) * from[v] + s * to[v]);
         let mut queue = Queue::new(mesh.n_edges(), &[]);
         failing(&mesh, &metric, &u).into_iter().for_each(|e| queue.push(e));
-        restore_delaunay(&mut mesh, &mut metric, &u, &mut queue, &mut record).unwrap();
+        restore_delaunay(&mut mesh, &mut metric, &u, &mut queue, &mut record, &Control::new()).unwrap();
         metric.u = u;
     }
     Some(Flown { mesh, metric, input_u: start.input_u, normal, flips })
