@@ -1,5 +1,5 @@
 //! Cancelling: every stage between a surface and its charts ends soon, with an error, and leaves its input as it was.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
 
