@@ -49,6 +49,7 @@ fn measured(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> f64
         None,
         &[],
         &mut |_, _| {},
+        &Control::new(),
     )
     .unwrap();
     let options = Options { flips: Flips::Auto, ..Options::default() };
@@ -223,6 +224,7 @@ fn the_triangulation_does_not_matter() {
         Space::E2,
         &[],
         &mut |_, _| flips += 1,
+        &Control::new(),
     )
     .unwrap();
     assert!(flips > 0);

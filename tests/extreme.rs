@@ -29,7 +29,8 @@ fn flow(
 ) -> Result<Report, Error> {
     let what = format!("{what}, {space} {scheme}");
     check_admissible(mesh, space, scheme, target).unwrap();
-    let mut flow = SurfaceFlow::new(mesh, lengths, geometry, scheme, space, &[], &Options::default())?;
+    let mut flow =
+        SurfaceFlow::new(mesh, lengths, geometry, scheme, space, &[], &Options::default(), &Control::new())?;
     let report = flow.solve(target, &Control::new()).unwrap();
     let reached = honest(&flow, &report, target, &what);
     println!(
@@ -129,7 +130,16 @@ fn a_sphere_a_million_times_as_long_as_wide() {
         flow(&stretched, Space::E2, kind, &balanced(&stretched.0, &ends), "cones at the ends").unwrap();
         let target = balanced(&stretched.0, &middle);
         let (mesh, lengths) = &stretched;
-        let made = SurfaceFlow::new(mesh, lengths, Space::E2, scheme, Space::E2, &[], &Options::default());
+        let made = SurfaceFlow::new(
+            mesh,
+            lengths,
+            Space::E2,
+            scheme,
+            Space::E2,
+            &[],
+            &Options::default(),
+            &Control::new(),
+        );
         let mut flow = made.unwrap();
         let report = flow.solve(&target, &Control::new()).unwrap();
         println!("cones in the middle, {scheme}: {} after {}", report.stop_reason, report.iterations);
@@ -280,7 +290,8 @@ fn what_cannot_be_is_refused_by_name() {
     for scheme in SCHEMES {
         let start = |space| {
             let options = Options { max_iterations: 60, ..Options::default() };
-            SurfaceFlow::new(&sphere.0, &sphere.1, Space::E2, scheme, space, &[], &options).unwrap()
+            SurfaceFlow::new(&sphere.0, &sphere.1, Space::E2, scheme, space, &[], &options, &Control::new())
+                .unwrap()
         };
         for (space, target) in [
             (Space::E2, at(3, 2.5 * PI)),
@@ -311,6 +322,7 @@ fn what_cannot_be_is_refused_by_name() {
             Space::E2,
             &[],
             &Options::default(),
+            &Control::new(),
         );
         let Err(error) = made else { panic!("edge {edge} of length {length} passed") };
         println!("refused: {error}");
@@ -326,8 +338,16 @@ fn sheared_tori_are_unwound() {
     for k in [10.0f64, 1e3, 5e3] {
         let torus = shapes::flat_torus([k + tau[0], tau[1]], 1, 1).unwrap();
         let (mut mesh, mut lengths) = torus.build().unwrap();
-        let flips =
-            intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| ()).unwrap();
+        let flips = intrinsic_delaunay(
+            &mut mesh,
+            &mut lengths,
+            None,
+            Space::E2,
+            &[],
+            &mut |_, _| (),
+            &Control::new(),
+        )
+        .unwrap();
         let mut found = [0, 1, 2].map(|e| lengths[EdgeId(e)]);
         found.sort_by(f64::total_cmp);
         let worst = (0..3).map(|i| (found[i] - reduced[i]).abs()).fold(0.0, f64::max);

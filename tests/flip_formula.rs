@@ -9,7 +9,7 @@ use ricci::geometry::Space;
 use ricci::geometry::flip::{Hinge, diagonal};
 
 /// Circles with centre and ε r², the power of a point p is |p − c|² − ε r².
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Weighted {
     centre: [f64; 2],
     epsilon: f64,
@@ -114,29 +114,61 @@ fn a_flip_keeps_the_plane_where_the_four_circles_have_a_common_orthogonal_one() 
             seen[usize::from(power < 0.0)] += 1;
         }
     }
-    // Real common circles; imaginary ones need circles that overlap deeply, next test.
-    assert!(seen[0] > 3000, "{seen:?}");
+    // Imaginary ones have no flip to compare: see below.
+    assert!(seen[0] > 3000 && seen[1] == 0, "{seen:?}");
+}
+
+// An imaginary circle orthogonal to others, |c − x|² − ε r² = −d² < 0 for each of them: then ε r² = |c − x|² + d² > 0, all are
+// real circles, and η_ij = −((c_i − x)·(c_j − x) + d²)/(r_i r_j), the cosine between two vectors (c − x, d) of space, has |η_ij| < 1:
+// D = η² − 1 < 0. (The complement of a time-like vector of Lorentz space is Euclidean.) So no edge with such a circle on either
+// side can be flipped, and the common circle of a flip is real, of whatever types the vertices are.
+
+#[test]
+fn circles_with_an_imaginary_orthogonal_one_cross_and_are_never_flipped() {
+    let mut random = Draw(Random::new(7));
+    for round in 0..10_000 {
+        let mut q = random.quadrilateral([1.0; 4]);
+        let x = [random.between(-3.0, 3.0), random.between(-3.0, 3.0)];
+        let depth = random.between(-6.0, 2.0).exp();
+        // Of all four circles, or of one triangle alone and the fourth of any type.
+        let common = round % 2 == 0;
+        for c in &mut q[..if common { 4 } else { 3 }] {
+            c.r = (squared(c.centre, x) + depth * depth).sqrt();
+        }
+        if !common {
+            q[3] =
+                Weighted { epsilon: [-1.0, 0.0, 1.0][round % 3], r: random.between(-3.0, 1.0).exp(), ..q[3] };
+        }
+        let (centre, power) = orthogonal([q[0], q[1], q[2]]);
+        assert!(squared(centre, x) < 1e-12 && (power + depth * depth).abs() < 1e-9, "{centre:?} {power}");
+        assert!([eta(q[0], q[1]), eta(q[0], q[2]), eta(q[1], q[2])].iter().all(|eta| eta.abs() < 1.0));
+        let hinge = hinge(q);
+        assert!(hinge.flipped().is_none() && hinge.meeting().is_none() && !hinge.wants_flip());
+    }
 }
 
 #[test]
-fn a_flip_keeps_the_plane_also_where_the_common_circle_is_imaginary() {
-    // Large circles around one point: those orthogonal to all of them have negative power there.
-    let mut random = Draw(Random::new(7));
-    let mut seen = 0;
-    for _ in 0..10_000 {
-        let mut q = random.quadrilateral([1.0; 4]);
-        let (x, depth) = ([random.between(0.3, 0.7), random.between(-0.1, 0.1)], random.between(0.05, 0.5));
+fn an_edge_that_can_be_flipped_has_a_real_orthogonal_circle_on_both_sides() {
+    let mut random = Draw(Random::new(12));
+    // Flippable edges by the number of ε = −1, 0, 1 among their vertices; imaginary circles by whether the edge can be flipped.
+    let (mut types, mut imaginary) = ([0; 3], 0);
+    for _ in 0..40_000 {
+        let mut q = random.quadrilateral([0.0; 4]);
         for c in &mut q {
-            // |c − x|² − r² = −depth².
-            c.r = (squared(c.centre, x) + depth * depth).sqrt();
+            let epsilon = [-1.0, 0.0, 1.0, 1.0, 1.0, 1.0][(random.0.unit() * 6.0) as usize];
+            *c = Weighted { epsilon, r: random.between(-3.0, 0.5).exp(), ..*c };
         }
-        let Some(kl) = hinge(q).flipped() else { continue };
-        let (k, l) = (q[2], q[3]);
-        let known = 0.5 * (squared(k.centre, l.centre) - k.r * k.r - l.r * l.r);
-        assert!((kl - known).abs() < 1e-9, "{kl} {known}");
-        seen += 1;
+        let [i, j, k, l] = q;
+        let powers = [orthogonal([i, j, k]).1, orthogonal([i, j, l]).1];
+        if hinge(q).flipped().is_some() {
+            assert!(powers.iter().all(|&p| p > -1e-12), "{q:?}: {powers:?}");
+            q.iter().for_each(|c| types[(c.epsilon + 1.0) as usize] += 1);
+        } else {
+            imaginary += usize::from(powers.iter().any(|&p| p < -1e-6));
+        }
     }
-    println!("{seen} flips with an imaginary common circle");
+    println!("{types:?} vertices of flippable edges, {imaginary} edges with an imaginary circle");
+    assert!(types.iter().all(|&n| n > 1000) && imaginary > 1000, "{types:?} {imaginary}");
 }
 
 #[test]

@@ -24,7 +24,17 @@ fn solve(
     target: &PerVertex<f64>,
     double: Option<&Double>,
 ) -> (Solver, Report) {
-    let start = delaunay_start(&mut mesh, &mut lengths, geometry, scheme, space, double, &[], &mut |_, _| {});
+    let start = delaunay_start(
+        &mut mesh,
+        &mut lengths,
+        geometry,
+        scheme,
+        space,
+        double,
+        &[],
+        &mut |_, _| {},
+        &Control::new(),
+    );
     let start = start.unwrap().metric;
     let mut solver = Solver::new(mesh, start, Options::default()).unwrap();
     if let Some(double) = double {
@@ -144,15 +154,24 @@ fn rounding_that_differs_between_mirror_images_does_not_hold_the_error() {
 fn intrinsic_delaunay_keeps_the_surface() {
     for (name, mut mesh, mut lengths) in corpus() {
         let before = curvature(&mesh, Space::E2, &lengths).unwrap();
-        intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| {}).unwrap();
+        intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| {}, &Control::new())
+            .unwrap();
         let after = curvature(&mesh, Space::E2, &lengths).unwrap();
         assert!(after.broken.is_empty(), "{name}");
         assert!((after.area / before.area - 1.0).abs() < 1e-9, "{name}: {} {}", before.area, after.area);
         let worst = mesh.vertices().map(|v| (before.at[v] - after.at[v]).abs()).fold(0.0, f64::max);
         // Needles of the input leave their rounding.
         assert!(worst < 1e-5, "{name}: {worst}");
-        let again =
-            intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| {}).unwrap();
+        let again = intrinsic_delaunay(
+            &mut mesh,
+            &mut lengths,
+            None,
+            Space::E2,
+            &[],
+            &mut |_, _| {},
+            &Control::new(),
+        )
+        .unwrap();
         assert_eq!(again, 0, "{name}");
     }
 }

@@ -88,7 +88,8 @@ fn the_flow_goes_on_in_the_double_where_the_boundary_gives_way() {
             assert!(worst < 1e-8, "{scheme}: {worst:e}");
             // Both go on to the next target, and a flow from either metric ends where they do.
             reach(&mut flow, &first, "round again");
-            let mut resumed = SurfaceFlow::resume(&before, &[], &Options::default()).unwrap();
+            let mut resumed =
+                SurfaceFlow::resume(&before, &[], &Options::default(), &Control::new()).unwrap();
             reach(&mut resumed, &first, "resumed");
             assert!(distance(&factor(&flow, n), &factor(&resumed, n)) < 1e-8, "{scheme}");
         }

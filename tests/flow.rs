@@ -87,7 +87,7 @@ fn spherical_flow_rounds_an_ellipsoid_by_newton_and_by_gradient() {
 
 /// Modulus of the flat metric on a torus, from the holonomy of two homology generators.
 fn modulus_of(mesh: &Mesh, lengths: &PerEdge<f64>) -> [f64; 2] {
-    let cut = cut_graph(mesh, lengths, &[]).unwrap();
+    let cut = cut_graph(mesh, lengths, &[], &Control::new()).unwrap();
     let laid = layout(mesh, lengths, &cut, &Control::new()).unwrap();
     assert!(laid.flipped.is_empty() && laid.consistency < 1e-9);
     assert!(laid.seams.iter().all(|s| s.rotation.abs() < 1e-8 && s.residual < 1e-9), "{:?}", laid.seams);

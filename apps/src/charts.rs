@@ -4,19 +4,21 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
+use crate::report::timed;
 use ricci::Control;
 use ricci::embed::overlap::{Triangle, overlapping};
 use ricci::embed::{ChartOptions, Charts};
 use ricci::flow::auto_cones;
 use ricci::geometry::Space;
-use ricci::mesh::{HalfedgeId, Mesh, PerHalfedge, VertexId};
+use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, VertexId};
 use ricci::metric::Target;
 use std::collections::BTreeMap;
 
 /// The charts of a layout, packed.
 pub struct Packed {
     pub charts: Charts,
-    /// Faces that overlap another one in the unit square, looked for anew in what is written.
+    /// Faces that overlap another one in the unit square, looked for anew in what is written; those that are degenerate there are
+    /// left out.
     pub overlapping: usize,
 }
 
@@ -39,10 +41,18 @@ pub fn interior_cones(input: &Input, outcome: &Outcome) -> Option<Vec<(VertexId,
 /// Cut the layout of an outcome into charts, if it has one.
 pub fn cut(outcome: &mut Outcome, margin: f64, control: &Control) -> Result<(), Failure> {
     let Ok(laid) = &mut outcome.layout else { return Ok(()) };
-    let mesh = &laid.mesh;
-    let charts = ricci::embed::charts(mesh, |h| laid.layout.corner_uv(h), &ChartOptions { margin }, control)?;
-    let triangles: Vec<Triangle> = mesh.faces().map(|f| charts.face_uv(mesh, f)).collect();
-    laid.packed = Some(Packed { overlapping: overlapping(&triangles).len(), charts });
+    let packed = timed(&mut outcome.seconds.layout, || -> ricci::Result<Packed> {
+        let mesh = &laid.mesh;
+        let options = ChartOptions { margin };
+        let charts = ricci::embed::charts(mesh, |h| laid.layout.corner_uv(h), &options, control)?;
+        let counts = |f: &FaceId| charts.degenerate.binary_search(f).is_err();
+        let triangles: Vec<Triangle> = mesh.faces().filter(counts).map(|f| charts.face_uv(mesh, f)).collect();
+        Ok(Packed { overlapping: overlapping(&triangles, control)?.len(), charts })
+    })?;
+    laid.degenerate.extend(&packed.charts.degenerate);
+    laid.degenerate.sort_unstable();
+    laid.degenerate.dedup();
+    laid.packed = Some(packed);
     Ok(())
 }
 

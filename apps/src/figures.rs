@@ -6,6 +6,7 @@ use crate::job::Outcome;
 use ricci::flow::Obstruction;
 use ricci::mesh::VertexId;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The figures of a flow. Those of the layout are null where there is none.
 #[derive(Serialize)]
@@ -45,7 +46,8 @@ pub struct FlowResult {
     qc_max: Option<f64>,
     area_ratio_min: Option<f64>,
     area_ratio_max: Option<f64>,
-    /// Faces without area in the input or the layout; the qc figures leave them out.
+    /// Faces without area in the input or the layout; the qc figures leave them out. With charts also those that are smaller than
+    /// the coordinates of the unit square resolve, which the check for overlaps leaves out.
     degenerate_pieces: Option<usize>,
     /// Vertices of the common refinement that are none of the input's; null where the layout is of the given triangulation.
     crossings: Option<usize>,
@@ -63,6 +65,11 @@ pub struct FlowResult {
     seams: Option<Vec<SeamFigures>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     no_layout: Option<String>,
+    /// What was asked for and could not be done, by option, with the reason.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    failed: BTreeMap<&'static str, String>,
+    /// What the input's file holds and the one with the layout does not.
+    left_out: Vec<&'static str>,
     residuals: Vec<f64>,
 }
 
@@ -140,7 +147,7 @@ impl FlowResult {
             qc_max: laid.map(|l| l.quality.qc_max),
             area_ratio_min: laid.map(|l| l.quality.area_ratio_min),
             area_ratio_max: laid.map(|l| l.quality.area_ratio_max),
-            degenerate_pieces: laid.map(|l| l.degenerate),
+            degenerate_pieces: laid.map(|l| l.degenerate.len()),
             crossings: laid.and_then(|l| l.refinement.as_ref()).map(|r| r.crossings.len()),
             charts: packed.map(|p| p.charts.count()),
             packing: packed.map(|p| p.charts.efficiency),
@@ -148,6 +155,8 @@ impl FlowResult {
             modulus: laid.and_then(|l| l.modulus),
             seams: laid.map(|l| l.layout.seams.iter().map(seam).collect()),
             no_layout: layout.as_ref().err().cloned(),
+            failed: outcome.failed.clone(),
+            left_out: outcome.left_out.clone(),
             residuals: report.residuals.clone(),
         }
     }

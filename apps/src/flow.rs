@@ -1,5 +1,6 @@
 //! `ricci flow`.
 
+use crate::carry;
 use crate::charts;
 use crate::circles::circles;
 use crate::cli::{FlipsChoice, FlowArgs, MethodChoice, PinChoice, SchemeChoice, TargetChoice};
@@ -12,7 +13,7 @@ use crate::metric_file::MetricFile;
 use crate::output::{Outputs, check_extension, check_writable, extension};
 use crate::picture::{ColorChoice, FlowPictureArgs};
 use crate::progress::Progress;
-use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes, timed};
+use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes};
 use crate::say;
 use crate::show;
 use crate::uv;
@@ -74,14 +75,15 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     };
     let mut outcome = job::run(&input, job, control)?;
     if args.charts {
-        charts::cut(&mut outcome, args.margin, control)?;
+        let cut = charts::cut(&mut outcome, args.margin, control);
+        outcome.attempt("charts", cut)?;
     }
-    let files = write(args, &input, &outcome, control, start)?;
+    let files = write(args, &input, &mut outcome, control, start)?;
     drop(progress);
     let checks = outcome.checks();
     let svg = args.picture.base.picture.as_ref().is_some_and(|p| show::is_svg(p));
     let missing = outcome.layout.is_err() && (args.uv.is_some() || args.circles.is_some() || svg);
-    let exit_code = if missing { 1 } else { checks.exit_code() };
+    let exit_code = if missing || !outcome.failed.is_empty() { 1 } else { checks.exit_code() };
     Ok(Done { input, outcome, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
 }
 
@@ -108,6 +110,9 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     let usage = |message: &str| Err(Failure::Usage(message.into()));
     if args.charts && args.circles.is_some() {
         return usage("--circles: circles belong to the layout as a whole; leave --charts or --circles out");
+    }
+    if args.margin >= 1.0 {
+        return usage("--margin: a share of the unit square's side, in [0, 1)");
     }
     if args.pin.is_some() && matches!(args.target, Some(TargetChoice::Auto(_))) {
         return usage("--target auto chooses every curvature, --pin leaves some free; leave one out");
@@ -210,53 +215,64 @@ fn pinned(choice: &PinChoice, mesh: &Mesh) -> Vec<VertexId> {
     }
 }
 
-/// Write every file that was asked for, the report last; returns their names.
+/// Write every file that was asked for, the report last; returns their names. One that cannot be made keeps none of the others back.
 fn write(
     args: &FlowArgs,
     input: &Input,
-    outcome: &Outcome,
+    outcome: &mut Outcome,
     control: &Control,
     start: Instant,
 ) -> Result<Vec<String>, Failure> {
     control.step(Stage::Write, 0.0)?;
     let mut outputs = Outputs::default();
-    let mut seconds = outcome.seconds;
-    timed(&mut seconds.write, || -> Result<(), Failure> {
-        if let Some(path) = &args.metric {
-            let factor = outcome.initial.conformal_factor(&outcome.metric)?;
-            let Outcome { mesh, scheme, metric, lengths, final_target, mirror, .. } = outcome;
-            let lost = metric.length_remainders(mesh)?;
-            let mirror = mirror.as_deref();
-            let file =
-                MetricFile::new(mesh, *scheme, metric, [lengths, &lost], &factor, final_target, mirror);
-            outputs.add_json(path, &file)?;
-        }
-        if let Some(path) = &args.trace {
-            outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace))?;
-        }
-        if let (Some(path), Ok(laid)) = (&args.uv, &outcome.layout) {
-            uv::write(&mut outputs, path, laid, args.homogeneous)?;
-        }
-        let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
-        if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
-            outputs.add(path, |out| {
-                show::draw(out, path, input, outcome, &args.picture, args.common.threads())
-            })?;
-        }
-        if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
-            let Outcome { mesh, metric, scheme, .. } = outcome;
-            outputs.add_json(path, &circles(mesh, metric, scheme.name(), laid))?;
-        }
-        Ok(())
-    })?;
-    control.step(Stage::Write, 0.5)?;
-    if let Some(path) = &args.common.report {
-        seconds.total = start.elapsed().as_secs_f64();
-        let asked = Asked::new(args, input, outcome);
-        outputs.add_report(path, &report(input, outcome, asked, seconds))?;
+    let begin = Instant::now();
+    if let Some(path) = &args.metric {
+        let written = write_metric(&mut outputs, path, outcome);
+        outcome.attempt("metric", written)?;
+    }
+    if let Some(path) = &args.trace {
+        let written = outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace));
+        outcome.attempt("trace", written)?;
     }
     control.check()?;
-    Ok(outputs.commit()?.iter().map(|p| path_text(p)).collect())
+    if let (Some(path), Ok(laid)) = (&args.uv, &outcome.layout) {
+        let written = uv::write(&mut outputs, path, input, laid, args.homogeneous);
+        if outcome.attempt("uv", written)?.is_some() {
+            outcome.left_out = carry::left_out(input);
+        }
+    }
+    control.check()?;
+    let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
+    if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
+        let threads = args.common.threads();
+        let written = outputs.add(path, |out| show::draw(out, path, input, outcome, &args.picture, threads));
+        outcome.attempt("picture", written)?;
+    }
+    if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
+        let Outcome { mesh, metric, scheme, .. } = &*outcome;
+        let written = outputs.add_json(path, &circles(mesh, metric, scheme.name(), laid));
+        outcome.attempt("circles", written)?;
+    }
+    outcome.seconds.write += begin.elapsed().as_secs_f64();
+    control.step(Stage::Write, 0.5)?;
+    let mut report_failed = Ok(());
+    if let Some(path) = &args.common.report {
+        let seconds = Seconds { total: start.elapsed().as_secs_f64(), ..outcome.seconds };
+        let asked = Asked::new(args, input, outcome);
+        report_failed = outputs.add_report(path, &report(input, outcome, asked, seconds));
+    }
+    control.check()?;
+    let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
+    report_failed.map(|()| files)
+}
+
+fn write_metric(outputs: &mut Outputs, path: &Path, outcome: &Outcome) -> Result<(), Failure> {
+    let Outcome { mesh, scheme, metric, lengths, final_target, mirror, .. } = outcome;
+    let factor = outcome.initial.conformal_factor(metric)?;
+    let lost = metric.length_remainders(mesh)?;
+    let file =
+        MetricFile::new(mesh, *scheme, metric, [lengths, &lost], &factor, final_target, mirror.as_deref());
+    outputs.add_json(path, &file)
 }
 
 /// What was asked, defaults put in: a run with these options is this run.

@@ -10,6 +10,7 @@ use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::target::{check_total, check_vertices, settle_total};
 use ricci::metric::{Curvature, Initial, Metric, Scheme, Target};
+use std::collections::BTreeMap;
 
 /// What to compute.
 pub struct Job {
@@ -47,6 +48,10 @@ pub struct Outcome {
     pub report: flow::Report,
     /// The layout, or why there is none.
     pub layout: Result<Laid, String>,
+    /// Wishes that the flow was no obstacle to but something else was, by option, with the reason.
+    pub failed: BTreeMap<&'static str, String>,
+    /// What the input's file holds and the layout's file does not.
+    pub left_out: Vec<&'static str>,
     pub seconds: Seconds,
 }
 
@@ -61,13 +66,15 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     let mut start = 0.0;
     let mut flow = timed(&mut start, || {
         let Input { mesh, lengths, geometry, .. } = input;
-        SurfaceFlow::new(mesh, lengths, *geometry, job.scheme, space, &job.pinned, &job.options)
+        SurfaceFlow::new(mesh, lengths, *geometry, job.scheme, space, &job.pinned, &job.options, control)
     })?;
     let report = flow.solve(&target, control)?;
     let (mesh, metric) = (flow.mesh().clone(), flow.metric().clone());
 
-    let lengths = metric.lengths(&mesh)?;
-    let curvature = metric.curvature(&mesh)?;
+    // What goes wrong from here on is no fault of the input.
+    let failed = |error: ricci::Error| Failure::Failed(error.to_string());
+    let lengths = metric.lengths(&mesh).map_err(failed)?;
+    let curvature = metric.curvature(&mesh).map_err(failed)?;
     job.pinned.iter().for_each(|&v| target[v] = curvature.at[v]);
     let mut seconds = Seconds {
         read: input.seconds_read,
@@ -95,6 +102,8 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
         curvature,
         report,
         layout,
+        failed: BTreeMap::new(),
+        left_out: Vec::new(),
         seconds,
     })
 }
@@ -130,6 +139,23 @@ const GAUSS_BONNET: f64 = 1e-10;
 const MIRROR: f64 = 1e-8;
 
 impl Outcome {
+    /// Go on where a wish could not be fulfilled, and remember it: what else was asked for is still delivered. Errors:
+    /// [`Failure::Cancelled`] alone.
+    pub fn attempt<T>(
+        &mut self,
+        wish: &'static str,
+        result: Result<T, Failure>,
+    ) -> Result<Option<T>, Failure> {
+        match result {
+            Ok(value) => Ok(Some(value)),
+            Err(Failure::Cancelled) => Err(Failure::Cancelled),
+            Err(failure) => {
+                self.failed.insert(wish, failure.to_string());
+                Ok(None)
+            }
+        }
+    }
+
     /// max |K − K̄| of the metric as it is written.
     pub fn curvature_error(&self) -> f64 {
         self.curvature.at.iter().zip(&self.final_target).fold(0.0, |m, (k, t)| f64::max(m, (k - t).abs()))

@@ -10,7 +10,7 @@ use ricci::embed::{Layout, Quality, layout_of, layout_refined, quality, refined_
 use ricci::flow::SurfaceFlow;
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
-use ricci::mesh::{Mesh, PerVertex, Point, VertexId};
+use ricci::mesh::{FaceId, Mesh, PerVertex, Point, VertexId};
 use ricci::metric::curvature::area;
 use ricci::metric::{Curvature, Refinement};
 use ricci::topology::cut_graph;
@@ -35,8 +35,9 @@ pub struct Laid {
     /// The layout in charts, where that was asked for.
     pub packed: Option<Packed>,
     pub quality: Quality,
-    /// Pieces of the refinement whose image has no area to speak of, faces without area in the input or the layout.
-    pub degenerate: usize,
+    /// Pieces of the refinement whose image has no area to speak of, faces without area in the input or the layout; in charts also
+    /// what is too small for the coordinates of the unit square.
+    pub degenerate: Vec<FaceId>,
     /// Lengths in the layout over lengths in the metric.
     pub scale: f64,
     /// τ of a flat torus.
@@ -101,7 +102,7 @@ fn plain(
     control: &Control,
 ) -> ricci::Result<Laid> {
     let (mesh, metric) = (flow.mesh(), flow.metric());
-    let cut = cut_graph(mesh, &metric.lengths(mesh)?, cones)?;
+    let cut = cut_graph(mesh, &metric.lengths(mesh)?, cones, control)?;
     control.step(Stage::Layout, 0.3)?;
     let mut layout = layout_of(mesh, metric, &cut, control)?;
     let scale = layout.scale_to_area(mesh, area)?;
@@ -113,7 +114,7 @@ fn plain(
         refinement: None,
         positions: input.positions.clone(),
         packed: None,
-        degenerate: quality.degenerate.len(),
+        degenerate: quality.degenerate.clone(),
         modulus: modulus_of(input, &layout, cones),
         layout,
         quality,
@@ -133,7 +134,7 @@ fn refined(
     control: &Control,
 ) -> ricci::Result<Laid> {
     let (mesh, metric) = (flow.mesh(), flow.metric());
-    let cut = refined_cut(&refinement, mesh, metric, cones)?;
+    let cut = refined_cut(&refinement, mesh, metric, cones, control)?;
     control.step(Stage::Layout, 0.3)?;
     let mut refined = layout_refined(&refinement, mesh, metric, &cut, control)?;
     let scale = refined.scale_to_area(&refinement, area)?;
@@ -149,7 +150,7 @@ fn refined(
         refinement: Some(refinement),
         positions,
         packed: None,
-        degenerate: refined.degenerate.len(),
+        degenerate: refined.degenerate,
         modulus: modulus_of(input, &refined.layout, cones),
         layout: refined.layout,
         quality,

@@ -1,5 +1,6 @@
 //! The `ricci` command.
 
+mod carry;
 mod charts;
 mod checkerboard;
 mod circles;

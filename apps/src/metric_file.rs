@@ -5,6 +5,7 @@
 
 use crate::failure::Failure;
 use ricci::geometry::Space;
+use ricci::mesh::check::Defect;
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
 use ricci::metric::{Metric, Scheme};
 use serde::{Deserialize, Serialize};
@@ -147,7 +148,10 @@ pub fn parse(path: &Path, text: &str) -> Result<Intrinsic, Failure> {
     let n_vertices = n_vertices(&given.faces).map_err(refuse)?;
     let mesh = match &given.face_edges {
         Some(edges) => Mesh::from_gluing(n_vertices, &given.faces, edges)?,
-        None => Mesh::from_faces(n_vertices, &given.faces)?,
+        None => Mesh::from_faces(n_vertices, &given.faces).map_err(|error| match error {
+            ricci::Error::Defects(d) if d.defects.iter().any(may_be_glued) => Failure::Unglued(d),
+            error => error.into(),
+        })?,
     };
     let sides = given
         .lengths
@@ -156,6 +160,14 @@ pub fn parse(path: &Path, text: &str) -> Result<Intrinsic, Failure> {
     let sides: Vec<[f64; 3]> = sides.map(|(hi, lo)| std::array::from_fn(|k| hi[k] + lo[k])).collect();
     let lengths = edge_lengths(&mesh, &sides).map_err(refuse)?;
     Ok(Intrinsic { mesh, lengths, geometry })
+}
+
+/// What is a defect of faces given by their vertices, but not of a gluing.
+fn may_be_glued(defect: &Defect) -> bool {
+    matches!(
+        defect,
+        Defect::DuplicateFace { .. } | Defect::DegenerateFace { .. } | Defect::NonManifoldEdge { .. }
+    )
 }
 
 /// One more than the largest vertex, which may not exceed the number of corners: the numbers in the file are not

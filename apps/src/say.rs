@@ -52,6 +52,12 @@ pub fn flow(done: &Done) {
         Ok(laid) => format!("layout   {}\n", layout(laid)),
         Err(why) => format!("layout   none: {why}\n"),
     };
+    for what in &outcome.left_out {
+        text += &format!("left out {what}\n");
+    }
+    for (wish, why) in &outcome.failed {
+        text += &format!("FAILED   --{wish}: {why}\n");
+    }
     text += &match done.checks.failed().as_slice() {
         [] => "checks   all hold\n".into(),
         failed => {

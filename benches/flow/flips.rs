@@ -61,7 +61,9 @@ fn seconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
 /// The surface in the class of `scheme`, and the seconds that took.
 fn start((mesh, lengths): &Surface, scheme: Scheme, flips: Flips) -> (f64, SurfaceFlow) {
     let options = Options { flips, ..Options::default() };
-    seconds(|| SurfaceFlow::new(mesh, lengths, Space::E2, scheme, Space::E2, &[], &options).unwrap())
+    seconds(|| {
+        SurfaceFlow::new(mesh, lengths, Space::E2, scheme, Space::E2, &[], &options, &Control::new()).unwrap()
+    })
 }
 
 /// A flat torus of equilateral triangles.

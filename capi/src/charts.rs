@@ -41,7 +41,7 @@ pub struct ricci_charts_summary {
     pub n_faces: usize,
     /// Number of points in the unit square.
     pub n_points: usize,
-    /// Faces that are not counterclockwise, each a chart of its own.
+    /// Faces that are clockwise by more than rounding, each a chart of its own.
     pub n_flipped: usize,
     /// Lengths in the unit square over lengths in the layout, the same for all charts.
     pub scale: f64,
@@ -51,6 +51,9 @@ pub struct ricci_charts_summary {
     pub layout_seams: f64,
     /// Total length of the charts' seams, in units of the layout.
     pub chart_seams: f64,
+    /// Faces without area beyond rounding, in the layout or in the unit square; they lie in the charts of their neighbours, and
+    /// are left out where it says that none overlap.
+    pub n_degenerate: usize,
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
@@ -63,8 +66,9 @@ unsafe impl Sized64 for ricci_charts_summary {
 
 /// Cut a layout into charts and pack them into the unit square.
 ///
-/// Every chart is connected, and no two of its faces overlap (decided exactly in the layout's coordinates). Charts are turned and
-/// moved, and all scaled by one factor. An injective layout is one chart. Deterministic.
+/// Every chart is connected, and no two faces overlap (decided exactly, in the layout's coordinates and in those of the charts),
+/// save degenerate ones. Charts are turned and moved, and all scaled by one factor. An injective layout is one chart.
+/// Deterministic.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (margin), RICCI_LAYOUT (no area), RICCI_CANCELLED.
 ///
 /// @param layout   the layout.
@@ -128,6 +132,7 @@ pub unsafe extern "C" fn ricci_charts_summarise(
             efficiency: charts.efficiency,
             layout_seams: charts.seam_length[0],
             chart_seams: charts.seam_length[1],
+            n_degenerate: charts.degenerate.len(),
         };
         sized::write(figures, summary, size)
     })

@@ -212,8 +212,9 @@ pub unsafe extern "C" fn ricci_flow(
         let metric = door.shared(metric)?;
         let target = metric.target(target, n_vertices)?;
         let options = read_options(options)?;
-        let mut flow = SurfaceFlow::resume(&metric.surface, &[], &options)?;
-        let (end, done) = advance(&mut flow, &target, &control::of(control), &metric.positions)?;
+        let control = control::of(control);
+        let mut flow = SurfaceFlow::resume(&metric.surface, &[], &options, &control)?;
+        let (end, done) = advance(&mut flow, &target, &control, &metric.positions)?;
         if let Ok(report) = output("report", report) {
             report.hand_over(done);
         }
@@ -275,7 +276,7 @@ pub unsafe extern "C" fn ricci_solver_new(
     guard::call(|door| {
         let solver = output("solver", solver)?;
         let metric = door.shared(metric)?;
-        let flow = SurfaceFlow::resume(&metric.surface, &[], &read_options(options)?)?;
+        let flow = SurfaceFlow::resume(&metric.surface, &[], &read_options(options)?, &Control::new())?;
         let positions = metric.positions.clone();
         solver.hand_over(ricci_solver { poison: Poison::default(), flow, positions });
         Ok(())
@@ -314,7 +315,7 @@ pub unsafe extern "C" fn ricci_solver_pin(
             return Err(Failure::argument(format!("vertex {v} does not exist: there are {n}")));
         }
         let vertices: Vec<_> = vertices.into_iter().map(ricci::mesh::VertexId).collect();
-        Ok(solver.flow.pin(&vertices)?)
+        Ok(solver.flow.pin(&vertices, &Control::new())?)
     })
 }
 

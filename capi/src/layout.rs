@@ -115,7 +115,7 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
     };
     let (poison, surface) = (Poison::default(), Arc::new(surface.clone()));
     if surface.is_unflipped() {
-        let cut = cut_graph(mesh, &metric.lengths, cones)?;
+        let cut = cut_graph(mesh, &metric.lengths, cones, control)?;
         let mut layout = layout_of(mesh, class, &cut, control)?;
         if let Some(area) = area {
             layout.scale_to_area(mesh, area)?;
@@ -125,7 +125,7 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
         return Ok(ricci_layout { poison, mesh, positions, layout, quality, surface, refinement: None });
     }
     let refinement = surface.refinement(control)?;
-    let cut = refined_cut(&refinement, mesh, class, cones)?;
+    let cut = refined_cut(&refinement, mesh, class, cones, control)?;
     let mut refined = layout_refined(&refinement, mesh, class, &cut, control)?;
     if let Some(area) = area {
         refined.scale_to_area(&refinement, area)?;

@@ -617,7 +617,7 @@ typedef struct {
     size_t n_faces;
     /** Number of points in the unit square. */
     size_t n_points;
-    /** Faces that are not counterclockwise, each a chart of its own. */
+    /** Faces that are clockwise by more than rounding, each a chart of its own. */
     size_t n_flipped;
     /** Lengths in the unit square over lengths in the layout, the same for all charts. */
     double scale;
@@ -627,6 +627,11 @@ typedef struct {
     double layout_seams;
     /** Total length of the charts' seams, in units of the layout. */
     double chart_seams;
+    /**
+     * Faces without area beyond rounding, in the layout or in the unit square; they lie in the charts of their neighbours, and
+     * are left out where it says that none overlap.
+     */
+    size_t n_degenerate;
 } ricci_charts_summary;
 
 #ifdef __cplusplus
@@ -2372,8 +2377,9 @@ ricci_status ricci_layout_from_final_corners(const ricci_layout *layout,
 /**
  * Cut a layout into charts and pack them into the unit square.
  *
- * Every chart is connected, and no two of its faces overlap (decided exactly in the layout's coordinates). Charts are turned and
- * moved, and all scaled by one factor. An injective layout is one chart. Deterministic.
+ * Every chart is connected, and no two faces overlap (decided exactly, in the layout's coordinates and in those of the charts),
+ * save degenerate ones. Charts are turned and moved, and all scaled by one factor. An injective layout is one chart.
+ * Deterministic.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (margin), RICCI_LAYOUT (no area), RICCI_CANCELLED.
  *
  * @param layout   the layout.

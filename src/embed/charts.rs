@@ -3,24 +3,32 @@
 //! Charts grow face by face around a seed, in the order of the distance from it; a face whose image would overlap the chart stays
 //! outside. Overlap is decided exactly ([`super::overlap`]). Seeds are the largest faces that are left. A layout that is injective
 //! grows into one chart. At the end charts that fit together are joined.
+//!
+//! Packed, the charts are looked at again: scaling and moving rounds coordinates to those of the unit square, and a vertex that
+//! nearly touched another face may then lie inside it. Such charts are cut once more and all are packed anew, until what comes out
+//! does not overlap. A chart once cut stays cut, so that this ends.
+//!
+//! Faces that are smaller than doubles resolve are no obstacle to others: where scales span more than 1e16, as around a single
+//! cone on a surface of high genus, whole regions shrink to a point. They stay in the chart around them.
 
+use super::chart_growth::{Lie, Partition, Sheet, partition};
 use super::corner::number_corners;
-use super::overlap::{BoxTree, Triangle};
+use super::overlap::Triangle;
 use super::pack::{least_rectangle, least_square, pack};
-use crate::control::{Control, Stage};
+use super::shape::{Shape, extent};
+use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::PlaneIsometry;
 use crate::geometry::predicates::orientation;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge};
-use crate::topology::spanning::Key;
-use std::cmp::{Ordering, Reverse};
-use std::collections::{BTreeSet, BinaryHeap};
+use std::cmp::Ordering;
 use std::f64::consts::FRAC_PI_2;
 
-/// Faces between two looks at the control.
-const FACES_PER_STEP: usize = 4096;
-/// No chart.
-const NONE: u32 = u32::MAX;
+/// Coordinates in the unit square are multiples of 1/this, the spacing of doubles in its far half: everywhere the same, and no
+/// difference of two of them is rounded.
+const GRID: f64 = (1u64 << 53) as f64;
+/// Charts keep at least this distance, so that rounding lets none touch another: many steps of the grid.
+const ROOM: f64 = 64.0 / GRID;
 
 /// Options of [`charts`].
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +51,7 @@ pub struct Charts {
     /// Per half-edge, the index into `coordinates` of the corner at its origin, in its face; outside the surface that of the face
     /// across the edge. Corners share an index where no seam or boundary separates them.
     pub corner_index: PerHalfedge<u32>,
-    /// Points in the unit square.
+    /// Points in the unit square, multiples of 2⁻⁵³.
     pub coordinates: Vec<[f64; 2]>,
     /// Per chart the motion, after scaling by `scale`: `uv = motion(scale · layout)`.
     pub motions: Vec<PlaneIsometry>,
@@ -55,8 +63,13 @@ pub struct Charts {
     pub is_seam: PerEdge<bool>,
     /// Total length of the layout's own seams, and of those of the charts, in units of the layout.
     pub seam_length: [f64; 2],
-    /// Faces whose image is clockwise or has no area. Each is a chart of its own: no motion of the plane mends it.
+    /// Faces whose image is clockwise, by more than what makes it degenerate. Each is a chart of its own: no motion of the plane
+    /// mends it.
     pub flipped: Vec<FaceId>,
+    /// Faces without area to speak of, in the layout or in the unit square: within [`super::refined::FLAT`] · longest edge² of zero,
+    /// or lower than two steps of the coordinates. They lie in the charts of their neighbours, and may overlap what is around them
+    /// by as much as their own size.
+    pub degenerate: Vec<FaceId>,
 }
 
 impl Charts {
@@ -79,10 +92,10 @@ impl Charts {
 /// Cut a layout into charts that do not overlap themselves, and pack them.
 ///
 /// `uv(h)`: plane coordinates of the corner at the origin of h, in its face (h inside the surface). Faces hang together across an
-/// edge where both give its ends exactly the same coordinates. Every chart is connected, and its counterclockwise faces have
-/// disjoint interiors in the layout, exactly; moving and scaling it rounds its coordinates to doubles of the unit square.
+/// edge where both give its ends exactly the same coordinates. Every chart is connected. In the layout and, exactly, in the
+/// [`Charts::coordinates`] that are returned, faces that are not named [`Charts::degenerate`] have disjoint interiors.
 ///
-/// Deterministic. O(F log F) for layouts of bounded overlap.
+/// Deterministic. O(F log F) for layouts of bounded overlap, each time that rounding makes it necessary to cut again.
 ///
 /// Errors: [`Error::Layout`] for coordinates that are not finite or a layout without area; [`Error::Argument`] for a margin that is
 /// negative or leaves no room; [`Error::Cancelled`].
@@ -104,17 +117,62 @@ pub fn charts(
     if !(area > 0.0 && area.is_finite()) {
         return Err(Error::Layout("the layout has no area, or more than doubles hold".into()));
     }
-    let (mut growth, flipped) = Growth::new(mesh, &triangles, &uv);
-    growth.grow(control)?;
-    growth.join(control)?;
-    let (chart, count) = growth.numbered();
-
-    let own_seam = |e: EdgeId| !mesh.is_boundary_edge(e) && !growth.joined[e];
-    let between = |e: EdgeId| {
-        let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).map(|f| chart[f]));
-        own_seam(e) || (!mesh.is_boundary_edge(e) && f != g)
+    let size = extent(&triangles.concat());
+    let mut lie = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
+        let shape = Shape::of(triangles[f.index()]);
+        match (shape.is_degenerate(size), shape.is_flipped(size)) {
+            (true, _) => Lie::Degenerate,
+            (_, true) => Lie::Flipped,
+            _ => Lie::Solid,
+        }
+    });
+    let continuous = |e: EdgeId| {
+        let (h, t) = (e.halfedge(), e.halfedge().twin());
+        let faces = [h, t].map(|h| mesh.face(h).is_some_and(|f| lie[f] != Lie::Flipped));
+        faces == [true; 2] && uv(h) == uv(mesh.next(t)) && uv(mesh.next(h)) == uv(t)
     };
-    let is_seam = PerEdge::from_fn(mesh.n_edges(), between);
+    let mut joined = PerEdge::from_fn(mesh.n_edges(), continuous);
+    let areas = PerFace::from_fn(mesh.n_faces(), |f: FaceId| doubled_area(&triangles[f.index()]).abs());
+    let own_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
+    let cut = |triangles: &[Triangle], lie: &PerFace<Lie>, joined: &PerEdge<bool>, stage: [f64; 2]| {
+        let sheet = Sheet { mesh, triangles, lie, joined, area: &areas };
+        partition(&sheet, stage, control)
+    };
+    let Partition { mut chart, mut count } = cut(&triangles, &lie, &joined, [0.0, 0.4])?;
+
+    let (corner_index, points, scale, motions) = loop {
+        for e in mesh.edges() {
+            let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).map(|f| chart[f]));
+            joined[e] &= f == g;
+        }
+        let is_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
+        let (corner_index, n_points) = number_corners(mesh, &is_seam);
+        let mut points = vec![[0.0; 2]; n_points];
+        let mut point_chart = vec![0u32; n_points];
+        for f in mesh.faces() {
+            for h in mesh.face_halfedges(f) {
+                let k = corner_index[h] as usize;
+                (points[k], point_chart[k]) = (uv(h), chart[f]);
+            }
+        }
+        let (scale, motions) = arrange(&mut points, &point_chart, count, margin, control)?;
+        let placed: Vec<Triangle> =
+            mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| points[corner_index[h] as usize])).collect();
+        for f in mesh.faces() {
+            let [a, b, c] = placed[f.index()];
+            let flat =
+                || orientation(a, b, c) != Ordering::Greater || Shape::of([a, b, c]).is_degenerate(1.0);
+            if lie[f] == Lie::Solid && flat() {
+                lie[f] = Lie::Degenerate;
+            }
+        }
+        let again = cut(&placed, &lie, &joined, [0.5, 0.4])?;
+        if again.count == count {
+            break (corner_index, points, scale, motions);
+        }
+        (chart, count) = (again.chart, again.count);
+    };
+    let is_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
     let length = |h: HalfedgeId| {
         let (p, q) = (uv(h), uv(mesh.next(h)));
         (p[0] - q[0]).hypot(p[1] - q[1])
@@ -123,18 +181,8 @@ pub fn charts(
         let sides = mesh.edges().filter(|&e| seam(e)).map(|e| [e.halfedge(), e.halfedge().twin()]);
         sides.map(|[h, t]| 0.5 * (length(h) + length(t))).sum()
     };
-    let seam_length = [total(&own_seam), total(&|e| is_seam[e])];
-
-    let (corner_index, n_points) = number_corners(mesh, &is_seam);
-    let mut points = vec![[0.0; 2]; n_points];
-    let mut point_chart = vec![0u32; n_points];
-    for f in mesh.faces() {
-        for h in mesh.face_halfedges(f) {
-            let k = corner_index[h] as usize;
-            (points[k], point_chart[k]) = (uv(h), chart[f]);
-        }
-    }
-    let (scale, motions) = arrange(&mut points, &point_chart, count, margin, control)?;
+    let seam_length = [&own_seam, &is_seam].map(|is_seam| total(&|e| is_seam[e]));
+    let that = |what: Lie| mesh.faces().filter(|&f| lie[f] == what).collect();
     Ok(Charts {
         chart,
         corner_index,
@@ -144,7 +192,8 @@ pub fn charts(
         efficiency: area * scale * scale,
         is_seam,
         seam_length,
-        flipped,
+        flipped: that(Lie::Flipped),
+        degenerate: that(Lie::Degenerate),
     })
 }
 
@@ -158,19 +207,19 @@ fn arrange(
 ) -> Result<(f64, Vec<PlaneIsometry>)> {
     let mut of_chart: Vec<Vec<[f64; 2]>> = vec![Vec::new(); count];
     points.iter().zip(chart).for_each(|(&p, &c)| of_chart[c as usize].push(p));
-    control.step(Stage::Layout, 0.9)?;
-    let mut rectangles: Vec<(f64, [f64; 2])> =
-        of_chart.iter().map(|points| least_rectangle(points)).collect();
+    let margin = margin.max(ROOM);
+    let rectangle = |points: &Vec<[f64; 2]>| control.check().map(|()| least_rectangle(points));
+    let mut rectangles: Vec<(f64, [f64; 2])> = of_chart.iter().map(rectangle).collect::<Result<_>>()?;
     let sides =
         |rectangles: &[(f64, [f64; 2])]| -> Vec<[f64; 2]> { rectangles.iter().map(|r| r.1).collect() };
-    let (mut scale, mut places) = pack(&sides(&rectangles), margin).ok_or_else(|| {
+    let (mut scale, mut places) = pack(&sides(&rectangles), margin, control)?.ok_or_else(|| {
         let need = "small enough to leave room between the charts";
         Error::Argument { what: "margin", value: format!("{margin} with {count} charts"), need }
     })?;
     // Where the largest chart alone sets the scale, its least square counts, not its least rectangle.
     let square = least_square(&of_chart[0]);
     let first = std::mem::replace(&mut rectangles[0], square);
-    match pack(&sides(&rectangles), margin) {
+    match pack(&sides(&rectangles), margin, control)? {
         Some(better) if better.0 > scale => (scale, places) = better,
         _ => rectangles[0] = first,
     }
@@ -188,166 +237,10 @@ fn arrange(
     }
     for (p, &c) in points.iter_mut().zip(chart) {
         let (low, at) = (low[c as usize], places[c as usize].at);
-        *p = [0, 1].map(|k| (p[k] - low[k] + at[k]).clamp(0.0, 1.0));
+        *p = [0, 1].map(|k| ((p[k] - low[k] + at[k]) * GRID).round() / GRID);
     }
     let motion = |c: usize| PlaneIsometry::new(angle(c), [0, 1].map(|k| places[c].at[k] - low[c][k]));
     Ok((scale, (0..count).map(motion).collect()))
-}
-
-/// Charts in the making.
-struct Growth<'a> {
-    mesh: &'a Mesh,
-    triangles: &'a [Triangle],
-    /// Interior edges across which the layout is continuous and both faces counterclockwise.
-    joined: PerEdge<bool>,
-    chart: PerFace<u32>,
-    /// The faces of each chart.
-    members: Vec<Vec<FaceId>>,
-    tree: BoxTree<'a>,
-    /// Per face: twice its area in the layout.
-    area: Vec<f64>,
-}
-
-impl<'a> Growth<'a> {
-    /// Every flipped face is a chart, the others are in none yet.
-    fn new(
-        mesh: &'a Mesh,
-        triangles: &'a [Triangle],
-        uv: &impl Fn(HalfedgeId) -> [f64; 2],
-    ) -> (Growth<'a>, Vec<FaceId>) {
-        let left = |f: FaceId| {
-            let [a, b, c] = triangles[f.index()];
-            orientation(a, b, c) == Ordering::Greater
-        };
-        let sound = PerFace::from_fn(mesh.n_faces(), left);
-        let joined = PerEdge::from_fn(mesh.n_edges(), |e| {
-            let (h, t) = (e.halfedge(), e.halfedge().twin());
-            let faces = [h, t].map(|h| mesh.face(h).is_some_and(|f| sound[f]));
-            faces == [true; 2] && uv(h) == uv(mesh.next(t)) && uv(mesh.next(h)) == uv(t)
-        });
-        let flipped: Vec<FaceId> = mesh.faces().filter(|&f| !sound[f]).collect();
-        let mut chart = PerFace::filled(mesh.n_faces(), NONE);
-        flipped.iter().enumerate().for_each(|(k, &f)| chart[f] = k as u32);
-        let members = flipped.iter().map(|&f| vec![f]).collect();
-        let area = triangles.iter().map(|t| doubled_area(t).abs()).collect();
-        (Growth { mesh, triangles, joined, chart, members, tree: BoxTree::new(triangles), area }, flipped)
-    }
-
-    /// Faces across the joined edges of f.
-    fn neighbours(&self, f: FaceId) -> impl Iterator<Item = FaceId> + '_ {
-        let sides = self.mesh.face_halfedges(f).into_iter();
-        sides.filter(|h| self.joined[h.edge()]).filter_map(|h| self.mesh.face(h.twin()))
-    }
-
-    fn centre(&self, f: FaceId) -> [f64; 2] {
-        let [a, b, c] = self.triangles[f.index()];
-        [0, 1].map(|k| a[k] / 3.0 + b[k] / 3.0 + c[k] / 3.0)
-    }
-
-    /// Grow charts until every face is in one.
-    fn grow(&mut self, control: &Control) -> Result<()> {
-        let mut seeds: Vec<FaceId> = self.mesh.faces().filter(|&f| self.chart[f] == NONE).collect();
-        seeds.sort_by(|f, g| self.area[g.index()].total_cmp(&self.area[f.index()]).then(f.cmp(g)));
-        let mut refused = PerFace::filled(self.mesh.n_faces(), NONE);
-        let mut done = 0;
-        for seed in seeds {
-            if self.chart[seed] != NONE {
-                continue;
-            }
-            let number = self.members.len() as u32;
-            let mut members = Vec::new();
-            let mut queue = BinaryHeap::from([Reverse((Key(0.0), seed))]);
-            while let Some(Reverse((Key(distance), f))) = queue.pop() {
-                if self.chart[f] != NONE || refused[f] == number {
-                    continue;
-                }
-                if usize::is_multiple_of(done, FACES_PER_STEP) {
-                    control.step(Stage::Layout, 0.8 * done as f64 / self.mesh.n_faces() as f64)?;
-                }
-                if self.tree.meeting(f.index()).is_some() {
-                    // The chart only grows: what overlaps it now always will.
-                    refused[f] = number;
-                    continue;
-                }
-                self.tree.insert(f.index());
-                self.chart[f] = number;
-                members.push(f);
-                done += 1;
-                let here = self.centre(f);
-                for g in self.neighbours(f).filter(|&g| self.chart[g] == NONE && refused[g] != number) {
-                    let there = self.centre(g);
-                    let step = (there[0] - here[0]).hypot(there[1] - here[1]);
-                    queue.push(Reverse((Key(distance + step), g)));
-                }
-            }
-            members.iter().for_each(|f| self.tree.remove(f.index()));
-            self.members.push(members);
-        }
-        Ok(())
-    }
-
-    /// Join charts that hang together and do not overlap: each, from the largest down, with its neighbours, the largest first.
-    fn join(&mut self, control: &Control) -> Result<()> {
-        let size =
-            |g: &Self, c: u32| -> f64 { g.members[c as usize].iter().map(|f| g.area[f.index()]).sum() };
-        let mut order: Vec<(Key, Reverse<u32>)> =
-            (0..self.members.len() as u32).map(|c| (Key(size(self, c)), Reverse(c))).collect();
-        order.sort_unstable_by(|a, b| b.cmp(a));
-        let rank: Vec<u32> = {
-            let mut rank = vec![0; order.len()];
-            order.iter().enumerate().for_each(|(k, c)| rank[c.1.0 as usize] = k as u32);
-            rank
-        };
-        for &(_, Reverse(host)) in &order {
-            control.check()?;
-            if self.members[host as usize].is_empty() {
-                continue;
-            }
-            let mut waiting: BTreeSet<u32> = self.around(host).map(|c| rank[c as usize]).collect();
-            if waiting.is_empty() {
-                continue;
-            }
-            self.members[host as usize].iter().for_each(|f| self.tree.insert(f.index()));
-            let mut tried = BTreeSet::new();
-            while let Some(next) = waiting.pop_first() {
-                let guest = order[next as usize].1.0;
-                if !tried.insert(next) {
-                    continue;
-                }
-                if self.members[guest as usize].iter().any(|f| self.tree.meeting(f.index()).is_some()) {
-                    continue;
-                }
-                let further: Vec<u32> = self.around(guest).filter(|&c| c != host).collect();
-                waiting.extend(further.into_iter().map(|c| rank[c as usize]).filter(|r| !tried.contains(r)));
-                for f in std::mem::take(&mut self.members[guest as usize]) {
-                    self.tree.insert(f.index());
-                    self.chart[f] = host;
-                    self.members[host as usize].push(f);
-                }
-            }
-            self.members[host as usize].iter().for_each(|f| self.tree.remove(f.index()));
-        }
-        Ok(())
-    }
-
-    /// Charts across the joined edges of a chart; some more than once.
-    fn around(&self, c: u32) -> impl Iterator<Item = u32> + '_ {
-        let faces = self.members[c as usize].iter();
-        faces.flat_map(|&f| self.neighbours(f)).map(|g| self.chart[g]).filter(move |&other| other != c)
-    }
-
-    /// Chart numbers by area, the largest first, and how many there are.
-    fn numbered(&self) -> (PerFace<u32>, usize) {
-        let area = |c: &usize| -> f64 { self.members[*c].iter().map(|f| self.area[f.index()]).sum() };
-        let mut order: Vec<usize> =
-            (0..self.members.len()).filter(|&c| !self.members[c].is_empty()).collect();
-        order.sort_by_cached_key(|c| (Reverse(Key(area(c))), *c));
-        let mut chart = PerFace::filled(self.mesh.n_faces(), 0);
-        for (number, &c) in order.iter().enumerate() {
-            self.members[c].iter().for_each(|&f| chart[f] = number as u32);
-        }
-        (chart, order.len())
-    }
 }
 
 fn doubled_area(&[a, b, c]: &Triangle) -> f64 {

@@ -1,6 +1,7 @@
 //! Layouts of metrics: developing a cut surface, the isometries between the sides of its seams, how much the map distorts, and
 //! charts that do not overlap.
 
+mod chart_growth;
 pub mod charts;
 mod corner;
 mod develop;
@@ -11,6 +12,7 @@ pub mod quality;
 pub mod refined;
 mod refined_develop;
 pub mod seam;
+mod shape;
 mod triangle;
 
 pub use charts::{ChartOptions, Charts, charts};

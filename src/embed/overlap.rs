@@ -1,7 +1,12 @@
 //! Whether triangles in the plane overlap: exactly, and without looking at every pair.
 
+use crate::control::Control;
+use crate::error::Result;
 use crate::geometry::predicates::orientation;
 use std::cmp::Ordering;
+
+/// Triangles between two looks at the control.
+const TRIANGLES_PER_STEP: usize = 4096;
 
 /// Corners of a triangle in the plane.
 pub type Triangle = [[f64; 2]; 3];
@@ -37,12 +42,12 @@ pub struct BoxTree<'a> {
 const EMPTY: [f64; 4] = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
 
 impl<'a> BoxTree<'a> {
-    /// A tree with no triangle present. Coordinates must be finite. O(n log n).
-    pub fn new(triangles: &'a [Triangle]) -> BoxTree<'a> {
+    /// A tree with no triangle present. Coordinates must be finite. O(n log n). Errors: [`crate::Error::Cancelled`].
+    pub fn new(triangles: &'a [Triangle], control: &Control) -> Result<BoxTree<'a>> {
         let n = triangles.len();
         let leaves = n.next_power_of_two();
         let mut order: Vec<u32> = (0..n as u32).collect();
-        halve(triangles, &mut order, leaves);
+        halve(triangles, &mut order, leaves, control)?;
         let mut leaf = vec![0; n];
         order.iter().enumerate().for_each(|(k, &f)| leaf[f as usize] = k as u32);
         let mut boxes = vec![EMPTY; 2 * leaves];
@@ -50,7 +55,8 @@ impl<'a> BoxTree<'a> {
         for i in (1..leaves).rev() {
             boxes[i] = join(boxes[2 * i], boxes[2 * i + 1]);
         }
-        BoxTree { triangles, leaves, order, leaf, boxes, present: vec![0; 2 * leaves] }
+        control.check()?;
+        Ok(BoxTree { triangles, leaves, order, leaf, boxes, present: vec![0; 2 * leaves] })
     }
 
     /// Make a triangle present; it must be counterclockwise and not be present yet.
@@ -94,15 +100,19 @@ impl<'a> BoxTree<'a> {
 }
 
 /// The first triangle of each overlapping group is innocent: the triangles, in their order, whose interiors meet that of an
-/// earlier one. Clockwise triangles count as their mirror images do, those without area meet nothing. Exact.
-pub fn overlapping(triangles: &[Triangle]) -> Vec<usize> {
+/// earlier one. Clockwise triangles count as their mirror images do, those without area meet nothing. Exact. Errors:
+/// [`crate::Error::Cancelled`].
+pub fn overlapping(triangles: &[Triangle], control: &Control) -> Result<Vec<usize>> {
     let turned: Vec<Triangle> = triangles
         .iter()
         .map(|&[a, b, c]| if orientation(a, b, c) == Ordering::Less { [a, c, b] } else { [a, b, c] })
         .collect();
-    let mut tree = BoxTree::new(&turned);
+    let mut tree = BoxTree::new(&turned, control)?;
     let mut found = Vec::new();
     for (f, &[a, b, c]) in turned.iter().enumerate() {
+        if f.is_multiple_of(TRIANGLES_PER_STEP) {
+            control.check()?;
+        }
         if orientation(a, b, c) != Ordering::Greater {
             continue;
         }
@@ -112,14 +122,17 @@ pub fn overlapping(triangles: &[Triangle]) -> Vec<usize> {
             tree.insert(f);
         }
     }
-    found
+    Ok(found)
 }
 
 /// Order triangles so that each half of each power-of-two block is one side of the block.
-fn halve(triangles: &[Triangle], order: &mut [u32], leaves: usize) {
+fn halve(triangles: &[Triangle], order: &mut [u32], leaves: usize, control: &Control) -> Result<()> {
     let half = leaves / 2;
     if half == 0 || order.len() <= 1 {
-        return;
+        return Ok(());
+    }
+    if order.len() >= TRIANGLES_PER_STEP {
+        control.check()?;
     }
     if order.len() > half {
         let centre = |f: u32, k: usize| triangles[f as usize].iter().map(|p| p[k] / 3.0).sum::<f64>();
@@ -132,10 +145,10 @@ fn halve(triangles: &[Triangle], order: &mut [u32], leaves: usize) {
         let k = usize::from(extent(1) > extent(0));
         order.select_nth_unstable_by(half, |&f, &g| centre(f, k).total_cmp(&centre(g, k)).then(f.cmp(&g)));
         let (left, right) = order.split_at_mut(half);
-        halve(triangles, left, half);
-        halve(triangles, right, half);
+        halve(triangles, left, half, control)?;
+        halve(triangles, right, half, control)
     } else {
-        halve(triangles, order, half);
+        halve(triangles, order, half, control)
     }
 }
 
@@ -209,7 +222,7 @@ mod tests {
     #[test]
     fn the_tree_finds_what_a_look_at_every_pair_finds() {
         let all = triangles(400, 9);
-        let mut tree = BoxTree::new(&all);
+        let mut tree = BoxTree::new(&all, &Control::new()).unwrap();
         for f in 0..400 {
             let expected = (0..f).filter(|g| g % 3 != 0).any(|g| interiors_meet(&all[f], &all[g]));
             assert_eq!(tree.meeting(f).is_some(), expected);
@@ -225,11 +238,11 @@ mod tests {
         let a = [[0.0, 0.0], [1.0, 0.1], [0.3, 0.9]];
         let across = [[1.0, 0.1], [0.0, 0.0], [0.4, -0.7]];
         assert!(!interiors_meet(&a, &across));
-        assert!(overlapping(&[a, across]).is_empty());
+        assert!(overlapping(&[a, across], &Control::new()).unwrap().is_empty());
         let at_a_corner = [[0.3, 0.9], [0.5, 1.2], [0.1, 1.1]];
         assert!(!interiors_meet(&a, &at_a_corner));
         let inside = [[0.3, 0.9_f64.next_down()], [0.5, 1.2], [0.1, 1.1]];
         assert!(interiors_meet(&a, &inside));
-        assert_eq!(overlapping(&[a, a, inside]), [1, 2]);
+        assert_eq!(overlapping(&[a, a, inside], &Control::new()).unwrap(), [1, 2]);
     }
 }

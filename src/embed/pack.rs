@@ -1,11 +1,15 @@
 //! Packing shapes into the unit square by their bounding rectangles, all with one scale.
 
+use crate::control::Control;
+use crate::error::Result;
 use std::f64::consts::FRAC_PI_2;
 
 /// The search for the scale ends at this relative accuracy.
 const ACCURACY: f64 = 1e-4;
 /// More rectangles than this are packed in one order, not in several.
 const MANY: usize = 4000;
+/// Rectangles placed between two looks at the control.
+const RECTANGLES_PER_STEP: usize = 256;
 
 /// The rectangle of least area around some points: the angle by which they are to be turned for it to lie along the axes, longer
 /// side along x, and its sides (longer, shorter).
@@ -125,14 +129,14 @@ pub struct Place {
 /// Places for rectangles with these sides, scaled by the largest factor that is found, in the unit square: `margin` apart and half
 /// of that from the border. `None` if there are too many for the margin, or all are points.
 ///
-/// For each scale a skyline packing \[Jyl10\]: rectangles in the order of their size, each where its upper side comes lowest, upright or
+/// Errors: [`crate::Error::Cancelled`]. For each scale a skyline packing \[Jyl10\]: rectangles in the order of their size, each where its upper side comes lowest, upright or
 /// turned; the scale by bisection.
-pub fn pack(sides: &[[f64; 2]], margin: f64) -> Option<(f64, Vec<Place>)> {
+pub fn pack(sides: &[[f64; 2]], margin: f64, control: &Control) -> Result<Option<(f64, Vec<Place>)>> {
     let area: f64 = sides.iter().map(|s| s[0] * s[1]).sum();
     let longest = sides.iter().fold(0.0f64, |m, s| m.max(s[0]).max(s[1]));
     let mut high = ((1.0 - margin) / longest).min(1.0 / area.sqrt());
     if !(high > 0.0 && high.is_finite()) {
-        return None;
+        return Ok(None);
     }
     let size: [fn([f64; 2]) -> f64; 3] = [|s| s[0].max(s[1]), |s| s[0].min(s[1]), |s| s[0] + s[1]];
     let tried = if sides.len() > MANY { 1 } else { size.len() };
@@ -144,23 +148,32 @@ pub fn pack(sides: &[[f64; 2]], margin: f64) -> Option<(f64, Vec<Place>)> {
             order
         })
         .collect();
-    let fit = |scale: f64| orders.iter().find_map(|order| skyline(sides, order, scale, margin));
-    if let Some(places) = fit(high) {
-        return Some((high, places));
+    let fit = |scale: f64| -> Result<Option<Vec<Place>>> {
+        for order in &orders {
+            if let Some(places) = skyline(sides, order, scale, margin, control)? {
+                return Ok(Some(places));
+            }
+        }
+        Ok(None)
+    };
+    if let Some(places) = fit(high)? {
+        return Ok(Some((high, places)));
     }
-    fit(0.0)?;
+    if fit(0.0)?.is_none() {
+        return Ok(None);
+    }
     let (mut low, mut best) = (0.0, None);
     while high - low > ACCURACY * high {
         let scale = 0.5 * (low + high);
-        match fit(scale) {
+        match fit(scale)? {
             Some(places) => (low, best) = (scale, Some((scale, places))),
             None => high = scale,
         }
         if high < f64::MIN_POSITIVE {
-            return None;
+            return Ok(None);
         }
     }
-    best
+    Ok(best)
 }
 
 /// A piece of the outline of what is packed, seen from above: from x to the next piece's x at height y.
@@ -171,10 +184,19 @@ struct Step {
 }
 
 /// Places at this scale, or `None` if not all fit.
-fn skyline(sides: &[[f64; 2]], order: &[usize], scale: f64, margin: f64) -> Option<Vec<Place>> {
+fn skyline(
+    sides: &[[f64; 2]],
+    order: &[usize],
+    scale: f64,
+    margin: f64,
+    control: &Control,
+) -> Result<Option<Vec<Place>>> {
     let mut places = vec![Place::default(); sides.len()];
     let mut outline = vec![Step { x: 0.0, y: 0.0 }];
-    for &i in order {
+    for (done, &i) in order.iter().enumerate() {
+        if done.is_multiple_of(RECTANGLES_PER_STEP) {
+            control.check()?;
+        }
         let [long, short] = sides[i].map(|s| scale * s + margin);
         let mut best: Option<([f64; 2], usize, f64, bool)> = None;
         for turned in [false, true] {
@@ -193,7 +215,7 @@ fn skyline(sides: &[[f64; 2]], order: &[usize], scale: f64, margin: f64) -> Opti
                 }
             }
         }
-        let (at, first, height, turned) = best?;
+        let Some((at, first, height, turned)) = best else { return Ok(None) };
         let width = if turned { short } else { long };
         places[i] = Place { at: at.map(|x| x + 0.5 * margin), turned };
         let end = at[0] + width;
@@ -207,7 +229,7 @@ fn skyline(sides: &[[f64; 2]], order: &[usize], scale: f64, margin: f64) -> Opti
         }
         outline.splice(first..first + covered, new);
     }
-    Some(places)
+    Ok(Some(places))
 }
 
 #[cfg(test)]
@@ -259,7 +281,7 @@ mod tests {
                     [long, long * random.unit()]
                 })
                 .collect();
-            let (scale, places) = pack(&sides, margin).unwrap();
+            let (scale, places) = pack(&sides, margin, &Control::new()).unwrap().unwrap();
             let area: f64 = sides.iter().map(|s| s[0] * s[1]).sum::<f64>() * scale * scale;
             assert!(n < 10 || area > 0.6, "{area}");
             let boxes: Vec<[f64; 4]> = places
@@ -283,10 +305,11 @@ mod tests {
 
     #[test]
     fn a_square_fills_the_square_and_too_much_margin_is_refused() {
-        let (scale, places) = pack(&[[2.0, 2.0]], 0.0).unwrap();
+        let (scale, places) = pack(&[[2.0, 2.0]], 0.0, &Control::new()).unwrap().unwrap();
         assert_eq!((scale, places[0].at), (0.5, [0.0; 2]));
-        assert!(pack(&[[1.0, 1.0]; 26], 0.2).is_none());
-        assert!(pack(&[[1.0, 1.0]; 16], 0.2).is_some());
-        assert!(pack(&[[0.0, 0.0]], 0.1).is_none());
+        let packs = |sides: &[[f64; 2]], margin| pack(sides, margin, &Control::new()).unwrap().is_some();
+        assert!(!packs(&[[1.0, 1.0]; 26], 0.2));
+        assert!(packs(&[[1.0, 1.0]; 16], 0.2));
+        assert!(!packs(&[[0.0, 0.0]], 0.1));
     }
 }

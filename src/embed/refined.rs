@@ -5,6 +5,8 @@ use super::layout::{Layout, bounding_diagonal, check_cut, seam_sides};
 use super::quality::{DILATATION_CAP, Quality, cross, dilatation_of_vectors, minus, summary};
 use super::refined_develop::{Faces, Placed, place};
 use super::seam::Seam;
+pub use super::shape::FLAT;
+use super::shape::{Shape, extent};
 use super::triangle::Triangle;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
@@ -12,9 +14,6 @@ use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::{Metric, Refinement};
 use crate::topology::{CutGraph, check_lengths, cut_graph};
 
-/// A triangle counts as flipped where its area is below −this · longest edge² and what rounding its coordinates does to it, as
-/// degenerate within that of zero.
-pub const FLAT: f64 = 1e-12;
 /// Shortest edge that a cut reckons with, relative to the longest: crossings may coincide.
 const SHORTEST: f64 = 1e-12;
 
@@ -36,11 +35,18 @@ pub struct RefinedLayout {
 /// of the final metric (E²) on the final triangulation `mesh`.
 ///
 /// Errors: those of [`cut_graph`] and [`Metric::lengths`]; [`Error::Layout`] in another space.
-pub fn refined_cut(r: &Refinement, mesh: &Mesh, metric: &Metric, cones: &[VertexId]) -> Result<CutGraph> {
+pub fn refined_cut(
+    r: &Refinement,
+    mesh: &Mesh,
+    metric: &Metric,
+    cones: &[VertexId],
+    control: &Control,
+) -> Result<CutGraph> {
+    control.check()?;
     let mut lengths = Faces::new(mesh, metric)?.refined_lengths(r);
     let least = SHORTEST * lengths.iter().copied().fold(0.0, f64::max);
     lengths.iter_mut().for_each(|l| *l = l.max(least));
-    cut_graph(&r.mesh, &lengths, cones)
+    cut_graph(&r.mesh, &lengths, cones, control)
 }
 
 /// Lay a refinement out with its final metric (E²) on the final triangulation `mesh`, O(E log E).
@@ -113,11 +119,11 @@ impl RefinedLayout {
     }
 
     fn find_flat(&mut self, mesh: &Mesh) {
-        let extent = self.layout.coordinates.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+        let extent = extent(&self.layout.coordinates);
         let shape: PerFace<Shape> =
             PerFace::from_fn(mesh.n_faces(), |f| Shape::of(self.layout.face_uv(mesh, f)));
-        self.layout.flipped = mesh.faces().filter(|&f| shape[f].share < -shape[f].flat(extent)).collect();
-        self.degenerate = mesh.faces().filter(|&f| shape[f].share.abs() <= shape[f].flat(extent)).collect();
+        self.layout.flipped = mesh.faces().filter(|&f| shape[f].is_flipped(extent)).collect();
+        self.degenerate = mesh.faces().filter(|&f| shape[f].is_degenerate(extent)).collect();
     }
 
     /// How the vertex-linear maps from the input's pieces to the layout's distort, with the Euclidean `lengths` of the input's edges
@@ -145,36 +151,12 @@ impl RefinedLayout {
             let vectors = |p: [[f64; 2]; 3]| [minus(p[1], p[0]), minus(p[2], p[0])];
             let area = |p: [[f64; 2]; 3]| 0.5 * cross(minus(p[1], p[0]), minus(p[2], p[0])).abs();
             areas[f] = [area(from), area(to)];
-            let extent = to.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs())).max(1.0);
+            let extent = extent(&to).max(1.0);
             let (from_shape, to_shape) = (Shape::of(from), Shape::of(to));
             if from_shape.share > FLAT && to_shape.share.abs() > to_shape.flat(extent) {
                 qc[f] = dilatation_of_vectors(vectors(from), vectors(to));
             }
         }
         Ok(summary(&r.mesh, qc, &areas))
-    }
-}
-
-/// A triangle in the plane.
-struct Shape {
-    /// Signed area over the square of the longest edge; 0 for a point.
-    share: f64,
-    longest: f64,
-}
-
-impl Shape {
-    fn of([a, b, c]: [[f64; 2]; 3]) -> Shape {
-        let edges = [minus(b, a), minus(c, b), minus(a, c)];
-        let longest = edges.iter().map(|e| e[0].hypot(e[1])).fold(0.0, f64::max);
-        if longest == 0.0 {
-            return Shape { share: 0.0, longest };
-        }
-        let [p, q, _] = edges.map(|e| e.map(|x| x / longest));
-        Shape { share: 0.5 * cross(p, q), longest }
-    }
-
-    /// What its share must exceed to count: [`FLAT`], and what rounding coordinates of size `extent` does to it.
-    fn flat(&self, extent: f64) -> f64 {
-        FLAT + f64::EPSILON * extent / self.longest
     }
 }

@@ -141,7 +141,8 @@ impl<'a> Placing<'a> {
         let (mut mesh, mut lengths) = (mesh.clone(), lengths.clone());
         // An input that is no surface is refused with the names of its own elements.
         initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
-        intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| {})?;
+        control.check()?;
+        intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| {}, control)?;
         let metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?.metric;
         let mut state = State::new(&mesh, &metric.u, &metric.u_low);
         if !state.evaluate(&mesh, &metric) {

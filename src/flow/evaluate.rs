@@ -1,6 +1,7 @@
 //! Lengths, angles and curvature at given variables: the right-hand side of the flow.
 
 use super::report::{Seconds, timed};
+use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::Space;
 use crate::geometry::conformal::{Edge, Vertex, differences, edge, weights};
@@ -59,15 +60,17 @@ impl State {
         fixed: &[EdgeId],
         record: &mut dyn FnMut(&Mesh, EdgeId),
         seconds: &mut Seconds,
+        control: &Control,
     ) -> Result<(bool, usize)> {
         let real = timed(&mut seconds.assemble, || self.measure(mesh, class));
         let mut touched = Vec::new();
         let flips = timed(&mut seconds.flip, || {
             let mut queue = if real { self.suspects(mesh, fixed) } else { Queue::all(mesh, fixed) };
-            restore_delaunay(mesh, class, &self.u, &mut queue, &mut |mesh, e| {
+            let mut record = |mesh: &Mesh, e| {
                 touched.push(e);
                 record(mesh, e);
-            })
+            };
+            restore_delaunay(mesh, class, &self.u, &mut queue, &mut record, control)
         })?;
         let real = timed(&mut seconds.assemble, || {
             let real = match flips {

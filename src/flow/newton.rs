@@ -250,6 +250,7 @@ impl Run<'_> {
             &self.options.fixed_edges,
             &mut record,
             &mut report.seconds,
+            self.control,
         )?;
         report.flips += flips;
         Ok(real)

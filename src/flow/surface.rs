@@ -40,7 +40,7 @@ impl SurfaceFlow {
     /// `scheme` to metrics in `space`; `pinned` vertices hold their u.
     ///
     /// Errors: those of [`SurfaceMetric::new`], [`SurfaceMetric::delaunay`] and [`Solver::new`]; a pinned
-    /// vertex that does not exist.
+    /// vertex that does not exist; [`Error::Cancelled`].
     pub fn new(
         given: &Mesh,
         lengths: &PerEdge<f64>,
@@ -49,9 +49,10 @@ impl SurfaceFlow {
         space: Space,
         pinned: &[VertexId],
         options: &Options,
+        control: &Control,
     ) -> Result<SurfaceFlow> {
         let (given, lengths) = (Arc::new(given.clone()), Arc::new(lengths.clone()));
-        SurfaceFlow::begin(given, lengths, (geometry, scheme, space), pinned, options)
+        SurfaceFlow::begin(given, lengths, (geometry, scheme, space), pinned, options, control)
     }
 
     fn begin(
@@ -60,14 +61,16 @@ impl SurfaceFlow {
         (geometry, scheme, space): (Space, Scheme, Space),
         pinned: &[VertexId],
         options: &Options,
+        control: &Control,
     ) -> Result<SurfaceFlow> {
+        control.check()?;
         let from = match is_rigid(geometry, scheme, space, options) {
             true => SurfaceMetric::new(given, lengths, geometry, scheme, space)?,
             false => {
                 let fixed = &options.fixed_edges;
                 let start = |doubled| {
                     let (given, lengths) = (given.clone(), lengths.clone());
-                    SurfaceMetric::delaunay(given, lengths, geometry, scheme, space, doubled, fixed)
+                    SurfaceMetric::delaunay(given, lengths, geometry, scheme, space, doubled, fixed, control)
                 };
                 let begin = || {
                     let one_copy = start(false)?;
@@ -81,7 +84,7 @@ impl SurfaceFlow {
     }
 
     /// The same flow on the double, from the present u.
-    fn doubled(&self) -> Result<SurfaceFlow> {
+    fn doubled(&self, control: &Control) -> Result<SurfaceFlow> {
         let (start, fixed) = (&self.start, &self.options.fixed_edges);
         let space = start.initial.metric.space;
         let double = || {
@@ -94,6 +97,7 @@ impl SurfaceFlow {
                 space,
                 true,
                 fixed,
+                control,
             )
         };
         let mut flow = SurfaceFlow::go_on(self.solver.run(double)?, &[], &self.options)?;
@@ -108,7 +112,13 @@ impl SurfaceFlow {
     /// If edges are to be flipped, and have not been, or with other `fixed_edges`, or other than
     /// [`SurfaceFlow::new`] does on the double or not, the flow is a new one, which starts from the given
     /// lengths. Errors: those of [`SurfaceFlow::new`].
-    pub fn resume(from: &SurfaceMetric, pinned: &[VertexId], options: &Options) -> Result<SurfaceFlow> {
+    pub fn resume(
+        from: &SurfaceMetric,
+        pinned: &[VertexId],
+        options: &Options,
+        control: &Control,
+    ) -> Result<SurfaceFlow> {
+        control.check()?;
         let (initial, given) = (from.initial(), from.given());
         let (geometry, scheme, space) = (initial.input_geometry, from.scheme(), initial.metric.space);
         let doubled = !given.is_closed() && pinned.is_empty();
@@ -117,7 +127,7 @@ impl SurfaceFlow {
             return SurfaceFlow::go_on(from.clone(), pinned, options);
         }
         let lengths = from.given_lengths().clone();
-        SurfaceFlow::begin(given.clone(), lengths, (geometry, scheme, space), pinned, options)
+        SurfaceFlow::begin(given.clone(), lengths, (geometry, scheme, space), pinned, options, control)
     }
 
     fn go_on(from: SurfaceMetric, pinned: &[VertexId], options: &Options) -> Result<SurfaceFlow> {
@@ -154,7 +164,7 @@ impl SurfaceFlow {
     ///
     /// A surface with boundary whose edges flip is on its double if no vertex is pinned: going there and leaving
     /// it the flow begins anew, as in [`SurfaceFlow::resume`]. Errors: those of [`SurfaceFlow::new`].
-    pub fn pin(&mut self, pinned: &[VertexId]) -> Result<()> {
+    pub fn pin(&mut self, pinned: &[VertexId], control: &Control) -> Result<()> {
         let given = &self.start.given;
         let initial = &self.start.initial;
         let rigid = is_rigid(initial.input_geometry, self.start.scheme, initial.metric.space, &self.options);
@@ -162,7 +172,7 @@ impl SurfaceFlow {
         if rigid || suits(&self.now(), doubled) {
             return self.hold(pinned);
         }
-        *self = SurfaceFlow::resume(&self.now(), pinned, &self.options)?;
+        *self = SurfaceFlow::resume(&self.now(), pinned, &self.options, control)?;
         Ok(())
     }
 
@@ -194,14 +204,15 @@ impl SurfaceFlow {
         if !left {
             return Ok(report);
         }
-        let rest = self.doubled().and_then(|mut doubled| Ok((doubled.solve(target, control)?, doubled)));
+        let rest =
+            self.doubled(control).and_then(|mut doubled| Ok((doubled.solve(target, control)?, doubled)));
         match rest {
             Ok((rest, doubled)) => {
                 *self = doubled;
                 Ok(report.then(rest))
             }
             Err(error) => {
-                *self = SurfaceFlow::resume(&before, &[], &self.options)?;
+                *self = SurfaceFlow::resume(&before, &[], &self.options, &Control::new())?;
                 Err(error)
             }
         }

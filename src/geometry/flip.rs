@@ -12,6 +12,9 @@
 //!         l             For ε = 0: √η_kl √η_ij = √η_ik √η_jl + √η_jk √η_il, Ptolemy.
 //! ```
 //!
+//! D > 0 needs a real circle orthogonal to those of i, j and k: the complement of an imaginary one (time-like) is Euclidean, where all
+//! ε are 1 and |η| < 1. Triangles around an imaginary circle are left as they are.
+//!
 //! Multiplying each vector by its `w > 0` leaves all of this as it is; the products are formed from `ε w²` and `η w w`, whose size
 //! is that of squared lengths, whatever that of η.
 

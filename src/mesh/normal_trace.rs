@@ -3,7 +3,11 @@
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, HalfedgeId};
 use super::normal::{NormalCoordinates, Strands};
+use crate::control::Control;
 use crate::error::{Error, Result};
+
+/// Half-edges or curves between two looks at the control.
+const PER_STEP: usize = 4096;
 
 /// Where a curve crosses an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,13 +30,17 @@ pub struct Curves {
 
 impl Curves {
     /// Follow every curve, O(edges + crossings). Errors: those of [`NormalCoordinates::check`]; [`Error::Connectivity`] if the
-    /// coordinates are not those of this triangulation.
-    pub fn trace(mesh: &Mesh, normal: &NormalCoordinates) -> Result<Curves> {
+    /// coordinates are not those of this triangulation; [`Error::Cancelled`].
+    pub fn trace(mesh: &Mesh, normal: &NormalCoordinates, control: &Control) -> Result<Curves> {
+        control.check()?;
         let total = normal.check(mesh)?;
         let mut along = vec![None; mesh.n_edges()];
         // Per given edge: the corner that it leaves, and how many leave that corner before it.
         let mut source: Vec<Option<(HalfedgeId, i64)>> = vec![None; mesh.n_edges()];
         for h in mesh.halfedges() {
+            if h.index().is_multiple_of(PER_STEP) {
+                control.check()?;
+            }
             if let Some(given) = normal.along(mesh, h)
                 && given == given.edge().halfedge()
             {
@@ -51,6 +59,9 @@ impl Curves {
         }
         let mut curves = Curves { start: vec![0], crossings: Vec::with_capacity(total), along };
         for e in 0..mesh.n_edges() {
+            if e.is_multiple_of(PER_STEP) {
+                control.check()?;
+            }
             match (curves.along[e], source[e]) {
                 (Some(_), None) => {}
                 (None, Some((corner, k))) => curves.follow(mesh, normal, corner, k, total)?,

@@ -5,6 +5,7 @@
 //! weighted Delaunay. Only edges around what has changed are looked at.
 
 use super::lengths::Metric;
+use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::Vertex;
 use crate::geometry::flip::{Hinge, diagonal, weight};
@@ -20,6 +21,9 @@ const MOST_FLIPS: usize = 1000;
 /// Isometric flips also lower the sum of all cotangents [Musin97], which is above the number that a sheared torus needs. What the sum
 /// allows is capped here: more flips take hours.
 const MOST_BY_SHAPE: f64 = 1e11;
+
+/// Edges looked at between two looks at the control.
+const EDGES_PER_STEP: usize = 4096;
 
 /// Edges that may fail the Delaunay condition, first come first served.
 #[derive(Debug, Clone)]
@@ -69,8 +73,8 @@ impl Queue {
     }
 
     /// Flip edges until the queue is empty. `decide` gives an edge's value after its flip, or `None` where it stays; `record` is
-    /// told each flip. Edges with a face on one side only, or the same on both, stay. Returns the flips, or `None` if they do not
-    /// end with `most`.
+    /// told each flip. Edges with a face on one side only, or the same on both, stay. Returns the flips. Errors: more than `most`;
+    /// [`Error::Cancelled`]; some flips are then done.
     fn run<T>(
         &mut self,
         most: usize,
@@ -78,16 +82,21 @@ impl Queue {
         values: &mut PerEdge<T>,
         mut decide: impl FnMut(&Mesh, &PerEdge<T>, HalfedgeId) -> Option<T>,
         record: &mut dyn FnMut(&Mesh, EdgeId),
-    ) -> Option<usize> {
-        let mut flips = 0;
+        control: &Control,
+    ) -> Result<usize> {
+        let (mut flips, mut looked_at) = (0, 0usize);
         while let Some(e) = self.pop() {
+            if usize::is_multiple_of(looked_at, EDGES_PER_STEP) {
+                control.check()?;
+            }
+            looked_at += 1;
             let h = e.halfedge();
             if !between(mesh, h) {
                 continue;
             }
             let Some(value) = decide(mesh, values, h) else { continue };
             if flips == most {
-                return None;
+                return Err(endless());
             }
             record(mesh, e);
             let sides = mesh.quadrilateral(h);
@@ -96,7 +105,7 @@ impl Queue {
             flips += 1;
             sides.into_iter().for_each(|side| self.push(side.edge()));
         }
-        Some(flips)
+        Ok(flips)
     }
 }
 
@@ -126,13 +135,15 @@ fn hinge(
 /// Flip inside the conformal class, from the edges of `queue` on, until every edge is weighted Delaunay at variables `u`
 /// or cannot be flipped (E², H²). η changes on the edges flipped; `record` is told each edge just before its flip.
 ///
-/// Returns the number of flips. Errors: [`Error::Connectivity`] if the flips do not end, which rounding alone could cause.
+/// Returns the number of flips. Errors: [`Error::Connectivity`] if the flips do not end, which rounding alone could cause;
+/// [`Error::Cancelled`]. Some flips are done then.
 pub fn restore_delaunay(
     mesh: &mut Mesh,
     metric: &mut Metric,
     u: &PerVertex<f64>,
     queue: &mut Queue,
     record: &mut dyn FnMut(&Mesh, EdgeId),
+    control: &Control,
 ) -> Result<usize> {
     let w = weights(metric, u);
     let epsilon = &metric.epsilon;
@@ -145,14 +156,15 @@ pub fn restore_delaunay(
         let scale = w[k] * w[l];
         hinge.flipped().map(|product| product / scale).filter(|eta| eta.is_finite())
     };
-    queue.run(MOST_FLIPS * mesh.n_edges(), mesh, &mut metric.eta, decide, record).ok_or_else(endless)
+    queue.run(MOST_FLIPS * mesh.n_edges(), mesh, &mut metric.eta, decide, record, control)
 }
 
 /// Isometric flips until the triangulation is the intrinsic Delaunay one of the surface (weighted by circles of these `radii`
 /// around its vertices, 0 for none; `lengths` in `geometry`): it depends on the surface and the circles alone, up to ties.
 ///
 /// `fixed` edges stay (indices of the mesh). Returns the number of flips. Errors: sizes; a length out of range, a face that breaks the triangle inequality;
-/// [`Error::Connectivity`] if the flips do not end.
+/// [`Error::Connectivity`] if the flips do not end; [`Error::Cancelled`]. Mesh and lengths are then as they were, whatever `record`
+/// was told.
 pub fn intrinsic_delaunay(
     mesh: &mut Mesh,
     lengths: &mut PerEdge<f64>,
@@ -160,7 +172,9 @@ pub fn intrinsic_delaunay(
     geometry: Space,
     fixed: &[EdgeId],
     record: &mut dyn FnMut(&Mesh, EdgeId),
+    control: &Control,
 ) -> Result<usize> {
+    control.check()?;
     check_lengths(mesh, lengths)?;
     if let Some(radii) = radii {
         check_size("radii", radii.len(), mesh.n_vertices())?;
@@ -188,7 +202,15 @@ pub fn intrinsic_delaunay(
     let mut queue = Queue::where_holds(mesh, fixed, |h| fails(mesh, lengths, h));
     let shape: f64 = mesh.faces().map(|f| cotangents(mesh, lengths, f)).sum();
     let most = MOST_FLIPS * mesh.n_edges() + shape.min(MOST_BY_SHAPE) as usize;
-    queue.run(most, mesh, lengths, decide, record).ok_or_else(endless)
+    if queue.waiting.is_empty() {
+        return Ok(0);
+    }
+    let before = (mesh.clone(), lengths.clone());
+    let flips = queue.run(most, mesh, lengths, decide, record, control);
+    if flips.is_err() {
+        (*mesh, *lengths) = before;
+    }
+    flips
 }
 
 /// The sum of a face's cotangents, `(a² + b² + c²)/4A`; infinite where it is broken.

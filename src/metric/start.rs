@@ -3,6 +3,7 @@
 use super::delaunay::intrinsic_delaunay;
 use super::initial::{Initial, check_triangles, corner_radii, initial_metric, initial_mixed};
 use super::scheme::Scheme;
+use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::Space;
 use crate::mesh::{Double, EdgeId, Mesh, PerEdge, PerVertex};
@@ -18,7 +19,8 @@ const APART: f64 = 0.5;
 /// corners there, the smaller at mirrored vertices of a `double`; for inversive distance half of them, on the weighted Delaunay
 /// triangulation of those circles. Thurston's and tangential packings, which are Delaunay on any triangulation, stay on the given one.
 ///
-/// `fixed` edges are not flipped; `record` is told each edge just before its flip. Errors: those of [`initial_metric`] and [`intrinsic_delaunay`].
+/// `fixed` edges are not flipped; `record` is told each edge just before its flip. Errors: those of [`initial_metric`] and [`intrinsic_delaunay`],
+/// with the surface as it was, maybe on another triangulation.
 pub fn delaunay_start(
     mesh: &mut Mesh,
     lengths: &mut PerEdge<f64>,
@@ -28,11 +30,12 @@ pub fn delaunay_start(
     double: Option<&Double>,
     fixed: &[EdgeId],
     record: &mut dyn FnMut(&Mesh, EdgeId),
+    control: &Control,
 ) -> Result<Initial> {
     if matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
         return initial_metric(mesh, lengths, input_geometry, scheme, space);
     }
-    intrinsic_delaunay(mesh, lengths, None, input_geometry, fixed, record)?;
+    intrinsic_delaunay(mesh, lengths, None, input_geometry, fixed, record, control)?;
     if scheme == Scheme::Yamabe {
         return initial_metric(mesh, lengths, input_geometry, scheme, space);
     }
@@ -43,7 +46,7 @@ pub fn delaunay_start(
     }
     if scheme == Scheme::Inversive {
         radii.iter_mut().for_each(|r| *r *= APART);
-        intrinsic_delaunay(mesh, lengths, Some(&radii), input_geometry, fixed, record)?;
+        intrinsic_delaunay(mesh, lengths, Some(&radii), input_geometry, fixed, record, control)?;
     }
     let epsilon = PerVertex::filled(mesh.n_vertices(), scheme.epsilon());
     initial_mixed(mesh, lengths, input_geometry, epsilon, radii, space)

@@ -127,6 +127,7 @@ impl SurfaceMetric {
         space: Space,
         doubled: bool,
         fixed: &[EdgeId],
+        control: &Control,
     ) -> Result<SurfaceMetric> {
         check_fixed(&given, fixed)?;
         let double = if doubled { Some(Double::new(&given)?) } else { None };
@@ -149,6 +150,7 @@ impl SurfaceMetric {
             double.as_ref(),
             &all_fixed,
             &mut record,
+            control,
         )?;
         let (mesh, metric) = (Arc::new(mesh), initial.metric.clone());
         let mut followed = vec![normal];

@@ -19,7 +19,7 @@ pub fn started(
     (space, scheme): (Space, Scheme),
     options: &Options,
 ) -> SurfaceFlow {
-    SurfaceFlow::new(mesh, lengths, Space::E2, scheme, space, &[], options).unwrap()
+    SurfaceFlow::new(mesh, lengths, Space::E2, scheme, space, &[], options, &Control::new()).unwrap()
 }
 
 /// `a + b` and what rounding loses of it.

@@ -127,7 +127,7 @@ pub fn check_layout(
 ) {
     let cones: Vec<_> =
         input.vertices().filter(|&v| !input.is_boundary_vertex(v) && target[v].abs() > 1e-12).collect();
-    let cut = refined_cut(r, &flown.mesh, &flown.metric, &cones).unwrap();
+    let cut = refined_cut(r, &flown.mesh, &flown.metric, &cones, &Control::new()).unwrap();
     let laid = layout_refined(r, &flown.mesh, &flown.metric, &cut, &Control::new()).unwrap();
     let quality = laid.quality(r, input, lengths).unwrap();
     println!(

@@ -51,7 +51,7 @@ pub fn flow(
         let u = PerVertex::from_fn(from.len(), |v: VertexId| (1.0 - s) * from[v] + s * to[v]);
         let mut queue = Queue::new(mesh.n_edges(), &[]);
         failing(mesh, metric, &u).into_iter().for_each(|e| queue.push(e));
-        restore_delaunay(mesh, metric, &u, &mut queue, &mut record).unwrap();
+        restore_delaunay(mesh, metric, &u, &mut queue, &mut record, &Control::new()).unwrap();
         metric.u = u;
     }
     Some(flown)
@@ -72,9 +72,18 @@ impl Flown {
             flips += 1;
             normal.record(mesh, e);
         };
-        let start =
-            delaunay_start(&mut mesh, &mut lengths, Space::E2, scheme, space, double, &[], &mut record)
-                .unwrap();
+        let start = delaunay_start(
+            &mut mesh,
+            &mut lengths,
+            Space::E2,
+            scheme,
+            space,
+            double,
+            &[],
+            &mut record,
+            &Control::new(),
+        )
+        .unwrap();
         let intrinsic =
             (flips > 0).then(|| (mesh.clone(), lengths, normal.clone(), NormalCoordinates::new(&mesh)));
         Flown { mesh, metric: start.metric, input_u: start.input_u, normal, flips, start: intrinsic }

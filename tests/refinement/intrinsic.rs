@@ -108,14 +108,23 @@ fn unchanged(surface: &Surface, scheme: ricci::metric::Scheme) -> (usize, usize,
     let (input, lengths) = surface;
     let given = (Arc::new(input.clone()), Arc::new(lengths.clone()));
     let doubled = !input.is_closed();
-    let metric =
-        SurfaceMetric::delaunay(given.0, given.1, Space::E2, scheme, Space::E2, doubled, &[]).unwrap();
+    let metric = SurfaceMetric::delaunay(
+        given.0,
+        given.1,
+        Space::E2,
+        scheme,
+        Space::E2,
+        doubled,
+        &[],
+        &Control::new(),
+    )
+    .unwrap();
     let r = metric.refinement(&Control::new()).unwrap();
     assert!(r.weight.iter().all(|q| (q - 1.0).abs() < 1e-12));
     let curvature = metric.curvature().unwrap();
     let cones: Vec<_> =
         input.vertices().filter(|&v| !input.is_boundary_vertex(v) && curvature.at[v].abs() > 1e-11).collect();
-    let cut = refined_cut(&r, metric.mesh(), metric.metric(), &cones).unwrap();
+    let cut = refined_cut(&r, metric.mesh(), metric.metric(), &cones, &Control::new()).unwrap();
     let laid = layout_refined(&r, metric.mesh(), metric.metric(), &cut, &Control::new()).unwrap();
     let quality = laid.quality(&r, input, lengths).unwrap();
     assert!(laid.layout.flipped.is_empty());
@@ -173,7 +182,9 @@ fn a_curved_surface_is_mapped_to_itself_with_its_homogeneous_weights() {
     for (space, scheme) in [(Space::H2, SCHEMES[0]), (Space::H2, SCHEMES[1]), (Space::S2, SCHEMES[0])] {
         let lengths = PerEdge::from_fn(mesh.n_edges(), |e| 0.8 * flat[e]);
         let given = (Arc::new(mesh.clone()), Arc::new(lengths.clone()));
-        let metric = SurfaceMetric::delaunay(given.0, given.1, space, scheme, space, false, &[]).unwrap();
+        let metric =
+            SurfaceMetric::delaunay(given.0, given.1, space, scheme, space, false, &[], &Control::new())
+                .unwrap();
         let r = metric.refinement(&Control::new()).unwrap();
         assert!(metric.start_flips() > 50 && r.crossings.len() > 50);
         let finally = metric.metric().lengths(metric.mesh()).unwrap();
@@ -205,8 +216,17 @@ fn crossings_lie_where_the_map_of_the_delaunay_triangulation_takes_them() {
     for scheme in SCHEMES {
         let ((sheared, lengths), positions) = sheared_disk(10, 3);
         let given = (Arc::new(sheared.clone()), Arc::new(lengths.clone()));
-        let start =
-            SurfaceMetric::delaunay(given.0, given.1, Space::E2, scheme, Space::E2, false, &[]).unwrap();
+        let start = SurfaceMetric::delaunay(
+            given.0,
+            given.1,
+            Space::E2,
+            scheme,
+            Space::E2,
+            false,
+            &[],
+            &Control::new(),
+        )
+        .unwrap();
         let faces: Vec<_> =
             start.mesh().faces().map(|f| start.mesh().face_vertices(f).map(|v| v.0)).collect();
         let delaunay = Mesh::from_faces(sheared.n_vertices(), &faces).unwrap();
@@ -222,11 +242,20 @@ fn crossings_lie_where_the_map_of_the_delaunay_triangulation_takes_them() {
         (target[cones[0]], target[cones[1]]) = (0.5, -0.5);
         let flown = |mesh: &Mesh, lengths: &PerEdge<f64>| {
             let (options, pinned) = (Options::default(), [boundary[0]]);
-            let mut flow =
-                SurfaceFlow::new(mesh, lengths, Space::E2, scheme, Space::E2, &pinned, &options).unwrap();
+            let mut flow = SurfaceFlow::new(
+                mesh,
+                lengths,
+                Space::E2,
+                scheme,
+                Space::E2,
+                &pinned,
+                &options,
+                &Control::new(),
+            )
+            .unwrap();
             assert!(flow.solve(&target, &Control::new()).unwrap().converged);
             let r = flow.refinement(&Control::new()).unwrap();
-            let cut = refined_cut(&r, flow.mesh(), flow.metric(), &cones).unwrap();
+            let cut = refined_cut(&r, flow.mesh(), flow.metric(), &cones, &Control::new()).unwrap();
             let laid = layout_refined(&r, flow.mesh(), flow.metric(), &cut, &Control::new()).unwrap();
             let quality = laid.quality(&r, mesh, lengths).unwrap();
             (flow, r, quality)

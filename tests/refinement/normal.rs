@@ -91,7 +91,7 @@ fn rewrite(mesh: &Mesh, h: HalfedgeId, curve: &Tracked) -> Tracked {
 }
 
 fn tracked(mesh: &Mesh, curves: &[Tracked], normal: &NormalCoordinates) {
-    let traced = Curves::trace(mesh, normal).unwrap();
+    let traced = Curves::trace(mesh, normal, &ricci::Control::new()).unwrap();
     let mut crossed: HashMap<EdgeId, Vec<u32>> = HashMap::new();
     for (e, curve) in curves.iter().enumerate() {
         let e = EdgeId(e as u32);
@@ -240,7 +240,7 @@ fn twists_without_end_are_refused_before_numbers_run_out() {
         normal.record(&mesh, e);
         assert!(mesh.flip(e));
     }
-    assert!(matches!(Curves::trace(&mesh, &normal), Err(Error::TooLarge { .. })));
+    assert!(matches!(Curves::trace(&mesh, &normal, &ricci::Control::new()), Err(Error::TooLarge { .. })));
     let other = Mesh::from_soup(&shapes::icosphere(1).unwrap()).unwrap();
     assert!(matches!(normal.check(&other), Err(Error::Size { .. })));
 }

@@ -65,3 +65,33 @@ fn charts_fill_the_unit_square_and_do_not_overlap() {
     }
     assert!(place.text("p.svg").contains("<svg"));
 }
+
+#[test]
+fn a_single_cone_of_high_genus_gives_charts_that_do_not_overlap_as_written() {
+    let place = Place::new();
+    place.expect(0, "make genus -g 4 -n 8 -o four.obj");
+    place.expect(0, "flow four.obj --space e2 --target auto:1 --charts --uv uv.obj --report r.json");
+    let report = place.json("r.json");
+    assert_eq!(report["checks"]["overlapping_in_charts"]["value"], 0.0);
+    let count = report["result"]["charts"].as_u64().unwrap();
+    assert!((2..40).contains(&count), "{count}");
+    let obj = parse_obj(&place.text("uv.obj"));
+    assert!(obj.vt.iter().flatten().all(|x| (0.0..=1.0).contains(x) && (x * 2f64.powi(53)).fract() == 0.0));
+}
+
+#[test]
+fn charts_that_fail_take_no_output_with_them() {
+    let place = Place::new();
+    place.expect(0, "make genus -g 4 -n 8 -o four.obj");
+    let line = "flow four.obj --space e2 --target single:0 --charts --margin 0.9";
+    let ended =
+        place.expect(1, &format!("{line} --uv uv.obj --metric m.json --picture p.png --report r.json"));
+    assert!(ended.out.contains("FAILED   --charts: ") && ended.out.contains("margin"), "{}", ended.out);
+    let report = place.json("r.json");
+    assert_eq!(report["result"]["converged"], true);
+    assert!(report["result"]["failed"]["charts"].as_str().unwrap().contains("margin"));
+    assert!(report["result"]["charts"].is_null());
+    // What is written is the layout as a whole, and the metric.
+    assert!(parse_obj(&place.text("uv.obj")).vt.iter().flatten().any(|x| !(0.0..=1.0).contains(x)));
+    assert!(place.json("m.json")["lengths"].as_array().unwrap().len() > 100 && place.exists("p.png"));
+}

@@ -105,6 +105,11 @@ fn homogeneous_coordinates_are_the_plain_ones_times_a_weight() {
         lines.map(|l| l.split_whitespace().map(|x| x.parse().unwrap()).collect()).collect()
     };
     let (plain, weighted) = (read("plain.obj"), read("q.obj"));
+    let first = |name: &str| place.text(name).lines().next().unwrap().to_string();
+    assert!(
+        first("q.obj").starts_with("# vt are homogeneous: (q x, q y, q)")
+            && first("plain.obj").starts_with("v ")
+    );
     assert_eq!(plain.len(), weighted.len());
     let size = plain.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
     for (p, w) in plain.iter().zip(&weighted) {

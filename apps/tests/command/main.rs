@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod attributes;
 mod charts;
 mod files;
 mod flips;

@@ -95,6 +95,10 @@ fn metric_files_are_not_trusted() {
     };
     place.put("m.json", &file(tetrahedron, unit, ""));
     place.expect(0, "flow m.json");
+    // Two triangles on the same vertices: with their gluing they are a sphere.
+    let gluing = r#", "face_edges": [[1,2,3],[-1,-3,-2]]"#;
+    place.put("m.json", &file("[[0,1,2],[0,2,1]]", "[[1,1,1],[1,1,1]]", gluing));
+    place.expect(0, "info m.json");
     for (text, says) in [
         ("{".to_string(), "EOF"),
         (file(tetrahedron, "[[1,1,1]]", ""), "1 entries"),
@@ -108,6 +112,9 @@ fn metric_files_are_not_trusted() {
         (file("[[0,1,2]]", "[[1,1,null]]", ""), "invalid type"),
         (file("[[0,1,2]]", "[[1,1,1e999]]", ""), "out of range"),
         (file("[]", "[]", ""), "no faces"),
+        (file("[[0,1,2],[0,2,1]]", "[[1,1,1],[1,1,1]]", ""), "face 1 repeats face 0"),
+        (file("[[0,1,2],[0,2,1]]", "[[1,1,1],[1,1,1]]", ""), "need `face_edges`"),
+        (file("[[0,0,0]]", "[[1,1,1]]", ""), "need `face_edges`"),
         (file(tetrahedron, unit, r#", "input_geometry": "e4""#), "input_geometry"),
         (file(tetrahedron, unit, r#", "face_edges": [[1,2,3]]"#), "face_edges"),
         (file("[[0,0,0]]", "[[1,1,1]]", r#", "face_edges": [[1,1,1]]"#), "face 0"),

@@ -69,11 +69,11 @@ impl<'a> Placement<'a> {
                 return Err(Error::TooLarge { what, count });
             }
         }
-        let curves = Curves::trace(mesh, intrinsic.given)?;
+        let curves = Curves::trace(mesh, intrinsic.given, control)?;
         control.check()?;
         let straight = straight(&intrinsic, geometry, &curves);
         control.check()?;
-        let on_final = Curves::trace(result.mesh, intrinsic.normal)?;
+        let on_final = Curves::trace(result.mesh, intrinsic.normal, control)?;
         let ends: Vec<_> = mesh.edges().map(|e| mesh.ends(e)).collect();
         let raw = strips.crossings(&ends, &on_final)?;
         control.check()?;

@@ -142,7 +142,7 @@ impl Refinement {
             return Err(Error::TooLarge { what: "crossings of input and final edges", count });
         }
         control.step(Stage::Layout, 0.0)?;
-        let curves = Curves::trace(result.mesh, result.normal)?;
+        let curves = Curves::trace(result.mesh, result.normal, control)?;
         let ends: Vec<_> = input.mesh.edges().map(|e| input.mesh.ends(e)).collect();
         let strips = Strips::new(&result);
         let raw = strips.crossings(&ends, &curves)?;
