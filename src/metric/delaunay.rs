@@ -200,11 +200,11 @@ pub fn intrinsic_delaunay(
         (length > 0.0 && length.is_finite()).then_some(length)
     };
     let mut queue = Queue::where_holds(mesh, fixed, |h| fails(mesh, lengths, h));
-    let shape: f64 = mesh.faces().map(|f| cotangents(mesh, lengths, f)).sum();
-    let most = MOST_FLIPS * mesh.n_edges() + shape.min(MOST_BY_SHAPE) as usize;
     if queue.waiting.is_empty() {
         return Ok(0);
     }
+    let shape: f64 = mesh.faces().map(|f| cotangents(mesh, lengths, f)).sum();
+    let most = MOST_FLIPS * mesh.n_edges() + shape.min(MOST_BY_SHAPE) as usize;
     let before = (mesh.clone(), lengths.clone());
     let flips = queue.run(most, mesh, lengths, decide, record, control);
     if flips.is_err() {
