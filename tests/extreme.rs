@@ -10,7 +10,7 @@ use common::flow::surface;
 use ricci::flow::{Options, Report, StopReason, SurfaceFlow};
 use ricci::geometry::Space;
 use ricci::mesh::shapes::{self, Sliver};
-use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, VertexId};
+use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, Soup, VertexId};
 use ricci::metric::delaunay::intrinsic_delaunay;
 use ricci::metric::target::check_admissible;
 use ricci::metric::{Scheme, Target};
@@ -355,5 +355,40 @@ fn sheared_tori_are_unwound() {
         assert!((flips as f64 - k).abs() <= 2.0, "{k}: {flips}");
         // Two sides of a triangle sheared j times exceed the third by 1/j² and say so to j³ ulp, anew for each j.
         assert!(worst < 4.0 * f64::EPSILON * k.powf(3.5), "{k}: {worst:e}");
+    }
+}
+
+/// Angles near π and near 0 opposite one edge: their cosines add up to nothing in doubles, and the edge is Delaunay or not all the same.
+#[test]
+fn needles_beside_caps_are_told_from_delaunay_edges() {
+    let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let soup = Soup { positions, faces: vec![[0, 1, 2], [0, 2, 3]], ..Soup::default() };
+    for (cap, needle, flips) in
+        [(1e-7, 1e-6, 1), (1e-6, 1e-7, 0), (1e-6, 2e-6, 1), (1e-4, 2e-4, 1), (2e-4, 1e-4, 0)]
+    {
+        let (mut mesh, mut lengths) = surface(&soup);
+        let inner = mesh
+            .edges()
+            .find(|&e| !mesh.is_outside(e.halfedge()) && !mesh.is_outside(e.halfedge().twin()))
+            .unwrap();
+        let base = 2.0 * f64::cos(0.5 * cap);
+        let long = 0.5 * base / f64::sin(0.5 * needle);
+        lengths[inner] = base;
+        for (h, side) in [(inner.halfedge(), 1.0), (inner.halfedge().twin(), long)] {
+            for next in [mesh.next(h), mesh.prev(h)] {
+                lengths[next.edge()] = side;
+            }
+        }
+        let made = intrinsic_delaunay(
+            &mut mesh,
+            &mut lengths,
+            None,
+            Space::E2,
+            &[],
+            &mut |_, _| (),
+            &Control::new(),
+        )
+        .unwrap();
+        assert_eq!(made, flips, "π − {cap:e} and {needle:e}");
     }
 }

@@ -42,8 +42,8 @@ impl Choice for ricci_method {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ricci_flips {
     /// As often as needed, so that every admissible target is reached: the flow starts from the intrinsic
-    /// Delaunay triangulation and keeps it (weighted) Delaunay; a surface with boundary flows on its double,
-    /// unless vertices are pinned. Applies to Newton's method in E2 and H2 with vertex scaling, inversive
+    /// Delaunay triangulation and keeps it (weighted) Delaunay; a surface with boundary flows on its double
+    /// as soon as an edge is to be flipped across the boundary, unless vertices are pinned. Applies to Newton's method in E2 and H2 with vertex scaling, inversive
     /// distance and virtual radius; else edges stay as they are.
     RICCI_FLIPS_AUTO = 0,
     /// The triangulation of the metric stays as it is.
@@ -294,8 +294,8 @@ pub unsafe extern "C" fn ricci_solver_free(solver: *mut ricci_solver) {
 /// Hold u fixed at some vertices in the following solves; their curvature is then free.
 ///
 /// Replaces the vertices that were pinned before. A surface with boundary flows on its double if edges are
-/// flipped and no vertex is pinned: there the first pin, and the release of all, begin the flow anew from the
-/// given lengths.
+/// flipped across the boundary and no vertex is pinned: there the first pin, and the release of all, begin the
+/// flow anew from the given lengths.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex).
 ///
 /// @param solver      the solver.

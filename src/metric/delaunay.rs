@@ -8,7 +8,7 @@ use super::lengths::Metric;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::Vertex;
-use crate::geometry::flip::{Hinge, diagonal, weight};
+use crate::geometry::flip::{Hinge, TOLERANCE, diagonal, weight};
 use crate::geometry::{Space, triangle};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use crate::parallel;
@@ -22,6 +22,8 @@ const MOST_FLIPS: usize = 1000;
 /// allows is capped here: more flips take hours.
 const MOST_BY_SHAPE: f64 = 1e11;
 
+/// Sums of two cosines beyond this say which side of π the angles' sum is on; rounding is far below.
+const CLEARLY: f64 = 1e-3;
 /// Edges looked at between two looks at the control.
 const EDGES_PER_STEP: usize = 4096;
 
@@ -180,7 +182,7 @@ pub fn intrinsic_delaunay(
         check_size("radii", radii.len(), mesh.n_vertices())?;
     }
     let fails = |mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId| match radii {
-        None => local_defect(geometry, sides(mesh, lengths, h)) < -crate::geometry::flip::TOLERANCE,
+        None => is_obtuse(geometry, sides(mesh, lengths, h)),
         Some(radii) => weighted_hinge(mesh, lengths, radii, geometry, h).wants_flip(),
     };
     let decide = |mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId| {
@@ -225,19 +227,23 @@ fn sides(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> [[f64; 3]; 2] {
     [h, h.twin()].map(|h| [mesh.next(h), mesh.prev(h), h].map(|side| lengths[side.edge()]))
 }
 
-/// `cot α + cot β` (scaled) of the angles opposite a common side, or what decides alike in curved spaces: the circumcircles'
-/// centres. With half chords q of the sides: `q_a² + q_b² − q_c²` over twice the product, the Euclidean triangle of the chords.
-fn local_defect(geometry: Space, sides: [[f64; 3]; 2]) -> f64 {
+/// Whether the angles α, β opposite a common side add up to more than π by more than [`TOLERANCE`]: in curved spaces those of the
+/// Euclidean triangles of the half chords, which decide alike.
+///
+/// Far from π the sum of the cosines says so; near, with α near π and β near 0, it cannot, but `sin(α + β)` can.
+fn is_obtuse(geometry: Space, sides: [[f64; 3]; 2]) -> bool {
     let chord = |l: f64| match geometry {
         Space::E2 => l,
         Space::H2 => (0.5 * l).sinh(),
         Space::S2 => (0.5 * l).sin(),
     };
-    let cos = |[a, b, c]: [f64; 3]| {
-        let [a, b, c] = [chord(a), chord(b), chord(c)];
-        (a * a + b * b - c * c) / (2.0 * a * b)
-    };
-    cos(sides[0]) + cos(sides[1])
+    let chords = sides.map(|sides| sides.map(chord));
+    let [cos_k, cos_l] = chords.map(|[a, b, c]| (a * a + b * b - c * c) / (2.0 * a * b));
+    if (cos_k + cos_l).abs() > CLEARLY {
+        return cos_k + cos_l < 0.0;
+    }
+    let [sin_k, sin_l] = chords.map(|[a, b, c]| 2.0 * triangle::area(Space::E2, [a, b, c]) / (a * b));
+    sin_k * cos_l + cos_k * sin_l < -TOLERANCE
 }
 
 /// The hinge of circles with these radii around the vertices, from the current lengths.
