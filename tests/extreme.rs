@@ -10,7 +10,7 @@ use common::flow::surface;
 use ricci::flow::{Options, Report, StopReason, SurfaceFlow};
 use ricci::geometry::Space;
 use ricci::mesh::shapes::{self, Sliver};
-use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, Soup, VertexId};
+use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::delaunay::intrinsic_delaunay;
 use ricci::metric::target::check_admissible;
 use ricci::metric::{Scheme, Target};
@@ -362,7 +362,7 @@ fn sheared_tori_are_unwound() {
 #[test]
 fn needles_beside_caps_are_told_from_delaunay_edges() {
     let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    let soup = Soup { positions, faces: vec![[0, 1, 2], [0, 2, 3]], ..Soup::default() };
+    let soup = ricci::mesh::io::Soup { positions, faces: vec![[0, 1, 2], [0, 2, 3]], ..Default::default() };
     for (cap, needle, flips) in
         [(1e-7, 1e-6, 1), (1e-6, 1e-7, 0), (1e-6, 2e-6, 1), (1e-4, 2e-4, 1), (2e-4, 1e-4, 0)]
     {
