@@ -207,8 +207,8 @@ typedef enum {
 typedef enum {
     /**
      * As often as needed, so that every admissible target is reached: the flow starts from the intrinsic
-     * Delaunay triangulation and keeps it (weighted) Delaunay; a surface with boundary flows on its double,
-     * unless vertices are pinned. Applies to Newton's method in E2 and H2 with vertex scaling, inversive
+     * Delaunay triangulation and keeps it (weighted) Delaunay; a surface with boundary flows on its double
+     * as soon as an edge is to be flipped across the boundary, unless vertices are pinned. Applies to Newton's method in E2 and H2 with vertex scaling, inversive
      * distance and virtual radius; else edges stay as they are.
      */
     RICCI_FLIPS_AUTO = 0,
@@ -490,6 +490,8 @@ typedef struct {
      * stalls, else 0.
      */
     double rounding_floor;
+    /** 1 if u, lengths and curvature were carried to twice the digits of a double (Newton in E2), else 0. */
+    int32_t double_double;
     /** |sum of curvatures + lambda area - 2 pi chi| of the result. */
     double gauss_bonnet;
     /** Seconds in the assembly of curvature and its derivative. */
@@ -1995,8 +1997,8 @@ void ricci_solver_free(ricci_solver *solver);
  * Hold u fixed at some vertices in the following solves; their curvature is then free.
  *
  * Replaces the vertices that were pinned before. A surface with boundary flows on its double if edges are
- * flipped and no vertex is pinned: there the first pin, and the release of all, begin the flow anew from the
- * given lengths.
+ * flipped across the boundary and no vertex is pinned: there the first pin, and the release of all, begin the
+ * flow anew from the given lengths.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex).
  *
  * @param solver      the solver.

@@ -2,7 +2,7 @@
 
 use crate::files::{curvature_error, parse_obj};
 use crate::run::{Place, numbers};
-use crate::surfaces::hill;
+use crate::surfaces::{hill, sheared_hill};
 
 /// Positions of an OBJ file.
 fn positions(text: &str) -> Vec<[f64; 3]> {
@@ -50,7 +50,7 @@ fn a_target_out_of_reach_without_flips_is_laid_out_on_the_given_surface() {
 #[test]
 fn an_open_surface_is_solved_on_its_double_and_laid_out_by_itself() {
     let place = Place::new();
-    place.put("hill.obj", &hill(12).obj());
+    place.put("hill.obj", &sheared_hill(12).obj());
     for scheme in ["yamabe", "inversive"] {
         place.expect(
             0,
@@ -72,6 +72,20 @@ fn an_open_surface_is_solved_on_its_double_and_laid_out_by_itself() {
         let boundary_loops = report["input"]["boundary_loops"].as_u64().unwrap();
         assert_eq!((boundary_loops, uv.v.len() >= n), (1, true));
     }
+}
+
+#[test]
+fn an_open_surface_with_no_flips_across_its_boundary_stays_one_copy() {
+    let place = Place::new();
+    place.put("hill.obj", &hill(12).obj());
+    place.expect(0, "flow hill.obj --uv uv.obj --metric m.json --report r.json");
+    let (report, metric) = (place.json("r.json"), place.json("m.json"));
+    assert!(curvature_error(&metric) <= 1e-10);
+    let n = positions(&place.text("hill.obj")).len();
+    assert!(metric["mirror"].is_null() && numbers(&metric["u"]).len() == n);
+    let boundary = metric["boundary"].as_array().unwrap();
+    assert_eq!(boundary.iter().filter(|b| **b == true).count(), 48);
+    assert!(report["result"]["flips"].as_u64() > Some(0), "inside, where the hill is steep");
 }
 
 fn parse_faces(text: &str) -> Vec<[usize; 3]> {
@@ -121,7 +135,7 @@ fn homogeneous_coordinates_are_the_plain_ones_times_a_weight() {
 #[test]
 fn edges_are_kept_on_demand() {
     let place = Place::new();
-    place.put("hill.obj", &hill(8).obj());
+    place.put("hill.obj", &sheared_hill(8).obj());
     let faces = parse_faces(&place.text("hill.obj"));
     let rows = faces.iter().step_by(3).map(|f| format!("{},{}\n", f[0], f[1]));
     place.put("e.csv", &rows.clone().collect::<String>());
