@@ -57,14 +57,24 @@ impl Run<'_> {
         self.control.step(Stage::Flow, 0.0)?;
         let mut flipped = report.flips;
         report.stop_reason = loop {
+            let at_limit = report.iterations >= self.options.iteration_limit();
+            let fails = |run: &Self| boundary_fails(run.mesh, run.class, &state.u, &run.options.fixed_edges);
+            if self.one_copy && !at_limit && fails(self) {
+                self.left = true;
+                report.max_curvature_error = error;
+                return Ok(state);
+            }
             if error <= report.tolerance {
                 break StopReason::Converged;
             }
-            if report.iterations >= self.options.iteration_limit() {
+            if range(&state.u) > MAX_RANGE {
+                break StopReason::Diverged;
+            }
+            if at_limit {
                 break StopReason::IterationLimit;
             }
             self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
-            if error < NEAR && self.lopsided(&residual, error) {
+            if self.lopsided(&residual, error) {
                 (self.mirror, *kept) = (None, None);
             }
             let more = report.flips - std::mem::replace(&mut flipped, report.flips);
@@ -98,14 +108,6 @@ impl Run<'_> {
             }
             if since_best >= PATIENCE && error < AT_THE_END {
                 break StopReason::Stalled;
-            }
-            if range(&state.u) > MAX_RANGE {
-                break StopReason::Diverged;
-            }
-            if self.one_copy && boundary_fails(self.mesh, self.class, &state.u, &self.options.fixed_edges) {
-                self.left = true;
-                report.max_curvature_error = error;
-                return Ok(state);
             }
         };
         // A factor of another triangulation is no good, and its matrix is of another pattern.

@@ -159,7 +159,7 @@ impl Report {
 
     /// This flow and the one that took it to its end.
     pub(super) fn then(mut self, rest: Report) -> Report {
-        self.residuals.extend(rest.residuals);
+        self.residuals.extend(rest.residuals.into_iter().skip(1));
         let (a, b) = (self.seconds, rest.seconds);
         Report {
             iterations: self.iterations + rest.iterations,

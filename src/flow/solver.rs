@@ -128,6 +128,16 @@ impl Solver {
         self.pool.run(work)
     }
 
+    /// Where the next solve starts: u and what its doubles lose.
+    pub(super) fn start(&self) -> [&PerVertex<f64>; 2] {
+        [&self.start, &self.start_low]
+    }
+
+    /// Let the next solve start there, where a solve once ended.
+    pub(super) fn start_from(&mut self, u: PerVertex<f64>, low: PerVertex<f64>) {
+        (self.start, self.start_low) = (u, low);
+    }
+
     /// Set u (V entries): the start of the next solves, and the values held at pinned vertices.
     pub fn set_u(&mut self, u: PerVertex<f64>) -> Result<()> {
         let u_low = PerVertex::filled(u.len(), 0.0);
@@ -200,7 +210,7 @@ impl Solver {
         if run.mirror.is_some() != self.mirror.is_some() {
             *system = None;
         }
-        let state = match (state, before) {
+        let mut state = match (state, before) {
             (Err(error), Some((mesh, eta, followed))) => {
                 // Nothing happened: the old triangulation, whose system is to be made anew.
                 (self.mesh, self.metric.eta, self.followed, self.system) = (mesh, eta, followed, None);
@@ -209,6 +219,15 @@ impl Solver {
             (state, _) => state?,
         };
         report.seconds.total = seconds;
+        if one_copy && free_scale {
+            // The scale of the double, where a vertex inside counts twice.
+            let copies = |v| if self.mesh.is_boundary_vertex(v) { 1.0 } else { 2.0 };
+            let (sum, n) = self
+                .mesh
+                .vertices()
+                .fold((0.0, 0.0), |(sum, n), v| (sum + copies(v) * state.u[v], n + copies(v)));
+            state.shift(-sum / n);
+        }
         if report.converged {
             (self.start, self.start_low) = (state.u.clone(), state.low.clone());
         }
@@ -282,7 +301,8 @@ impl Run<'_> {
     /// The vertices that are farthest from their target.
     fn worst(&self, state: &State) -> Vec<(VertexId, f64)> {
         let mut worst: Vec<(VertexId, f64)> = Vec::with_capacity(WORST + 1);
-        for v in self.mesh.vertices().filter(|v| !self.pinned[v.index()]) {
+        let first = |v: &VertexId| self.mirror.is_none_or(|mirror| mirror[v.index()] >= v.0);
+        for v in self.mesh.vertices().filter(|v| !self.pinned[v.index()]).filter(first) {
             let error = state.curvature[v] - self.target[v.index()];
             let rank = worst.partition_point(|(_, other)| other.abs() >= error.abs());
             if rank < WORST && error != 0.0 {

@@ -2,7 +2,7 @@
 //! back.
 
 use super::options::{Flips, Method, Options};
-use super::report::Report;
+use super::report::{Report, timed};
 use super::solver::Solver;
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -102,7 +102,8 @@ impl SurfaceFlow {
         };
         let mut flow = SurfaceFlow::go_on(self.solver.run(double)?, &[], &self.options)?;
         if let Some(double) = &flow.start.double {
-            flow.solver.set_u(double.spread_vertices(&self.metric().u).into())?;
+            // Edges between imaginary circles may have no length there before they are flipped: then it begins from its own start.
+            let _ = flow.solver.set_u(double.spread_vertices(&self.metric().u).into());
         }
         Ok(flow)
     }
@@ -199,20 +200,35 @@ impl SurfaceFlow {
             return Ok(report);
         }
         let before = self.now();
-        let (report, left) = self.solver.solve_on(target, true, control)?;
+        let [start, low] = self.solver.start().map(PerVertex::clone);
+        let (mut report, left) = self.solver.solve_on(target, true, control)?;
         self.flips += report.flips;
         if !left {
             return Ok(report);
         }
-        let rest =
-            self.doubled(control).and_then(|mut doubled| Ok((doubled.solve(target, control)?, doubled)));
+        let mut took = 0.0;
+        let doubled = timed(&mut took, || self.doubled(control));
+        report.seconds.flip += took;
+        report.seconds.total += took;
+        let rest = doubled.and_then(|mut doubled| {
+            let limit = self.options.iteration_limit();
+            doubled.solver.options.max_iterations = limit - report.iterations;
+            let rest = doubled.solve(target, control)?;
+            doubled.solver.options.max_iterations = limit;
+            Ok((rest, doubled))
+        });
         match rest {
-            Ok((rest, doubled)) => {
+            Ok((rest, mut doubled)) => {
+                if let (false, Some(double)) = (rest.converged, &doubled.start.double) {
+                    let spread = |x: &[f64]| double.spread_vertices(x).into();
+                    doubled.solver.start_from(spread(&start), spread(&low));
+                }
                 *self = doubled;
                 Ok(report.then(rest))
             }
             Err(error) => {
                 *self = SurfaceFlow::resume(&before, &[], &self.options, &Control::new())?;
+                self.solver.start_from(start, low);
                 Err(error)
             }
         }

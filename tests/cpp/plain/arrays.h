@@ -6,7 +6,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* A bump over a square, n x n vertices, with long thin triangles. */
+/* A bump over a sheared square, n x n vertices: edges are flipped across its boundary, so it flows on its
+ * double. */
 static inline ricci_mesh *bump(size_t n) {
     double *positions = (double *)malloc(3 * n * n * sizeof *positions);
     uint32_t *faces = (uint32_t *)malloc(6 * n * n * sizeof *faces);
@@ -16,7 +17,7 @@ static inline ricci_mesh *bump(size_t n) {
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++) {
             const double x = 2.0 * i / (n - 1) - 1, y = 2.0 * j / (n - 1) - 1;
-            const double point[3] = {x, 0.4 * y + 0.3 * x, exp(-4 * (x * x + y * y))};
+            const double point[3] = {x, 0.4 * y + 1.1 * x, exp(-4 * (x * x + y * y))};
             memcpy(positions + 3 * (i * n + j), point, sizeof point);
             if (i + 1 == n || j + 1 == n) continue;
             const size_t v = i * n + j, corners[6] = {v, v + n, v + n + 1, v, v + n + 1, v + 1};

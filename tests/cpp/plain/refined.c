@@ -245,12 +245,15 @@ static void intrinsic_surfaces_are_unrolled(void) {
 
 int main(void) {
     torus t = torus_new(24, 12);
-    ricci_mesh *closed = torus_mesh(&t), *open = bump(13);
+    ricci_mesh *closed = torus_mesh(&t), *open = bump(13), *round = NULL;
+    /* No flip at the start: pieces of several triangles have one map. */
+    OK(ricci_shape_sphere(10, &round));
+    the_refinement_is_the_same_surface(round, "refined_sphere.obj");
     the_refinement_is_the_same_surface(closed, "refined_torus.obj");
     the_refinement_is_the_same_surface(open, "refined_bump.obj");
     CHECK(maps_checked > 20);
     intrinsic_surfaces_are_unrolled();
-    ricci_mesh_free(closed), ricci_mesh_free(open);
+    ricci_mesh_free(closed), ricci_mesh_free(open), ricci_mesh_free(round);
     torus_free(&t);
     return 0;
 }
