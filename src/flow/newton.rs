@@ -22,6 +22,10 @@ const TRIALS: usize = 50;
 const FLAT: f64 = 0.5;
 /// … or so many more points were tried.
 const BISECTIONS: usize = 10;
+/// Flips there and back round η. Where triangles are so thin that this alone moves the error at one u by such a share, a search that
+/// finds nothing has started from what is no longer so: it is made again, so often at most.
+const MOVED: f64 = 1e-3;
+const RESTARTS: usize = 20;
 /// First shift of a matrix that is not positive definite, relative to its mean diagonal; grows by `SHIFT_GROWTH`.
 const SHIFT: f64 = 1e-12;
 const SHIFT_GROWTH: f64 = 100.0;
@@ -55,7 +59,7 @@ impl Run<'_> {
         let (first, mut best, mut since_best, mut shift, mut factored) = (error, error, 0, 0.0, false);
         report.residuals.push(error);
         self.control.step(Stage::Flow, 0.0)?;
-        let mut flipped = report.flips;
+        let (mut flipped, mut restarts) = (report.flips, 0);
         report.stop_reason = loop {
             let at_limit = report.iterations >= self.options.iteration_limit();
             let fails = |run: &Self| boundary_fails(run.mesh, run.class, &state.u, &run.options.fixed_edges);
@@ -91,7 +95,12 @@ impl Run<'_> {
             let Some(now) = accepted else {
                 // Back to the triangulation of the last metric, or one of the same.
                 self.evaluate(&mut state, report)?;
-                error = state.residual(self.target, self.pinned, &mut residual);
+                let before =
+                    std::mem::replace(&mut error, state.residual(self.target, self.pinned, &mut residual));
+                if (error - before).abs() > MOVED * before && restarts < RESTARTS {
+                    restarts += 1;
+                    continue;
+                }
                 break StopReason::Stalled;
             };
             std::mem::swap(&mut state, &mut trial);
