@@ -1,5 +1,5 @@
 //! Surfaces with boundary flow on one copy for as long as that gives what their double gives.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
 
