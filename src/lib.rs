@@ -11,8 +11,8 @@
 //! | [`mesh`] | connectivity (half-edge Δ-complex), building, diagnosis, files, generators |
 //! | [`topology`] | spanning trees, homology generators, cut graphs |
 //! | [`metric`] | conformal classes (ε, η), lengths, angles, curvature, targets |
-//! | [`flow`] | Newton and gradient flow |
-//! | [`embed`] | layouts and their quality |
+//! | [`flow`] | Newton and gradient flow, cones |
+//! | [`embed`] | layouts, their quality, charts |
 
 pub mod control;
 pub mod embed;

@@ -81,6 +81,18 @@ pub fn fill<T: Send>(out: &mut [T], f: impl Fn(usize) -> T + Sync) {
     });
 }
 
+/// `(a[i], b[i]) = f(i)` for every i of two arrays of the same length, as [`fill`].
+pub fn fill_both<A: Send, B: Send>(a: &mut [A], b: &mut [B], f: impl Fn(usize) -> (A, B) + Sync) {
+    let one = |i: usize, (a, b): (&mut A, &mut B)| (*a, *b) = f(i);
+    if a.len() <= CHUNK || rayon::current_thread_index().is_none() {
+        a.iter_mut().zip(b).enumerate().for_each(|(i, pair)| one(i, pair));
+        return;
+    }
+    a.par_chunks_mut(CHUNK).zip(b.par_chunks_mut(CHUNK)).enumerate().for_each(|(c, (a, b))| {
+        a.iter_mut().zip(b).enumerate().for_each(|(i, pair)| one(c * CHUNK + i, pair));
+    });
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

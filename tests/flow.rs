@@ -4,7 +4,7 @@
 mod common;
 
 use common::Random;
-use common::flow::{converged, distance, solve, surface};
+use common::flow::{converged, distance, rigid, solve, surface};
 use ricci::Control;
 use ricci::embed::layout;
 use ricci::flow::{Gradient, Method, Options, Report, StepRule, StopReason};
@@ -31,7 +31,7 @@ fn run(
     let initial = initial_metric(mesh, lengths, geometry, scheme, space).unwrap();
     let target = target.unwrap_or_else(|| Target::default_for(mesh, lengths, space).unwrap());
     let target = target.resolve(mesh, lengths, space, scheme).unwrap();
-    let (metric, report) = solve(mesh, &initial.metric, &target, &Options::default());
+    let (metric, report) = solve(mesh, &initial.metric, &target, &rigid());
     (initial, metric, report)
 }
 
@@ -76,18 +76,18 @@ fn spherical_flow_rounds_an_ellipsoid_by_newton_and_by_gradient() {
     for scheme in [Scheme::Yamabe, Scheme::Inversive, Scheme::Thurston] {
         let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::S2).unwrap();
         let target = Target::Uniform.resolve(&mesh, &lengths, Space::S2, scheme).unwrap();
-        let (metric, report) = solve(&mesh, &initial.metric, &target, &Options::default());
+        let (metric, report) = solve(&mesh, &initial.metric, &target, &rigid());
         converged(&report);
         let k = curvature(&mesh, Space::S2, &metric.lengths(&mesh).unwrap()).unwrap();
         assert!((k.area - 4.0 * PI).abs() < 1e-9);
-        let options = Options { method: Method::Gradient, ..Options::default() };
+        let options = Options { method: Method::Gradient, ..rigid() };
         converged(&solve(&mesh, &initial.metric, &target, &options).1);
     }
 }
 
 /// Modulus of the flat metric on a torus, from the holonomy of two homology generators.
 fn modulus_of(mesh: &Mesh, lengths: &PerEdge<f64>) -> [f64; 2] {
-    let cut = cut_graph(mesh, lengths, &[]).unwrap();
+    let cut = cut_graph(mesh, lengths, &[], &Control::new()).unwrap();
     let laid = layout(mesh, lengths, &cut, &Control::new()).unwrap();
     assert!(laid.flipped.is_empty() && laid.consistency < 1e-9);
     assert!(laid.seams.iter().all(|s| s.rotation.abs() < 1e-8 && s.residual < 1e-9), "{:?}", laid.seams);
@@ -208,14 +208,14 @@ fn gradient_flow_and_newton_agree() {
             let initial = initial_metric(mesh, lengths, Space::E2, scheme, space).unwrap();
             let target = Target::default_for(mesh, lengths, space).unwrap();
             let target = target.resolve(mesh, lengths, space, scheme).unwrap();
-            let (newton, report) = solve(mesh, &initial.metric, &target, &Options::default());
+            let (newton, report) = solve(mesh, &initial.metric, &target, &rigid());
             if !report.converged {
                 // Virtual radii do not reach every target on a fixed triangulation.
                 assert_eq!((scheme, report.stop_reason), (Scheme::Virtual, StopReason::BrokenTriangles));
                 unreached += 1;
                 continue;
             }
-            let options = Options { method: Method::Gradient, ..Options::default() };
+            let options = Options { method: Method::Gradient, ..rigid() };
             let (gradient, report) = solve(mesh, &initial.metric, &target, &options);
             converged(&report);
             assert!(distance(&newton.u, &gradient.u) < 1e-8, "{space} {scheme}");
@@ -232,7 +232,7 @@ fn energy_decreases_along_the_stable_gradient_flow() {
         let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Thurston, Space::E2).unwrap();
         let target = Target::Uniform.resolve(&mesh, &lengths, Space::E2, Scheme::Thurston).unwrap();
         let gradient = Gradient { step: StepRule::Stable, area_normalised };
-        let options = Options { method: Method::Gradient, gradient, ..Options::default() };
+        let options = Options { method: Method::Gradient, gradient, ..rigid() };
         let (_, report) = solve(&mesh, &initial.metric, &target, &options);
         converged(&report);
         assert!(report.trace.windows(2).all(|w| w[1].energy <= w[0].energy + 1e-14));
@@ -252,7 +252,7 @@ fn newton_converges_quadratically() {
         for scheme in Scheme::ALL {
             let initial = initial_metric(mesh, lengths, Space::E2, scheme, space).unwrap();
             let target = Target::Uniform.resolve(mesh, lengths, space, scheme).unwrap();
-            let (_, report) = solve(mesh, &initial.metric, &target, &Options::default());
+            let (_, report) = solve(mesh, &initial.metric, &target, &rigid());
             if !report.converged {
                 // Virtual radii do not reach every target on a fixed triangulation.
                 assert_eq!((scheme, report.stop_reason), (Scheme::Virtual, StopReason::BrokenTriangles));
@@ -276,7 +276,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
         let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::H2).unwrap();
         let target = PerVertex::filled(mesh.n_vertices(), 0.0);
         let bits = |threads| {
-            let options = Options { threads, ..Options::default() };
+            let options = Options { threads, ..rigid() };
             let (metric, report) = solve(&mesh, &initial.metric, &target, &options);
             converged(&report);
             metric.u.iter().map(|u| u.to_bits()).collect::<Vec<_>>()

@@ -14,7 +14,7 @@ use surfaces::*;
 
 fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Layout {
     gauss_bonnet(mesh, Space::E2, lengths);
-    let cut = cut_graph(mesh, lengths, cones).unwrap();
+    let cut = cut_graph(mesh, lengths, cones, &Control::new()).unwrap();
     layout(mesh, lengths, &cut, &Control::new()).unwrap()
 }
 
@@ -208,7 +208,7 @@ fn flipped_faces_are_found_in_the_final_coordinates() {
 #[test]
 fn broken_triangles_are_laid_out_flat_and_named() {
     let (mesh, lengths) = flat_torus(6, 6, [0.0, 1.0]);
-    let cut = cut_graph(&mesh, &lengths, &[]).unwrap();
+    let cut = cut_graph(&mesh, &lengths, &[], &Control::new()).unwrap();
     let mut long = lengths.clone();
     let e = EdgeId(3 * 14);
     long[e] = 1.0;
@@ -292,7 +292,7 @@ fn quality_is_finite_on_needles_and_on_faces_without_area() {
 #[test]
 fn what_cannot_be_laid_out_is_refused_by_name() {
     let (mesh, lengths) = flat_torus(4, 4, [0.0, 1.0]);
-    let good = cut_graph(&mesh, &lengths, &[]).unwrap();
+    let good = cut_graph(&mesh, &lengths, &[], &Control::new()).unwrap();
     let mut open = good.clone();
     open.is_cut.fill(false);
     assert!(matches!(layout(&mesh, &lengths, &open, &Control::new()), Err(Error::Layout(_))));

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::flow::{converged, distance, solve, surface};
+use common::flow::{converged, distance, rigid, solve, surface};
 use ricci::control::Stage;
 use ricci::flow::{Gradient, Method, Options, Solver, StepRule, StopReason, flow};
 use ricci::geometry::Space;
@@ -19,13 +19,13 @@ use std::f64::consts::PI;
 fn a_kept_solver_gives_what_a_fresh_one_gives() {
     let (mesh, lengths) = surface(&shapes::torus(2.0, 0.9, 20, 12).unwrap());
     let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap();
-    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
+    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), rigid()).unwrap();
     for (a, b) in [(0, 100), (17, 30), (200, 5)] {
         let cones = Target::Cones(vec![(VertexId(a), 1.0), (VertexId(b), -1.0)]);
         let target = cones.resolve(&mesh, &lengths, Space::E2, Scheme::Inversive).unwrap();
         let report = solver.solve(&target, &Control::new()).unwrap();
         converged(&report);
-        let (fresh, _) = solve(&mesh, &initial.metric, &target, &Options::default());
+        let (fresh, _) = solve(&mesh, &initial.metric, &target, &rigid());
         assert!(distance(&solver.metric().u, &fresh.u) < 1e-9);
     }
 }
@@ -35,7 +35,7 @@ fn a_failed_solve_does_not_spoil_the_next() {
     let (mesh, lengths) = surface(&shapes::torus(2.0, 0.9, 20, 12).unwrap());
     for scheme in [Scheme::Yamabe, Scheme::Inversive, Scheme::Tangential] {
         let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::E2).unwrap();
-        let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
+        let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), rigid()).unwrap();
         // Two neighbours below the bound that holds for them together.
         let mut target = PerVertex::filled(mesh.n_vertices(), 6.2 * PI / (mesh.n_vertices() - 2) as f64);
         let [a, b] = mesh.ends(7usize.into());
@@ -45,7 +45,7 @@ fn a_failed_solve_does_not_spoil_the_next() {
         let flat = PerVertex::filled(mesh.n_vertices(), 0.0);
         let after = solver.solve(&flat, &Control::new()).unwrap();
         converged(&after);
-        let (fresh, report) = solve(&mesh, &initial.metric, &flat, &Options::default());
+        let (fresh, report) = solve(&mesh, &initial.metric, &flat, &rigid());
         assert_eq!((&solver.metric().u, after.iterations), (&fresh.u, report.iterations), "{scheme}");
     }
 }
@@ -59,7 +59,7 @@ fn a_total_that_is_off_by_rounding_is_shared_and_reached() {
     let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap();
     let values = cones.values(&mesh, &lengths, Space::E2).unwrap();
     assert!((values.iter().sum::<f64>() - 4.0 * PI).abs() > 1e-9);
-    let (_, report) = solve(&mesh, &initial.metric, &values, &Options::default());
+    let (_, report) = solve(&mesh, &initial.metric, &values, &rigid());
     converged(&report);
     let resolved = cones.resolve(&mesh, &lengths, Space::E2, Scheme::Inversive).unwrap();
     assert!((resolved.iter().sum::<f64>() - 4.0 * PI).abs() < 1e-14);
@@ -71,7 +71,7 @@ fn pinned_vertices_keep_u_and_the_rest_reach_their_curvature() {
     let (mesh, lengths) = surface(&shapes::disk(6).unwrap());
     let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
     let boundary: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).collect();
-    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
+    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), rigid()).unwrap();
     solver.pin(&boundary).unwrap();
     // u = log |f'| of the conformal map f(z) = z + z²/5, on the boundary.
     let factor = |v: VertexId, soup: &Soup| {
@@ -101,7 +101,7 @@ fn pinned_vertices_keep_u_in_every_space_and_by_every_method() {
             for method in [Method::Newton, Method::Gradient] {
                 let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, space).unwrap();
                 let gradient = Gradient { area_normalised, ..Gradient::default() };
-                let options = Options { method, gradient, max_iterations: 50, ..Options::default() };
+                let options = Options { method, gradient, max_iterations: 50, ..rigid() };
                 let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), options).unwrap();
                 solver.pin(&pins).unwrap();
                 // Near the curvature that the start has.
@@ -122,7 +122,7 @@ fn pinned_vertices_keep_u_in_every_space_and_by_every_method() {
     }
     // Every vertex pinned: nothing to do, nothing to miss.
     let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
-    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
+    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), rigid()).unwrap();
     solver.pin(&mesh.vertices().collect::<Vec<_>>()).unwrap();
     let report = solver.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), &Control::new()).unwrap();
     assert_eq!((report.stop_reason, report.iterations), (StopReason::Converged, 0));
@@ -138,7 +138,7 @@ fn an_open_surface_in_the_hyperbolic_plane_has_the_area_of_gauss_and_bonnet() {
         PerVertex::from_fn(mesh.n_vertices(), |v| if mesh.is_boundary_vertex(v) { share } else { 0.0 });
     for scheme in Scheme::ALL {
         let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::H2).unwrap();
-        let (metric, report) = solve(&mesh, &initial.metric, &target, &Options::default());
+        let (metric, report) = solve(&mesh, &initial.metric, &target, &rigid());
         converged(&report);
         assert!((metric.curvature(&mesh).unwrap().area - 0.8).abs() < 1e-9, "{scheme}");
     }
@@ -152,7 +152,7 @@ fn the_unit_of_length_does_not_matter_as_far_as_doubles_go() {
         let result = |exponent: i32| {
             let lengths = PerEdge::from_fn(mesh.n_edges(), |e| lengths[e] * 2f64.powi(exponent));
             let start = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::E2).unwrap().metric;
-            let (metric, report) = solve(&mesh, &start, &target, &Options::default());
+            let (metric, report) = solve(&mesh, &start, &target, &rigid());
             converged(&report);
             let lengths = metric.lengths(&mesh).unwrap();
             PerEdge::from_fn(mesh.n_edges(), |e| lengths[e] / lengths[0usize.into()])
@@ -189,7 +189,7 @@ fn imaginary_circles_have_a_radius_for_every_u() {
 fn cancelling_stops_the_flow_and_leaves_the_metric() {
     let (mesh, lengths) = surface(&shapes::genus(2, 6).unwrap());
     let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::H2).unwrap();
-    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), Options::default()).unwrap();
+    let mut solver = Solver::new(mesh.clone(), initial.metric.clone(), rigid()).unwrap();
     let control = Control::new();
     control.cancel();
     let target = PerVertex::filled(mesh.n_vertices(), 0.0);
@@ -205,7 +205,7 @@ fn cancelling_from_another_thread_ends_a_running_flow() {
     let target = Target::Uniform.resolve(&mesh, &lengths, Space::E2, Scheme::Inversive).unwrap();
     // The stable gradient flow needs far longer than the test is willing to wait.
     let gradient = Gradient { step: StepRule::Stable, ..Gradient::default() };
-    let options = Options { method: Method::Gradient, gradient, ..Options::default() };
+    let options = Options { method: Method::Gradient, gradient, ..rigid() };
     let control = Control::new();
     let outcome = std::thread::scope(|scope| {
         let run = scope.spawn(|| flow(&mesh, &initial.metric, &target, &options, &control));

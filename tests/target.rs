@@ -4,8 +4,8 @@
 mod common;
 
 use common::Random;
-use common::flow::{converged, solve, surface};
-use ricci::flow::{Options, StopReason, flow};
+use common::flow::{converged, rigid, solve, surface};
+use ricci::flow::{StopReason, flow};
 use ricci::geometry::Space;
 use ricci::mesh::shapes;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
@@ -84,7 +84,7 @@ fn a_target_below_thurstons_bound_is_reported_with_the_vertices_that_prove_it() 
             let total = if space == Space::E2 { 4.0 * PI } else { 4.0 * PI + 0.3 };
             let share = (total - 2.0 * target[a]) / (mesh.n_vertices() - 2) as f64;
             mesh.vertices().filter(|v| !pair.contains(v)).for_each(|v| target[v] = share);
-            let (_, report) = solve(&mesh, &initial.metric, &target, &Options::default());
+            let (_, report) = solve(&mesh, &initial.metric, &target, &rigid());
             assert_eq!(report.stop_reason, StopReason::Infeasible, "{space} {scheme} {report:?}");
             let proof = report.obstruction.unwrap();
             assert_eq!(proof.vertices, if a < b { [a, b] } else { [b, a] });
@@ -106,7 +106,7 @@ fn a_target_below_thurstons_bound_is_reported_with_the_vertices_that_prove_it() 
             pair.iter().for_each(|&v| target[v] += 0.1);
             let share = (total - 2.0 * target[a]) / (mesh.n_vertices() - 2) as f64;
             mesh.vertices().filter(|v| !pair.contains(v)).for_each(|v| target[v] = share);
-            converged(&solve(&mesh, &initial.metric, &target, &Options::default()).1);
+            converged(&solve(&mesh, &initial.metric, &target, &rigid()).1);
         }
     }
 }
@@ -121,8 +121,7 @@ fn a_triangulation_without_solution_is_reported_as_such() {
     target[VertexId(3)] -= 6.0;
     (0..12).filter(|v| ![0, 3].contains(v)).for_each(|v| target[VertexId(v)] += 0.6);
     let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
-    let (metric, report) =
-        flow(&mesh, &initial.metric, &target, &Options::default(), &Control::new()).unwrap();
+    let (_, metric, report) = flow(&mesh, &initial.metric, &target, &rigid(), &Control::new()).unwrap();
     assert!(!report.converged, "{report:?}");
     assert!(report.broken_triangles > 0);
     assert_eq!(report.stop_reason, StopReason::BrokenTriangles);

@@ -170,7 +170,7 @@ fn opened_euler(mesh: &Mesh, cut: &CutGraph) -> Option<i64> {
 }
 
 fn check_cut(name: &str, mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> CutGraph {
-    let cut = cut_graph(mesh, lengths, cones).unwrap();
+    let cut = cut_graph(mesh, lengths, cones, &ricci::Control::new()).unwrap();
     assert_eq!(opened_euler(mesh, &cut), Some(1), "{name}: not a disk");
     let mut degree = vec![0; mesh.n_vertices()];
     let mut covered = PerEdge::filled(mesh.n_edges(), 0);
@@ -218,7 +218,10 @@ fn cut_opens_every_surface_into_a_disk_through_all_cones() {
         cones.push(cones[0]); // a cone named twice is one
         check_cut(&name, &mesh, &lengths, &cones);
         if mesh.is_closed() && mesh.genus() == 0 {
-            assert!(matches!(cut_graph(&mesh, &lengths, &[]), Err(Error::Layout(_))), "{name}");
+            assert!(
+                matches!(cut_graph(&mesh, &lengths, &[], &ricci::Control::new()), Err(Error::Layout(_))),
+                "{name}"
+            );
         } else {
             check_cut(&name, &mesh, &lengths, &[]);
         }
@@ -249,9 +252,15 @@ fn cut_of_a_flat_torus_is_about_as_short_as_two_closed_geodesics() {
 fn bad_input_is_named() {
     let (mesh, lengths) = cube();
     let cones = [VertexId(0), VertexId(8)];
-    assert!(matches!(cut_graph(&mesh, &lengths, &cones), Err(Error::Argument { .. })));
+    assert!(matches!(
+        cut_graph(&mesh, &lengths, &cones, &ricci::Control::new()),
+        Err(Error::Argument { .. })
+    ));
     let mut bad = lengths.clone();
     bad[EdgeId(5)] = f64::NAN;
     assert!(matches!(homology_generators(&mesh, &bad), Err(Error::EdgeLength { edge: 5, .. })));
-    assert!(matches!(cut_graph(&mesh, &PerEdge::filled(3, 1.0), &[]), Err(Error::Size { .. })));
+    assert!(matches!(
+        cut_graph(&mesh, &PerEdge::filled(3, 1.0), &[], &ricci::Control::new()),
+        Err(Error::Size { .. })
+    ));
 }

@@ -67,13 +67,17 @@ const FLOW_EXAMPLE: &str = "\
 Example: a flat torus, its layout as texture coordinates and a picture of both
     ricci make torus -o torus.obj
     ricci flow torus.obj --uv flat.obj --picture flat.png --report flat.json
+Example: eight cones, and charts in the unit square
+    ricci flow torus.obj --target auto:8 --charts --uv atlas.obj --picture atlas.svg
 
 Files
     --target cones:FILE.csv    rows `vertex,curvature` in radians; 0 at every vertex that is not named
     --metric M.json            faces, lengths, eta (per face, opposite the corners: bc, ca, ab), u,
                                conformal_factor, epsilon, target, boundary; `input_geometry` is the
                                geometry that `lengths` are in, so the file can be read back as a MESH
-    --uv OUT.obj | OUT.glb     the surface with the layout as texture coordinates, scaled to its area
+    --uv OUT.obj | OUT.glb     the surface with the layout as texture coordinates, scaled to its area, and
+                               the input's colours and normals; with --homogeneous (.obj) each vt is
+                               `qx qy q`: linear in a face are these three, the texture is at (x, y)
     --circles C.json           vertex circles and the circles orthogonal to them, in the layout's coordinates
     --trace T.csv              step,energy,max_curvature_error,area,step_size (gradient flow)";
 
@@ -172,7 +176,7 @@ pub struct FlowArgs {
     /// Discrete conformal structure
     #[arg(long, value_enum, default_value_t = SchemeChoice::Yamabe)]
     pub scheme: SchemeChoice,
-    /// Curvature: uniform, boundary, single:V, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
+    /// Curvature: uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
     #[arg(long, value_name = "TARGET", long_help = TARGET_HELP)]
     pub target: Option<TargetChoice>,
     /// Newton's method, or the flow itself
@@ -184,13 +188,16 @@ pub struct FlowArgs {
     /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,…
     #[arg(long, value_name = "VERTICES")]
     pub pin: Option<PinChoice>,
-    /// Edge flips inside the conformal class; auto is never in this version
+    /// Edge flips inside the conformal class: as needed, with the layout carried back to the given triangulation, or never
     #[arg(long, value_enum, default_value_t = FlipsChoice::Auto)]
     pub flips: FlipsChoice,
+    /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex
+    #[arg(long, value_name = "E.csv")]
+    pub keep_edges: Option<PathBuf>,
     /// Largest |K − K̄| of a converged metric, radians
     #[arg(long, value_name = "T", default_value = "1e-10", value_parser = positive)]
     pub tolerance: f64,
-    /// Steps before giving up [default: 200 for newton, 200000 for gradient]
+    /// Steps before giving up [default: 500 for newton, 200000 for gradient]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub max_iterations: Option<u64>,
     /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
@@ -202,6 +209,9 @@ pub struct FlowArgs {
     /// Write the surface with its layout as texture coordinates (E²), .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<PathBuf>,
+    /// Write homogeneous texture coordinates to --uv, `vt qx qy q`: the projective map of each piece is linear in them
+    #[arg(long, requires = "uv")]
+    pub homogeneous: bool,
     /// Write the vertex circles and dual circles of the layout (circle schemes, E²)
     #[arg(long, value_name = "C.json")]
     pub circles: Option<PathBuf>,
@@ -210,9 +220,12 @@ pub struct FlowArgs {
     /// Write the steps of the gradient flow
     #[arg(long, value_name = "T.csv")]
     pub trace: Option<PathBuf>,
-    /// Charts of several discs: not in this version.
-    #[arg(long, hide = true)]
+    /// Cut a layout that overlaps itself into charts that do not, packed into the unit square (--uv, --picture)
+    #[arg(long)]
     pub charts: bool,
+    /// Least distance of two charts, in sides of the unit square
+    #[arg(long, value_name = "DISTANCE", default_value_t = 1.0 / 256.0, value_parser = distance, requires = "charts")]
+    pub margin: f64,
     #[command(flatten)]
     pub common: Common,
 }
@@ -222,6 +235,7 @@ Prescribed curvature in radians:
   uniform         2πχ/V at every vertex of a closed surface in E²; 0 everywhere in H² and S²
   boundary        0 inside, 2πχ shared over the boundary in proportion to its length (E², open surfaces)
   single:V        all of 2πχ at vertex V, 0 elsewhere (E²)
+  auto:N          N cones where they lower the distortion of area most, 0 elsewhere inside (E²)
   cones:FILE.csv  the curvatures of the file's rows `vertex,curvature`, 0 elsewhere
   file:FILE.csv   the curvature of every vertex
 [default: boundary on open surfaces in E²; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
@@ -340,6 +354,7 @@ pub enum TargetChoice {
     Uniform,
     Boundary,
     Single(u32),
+    Auto(usize),
     Cones(PathBuf),
     File(PathBuf),
 }
@@ -356,11 +371,10 @@ impl FromStr for TargetChoice {
             }
             Some(("cones", file)) if !file.is_empty() => Ok(TargetChoice::Cones(file.into())),
             Some(("file", file)) if !file.is_empty() => Ok(TargetChoice::File(file.into())),
-            Some(("auto", _)) => {
-                Err("placing cones automatically is not in this version; name them with cones:FILE.csv"
-                    .into())
+            Some(("auto", n)) => {
+                n.parse().map(TargetChoice::Auto).map_err(|_| format!("`{n}` is not a number of cones"))
             }
-            _ => Err("must be uniform, boundary, single:V, cones:FILE.csv or file:FILE.csv".into()),
+            _ => Err("must be uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv".into()),
         }
     }
 }
@@ -371,6 +385,7 @@ impl std::fmt::Display for TargetChoice {
             TargetChoice::Uniform => f.write_str("uniform"),
             TargetChoice::Boundary => f.write_str("boundary"),
             TargetChoice::Single(v) => write!(f, "single:{v}"),
+            TargetChoice::Auto(n) => write!(f, "auto:{n}"),
             TargetChoice::Cones(file) => write!(f, "cones:{}", file.display()),
             TargetChoice::File(file) => write!(f, "file:{}", file.display()),
         }
@@ -414,10 +429,10 @@ mod tests {
 
     #[test]
     fn targets_read_back_as_written() {
-        for text in ["uniform", "boundary", "single:7", "cones:a:b.csv", "file:/x/y.csv"] {
+        for text in ["uniform", "boundary", "single:7", "auto:4", "cones:a:b.csv", "file:/x/y.csv"] {
             assert_eq!(text.parse::<TargetChoice>().unwrap().to_string(), text);
         }
-        for text in ["", "single", "single:-1", "cones:", "auto:4", "Uniform"] {
+        for text in ["", "single", "single:-1", "cones:", "auto:", "auto:-1", "Uniform"] {
             assert!(text.parse::<TargetChoice>().is_err(), "{text}");
         }
     }

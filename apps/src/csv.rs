@@ -1,8 +1,8 @@
-//! CSV files: curvatures per vertex in, the steps of a gradient flow out.
+//! CSV files: curvatures per vertex and edges in, the steps of a gradient flow out.
 
 use crate::failure::Failure;
 use ricci::flow::TraceRow;
-use ricci::mesh::{PerVertex, VertexId};
+use ricci::mesh::{EdgeId, Mesh, PerVertex, VertexId};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -10,41 +10,70 @@ use std::path::Path;
 ///
 /// Empty lines, lines that begin with `#` and a first line `vertex,curvature` are passed over.
 pub fn read_curvatures(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, f64)>, Failure> {
-    let refuse = |line: usize, why: String| Failure::Input(format!("{}:{line}: {why}", path.display()));
-    let text =
-        std::fs::read_to_string(path).map_err(|e| Failure::Input(format!("{}: {e}", path.display())))?;
     let mut rows = Vec::new();
     let mut named = vec![false; n_vertices];
-    let lines = text.lines().enumerate().map(|(i, l)| (i + 1, l.trim()));
-    for (i, row) in lines.filter(|(_, l)| !l.is_empty() && !l.starts_with('#')) {
-        let fields: Vec<_> = row.split(',').map(str::trim).collect();
-        if rows.is_empty() && fields == ["vertex", "curvature"] {
-            continue;
-        }
-        let &[vertex, curvature] = fields.as_slice() else {
-            return Err(refuse(i, format!("`{row}` is not `vertex,curvature`")));
-        };
-        let vertex: usize =
-            vertex.parse().map_err(|_| refuse(i, format!("`{vertex}` is not a vertex number")))?;
+    for (i, [vertex, curvature]) in pairs(path, ["vertex", "curvature"])? {
+        let v = vertex_of(path, i, &vertex, n_vertices)?;
         let curvature: f64 = curvature
             .parse()
             .ok()
             .filter(|k: &f64| k.is_finite())
-            .ok_or_else(|| refuse(i, format!("`{curvature}` is not a curvature in radians")))?;
-        match named.get_mut(vertex) {
-            None => {
-                let last = n_vertices.saturating_sub(1);
-                return Err(refuse(
-                    i,
-                    format!("vertex {vertex} does not exist, the surface has vertices 0 to {last}"),
-                ));
-            }
-            Some(named) if *named => return Err(refuse(i, format!("vertex {vertex} is named twice"))),
-            Some(named) => *named = true,
+            .ok_or_else(|| refuse(path, i, format!("`{curvature}` is not a curvature in radians")))?;
+        if std::mem::replace(&mut named[v.index()], true) {
+            return Err(refuse(path, i, format!("vertex {v} is named twice")));
         }
-        rows.push((VertexId::from(vertex), curvature));
+        rows.push((v, curvature));
     }
     Ok(rows)
+}
+
+/// Read `vertex,vertex` rows: the edges of `mesh` between these pairs, each once, ascending. Lines as in [`read_curvatures`].
+pub fn read_edges(path: &Path, mesh: &Mesh) -> Result<Vec<EdgeId>, Failure> {
+    let mut edges = Vec::new();
+    for (i, ends) in pairs(path, ["vertex", "vertex"])? {
+        let [a, b] = ends.map(|v| vertex_of(path, i, &v, mesh.n_vertices()));
+        let (a, b) = (a?, b?);
+        let before = edges.len();
+        edges.extend(mesh.outgoing(a).filter(|&h| mesh.tip(h) == b).map(|h| h.edge()));
+        if edges.len() == before {
+            return Err(refuse(path, i, format!("there is no edge between the vertices {a} and {b}")));
+        }
+    }
+    edges.sort_unstable();
+    edges.dedup();
+    Ok(edges)
+}
+
+fn refuse(path: &Path, line: usize, why: String) -> Failure {
+    Failure::Input(format!("{}:{line}: {why}", path.display()))
+}
+
+/// Rows of two fields with their line numbers; a first row `names` is a header.
+fn pairs(path: &Path, names: [&str; 2]) -> Result<Vec<(usize, [String; 2])>, Failure> {
+    let text =
+        std::fs::read_to_string(path).map_err(|e| Failure::Input(format!("{}: {e}", path.display())))?;
+    let mut rows = Vec::new();
+    let lines = text.lines().enumerate().map(|(i, l)| (i + 1, l.trim()));
+    for (i, row) in lines.filter(|(_, l)| !l.is_empty() && !l.starts_with('#')) {
+        let fields: Vec<_> = row.split(',').map(str::trim).collect();
+        match fields.as_slice() {
+            fields if rows.is_empty() && *fields == names => {}
+            &[a, b] => rows.push((i, [a.to_string(), b.to_string()])),
+            _ => return Err(refuse(path, i, format!("`{row}` is not `{},{}`", names[0], names[1]))),
+        }
+    }
+    Ok(rows)
+}
+
+fn vertex_of(path: &Path, line: usize, text: &str, n_vertices: usize) -> Result<VertexId, Failure> {
+    let v: usize =
+        text.parse().map_err(|_| refuse(path, line, format!("`{text}` is not a vertex number")))?;
+    if v >= n_vertices {
+        let last = n_vertices.saturating_sub(1);
+        let why = format!("vertex {v} does not exist, the surface has vertices 0 to {last}");
+        return Err(refuse(path, line, why));
+    }
+    Ok(VertexId::from(v))
 }
 
 /// Read a curvature for every vertex.

@@ -2,7 +2,8 @@
 
 use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
-use crate::flow::{self, Done, FlowResult};
+use crate::figures::FlowResult;
+use crate::flow::{self, Done};
 use crate::output::{Outputs, check_writable};
 use crate::report::{Checks, InputSummary, Report, path_text, peak_bytes};
 use crate::{make, say};
@@ -90,7 +91,12 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
         notes += &format!("\n{}: {}\n  ricci {line}\n", example.name, example.about);
         exit_code = exit_code.max(done.exit_code);
         let input = InputSummary::of(&done.input);
-        runs.push(Run { name: example.name, command: line, input, result: FlowResult::new(&done.outcome) });
+        runs.push(Run {
+            name: example.name,
+            command: line,
+            input,
+            result: FlowResult::new(&done.input, &done.outcome),
+        });
         checks.add(example.name, done.checks.failed().len() as f64, 0.0);
     }
     if let Some(path) = &args.common.report {

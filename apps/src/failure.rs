@@ -14,6 +14,8 @@ pub enum Failure {
     Input(String),
     /// The input's faces do not form the surface that is needed (exit 3).
     Defects(Box<Diagnosis>),
+    /// The same of faces that may be meant to be glued, in an intrinsic metric that does not say how.
+    Unglued(Box<Diagnosis>),
     /// Ctrl-C (exit 4).
     Cancelled,
 }
@@ -23,7 +25,7 @@ impl Failure {
         match self {
             Failure::Failed(_) => 1,
             Failure::Usage(_) => 2,
-            Failure::Input(_) | Failure::Defects(_) => 3,
+            Failure::Input(_) | Failure::Defects(_) | Failure::Unglued(_) => 3,
             Failure::Cancelled => 4,
         }
     }
@@ -36,6 +38,11 @@ impl std::fmt::Display for Failure {
                 f.write_str(message)
             }
             Failure::Defects(diagnosis) => diagnosis.fmt(f),
+            Failure::Unglued(diagnosis) => write!(
+                f,
+                "{diagnosis}. Faces whose vertices do not say how they are glued need `face_edges`: \
+                 [[±e_bc, ±e_ca, ±e_ab], …], edges numbered from 1, the sign their direction"
+            ),
             Failure::Cancelled => f.write_str("cancelled; nothing was written"),
         }
     }

@@ -1,22 +1,25 @@
 //! `ricci flow`.
 
+use crate::carry;
+use crate::charts;
 use crate::circles::circles;
 use crate::cli::{FlipsChoice, FlowArgs, MethodChoice, PinChoice, SchemeChoice, TargetChoice};
 use crate::csv;
 use crate::failure::Failure;
+use crate::figures::FlowResult;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
 use crate::metric_file::MetricFile;
 use crate::output::{Outputs, check_extension, check_writable, extension};
 use crate::picture::{ColorChoice, FlowPictureArgs};
 use crate::progress::Progress;
-use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes, timed};
+use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes};
 use crate::say;
 use crate::show;
 use crate::uv;
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::flow::{Flips, Gradient, Method, Obstruction, Options};
+use ricci::flow::{Flips, Gradient, Method, Options};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::{Scheme, Target};
@@ -53,22 +56,34 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     if let Some(geometry) = args.input_geometry {
         input.geometry = geometry.into();
     }
-    let space = args.space.space().unwrap_or_else(|| default_space(&input.mesh));
+    // Placed cones exist in E² alone.
+    let automatic = if matches!(args.target, Some(TargetChoice::Auto(_))) { Some(Space::E2) } else { None };
+    let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(&input.mesh));
     check_outputs(args, &input, space)?;
     let job = Job {
         space,
         scheme: args.scheme.into(),
-        target: args.target.as_ref().map(|t| target(t, &input)).transpose()?,
-        options: options(args),
+        target: args.target.as_ref().map(|t| target(t, &input, space, control)).transpose()?,
+        options: Options {
+            fixed_edges: match &args.keep_edges {
+                Some(path) => csv::read_edges(path, &input.mesh)?,
+                None => Vec::new(),
+            },
+            ..options(args)
+        },
         pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, &input.mesh)),
     };
-    let outcome = job::run(&input, job, control)?;
-    let files = write(args, &input, &outcome, control, start)?;
+    let mut outcome = job::run(&input, job, control)?;
+    if args.charts {
+        let cut = charts::cut(&mut outcome, args.margin, control);
+        outcome.attempt("charts", cut)?;
+    }
+    let files = write(args, &input, &mut outcome, control, start)?;
     drop(progress);
     let checks = outcome.checks();
     let svg = args.picture.base.picture.as_ref().is_some_and(|p| show::is_svg(p));
     let missing = outcome.layout.is_err() && (args.uv.is_some() || args.circles.is_some() || svg);
-    let exit_code = if missing { 1 } else { checks.exit_code() };
+    let exit_code = if missing || !outcome.failed.is_empty() { 1 } else { checks.exit_code() };
     Ok(Done { input, outcome, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
 }
 
@@ -93,8 +108,14 @@ fn options(args: &FlowArgs) -> Options {
 /// What can be refused before anything is read.
 fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     let usage = |message: &str| Err(Failure::Usage(message.into()));
-    if args.charts {
-        return usage("--charts is not in this version");
+    if args.charts && args.circles.is_some() {
+        return usage("--circles: circles belong to the layout as a whole; leave --charts or --circles out");
+    }
+    if args.margin >= 1.0 {
+        return usage("--margin: a share of the unit square's side, in [0, 1)");
+    }
+    if args.pin.is_some() && matches!(args.target, Some(TargetChoice::Auto(_))) {
+        return usage("--target auto chooses every curvature, --pin leaves some free; leave one out");
     }
     if args.trace.is_some() && args.method != MethodChoice::Gradient {
         return usage("--trace records the gradient flow; add --method gradient");
@@ -103,7 +124,7 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
         return usage("--area-normalised is a variant of the gradient flow; add --method gradient");
     }
     if let Some(path) = &args.uv {
-        check_extension("--uv", path, &["obj", "glb"])?;
+        check_extension("--uv", path, if args.homogeneous { &["obj"] } else { &["obj", "glb"] })?;
     }
     if let Some(path) = &args.picture.base.picture {
         check_extension("--picture", path, &["png", "svg"])?;
@@ -123,8 +144,10 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
 
 /// What can be refused once the surface is known.
 fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
-    for (option, path) in [("--uv", &args.uv), ("--circles", &args.circles)] {
-        if path.is_some() && space != Space::E2 {
+    let wishes =
+        [("--uv", args.uv.is_some()), ("--circles", args.circles.is_some()), ("--charts", args.charts)];
+    for (option, wanted) in wishes {
+        if wanted && space != Space::E2 {
             return Err(Failure::Usage(format!(
                 "{option}: layouts in {space} are not in this version; use --space e2 (with --target single:V or \
                  cones:FILE.csv where the surface needs cones)"
@@ -145,6 +168,19 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
             "--color {name}: layouts in {space} are not in this version; use u or curvature"
         )));
     }
+    if let Some(zoom) = args.picture.zoom {
+        let n = input.mesh.n_vertices();
+        if zoom.vertex as usize >= n {
+            return Err(Failure::Usage(format!(
+                "--zoom: there is no vertex {}, they are 0 to {}",
+                zoom.vertex,
+                n - 1
+            )));
+        }
+        if space != Space::E2 {
+            return Err(Failure::Usage(format!("--zoom: layouts in {space} are not in this version")));
+        }
+    }
     if let Some(path) = args.picture.base.picture.as_ref().filter(|_| space != Space::E2) {
         let nothing = if extension(path) == "svg" {
             "an SVG shows the layout alone, use .png"
@@ -160,12 +196,13 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
     Ok(())
 }
 
-fn target(choice: &TargetChoice, input: &Input) -> Result<Target, Failure> {
+fn target(choice: &TargetChoice, input: &Input, space: Space, control: &Control) -> Result<Target, Failure> {
     let n = input.mesh.n_vertices();
     Ok(match choice {
         TargetChoice::Uniform => Target::Uniform,
         TargetChoice::Boundary => Target::Boundary,
         TargetChoice::Single(v) => Target::Single(VertexId(*v)),
+        TargetChoice::Auto(n) => charts::auto_target(*n, input, space, control)?,
         TargetChoice::Cones(path) => Target::Cones(csv::read_curvatures(path, n)?),
         TargetChoice::File(path) => Target::All(csv::read_all_curvatures(path, n)?),
     })
@@ -178,51 +215,64 @@ fn pinned(choice: &PinChoice, mesh: &Mesh) -> Vec<VertexId> {
     }
 }
 
-/// Write every file that was asked for, the report last; returns their names.
+/// Write every file that was asked for, the report last; returns their names. One that cannot be made keeps none of the others back.
 fn write(
     args: &FlowArgs,
     input: &Input,
-    outcome: &Outcome,
+    outcome: &mut Outcome,
     control: &Control,
     start: Instant,
 ) -> Result<Vec<String>, Failure> {
     control.step(Stage::Write, 0.0)?;
     let mut outputs = Outputs::default();
-    let mut seconds = outcome.seconds;
-    timed(&mut seconds.write, || -> Result<(), Failure> {
-        if let Some(path) = &args.metric {
-            let factor = outcome.initial.conformal_factor(&outcome.metric)?;
-            let Outcome { mesh, scheme, metric, lengths, target, .. } = outcome;
-            let lost = metric.length_remainders(mesh)?;
-            let file = MetricFile::new(mesh, *scheme, metric, [lengths, &lost], &factor, target);
-            outputs.add_json(path, &file)?;
-        }
-        if let Some(path) = &args.trace {
-            outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace))?;
-        }
-        if let (Some(path), Ok(laid), Some(positions)) = (&args.uv, &outcome.layout, &input.positions) {
-            uv::write(&mut outputs, path, positions, &outcome.mesh, &laid.layout)?;
-        }
-        let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
-        if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
-            outputs.add(path, |out| {
-                show::draw(out, path, input, outcome, &args.picture, args.common.threads())
-            })?;
-        }
-        if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
-            let Outcome { mesh, metric, scheme, .. } = outcome;
-            outputs.add_json(path, &circles(mesh, metric, scheme.name(), &laid.layout, laid.scale))?;
-        }
-        Ok(())
-    })?;
-    control.step(Stage::Write, 0.5)?;
-    if let Some(path) = &args.common.report {
-        seconds.total = start.elapsed().as_secs_f64();
-        let asked = Asked::new(args, input, outcome);
-        outputs.add_report(path, &report(input, outcome, asked, seconds))?;
+    let begin = Instant::now();
+    if let Some(path) = &args.metric {
+        let written = write_metric(&mut outputs, path, outcome);
+        outcome.attempt("metric", written)?;
+    }
+    if let Some(path) = &args.trace {
+        let written = outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace));
+        outcome.attempt("trace", written)?;
     }
     control.check()?;
-    Ok(outputs.commit()?.iter().map(|p| path_text(p)).collect())
+    if let (Some(path), Ok(laid)) = (&args.uv, &outcome.layout) {
+        let written = uv::write(&mut outputs, path, input, laid, args.homogeneous);
+        if outcome.attempt("uv", written)?.is_some() {
+            outcome.left_out = carry::left_out(input);
+        }
+    }
+    control.check()?;
+    let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
+    if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
+        let threads = args.common.threads();
+        let written = outputs.add(path, |out| show::draw(out, path, input, outcome, &args.picture, threads));
+        outcome.attempt("picture", written)?;
+    }
+    if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
+        let Outcome { mesh, metric, scheme, .. } = &*outcome;
+        let written = outputs.add_json(path, &circles(mesh, metric, scheme.name(), laid));
+        outcome.attempt("circles", written)?;
+    }
+    outcome.seconds.write += begin.elapsed().as_secs_f64();
+    control.step(Stage::Write, 0.5)?;
+    let mut report_failed = Ok(());
+    if let Some(path) = &args.common.report {
+        let seconds = Seconds { total: start.elapsed().as_secs_f64(), ..outcome.seconds };
+        let asked = Asked::new(args, input, outcome);
+        report_failed = outputs.add_report(path, &report(input, outcome, asked, seconds));
+    }
+    control.check()?;
+    let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
+    report_failed.map(|()| files)
+}
+
+fn write_metric(outputs: &mut Outputs, path: &Path, outcome: &Outcome) -> Result<(), Failure> {
+    let Outcome { mesh, scheme, metric, lengths, final_target, mirror, .. } = outcome;
+    let factor = outcome.initial.conformal_factor(metric)?;
+    let lost = metric.length_remainders(mesh)?;
+    let file =
+        MetricFile::new(mesh, *scheme, metric, [lengths, &lost], &factor, final_target, mirror.as_deref());
+    outputs.add_json(path, &file)
 }
 
 /// What was asked, defaults put in: a run with these options is this run.
@@ -236,6 +286,7 @@ pub struct Asked {
     area_normalised: bool,
     pin: Vec<u32>,
     flips: FlipsChoice,
+    keep_edges: Option<String>,
     tolerance: f64,
     max_iterations: usize,
     input_geometry: &'static str,
@@ -245,6 +296,9 @@ pub struct Asked {
     circles: Option<String>,
     #[serde(flatten)]
     picture: FlowPictureArgs,
+    homogeneous: bool,
+    charts: bool,
+    margin: f64,
     trace: Option<String>,
 }
 
@@ -259,8 +313,8 @@ impl Asked {
             method: args.method,
             area_normalised: args.area_normalised,
             pin: outcome.pinned.iter().map(|v| v.0).collect(),
-            // Until there are flips, auto is never.
-            flips: FlipsChoice::Never,
+            flips: args.flips,
+            keep_edges: text(&args.keep_edges),
             tolerance: args.tolerance,
             max_iterations: options(args).iteration_limit(),
             input_geometry: input.geometry.name(),
@@ -269,6 +323,9 @@ impl Asked {
             uv: text(&args.uv),
             circles: text(&args.circles),
             picture: args.picture.clone(),
+            homogeneous: args.homogeneous,
+            charts: args.charts,
+            margin: args.margin,
             trace: text(&args.trace),
         }
     }
@@ -285,126 +342,6 @@ fn rule_text(rule: &Target) -> String {
     }
 }
 
-/// The figures of a flow. Those of the layout are null where there is none.
-#[derive(Serialize)]
-pub struct FlowResult {
-    space: &'static str,
-    scheme: &'static str,
-    target: &'static str,
-    converged: bool,
-    stop_reason: &'static str,
-    iterations: usize,
-    flips: usize,
-    max_curvature_error: f64,
-    /// What the error is held against: the tolerance, or the rounding floor of the mesh.
-    tolerance: f64,
-    /// Where a flow stalled: what rounding can do to the curvature there.
-    rounding_floor: Option<f64>,
-    broken_triangles: usize,
-    /// Faces that break the triangle inequality.
-    broken_faces: Vec<usize>,
-    /// Where |K − K̄| is largest.
-    worst_vertices: Vec<VertexFigures>,
-    /// A set of vertices that proves that the target cannot be reached in this scheme on this triangulation.
-    obstruction: Option<ObstructionFigures>,
-    /// Newton matrices that had to be shifted to be positive definite.
-    shifted: usize,
-    /// Edges whose weight had to be moved into the scheme's range, and the largest relative change of length by that.
-    clamped_edges: usize,
-    max_length_change: f64,
-    area: f64,
-    flipped_triangles: Option<usize>,
-    qc_mean: Option<f64>,
-    qc_max: Option<f64>,
-    area_ratio_min: Option<f64>,
-    area_ratio_max: Option<f64>,
-    /// Faces without area in the input or the layout; the qc figures leave them out.
-    degenerate_pieces: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    modulus: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    seams: Option<Vec<SeamFigures>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    no_layout: Option<String>,
-    residuals: Vec<f64>,
-}
-
-/// The plane isometry `z ↦ e^{iθ} z + t` from the left side of a seam to its right side, in the layout's coordinates.
-#[derive(Serialize)]
-struct SeamFigures {
-    rotation: f64,
-    translation: [f64; 2],
-    /// Relative to the diameter of the layout.
-    residual: f64,
-    edges: usize,
-}
-
-#[derive(Serialize)]
-struct VertexFigures {
-    vertex: usize,
-    /// K − K̄, radians.
-    curvature_error: f64,
-}
-
-/// Every metric of the scheme on this triangulation has a total curvature of more than `above` at the vertices; the target
-/// asks for `target`.
-#[derive(Serialize)]
-struct ObstructionFigures {
-    vertices: Vec<usize>,
-    target: f64,
-    above: f64,
-}
-
-impl FlowResult {
-    pub fn new(outcome: &Outcome) -> Self {
-        let Outcome { report, initial, layout, .. } = outcome;
-        let laid = layout.as_ref().ok();
-        let seam = |s: &ricci::embed::Seam| SeamFigures {
-            rotation: s.rotation,
-            translation: s.translation,
-            residual: s.residual,
-            edges: s.halfedges.len(),
-        };
-        let worst =
-            |&(v, curvature_error): &(VertexId, f64)| VertexFigures { vertex: v.index(), curvature_error };
-        let obstruction = |o: &Obstruction| ObstructionFigures {
-            vertices: o.vertices.iter().map(|v| v.index()).collect(),
-            target: o.curvature,
-            above: o.least,
-        };
-        FlowResult {
-            space: outcome.metric.space.name(),
-            scheme: outcome.scheme.name(),
-            target: outcome.rule.name(),
-            converged: report.converged,
-            stop_reason: report.stop_reason.name(),
-            iterations: report.iterations,
-            flips: report.flips,
-            max_curvature_error: report.max_curvature_error,
-            tolerance: report.tolerance,
-            rounding_floor: report.rounding_floor,
-            broken_triangles: report.broken_triangles,
-            broken_faces: outcome.curvature.broken.iter().map(|f| f.index()).collect(),
-            worst_vertices: report.worst.iter().map(worst).collect(),
-            obstruction: report.obstruction.as_ref().map(obstruction),
-            shifted: report.shifted,
-            clamped_edges: initial.clamped_edges,
-            max_length_change: initial.max_length_change,
-            area: outcome.curvature.area,
-            flipped_triangles: laid.map(|l| l.layout.flipped.len()),
-            qc_mean: laid.map(|l| l.quality.qc_mean),
-            qc_max: laid.map(|l| l.quality.qc_max),
-            area_ratio_min: laid.map(|l| l.quality.area_ratio_min),
-            area_ratio_max: laid.map(|l| l.quality.area_ratio_max),
-            degenerate_pieces: laid.map(|l| l.quality.degenerate.len()),
-            modulus: laid.and_then(|l| l.modulus),
-            seams: laid.map(|l| l.layout.seams.iter().map(seam).collect()),
-            no_layout: layout.as_ref().err().cloned(),
-            residuals: report.residuals.clone(),
-        }
-    }
-}
-
 /// The report of a flow.
 pub fn report<O: Serialize>(
     input: &Input,
@@ -412,7 +349,7 @@ pub fn report<O: Serialize>(
     asked: O,
     seconds: Seconds,
 ) -> Report<O, FlowResult> {
-    let mut report = Report::new("flow", InputSummary::of(input), asked, FlowResult::new(outcome));
+    let mut report = Report::new("flow", InputSummary::of(input), asked, FlowResult::new(input, outcome));
     report.checks = outcome.checks();
     report.seconds = seconds;
     report.peak_bytes = peak_bytes();

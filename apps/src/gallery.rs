@@ -118,6 +118,52 @@ const CLASSES: &[Row] = &[
     ),
 ];
 
+/// Cones that the library places, charts of what overlaps itself, and the pieces of common refinements.
+const ATLASES: &[Row] = &[
+    row(
+        "bunny-cones",
+        Corpus("bunny_libigl"),
+        "flow {} --target auto:8",
+        "eight cones placed by the library",
+    ),
+    row(
+        "bunny-charts",
+        Corpus("bunny_libigl"),
+        "flow {} --target auto:20 --charts",
+        "twenty cones: a layout that overlaps itself, in charts that do not",
+    ),
+    row(
+        "planck-cones",
+        Corpus("max_planck_25k"),
+        "flow {} --target auto:8 --charts --up y --view 205,8",
+        "another scan with eight cones, in one chart",
+    ),
+    row(
+        "face-cones",
+        Corpus("face_bff"),
+        "flow {} --target auto:6 --charts",
+        "an open scan with six cones, its boundary free, in charts",
+    ),
+    row(
+        "pretzel-charts",
+        Corpus("pretzel"),
+        "flow {} --space e2 --target auto:16 --charts",
+        "genus 3, flat but for sixteen cones, in charts",
+    ),
+    row(
+        "pieces",
+        Made("torus --noise 0.25 --seed 1"),
+        "flow {} --color pieces --zoom 300,5",
+        "pieces of the common refinement: the input's faces, of one shade each, are triangles on the left, the final ones, of one hue each, on the right",
+    ),
+    row(
+        "pieces-slivers",
+        Corpus("plate_holes"),
+        "flow {} --space e2 --target auto:8 --color pieces --zoom 100,3",
+        "the same where slivers of the input cross many final faces",
+    ),
+];
+
 /// One picture for each pattern and each colour map.
 const LOOKS: &[Row] = &[
     row("bob-circles", Corpus("bob"), "flow {} --texture circles", "circles of the layout"),
@@ -144,9 +190,10 @@ pub fn run(args: &GalleryArgs, control: &Control) -> Result<u8, Failure> {
         .map_err(|e| Failure::Usage(format!("{}: cannot be made: {e}", out.display())))?;
     let meshes = args.meshes.as_deref();
     let index = meshes.map_or(Ok(String::new()), |folder| read_text(&folder.join("good/INDEX.csv")))?;
-    let sections: [(&str, &[Row]); 3] = [
+    let sections: [(&str, &[Row]); 4] = [
         ("Generators", GENERATORS),
         ("Real surfaces, one per topological class", CLASSES),
+        ("Cones, charts and pieces", ATLASES),
         ("Patterns and colour maps", LOOKS),
     ];
     let mut page = PREFACE.to_string();
@@ -208,7 +255,8 @@ const PREFACE: &str = "\
 Written by `ricci gallery docs/pictures MESHES`, MESHES being a folder of meshes with `good/INDEX.csv`. On the left of a picture the
 surface, on the right its layout; seams have one colour on both of their sides, cones are red where curvature is positive and blue where
 it is negative. Where the layout's scale varies by more than a factor of 8, checks and circles are drawn 8 times as large or small, on
-both sides alike, so that they stay visible: along the line where that happens they are cut off. Every picture is made by the commands
+both sides alike, so that they stay visible: along the line where that happens they are cut off. With `--zoom` both sides show the
+surroundings of one vertex, as much of the surface as of its layout. Every picture is made by the commands
 beside it (with `--size 320 --palette`).
 ";
 
@@ -284,7 +332,7 @@ mod tests {
     #[test]
     fn every_row_is_a_command_line_and_has_a_name_of_its_own() {
         let mut names = HashSet::new();
-        for row in GENERATORS.iter().chain(CLASSES).chain(LOOKS) {
+        for row in GENERATORS.iter().chain(CLASSES).chain(ATLASES).chain(LOOKS) {
             assert!(names.insert(row.name), "{} is there twice", row.name);
             let words = |line: &str| {
                 format!("ricci {line}")

@@ -91,7 +91,7 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
                 (seconds.read, seconds.build) = (surface.seconds_read, surface.seconds_build);
                 (InputSummary::of(&surface), Info::of_metric(&surface))
             }
-            Err(Failure::Defects(diagnosis)) => {
+            Err(Failure::Defects(diagnosis) | Failure::Unglued(diagnosis)) => {
                 let quality = shape_quality::of_triangles(&[], &[]);
                 (summary_of(&diagnosis, path_text(&args.mesh)), Info::new(&diagnosis, quality))
             }

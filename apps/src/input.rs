@@ -7,7 +7,7 @@ use crate::report::timed;
 use ricci::Control;
 use ricci::control::Stage;
 use ricci::geometry::Space;
-use ricci::mesh::io::{self, Soup};
+use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::{Mesh, PerEdge, Point};
 use ricci::metric::lengths_from_positions;
 use std::path::{Path, PathBuf};
@@ -21,6 +21,8 @@ pub struct Input {
     pub geometry: Space,
     /// Positions in space; none for an intrinsic metric.
     pub positions: Option<Vec<Point>>,
+    /// What else the mesh file says of vertices and corners.
+    pub attributes: Attributes,
     pub seconds_read: f64,
     pub seconds_build: f64,
 }
@@ -29,11 +31,11 @@ pub struct Input {
 pub fn read(path: &Path, weld: Option<f64>, control: &Control) -> Result<Input, Failure> {
     let (mut seconds_read, mut seconds_build) = (0.0, 0.0);
     control.step(Stage::Read, 0.0)?;
-    let (mesh, lengths, geometry, positions) = if extension(path) == "json" && weld.is_none() {
+    let (mesh, lengths, geometry, positions, attributes) = if extension(path) == "json" && weld.is_none() {
         let text = timed(&mut seconds_read, || read_text(path))?;
         let Intrinsic { mesh, lengths, geometry } =
             timed(&mut seconds_build, || metric_file::parse(path, &text))?;
-        (mesh, lengths, geometry, None)
+        (mesh, lengths, geometry, None, Attributes::default())
     } else {
         let soup = timed(&mut seconds_read, || read_soup(path, weld))?;
         control.step(Stage::Build, 0.0)?;
@@ -43,10 +45,11 @@ pub fn read(path: &Path, weld: Option<f64>, control: &Control) -> Result<Input, 
             Ok((mesh, lengths))
         };
         let (mesh, lengths) = timed(&mut seconds_build, build)?;
-        (mesh, lengths, Space::E2, Some(soup.positions))
+        (mesh, lengths, Space::E2, Some(soup.positions), soup.attributes)
     };
     control.check()?;
-    Ok(Input { path: path.into(), mesh, lengths, geometry, positions, seconds_read, seconds_build })
+    let path = path.into();
+    Ok(Input { path, mesh, lengths, geometry, positions, attributes, seconds_read, seconds_build })
 }
 
 /// Read a mesh file; the corners of an STL file are one vertex within the distance `weld`.

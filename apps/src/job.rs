@@ -5,11 +5,12 @@ use crate::input::Input;
 use crate::laid::{self, Laid};
 use crate::report::{Checks, Seconds, timed};
 use ricci::Control;
-use ricci::flow::{self, Solver};
+use ricci::flow::{self, SurfaceFlow};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::target::{check_total, check_vertices, settle_total};
-use ricci::metric::{Curvature, Initial, Metric, Scheme, Target, initial_metric};
+use ricci::metric::{Curvature, Initial, Metric, Scheme, Target};
+use std::collections::BTreeMap;
 
 /// What to compute.
 pub struct Job {
@@ -27,11 +28,19 @@ pub struct Outcome {
     pub scheme: Scheme,
     /// The rule that gave the target.
     pub rule: Target,
-    /// The curvature asked for; at pinned vertices what came out.
+    /// The curvature asked for, per given vertex; at pinned vertices what came out.
     pub target: PerVertex<f64>,
+    /// The same per vertex of `mesh`.
+    pub final_target: PerVertex<f64>,
     /// Vertices whose conformal factor was held.
     pub pinned: Vec<VertexId>,
+    /// Where the flow started, on the Delaunay triangulation if edges were flipped.
     pub initial: Initial,
+    /// Isometric flips before the flow.
+    pub start_flips: usize,
+    /// Per vertex of `mesh` its mirror image, if that is the double of the given surface.
+    pub mirror: Option<Vec<u32>>,
+    /// The final triangulation, of the given surface or of its double.
     pub mesh: Mesh,
     pub metric: Metric,
     pub lengths: PerEdge<f64>,
@@ -39,6 +48,10 @@ pub struct Outcome {
     pub report: flow::Report,
     /// The layout, or why there is none.
     pub layout: Result<Laid, String>,
+    /// Wishes that the flow was no obstacle to but something else was, by option, with the reason.
+    pub failed: BTreeMap<&'static str, String>,
+    /// What the input's file holds and the layout's file does not.
+    pub left_out: Vec<&'static str>,
     pub seconds: Seconds,
 }
 
@@ -50,16 +63,18 @@ pub fn default_space(mesh: &Mesh) -> Space {
 pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failure> {
     let space = job.space;
     let (rule, mut target) = target(&input.mesh, &input.lengths, &job)?;
-    let initial = initial_metric(&input.mesh, &input.lengths, input.geometry, job.scheme, space)?;
+    let mut start = 0.0;
+    let mut flow = timed(&mut start, || {
+        let Input { mesh, lengths, geometry, .. } = input;
+        SurfaceFlow::new(mesh, lengths, *geometry, job.scheme, space, &job.pinned, &job.options, control)
+    })?;
+    let report = flow.solve(&target, control)?;
+    let (mesh, metric) = (flow.mesh().clone(), flow.metric().clone());
 
-    let mut solver = Solver::new(input.mesh.clone(), initial.metric.clone(), job.options)?;
-    solver.pin(&job.pinned)?;
-    let report = solver.solve(&target, control)?;
-    let (mesh, metric) = (solver.mesh().clone(), solver.metric().clone());
-    drop(solver);
-
-    let lengths = metric.lengths(&mesh)?;
-    let curvature = metric.curvature(&mesh)?;
+    // What goes wrong from here on is no fault of the input.
+    let failed = |error: ricci::Error| Failure::Failed(error.to_string());
+    let lengths = metric.lengths(&mesh).map_err(failed)?;
+    let curvature = metric.curvature(&mesh).map_err(failed)?;
     job.pinned.iter().for_each(|&v| target[v] = curvature.at[v]);
     let mut seconds = Seconds {
         read: input.seconds_read,
@@ -68,23 +83,27 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
         analyse: report.seconds.analyse,
         factor: report.seconds.factor,
         solve: report.seconds.solve,
-        flip: report.seconds.flip,
+        flip: start + report.seconds.flip,
         ..Seconds::default()
     };
-    let layout =
-        timed(&mut seconds.layout, || laid::lay_out(input, &mesh, &metric, &curvature, &target, control))?;
+    let layout = laid::lay_out(input, &flow, &curvature, &target, &mut seconds, control)?;
     Ok(Outcome {
         scheme: job.scheme,
         rule,
+        final_target: flow.target(&target),
         target,
         pinned: job.pinned,
-        initial,
+        initial: flow.initial().clone(),
+        start_flips: flow.start_flips(),
+        mirror: flow.double().map(|double| mesh.vertices().map(|v| double.mirror(v).0).collect()),
         mesh,
         metric,
         lengths,
         curvature,
         report,
         layout,
+        failed: BTreeMap::new(),
+        left_out: Vec::new(),
         seconds,
     })
 }
@@ -116,10 +135,30 @@ fn target(mesh: &Mesh, lengths: &PerEdge<f64>, job: &Job) -> Result<(Target, Per
 /// million faces.
 const GAUSS_BONNET: f64 = 1e-10;
 
+/// u at mirror images may differ by this: what rounding does where edges were flipped in another order.
+const MIRROR: f64 = 1e-8;
+
 impl Outcome {
+    /// Go on where a wish could not be fulfilled, and remember it: what else was asked for is still delivered. Errors:
+    /// [`Failure::Cancelled`] alone.
+    pub fn attempt<T>(
+        &mut self,
+        wish: &'static str,
+        result: Result<T, Failure>,
+    ) -> Result<Option<T>, Failure> {
+        match result {
+            Ok(value) => Ok(Some(value)),
+            Err(Failure::Cancelled) => Err(Failure::Cancelled),
+            Err(failure) => {
+                self.failed.insert(wish, failure.to_string());
+                Ok(None)
+            }
+        }
+    }
+
     /// max |K − K̄| of the metric as it is written.
     pub fn curvature_error(&self) -> f64 {
-        self.curvature.at.iter().zip(&self.target).fold(0.0, |m, (k, t)| f64::max(m, (k - t).abs()))
+        self.curvature.at.iter().zip(&self.final_target).fold(0.0, |m, (k, t)| f64::max(m, (k - t).abs()))
     }
 
     /// What the result is held against.
@@ -127,9 +166,18 @@ impl Outcome {
         let mut checks = Checks::default();
         checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET);
         checks.add("max_curvature_error", self.curvature_error(), self.report.tolerance);
+        if let Some(mirror) = &self.mirror {
+            let u = &self.metric.u;
+            let differs = |(v, &image): (VertexId, &u32)| (u[v] - u[VertexId(image)]).abs();
+            let most = self.mesh.vertices().zip(mirror).map(differs).fold(0.0, f64::max);
+            checks.add("mirror_symmetry", most, MIRROR);
+        }
         checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
         if let Ok(laid) = &self.layout {
             checks.add("layout_consistency", laid.consistency(), laid.consistency_limit);
+            if let Some(packed) = &laid.packed {
+                checks.add("overlapping_in_charts", packed.overlapping as f64, 0.0);
+            }
             checks.add("flipped_triangles", laid.layout.flipped.len() as f64, 0.0);
         }
         checks

@@ -1,15 +1,18 @@
 //! The layout of a flat metric with what is said about it.
 
+use crate::charts::Packed;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::report::{Seconds, timed};
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::embed::{Layout, Quality, layout_of, quality};
+use ricci::embed::{Layout, Quality, layout_of, layout_refined, quality, refined_cut};
+use ricci::flow::SurfaceFlow;
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
-use ricci::mesh::{Mesh, PerVertex, VertexId};
+use ricci::mesh::{FaceId, Mesh, PerVertex, Point, VertexId};
 use ricci::metric::curvature::area;
-use ricci::metric::{Curvature, Metric};
+use ricci::metric::{Curvature, Refinement};
 use ricci::topology::cut_graph;
 
 /// An interior vertex with more target curvature than this is a cone, and the cut passes it. Left inside, the vertex opens
@@ -20,8 +23,21 @@ const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A layout scaled to the area of the input.
 pub struct Laid {
+    /// What is laid out: the given triangulation, or its common refinement with the final one.
+    pub mesh: Mesh,
+    /// The way back, where edges were flipped.
+    pub refinement: Option<Refinement>,
+    /// Homogeneous weight of each vertex of `mesh`: (q x, q y, q) is linear on its faces, (x, y) the layout \[SSP08, §3.4\].
+    pub weight: PerVertex<f64>,
+    /// Positions of the vertices of `mesh`.
+    pub positions: Option<Vec<Point>>,
     pub layout: Layout,
+    /// The layout in charts, where that was asked for.
+    pub packed: Option<Packed>,
     pub quality: Quality,
+    /// Pieces of the refinement whose image has no area to speak of, faces without area in the input or the layout; in charts also
+    /// what is too small for the coordinates of the unit square.
+    pub degenerate: Vec<FaceId>,
     /// Lengths in the layout over lengths in the metric.
     pub scale: f64,
     /// τ of a flat torus.
@@ -30,15 +46,16 @@ pub struct Laid {
     pub consistency_limit: f64,
 }
 
-/// Lay a metric out, or say why it has no layout.
+/// Lay the metric of a flow out on the given surface, or say why it has no layout. `target`: per given vertex.
 pub fn lay_out(
     input: &Input,
-    mesh: &Mesh,
-    metric: &Metric,
+    flow: &SurfaceFlow,
     curvature: &Curvature,
     target: &PerVertex<f64>,
+    seconds: &mut Seconds,
     control: &Control,
 ) -> Result<Result<Laid, String>, Failure> {
+    let (mesh, metric) = (flow.mesh(), flow.metric());
     if metric.space != Space::E2 {
         return Ok(Err(format!("layouts in {} are not in this version", metric.space)));
     }
@@ -50,35 +67,117 @@ pub fn lay_out(
         )));
     }
     control.step(Stage::Layout, 0.0)?;
-    let cones: Vec<VertexId> =
-        mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v) && target[v].abs() > CONE).collect();
-    let result = (|| {
-        let cut = cut_graph(mesh, &metric.lengths(mesh)?, &cones)?;
-        control.step(Stage::Layout, 0.3)?;
-        let mut layout = layout_of(mesh, metric, &cut, control)?;
-        let scale = layout.scale_to_area(mesh, area(&input.mesh, input.geometry, &input.lengths)?)?;
-        control.step(Stage::Layout, 0.8)?;
-        let quality = quality(mesh, &input.lengths, &layout)?;
-        Ok((layout, scale, quality))
-    })();
-    let (layout, scale, quality) = match result {
-        Ok(parts) => parts,
-        Err(ricci::Error::Cancelled) => return Err(Failure::Cancelled),
-        Err(error) => return Ok(Err(error.to_string())),
-    };
+    let given = &input.mesh;
+    let inside = |v: &VertexId| !given.is_boundary_vertex(*v) && target[*v].abs() > CONE;
+    let cones: Vec<VertexId> = given.vertices().filter(inside).collect();
     // A vertex with curvature error δ turns what lies beyond it by δ, which moves that by at most δ · diameter.
-    let errors: f64 = curvature.at.iter().zip(target).map(|(k, t)| (k - t).abs()).sum();
+    let wanted = flow.target(target);
+    let errors: f64 = curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum();
     let consistency_limit = errors + STEP_ROUNDING * mesh.n_faces() as f64;
-    let flat_torus = mesh.is_closed() && mesh.euler() == 0 && cones.is_empty();
-    let modulus = match layout.seams.as_slice() {
+    let result = (|| {
+        let area = area(given, input.geometry, &input.lengths)?;
+        let refinement = match mesh == given {
+            true => None,
+            false => Some(timed(&mut seconds.refine, || flow.refinement(control))?),
+        };
+        timed(&mut seconds.layout, || match refinement {
+            None => plain(input, flow, &cones, area, consistency_limit, control),
+            Some(refinement) => refined(input, flow, refinement, &cones, area, consistency_limit, control),
+        })
+    })();
+    match result {
+        Ok(laid) => Ok(Ok(laid)),
+        Err(ricci::Error::Cancelled) => Err(Failure::Cancelled),
+        Err(error) => Ok(Err(error.to_string())),
+    }
+}
+
+/// The layout of the given triangulation.
+fn plain(
+    input: &Input,
+    flow: &SurfaceFlow,
+    cones: &[VertexId],
+    area: f64,
+    consistency_limit: f64,
+    control: &Control,
+) -> ricci::Result<Laid> {
+    let (mesh, metric) = (flow.mesh(), flow.metric());
+    let cut = cut_graph(mesh, &metric.lengths(mesh)?, cones, control)?;
+    control.step(Stage::Layout, 0.3)?;
+    let mut layout = layout_of(mesh, metric, &cut, control)?;
+    let scale = layout.scale_to_area(mesh, area)?;
+    control.step(Stage::Layout, 0.8)?;
+    let quality = quality(mesh, &input.lengths, &layout)?;
+    Ok(Laid {
+        mesh: mesh.clone(),
+        weight: PerVertex::from_fn(mesh.n_vertices(), |v| (flow.initial().input_u[v] - metric.u[v]).exp()),
+        refinement: None,
+        positions: input.positions.clone(),
+        packed: None,
+        degenerate: quality.degenerate.clone(),
+        modulus: modulus_of(input, &layout, cones),
+        layout,
+        quality,
+        scale,
+        consistency_limit,
+    })
+}
+
+/// The layout of the common refinement.
+fn refined(
+    input: &Input,
+    flow: &SurfaceFlow,
+    refinement: Refinement,
+    cones: &[VertexId],
+    area: f64,
+    consistency_limit: f64,
+    control: &Control,
+) -> ricci::Result<Laid> {
+    let (mesh, metric) = (flow.mesh(), flow.metric());
+    let cut = refined_cut(&refinement, mesh, metric, cones, control)?;
+    control.step(Stage::Layout, 0.3)?;
+    let mut refined = layout_refined(&refinement, mesh, metric, &cut, control)?;
+    let scale = refined.scale_to_area(&refinement, area)?;
+    control.step(Stage::Layout, 0.8)?;
+    let quality = refined.quality(&refinement, &input.mesh, &input.lengths)?;
+    let positions = match &input.positions {
+        Some(positions) => Some(refinement.from_input_vertices(positions)?),
+        None => None,
+    };
+    Ok(Laid {
+        mesh: refinement.mesh.clone(),
+        weight: refinement.weight.clone(),
+        refinement: Some(refinement),
+        positions,
+        packed: None,
+        degenerate: refined.degenerate,
+        modulus: modulus_of(input, &refined.layout, cones),
+        layout: refined.layout,
+        quality,
+        scale,
+        consistency_limit,
+    })
+}
+
+fn modulus_of(input: &Input, layout: &Layout, cones: &[VertexId]) -> Option<[f64; 2]> {
+    let flat_torus = input.mesh.is_closed() && input.mesh.euler() == 0 && cones.is_empty();
+    match layout.seams.as_slice() {
         // Any two of the two or three side pairings of the cut torus generate its lattice.
         [a, b, ..] if flat_torus => modulus([a.translation, b.translation]),
         _ => None,
-    };
-    Ok(Ok(Laid { layout, quality, scale, modulus, consistency_limit }))
+    }
 }
 
 impl Laid {
+    /// Homogeneous weights of the coordinates.
+    pub fn weights(&self) -> Vec<f64> {
+        let mut weights = vec![1.0; self.coordinates().len()];
+        for h in self.mesh.halfedges() {
+            weights[self.corner_index()[h] as usize] = self.weight[self.mesh.origin(h)];
+        }
+        weights
+    }
+
     /// Largest disagreement between the layout and the metric or between the two sides of a seam, relative to the layout's
     /// diameter.
     pub fn consistency(&self) -> f64 {

@@ -1,11 +1,14 @@
 //! The `ricci` command.
 
+mod carry;
+mod charts;
 mod checkerboard;
 mod circles;
 mod cli;
 mod csv;
 mod demo;
 mod failure;
+mod figures;
 mod flow;
 mod gallery;
 mod info;

@@ -5,6 +5,7 @@
 
 use crate::failure::Failure;
 use ricci::geometry::Space;
+use ricci::mesh::check::Defect;
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
 use ricci::metric::{Metric, Scheme};
 use serde::{Deserialize, Serialize};
@@ -33,6 +34,9 @@ pub struct MetricFile<'a> {
     epsilon: &'a [i8],
     target: &'a [f64],
     boundary: Vec<bool>,
+    /// Per vertex its mirror image, where the surface is the double of the input: its vertices come first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mirror: Option<&'a [u32]>,
 }
 
 impl<'a> MetricFile<'a> {
@@ -44,6 +48,7 @@ impl<'a> MetricFile<'a> {
         lengths: [&PerEdge<f64>; 2],
         conformal_factor: &'a PerVertex<f64>,
         target: &'a PerVertex<f64>,
+        mirror: Option<&'a [u32]>,
     ) -> Self {
         let per_face = |values: &PerEdge<f64>| -> Vec<[f64; 3]> {
             mesh.faces().map(|f| mesh.opposite_edges(f).map(|e| values[e])).collect()
@@ -62,6 +67,7 @@ impl<'a> MetricFile<'a> {
             epsilon: &metric.epsilon,
             target,
             boundary: mesh.vertices().map(|v| mesh.is_boundary_vertex(v)).collect(),
+            mirror,
         }
     }
 }
@@ -142,7 +148,10 @@ pub fn parse(path: &Path, text: &str) -> Result<Intrinsic, Failure> {
     let n_vertices = n_vertices(&given.faces).map_err(refuse)?;
     let mesh = match &given.face_edges {
         Some(edges) => Mesh::from_gluing(n_vertices, &given.faces, edges)?,
-        None => Mesh::from_faces(n_vertices, &given.faces)?,
+        None => Mesh::from_faces(n_vertices, &given.faces).map_err(|error| match error {
+            ricci::Error::Defects(d) if d.defects.iter().any(may_be_glued) => Failure::Unglued(d),
+            error => error.into(),
+        })?,
     };
     let sides = given
         .lengths
@@ -151,6 +160,14 @@ pub fn parse(path: &Path, text: &str) -> Result<Intrinsic, Failure> {
     let sides: Vec<[f64; 3]> = sides.map(|(hi, lo)| std::array::from_fn(|k| hi[k] + lo[k])).collect();
     let lengths = edge_lengths(&mesh, &sides).map_err(refuse)?;
     Ok(Intrinsic { mesh, lengths, geometry })
+}
+
+/// What is a defect of faces given by their vertices, but not of a gluing.
+fn may_be_glued(defect: &Defect) -> bool {
+    matches!(
+        defect,
+        Defect::DuplicateFace { .. } | Defect::DegenerateFace { .. } | Defect::NonManifoldEdge { .. }
+    )
 }
 
 /// One more than the largest vertex, which may not exceed the number of corners: the numbers in the file are not

@@ -8,7 +8,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
-/// The files of one run, all of them or none.
+/// The files of one run: none is there before all are complete.
 #[derive(Default)]
 pub struct Outputs {
     pending: Vec<Pending>,
@@ -87,9 +87,11 @@ impl Outputs {
         })
     }
 
-    /// Rename every file into place; returns their names. Links stay links, and permissions those of what is replaced.
+    /// Rename every file into place; returns their names. Links stay links, and permissions those of what is replaced. Where one
+    /// fails, the others are still there.
     pub fn commit(self) -> Result<Vec<PathBuf>, Failure> {
-        self.pending.into_iter().map(Pending::commit).collect()
+        let done: Vec<_> = self.pending.into_iter().map(Pending::commit).collect();
+        done.into_iter().collect()
     }
 }
 

@@ -2,23 +2,30 @@
 
 use crate::input::Input;
 use crate::job::Outcome;
-use crate::picture::{ColorChoice, Field, Scale};
+use crate::laid::Laid;
+use crate::picture::{CLASSES, ColorChoice, Field, Scale};
 use ricci::geometry::triangle;
-use ricci::mesh::{FaceId, Mesh, PerVertex, Point};
+use ricci::mesh::{FaceId, Mesh, PerFace, PerVertex, Point};
+use ricci::metric::Refinement;
 use ricci::metric::curvature::{curvature, curvature_from_angles};
 
 /// The quantity of a finished flow; `None` where there is none to show: those of a layout where it has none.
 pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<Field> {
-    let mesh = &outcome.mesh;
     let laid = outcome.layout.as_ref().ok();
+    let mesh = laid.map_or(&input.mesh, |laid| &laid.mesh);
     Some(match choice {
         ColorChoice::None => return None,
         ColorChoice::U => {
             let factor = outcome.initial.conformal_factor(&outcome.metric).ok()?;
-            let scale = Scale::of_amounts("log conformal factor u", &factor);
-            at_vertices(mesh, &factor, scale)
+            let all: &[f64] = &factor;
+            let given = &all[..input.mesh.n_vertices()];
+            let scale = Scale::of_amounts("log conformal factor u", given);
+            at_vertices(mesh, &on_layout(given, laid)?, scale)
         }
-        ColorChoice::Curvature => curvature_of_input(input)?,
+        ColorChoice::Curvature => {
+            let (density, scale) = density_of_input(input)?;
+            at_vertices(mesh, &on_layout(&density, laid)?, scale)
+        }
         ColorChoice::Qc => {
             let values: Vec<f64> = laid?.quality.qc.to_vec();
             let scale = Scale::of_amounts("quasi-conformal dilatation K", &values);
@@ -29,13 +36,59 @@ pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<
             let scale = Scale::of_signed("log2 of area in the layout over area on the surface", &values);
             at_faces(&values, scale)
         }
+        ColorChoice::Pieces => pieces(laid?),
     })
+}
+
+/// Pieces in colours: a hue for the face of the final triangulation, a shade for that of the input. Faces side by side differ.
+fn pieces(laid: &Laid) -> Field {
+    let mesh = &laid.mesh;
+    let parts = |of: fn(&Refinement) -> &PerFace<FaceId>| match &laid.refinement {
+        Some(refinement) => of(refinement).clone(),
+        None => mesh.faces().collect::<Vec<_>>().into(),
+    };
+    let hue = classes(mesh, &parts(|r| &r.final_face));
+    let shade = classes(mesh, &parts(|r| &r.input_face));
+    let values: Vec<f64> = hue.iter().zip(shade).map(|(hue, shade)| (CLASSES * hue + shade) as f64).collect();
+    let title = "hue by face of the final triangulation, shade by face of the input";
+    at_faces(&values, Scale::of_pairs(title, "what a face of each has in common is a piece"))
+}
+
+/// Per face of the mesh, a class of the whole that it is part of: wholes that share an edge differ. Each has at most three
+/// neighbours, so taking the first class that none of them has needs four.
+fn classes(mesh: &Mesh, whole: &PerFace<FaceId>) -> Vec<usize> {
+    let n = whole.iter().map(|f| f.index() + 1).fold(0, usize::max);
+    let mut neighbours = vec![Vec::new(); n];
+    for h in mesh.edges().map(|e| e.halfedge()) {
+        if let (Some(f), Some(g)) = (mesh.face(h), mesh.face(h.twin()))
+            && whole[f] != whole[g]
+        {
+            neighbours[whole[f].index()].push(whole[g].index());
+            neighbours[whole[g].index()].push(whole[f].index());
+        }
+    }
+    let mut class = vec![CLASSES; n];
+    for f in 0..n {
+        let free = |c: &usize| neighbours[f].iter().all(|&g| class[g] != *c);
+        class[f] = (0..CLASSES).find(free).unwrap_or(0);
+    }
+    whole.iter().map(|f| class[f.index()]).collect()
 }
 
 const CURVATURE: &str = "Gaussian curvature K (1/length²)";
 
+/// Values at given vertices, at those of what is laid out.
+fn on_layout(given: &[f64], laid: Option<&Laid>) -> Option<PerVertex<f64>> {
+    let Some(refinement) = laid.and_then(|laid| laid.refinement.as_ref()) else {
+        return Some(given.to_vec().into());
+    };
+    let given: Vec<[f64; 1]> = given.iter().map(|x| [*x]).collect();
+    let all = refinement.from_input_vertices(&given).ok()?;
+    Some(all.into_iter().map(|[x]| x).collect::<Vec<_>>().into())
+}
+
 /// Gaussian curvature of a surface: the angle defect of each vertex over a third of the area around it.
-pub fn curvature_of_input(input: &Input) -> Option<Field> {
+fn density_of_input(input: &Input) -> Option<(PerVertex<f64>, Scale)> {
     let Input { mesh, lengths, geometry, .. } = input;
     let defect = curvature(mesh, *geometry, lengths).ok()?.at;
     let area = |f: FaceId| triangle::area(*geometry, mesh.opposite_edges(f).map(|e| lengths[e]));
@@ -48,14 +101,20 @@ pub fn curvature_of_triangles(points: &[Point], faces: &[[u32; 3]]) -> Field {
     if let Ok(mesh) = Mesh::from_faces(points.len(), faces) {
         let angles = mesh.faces().map(|f| angles(corners(f)));
         let defect = curvature_from_angles(&mesh, angles);
-        return density(&mesh, &defect, |f| area(corners(f)), 0.0);
+        let (values, scale) = density(&mesh, &defect, |f| area(corners(f)), 0.0);
+        return at_vertices(&mesh, &values, scale);
     }
     Field { corners: vec![[f64::NAN; 3]; faces.len()], scale: Scale::of_signed(CURVATURE, &[]) }
 }
 
 /// Angle defects over areas, with what the background geometry adds. A vertex of the boundary has the mean of its
 /// neighbours inside.
-fn density(mesh: &Mesh, defect: &PerVertex<f64>, area: impl Fn(FaceId) -> f64, background: f64) -> Field {
+fn density(
+    mesh: &Mesh,
+    defect: &PerVertex<f64>,
+    area: impl Fn(FaceId) -> f64,
+    background: f64,
+) -> (PerVertex<f64>, Scale) {
     let mut around = PerVertex::filled(mesh.n_vertices(), 0.0);
     for f in mesh.faces() {
         let third = area(f) / 3.0;
@@ -74,7 +133,7 @@ fn density(mesh: &Mesh, defect: &PerVertex<f64>, area: impl Fn(FaceId) -> f64, b
     }
     let scale = Scale::of_signed(CURVATURE, &values);
     mesh.vertices().filter(|v| !inside(*v)).for_each(|v| values[v] = sums[v].0 / sums[v].1);
-    at_vertices(mesh, &values, scale)
+    (values, scale)
 }
 
 fn at_vertices(mesh: &Mesh, values: &PerVertex<f64>, scale: Scale) -> Field {
@@ -119,6 +178,20 @@ mod tests {
             assert!((mean * radius * radius - 1.0).abs() < 0.01, "{mean} at radius {radius}");
             assert!((field.scale.range[1] * radius * radius - 1.0).abs() < 0.05, "{:?}", field.scale.range);
         }
+    }
+
+    #[test]
+    fn faces_side_by_side_have_different_classes() {
+        let mesh = Mesh::from_soup(&shapes::icosphere(6).unwrap()).unwrap();
+        let own: Vec<FaceId> = mesh.faces().collect();
+        let class = classes(&mesh, &own.into());
+        for h in mesh.halfedges() {
+            let [f, g] = [h, h.twin()].map(|h| class[mesh.face(h).unwrap().index()]);
+            assert!(f != g && f < CLASSES, "{f} {g}");
+        }
+        // One whole has one class.
+        let one = PerFace::filled(mesh.n_faces(), FaceId(0));
+        assert!(classes(&mesh, &one).iter().all(|c| *c == 0));
     }
 
     #[test]

@@ -52,6 +52,12 @@ pub fn flow(done: &Done) {
         Ok(laid) => format!("layout   {}\n", layout(laid)),
         Err(why) => format!("layout   none: {why}\n"),
     };
+    for what in &outcome.left_out {
+        text += &format!("left out {what}\n");
+    }
+    for (wish, why) in &outcome.failed {
+        text += &format!("FAILED   --{wish}: {why}\n");
+    }
     text += &match done.checks.failed().as_slice() {
         [] => "checks   all hold\n".into(),
         failed => {
@@ -108,6 +114,14 @@ fn layout(laid: &Laid) -> String {
         q.area_ratio_min,
         q.area_ratio_max
     );
+    if let Some(packed) = &laid.packed {
+        let charts = &packed.charts;
+        text += &format!(
+            "\ncharts   {}, {:.0} % of the unit square",
+            count(charts.count(), "chart", "charts"),
+            100.0 * charts.efficiency
+        );
+    }
     if let Some([re, im]) = laid.modulus {
         text += &format!(", modulus {re:.6} {} {:.6} i", if im < 0.0 { '-' } else { '+' }, im.abs());
     }

@@ -4,9 +4,11 @@ use crate::circles::circles;
 use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
-use crate::picture::{self, Circle, Flat, FlowPictureArgs, Picture, Surface, SurfacePictureArgs};
+use crate::picture::{
+    self, Circle, Flat, FlowPictureArgs, Focus, Picture, Style, Surface, SurfacePictureArgs, Zoom,
+};
 use crate::quantity;
-use ricci::mesh::{HalfedgeId, Mesh, PerVertex, Point, VertexId};
+use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -26,17 +28,20 @@ pub fn draw(
     args: &FlowPictureArgs,
     threads: usize,
 ) -> io::Result<()> {
-    let parts = outcome.layout.as_ref().ok().map(|laid| Parts::new(outcome, laid));
+    let parts = outcome.layout.as_ref().ok().map(|laid| Parts::new(input, outcome, laid));
     let flat = parts.as_ref().map(Parts::flat);
     let field = args.color().and_then(|choice| quantity::of_flow(choice, input, outcome));
-    let style = args.style();
+    let laid = outcome.layout.as_ref().ok();
+    let focus = args.zoom.zip(laid).and_then(|(zoom, laid)| focus(&zoom, laid));
+    let style = Style { focus, ..args.style() };
     if is_svg(path) {
         return flat.map_or(Ok(()), |flat| picture::write_svg(out, &flat, field.as_ref(), &style));
     }
-    let faces: Vec<[u32; 3]> =
-        outcome.mesh.faces().map(|f| outcome.mesh.face_vertices(f).map(|v| v.0)).collect();
-    let cones = cones(&outcome.mesh, &outcome.target);
-    let surface = input.positions.as_ref().map(|positions| Surface {
+    let (mesh, positions) =
+        laid.map_or((&input.mesh, &input.positions), |laid| (&laid.mesh, &laid.positions));
+    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let cones = cones(&input.mesh, &outcome.target);
+    let surface = positions.as_ref().map(|positions| Surface {
         positions,
         faces: &faces,
         corner_uv: parts.as_ref().map(|p| p.corner_uv.as_slice()),
@@ -45,6 +50,34 @@ pub fn draw(
     });
     let drawn = Picture { surface, flat, field: field.as_ref() };
     out.write_all(&picture::png(&drawn, &style, threads).map_err(io::Error::other)?)
+}
+
+/// The surroundings of a vertex, as much of the surface as of the layout.
+fn focus(zoom: &Zoom, laid: &Laid) -> Option<Focus> {
+    let mesh = &laid.mesh;
+    let v = VertexId(zoom.vertex);
+    let around: Vec<FaceId> = mesh.faces().filter(|&f| mesh.face_vertices(f).contains(&v)).collect();
+    let h = mesh.halfedges().find(|&h| !mesh.is_outside(h) && mesh.origin(h) == v)?;
+    let at_layout = laid.corner_uv(h);
+    let Some(positions) = &laid.positions else {
+        let radius = 0.5 * laid.layout.diameter / zoom.factor;
+        return Some(Focus { at: [0.0; 3], radius, normal: [0.0; 3], at_layout, radius_layout: radius });
+    };
+    let extent = |k: usize| {
+        let x = positions.iter().map(|p| p[k]);
+        x.clone().fold(f64::NEG_INFINITY, f64::max) - x.fold(f64::INFINITY, f64::min)
+    };
+    let radius = 0.5 * extent(0).max(extent(1)).max(extent(2)) / zoom.factor;
+    let (mut normal, mut area, mut area_layout) = ([0.0; 3], 0.0, 0.0);
+    for f in around {
+        let n = picture::normal(mesh.face_vertices(f).map(|v| positions[v.index()]));
+        normal = [0, 1, 2].map(|k| normal[k] + n[k]);
+        area += n.iter().map(|x| x * x).sum::<f64>().sqrt();
+        area_layout += picture::doubled_area(mesh.face_halfedges(f).map(|h| laid.corner_uv(h))).abs();
+    }
+    let radius_layout = radius * (area_layout / area).sqrt();
+    let finite = radius_layout.is_finite() && radius_layout > 0.0 && radius > 0.0;
+    finite.then_some(Focus { at: positions[v.index()], radius, normal, at_layout, radius_layout })
 }
 
 /// Whether the file is the drawing of a layout alone.
@@ -98,37 +131,36 @@ struct Parts {
 }
 
 impl Parts {
-    fn new(outcome: &Outcome, laid: &Laid) -> Parts {
-        let (mesh, layout) = (&outcome.mesh, &laid.layout);
-        let side = |h: HalfedgeId| (layout.corner_uv(h), layout.corner_uv(mesh.next(h)));
-        let mut parts =
-            Parts { corner_uv: mesh.faces().map(|f| layout.face_uv(mesh, f)).collect(), ..Parts::default() };
-        for (number, seam) in layout.seams.iter().enumerate() {
-            for &h in &seam.halfedges {
-                parts.edges.push((mesh.origin(h).0, mesh.tip(h).0, number));
-                for h in [h, h.twin()] {
-                    let (a, b) = side(h);
-                    parts.seams.push((a, b, number));
-                }
+    fn new(input: &Input, outcome: &Outcome, laid: &Laid) -> Parts {
+        let mesh = &laid.mesh;
+        let side = |h: HalfedgeId| (laid.corner_uv(h), laid.corner_uv(mesh.next(h)));
+        let face_uv = |f| mesh.face_halfedges(f).map(|h| laid.corner_uv(h));
+        let mut parts = Parts { corner_uv: mesh.faces().map(face_uv).collect(), ..Parts::default() };
+        for (h, number) in laid.numbered_seams(mesh) {
+            parts.edges.push((mesh.origin(h).0, mesh.tip(h).0, number));
+            for h in [h, h.twin()] {
+                let (a, b) = side(h);
+                parts.seams.push((a, b, number));
             }
         }
         for h in mesh.halfedges().filter(|h| mesh.is_outside(h.twin())) {
             parts.boundary.push(side(h));
         }
-        let mut seen = vec![false; layout.coordinates.len()];
+        let mut seen = vec![false; laid.coordinates().len()];
         let cones: PerVertex<f64> = {
             let mut at = PerVertex::filled(mesh.n_vertices(), 0.0);
-            cones(mesh, &outcome.target).into_iter().for_each(|(v, k)| at[VertexId(v)] = k);
+            cones(&input.mesh, &outcome.target).into_iter().for_each(|(v, k)| at[VertexId(v)] = k);
             at
         };
         for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h) && cones[mesh.origin(h)] != 0.0) {
-            let uv = layout.corner_index[h] as usize;
+            let uv = laid.corner_index()[h] as usize;
             if !std::mem::replace(&mut seen[uv], true) {
-                parts.cones.push((layout.coordinates[uv], cones[mesh.origin(h)]));
+                parts.cones.push((laid.coordinates()[uv], cones[mesh.origin(h)]));
             }
         }
-        if outcome.scheme.epsilon() != 0 {
-            let all = circles(mesh, &outcome.metric, outcome.scheme.name(), layout, laid.scale);
+        // Circles belong to the layout, not to its charts.
+        if outcome.scheme.epsilon() != 0 && laid.packed.is_none() {
+            let all = circles(&outcome.mesh, &outcome.metric, outcome.scheme.name(), laid);
             let vertex = all.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
             parts.circles = vertex.collect();
             let dual = |c: &crate::circles::DualCircle| Some(Circle { center: c.center, radius: c.radius? });

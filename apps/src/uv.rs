@@ -1,33 +1,43 @@
 //! The surface with its layout as texture coordinates.
 
+use crate::carry::carry;
 use crate::checkerboard;
 use crate::failure::Failure;
+use crate::input::Input;
+use crate::laid::Laid;
 use crate::output::{Outputs, extension};
-use ricci::embed::Layout;
 use ricci::mesh::io::{self, Texture, Textured, Wrap};
-use ricci::mesh::{Mesh, Point};
 use std::path::Path;
 
-/// Add OBJ (`v` of the input, `vt` of the layout, `f v/vt`) or, from a name that ends in `.glb`, binary glTF with a checkerboard.
+/// Add OBJ (`v` of the input, then the crossings of its edges with flipped ones, `vt` of the layout, `f v/vt`) or, from a name that
+/// ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
 pub fn write(
     outputs: &mut Outputs,
     path: &Path,
-    positions: &[Point],
-    mesh: &Mesh,
-    layout: &Layout,
+    input: &Input,
+    laid: &Laid,
+    homogeneous: bool,
 ) -> Result<(), Failure> {
+    // Without positions `--uv` is refused before the flow.
+    let Some(positions) = &laid.positions else { return Ok(()) };
+    let mesh = &laid.mesh;
     let corners: Vec<[u32; 3]> =
-        mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| layout.corner_index[h])).collect();
+        mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| laid.corner_index()[h])).collect();
     let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let weights = if homogeneous { laid.weights() } else { Vec::new() };
+    let carried = carry(input, laid)?;
     let data = Textured {
         positions,
-        texcoords: &layout.coordinates,
+        colors: &carried.colors,
+        normals: &carried.normals,
+        face_normals: &carried.face_normals,
+        texcoords: laid.coordinates(),
+        texcoord_weights: &weights,
         faces: &faces,
         face_texcoords: &corners,
-        ..Textured::default()
     };
     if extension(path) == "glb" {
-        let (texcoords, png) = (checkerboard::coordinates(&layout.coordinates), checkerboard::png()?);
+        let (texcoords, png) = (checkerboard::coordinates(laid.coordinates()), checkerboard::png()?);
         let texture = Texture { png: &png, wrap: Wrap::Repeat };
         let data = Textured { texcoords: &texcoords, ..data };
         return outputs.add_named(path, |path| io::write_glb(path, &data, Some(texture)).map(drop));

@@ -5,10 +5,15 @@
 //! round is one flow, then one analysis, factorisation and solve by each solver of ∂K/∂u at the solution; several rounds
 //! follow each other, so that what else the machine does hits all sides, and medians are printed.
 //!
+//! `cargo bench --bench flow -- flips [VERTICES… SCHEME…] > docs/results/bench-flips.md` (default: 10000 50000 200000 400000) measures
+//! what edge flips cost instead.
+//!
 //! CHOLMOD and Eigen are measured by the program of benches/peers: `RICCI_PEERS` names it, or else cmake builds it. Where
 //! cmake, Eigen or CHOLMOD are missing, the page says so and has no columns for them.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
+mod flips;
+mod flips_page;
 mod heap;
 mod linear;
 mod page;
@@ -17,7 +22,7 @@ mod peers;
 use linear::{Linear, Matrix};
 use peers::Peers;
 use ricci::Control;
-use ricci::flow::{Options, Report, flow};
+use ricci::flow::{Flips, Options, Report, flow};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, shapes};
 use ricci::metric::{Scheme, Target, initial_metric, lengths_from_positions};
@@ -75,8 +80,9 @@ fn measure(vertices: usize, scheme: Scheme, peers: Option<&Peers>) -> Row {
     let rounds = rounds(vertices);
     for round in 1..=rounds {
         eprintln!("{vertices} {scheme}: round {round} of {rounds}");
-        let run = || flow(&mesh, &start, &target, &Options::default(), &Control::new()).unwrap();
-        let (most, (metric, report)) = heap::peak(run);
+        let options = Options { flips: Flips::Never, ..Options::default() };
+        let run = || flow(&mesh, &start, &target, &options, &Control::new()).unwrap();
+        let (most, (_, metric, report)) = heap::peak(run);
         assert!(report.converged, "{report:?}");
         peak = peak.max(most);
         reports.push(report);
@@ -103,8 +109,13 @@ fn measure(vertices: usize, scheme: Scheme, peers: Option<&Peers>) -> Row {
 
 fn main() {
     let (mut sizes, mut schemes) = (Vec::<usize>::new(), Vec::<Scheme>::new());
+    let mut with_flips = false;
     // Cargo adds --bench.
     for argument in std::env::args().skip(1).filter(|a| a != "--bench") {
+        if argument == "flips" {
+            with_flips = true;
+            continue;
+        }
         match (argument.parse(), argument.parse()) {
             (Ok(size), _) => sizes.push(size),
             (_, Ok(scheme)) => schemes.push(scheme),
@@ -112,17 +123,24 @@ fn main() {
         }
     }
     if sizes.is_empty() {
-        sizes = vec![10_000, 50_000, 200_000, 850_000];
+        sizes = vec![10_000, 50_000, 200_000, if with_flips { 400_000 } else { 850_000 }];
     }
     if schemes.is_empty() {
         schemes = vec![Scheme::Yamabe, Scheme::Inversive];
     }
     let load = page::load();
+    let cases: Vec<_> =
+        sizes.iter().flat_map(|&size| schemes.iter().map(move |&scheme| (size, scheme))).collect();
+    if with_flips {
+        let rows: Vec<_> = cases.iter().map(|&(size, scheme)| flips::measure(size, scheme)).collect();
+        println!("{}", flips_page::page(&rows, load));
+        return;
+    }
     let peers = Peers::find();
     if let Err(why) = &peers {
         eprintln!("no peers: {why}");
     }
-    let cases = sizes.iter().flat_map(|&size| schemes.iter().map(move |&scheme| (size, scheme)));
-    let rows: Vec<Row> = cases.map(|(size, scheme)| measure(size, scheme, peers.as_ref().ok())).collect();
+    let rows: Vec<Row> =
+        cases.into_iter().map(|(size, scheme)| measure(size, scheme, peers.as_ref().ok())).collect();
     println!("{}", page::page(&rows, peers.map(|p| p.libraries()), [load, page::load()]));
 }

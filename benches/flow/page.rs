@@ -60,12 +60,12 @@ but the first. Cores: processor seconds per second of the factorisation. Residua
         let tail: Vec<String> = row.report.residuals.iter().map(|r| format!("{r:.1e}")).collect();
         put(&mut page, format_args!("- {} {}: {}\n", row.vertices, row.scheme, tail.join(" ")));
     }
-    machine(&mut page, peers, load);
+    machine(&mut page, Some(peers), load);
     page.truncate(page.trim_end().len());
     page
 }
 
-fn put(page: &mut String, text: std::fmt::Arguments<'_>) {
+pub fn put(page: &mut String, text: std::fmt::Arguments<'_>) {
     page.write_fmt(text).unwrap();
 }
 
@@ -115,7 +115,8 @@ fn solvers(page: &mut String, rows: &[Row]) {
     }
 }
 
-fn machine(page: &mut String, peers: Result<String, String>, load: [Option<String>; 2]) {
+/// The machine and its load; `peers` says what they are, or why there are none, and is none where none were asked for.
+pub fn machine(page: &mut String, peers: Option<Result<String, String>>, load: [Option<String>; 2]) {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let processor = processor().unwrap_or_else(|| "a processor without a name".into());
     put(
@@ -125,8 +126,9 @@ fn machine(page: &mut String, peers: Result<String, String>, load: [Option<Strin
         ),
     );
     match peers {
-        Err(why) => put(page, format_args!("No peers: {why}.\n")),
-        Ok(libraries) => {
+        None => {}
+        Some(Err(why)) => put(page, format_args!("No peers: {why}.\n")),
+        Some(Ok(libraries)) => {
             put(page, format_args!("Peers: {libraries}. Each solver is a process of its own.\n"))
         }
     }

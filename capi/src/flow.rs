@@ -1,16 +1,17 @@
 //! The flow, once or repeatedly.
 
+use crate::arrays;
 use crate::choice::{Choice, choose, name};
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, Handle, Poison, output};
-use crate::metric::{Origin, ricci_metric};
+use crate::metric::ricci_metric;
 use crate::report::ricci_report;
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::Control;
-use ricci::flow::{Flips, Gradient, Method, Options, Report, Solver, StepRule};
-use ricci::mesh::PerVertex;
+use ricci::flow::{Flips, Gradient, Method, Options, StepRule, SurfaceFlow};
+use ricci::mesh::{EdgeId, PerVertex, Point};
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
@@ -40,9 +41,12 @@ impl Choice for ricci_method {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ricci_flips {
-    /// As often as needed. This version keeps the triangulation all the same.
+    /// As often as needed, so that every admissible target is reached: the flow starts from the intrinsic
+    /// Delaunay triangulation and keeps it (weighted) Delaunay; a surface with boundary flows on its double
+    /// as soon as an edge is to be flipped across the boundary, unless vertices are pinned. Applies to Newton's method in E2 and H2 with vertex scaling, inversive
+    /// distance and virtual radius; else edges stay as they are.
     RICCI_FLIPS_AUTO = 0,
-    /// The triangulation stays as it is.
+    /// The triangulation of the metric stays as it is.
     RICCI_FLIPS_NEVER = 1,
 }
 
@@ -93,7 +97,7 @@ pub struct ricci_flow_options {
     pub flips: MaybeUninit<ricci_flips>,
     /// Largest |K - target| of a converged metric, radians, positive; default 1e-10.
     pub tolerance: f64,
-    /// Steps before giving up; default 0: 200 for Newton, 200,000 for the gradient flow.
+    /// Steps before giving up; default 0: 500 for Newton, 200,000 for the gradient flow.
     pub max_iterations: usize,
     /// Threads of this flow, in a pool of its own; default 0: one per core. The result does not depend on it.
     pub threads: usize,
@@ -105,9 +109,15 @@ pub struct ricci_flow_options {
     pub area_normalised: i32,
     /// The step of RICCI_STEP_FIXED, positive; default 0.
     pub step_size: f64,
+    /// Edges that are not flipped, such as seams and feature lines: rows of ricci_mesh_edges of the mesh that
+    /// the metric was made from; default NULL. Targets that only their flips would reach are then out of
+    /// reach.
+    pub fixed_edges: *const u32,
+    /// Entries of `fixed_edges`; default 0.
+    pub n_fixed_edges: usize,
 }
 
-// SAFETY: numbers and `MaybeUninit` enums: any bytes are valid; 8-byte alignment, size first.
+// SAFETY: numbers, a raw pointer and `MaybeUninit` enums: any bytes are valid; 8-byte alignment, size first.
 unsafe impl Sized64 for ricci_flow_options {
     const NAME: &'static str = "options";
     fn with_size(self, size: usize) -> Self {
@@ -128,6 +138,8 @@ fn defaults() -> Outcome<ricci_flow_options> {
         step: MaybeUninit::new(ricci_step::RICCI_STEP_BARZILAI_BORWEIN),
         area_normalised: options.gradient.area_normalised.into(),
         step_size: 0.0,
+        fixed_edges: std::ptr::null(),
+        n_fixed_edges: 0,
     })
 }
 
@@ -139,8 +151,10 @@ fn read_options(options: *const ricci_flow_options) -> Outcome<Options> {
         ricci_step::RICCI_STEP_STABLE => StepRule::Stable,
         ricci_step::RICCI_STEP_FIXED => StepRule::Fixed(options.step_size),
     };
+    let fixed = arrays::array("fixed_edges", options.fixed_edges, options.n_fixed_edges)?;
     Ok(Options {
         method: choose(options.method)?,
+        fixed_edges: fixed.into_iter().map(EdgeId).collect(),
         flips: choose(options.flips)?,
         tolerance: options.tolerance,
         max_iterations: options.max_iterations,
@@ -166,10 +180,15 @@ pub unsafe extern "C" fn ricci_flow_options_init(
 
 /// Deform a metric in its conformal class to a prescribed curvature.
 ///
+/// With flips the result lives on a triangulation of its own, and of a surface with boundary on its double
+/// (ricci_metric_mesh); vertices keep their numbers, and ricci_layout_new leads back. A result that flows
+/// again goes on from where it is; if it came of a flow without flips, or with other fixed edges, and edges
+/// may be flipped now, it begins at the given lengths.
+///
 /// Whether it came that far is in the report: a flow that stops early is RICCI_OK and `converged` is 0.
 /// Inputs are never changed.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT, RICCI_STRUCT_SIZE,
-/// RICCI_TARGET_AT_VERTEX, RICCI_TARGET_TOTAL, RICCI_FACTORISATION, RICCI_CANCELLED.
+/// RICCI_TARGET_AT_VERTEX, RICCI_TARGET_TOTAL, RICCI_TARGET_BELOW, RICCI_FACTORISATION, RICCI_CANCELLED.
 ///
 /// @param metric      where the flow starts.
 /// @param target      n_vertices curvatures, radians.
@@ -193,41 +212,45 @@ pub unsafe extern "C" fn ricci_flow(
         let metric = door.shared(metric)?;
         let target = metric.target(target, n_vertices)?;
         let options = read_options(options)?;
-        let mut solver = Solver::new((*metric.mesh).clone(), metric.metric.clone(), options)?;
-        let (end, done) = advance(&mut solver, &target, &control::of(control), &metric.origin)?;
+        let control = control::of(control);
+        let mut flow = SurfaceFlow::resume(&metric.surface, &[], &options, &control)?;
+        let (end, done) = advance(&mut flow, &target, &control, &metric.positions)?;
         if let Ok(report) = output("report", report) {
-            report.hand_over(ricci_report::new(done));
+            report.hand_over(done);
         }
         result.hand_over(end);
         Ok(())
     })
 }
 
-/// Solve, and the metric that the solver has come to.
+type Positions = Option<Arc<Vec<Point>>>;
+
+/// Solve, and the metric that the flow has come to.
 fn advance(
-    solver: &mut Solver,
+    flow: &mut SurfaceFlow,
     target: &PerVertex<f64>,
     control: &Control,
-    origin: &Arc<Origin>,
-) -> Outcome<(ricci_metric, Report)> {
-    let report = solver.solve(target, control)?;
+    positions: &Positions,
+) -> Outcome<(ricci_metric, ricci_report)> {
+    let report = flow.solve(target, control)?;
     log::info!(
-        "flow: {} after {} iterations and {:.3} s, max |K - target| = {:.1e}",
+        "flow: {} after {} iterations, {} flips and {:.3} s, max |K - target| = {:.1e}",
         report.stop_reason,
         report.iterations,
+        report.flips,
         report.seconds.total,
         report.max_curvature_error
     );
-    let end = ricci_metric::at(Arc::new(solver.mesh().clone()), solver.metric().clone(), origin.clone())?;
-    Ok((end, report))
+    let end = ricci_metric::at(flow.now(), positions.clone())?;
+    Ok((end, ricci_report::new(report, flow.double())))
 }
 
 /// A solver for many targets on one metric: it keeps its analysis, its threads and the last solution, from
 /// which the next solve starts.
 pub struct ricci_solver {
     poison: Poison,
-    solver: Solver,
-    origin: Arc<Origin>,
+    flow: SurfaceFlow,
+    positions: Positions,
 }
 
 impl Handle for ricci_solver {
@@ -253,9 +276,9 @@ pub unsafe extern "C" fn ricci_solver_new(
     guard::call(|door| {
         let solver = output("solver", solver)?;
         let metric = door.shared(metric)?;
-        let inner = Solver::new((*metric.mesh).clone(), metric.metric.clone(), read_options(options)?)?;
-        let origin = metric.origin.clone();
-        solver.hand_over(ricci_solver { poison: Poison::default(), solver: inner, origin });
+        let flow = SurfaceFlow::resume(&metric.surface, &[], &read_options(options)?, &Control::new())?;
+        let positions = metric.positions.clone();
+        solver.hand_over(ricci_solver { poison: Poison::default(), flow, positions });
         Ok(())
     })
 }
@@ -270,7 +293,9 @@ pub unsafe extern "C" fn ricci_solver_free(solver: *mut ricci_solver) {
 
 /// Hold u fixed at some vertices in the following solves; their curvature is then free.
 ///
-/// Replaces the vertices that were pinned before.
+/// Replaces the vertices that were pinned before. A surface with boundary flows on its double if edges are
+/// flipped across the boundary and no vertex is pinned: there the first pin, and the release of all, begin the
+/// flow anew from the given lengths.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex).
 ///
 /// @param solver      the solver.
@@ -284,13 +309,13 @@ pub unsafe extern "C" fn ricci_solver_pin(
 ) -> ricci_status {
     guard::call(|door| {
         let solver = door.exclusive(solver)?;
-        let n = solver.solver.mesh().n_vertices();
-        let vertices = crate::arrays::array("vertices", vertices, n_vertices)?;
+        let n = solver.flow.given().n_vertices();
+        let vertices = arrays::array("vertices", vertices, n_vertices)?;
         if let Some(v) = vertices.iter().find(|&&v| v as usize >= n) {
             return Err(Failure::argument(format!("vertex {v} does not exist: there are {n}")));
         }
         let vertices: Vec<_> = vertices.into_iter().map(ricci::mesh::VertexId).collect();
-        Ok(solver.solver.pin(&vertices)?)
+        Ok(solver.flow.pin(&vertices, &Control::new())?)
     })
 }
 
@@ -317,11 +342,11 @@ pub unsafe extern "C" fn ricci_solver_solve(
     guard::call(|door| {
         let result = output("result", result)?;
         let solver = door.exclusive(solver)?;
-        let n = solver.solver.mesh().n_vertices();
-        let target = PerVertex::from(crate::arrays::array_of("target", target, n_vertices, n)?);
-        let (end, done) = advance(&mut solver.solver, &target, &control::of(control), &solver.origin)?;
+        let n = solver.flow.given().n_vertices();
+        let target = PerVertex::from(arrays::array_of("target", target, n_vertices, n)?);
+        let (end, done) = advance(&mut solver.flow, &target, &control::of(control), &solver.positions)?;
         if let Ok(report) = output("report", report) {
-            report.hand_over(ricci_report::new(done));
+            report.hand_over(done);
         }
         result.hand_over(end);
         Ok(())

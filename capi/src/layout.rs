@@ -6,23 +6,34 @@ use crate::failure::{Failure, Outcome};
 use crate::guard::{self, Handle, Poison, output};
 use crate::mesh::signed_edge;
 use crate::metric::ricci_metric;
+use crate::refined;
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
-use ricci::embed::{Layout, Quality, layout_of, quality};
+use ricci::Control;
+use ricci::embed::{Layout, Quality, layout_of, layout_refined, quality, refined_cut};
 use ricci::geometry::space::Space;
-use ricci::mesh::{Mesh, Point, VertexId, io};
+use ricci::mesh::{Mesh, Point, VertexId};
 use ricci::metric::curvature::curvature;
+use ricci::metric::{Refinement, SurfaceMetric};
 use ricci::topology::cut_graph;
-use std::ffi::c_char;
 use std::sync::Arc;
 
 /// A flat metric unrolled into the plane along a cut.
+///
+/// What is unrolled is the mesh that the metric was made from. If edges were flipped its faces are cut by the
+/// edges of the metric's triangulation: the *common refinement*, whose faces are parts of faces of both, and
+/// whose vertices are those of the mesh, with their numbers, then the crossings of edges of both.
+/// ricci_layout_mesh gives it; faces and points of a layout are its own.
 pub struct ricci_layout {
     poison: Poison,
-    mesh: Arc<Mesh>,
-    positions: Option<Arc<Vec<Point>>>,
-    layout: Layout,
+    /// What is unrolled.
+    pub(crate) mesh: Arc<Mesh>,
+    pub(crate) positions: Option<Arc<Vec<Point>>>,
+    pub(crate) layout: Layout,
     quality: Quality,
+    pub(crate) surface: Arc<SurfaceMetric>,
+    /// If edges were flipped.
+    pub(crate) refinement: Option<Arc<Refinement>>,
 }
 
 impl Handle for ricci_layout {
@@ -38,7 +49,7 @@ impl Handle for ricci_layout {
 pub struct ricci_layout_summary {
     /// Bytes of this struct that are filled.
     pub size: usize,
-    /// F.
+    /// F of what is unrolled.
     pub n_faces: usize,
     /// Number of points in the plane: vertices count once per piece of their star between cuts.
     pub n_points: usize,
@@ -46,7 +57,8 @@ pub struct ricci_layout_summary {
     pub n_seams: usize,
     /// Number of edges on all seams.
     pub n_seam_edges: usize,
-    /// Faces that are not counterclockwise, by exact arithmetic.
+    /// Faces that are not counterclockwise: by exact arithmetic; of a refinement, those that are clockwise by
+    /// more than rounding.
     pub n_flipped: usize,
     /// Largest disagreement of an edge vector with the placed points, relative to `diameter`.
     pub consistency: f64,
@@ -62,6 +74,20 @@ pub struct ricci_layout_summary {
     pub area_ratio_min: f64,
     /// Largest area distortion.
     pub area_ratio_max: f64,
+    /// V of what is unrolled: n_given_vertices + n_crossings.
+    pub n_vertices: usize,
+    /// E of what is unrolled.
+    pub n_edges: usize,
+    /// V of the mesh that the metric was made from: these vertices come first.
+    pub n_given_vertices: usize,
+    /// Vertices where an edge of that mesh and one of the metric's triangulation cross; 0 if no edge was
+    /// flipped.
+    pub n_crossings: usize,
+    /// Number of pieces: a piece is what a face of the mesh and one of the metric's triangulation have in
+    /// common, cut into triangles.
+    pub n_pieces: usize,
+    /// Faces without area in the input or the layout, but for rounding; qc and area_ratio leave them out.
+    pub n_degenerate: usize,
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
@@ -72,35 +98,60 @@ unsafe impl Sized64 for ricci_layout_summary {
     }
 }
 
-fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &ricci::Control) -> Outcome<ricci_layout> {
-    if metric.metric.space != Space::E2 {
+fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outcome<ricci_layout> {
+    let ricci_metric { surface, positions, .. } = metric;
+    let (given, given_lengths) = (surface.given(), surface.given_lengths());
+    let (mesh, class) = (surface.mesh(), surface.metric());
+    if class.space != Space::E2 {
         return Err(Failure::new(
             ricci_status::RICCI_LAYOUT,
-            format!("layouts exist in e2, this metric lives in {}", metric.metric.space),
+            format!("layouts exist in e2, this metric lives in {}", class.space),
         ));
     }
-    let (mesh, origin) = (&metric.mesh, &metric.origin);
-    let cut = cut_graph(mesh, metric.lengths(), cones)?;
-    let mut layout = layout_of(mesh, &metric.metric, &cut, control)?;
-    if origin.initial.input_geometry == Space::E2 {
-        layout.scale_to_area(mesh, curvature(&origin.mesh, Space::E2, &origin.lengths)?.area)?;
+    // That of the input, where it has one in the plane.
+    let area = match surface.initial().input_geometry {
+        Space::E2 => Some(curvature(given, Space::E2, given_lengths)?.area),
+        _ => None,
+    };
+    let (poison, surface) = (Poison::default(), Arc::new(surface.clone()));
+    if surface.is_unflipped() {
+        let cut = cut_graph(mesh, &metric.lengths, cones, control)?;
+        let mut layout = layout_of(mesh, class, &cut, control)?;
+        if let Some(area) = area {
+            layout.scale_to_area(mesh, area)?;
+        }
+        let quality = quality(mesh, given_lengths, &layout)?;
+        let (mesh, positions) = (mesh.clone(), positions.clone());
+        return Ok(ricci_layout { poison, mesh, positions, layout, quality, surface, refinement: None });
     }
-    let quality = quality(mesh, &origin.lengths, &layout)?;
-    let positions = origin.positions.clone();
-    Ok(ricci_layout { poison: Poison::default(), mesh: mesh.clone(), positions, layout, quality })
+    let refinement = surface.refinement(control)?;
+    let cut = refined_cut(&refinement, mesh, class, cones, control)?;
+    let mut refined = layout_refined(&refinement, mesh, class, &cut, control)?;
+    if let Some(area) = area {
+        refined.scale_to_area(&refinement, area)?;
+    }
+    let quality = refined.quality(&refinement, given, given_lengths)?;
+    let positions = match positions {
+        Some(positions) => Some(Arc::new(refinement.from_input_vertices(positions)?)),
+        None => None,
+    };
+    let (mesh, layout) = (Arc::new(refinement.mesh.clone()), refined.layout);
+    let refinement = Some(Arc::new(refinement));
+    Ok(ricci_layout { poison, mesh, positions, layout, quality, surface, refinement })
 }
 
 /// Unroll a Euclidean metric into the plane.
 ///
 /// The surface is cut open along its homology generators and through every interior vertex whose target is
 /// not 0; the metric should be flat at all others, and `consistency` says how far it is. Triangles are
-/// counterclockwise where the mesh's are.
+/// counterclockwise where the mesh's are. Of a metric whose edges were flipped the common refinement is
+/// unrolled.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_TRIANGLE_INEQUALITY, RICCI_LAYOUT (not E2),
-/// RICCI_CANCELLED.
+/// RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement), RICCI_CANCELLED.
 ///
 /// @param metric      the metric, in E2.
 /// @param target      the n_vertices curvatures it was made for.
-/// @param n_vertices  number of vertices.
+/// @param n_vertices  number of vertices of the mesh that the metric was made from.
 /// @param control     progress and cancellation; NULL for neither.
 /// @param layout      out: the new handle, to be released by ricci_layout_free.
 #[unsafe(no_mangle)]
@@ -114,7 +165,7 @@ pub unsafe extern "C" fn ricci_layout_new(
     guard::call(|door| {
         let layout = output("layout", layout)?;
         let metric = door.shared(metric)?;
-        let mesh = &metric.mesh;
+        let mesh = metric.given();
         let target = arrays::array_of("target", target, n_vertices, mesh.n_vertices())?;
         let cone = |v: &VertexId| target[v.index()] != 0.0 && !mesh.is_boundary_vertex(*v);
         let cones: Vec<VertexId> = mesh.vertices().filter(cone).collect();
@@ -145,7 +196,8 @@ pub unsafe extern "C" fn ricci_layout_summarise(
     size: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let ricci_layout { mesh, layout, quality, .. } = door.shared(layout)?;
+        let ricci_layout { mesh, layout, quality, surface, refinement, .. } = door.shared(layout)?;
+        let n_given_vertices = surface.given().n_vertices();
         let figures = ricci_layout_summary {
             size,
             n_faces: mesh.n_faces(),
@@ -160,6 +212,12 @@ pub unsafe extern "C" fn ricci_layout_summarise(
             qc_max: quality.qc_max,
             area_ratio_min: quality.area_ratio_min,
             area_ratio_max: quality.area_ratio_max,
+            n_vertices: mesh.n_vertices(),
+            n_edges: mesh.n_edges(),
+            n_given_vertices,
+            n_crossings: mesh.n_vertices() - n_given_vertices,
+            n_pieces: refinement.as_deref().map_or(mesh.n_faces(), refined::n_pieces),
+            n_degenerate: quality.degenerate.len(),
         };
         sized::write(figures, summary, size)
     })
@@ -277,7 +335,7 @@ pub unsafe extern "C" fn ricci_layout_seam_edges(
     })
 }
 
-/// The faces that are not counterclockwise, by exact arithmetic.
+/// The faces that are not counterclockwise, as `n_flipped` counts them.
 ///
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
 ///
@@ -328,39 +386,8 @@ pub unsafe extern "C" fn ricci_layout_area_ratio(
     guard::call(|door| copy_out("ratio", &door.shared(layout)?.quality.area_ratio, ratio, capacity))
 }
 
-/// Write the mesh with the layout as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
-///
-/// A file of that name is replaced only once the new one is complete.
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
-///
-/// @param layout  the layout.
-/// @param path    file name, NUL-terminated.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_layout_write_obj(
-    layout: *const ricci_layout,
-    path: *const c_char,
-) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
-        let path = arrays::path("path", path)?;
-        let positions = layout.positions.as_ref().ok_or_else(|| {
-            Failure::argument("the layout is of an intrinsic mesh: it has no positions to write")
-        })?;
-        let mesh = &layout.mesh;
-        let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
-        let data = io::Textured {
-            positions,
-            faces: &faces,
-            texcoords: &layout.layout.coordinates,
-            face_texcoords: &layout.corners(),
-            ..io::Textured::default()
-        };
-        Ok(io::write_obj(&path, &data)?)
-    })
-}
-
 impl ricci_layout {
-    fn corners(&self) -> Vec<[u32; 3]> {
+    pub(crate) fn corners(&self) -> Vec<[u32; 3]> {
         let index = &self.layout.corner_index;
         self.mesh.faces().map(|f| self.mesh.face_halfedges(f).map(|h| index[h])).collect()
     }

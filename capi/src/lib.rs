@@ -17,6 +17,8 @@
 //! library and was not freed, and a `T *` is in use by one thread only.
 
 #![allow(non_camel_case_types)]
+// The comments are the header's: brackets there are C's arrays.
+#![allow(rustdoc::broken_intra_doc_links)]
 #![allow(clippy::missing_safety_doc)]
 
 mod arrays;
@@ -54,6 +56,8 @@ pub mod scheme;
 
 pub mod metric;
 
+pub mod triangulation;
+
 pub mod target;
 
 pub mod report;
@@ -61,5 +65,13 @@ pub mod report;
 pub mod flow;
 
 pub mod layout;
+
+pub mod refined;
+
+pub mod transfer;
+
+pub mod charts;
+
+pub mod layout_file;
 
 pub mod debug;

@@ -11,31 +11,24 @@ use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::geometry::space::Space;
 use ricci::mesh::{Mesh, PerEdge, Point};
-use ricci::metric::Metric;
-use ricci::metric::curvature::Curvature;
-use ricci::metric::initial::{Initial, initial_metric};
+use ricci::metric::SurfaceMetric;
 use ricci::metric::scheme::Scheme;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
-/// A metric on a mesh in a conformal class: types, weights and one variable u per vertex. It never changes;
-/// the flow makes a new one.
+/// A metric of a surface in a conformal class: types, weights and one variable u per vertex. It never
+/// changes; the flow makes a new one.
+///
+/// Arrays per vertex are those of the vertices of the mesh that the metric was made from, in its numbers. A
+/// flow that flips edges leads to another triangulation, on which edges and faces have numbers of their own
+/// (ricci_metric_mesh), and of a surface with boundary to one of its double; ricci_layout_new leads back.
 pub struct ricci_metric {
     poison: Poison,
-    /// The triangulation the metric lives on.
-    pub(crate) mesh: Arc<Mesh>,
-    pub(crate) metric: Metric,
-    lengths: Arc<PerEdge<f64>>,
-    pub(crate) origin: Arc<Origin>,
-}
-
-/// What a metric and all that flow from it start from.
-pub(crate) struct Origin {
-    pub(crate) positions: Option<Arc<Vec<Point>>>,
-    pub(crate) mesh: Arc<Mesh>,
+    pub(crate) surface: SurfaceMetric,
+    /// Of the edges of its triangulation.
     pub(crate) lengths: Arc<PerEdge<f64>>,
-    pub(crate) scheme: Scheme,
-    pub(crate) initial: Initial,
+    /// Of the given vertices.
+    pub(crate) positions: Option<Arc<Vec<Point>>>,
 }
 
 impl Handle for ricci_metric {
@@ -53,8 +46,8 @@ impl ricci_metric {
         scheme: Scheme,
         space: Space,
     ) -> Outcome<ricci_metric> {
-        let connectivity = mesh.connectivity.clone();
-        let initial = initial_metric(&connectivity, &lengths, geometry, scheme, space)?;
+        let surface = SurfaceMetric::new(mesh.connectivity.clone(), lengths, geometry, scheme, space)?;
+        let initial = surface.initial();
         if initial.clamped_edges > 0 {
             log::info!(
                 "metric: {scheme} keeps {} edge weights at a bound, lengths change by up to {:.2} %",
@@ -62,27 +55,27 @@ impl ricci_metric {
                 100.0 * initial.max_length_change
             );
         }
-        let metric = initial.metric.clone();
         let positions = match &mesh.shape {
             Shape::Positions(positions) => Some(positions.clone()),
             Shape::Lengths(..) => None,
         };
-        let origin = Origin { positions, mesh: connectivity.clone(), lengths, scheme, initial };
-        ricci_metric::at(connectivity, metric, Arc::new(origin))
+        ricci_metric::at(surface, positions)
     }
 
-    /// A metric that another one has become, on a triangulation of its own.
-    pub(crate) fn at(mesh: Arc<Mesh>, metric: Metric, origin: Arc<Origin>) -> Outcome<ricci_metric> {
-        let lengths = Arc::new(metric.lengths(&mesh)?);
-        Ok(ricci_metric { poison: Poison::default(), mesh, metric, lengths, origin })
+    /// A metric of a surface with these positions.
+    pub(crate) fn at(surface: SurfaceMetric, positions: Option<Arc<Vec<Point>>>) -> Outcome<ricci_metric> {
+        let lengths = Arc::new(surface.metric().lengths(surface.mesh())?);
+        Ok(ricci_metric { poison: Poison::default(), surface, lengths, positions })
     }
 
-    pub(crate) fn lengths(&self) -> &PerEdge<f64> {
-        &self.lengths
+    /// The given triangulation.
+    pub(crate) fn given(&self) -> &Mesh {
+        self.surface.given()
     }
 
-    fn curvature(&self) -> Outcome<Curvature> {
-        Ok(self.metric.curvature(&self.mesh)?)
+    /// The first entries, those of the given vertices.
+    fn given_part<'a, T>(&self, values: &'a [T]) -> &'a [T] {
+        &values[..self.given().n_vertices()]
     }
 }
 
@@ -98,17 +91,18 @@ pub struct ricci_metric_summary {
     pub input_geometry: ricci_space,
     /// Its scheme.
     pub scheme: ricci_scheme,
-    /// 0.
-    pub reserved: i32,
-    /// V, the entries of per-vertex arrays.
+    /// 1 if its triangulation is one of the double of the surface: two copies glued along the boundary.
+    pub doubled: i32,
+    /// V of the mesh it was made from, the entries of per-vertex arrays.
     pub n_vertices: usize,
-    /// E, the entries of per-edge arrays.
+    /// E of its triangulation, the entries of per-edge arrays.
     pub n_edges: usize,
-    /// F.
+    /// F of its triangulation.
     pub n_faces: usize,
-    /// Sum of the triangles' areas, in units of the input length squared (E2) or of 1/|curvature|.
+    /// Area of the surface, in units of the input length squared (E2) or of 1/|curvature|.
     pub area: f64,
-    /// |sum of curvatures + lambda area - 2 pi chi|, lambda the curvature of the space: rounding only.
+    /// |sum of curvatures + lambda area - 2 pi chi| of its triangulation, lambda the curvature of the space:
+    /// rounding only.
     pub gauss_bonnet: f64,
     /// Number of triangles whose lengths break the triangle inequality.
     pub broken_triangles: usize,
@@ -116,6 +110,13 @@ pub struct ricci_metric_summary {
     pub clamped_edges: usize,
     /// Largest relative change of an edge length by going over to the scheme.
     pub max_length_change: f64,
+    /// V of its triangulation: those of the mesh, and of a double the mirror images of interior vertices
+    /// behind them.
+    pub n_mesh_vertices: usize,
+    /// Edge flips from the mesh it was made from to its triangulation.
+    pub n_flips: usize,
+    /// Those of them that come before the flow and change no distance on the surface.
+    pub n_start_flips: usize,
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
@@ -205,61 +206,28 @@ pub unsafe extern "C" fn ricci_metric_summarise(
     size: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let metric = door.shared(metric)?;
-        let (curvature, initial) = (metric.curvature()?, &metric.origin.initial);
+        let surface = &door.shared(metric)?.surface;
+        let (curvature, initial, mesh) = (surface.curvature()?, surface.initial(), surface.mesh());
         let figures = ricci_metric_summary {
             size,
-            space: name(metric.metric.space)?,
+            space: name(surface.metric().space)?,
             input_geometry: name(initial.input_geometry)?,
-            scheme: name(metric.origin.scheme)?,
-            reserved: 0,
-            n_vertices: metric.mesh.n_vertices(),
-            n_edges: metric.mesh.n_edges(),
-            n_faces: metric.mesh.n_faces(),
+            scheme: name(surface.scheme())?,
+            doubled: surface.double().is_some().into(),
+            n_vertices: surface.given().n_vertices(),
+            n_edges: mesh.n_edges(),
+            n_faces: mesh.n_faces(),
             area: curvature.area,
             gauss_bonnet: curvature.gauss_bonnet,
             broken_triangles: curvature.broken.len(),
             clamped_edges: initial.clamped_edges,
             max_length_change: initial.max_length_change,
+            n_mesh_vertices: mesh.n_vertices(),
+            n_flips: surface.flips(),
+            n_start_flips: surface.start_flips(),
         };
         sized::write(figures, summary, size)
     })
-}
-
-/// The triangulation of a metric as an intrinsic mesh with the metric's lengths.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER.
-///
-/// @param metric  the metric.
-/// @param mesh    out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_metric_mesh(
-    metric: *const ricci_metric,
-    mesh: *mut *mut ricci_mesh,
-) -> ricci_status {
-    guard::call(|door| {
-        let mesh = output("mesh", mesh)?;
-        let metric = door.shared(metric)?;
-        let shape = Shape::Lengths(metric.lengths.clone(), metric.metric.space);
-        mesh.hand_over(ricci_mesh::new(metric.mesh.clone(), shape));
-        Ok(())
-    })
-}
-
-/// The length of every edge.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
-///
-/// @param metric    the metric.
-/// @param lengths   out: n_edges lengths.
-/// @param capacity  entries of `lengths`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_metric_lengths(
-    metric: *const ricci_metric,
-    lengths: *mut f64,
-    capacity: usize,
-) -> ricci_status {
-    guard::call(|door| copy_out("lengths", &door.shared(metric)?.lengths, lengths, capacity))
 }
 
 /// The curvature of every vertex: 2 pi minus its angles inside, pi minus its angles on the boundary.
@@ -275,7 +243,9 @@ pub unsafe extern "C" fn ricci_metric_curvature(
     curvature: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("curvature", &door.shared(metric)?.curvature()?.at, curvature, capacity))
+    guard::call(|door| {
+        copy_out("curvature", &door.shared(metric)?.surface.curvature()?.at, curvature, capacity)
+    })
 }
 
 /// The variable u of every vertex.
@@ -291,23 +261,10 @@ pub unsafe extern "C" fn ricci_metric_u(
     u: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("u", &door.shared(metric)?.metric.u, u, capacity))
-}
-
-/// The weight eta of every edge.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
-///
-/// @param metric    the metric.
-/// @param eta       out: n_edges weights.
-/// @param capacity  entries of `eta`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_metric_eta(
-    metric: *const ricci_metric,
-    eta: *mut f64,
-    capacity: usize,
-) -> ricci_status {
-    guard::call(|door| copy_out("eta", &door.shared(metric)?.metric.eta, eta, capacity))
+    guard::call(|door| {
+        let metric = door.shared(metric)?;
+        copy_out("u", metric.given_part(&metric.surface.metric().u), u, capacity)
+    })
 }
 
 /// The type epsilon of every vertex: 1 circle, 0 vertex scaling, -1 imaginary circle.
@@ -323,7 +280,10 @@ pub unsafe extern "C" fn ricci_metric_epsilon(
     epsilon: *mut i8,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("epsilon", &door.shared(metric)?.metric.epsilon, epsilon, capacity))
+    guard::call(|door| {
+        let metric = door.shared(metric)?;
+        copy_out("epsilon", metric.given_part(&metric.surface.metric().epsilon), epsilon, capacity)
+    })
 }
 
 /// The conformal factor of every vertex against the initial metric: the change of u (vertex scaling), or the
@@ -341,8 +301,7 @@ pub unsafe extern "C" fn ricci_metric_conformal_factor(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let metric = door.shared(metric)?;
-        let values = metric.origin.initial.conformal_factor(&metric.metric)?;
+        let values = door.shared(metric)?.surface.conformal_factor()?;
         copy_out("factor", &values, factor, capacity)
     })
 }

@@ -5,10 +5,15 @@ use crate::guard::{self, Handle, Poison};
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::flow::{Report, StopReason};
+use ricci::mesh::{Double, VertexId};
+use std::collections::BTreeSet;
 use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
 
 /// What a flow did: why it stopped, how far it came, how long it took.
+///
+/// Errors at boundary vertices of a surface that was doubled count both copies: they are twice those of the
+/// surface.
 pub struct ricci_report {
     poison: Poison,
     report: Report,
@@ -22,7 +27,19 @@ impl Handle for ricci_report {
 }
 
 impl ricci_report {
-    pub(crate) fn new(report: Report) -> ricci_report {
+    /// The report of a flow on a surface, or on its double: vertices are those of the surface.
+    pub(crate) fn new(mut report: Report, double: Option<&Double>) -> ricci_report {
+        if let Some(double) = double {
+            let on_surface = |v: VertexId| v.min(double.mirror(v));
+            let mut seen = BTreeSet::new();
+            report.worst.iter_mut().for_each(|(v, _)| *v = on_surface(*v));
+            report.worst.retain(|(v, _)| seen.insert(*v));
+            if let Some(obstruction) = &mut report.obstruction {
+                obstruction.vertices.iter_mut().for_each(|v| *v = on_surface(*v));
+                obstruction.vertices.sort_unstable();
+                obstruction.vertices.dedup();
+            }
+        }
         ricci_report { poison: Poison::default(), report }
     }
 }
@@ -87,7 +104,7 @@ pub struct ricci_report_summary {
     pub stop_reason: ricci_stop_reason,
     /// Number of steps.
     pub iterations: usize,
-    /// Number of edges flipped.
+    /// Number of edges flipped by this flow; those before it are in ricci_metric_summary.
     pub flips: usize,
     /// Number of triangles whose lengths break the triangle inequality.
     pub broken_triangles: usize,
@@ -99,6 +116,8 @@ pub struct ricci_report_summary {
     /// Largest curvature error that rounding can cause at the final metric, radians; determined where a flow
     /// stalls, else 0.
     pub rounding_floor: f64,
+    /// 1 if u, lengths and curvature were carried to twice the digits of a double (Newton in E2), else 0.
+    pub double_double: i32,
     /// |sum of curvatures + lambda area - 2 pi chi| of the result.
     pub gauss_bonnet: f64,
     /// Seconds in the assembly of curvature and its derivative.
@@ -121,10 +140,11 @@ pub struct ricci_report_summary {
     pub n_worst: usize,
     /// Entries of ricci_report_obstruction; 0 unless the stop reason is RICCI_STOP_INFEASIBLE.
     pub n_obstruction: usize,
-    /// Total target curvature at the vertices of the obstruction, radians.
+    /// Total target curvature at the vertices of the obstruction, radians; of a double, with their mirror
+    /// images.
     pub obstruction_target: f64,
-    /// Every metric of the class on this triangulation has a total curvature above this at the vertices of the
-    /// obstruction, radians.
+    /// Every metric of the class on this triangulation has a total curvature above this at the vertices of
+    /// the obstruction, radians.
     pub obstruction_above: f64,
 }
 
@@ -183,6 +203,7 @@ pub unsafe extern "C" fn ricci_report_summarise(
             max_curvature_error: report.max_curvature_error,
             tolerance: report.tolerance,
             rounding_floor: report.rounding_floor.unwrap_or(0.0),
+            double_double: report.double_double.into(),
             gauss_bonnet: report.gauss_bonnet,
             seconds_assemble: seconds.assemble,
             seconds_analyse: seconds.analyse,

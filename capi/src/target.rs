@@ -1,16 +1,19 @@
 //! Targets: the prescribed curvature of every vertex, a plain array of the caller's.
 
 use crate::arrays::{self, copy_out};
+use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
 use crate::guard;
 use crate::metric::ricci_metric;
 use crate::status::ricci_status;
+use ricci::flow::auto_cones;
+use ricci::geometry::space::Space;
 use ricci::mesh::{PerVertex, VertexId};
 use ricci::metric::target::Target;
 
 impl ricci_metric {
     fn vertex(&self, v: u32) -> Outcome<VertexId> {
-        let n = self.mesh.n_vertices();
+        let n = self.given().n_vertices();
         if (v as usize) < n {
             Ok(VertexId(v))
         } else {
@@ -23,13 +26,14 @@ impl ricci_metric {
     }
 
     fn resolve(&self, target: &Target) -> Outcome<PerVertex<f64>> {
-        let origin = &self.origin;
-        Ok(target.resolve(&origin.mesh, &origin.lengths, self.metric.space, origin.scheme)?)
+        let surface = &self.surface;
+        let (space, scheme) = (surface.metric().space, surface.scheme());
+        Ok(target.resolve(surface.given(), surface.given_lengths(), space, scheme)?)
     }
 
     /// An admissible target from a caller's array.
     pub(crate) fn target(&self, target: *const f64, n: usize) -> Outcome<PerVertex<f64>> {
-        let values = arrays::array_of("target", target, n, self.mesh.n_vertices())?;
+        let values = arrays::array_of("target", target, n, self.given().n_vertices())?;
         self.resolve(&Target::All(values.into()))
     }
 }
@@ -50,8 +54,8 @@ pub unsafe extern "C" fn ricci_target_default(
 ) -> ricci_status {
     guard::call(|door| {
         let metric = door.shared(metric)?;
-        let origin = &metric.origin;
-        let choice = Target::default_for(&origin.mesh, &origin.lengths, metric.metric.space)?;
+        let surface = &metric.surface;
+        let choice = Target::default_for(surface.given(), surface.given_lengths(), surface.metric().space)?;
         copy_out("target", &metric.resolve(&choice)?, target, capacity)
     })
 }
@@ -141,6 +145,40 @@ pub unsafe extern "C" fn ricci_target_cones(
         let curvatures = arrays::array("curvatures", curvatures, n_cones)?;
         let choice = Target::Cones(vertices.into_iter().zip(curvatures).collect());
         copy_out("target", &metric.resolve(&choice)?, target, capacity)
+    })
+}
+
+/// Cones placed by the library: n_cones interior vertices, and their curvatures, such that a conformal map that is flat elsewhere
+/// changes areas as little as it finds. On an open surface the boundary keeps its conformal factor, and has the curvature
+/// that follows. E2 only.
+///
+/// Deterministic; one factorisation and about 6 n_cones solutions.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_TARGET_KIND (not E2, or a number of cones
+/// that the surface cannot have: closed of genus 0 needs 3, genus 1 none or 2, genus 2 or more 1), RICCI_FACTORISATION,
+/// RICCI_CANCELLED.
+///
+/// @param metric    the metric that will flow, made from Euclidean lengths.
+/// @param n_cones   number of cones, at most 256.
+/// @param control   progress and cancellation; NULL for neither.
+/// @param target    out: n_vertices curvatures, radians; the cones are the interior vertices where it is not 0.
+/// @param capacity  entries of `target`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_target_auto(
+    metric: *const ricci_metric,
+    n_cones: usize,
+    control: *const ricci_control,
+    target: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let surface = &door.shared(metric)?.surface;
+        let spaces = [surface.metric().space, surface.initial().input_geometry];
+        if spaces != [Space::E2; 2] {
+            let message = "cones are placed in e2, by Euclidean lengths".to_string();
+            return Err(Failure::new(ricci_status::RICCI_TARGET_KIND, message));
+        }
+        let placed = auto_cones(surface.given(), surface.given_lengths(), n_cones, &control::of(control))?;
+        copy_out("target", &placed.target, target, capacity)
     })
 }
 

@@ -1,73 +1,272 @@
 #!/usr/bin/env python3
-"""Run `ricci flow --flips never` with default targets on every mesh of the corpus, for four schemes, and write the table.
+"""Run `ricci flow` on every mesh of the corpus and write the tables: with flips for three targets, without for the default one.
 
-usage: docs/results/flow.py [CORPUS] > docs/results/flow.md     (after: cargo build --release -p ricci-apps)
+usage: docs/results/flow.py [CORPUS [NAME…]] > docs/results/flow.md     (after: cargo build --release -p ricci-apps)
+
+RICCI_CHECK names the program that judges the files from outside (by default ../shared/tools/check.py beside the repository);
+where it or numpy is absent, the page says so. Two flows run at a time, on one thread each.
 """
+import concurrent.futures
 import csv
+import importlib.util
 import json
+import math
 import os
+import random
+import statistics
 import subprocess
 import sys
 import tempfile
 
 root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 corpus = sys.argv[1] if len(sys.argv) > 1 else os.path.join(root, "..", "shared", "meshes", "good")
-ricci = os.path.join(root, "target", "release", "ricci")
-schemes = ["yamabe", "inversive", "thurston", "tangential"]
-meshes = list(csv.DictReader(open(os.path.join(corpus, "INDEX.csv"))))
+ricci = os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(root, "target")), "release", "ricci")
+judge = os.environ.get("RICCI_CHECK", os.path.join(root, "..", "shared", "tools", "check.py"))
+SCHEMES = ["yamabe", "inversive"]
+RIGID = ["yamabe", "inversive", "thurston", "tangential"]
+TARGETS = {
+    "default": "Default space and target: four cones of π on closed genus 0, flat tori, H² with curvature 0 for closed genus ≥ 2, "
+               "curvature on the boundary in proportion to its length on open surfaces.",
+    "cones": "E², eight random cones on vertices that are flat otherwise, seeded by the mesh's name: on closed surfaces they carry 2πχ, each "
+             "an eighth of it with up to ±π/2 added; on open ones, inside, they add up to 0 and the boundary carries 2πχ in proportion to "
+             "its length.",
+    "straight": "E², open surfaces: eight random cones carry all of 2πχ and the boundary is straight.",
+    "single": "E², genus 1 to 3: all of 2πχ at vertex 0.",
+}
+TOLERANCE = 1e-10
+LARGE = 50_000      # default targets only above
+SECONDS = 900
+
+meshes = [m for m in csv.DictReader(open(os.path.join(corpus, "INDEX.csv"))) if not sys.argv[2:] or m["name"] in sys.argv[2:]]
 meshes.sort(key=lambda m: (int(m["boundary_loops"]) > 0, int(m["genus"]), int(m["V"])))
 
 
-def run(mesh, scheme):
-    with tempfile.TemporaryDirectory() as out:
-        report = os.path.join(out, "r.json")
-        code = subprocess.run([ricci, "flow", os.path.join(corpus, mesh["file"]), "--scheme", scheme, "--flips", "never",
-                               "--report", report, "--quiet"], stderr=subprocess.PIPE, text=True)
+def outside():
+    """The outside program as a module, or why there is none."""
+    try:
+        spec = importlib.util.spec_from_file_location("check", judge)
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module, None
+    except (ImportError, OSError) as why:
+        return None, f"{judge}: {why}"
+
+
+def euler(mesh):
+    return int(mesh["V"]) - int(mesh["E"]) + int(mesh["F"])
+
+
+def boundary(mesh):
+    """The boundary's length at each of its vertices: half of the two edges there."""
+    points, sides = [], set()
+    with open(os.path.join(corpus, mesh["file"])) as file:
+        for line in file:
+            word = line.split()
+            if word and word[0] == "v":
+                points.append([float(x) for x in word[1:4]])
+            elif word and word[0] == "f":
+                f = [int(corner.split("/")[0]) - 1 for corner in word[1:]]
+                sides.update(zip(f, f[1:] + f[:1]))
+    length = {}
+    for a, b in sides:
+        if (b, a) not in sides:
+            for v in (a, b):
+                length[v] = length.get(v, 0.0) + math.dist(points[a], points[b]) / 2
+    return length
+
+
+def random_cones(mesh, target):
+    """Vertices with their curvature; all others are flat. Drawn anew until all of it is admissible."""
+    draw, edge = random.Random(mesh["name"]), boundary(mesh)
+    total, n = 2 * math.pi * euler(mesh), int(mesh["V"])
+    carried = target == "cones" and edge
+    inside = [v for v in range(n) if v not in edge] if carried else range(n)
+    while True:
+        at = draw.sample(inside, 8)
+        k = [draw.uniform(-math.pi / 2, math.pi / 2) for _ in at]
+        miss = ((0 if carried else total) - sum(k)) / 8
+        curvature = {v: x + miss for v, x in zip(at, k)}
+        if all(x < (math.pi if v in edge else 2 * math.pi) for v, x in curvature.items()):
+            break
+    if carried:
+        whole, most = sum(edge.values()), max(edge.values())
+        equal = total * most / whole >= math.pi
+        curvature |= {v: total * (1 / len(edge) if equal else x / whole) for v, x in edge.items()}
+    return curvature
+
+
+def options(mesh, target, folder):
+    if target in ("cones", "straight"):
+        path = os.path.join(folder, "cones.csv")
+        with open(path, "w") as out:
+            out.write("vertex,curvature\n" + "".join(f"{v},{k!r}\n" for v, k in random_cones(mesh, target).items()))
+        return ["--space", "e2", "--target", f"cones:{path}"]
+    return ["--space", "e2", "--target", "single:0"] if target == "single" else []
+
+
+def run(mesh, scheme, target, flips="auto"):
+    """The report's result, with what the outside program says of the files."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(corpus, mesh["file"])
+        report, metric, uv = (os.path.join(folder, name) for name in ("r.json", "m.json", "uv.obj"))
+        line = [ricci, "flow", path, "--scheme", scheme, "--flips", flips, "--threads", "1", "--report", report, "--quiet"]
+        line += options(mesh, target, folder)
+        flat = target != "default" or int(mesh["boundary_loops"]) > 0 or int(mesh["genus"]) < 2
+        files = flips == "auto"
+        line += ["--metric", metric, *(["--uv", uv] if flat else [])] if files else []
+        try:
+            done = subprocess.run(line, stderr=subprocess.PIPE, text=True, timeout=SECONDS)
+        except subprocess.TimeoutExpired:
+            return {"done": False, "stop_reason": f"{SECONDS} seconds"}
         if not os.path.exists(report):
-            return {"why": code.stderr.strip(), "code": code.returncode, "done": False}
-        result = json.load(open(report))
-        r = result["result"]
-        done = r["max_curvature_error"] <= 1e-10 and r["broken_triangles"] == 0 and r["converged"]
-        return {"done": done, "code": code.returncode, "why": r["stop_reason"], **r, "seconds": result["seconds"]["total"]}
+            return {"done": False, "stop_reason": done.stderr.strip()}
+        found = json.load(open(report))
+        result = {**found["result"], "seconds": found["seconds"], "code": done.returncode}
+        result["failed"] = [name for name, check in found["checks"].items() if not check["holds"]]
+        result["done"] = result["converged"] and result["max_curvature_error"] <= TOLERANCE and result["broken_triangles"] == 0
+        module = outside()[0]
+        if files and module:
+            result["metric"] = module.metric(metric)
+            result["uv"] = module.uv(uv, path) if os.path.exists(uv) else None
+        return result
 
 
-rows = [(m, {s: run(m, s) for s in schemes}) for m in meshes]
-print("# Flow without flips on the mesh corpus\n")
-print("Made by `docs/results/flow.py`: `ricci flow MESH --scheme S --flips never`, default space and target, for each of the "
-      f"{len(rows)} meshes. Reached: max |K − K̄| ≤ 1e-10, no broken triangle.\n")
-print("| scheme | reached | broken triangles | infeasible | stalled | other | median steps | flipped in a layout |")
-print("|---|---|---|---|---|---|---|---|")
-for s in schemes:
-    r = [x[s] for _, x in rows]
-    count = lambda *why: sum(1 for x in r if not x["done"] and x["why"] in why)
-    steps = sorted(x["iterations"] for x in r if x["done"])
-    named = count("broken_triangles"), count("infeasible"), count("stalled")
-    other = sum(1 for x in r if not x["done"]) - sum(named)
-    flipped = sum(1 for x in r if x["done"] and (x.get("flipped_triangles") or 0) > 0)
-    print(f"| {s} | {sum(x['done'] for x in r)} of {len(r)} | {named[0]} | {named[1]} | {named[2]} | {other} | "
-          f"{steps[len(steps) // 2] if steps else '–'} | {flipped} |")
-print("\nPer mesh: steps and max |K − K̄| where reached, otherwise why not: the energy is least with that many broken triangles; or "
-      "infeasible, and how many vertices prove it (every metric of the scheme on this triangulation has more total curvature "
-      "there than the target asks for); or stalled. `!`: reached, but that many triangles of the layout are flipped, because "
-      "lengths range over more decades than doubles resolve (exit code 1). `qc`: area-weighted mean quasi-conformal dilatation "
-      "of the yamabe layout (E²), a dash where there is none.\n")
-print("| mesh | V | genus | loops | " + " | ".join(schemes) + " | qc | seconds (yamabe) |")
-print("|---|---|---|---|" + "---|" * (len(schemes) + 2))
+def work(mesh):
+    print(mesh["name"], file=sys.stderr)
+    genus, small = int(mesh["genus"]), int(mesh["V"]) <= LARGE
+    targets = ["default"] + ["cones"] * small + ["straight"] * (small and int(mesh["boundary_loops"]) > 0) + ["single"] * (small and 1 <= genus <= 3)
+    flown = {(target, scheme): run(mesh, scheme, target) for target in targets for scheme in SCHEMES}
+    return flown, {scheme: run(mesh, scheme, "default", "never") for scheme in RIGID}
 
 
-def cell(x):
-    if x["done"]:
-        flipped = f" ! {x['flipped_triangles']} flipped" if x["flipped_triangles"] else ""
-        return f"{x['iterations']}, {x['max_curvature_error']:.0e}{flipped}"
-    why = x["why"].replace("_", " ")
-    if x["why"] == "broken_triangles":
-        why += f" ({x['broken_triangles']})"
-    if x["why"] == "infeasible":
-        why += f" ({len(x['obstruction']['vertices'])})"
-    return why if len(why) < 60 else why[:57] + "…"
+def kind(mesh):
+    if int(mesh["boundary_loops"]):
+        return "open"
+    return "closed, genus " + ("≥ 2" if int(mesh["genus"]) >= 2 else mesh["genus"])
 
 
-for m, x in rows:
-    qc = x["yamabe"].get("qc_mean")
-    print(f"| {m['name']} | {m['V']} | {m['genus']} | {m['boundary_loops']} | " + " | ".join(cell(x[s]) for s in schemes)
-          + f" | {'–' if qc is None else f'{qc:.3f}'} | {x['yamabe'].get('seconds', 0):.2f} |")
+def table(head, rows):
+    print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
+    for row in rows:
+        print("| " + " | ".join(str(x) for x in row) + " |")
+    print()
+
+
+def number(x, form):
+    return "–" if x is None else format(x, form)
+
+
+def middle(values):
+    return number(statistics.median_low(values), "d") if values else "–"
+
+
+def why(x):
+    text = x["stop_reason"].replace("_", " ")
+    text += f" ({x['broken_triangles']})" if text == "broken triangles" else ""
+    text += f" ({len(x['obstruction']['vertices'])})" if text == "infeasible" and x.get("obstruction") else ""
+    return text if len(text) < 60 else text[:57] + "…"
+
+
+def summary(flown):
+    for target in TARGETS:
+        for scheme in SCHEMES:
+            r = [x[target, scheme] for _, x in flown if (target, scheme) in x]
+            done = [x for x in r if x["done"]]
+            laid = [x for x in done if x.get("flipped_triangles") is not None]
+            metric = [x["metric"] for x in done if x.get("metric")]
+            uv = [x["uv"] for x in done if x.get("uv")]
+            steps = [x["iterations"] for x in done]
+            yield (target, scheme, f"{len(done)} of {len(r)}", f"{middle(steps)}, {max(steps, default='–')}",
+                   middle([x["flips"] for x in done]), number(max((x["max_curvature_error"] for x in done), default=None), ".0e"),
+                   f"{sum(x['flipped_triangles'] == 0 for x in laid)} of {len(laid)}", sum(x["degenerate_pieces"] for x in laid),
+                   f"{sum(x['max_curvature_error'] <= TOLERANCE and x['broken_triangles'] == 0 for x in metric)} of {len(metric)}",
+                   f"{sum(x['flipped'] == 0 and x['first_vertices_kept'] for x in uv)} of {len(uv)}")
+
+
+def classes(flown):
+    for name in ["closed, genus 0", "closed, genus 1", "closed, genus ≥ 2", "open"]:
+        row = [name, sum(kind(m) == name for m, _ in flown)]
+        for target in TARGETS:
+            for scheme in SCHEMES:
+                r = [x[target, scheme] for m, x in flown if kind(m) == name and (target, scheme) in x]
+                r = [x for x in r if x["done"]]
+                steps = [x["iterations"] for x in r]
+                row.append(f"{middle(steps)}, {max(steps)}, {middle([x['flips'] for x in r])}" if r else "–")
+        yield row
+
+
+def missing(flown):
+    for target in TARGETS:
+        for m, x in flown:
+            for scheme in SCHEMES:
+                r = x.get((target, scheme))
+                if r and not r["done"]:
+                    yield m["name"], target, scheme, why(r), r.get("iterations", "–"), number(r.get("max_curvature_error"), ".0e")
+
+
+def details(flown, target):
+    for m, x in flown:
+        for scheme in SCHEMES:
+            r = x.get((target, scheme))
+            if r is None:
+                continue
+            if "seconds" not in r:
+                yield m["name"], m["V"], m["genus"], m["boundary_loops"], scheme, why(r), *["–"] * 11
+                continue
+            metric, uv, get = r.get("metric"), r.get("uv"), r.get
+            fails = ", ".join(r["failed"]).replace("_", " ")
+            yield (m["name"], m["V"], m["genus"], m["boundary_loops"], scheme,
+                   ("yes" if r["done"] else why(r)) + (f" ! {fails}" if fails else ""), r["iterations"], r["flips"],
+                   f"{r['seconds']['total']:.2f}", f"{r['max_curvature_error']:.0e}", number(get("qc_mean"), ".3f"),
+                   number(get("qc_max"), ".3g"), number(get("flipped_triangles"), "d"), number(get("degenerate_pieces"), "d"),
+                   number(get("crossings"), "d"), number(metric and metric["max_curvature_error"], ".0e"),
+                   "–" if not uv else f"{uv['flipped']}, {uv['degenerate']}")
+
+
+def rigid_cell(x):
+    if not x["done"]:
+        return why(x)
+    return f"{x['iterations']}" + (f" ! {x['flipped_triangles']} flipped" if x["flipped_triangles"] else "")
+
+
+with concurrent.futures.ProcessPoolExecutor(2) as pool:
+    results = list(pool.map(work, meshes))
+flown = [(m, x) for m, (x, _) in zip(meshes, results)]
+rigid = [(m, x) for m, (_, x) in zip(meshes, results)]
+
+print("# Flow on the mesh corpus\n")
+print(f"Made by `docs/results/flow.py`: `ricci flow` on each of the {len(meshes)} meshes. Reached: converged, max |K − K̄| ≤ 1e-10, no "
+      "broken triangle. Flips: those of the flow and the isometric ones before it, on the double of an open surface. Seconds: the whole "
+      "command on one thread, files included.\n")
+for name, text in TARGETS.items():
+    print(f"- *{name}*: {text}")
+print(f"\nMeshes of more than {LARGE} vertices are run with default targets only.\n\n## With flips\n")
+absent = outside()[1]
+if absent:
+    print(f"No outside verdict: {absent}.\n")
+else:
+    print("The last two columns are the verdict of a program that shares nothing with this project (`check.py metric`, `check.py uv`), on the "
+          "files written: how many metrics have max |K − K̄| ≤ 1e-10 and no broken triangle, recomputed from faces and lengths in long "
+          "doubles (which slivers of 1e-9 and thinner exhaust); how many layouts have no flipped triangle and keep the input's vertices.\n")
+table(["target", "scheme", "reached", "steps: median, most", "median flips", "largest error", "layouts without flipped triangles",
+       "degenerate pieces", "outside: metrics", "outside: layouts"], summary(flown))
+print("Per class: steps (median, most), median flips.\n")
+table(["class", "meshes"] + [f"{target} {scheme}" for target in TARGETS for scheme in SCHEMES], classes(flown))
+print("Not reached: the range of lengths is beyond doubles (diverged), rounding holds the error above 1e-10 (rounding floor: the report "
+      "states it; stalled), or Newton's method takes more than 500 steps.\n")
+table(["mesh", "target", "scheme", "why", "steps", "error"], missing(flown))
+print("## Every flow\n")
+print("Error: max |K − K̄| of the flow. qc: quasi-conformal dilatation of the layout, area-weighted mean and maximum. Flipped and "
+      "degenerate: pieces of the layout. Crossings: vertices of the common refinement that are none of the input's. Outside: error of the "
+      "metric file; flipped and degenerate pieces of the layout file. A dash where there is no layout (H²) or no refinement (no flip). `!`: a "
+      "check of the report that does not hold.\n")
+head = ["mesh", "V", "genus", "loops", "scheme", "reached", "steps", "flips", "seconds", "error", "qc mean", "qc max", "flipped",
+        "degenerate", "crossings", "outside error", "outside flipped, degenerate"]
+for target in TARGETS:
+    print(f"### {target}\n")
+    table(head, details(flown, target))
+print("## Without flips\n")
+print("`--flips never`, default target: steps where reached, otherwise why not: the energy is least with that many broken triangles; or "
+      "infeasible, and how many vertices prove it. `!`: reached, but triangles of the layout are flipped.\n")
+table(["", *RIGID], [["reached", *(f"{sum(x[s]['done'] for _, x in rigid)} of {len(rigid)}" for s in RIGID)]])
+table(["mesh", *RIGID], [[m["name"], *(rigid_cell(x[s]) for s in RIGID)] for m, x in rigid])

@@ -7,7 +7,7 @@
 
 enum { N = 48, M = 24, V = N * M, F = 2 * N * M };
 
-static double positions[V][3], target[V], curvature[V], uv[F][3][2];
+static double positions[V][3], target[V], curvature[V];
 static uint32_t faces[F][3];
 
 /* Every call may fail; its message says what to do. */
@@ -61,10 +61,20 @@ int main(void) {
     ricci_layout_summary plane;
     check(ricci_layout_new(flat, target, V, NULL, &layout));
     check(ricci_layout_summarise(layout, &plane, sizeof plane));
-    check(ricci_layout_uv(layout, &uv[0][0][0], 6 * F));
+    /* Edges may have been flipped: the layout's faces are then parts of those above, cut along the flipped
+     * edges. */
+    double *uv = malloc(6 * plane.n_faces * sizeof *uv);
+    uint32_t *part_of = malloc(plane.n_faces * sizeof *part_of);
+    check(ricci_layout_uv(layout, uv, 6 * plane.n_faces));
+    check(ricci_layout_input_faces(layout, part_of, plane.n_faces));
+    printf("%zu faces are %zu in the plane; the last, part of face %u, begins at (%.3f, %.3f)\n", (size_t)F,
+           plane.n_faces, (unsigned)part_of[plane.n_faces - 1], uv[6 * plane.n_faces - 6],
+           uv[6 * plane.n_faces - 5]);
     printf("layout: %zu points, %zu seams, %zu flipped, dilatation %.3f (mean) %.3f (max)\n", plane.n_points,
            plane.n_seams, plane.n_flipped, plane.qc_mean, plane.qc_max);
 
+    free(uv);
+    free(part_of);
     ricci_layout_free(layout);
     ricci_report_free(report);
     ricci_metric_free(flat);

@@ -11,6 +11,8 @@
  *   - Indices are 0-based uint32_t; faces are m x 3, positions n x 3, plane points n x 2, row by row.
  *     Counts are numbers of rows. An output array is given with its capacity, in entries: too small is
  *     RICCI_BUFFER_TOO_SMALL, whose message says how many entries are needed.
+ *   - Vertices keep their numbers through flows with edge flips and their layouts; new ones come behind. Edges and
+ *     faces are those of the handle they are asked of: ricci_metric_mesh, ricci_layout_mesh.
  *   - A struct crosses with its size, so that fields can be added: `f(..., &s, sizeof s)`. Its first member is
  *     the number of bytes that are filled.
  *   - Angles are radians; a curvature is the angle defect of a vertex.
@@ -203,9 +205,14 @@ typedef enum {
 
 /** Whether edges may be flipped while the metric flows. */
 typedef enum {
-    /** As often as needed. This version keeps the triangulation all the same. */
+    /**
+     * As often as needed, so that every admissible target is reached: the flow starts from the intrinsic
+     * Delaunay triangulation and keeps it (weighted) Delaunay; a surface with boundary flows on its double
+     * as soon as an edge is to be flipped across the boundary, unless vertices are pinned. Applies to Newton's method in E2 and H2 with vertex scaling, inversive
+     * distance and virtual radius; else edges stay as they are.
+     */
     RICCI_FLIPS_AUTO = 0,
-    /** The triangulation stays as it is. */
+    /** The triangulation of the metric stays as it is. */
     RICCI_FLIPS_NEVER = 1,
 } ricci_flips;
 
@@ -219,6 +226,9 @@ typedef enum {
     RICCI_STEP_FIXED = 2,
 } ricci_step;
 
+/** A layout in charts that do not overlap, packed into the unit square. */
+typedef struct ricci_charts ricci_charts;
+
 /**
  * Progress of a long call and the means to cancel it. Every function on it may be called from any thread at
  * any time between ricci_control_new and ricci_control_free.
@@ -228,22 +238,38 @@ typedef struct ricci_control ricci_control;
 /** Every defect of a triangle list. */
 typedef struct ricci_diagnosis ricci_diagnosis;
 
-/** A flat metric unrolled into the plane along a cut. */
+/**
+ * A flat metric unrolled into the plane along a cut.
+ *
+ * What is unrolled is the mesh that the metric was made from. If edges were flipped its faces are cut by the
+ * edges of the metric's triangulation: the *common refinement*, whose faces are parts of faces of both, and
+ * whose vertices are those of the mesh, with their numbers, then the crossings of edges of both.
+ * ricci_layout_mesh gives it; faces and points of a layout are its own.
+ */
 typedef struct ricci_layout ricci_layout;
 
 /** A connected oriented triangulated surface with the lengths of its edges. It never changes. */
 typedef struct ricci_mesh ricci_mesh;
 
 /**
- * A metric on a mesh in a conformal class: types, weights and one variable u per vertex. It never changes;
- * the flow makes a new one.
+ * A metric of a surface in a conformal class: types, weights and one variable u per vertex. It never
+ * changes; the flow makes a new one.
+ *
+ * Arrays per vertex are those of the vertices of the mesh that the metric was made from, in its numbers. A
+ * flow that flips edges leads to another triangulation, on which edges and faces have numbers of their own
+ * (ricci_metric_mesh), and of a surface with boundary to one of its double; ricci_layout_new leads back.
  */
 typedef struct ricci_metric ricci_metric;
 
 /** A repaired triangle list, with the way back to what was given. */
 typedef struct ricci_repair ricci_repair;
 
-/** What a flow did: why it stopped, how far it came, how long it took. */
+/**
+ * What a flow did: why it stopped, how far it came, how long it took.
+ *
+ * Errors at boundary vertices of a surface that was doubled count both copies: they are twice those of the
+ * surface.
+ */
 typedef struct ricci_report ricci_report;
 
 /**
@@ -406,17 +432,20 @@ typedef struct {
     ricci_space input_geometry;
     /** Its scheme. */
     ricci_scheme scheme;
-    /** 0. */
-    int32_t reserved;
-    /** V, the entries of per-vertex arrays. */
+    /** 1 if its triangulation is one of the double of the surface: two copies glued along the boundary. */
+    int32_t doubled;
+    /** V of the mesh it was made from, the entries of per-vertex arrays. */
     size_t n_vertices;
-    /** E, the entries of per-edge arrays. */
+    /** E of its triangulation, the entries of per-edge arrays. */
     size_t n_edges;
-    /** F. */
+    /** F of its triangulation. */
     size_t n_faces;
-    /** Sum of the triangles' areas, in units of the input length squared (E2) or of 1/|curvature|. */
+    /** Area of the surface, in units of the input length squared (E2) or of 1/|curvature|. */
     double area;
-    /** |sum of curvatures + lambda area - 2 pi chi|, lambda the curvature of the space: rounding only. */
+    /**
+     * |sum of curvatures + lambda area - 2 pi chi| of its triangulation, lambda the curvature of the space:
+     * rounding only.
+     */
     double gauss_bonnet;
     /** Number of triangles whose lengths break the triangle inequality. */
     size_t broken_triangles;
@@ -424,6 +453,15 @@ typedef struct {
     size_t clamped_edges;
     /** Largest relative change of an edge length by going over to the scheme. */
     double max_length_change;
+    /**
+     * V of its triangulation: those of the mesh, and of a double the mirror images of interior vertices
+     * behind them.
+     */
+    size_t n_mesh_vertices;
+    /** Edge flips from the mesh it was made from to its triangulation. */
+    size_t n_flips;
+    /** Those of them that come before the flow and change no distance on the surface. */
+    size_t n_start_flips;
 } ricci_metric_summary;
 
 /** Figures of a report. */
@@ -436,7 +474,7 @@ typedef struct {
     ricci_stop_reason stop_reason;
     /** Number of steps. */
     size_t iterations;
-    /** Number of edges flipped. */
+    /** Number of edges flipped by this flow; those before it are in ricci_metric_summary. */
     size_t flips;
     /** Number of triangles whose lengths break the triangle inequality. */
     size_t broken_triangles;
@@ -452,6 +490,8 @@ typedef struct {
      * stalls, else 0.
      */
     double rounding_floor;
+    /** 1 if u, lengths and curvature were carried to twice the digits of a double (Newton in E2), else 0. */
+    int32_t double_double;
     /** |sum of curvatures + lambda area - 2 pi chi| of the result. */
     double gauss_bonnet;
     /** Seconds in the assembly of curvature and its derivative. */
@@ -474,11 +514,14 @@ typedef struct {
     size_t n_worst;
     /** Entries of ricci_report_obstruction; 0 unless the stop reason is RICCI_STOP_INFEASIBLE. */
     size_t n_obstruction;
-    /** Total target curvature at the vertices of the obstruction, radians. */
+    /**
+     * Total target curvature at the vertices of the obstruction, radians; of a double, with their mirror
+     * images.
+     */
     double obstruction_target;
     /**
-     * Every metric of the class on this triangulation has a total curvature above this at the vertices of the
-     * obstruction, radians.
+     * Every metric of the class on this triangulation has a total curvature above this at the vertices of
+     * the obstruction, radians.
      */
     double obstruction_above;
 } ricci_report_summary;
@@ -493,7 +536,7 @@ typedef struct {
     ricci_flips flips;
     /** Largest |K - target| of a converged metric, radians, positive; default 1e-10. */
     double tolerance;
-    /** Steps before giving up; default 0: 200 for Newton, 200,000 for the gradient flow. */
+    /** Steps before giving up; default 0: 500 for Newton, 200,000 for the gradient flow. */
     size_t max_iterations;
     /** Threads of this flow, in a pool of its own; default 0: one per core. The result does not depend on it. */
     size_t threads;
@@ -505,13 +548,21 @@ typedef struct {
     int32_t area_normalised;
     /** The step of RICCI_STEP_FIXED, positive; default 0. */
     double step_size;
+    /**
+     * Edges that are not flipped, such as seams and feature lines: rows of ricci_mesh_edges of the mesh that
+     * the metric was made from; default NULL. Targets that only their flips would reach are then out of
+     * reach.
+     */
+    const uint32_t *fixed_edges;
+    /** Entries of `fixed_edges`; default 0. */
+    size_t n_fixed_edges;
 } ricci_flow_options;
 
 /** Figures of a layout. */
 typedef struct {
     /** Bytes of this struct that are filled. */
     size_t size;
-    /** F. */
+    /** F of what is unrolled. */
     size_t n_faces;
     /** Number of points in the plane: vertices count once per piece of their star between cuts. */
     size_t n_points;
@@ -519,7 +570,10 @@ typedef struct {
     size_t n_seams;
     /** Number of edges on all seams. */
     size_t n_seam_edges;
-    /** Faces that are not counterclockwise, by exact arithmetic. */
+    /**
+     * Faces that are not counterclockwise: by exact arithmetic; of a refinement, those that are clockwise by
+     * more than rounding.
+     */
     size_t n_flipped;
     /** Largest disagreement of an edge vector with the placed points, relative to `diameter`. */
     double consistency;
@@ -535,7 +589,52 @@ typedef struct {
     double area_ratio_min;
     /** Largest area distortion. */
     double area_ratio_max;
+    /** V of what is unrolled: n_given_vertices + n_crossings. */
+    size_t n_vertices;
+    /** E of what is unrolled. */
+    size_t n_edges;
+    /** V of the mesh that the metric was made from: these vertices come first. */
+    size_t n_given_vertices;
+    /**
+     * Vertices where an edge of that mesh and one of the metric's triangulation cross; 0 if no edge was
+     * flipped.
+     */
+    size_t n_crossings;
+    /**
+     * Number of pieces: a piece is what a face of the mesh and one of the metric's triangulation have in
+     * common, cut into triangles.
+     */
+    size_t n_pieces;
+    /** Faces without area in the input or the layout, but for rounding; qc and area_ratio leave them out. */
+    size_t n_degenerate;
 } ricci_layout_summary;
+
+/** Figures of charts. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Number of charts. */
+    size_t n_charts;
+    /** F. */
+    size_t n_faces;
+    /** Number of points in the unit square. */
+    size_t n_points;
+    /** Faces that are clockwise by more than rounding, each a chart of its own. */
+    size_t n_flipped;
+    /** Lengths in the unit square over lengths in the layout, the same for all charts. */
+    double scale;
+    /** Share of the unit square that is covered. */
+    double efficiency;
+    /** Total length of the layout's seams, in its units. */
+    double layout_seams;
+    /** Total length of the charts' seams, in units of the layout. */
+    double chart_seams;
+    /**
+     * Faces without area beyond rounding, in the layout or in the unit square; they lie in the charts of their neighbours, and
+     * are left out where it says that none overlap.
+     */
+    size_t n_degenerate;
+} ricci_charts_summary;
 
 #ifdef __cplusplus
 extern "C" {
@@ -1530,27 +1629,6 @@ ricci_status ricci_metric_summarise(const ricci_metric *metric,
                                     size_t size);
 
 /**
- * The triangulation of a metric as an intrinsic mesh with the metric's lengths.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER.
- *
- * @param metric  the metric.
- * @param mesh    out: the new handle, to be released by ricci_mesh_free.
- */
-ricci_status ricci_metric_mesh(const ricci_metric *metric, ricci_mesh **mesh);
-
-/**
- * The length of every edge.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
- *
- * @param metric    the metric.
- * @param lengths   out: n_edges lengths.
- * @param capacity  entries of `lengths`.
- */
-ricci_status ricci_metric_lengths(const ricci_metric *metric, double *lengths, size_t capacity);
-
-/**
  * The curvature of every vertex: 2 pi minus its angles inside, pi minus its angles on the boundary.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
@@ -1571,17 +1649,6 @@ ricci_status ricci_metric_curvature(const ricci_metric *metric, double *curvatur
  * @param capacity  entries of `u`.
  */
 ricci_status ricci_metric_u(const ricci_metric *metric, double *u, size_t capacity);
-
-/**
- * The weight eta of every edge.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
- *
- * @param metric    the metric.
- * @param eta       out: n_edges weights.
- * @param capacity  entries of `eta`.
- */
-ricci_status ricci_metric_eta(const ricci_metric *metric, double *eta, size_t capacity);
 
 /**
  * The type epsilon of every vertex: 1 circle, 0 vertex scaling, -1 imaginary circle.
@@ -1607,6 +1674,70 @@ ricci_status ricci_metric_epsilon(const ricci_metric *metric, int8_t *epsilon, s
 ricci_status ricci_metric_conformal_factor(const ricci_metric *metric,
                                            double *factor,
                                            size_t capacity);
+
+/**
+ * The triangulation of a metric as an intrinsic mesh with the metric's lengths.
+ *
+ * It is that of the mesh that the metric was made from until a flow flips edges. Two vertices may then share
+ * several edges, and an edge may be a loop. The triangulation of a double (`doubled` of the summary) is
+ * closed; its first vertices are the given ones, and its edges may run from one copy of the surface to the
+ * other.
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param metric  the metric.
+ * @param mesh    out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_metric_mesh(const ricci_metric *metric,
+                               ricci_mesh **mesh);
+
+/**
+ * The mirror image of every vertex of the triangulation: itself, but inside a surface that was doubled.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param metric    the metric.
+ * @param mirror    out: n_mesh_vertices vertex indices.
+ * @param capacity  entries of `mirror`.
+ */
+ricci_status ricci_metric_mesh_mirror(const ricci_metric *metric,
+                                      uint32_t *mirror,
+                                      size_t capacity);
+
+/**
+ * The variable u of every vertex of the triangulation: what ricci_metric_u gives, then that of the mirror
+ * images, which is the same but for rounding.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param metric    the metric.
+ * @param u         out: n_mesh_vertices values.
+ * @param capacity  entries of `u`.
+ */
+ricci_status ricci_metric_mesh_u(const ricci_metric *metric,
+                                 double *u,
+                                 size_t capacity);
+
+/**
+ * The length of every edge of the triangulation.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param metric    the metric.
+ * @param lengths   out: n_edges lengths.
+ * @param capacity  entries of `lengths`.
+ */
+ricci_status ricci_metric_lengths(const ricci_metric *metric, double *lengths, size_t capacity);
+
+/**
+ * The weight eta of every edge of the triangulation.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param metric    the metric.
+ * @param eta       out: n_edges weights.
+ * @param capacity  entries of `eta`.
+ */
+ricci_status ricci_metric_eta(const ricci_metric *metric, double *eta, size_t capacity);
 
 /**
  * The target that suits most: closed of genus >= 1: uniform; open: all curvature on the boundary; sphere:
@@ -1685,6 +1816,28 @@ ricci_status ricci_target_cones(const ricci_metric *metric,
                                 size_t n_cones,
                                 double *target,
                                 size_t capacity);
+
+/**
+ * Cones placed by the library: n_cones interior vertices, and their curvatures, such that a conformal map that is flat elsewhere
+ * changes areas as little as it finds. On an open surface the boundary keeps its conformal factor, and has the curvature
+ * that follows. E2 only.
+ *
+ * Deterministic; one factorisation and about 6 n_cones solutions.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_TARGET_KIND (not E2, or a number of cones
+ * that the surface cannot have: closed of genus 0 needs 3, genus 1 none or 2, genus 2 or more 1), RICCI_FACTORISATION,
+ * RICCI_CANCELLED.
+ *
+ * @param metric    the metric that will flow, made from Euclidean lengths.
+ * @param n_cones   number of cones, at most 256.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param target    out: n_vertices curvatures, radians; the cones are the interior vertices where it is not 0.
+ * @param capacity  entries of `target`.
+ */
+ricci_status ricci_target_auto(const ricci_metric *metric,
+                               size_t n_cones,
+                               const ricci_control *control,
+                               double *target,
+                               size_t capacity);
 
 /**
  * Whether a target is admissible: each curvature below 2 pi (pi on the boundary) and the total that
@@ -1794,10 +1947,15 @@ ricci_status ricci_flow_options_init(ricci_flow_options *options, size_t size);
 /**
  * Deform a metric in its conformal class to a prescribed curvature.
  *
+ * With flips the result lives on a triangulation of its own, and of a surface with boundary on its double
+ * (ricci_metric_mesh); vertices keep their numbers, and ricci_layout_new leads back. A result that flows
+ * again goes on from where it is; if it came of a flow without flips, or with other fixed edges, and edges
+ * may be flipped now, it begins at the given lengths.
+ *
  * Whether it came that far is in the report: a flow that stops early is RICCI_OK and `converged` is 0.
  * Inputs are never changed.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT, RICCI_STRUCT_SIZE,
- * RICCI_TARGET_AT_VERTEX, RICCI_TARGET_TOTAL, RICCI_FACTORISATION, RICCI_CANCELLED.
+ * RICCI_TARGET_AT_VERTEX, RICCI_TARGET_TOTAL, RICCI_TARGET_BELOW, RICCI_FACTORISATION, RICCI_CANCELLED.
  *
  * @param metric      where the flow starts.
  * @param target      n_vertices curvatures, radians.
@@ -1838,14 +1996,18 @@ void ricci_solver_free(ricci_solver *solver);
 /**
  * Hold u fixed at some vertices in the following solves; their curvature is then free.
  *
- * Replaces the vertices that were pinned before.
+ * Replaces the vertices that were pinned before. A surface with boundary flows on its double if edges are
+ * flipped across the boundary and no vertex is pinned: there the first pin, and the release of all, begin the
+ * flow anew from the given lengths.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex).
  *
  * @param solver      the solver.
  * @param vertices    n_vertices vertices; NULL if there are none.
  * @param n_vertices  number of vertices; 0 releases all.
  */
-ricci_status ricci_solver_pin(ricci_solver *solver, const uint32_t *vertices, size_t n_vertices);
+ricci_status ricci_solver_pin(ricci_solver *solver,
+                              const uint32_t *vertices,
+                              size_t n_vertices);
 
 /**
  * ricci_flow from where the last solve ended, reusing what the solver has kept.
@@ -1872,13 +2034,14 @@ ricci_status ricci_solver_solve(ricci_solver *solver,
  *
  * The surface is cut open along its homology generators and through every interior vertex whose target is
  * not 0; the metric should be flat at all others, and `consistency` says how far it is. Triangles are
- * counterclockwise where the mesh's are.
+ * counterclockwise where the mesh's are. Of a metric whose edges were flipped the common refinement is
+ * unrolled.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_TRIANGLE_INEQUALITY, RICCI_LAYOUT (not E2),
- * RICCI_CANCELLED.
+ * RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement), RICCI_CANCELLED.
  *
  * @param metric      the metric, in E2.
  * @param target      the n_vertices curvatures it was made for.
- * @param n_vertices  number of vertices.
+ * @param n_vertices  number of vertices of the mesh that the metric was made from.
  * @param control     progress and cancellation; NULL for neither.
  * @param layout      out: the new handle, to be released by ricci_layout_free.
  */
@@ -1972,7 +2135,7 @@ ricci_status ricci_layout_seam_edges(const ricci_layout *layout,
                                      size_t starts_capacity);
 
 /**
- * The faces that are not counterclockwise, by exact arithmetic.
+ * The faces that are not counterclockwise, as `n_flipped` counts them.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
@@ -2005,9 +2168,290 @@ ricci_status ricci_layout_qc(const ricci_layout *layout, double *qc, size_t capa
 ricci_status ricci_layout_area_ratio(const ricci_layout *layout, double *ratio, size_t capacity);
 
 /**
+ * What a layout unrolls as a mesh: the mesh that the metric was made from, or the common refinement.
+ *
+ * The given vertices come first, where they were bit for bit; crossings lie on the edges of the given mesh.
+ * Of an intrinsic surface the mesh has the lengths of the layout. Crossings may be so near to others that
+ * they coincide: ricci_mesh_lengths then refuses.
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param layout  the layout.
+ * @param mesh    out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_layout_mesh(const ricci_layout *layout,
+                               ricci_mesh **mesh);
+
+/**
+ * The face of the given mesh that every face of the layout is part of.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout    the layout.
+ * @param faces     out: n_faces face indices of the mesh that the metric was made from.
+ * @param capacity  entries of `faces`.
+ */
+ricci_status ricci_layout_input_faces(const ricci_layout *layout, uint32_t *faces, size_t capacity);
+
+/**
+ * The face of the metric's triangulation that every face of the layout is part of.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout    the layout.
+ * @param faces     out: n_faces face indices of ricci_metric_mesh.
+ * @param capacity  entries of `faces`.
+ */
+ricci_status ricci_layout_final_faces(const ricci_layout *layout, uint32_t *faces, size_t capacity);
+
+/**
+ * Where the corners of every face of the layout lie in its face of the given mesh: values at the corners of
+ * that face, added up with these weights, are the values there. Carries attributes of vertices and corners
+ * to the layout.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout    the layout.
+ * @param weights   out: n_faces x 3 x 3 barycentric coordinates [face, corner, corner of the other face].
+ * @param capacity  entries of `weights`, at least 9 n_faces.
+ */
+ricci_status ricci_layout_input_barycentric(const ricci_layout *layout,
+                                            double *weights,
+                                            size_t capacity);
+
+/**
+ * Where the corners of every face of the layout lie in its face of the metric's triangulation, with its
+ * lengths.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout    the layout.
+ * @param weights   out: n_faces x 3 x 3 barycentric coordinates [face, corner, corner of the other face].
+ * @param capacity  entries of `weights`, at least 9 n_faces.
+ */
+ricci_status ricci_layout_final_barycentric(const ricci_layout *layout,
+                                            double *weights,
+                                            size_t capacity);
+
+/**
+ * The piece that every face of the layout is part of, from 0. Faces of a piece have consecutive numbers and
+ * one projective map.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout    the layout.
+ * @param pieces    out: n_faces piece numbers, below n_pieces.
+ * @param capacity  entries of `pieces`.
+ */
+ricci_status ricci_layout_pieces(const ricci_layout *layout,
+                                 uint32_t *pieces,
+                                 size_t capacity);
+
+/**
+ * The homogeneous weight q of every vertex of the layout. In a piece the map from the given mesh to the
+ * plane is projective, and with (x, y) the point of a corner it is (q x, q y, q) that is linear: as texture
+ * coordinates of three components.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_DOMAIN.
+ *
+ * @param layout    the layout.
+ * @param weights   out: n_vertices weights, positive; only their quotients in a piece mean anything.
+ * @param capacity  entries of `weights`.
+ */
+ricci_status ricci_layout_weights(const ricci_layout *layout,
+                                  double *weights,
+                                  size_t capacity);
+
+/**
+ * The crossings on the edges of the given mesh: vertex n_given_vertices + k lies at end 0 (1 - t) + end 1 t
+ * of its edge.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout     the layout.
+ * @param edges      out: n_crossings rows of ricci_mesh_edges of the mesh that the metric was made from.
+ * @param fractions  out: n_crossings numbers t, from 0 to 1.
+ * @param capacity   entries of `edges` and of `fractions`.
+ */
+ricci_status ricci_layout_input_crossings(const ricci_layout *layout,
+                                          uint32_t *edges,
+                                          double *fractions,
+                                          size_t capacity);
+
+/**
+ * The crossings on the edges of the metric's triangulation, with its lengths.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout     the layout.
+ * @param edges      out: n_crossings rows of ricci_mesh_edges of ricci_metric_mesh.
+ * @param fractions  out: n_crossings numbers t, from 0 to 1.
+ * @param capacity   entries of `edges` and of `fractions`.
+ */
+ricci_status ricci_layout_final_crossings(const ricci_layout *layout,
+                                          uint32_t *edges,
+                                          double *fractions,
+                                          size_t capacity);
+
+/**
+ * Carry values at the vertices of the given mesh to those of the layout: linear along the edges of the given
+ * mesh. At the given vertices they stay as they are.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not finite),
+ * RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout        the layout.
+ * @param values        n_values x n_components, row by row.
+ * @param n_values      number of vertices of the mesh that the metric was made from.
+ * @param n_components  numbers per vertex, such as 3 of a normal.
+ * @param carried       out: n_vertices x n_components.
+ * @param capacity      entries of `carried`.
+ */
+ricci_status ricci_layout_from_input_vertices(const ricci_layout *layout,
+                                              const double *values,
+                                              size_t n_values,
+                                              size_t n_components,
+                                              double *carried,
+                                              size_t capacity);
+
+/**
+ * Carry values at the vertices of the metric's triangulation to those of the layout: linear along its edges,
+ * with its lengths.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not finite),
+ * RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout        the layout.
+ * @param values        n_values x n_components, row by row.
+ * @param n_values      number of vertices of ricci_metric_mesh.
+ * @param n_components  numbers per vertex.
+ * @param carried       out: n_vertices x n_components.
+ * @param capacity      entries of `carried`.
+ */
+ricci_status ricci_layout_from_final_vertices(const ricci_layout *layout,
+                                              const double *values,
+                                              size_t n_values,
+                                              size_t n_components,
+                                              double *carried,
+                                              size_t capacity);
+
+/**
+ * Carry values at the corners of the given mesh's faces to the corners of the layout's: linear in every face
+ * of the given mesh, such as texture coordinates or normals with creases.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not finite),
+ * RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout        the layout.
+ * @param values        n_values x 3 x n_components [face, corner, component].
+ * @param n_values      number of faces of the mesh that the metric was made from.
+ * @param n_components  numbers per corner.
+ * @param carried       out: n_faces x 3 x n_components.
+ * @param capacity      entries of `carried`.
+ */
+ricci_status ricci_layout_from_input_corners(const ricci_layout *layout,
+                                             const double *values,
+                                             size_t n_values,
+                                             size_t n_components,
+                                             double *carried,
+                                             size_t capacity);
+
+/**
+ * Carry values at the corners of the faces of the metric's triangulation to the corners of the layout's:
+ * linear in every face of that triangulation, with its lengths.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not finite),
+ * RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param layout        the layout.
+ * @param values        n_values x 3 x n_components [face, corner, component].
+ * @param n_values      number of faces of ricci_metric_mesh.
+ * @param n_components  numbers per corner.
+ * @param carried       out: n_faces x 3 x n_components.
+ * @param capacity      entries of `carried`.
+ */
+ricci_status ricci_layout_from_final_corners(const ricci_layout *layout,
+                                             const double *values,
+                                             size_t n_values,
+                                             size_t n_components,
+                                             double *carried,
+                                             size_t capacity);
+
+/**
+ * Cut a layout into charts and pack them into the unit square.
+ *
+ * Every chart is connected, and no two faces overlap (decided exactly, in the layout's coordinates and in those of the charts),
+ * save degenerate ones. Charts are turned and moved, and all scaled by one factor. An injective layout is one chart.
+ * Deterministic.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (margin), RICCI_LAYOUT (no area), RICCI_CANCELLED.
+ *
+ * @param layout   the layout.
+ * @param margin   least distance of two charts, in sides of the unit square, from 0 to below 1; 1/256 is usual.
+ * @param control  progress and cancellation; NULL for neither.
+ * @param charts   out: the new handle, to be released by ricci_charts_free.
+ */
+ricci_status ricci_charts_new(const ricci_layout *layout,
+                              double margin,
+                              const ricci_control *control,
+                              ricci_charts **charts);
+
+/**
+ * Release charts.
+ *
+ * @param charts  the handle, or NULL.
+ */
+void ricci_charts_free(ricci_charts *charts);
+
+/**
+ * The figures of charts.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param charts   the charts.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+ricci_status ricci_charts_summarise(const ricci_charts *charts,
+                                    ricci_charts_summary *summary,
+                                    size_t size);
+
+/**
+ * The chart of every face, from 0; charts with more area come first.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param charts    the charts.
+ * @param chart     out: n_faces chart numbers.
+ * @param capacity  entries of `chart`.
+ */
+ricci_status ricci_charts_faces(const ricci_charts *charts, uint32_t *chart, size_t capacity);
+
+/**
+ * The points of the charts, in the unit square.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param charts    the charts.
+ * @param points    out: n_points x 2, from 0 to 1.
+ * @param capacity  entries of `points`, at least 2 n_points.
+ */
+ricci_status ricci_charts_points(const ricci_charts *charts, double *points, size_t capacity);
+
+/**
+ * The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param charts    the charts.
+ * @param corners   out: n_faces x 3 indices of points.
+ * @param capacity  entries of `corners`, at least 3 n_faces.
+ */
+ricci_status ricci_charts_corners(const ricci_charts *charts, uint32_t *corners, size_t capacity);
+
+/**
  * Write the mesh with the layout as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
  *
- * A file of that name is replaced only once the new one is complete.
+ * If edges were flipped it is the common refinement: the `v` of the mesh come first, unchanged, then the
+ * crossings. A file of that name is replaced only once the new one is complete.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
  *
  * @param layout  the layout.
@@ -2015,6 +2459,41 @@ ricci_status ricci_layout_area_ratio(const ricci_layout *layout, double *ratio, 
  */
 ricci_status ricci_layout_write_obj(const ricci_layout *layout,
                                     const char *path);
+
+/**
+ * The same with homogeneous texture coordinates, `vt qx qy q` with the q of ricci_layout_weights: the
+ * projective map of every piece is linear in these three, and divided by the third.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN.
+ *
+ * @param layout  the layout.
+ * @param path    file name, NUL-terminated.
+ */
+ricci_status ricci_layout_write_obj_homogeneous(const ricci_layout *layout,
+                                                const char *path);
+
+/**
+ * Write the mesh with its charts as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
+ *
+ * A file of that name is replaced only once the new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic).
+ *
+ * @param charts  the charts.
+ * @param path    file name, NUL-terminated.
+ */
+ricci_status ricci_charts_write_obj(const ricci_charts *charts,
+                                    const char *path);
+
+/**
+ * The same with homogeneous texture coordinates, `vt qx qy q`.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN.
+ *
+ * @param charts  the charts.
+ * @param path    file name, NUL-terminated.
+ */
+ricci_status ricci_charts_write_obj_homogeneous(const ricci_charts *charts,
+                                                const char *path);
 
 /**
  * For tests: an internal error inside the library, on one of its threads, while it uses this mesh.

@@ -4,6 +4,7 @@
 //     ricci::metric metric = ricci::make<ricci_metric>(ricci_metric_new, mesh.get(), RICCI_SCHEME_YAMABE,
 //                                                      RICCI_SPACE_E2);
 //     auto counts = ricci::summary(ricci_mesh_summarise, mesh);
+//     std::vector<double> u = ricci::values(ricci_metric_u, metric, counts.n_vertices);
 //
 // C++11; nothing is hidden: every function of ricci.h takes the handles by .get().
 //
@@ -16,6 +17,7 @@
 #include <memory>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace ricci {
 
@@ -39,6 +41,7 @@ struct deleter {
     void operator()(ricci_report *p) const { ricci_report_free(p); }
     void operator()(ricci_solver *p) const { ricci_solver_free(p); }
     void operator()(ricci_layout *p) const { ricci_layout_free(p); }
+    void operator()(ricci_charts *p) const { ricci_charts_free(p); }
     void operator()(ricci_control *p) const { ricci_control_free(p); }
 };
 
@@ -51,6 +54,7 @@ using metric = owned<ricci_metric>;
 using report = owned<ricci_report>;
 using solver = owned<ricci_solver>;
 using layout = owned<ricci_layout>;
+using charts = owned<ricci_charts>;
 using control = owned<ricci_control>;
 
 // The handle that a function of ricci.h hands out through its last parameter.
@@ -66,6 +70,15 @@ template <class Handle, class Summary>
 Summary summary(ricci_status (*function)(const Handle *, Summary *, size_t), const owned<Handle> &handle) {
     Summary filled;
     check(function(handle.get(), &filled, sizeof filled));
+    return filled;
+}
+
+// The array that a function copies out: `entries` is its capacity, rows times columns.
+template <class Handle, class Value>
+std::vector<Value> values(ricci_status (*function)(const Handle *, Value *, size_t),
+                          const owned<Handle> &handle, size_t entries) {
+    std::vector<Value> filled(entries);
+    check(function(handle.get(), filled.data(), entries));
     return filled;
 }
 

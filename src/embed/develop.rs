@@ -106,19 +106,19 @@ pub(crate) fn develop(
 }
 
 /// Distance from a face's centroid to the midpoint of its side `h`: a third of the median.
-fn centre_to_side(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> f64 {
+pub(super) fn centre_to_side(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> f64 {
     let [a, b, c] = [h, mesh.next(h), mesh.prev(h)].map(|h| lengths[h.edge()]);
     // 4 median² = 2b² + 2c² − a² = (b − c)² + (b + c − a)(b + c + a)
     ((b - c) * (b - c) + f64::max(b + c - a, 0.0) * (b + c + a)).sqrt() / 6.0
 }
 
 /// Product of complex numbers.
-fn times([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+pub(super) fn times([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [a * c - b * d, a * d + b * c]
 }
 
 /// Direction of a nonzero complex number.
-fn unit([x, y]: [f64; 2]) -> [f64; 2] {
+pub(super) fn unit([x, y]: [f64; 2]) -> [f64; 2] {
     let norm = x.hypot(y);
     [x / norm, y / norm]
 }

@@ -42,7 +42,7 @@ pub struct Layout {
     /// Sum of the areas of the triangles with the given lengths.
     pub area: f64,
     /// Per half-edge: 0 if not cut, k + 1 on the left side of seam k, −(k + 1) on its right side.
-    side: PerHalfedge<i32>,
+    pub(super) side: PerHalfedge<i32>,
 }
 
 /// Lay a flat cone metric out in the plane, O(E log E).
@@ -75,11 +75,7 @@ fn lay_out(
     cut: &CutGraph,
     control: &Control,
 ) -> Result<Layout> {
-    check_size("is_cut", cut.is_cut.len(), mesh.n_edges())?;
-    if !cut::is_disk(mesh, &cut.is_cut) {
-        return Err(Error::Layout("the cut does not open the surface into a disk".into()));
-    }
-    check_segments(mesh, cut)?;
+    check_cut(mesh, cut)?;
     let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
     let Development { coordinates, direction, area, broken } =
         develop(mesh, lengths, differences, &cut.is_cut, &corner_index, n_corners, control)?;
@@ -97,12 +93,6 @@ fn lay_out(
         worst_local = worst_local.max(off / l);
     }
 
-    let mut side = PerHalfedge::filled(mesh.n_halfedges(), 0);
-    for (k, segment) in cut.segments.iter().enumerate() {
-        for &h in segment {
-            (side[h], side[h.twin()]) = (k as i32 + 1, -(k as i32) - 1);
-        }
-    }
     let fit = |segment: &Vec<_>| Seam::fit(mesh, lengths, segment, &direction, at, diameter);
     let mut layout = Layout {
         seams: cut.segments.iter().map(fit).collect(),
@@ -112,7 +102,7 @@ fn lay_out(
         local_consistency: worst_local,
         diameter,
         area,
-        side,
+        side: seam_sides(mesh, cut),
         corner_index,
         coordinates,
     };
@@ -191,8 +181,23 @@ impl Layout {
     }
 }
 
-/// Every cut edge lies in exactly one segment, once, and inside the surface.
-fn check_segments(mesh: &Mesh, cut: &CutGraph) -> Result<()> {
+/// Per half-edge, the seam on whose left (positive) or right side it lies: [`Layout::side`].
+pub(super) fn seam_sides(mesh: &Mesh, cut: &CutGraph) -> PerHalfedge<i32> {
+    let mut side = PerHalfedge::filled(mesh.n_halfedges(), 0);
+    for (k, segment) in cut.segments.iter().enumerate() {
+        for &h in segment {
+            (side[h], side[h.twin()]) = (k as i32 + 1, -(k as i32) - 1);
+        }
+    }
+    side
+}
+
+/// The cut opens the surface into a disk; every cut edge lies in exactly one segment, once, and inside the surface.
+pub(super) fn check_cut(mesh: &Mesh, cut: &CutGraph) -> Result<()> {
+    check_size("is_cut", cut.is_cut.len(), mesh.n_edges())?;
+    if !cut::is_disk(mesh, &cut.is_cut) {
+        return Err(Error::Layout("the cut does not open the surface into a disk".into()));
+    }
     let mut left = cut.is_cut.clone();
     for &h in cut.segments.iter().flatten() {
         if h.index() >= mesh.n_halfedges() || !std::mem::replace(&mut left[h.edge()], false) {
@@ -203,7 +208,8 @@ fn check_segments(mesh: &Mesh, cut: &CutGraph) -> Result<()> {
     wrong.map_or(Ok(()), |e| Err(Error::Layout(format!("cut edge {e} is in no segment, or on the boundary"))))
 }
 
-fn bounding_diagonal(points: &[[f64; 2]]) -> f64 {
+/// Diagonal of the points' bounding box.
+pub(super) fn bounding_diagonal(points: &[[f64; 2]]) -> f64 {
     let extent = |k: usize| {
         let range = points
             .iter()

@@ -1,13 +1,22 @@
-//! Layouts of metrics: developing a cut surface, the isometries between the sides of its seams, and how much
-//! the map distorts.
+//! Layouts of metrics: developing a cut surface, the isometries between the sides of its seams, how much the map distorts, and
+//! charts that do not overlap.
 
+mod chart_growth;
+pub mod charts;
 mod corner;
 mod develop;
 pub mod layout;
+pub mod overlap;
+pub mod pack;
 pub mod quality;
+pub mod refined;
+mod refined_develop;
 pub mod seam;
+mod shape;
 mod triangle;
 
+pub use charts::{ChartOptions, Charts, charts};
 pub use layout::{Layout, layout, layout_of};
 pub use quality::{Quality, quality};
+pub use refined::{RefinedLayout, layout_refined, refined_cut};
 pub use seam::Seam;

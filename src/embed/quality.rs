@@ -55,6 +55,11 @@ pub fn quality(mesh: &Mesh, input_lengths: &PerEdge<f64>, layout: &Layout) -> Re
         areas[f] = [triangle.area, image_area];
         qc[f] = dilatation(sides, &triangle, image);
     }
+    Ok(summary(mesh, qc, &areas))
+}
+
+/// The statistics of dilatations and of areas `[input, layout]` per face.
+pub(super) fn summary(mesh: &Mesh, qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality {
     let total = areas.iter().fold([0.0; 2], |t, a| [t[0] + a[0], t[1] + a[1]]);
     let ratio = |&[a, b]: &[f64; 2]| {
         let r = (b / total[1]) / (a / total[0]);
@@ -67,7 +72,7 @@ pub fn quality(mesh: &Mesh, input_lengths: &PerEdge<f64>, layout: &Layout) -> Re
     let sum: f64 = sound.iter().map(|&f| areas[f][0] * qc[f]).sum();
     let most = |values: &PerFace<f64>| sound.iter().map(|&f| values[f]).reduce(f64::max).unwrap_or(1.0);
     let least = |values: &PerFace<f64>| sound.iter().map(|&f| values[f]).reduce(f64::min).unwrap_or(1.0);
-    Ok(Quality {
+    Quality {
         qc_mean: if weight > 0.0 { sum / weight } else { 1.0 },
         qc_max: most(&qc),
         area_ratio_min: least(&area_ratio),
@@ -75,7 +80,7 @@ pub fn quality(mesh: &Mesh, input_lengths: &PerEdge<f64>, layout: &Layout) -> Re
         qc,
         area_ratio,
         degenerate,
-    })
+    }
 }
 
 /// Dilatation of the linear map from the triangle with these sides onto the triangle `image`.
@@ -93,15 +98,35 @@ fn dilatation(sides: [f64; 3], triangle: &Triangle, image: [[f64; 2]; 3]) -> f64
     // Scaled by their lengths, P = 1, P′ = c + i s, Q = q, Q′ = r.
     let alpha = [q[0] * c + q[1] * s - r[0], q[1] * c - q[0] * s - r[1]];
     let beta = [q[0] * c - q[1] * s - r[0], q[1] * c + q[0] * s - r[1]];
+    bounded(alpha, beta, s * cross(q, r))
+}
+
+/// Dilatation of the linear map that carries the vectors `p` to the vectors `q`.
+pub(super) fn dilatation_of_vectors(p: [[f64; 2]; 2], q: [[f64; 2]; 2]) -> f64 {
+    let [[p, r], [q, s]] = [p, q];
+    // α = q r̄ − s p̄, β = q r − s p.
+    let alpha = [
+        q[0] * r[0] + q[1] * r[1] - s[0] * p[0] - s[1] * p[1],
+        q[1] * r[0] - q[0] * r[1] - s[1] * p[0] + s[0] * p[1],
+    ];
+    let beta = [
+        q[0] * r[0] - q[1] * r[1] - s[0] * p[0] + s[1] * p[1],
+        q[1] * r[0] + q[0] * r[1] - s[1] * p[0] - s[0] * p[1],
+    ];
+    bounded(alpha, beta, cross(p, r) * cross(q, s))
+}
+
+/// `(|α| + |β|)² / 4|product of the cross products|`, at least 1 and at most the cap.
+fn bounded(alpha: [f64; 2], beta: [f64; 2], product: f64) -> f64 {
     let norm = alpha[0].hypot(alpha[1]) + beta[0].hypot(beta[1]);
-    let dilatation = norm * norm / (4.0 * s * cross(q, r).abs());
+    let dilatation = norm * norm / (4.0 * product.abs());
     if dilatation.is_finite() { dilatation.clamp(1.0, DILATATION_CAP) } else { DILATATION_CAP }
 }
 
-fn minus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+pub(super) fn minus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
     [p[0] - q[0], p[1] - q[1]]
 }
 
-fn cross(p: [f64; 2], q: [f64; 2]) -> f64 {
+pub(super) fn cross(p: [f64; 2], q: [f64; 2]) -> f64 {
     p[0] * q[1] - p[1] * q[0]
 }

@@ -1,63 +1,177 @@
 //! Lengths, angles and curvature at given variables: the right-hand side of the flow.
 
+use super::report::{Seconds, timed};
+use crate::control::Control;
+use crate::error::Result;
 use crate::geometry::Space;
 use crate::geometry::conformal::{Edge, Vertex, differences, edge, weights};
 use crate::geometry::triangle::{self, Angles};
+use crate::geometry::twofold::two_sum;
 use crate::mesh::{EdgeId, FaceId, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_from_angles;
-use crate::parallel::fill;
+use crate::metric::delaunay::{Queue, restore_delaunay};
+use crate::parallel::{fill, fill_both};
 
-/// The metric at one u. Buffers are reused from step to step.
+/// The metric at one u: the variables with their curvature, and what was measured on the way, whose memory goes from step to step.
 pub(super) struct State {
     pub u: PerVertex<f64>,
+    /// What the doubles `u` lose: u is kept to twice the digits.
+    pub low: PerVertex<f64>,
     pub vertices: Vec<Vertex>,
     pub edges: Vec<Edge>,
     pub angles: Vec<Angles>,
+    /// Per face: ∂θ/∂u weights of the edges opposite its corners, 0 in a broken face.
+    pub weights: Vec<[f64; 3]>,
     pub curvature: PerVertex<f64>,
 }
 
 impl State {
-    pub fn new(mesh: &Mesh, u: &PerVertex<f64>) -> State {
+    pub fn new(mesh: &Mesh, u: &PerVertex<f64>, low: &PerVertex<f64>) -> State {
         State {
             u: u.clone(),
-            vertices: vec![Vertex::default(); mesh.n_vertices()],
-            edges: vec![Edge::default(); mesh.n_edges()],
-            angles: vec![Angles { at: [0.0; 3] }; mesh.n_faces()],
+            low: low.clone(),
+            vertices: Vec::new(),
+            edges: Vec::new(),
+            angles: Vec::new(),
+            weights: Vec::new(),
             curvature: PerVertex::filled(mesh.n_vertices(), 0.0),
         }
     }
 
     /// Compute everything from `self.u`; false when some edge has no real length there (outside the domain).
     pub fn evaluate(&mut self, mesh: &Mesh, class: &Metric) -> bool {
-        let (space, u) = (class.space, &self.u);
-        fill(&mut self.vertices, |v| {
-            let v = VertexId::from(v);
-            Vertex::new(space, class.epsilon[v], u[v])
-        });
-        let vertices = &self.vertices;
-        fill(&mut self.edges, |e| {
-            let e = EdgeId::from(e);
-            let [i, j] = mesh.ends(e);
-            edge(space, vertices[i.index()], vertices[j.index()], class.eta[e]).unwrap_or_default()
-        });
-        if self.edges.iter().any(|e| e.q2 == 0.0) {
+        if !self.measure(mesh, class) {
             return false;
         }
-        let edges = &self.edges;
-        fill(&mut self.angles, |f| {
-            triangle::angles_from(space, face_differences(mesh, vertices, edges, FaceId::from(f)))
-        });
         self.curvature = curvature_from_angles(mesh, self.angles.iter().map(|a| a.at));
         true
     }
 
-    /// ∂θ/∂u weights of the edges opposite the corners of a face.
-    pub fn weights(&self, mesh: &Mesh, class: &Metric, f: FaceId) -> [f64; 3] {
-        let edges = mesh.opposite_edges(f);
-        let q2 = edges.map(|e| self.edges[e.index()].q2);
-        let corners = mesh.face_vertices(f).map(|v| self.vertices[v.index()]);
-        weights(class.space, self.differences(mesh, f), q2, corners, edges.map(|e| class.eta[e]))
+    /// [`State::evaluate`] after flips inside the class to the weighted Delaunay triangulation at `self.u`; returns also their
+    /// number, keeps the `fixed` edges, and tells `record` each edge before its flip.
+    ///
+    /// An edge is Delaunay where its Laplacian weight, which Newton needs anyway, is not negative: the flips start at the others
+    /// and at broken faces, and only what they touch is measured again.
+    pub fn evaluate_delaunay(
+        &mut self,
+        mesh: &mut Mesh,
+        class: &mut Metric,
+        fixed: &[EdgeId],
+        record: &mut dyn FnMut(&Mesh, EdgeId),
+        seconds: &mut Seconds,
+        control: &Control,
+    ) -> Result<(bool, usize)> {
+        let real = timed(&mut seconds.assemble, || self.measure(mesh, class));
+        let mut touched = Vec::new();
+        let flips = timed(&mut seconds.flip, || {
+            let mut queue = if real { self.suspects(mesh, fixed) } else { Queue::all(mesh, fixed) };
+            let mut record = |mesh: &Mesh, e| {
+                touched.push(e);
+                record(mesh, e);
+            };
+            restore_delaunay(mesh, class, &self.u, &mut queue, &mut record, control)
+        })?;
+        let real = timed(&mut seconds.assemble, || {
+            let real = match flips {
+                0 => real,
+                _ if !real => self.measure(mesh, class),
+                _ => self.measure_again(mesh, class, &touched),
+            };
+            if real {
+                self.curvature = curvature_from_angles(mesh, self.angles.iter().map(|a| a.at));
+            }
+            real
+        });
+        Ok((real, flips))
+    }
+
+    /// Everything but the curvature.
+    fn measure(&mut self, mesh: &Mesh, class: &Metric) -> bool {
+        let (space, u, low) = (class.space, &self.u, &self.low);
+        self.vertices.resize(mesh.n_vertices(), Vertex::default());
+        self.edges.resize(mesh.n_edges(), Edge::default());
+        self.angles.resize(mesh.n_faces(), Angles { at: [0.0; 3] });
+        self.weights.resize(mesh.n_faces(), [0.0; 3]);
+        fill(&mut self.vertices, |v| {
+            let v = VertexId::from(v);
+            Vertex::precise(space, class.epsilon[v], u[v], low[v])
+        });
+        let vertices = &self.vertices;
+        fill(&mut self.edges, |e| measured_edge(mesh, class, vertices, EdgeId::from(e)));
+        if self.edges.iter().any(|e| e.q2 == 0.0) {
+            return false;
+        }
+        let edges = &self.edges;
+        let measured = |f: usize| measured_face(mesh, class, vertices, edges, FaceId::from(f));
+        fill_both(&mut self.angles, &mut self.weights, measured);
+        true
+    }
+
+    /// Measure flipped edges, and the faces at them.
+    fn measure_again(&mut self, mesh: &Mesh, class: &Metric, flipped: &[EdgeId]) -> bool {
+        for &e in flipped {
+            self.edges[e.index()] = measured_edge(mesh, class, &self.vertices, e);
+        }
+        if flipped.iter().any(|e| self.edges[e.index()].q2 == 0.0) {
+            return false;
+        }
+        for f in flipped.iter().flat_map(|e| [e.halfedge(), e.halfedge().twin()]).filter_map(|h| mesh.face(h))
+        {
+            let (angles, weights) = measured_face(mesh, class, &self.vertices, &self.edges, f);
+            (self.angles[f.index()], self.weights[f.index()]) = (angles, weights);
+        }
+        true
+    }
+
+    /// Edges of negative weight, and those of faces that have none: the only ones that may fail the Delaunay condition.
+    fn suspects(&self, mesh: &Mesh, fixed: &[EdgeId]) -> Queue {
+        let mut queue = Queue::new(mesh.n_edges(), fixed);
+        let mut weight = vec![0.0; mesh.n_edges()];
+        for f in mesh.faces() {
+            let weights = self.weights[f.index()];
+            let none = weights == [0.0; 3];
+            for (e, w) in mesh.opposite_edges(f).into_iter().zip(weights) {
+                weight[e.index()] += if none { f64::NEG_INFINITY } else { w };
+            }
+        }
+        mesh.edges().filter(|e| weight[e.index()] < 0.0).for_each(|e| queue.push(e));
+        queue
+    }
+
+    /// Let `next` have the memory of what was measured here; u and its curvature stay.
+    pub fn hand_on(&mut self, next: &mut State) {
+        if self.is_measured() {
+            next.vertices = std::mem::take(&mut self.vertices);
+            next.edges = std::mem::take(&mut self.edges);
+            next.angles = std::mem::take(&mut self.angles);
+            next.weights = std::mem::take(&mut self.weights);
+        }
+    }
+
+    /// Whether what was measured is still here.
+    pub fn is_measured(&self) -> bool {
+        !self.angles.is_empty()
+    }
+
+    /// u of `from` plus `t` times `step`.
+    pub fn set_step(&mut self, from: &State, t: f64, step: &[f64]) {
+        for (v, step) in step.iter().enumerate() {
+            let v = VertexId::from(v);
+            (self.u[v], self.low[v]) = add(from.u[v], from.low[v], t * step);
+        }
+    }
+
+    /// Add a constant to u.
+    pub fn shift(&mut self, by: f64) {
+        for (u, low) in self.u.iter_mut().zip(self.low.iter_mut()) {
+            (*u, *low) = add(*u, *low, by);
+        }
+    }
+
+    /// Subtract the mean of u.
+    pub fn center(&mut self) {
+        self.shift(-(self.u.iter().sum::<f64>() / self.u.len() as f64));
     }
 
     /// Half-perimeter differences of a face.
@@ -88,6 +202,32 @@ impl State {
         }
         worst
     }
+}
+
+/// `u + low + x` as a double and what it loses.
+fn add(u: f64, low: f64, x: f64) -> (f64, f64) {
+    let (sum, lost) = two_sum(u, x);
+    two_sum(sum, lost + low)
+}
+
+fn measured_edge(mesh: &Mesh, class: &Metric, vertices: &[Vertex], e: EdgeId) -> Edge {
+    let [i, j] = mesh.ends(e);
+    edge(class.space, vertices[i.index()], vertices[j.index()], class.eta[e]).unwrap_or_default()
+}
+
+fn measured_face(
+    mesh: &Mesh,
+    class: &Metric,
+    vertices: &[Vertex],
+    edges: &[Edge],
+    f: FaceId,
+) -> (Angles, [f64; 3]) {
+    let opposite = mesh.opposite_edges(f);
+    let corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
+    let differences = differences(corners, opposite.map(|e| edges[e.index()]));
+    let q2 = opposite.map(|e| edges[e.index()].q2);
+    let weights = weights(class.space, differences, q2, corners, opposite.map(|e| class.eta[e]));
+    (triangle::angles_from(class.space, differences), weights)
 }
 
 fn face_differences(mesh: &Mesh, vertices: &[Vertex], edges: &[Edge], f: FaceId) -> [f64; 3] {

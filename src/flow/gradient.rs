@@ -4,7 +4,7 @@ use super::evaluate::State;
 use super::newton::progress;
 use super::options::StepRule;
 use super::report::{Report, StopReason, TraceRow, timed};
-use super::solver::{Run, center};
+use super::solver::Run;
 use crate::control::Stage;
 use crate::error::Result;
 use crate::geometry::Space;
@@ -19,7 +19,7 @@ impl Run<'_> {
         let n = self.mesh.n_vertices();
         let mut direction = vec![0.0; n];
         let mut next_direction = vec![0.0; n];
-        let mut trial = State::new(self.mesh, self.start);
+        let mut trial = State::new(self.mesh, self.start, self.start_low);
         // Pinned vertices hold their u: nothing is left to keep the area with.
         let area = match self.class.space {
             _ if self.pinned.contains(&true) => None,
@@ -48,7 +48,7 @@ impl Run<'_> {
             let mut accepted = None;
             for _ in 0..HALVINGS {
                 self.control.check()?;
-                trial.u.iter_mut().zip(state.u.iter().zip(&direction)).for_each(|(x, (u, d))| *x = u + h * d);
+                trial.set_step(&state, h, &direction);
                 if timed(&mut report.seconds.assemble, || self.settle(&mut trial, area)) {
                     let now = trial.residual(self.target, self.pinned, &mut next_direction);
                     if now <= GROWTH * error {
@@ -95,7 +95,7 @@ impl Run<'_> {
         let space = self.class.space;
         let mut row = vec![0.0; self.mesh.n_vertices()];
         for f in self.mesh.faces() {
-            let weights = state.weights(self.mesh, self.class, f);
+            let weights = state.weights[f.index()];
             for (h, (w, e)) in self
                 .mesh
                 .face_halfedges(f)
@@ -114,7 +114,7 @@ impl Run<'_> {
     /// Evaluate `state.u`, after bringing it to the total area `area` (if given) by a constant.
     pub(super) fn settle(&self, state: &mut State, area: Option<f64>) -> bool {
         if area.is_none() && self.free_scale {
-            center(&mut state.u);
+            state.center();
         }
         if !state.evaluate(self.mesh, self.class) {
             return false;
@@ -130,14 +130,14 @@ impl Run<'_> {
             if shift.abs() <= 4.0 * f64::EPSILON {
                 return true;
             }
-            state.u.iter_mut().for_each(|u| *u += shift);
+            state.shift(shift);
             // Near the largest spherical metric of the class the area grows faster: come back half the way.
             while !state.evaluate(self.mesh, self.class) {
                 shift *= 0.5;
                 if shift.abs() <= 4.0 * f64::EPSILON {
                     return false;
                 }
-                state.u.iter_mut().for_each(|u| *u -= shift);
+                state.shift(-shift);
             }
         }
         true

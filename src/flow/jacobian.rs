@@ -10,10 +10,10 @@
 
 use super::evaluate::State;
 use crate::error::{Error, Result};
+use crate::geometry::Space;
 use crate::linalg::{Pattern, Symmetric};
-use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::mesh::{Mesh, VertexId};
 use crate::metric::Metric;
-use crate::parallel::fill;
 
 /// No unknown, no entry.
 const NONE: u32 = u32::MAX;
@@ -25,19 +25,23 @@ pub(super) struct Jacobian {
     unknown: Vec<u32>,
     /// Per edge: the position of its off-diagonal entry, or `NONE`.
     entry: Vec<u32>,
-    /// Per face: ∂θ/∂u weights of the edges opposite its corners.
-    weights: Vec<[f64; 3]>,
     values: Vec<f64>,
 }
 
 impl Jacobian {
-    /// Pattern and scatter positions for the unknowns {v : !fixed[v]}.
-    pub fn new(mesh: &Mesh, fixed: &[bool]) -> Result<Jacobian> {
+    /// Pattern and scatter positions for the unknowns {v : !fixed[v]}; with a `mirror` (per vertex, its image) a vertex and its
+    /// image share one, and the matrix is `PᵀHP`: the derivative along symmetric variations.
+    pub fn new(mesh: &Mesh, fixed: &[bool], mirror: Option<&[u32]>) -> Result<Jacobian> {
         let mut unknown = vec![NONE; mesh.n_vertices()];
         let mut n = 0u32;
-        for (unknown, _) in unknown.iter_mut().zip(fixed).filter(|(_, fixed)| !**fixed) {
-            *unknown = n;
-            n += 1;
+        for v in 0..unknown.len() {
+            let image = mirror.map_or(v, |mirror| mirror[v] as usize);
+            if image < v {
+                unknown[v] = unknown[image];
+            } else if !fixed[v] {
+                unknown[v] = n;
+                n += 1;
+            }
         }
         let ends = |e| mesh.ends(e).map(|v| unknown[v.index()]);
         let pair = |[i, j]: [u32; 2]| (i != NONE && j != NONE && i != j).then_some((i, j));
@@ -47,7 +51,6 @@ impl Jacobian {
         let entry = |e| pair(ends(e)).and_then(position).map_or(NONE, |p| p as u32);
         Ok(Jacobian {
             entry: mesh.edges().map(entry).collect(),
-            weights: vec![[0.0; 3]; mesh.n_faces()],
             values: vec![0.0; pattern.entries()],
             unknown,
             pattern,
@@ -56,13 +59,12 @@ impl Jacobian {
 
     /// Fill at a state.
     pub fn assemble(&mut self, mesh: &Mesh, class: &Metric, state: &State) {
-        fill(&mut self.weights, |f| state.weights(mesh, class, FaceId::from(f)));
         self.values.fill(0.0);
         for f in mesh.faces() {
             let opposite = mesh.opposite_edges(f);
             let rows = mesh.face_vertices(f).map(|v| self.unknown[v.index()]);
             for k in 0..3 {
-                let (e, w) = (opposite[k].index(), self.weights[f.index()][k]);
+                let (e, w) = (opposite[k].index(), state.weights[f.index()][k]);
                 let (i, j) = (rows[(k + 1) % 3], rows[(k + 2) % 3]);
                 // c(l) = 1 − 2 λ q²
                 let diagonal = w * (1.0 - 2.0 * class.space.curvature() * state.edges[e].q2);
@@ -85,19 +87,20 @@ impl Jacobian {
         }
     }
 
-    /// What rounding u to doubles and forming the angles from it can do to the curvature of each vertex, where this was
-    /// assembled: `Σ |∂K_i/∂u_j| δ_j` with `δ = ½ε (|u| + 2)`, term by term, and two ulp of π for every angle.
+    /// What rounding e^u and forming the angles from it can do to the curvature of each vertex, where this was assembled:
+    /// `Σ |∂K_i/∂u_j| δ` with δ an ulp (its square in E², where u and the lengths have twice the digits), term by term, and two ulp
+    /// of π for every angle.
     pub fn rounding_floor(&self, mesh: &Mesh, class: &Metric, state: &State) -> Vec<f64> {
-        let moved = |v: VertexId| 0.5 * f64::EPSILON * (state.u[v].abs() + 2.0);
+        let moved = if class.space == Space::E2 { f64::EPSILON * f64::EPSILON } else { f64::EPSILON };
         let mut floor = vec![0.0; mesh.n_vertices()];
         for f in mesh.faces() {
             let (corners, edges) = (mesh.face_vertices(f), mesh.opposite_edges(f));
             for k in 0..3 {
                 let (i, j) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
-                let w = self.weights[f.index()][k].abs();
+                let w = state.weights[f.index()][k].abs();
                 let c = (1.0 - 2.0 * class.space.curvature() * state.edges[edges[k].index()].q2).abs();
-                floor[i.index()] += w * (moved(j) + c * moved(i)) + 2.0 * f64::EPSILON;
-                floor[j.index()] += w * (moved(i) + c * moved(j)) + 2.0 * f64::EPSILON;
+                floor[i.index()] += w * (1.0 + c) * moved + 2.0 * f64::EPSILON;
+                floor[j.index()] += w * (1.0 + c) * moved + 2.0 * f64::EPSILON;
             }
         }
         floor
@@ -112,7 +115,7 @@ impl Jacobian {
         Symmetric { pattern: &self.pattern, values: &self.values }
     }
 
-    /// Vertices that are unknowns, with their row, ascending in both.
+    /// Vertices that are unknowns, ascending, with their row.
     pub fn rows(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let row = |(v, &row): (usize, &u32)| (row != NONE).then_some((v, row as usize));
         self.unknown.iter().enumerate().filter_map(row)
@@ -125,13 +128,13 @@ impl Jacobian {
 /// contributes nothing.
 pub fn curvature_derivative(mesh: &Mesh, metric: &Metric) -> Result<Vec<(VertexId, VertexId, f64)>> {
     metric.check(mesh)?;
-    let mut state = State::new(mesh, &metric.u);
+    let mut state = State::new(mesh, &metric.u, &metric.u_low);
     if !state.evaluate(mesh, metric) {
         // The first edge without a length is named by this call.
         metric.lengths(mesh)?;
         return Err(Error::Argument { what: "metric", value: "u".into(), need: "inside its domain" });
     }
-    let mut jacobian = Jacobian::new(mesh, &vec![false; mesh.n_vertices()])?;
+    let mut jacobian = Jacobian::new(mesh, &vec![false; mesh.n_vertices()], None)?;
     jacobian.assemble(mesh, metric, &state);
     Ok(jacobian.matrix().entries().map(|(i, j, x)| (i.into(), j.into(), x)).collect())
 }

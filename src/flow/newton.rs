@@ -6,12 +6,26 @@ use super::solver::{Run, center};
 use super::system::System;
 use crate::control::Stage;
 use crate::error::Result;
+use crate::metric::delaunay::boundary_fails;
 
 /// Below this max |K − K̄| a smaller residual also accepts a step. Far from the solution only the slope does: mixing
 /// the two there cycles.
 const NEAR: f64 = 1e-2;
-/// Halvings of a step before the line search gives up: 2⁻⁵⁰ of a step is below the rounding of u.
-const HALVINGS: usize = 50;
+/// A convex energy that at the end of a step rises this much more slowly than it fell at its start has fallen all in all, unless its
+/// slope jumps. Refusing every rise halves good steps: half of all flows then take twice as many.
+const OVERSHOOT: f64 = 0.1;
+/// Trials before the line search gives up: 2⁻⁵⁰ of a step is below the rounding of u.
+const TRIALS: usize = 50;
+/// Where vertices that are far smaller than all else have large curvature, dK/du changes within a tiny change of u, and a step meets
+/// a bend of the energy that its start knows nothing of. A step that ends before the bend gains nothing, since the next one meets it
+/// too; one that ends in it knows it. So the line search goes on until the slope is at most this share of that at the start …
+const FLAT: f64 = 0.5;
+/// … or so many more points were tried.
+const BISECTIONS: usize = 10;
+/// Flips there and back round η. Where triangles are so thin that this alone moves the error at one u by such a share, a search that
+/// finds nothing has started from what is no longer so: it is made again, so often at most.
+const MOVED: f64 = 1e-3;
+const RESTARTS: usize = 20;
 /// First shift of a matrix that is not positive definite, relative to its mean diagonal; grows by `SHIFT_GROWTH`.
 const SHIFT: f64 = 1e-12;
 const SHIFT_GROWTH: f64 = 100.0;
@@ -33,27 +47,42 @@ const POLISH_STEPS: usize = 3;
 
 impl Run<'_> {
     pub(super) fn newton(
-        &self,
-        system: &mut Option<System>,
+        &mut self,
+        kept: &mut Option<System>,
         mut state: State,
         report: &mut Report,
     ) -> Result<State> {
         let n = self.mesh.n_vertices();
         let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
-        let mut trial = State::new(self.mesh, self.start);
+        let mut trial = State::new(self.mesh, self.start, self.start_low);
         let mut error = state.residual(self.target, self.pinned, &mut residual);
         let (first, mut best, mut since_best, mut shift, mut factored) = (error, error, 0, 0.0, false);
         report.residuals.push(error);
         self.control.step(Stage::Flow, 0.0)?;
-        let system = self.prepare(system, report)?;
+        let (mut flipped, mut restarts) = (report.flips, 0);
         report.stop_reason = loop {
+            let at_limit = report.iterations >= self.options.iteration_limit();
+            let fails = |run: &Self| boundary_fails(run.mesh, run.class, &state.u, &run.options.fixed_edges);
+            if self.one_copy && !at_limit && fails(self) {
+                self.left = true;
+                report.max_curvature_error = error;
+                return Ok(state);
+            }
             if error <= report.tolerance {
                 break StopReason::Converged;
             }
-            if report.iterations >= self.options.iteration_limit() {
+            if range(&state.u) > MAX_RANGE {
+                break StopReason::Diverged;
+            }
+            if at_limit {
                 break StopReason::IterationLimit;
             }
             self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
+            if self.lopsided(&residual, error) {
+                (self.mirror, *kept) = (None, None);
+            }
+            let more = report.flips - std::mem::replace(&mut flipped, report.flips);
+            let system = self.prepare(kept, more, report)?;
             timed(&mut report.seconds.assemble, || system.jacobian.assemble(self.mesh, self.class, &state));
             self.control.check()?;
             factored = self.direction(system, &state, &residual, &mut step, &mut shift, report)?;
@@ -61,15 +90,27 @@ impl Run<'_> {
                 break StopReason::Stalled;
             }
             report.iterations += 1;
+            state.hand_on(&mut trial);
             let accepted = self.line_search(&state, &mut trial, &mut residual, &step, error, report)?;
             let Some(now) = accepted else {
-                state.residual(self.target, self.pinned, &mut residual);
+                // Back to the triangulation of the last metric, or one of the same.
+                self.evaluate(&mut state, report)?;
+                let before =
+                    std::mem::replace(&mut error, state.residual(self.target, self.pinned, &mut residual));
+                if (error - before).abs() > MOVED * before && restarts < RESTARTS {
+                    restarts += 1;
+                    continue;
+                }
                 break StopReason::Stalled;
             };
             std::mem::swap(&mut state, &mut trial);
             error = now;
             report.residuals.push(error);
-            log::debug!("Newton step {}: max |K − K̄| = {error:.3e}", report.iterations);
+            log::debug!(
+                "Newton step {}: max |K − K̄| = {error:.3e}, {} flips",
+                report.iterations,
+                report.flips
+            );
             since_best += 1;
             if error < 0.9 * best {
                 (best, since_best) = (error, 0);
@@ -77,12 +118,15 @@ impl Run<'_> {
             if since_best >= PATIENCE && error < AT_THE_END {
                 break StopReason::Stalled;
             }
-            if range(&state.u) > MAX_RANGE {
-                break StopReason::Diverged;
-            }
         };
+        // A factor of another triangulation is no good, and its matrix is of another pattern.
+        factored &= flipped == report.flips;
+        let system = self.prepare(kept, report.flips - flipped, report)?;
         if factored && report.stop_reason != StopReason::IterationLimit && error > POLISH_TO {
             self.polish(system, &mut state, &mut trial, &mut residual, &mut step, report, &mut error)?;
+        }
+        if !state.is_measured() {
+            timed(&mut report.seconds.assemble, || state.evaluate(self.mesh, self.class));
         }
         report.max_curvature_error = error;
         if report.stop_reason == StopReason::Stalled && error <= report.tolerance {
@@ -101,6 +145,14 @@ impl Run<'_> {
             }
         }
         Ok(state)
+    }
+
+    /// Whether what is left of the error differs between mirror images: flips in another order round η differently, which symmetric
+    /// steps cannot make up for.
+    fn lopsided(&self, residual: &[f64], error: f64) -> bool {
+        let Some(mirror) = self.mirror else { return false };
+        let even = |(r, &image): (&f64, &u32)| 0.5 * (r + residual[image as usize]).abs();
+        residual.iter().zip(mirror).map(even).fold(0.0, f64::max) < 0.5 * error
     }
 
     /// The Newton direction into `step`; false when there is none.
@@ -154,12 +206,14 @@ impl Run<'_> {
         Ok(false)
     }
 
-    /// The largest of `step`, `step/2`, `step/4`, … (after the cap) that is accepted, in `trial`; its error.
+    /// A fraction of `step` that is accepted, in `trial`; its error. The first tried is all of it (after the cap), then halves.
     ///
-    /// Accepted: the energy still falls along the step at its end, `step·(K̄ − K) ≥ 0`; near the solution a smaller
-    /// residual will do.
+    /// Accepted: the energy still falls along the step at its end, `step·(K̄ − K) ≥ 0`, or rises there at no more than
+    /// [`OVERSHOOT`] of the rate at which it fell at the start; near the solution a smaller residual will do. After a step that was
+    /// too long the lowest point lies between: it is sought until the energy falls at no more than [`FLAT`] of that rate.
+    /// `residual`: at the start, then of `trial`.
     fn line_search(
-        &self,
+        &mut self,
         state: &State,
         trial: &mut State,
         residual: &mut [f64],
@@ -167,23 +221,50 @@ impl Run<'_> {
         error: f64,
         report: &mut Report,
     ) -> Result<Option<f64>> {
+        let slope = |residual: &[f64]| -> f64 { step.iter().zip(residual).map(|(d, r)| d * r).sum() };
+        let first = slope(residual);
+        let (mut short, mut long, mut between) = (0.0, None, 0);
         let mut t = (self.options.max_step / norm(step)).min(1.0);
-        for _ in 0..HALVINGS {
+        for _ in 0..TRIALS {
             self.control.check()?;
-            let inside = timed(&mut report.seconds.assemble, || {
-                trial.u.iter_mut().zip(state.u.iter().zip(step)).for_each(|(x, (u, d))| *x = u + t * d);
-                trial.evaluate(self.mesh, self.class)
-            });
-            if inside {
-                let now = trial.residual(self.target, self.pinned, residual);
-                let slope: f64 = step.iter().zip(residual.iter()).map(|(d, r)| d * r).sum();
-                if (error < NEAR && now < error) || slope >= 0.0 {
-                    return Ok(Some(now));
-                }
+            trial.set_step(state, t, step);
+            let real = self.evaluate(trial, report)?;
+            let now = if real { trial.residual(self.target, self.pinned, residual) } else { f64::INFINITY };
+            let slope = if real { slope(residual) } else { f64::NEG_INFINITY };
+            let falls = slope >= -OVERSHOOT * first;
+            let settled = long.is_none() || slope <= FLAT * first || between >= BISECTIONS;
+            if (error < NEAR && now < error) || (falls && settled) {
+                return Ok(Some(now));
             }
-            t *= 0.5;
+            match falls {
+                true => short = t,
+                false if t == short => (short, long) = (0.0, Some(t)),
+                false => long = Some(t),
+            }
+            between += usize::from(short > 0.0);
+            let long = long.unwrap_or(t);
+            t = if short > 0.0 && between >= BISECTIONS { short } else { 0.5 * (short + long) };
         }
         Ok(None)
+    }
+
+    /// Compute a state at its u, on the Delaunay triangulation there if edges may be flipped.
+    pub(super) fn evaluate(&mut self, state: &mut State, report: &mut Report) -> Result<bool> {
+        if !self.flips() {
+            return Ok(timed(&mut report.seconds.assemble, || state.evaluate(self.mesh, self.class)));
+        }
+        let (mesh, class) = (&mut *self.mesh, &mut *self.class);
+        let mut record = |mesh: &_, e| self.followed.iter_mut().for_each(|normal| normal.record(mesh, e));
+        let (real, flips) = state.evaluate_delaunay(
+            mesh,
+            class,
+            &self.options.fixed_edges,
+            &mut record,
+            &mut report.seconds,
+            self.control,
+        )?;
+        report.flips += flips;
+        Ok(real)
     }
 
     /// Steps with the last factor, as long as they at least halve the error: iterative refinement of the nonlinear
@@ -198,6 +279,7 @@ impl Run<'_> {
         report: &mut Report,
         error: &mut f64,
     ) -> Result<()> {
+        let broken = state.broken();
         for _ in 0..POLISH_STEPS {
             self.control.check()?;
             state.residual(self.target, self.pinned, residual);
@@ -208,14 +290,15 @@ impl Run<'_> {
                 center(step);
             }
             let inside = timed(&mut report.seconds.assemble, || {
-                trial.u.iter_mut().zip(state.u.iter().zip(step.iter())).for_each(|(x, (u, d))| *x = u + d);
+                trial.set_step(state, 1.0, step);
+                state.hand_on(trial);
                 trial.evaluate(self.mesh, self.class)
             });
             if !inside {
                 return Ok(());
             }
             let now = trial.residual(self.target, self.pinned, residual);
-            if now < *error && trial.broken() <= state.broken() {
+            if now < *error && trial.broken() <= broken {
                 std::mem::swap(state, trial);
             } else {
                 return Ok(());

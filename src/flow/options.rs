@@ -1,6 +1,7 @@
 //! What a flow can be asked.
 
 use crate::error::{Error, Result};
+use crate::mesh::EdgeId;
 
 /// How the target is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -15,7 +16,7 @@ pub enum Method {
 /// Whether edges may be flipped inside the conformal class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Flips {
-    /// As often as needed. Means `Never` in this version, which keeps the triangulation of the input.
+    /// As often as needed (Newton in E² and H²): the triangulation is weighted Delaunay throughout. The solver's mesh changes with it.
     #[default]
     Auto,
     /// The triangulation stays as it is.
@@ -50,12 +51,14 @@ pub struct Options {
     pub method: Method,
     /// Largest |K − K̄| of a converged metric, radians. Default 1e-10.
     pub tolerance: f64,
-    /// Iterations before giving up; 0 (default) means 200 for Newton, 200 000 for the gradient flow.
+    /// Iterations before giving up; 0 (default) means 500 for Newton, 200 000 for the gradient flow.
     pub max_iterations: usize,
     /// Largest change of any u in one Newton step. Default 3: lengths change by at most e³ at a time.
     pub max_step: f64,
     /// Default `Auto`.
     pub flips: Flips,
+    /// Edges that are not flipped: seams, feature lines. Default none. Targets that only their flips would reach are then out of reach.
+    pub fixed_edges: Vec<EdgeId>,
     /// Threads of this flow's own pool; 0 (default) is one per core. The result does not depend on it.
     pub threads: usize,
     /// Options of [`Method::Gradient`].
@@ -70,6 +73,7 @@ impl Default for Options {
             max_iterations: 0,
             max_step: 3.0,
             flips: Flips::Auto,
+            fixed_edges: Vec::new(),
             threads: 0,
             gradient: Gradient::default(),
         }
@@ -96,7 +100,7 @@ impl Options {
     /// The limit that `max_iterations` stands for.
     pub fn iteration_limit(&self) -> usize {
         match (self.max_iterations, self.method) {
-            (0, Method::Newton) => 200,
+            (0, Method::Newton) => 500,
             (0, Method::Gradient) => 200_000,
             (n, _) => n,
         }

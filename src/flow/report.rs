@@ -108,6 +108,8 @@ pub struct Report {
     pub tolerance: f64,
     /// Largest curvature error that rounding can cause at the final metric; determined where a flow stalls.
     pub rounding_floor: Option<f64>,
+    /// Whether u, lengths and curvature were carried to twice the digits of a double (Newton in E²; the corrections are doubles).
+    pub double_double: bool,
     /// Faces that break the triangle inequality.
     pub broken_triangles: usize,
     /// The vertices of largest |K − K̄| with their K − K̄ (radians), largest first: at most [`WORST`], none where the
@@ -141,6 +143,7 @@ impl Report {
             max_curvature_error: f64::INFINITY,
             tolerance,
             rounding_floor: None,
+            double_double: false,
             broken_triangles: 0,
             worst: Vec::new(),
             obstruction: None,
@@ -151,6 +154,27 @@ impl Report {
             unknowns: 0,
             factor_entries: 0,
             seconds: Seconds::default(),
+        }
+    }
+
+    /// This flow and the one that took it to its end.
+    pub(super) fn then(mut self, rest: Report) -> Report {
+        self.residuals.extend(rest.residuals.into_iter().skip(1));
+        let (a, b) = (self.seconds, rest.seconds);
+        Report {
+            iterations: self.iterations + rest.iterations,
+            flips: self.flips + rest.flips,
+            shifted: self.shifted + rest.shifted,
+            residuals: self.residuals,
+            seconds: Seconds {
+                assemble: a.assemble + b.assemble,
+                analyse: a.analyse + b.analyse,
+                factor: a.factor + b.factor,
+                solve: a.solve + b.solve,
+                flip: a.flip + b.flip,
+                total: a.total + b.total,
+            },
+            ..rest
         }
     }
 }

@@ -32,11 +32,11 @@ impl Run<'_> {
     ) -> Result<State> {
         let n = self.mesh.n_vertices();
         let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
-        let mut trial = State::new(self.mesh, self.start);
+        let mut trial = State::new(self.mesh, self.start, self.start_low);
         let area = (!self.pinned.contains(&true)).then(|| self.spherical_area());
         if !self.settle(&mut state, area) {
             report.stop_reason = StopReason::Stalled;
-            state = State::new(self.mesh, self.start);
+            state = State::new(self.mesh, self.start, self.start_low);
             state.evaluate(self.mesh, self.class);
             report.max_curvature_error = state.residual(self.target, self.pinned, &mut residual);
             return Ok(state);
@@ -44,7 +44,7 @@ impl Run<'_> {
         let mut error = state.residual(self.target, self.pinned, &mut residual);
         let (first, mut damping) = (error, MIN_DAMPING);
         report.residuals.push(error);
-        let system = self.prepare(system, report)?;
+        let system = self.prepare(system, 0, report)?;
         report.stop_reason = loop {
             if error <= report.tolerance {
                 break StopReason::Converged;
@@ -69,7 +69,7 @@ impl Run<'_> {
                 damping *= 4.0;
                 continue;
             }
-            trial.u.iter_mut().zip(state.u.iter().zip(&step)).for_each(|(x, (u, d))| *x = u + d);
+            trial.set_step(&state, 1.0, &step);
             let inside = timed(&mut report.seconds.assemble, || self.settle(&mut trial, area));
             if inside && norm_of(&trial, self) < norm_of(&state, self) {
                 std::mem::swap(&mut state, &mut trial);

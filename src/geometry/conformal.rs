@@ -19,6 +19,7 @@
 
 use super::Space;
 use super::triangle::half_differences;
+use super::twofold::{self, two_product, two_sum};
 use std::f64::consts::PI;
 
 /// A vertex at its current u.
@@ -28,6 +29,8 @@ pub struct Vertex {
     pub epsilon: f64,
     /// e^u.
     pub scale: f64,
+    /// What `scale` misses of e^u, relative to it: in E², where the part of u that its double loses is kept apart.
+    pub low: f64,
     /// d = 1 + λ ε e^{2u}; NaN outside the metric's domain (d ≤ 0).
     pub d: f64,
     /// γ where ε = 1, else 0.
@@ -39,6 +42,8 @@ pub struct Vertex {
 pub struct Edge {
     /// l − γ_i − γ_j with the radii of [`Vertex::radius`].
     pub gap: f64,
+    /// What the double `gap` loses, as far as it is known: in E².
+    pub low: f64,
     /// Squared half chord: l²/4, sinh²(l/2), sin²(l/2) in E², H², S².
     pub q2: f64,
 }
@@ -60,6 +65,29 @@ pub fn radius(space: Space, epsilon: i8, u: f64) -> f64 {
 }
 
 impl Vertex {
+    /// The quantities of a vertex of type ε with variable `u + low`, where `low` is what the double u loses (half an ulp of it at
+    /// most): e^u has 16 digits also where u is large.
+    pub fn precise(space: Space, epsilon: i8, u: f64, low: f64) -> Vertex {
+        let rounded = Vertex::new(space, epsilon, u);
+        if space == Space::E2 {
+            let (scale, lost) = twofold::exp(u);
+            let radius = if epsilon == 1 { scale } else { 0.0 };
+            return Vertex { scale, low: lost + low, radius, ..rounded };
+        }
+        let lambda = space.curvature() * f64::from(epsilon);
+        // dγ/du = γ, sinh γ, sin γ
+        let slope = match epsilon {
+            1 => super::triangle::sine(space, rounded.radius),
+            _ => 0.0,
+        };
+        Vertex {
+            scale: rounded.scale + rounded.scale * low,
+            d: rounded.d + 2.0 * lambda * rounded.scale * rounded.scale * low,
+            radius: rounded.radius + slope * low,
+            ..rounded
+        }
+    }
+
     /// The quantities of a vertex of type ε with variable u.
     pub fn new(space: Space, epsilon: i8, u: f64) -> Vertex {
         let d = match space.curvature() * f64::from(epsilon) {
@@ -70,6 +98,7 @@ impl Vertex {
         Vertex {
             epsilon: f64::from(epsilon),
             scale: u.exp(),
+            low: 0.0,
             d: if d > 0.0 { d } else { f64::NAN },
             radius: if epsilon == 1 { radius(space, epsilon, u) } else { 0.0 },
         }
@@ -89,28 +118,41 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
     let circles = a.epsilon > 0.0 && b.epsilon > 0.0;
     if circles && eta == 1.0 {
         // sin²(l/2) > 1: the circles together reach around the sphere.
-        return (space != Space::S2 || q2 <= 1.0).then_some(Edge { gap: 0.0, q2 });
+        return (space != Space::S2 || q2 <= 1.0).then_some(Edge { gap: 0.0, low: 0.0, q2 });
     }
     let length = length(space, q2);
     let sum = a.radius + b.radius;
     let gap = if circles { circle_gap(space, a, b, eta, length + sum) } else { length - sum };
-    gap.is_finite().then_some(Edge { gap, q2 })
+    let low = if space == Space::E2 { lost_gap(a, b, eta, gap) } else { 0.0 };
+    gap.is_finite().then_some(Edge { gap, low: if low.is_finite() { low } else { 0.0 }, q2 })
+}
+
+/// `l − γ_a − γ_b − gap` in E², to twice the digits: the angles of needles and of triangles in metrics of wide range turn on it.
+fn lost_gap(a: Vertex, b: Vertex, eta: f64, gap: f64) -> f64 {
+    let (x, y) = (a.scale, b.scale);
+    let (xy, xy_low) = two_product(x, y);
+    let (mut n, mut n_low) = two_product(2.0 * eta, xy);
+    n_low += 2.0 * eta * xy_low + n * (a.low + b.low);
+    for v in [a, b].into_iter().filter(|v| v.epsilon != 0.0) {
+        let (square, square_low) = two_product(v.scale, v.scale);
+        let (sum, lost) = two_sum(n, v.epsilon * square);
+        (n, n_low) = (sum, n_low + lost + v.epsilon * (square_low + 2.0 * square * v.low));
+    }
+    let length = n.sqrt();
+    let (square, square_low) = two_product(length, length);
+    let length_low = ((n - square) - square_low + n_low) / (2.0 * length);
+    let (rest, first) = two_sum(length, -a.radius);
+    let (rest, second) = two_sum(rest, -b.radius);
+    (rest - gap) + (first + second + length_low)
 }
 
 impl Edge {
-    /// What a double `length` of the edge from `a` to `b` loses: `γ_a + γ_b + gap − length`, to twice the digits.
+    /// What a double `length` of the edge from `a` to `b` loses: `γ_a + γ_b + gap + low − length`, to twice the digits.
     pub fn remainder(self, a: Vertex, b: Vertex, length: f64) -> f64 {
         let (sum, lost) = two_sum(a.radius, b.radius);
         let (sum, more) = two_sum(sum, self.gap);
-        (sum - length) + (lost + more)
+        (sum - length) + (lost + more + self.low)
     }
-}
-
-/// The sum of two doubles and what it loses, exactly (Knuth).
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
 }
 
 /// The length of a squared half chord; NaN in S² where q² > 1.
@@ -157,7 +199,8 @@ fn circle_gap(space: Space, a: Vertex, b: Vertex, eta: f64, total: f64) -> f64 {
 #[inline]
 pub fn differences(corners: [Vertex; 3], edges: [Edge; 3]) -> [f64; 3] {
     let rest = half_differences(edges.map(|e| e.gap));
-    [0, 1, 2].map(|k| corners[k].radius + rest[k])
+    let low = edges.map(|e| 0.5 * e.low);
+    [0, 1, 2].map(|k| corners[k].radius + (rest[k] + (low[(k + 1) % 3] + low[(k + 2) % 3] - low[k])))
 }
 
 /// The weights `w_k = ∂θ_i/∂u_j = ∂θ_j/∂u_i` of the three edges (w_k belongs to edge ij, opposite corner k).

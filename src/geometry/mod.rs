@@ -2,6 +2,7 @@
 
 pub mod circle;
 pub mod conformal;
+pub mod flip;
 pub mod hyperelliptic;
 pub mod isometry;
 pub mod modulus;
@@ -9,6 +10,7 @@ pub mod predicates;
 pub mod space;
 pub mod symplectic;
 pub mod triangle;
+pub(crate) mod twofold;
 pub mod vector;
 
 pub use isometry::PlaneIsometry;

@@ -29,12 +29,26 @@ pub struct NotPositiveDefinite;
 impl Cholesky {
     /// Analyse a pattern: fill-reducing order (AMD), elimination tree, supernodes; memory for the factor.
     pub fn analyse(pattern: &Pattern) -> Result<Cholesky> {
+        Cholesky::with_order(pattern, SymmetricOrdering::Amd)
+    }
+
+    /// Analyse a pattern of the same size in this one's order: good where few entries differ, and the order is most of the work.
+    pub fn analyse_again(&self, pattern: &Pattern) -> Result<Cholesky> {
+        match self.symbolic.perm() {
+            Some(order) if order.len() == pattern.size() => {
+                Cholesky::with_order(pattern, SymmetricOrdering::Custom(order))
+            }
+            _ => Cholesky::analyse(pattern),
+        }
+    }
+
+    fn with_order(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Result<Cholesky> {
         let size = pattern.size();
         let failed = |message: String| Error::Factorisation { size, message };
         let symbolic = factorize_symbolic_cholesky(
             structure(pattern),
             Side::Lower,
-            SymmetricOrdering::Amd,
+            order,
             CholeskySymbolicParams::default(),
         )
         .map_err(|e| failed(format!("analysis: {e}")))?;

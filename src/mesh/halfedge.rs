@@ -223,6 +223,25 @@ impl Mesh {
         ((2 - self.euler() - self.boundary_loops().len() as i64) / 2).max(0) as usize
     }
 
+    /// Make three half-edges, in this order, the sides of a face.
+    pub(super) fn set_triangle(&mut self, f: FaceId, sides: [HalfedgeId; 3]) {
+        for k in 0..3 {
+            self.next[sides[k].index()] = sides[(k + 1) % 3].0;
+            self.face[sides[k].index()] = f.0;
+        }
+        self.first[f.index()] = sides[0].0;
+    }
+
+    /// Let a half-edge start elsewhere.
+    pub(super) fn set_origin(&mut self, h: HalfedgeId, v: VertexId) {
+        self.origin[h.index()] = v.0;
+    }
+
+    /// Name the half-edge from which turning around a vertex starts.
+    pub(super) fn set_out(&mut self, v: VertexId, h: HalfedgeId) {
+        self.out[v.index()] = h.0;
+    }
+
     /// Check every rule of the structure; the first broken one is an [`Error::Connectivity`]. O(V + E + F).
     pub fn validate(&self) -> Result<()> {
         let n = self.n_halfedges();

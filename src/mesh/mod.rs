@@ -3,18 +3,25 @@
 pub mod attribute;
 pub mod build;
 pub mod check;
+pub mod double;
+mod flip;
 pub mod halfedge;
 pub mod ids;
 mod incidence;
 pub mod io;
 mod join;
+pub mod normal;
+pub mod normal_trace;
 pub mod repair;
 pub mod shapes;
 mod weld;
 
 pub use attribute::{PerEdge, PerFace, PerHalfedge, PerVertex};
+pub use double::Double;
 pub use halfedge::Mesh;
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+pub use normal::NormalCoordinates;
+pub use normal_trace::Curves;
 
 /// A point of space, `[x, y, z]`.
 pub type Point = [f64; 3];

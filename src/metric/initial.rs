@@ -103,6 +103,7 @@ fn represent(
         epsilon,
         eta: PerEdge::filled(mesh.n_edges(), 0.0),
         u: input_u.clone(),
+        u_low: PerVertex::filled(n, 0.0),
     };
     let radii = metric.radii();
     let mut clamped_edges = 0;
@@ -179,13 +180,13 @@ fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) ->
     (n - a.epsilon * x * x - b.epsilon * y * y) / (2.0 * x * y)
 }
 
-struct CornerRadii {
-    mean: PerVertex<f64>,
-    min: PerVertex<f64>,
+pub(super) struct CornerRadii {
+    pub mean: PerVertex<f64>,
+    pub min: PerVertex<f64>,
 }
 
 /// Mean and minimum over the corners of each vertex of the tangent length `(l_ij + l_ki − l_jk)/2`.
-fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> CornerRadii {
+pub(super) fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> CornerRadii {
     let n = mesh.n_vertices();
     let (mut mean, mut min) = (PerVertex::filled(n, 0.0), PerVertex::filled(n, f64::INFINITY));
     let mut corners = PerVertex::filled(n, 0u32);
@@ -233,7 +234,7 @@ fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, input: &Metric, space: Space
 }
 
 /// Every length positive, every face a triangle of the input geometry.
-fn check_triangles(mesh: &Mesh, lengths: &PerEdge<f64>, geometry: Space) -> Result<()> {
+pub(super) fn check_triangles(mesh: &Mesh, lengths: &PerEdge<f64>, geometry: Space) -> Result<()> {
     check_lengths(mesh, lengths)?;
     for f in mesh.faces() {
         let l = face_lengths(mesh, lengths, f);

@@ -18,6 +18,8 @@ pub struct Metric {
     pub eta: PerEdge<f64>,
     /// Conformal variable u; V entries. ε ≠ 0: `log γ`, `log tanh(γ/2)`, `log tan(γ/2)` in E², H², S².
     pub u: PerVertex<f64>,
+    /// What the doubles u lose; V entries, at most half an ulp of them. 0 in a metric that no flow has made.
+    pub u_low: PerVertex<f64>,
 }
 
 impl Metric {
@@ -26,6 +28,7 @@ impl Metric {
         check_size("epsilon", self.epsilon.len(), mesh.n_vertices())?;
         check_size("eta", self.eta.len(), mesh.n_edges())?;
         check_size("u", self.u.len(), mesh.n_vertices())?;
+        check_size("u_low", self.u_low.len(), mesh.n_vertices())?;
         if let Some(v) = mesh.vertices().find(|&v| !(-1..=1).contains(&self.epsilon[v])) {
             let value = format!("{} at vertex {v}", self.epsilon[v]);
             return Err(Error::Argument { what: "epsilon", value, need: "−1, 0 or 1" });
@@ -41,7 +44,7 @@ impl Metric {
 
     /// The vertex quantities at variables `u`.
     pub fn vertex(&self, v: VertexId) -> Vertex {
-        Vertex::new(self.space, self.epsilon[v], self.u[v])
+        Vertex::precise(self.space, self.epsilon[v], self.u[v], self.u_low[v])
     }
 
     /// The edge lengths; the first edge without a real positive length is an error that names it.
@@ -63,7 +66,7 @@ impl Metric {
 
     /// What the doubles of [`Metric::lengths`] lose, per edge: `l` to twice the digits is `length + remainder`.
     ///
-    /// It matters where circles of very different sizes meet; 0 where ε is 0 at both ends. Errors: as [`Metric::lengths`].
+    /// It matters where circles of very different sizes meet. Where ε is 0 at both ends: in E² only, 0 elsewhere. Errors: as [`Metric::lengths`].
     pub fn length_remainders(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
         let (vertices, edges) = self.elements(mesh)?;
         Ok(PerEdge::from_fn(mesh.n_edges(), |e| {

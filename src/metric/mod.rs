@@ -1,13 +1,20 @@
 //! Metrics in a conformal class: one formula for five schemes, mixed types and three geometries.
 
 pub mod curvature;
+pub mod delaunay;
 pub mod initial;
 pub mod lengths;
+pub mod refinement;
 pub mod scheme;
+pub mod start;
+pub mod surface;
 pub mod target;
 
 pub use curvature::{Curvature, curvature};
 pub use initial::{Initial, initial_metric};
 pub use lengths::{Metric, lengths_from_positions};
+pub use refinement::Refinement;
 pub use scheme::Scheme;
+pub use start::delaunay_start;
+pub use surface::SurfaceMetric;
 pub use target::Target;

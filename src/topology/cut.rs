@@ -1,7 +1,8 @@
 //! Cut graphs: edges along which a surface opens into a disk.
 
 use super::check_lengths;
-use super::spanning::{DisjointSets, leftover, shortest_paths};
+use super::spanning::{DisjointSets, leftover, shortest_paths_under};
+use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::collections::VecDeque;
@@ -37,13 +38,19 @@ impl CutGraph {
 ///
 /// Errors: [`Error::EdgeLength`]; [`Error::Argument`] for a cone that is no vertex; [`Error::Layout`] for a
 /// closed surface of genus 0 with fewer than two cones (a sphere has no plane layout) and for a surface of
-/// several components.
-pub fn cut_graph(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Result<CutGraph> {
+/// several components; [`Error::Cancelled`].
+pub fn cut_graph(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    cones: &[VertexId],
+    control: &Control,
+) -> Result<CutGraph> {
+    control.check()?;
     let fixed = fixed_vertices(mesh, lengths, cones)?;
     let sources: Vec<_> = mesh.vertices().filter(|&v| fixed[v]).collect();
     let open = |sources: &[VertexId]| -> Result<_> {
-        let (mut cut, shortest_arc) = tree_cotree_cut(mesh, lengths, &fixed, sources)?;
-        shorten(mesh, lengths, &mut cut);
+        let (mut cut, shortest_arc) = tree_cotree_cut(mesh, lengths, &fixed, sources, control)?;
+        shorten(mesh, lengths, &mut cut, control)?;
         Ok((cut, shortest_arc))
     };
     let cut = if sources.is_empty() {
@@ -64,6 +71,9 @@ pub fn cut_graph(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Res
     debug_assert!(is_disk(mesh, &cut.is_cut));
     Ok(cut.into_graph(mesh))
 }
+
+/// Vertices between two looks at the control.
+const VERTICES_PER_STEP: usize = 1024;
 
 /// Sources tried on a closed surface without cones, besides the first. Two or three are usual.
 const MAX_ROOTS: usize = 8;
@@ -180,9 +190,11 @@ fn tree_cotree_cut(
     lengths: &PerEdge<f64>,
     fixed: &PerVertex<bool>,
     sources: &[VertexId],
+    control: &Control,
 ) -> Result<(Cut, Option<EdgeId>)> {
-    let forest = shortest_paths(mesh, lengths, sources.iter().copied())?;
+    let forest = shortest_paths_under(mesh, lengths, sources.iter().copied(), control)?;
     let arcs = leftover(mesh, lengths, &forest, |e| mesh.is_boundary_edge(e));
+    control.check()?;
     let mut cut = Cut {
         is_cut: PerEdge::filled(mesh.n_edges(), false),
         degree: PerVertex::filled(mesh.n_vertices(), 0),
@@ -233,11 +245,16 @@ const MOVES_PER_FACE: usize = 8;
 ///                        boundary. If nothing else ends at v, vw dangles then and goes too: a
 ///                        segment is pulled straight.
 /// ```
-fn shorten(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &mut Cut) {
+fn shorten(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &mut Cut, control: &Control) -> Result<()> {
     let mut waiting: VecDeque<_> = mesh.vertices().filter(|&v| cut.degree[v] > 1).collect();
     let mut seen = PerVertex::filled(mesh.n_vertices(), false);
     let mut budget = MOVES_PER_FACE * mesh.n_faces();
+    let mut looked_at = 0;
     while let (Some(v), 1..) = (waiting.pop_front(), budget) {
+        if usize::is_multiple_of(looked_at, VERTICES_PER_STEP) {
+            control.check()?;
+        }
+        looked_at += 1;
         let Some((closed, opened)) = best_slide(mesh, lengths, cut, &mut seen, v) else { continue };
         budget -= 1;
         for (edges, open) in [(closed, false), (opened, true)] {
@@ -247,6 +264,7 @@ fn shorten(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &mut Cut) {
             }
         }
     }
+    Ok(())
 }
 
 /// The slide at `v` that saves most: the cut edges it closes and those it opens.
@@ -346,10 +364,10 @@ mod tests {
             let cones: Vec<_> = (0..seed % 4).map(|k| VertexId::from(k * 37 % mesh.n_vertices())).collect();
             let fixed = fixed_vertices(&mesh, &lengths, &cones).unwrap();
             let sources = if cones.is_empty() { &[VertexId(0)] } else { &cones[..] };
-            let (mut cut, _) = tree_cotree_cut(&mesh, &lengths, &fixed, sources).unwrap();
+            let (mut cut, _) = tree_cotree_cut(&mesh, &lengths, &fixed, sources, &Control::new()).unwrap();
             assert!(is_disk(&mesh, &cut.is_cut));
             let before = cut.length(&lengths);
-            shorten(&mesh, &lengths, &mut cut);
+            shorten(&mesh, &lengths, &mut cut, &Control::new()).unwrap();
             assert!(is_disk(&mesh, &cut.is_cut));
             assert!(cut.length(&lengths) <= before);
             shorter += usize::from(cut.length(&lengths) < before);
@@ -379,7 +397,7 @@ mod tests {
         let detour = [edge(1, 3, 0), edge(0, 3, 1), edge(0, 4, 1), edge(1, 5, 0)];
         column.chain(row).chain(detour).for_each(|e| cut.set(&mesh, e, true));
         assert!(is_disk(&mesh, &cut.is_cut));
-        shorten(&mesh, &lengths, &mut cut);
+        shorten(&mesh, &lengths, &mut cut, &Control::new()).unwrap();
         assert!(is_disk(&mesh, &cut.is_cut));
         assert!((0..n).all(|i| cut.is_cut[edge(0, i, 0)] && cut.is_cut[edge(1, 0, i)]));
     }

@@ -1,10 +1,14 @@
 //! Shortest-path forests, and the edges that a tree and a dual tree leave over.
 
 use super::{check_lengths, check_vertex};
+use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
+
+/// Vertices between two looks at the control.
+const VERTICES_PER_STEP: usize = 4096;
 
 /// A real priority-queue key in the total order of `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +52,16 @@ pub fn shortest_paths(
     lengths: &PerEdge<f64>,
     sources: impl IntoIterator<Item = VertexId>,
 ) -> Result<Forest> {
+    shortest_paths_under(mesh, lengths, sources, &Control::new())
+}
+
+/// [`shortest_paths`], unless it is cancelled.
+pub(crate) fn shortest_paths_under(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    sources: impl IntoIterator<Item = VertexId>,
+    control: &Control,
+) -> Result<Forest> {
     check_lengths(mesh, lengths)?;
     let mut distance = PerVertex::filled(mesh.n_vertices(), f64::INFINITY);
     let mut parent = PerVertex::filled(mesh.n_vertices(), None);
@@ -59,8 +73,13 @@ pub fn shortest_paths(
         queue.push(Reverse((Key(0.0), v)));
     }
     let mut roots = mesh.vertices();
+    let mut steps = 0;
     loop {
         while let Some(Reverse((Key(d), v))) = queue.pop() {
+            if usize::is_multiple_of(steps, VERTICES_PER_STEP) {
+                control.check()?;
+            }
+            steps += 1;
             if std::mem::replace(&mut settled[v], true) {
                 continue;
             }

@@ -1,6 +1,7 @@
 //! What several tests share: the mesh corpus and its index.
 #![allow(dead_code)]
 
+pub mod flips;
 pub mod flow;
 
 use ricci::mesh::shapes::SplitMix64;

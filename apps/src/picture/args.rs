@@ -59,6 +59,10 @@ pub struct FlowPictureArgs {
     #[arg(long, value_enum, value_name = "QUANTITY", requires = "picture")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<ColorChoice>,
+    /// Show the surroundings of a vertex, so many times larger
+    #[arg(long, value_name = "VERTEX,FACTOR", requires = "picture", value_parser = zoom)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub zoom: Option<Zoom>,
 }
 
 /// Quantities that have a colour map.
@@ -73,6 +77,8 @@ pub enum ColorChoice {
     Qc,
     /// Area in the layout over area in the input
     Area,
+    /// Pieces of the common refinement: a hue for the final face, a shade for that of the input
+    Pieces,
     None,
 }
 
@@ -82,9 +88,17 @@ impl ColorChoice {
         match self {
             ColorChoice::Qc => Some("qc"),
             ColorChoice::Area => Some("area"),
+            ColorChoice::Pieces => Some("pieces"),
             ColorChoice::U | ColorChoice::Curvature | ColorChoice::None => None,
         }
     }
+}
+
+/// A vertex and how many times larger than the whole its surroundings are drawn.
+#[derive(Serialize, Debug, Clone, Copy, PartialEq)]
+pub struct Zoom {
+    pub vertex: u32,
+    pub factor: f64,
 }
 
 /// Azimuth and elevation in degrees.
@@ -126,6 +140,7 @@ impl PictureArgs {
         let view = View {
             up: self.up.map(Axis::direction),
             angles: self.view.map(|angles| angles.map(f64::to_radians)),
+            from: None,
         };
         let size = self.size.map_or(fallback.size, usize::from);
         Style { size, view, texture, wire: self.wire, palette: self.palette, ..fallback }
@@ -162,5 +177,13 @@ fn angles(text: &str) -> Result<Angles, String> {
             Ok([azimuth, elevation])
         }
         _ => Err("must be two numbers of degrees, the second from −90 to 90".into()),
+    }
+}
+
+fn zoom(text: &str) -> Result<Zoom, String> {
+    let parts = text.split_once(',').map(|(vertex, factor)| (vertex.trim().parse(), factor.trim().parse()));
+    match parts {
+        Some((Ok(vertex), Ok(factor))) if (1.0..=1e6).contains(&factor) => Ok(Zoom { vertex, factor }),
+        _ => Err("must be a vertex, counted from 0, and a factor from 1 to 1e6".into()),
     }
 }

@@ -11,6 +11,8 @@ pub struct View {
     pub up: Option<V3>,
     /// Azimuth around the vertical (0: from the front, growing to the right) and elevation above the horizon, radians.
     pub angles: Option<[f64; 2]>,
+    /// Without angles: the direction from which to look.
+    pub from: Option<V3>,
 }
 
 /// An orthographic camera.
@@ -60,6 +62,11 @@ impl Camera {
         };
         let front = front_of(up);
         if let Some([azimuth, elevation]) = view.angles {
+            return Camera::new(up, front, azimuth, elevation);
+        }
+        if let Some(from) = view.from.and_then(unit) {
+            let (azimuth, elevation) =
+                (dot(from, cross(up, front)).atan2(dot(from, front)), dot(from, up).clamp(-1.0, 1.0).asin());
             return Camera::new(up, front, azimuth, elevation);
         }
         let mut candidates = Vec::new();
@@ -169,7 +176,7 @@ mod tests {
     #[test]
     fn axes_are_right_handed_and_the_asked_angles_are_taken() {
         let soup = shapes::icosphere(3).unwrap();
-        let view = View { up: Some([0.0, 1.0, 0.0]), angles: Some([0.0, 0.0]) };
+        let view = View { up: Some([0.0, 1.0, 0.0]), angles: Some([0.0, 0.0]), from: None };
         let camera = Camera::choose(&soup.positions, &soup.faces, &view, 1);
         for (axis, expected) in camera.axes.iter().zip([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
             assert!(norm(sub(*axis, expected)) < 1e-15, "{axis:?}");
@@ -178,6 +185,11 @@ mod tests {
         let view = View { angles: Some([0.5f64, 0.3]), ..view };
         let [x, y, z] = Camera::choose(&soup.positions, &soup.faces, &view, 1).axes;
         assert!(norm(sub(cross(x, y), z)) < 1e-15 && z[0] > 0.0 && (z[1] - 0.3f64.sin()).abs() < 1e-15);
+        // From a given direction.
+        let from = [0.48, -0.6, -0.64];
+        let view = View { angles: None, from: Some(from), ..view };
+        let [x, y, z] = Camera::choose(&soup.positions, &soup.faces, &view, 1).axes;
+        assert!(norm(sub(cross(x, y), z)) < 1e-15 && norm(sub(z, from)) < 1e-15, "{z:?}");
     }
 
     #[test]

@@ -9,6 +9,8 @@ pub enum Ramp {
     Viridis,
     /// For what has a sign: ColorBrewer's RdBu \[HB03\], blue for negative.
     BlueRed,
+    /// For pairs of classes, k for hue k/4 and shade k mod 4: ColorBrewer's Set2 \[HB03\], four of its colours.
+    Pairs,
 }
 
 const VIRIDIS: [u32; 10] =
@@ -17,6 +19,11 @@ const BLUE_RED: [u32; 11] = [
     0x053061, 0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b,
     0x67001f,
 ];
+const HUES: [u32; 4] = [0x66c2a5, 0xfc8d62, 0x8da0cb, 0xe78ac3];
+/// How much of the way to white each shade is.
+const SHADES: [f64; 4] = [0.0, 0.42, 0.64, 0.22];
+/// Hues, and shades of each, of [`Ramp::Pairs`].
+pub const CLASSES: usize = 4;
 /// What has no value.
 pub const NO_VALUE: Rgb = [0.4; 3];
 /// The ends of a range are these percentiles of the data: a few extreme values do not take all the colours.
@@ -25,13 +32,17 @@ pub const PERCENTILES: [f64; 2] = [2.0, 98.0];
 impl Ramp {
     /// The colour at t in [0, 1]; what lies beyond has the colour of the end.
     pub fn color(self, t: f64) -> Rgb {
-        let table: &[u32] = match self {
-            Ramp::Viridis => &VIRIDIS,
-            Ramp::BlueRed => &BLUE_RED,
-        };
         if t.is_nan() {
             return NO_VALUE;
         }
+        let table: &[u32] = match self {
+            Ramp::Viridis => &VIRIDIS,
+            Ramp::BlueRed => &BLUE_RED,
+            Ramp::Pairs => {
+                let k = (t.clamp(0.0, 1.0) * (CLASSES * CLASSES - 1) as f64).round() as usize;
+                return mix(from_hex(HUES[k / CLASSES]), [1.0; 3], SHADES[k % CLASSES]);
+            }
+        };
         let x = t.clamp(0.0, 1.0) * (table.len() - 1) as f64;
         let k = (x as usize).min(table.len() - 2);
         mix(from_hex(table[k]), from_hex(table[k + 1]), x - k as f64)
@@ -66,11 +77,23 @@ impl Scale {
         Scale { title: title.into(), ramp: Ramp::BlueRed, range: [-most, most], ends }
     }
 
+    /// For pairs of classes.
+    pub fn of_pairs(title: &str, ends: &str) -> Scale {
+        let range = [0.0, (CLASSES * CLASSES - 1) as f64];
+        Scale { title: title.into(), ramp: Ramp::Pairs, range, ends: ends.into() }
+    }
+
     /// Where a value lies on the map, in [0, 1]; what is no number lies nowhere (NaN).
     pub fn place(&self, value: f64) -> f64 {
         let [low, high] = self.range;
         let t = if high > low { (value - low) / (high - low) } else { 0.5 + 0.0 * value };
         t.clamp(0.0, 1.0)
+    }
+
+    /// The colour of the legend's bar at t in [0, 1]: classes take equal parts of it.
+    pub fn on_bar(&self, t: f64) -> Rgb {
+        let n = (CLASSES * CLASSES) as f64;
+        self.ramp.color(if self.ramp == Ramp::Pairs { (t * n).floor() / (n - 1.0) } else { t })
     }
 
     /// The map as a table of `n` colours.
@@ -145,6 +168,20 @@ mod tests {
         let signed = |k: i32| lightness(Ramp::BlueRed.color(0.5 + f64::from(k) / 100.0));
         assert!((0..50).all(|k| signed(k) > signed(k + 1) && signed(-k) > signed(-k - 1)));
         assert!(Ramp::BlueRed.color(Scale::of_signed("x", &[-1.0, 2.0]).place(0.0)).iter().all(|c| *c > 0.9));
+    }
+
+    #[test]
+    fn classes_have_colours_of_their_own() {
+        let scale = Scale::of_pairs("", "");
+        let n = CLASSES * CLASSES;
+        let of = |k: usize| scale.ramp.color(scale.place(k as f64));
+        for k in 0..n {
+            assert!((0..k).all(|j| (0..3).any(|c| (of(k)[c] - of(j)[c]).abs() > 0.01)), "{k}");
+            assert_eq!(scale.on_bar((k as f64 + 0.9) / n as f64), of(k));
+            // Tables in which values are looked up keep classes apart.
+            let table = scale.table(40);
+            assert_eq!(table[(scale.place(k as f64) * 39.0 + 0.5) as usize], of(k));
+        }
     }
 
     #[test]

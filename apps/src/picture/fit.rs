@@ -40,6 +40,11 @@ impl Fit {
         Fit { scale, offset, width, height }
     }
 
+    /// The square around a point with this half of a side.
+    pub fn around(at: [f64; 2], radius: f64, size: usize) -> Fit {
+        Fit::new([-radius, radius].map(|r| at.map(|x| x + r)).into_iter(), size)
+    }
+
     /// Pixel coordinates, y down.
     pub fn apply(&self, p: [f64; 2]) -> [f64; 2] {
         [self.scale * p[0] + self.offset[0], self.offset[1] - self.scale * p[1]]

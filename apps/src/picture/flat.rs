@@ -17,7 +17,7 @@ const LAYER: f64 = 1e6;
 
 /// Draw a layout; the pattern, circles, boundary, seams and cones lie over one another in this order.
 pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style, threads: usize) -> Image {
-    let fit = fit(flat, style.size);
+    let fit = fit(flat, style);
     let size = style.size as f64;
     let triangles: Vec<[[f64; 2]; 3]> = flat.corner_uv.iter().map(|uv| uv.map(|p| fit.apply(p))).collect();
     let mut shapes: Vec<Shape> =
@@ -52,11 +52,14 @@ pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style, threads: usize) -> 
     render(&shapes, fit.width, fit.height, &panel, threads)
 }
 
-/// The whole layout with its circles.
-pub fn fit(flat: &Flat<'_>, size: usize) -> Fit {
+/// The whole layout with its circles, or the part that is to be shown.
+pub fn fit(flat: &Flat<'_>, style: &Style) -> Fit {
+    if let Some(focus) = &style.focus {
+        return Fit::around(focus.at_layout, focus.radius_layout, style.size);
+    }
     let ends = |c: &Circle| [-1.0, 1.0].map(|s| [c.center[0] + s * c.radius, c.center[1] + s * c.radius]);
     let points = flat.corner_uv.iter().flatten().copied();
-    Fit::new(points.chain(flat.circles.iter().flat_map(ends)), size)
+    Fit::new(points.chain(flat.circles.iter().flat_map(ends)), style.size)
 }
 
 struct Panel<'a> {

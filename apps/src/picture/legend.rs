@@ -1,7 +1,7 @@
 //! The legend: a bar of colours with numbers, and what they are.
 
 use super::color::{INK, Rgb};
-use super::colormap::{Scale, number};
+use super::colormap::{Ramp, Scale, number};
 use super::font::text;
 use super::raster::{Hit, Image, Painter, Shape, render};
 
@@ -43,6 +43,8 @@ impl Plan {
         let mut values = vec![low];
         values.extend(scale.ticks());
         values.extend((high > low).then_some(high));
+        // Classes have no numbers.
+        values.retain(|_| scale.ramp != Ramp::Pairs);
         let below = bar[1] + bar[3] + (TICK + 1.35 * LETTERS) * size;
         let mut lines: Vec<_> =
             values.iter().map(|&v| (number(v), [place(v), below], LETTERS * size)).collect();
@@ -90,7 +92,7 @@ impl Painter for Ink<'_> {
         let inside = (0.0..=width).contains(&(x - left)) && (0.0..=height).contains(&(y - top));
         match hit {
             Some(_) => INK,
-            None if inside => self.scale.ramp.color((x - left) / width),
+            None if inside => self.scale.on_bar((x - left) / width),
             None => [1.0; 3],
         }
     }

@@ -24,14 +24,17 @@ mod texture;
 mod upright;
 mod vector;
 
-pub use args::{ColorChoice, FlowPictureArgs, SurfacePictureArgs};
+pub use args::{ColorChoice, FlowPictureArgs, SurfacePictureArgs, Zoom};
 pub use camera::View;
-pub use colormap::Scale;
+pub use colormap::{CLASSES, Scale};
 pub use svg::write_svg;
 pub use texture::Texture;
 
+pub use raster::doubled_area;
+pub use vector::normal;
+
 use coat::Wish;
-use raster::{Image, doubled_area};
+use raster::Image;
 use texture::Tiles;
 
 /// A surface in space.
@@ -88,6 +91,19 @@ pub struct Style {
     pub ground: bool,
     /// Write at most 192 colours, for a small file.
     pub palette: bool,
+    /// Show a part only.
+    pub focus: Option<Focus>,
+}
+
+/// A part of a surface and the same part of its layout: centre and half the side of the square that is shown.
+#[derive(Clone, Copy, Debug)]
+pub struct Focus {
+    pub at: [f64; 3],
+    pub radius: f64,
+    /// A normal of the surface there, of any length: from where it is looked at, unless the view is given.
+    pub normal: [f64; 3],
+    pub at_layout: [f64; 2],
+    pub radius_layout: f64,
 }
 
 impl Style {
@@ -105,7 +121,7 @@ impl Style {
 impl Default for Style {
     fn default() -> Style {
         let (view, texture) = (View::default(), Texture::Checker);
-        Style { size: 900, view, texture, wire: false, ground: true, palette: false }
+        Style { size: 900, view, texture, wire: false, ground: true, palette: false, focus: None }
     }
 }
 
@@ -130,8 +146,7 @@ impl Picture<'_> {
         let layout: Vec<f64> = uv.iter().map(|uv| 0.5 * doubled_area(*uv).abs()).collect();
         Some(match &self.surface {
             Some(s) => {
-                let area =
-                    |f: &[u32; 3]| 0.5 * vector::norm(vector::normal(f.map(|v| s.positions[v as usize])));
+                let area = |f: &[u32; 3]| 0.5 * vector::norm(normal(f.map(|v| s.positions[v as usize])));
                 let surface: Vec<f64> = s.faces.iter().map(area).collect();
                 Tiles::new(&surface, &layout, s.faces, s.positions.len())
             }

@@ -9,7 +9,7 @@ use super::normals::corner_normals;
 use super::occlusion::{Caster, Field, Ground, Open, Point, over};
 use super::raster::{Hit, Image, Painter, Shape, render};
 use super::vector::{V3, add, at, dot, normal, scaled, unit};
-use super::{Style, Surface};
+use super::{Style, Surface, View};
 
 /// The ground is shown from this elevation on (sine).
 const LOWEST: f64 = 0.1;
@@ -17,6 +17,8 @@ const LOWEST: f64 = 0.1;
 const SHADOW: f64 = 0.5;
 /// Over this share of the picture's size the ground fades into the white around the panel.
 const FADE: f64 = 0.1;
+/// The direction that counts as up for the light on a part of a surface: up on the screen and towards the viewer.
+const FOCUS_UP: V3 = [0.0, -0.8, 0.6];
 /// The inside of a surface has this tint.
 const INSIDE: Rgb = [0.5, 0.18, 0.08];
 
@@ -58,18 +60,23 @@ impl<'a> Scene<'a> {
         // Scaled, so that neither tiny nor huge coordinates under- or overflow in products.
         let factor = unit_size(surface.positions);
         let points: Vec<V3> = surface.positions.iter().map(|p| scaled(*p, factor)).collect();
-        let camera = Camera::choose(&points, surface.faces, &style.view, threads);
+        let view = View { from: style.focus.map(|focus| focus.normal), ..style.view };
+        let camera = Camera::choose(&points, surface.faces, &view, threads);
         let turned = |n: V3| {
             let [x, y, z] = camera.apply(n);
             [x, -y, z]
         };
-        let up = [camera.up[0], -camera.up[1], camera.up[2]];
+        // A part of the surface is lit as seen, wherever it faces.
+        let up = match style.focus {
+            None => [camera.up[0], -camera.up[1], camera.up[2]],
+            Some(_) => FOCUS_UP,
+        };
         let lights = Lights::new(up);
         let seen: Vec<V3> = points.iter().map(|p| camera.apply(*p)).collect();
         // With the shadow on the ground, where there is one.
         let height = |p: &V3| dot(camera.up, *p);
         let lowest = seen.iter().map(height).fold(f64::INFINITY, f64::min);
-        let has_ground = style.ground && camera.up[2] > LOWEST;
+        let has_ground = style.ground && style.focus.is_none() && camera.up[2] > LOWEST;
         let key = [lights.key[0], -lights.key[1], lights.key[2]];
         let shadow = |p: &V3| {
             let fall = (height(p) - lowest) / dot(camera.up, key);
@@ -77,7 +84,13 @@ impl<'a> Scene<'a> {
             [x, y]
         };
         let shadows = seen.iter().filter(|_| has_ground).map(shadow);
-        let fit = Fit::new(seen.iter().map(|p| [p[0], p[1]]).chain(shadows), style.size);
+        let fit = match &style.focus {
+            None => Fit::new(seen.iter().map(|p| [p[0], p[1]]).chain(shadows), style.size),
+            Some(focus) => {
+                let [x, y, _] = camera.apply(scaled(focus.at, factor));
+                Fit::around([x, y], focus.radius * factor, style.size)
+            }
+        };
         let pixel = |p: &V3| {
             let [x, y] = fit.apply([p[0], p[1]]);
             [x, y, fit.scale * p[2]]

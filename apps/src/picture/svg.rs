@@ -17,7 +17,7 @@ const LEAST_RADIUS: f64 = 0.3;
 
 /// Write the layout: pattern or colours, wire, circles, boundary, seams, cones, legend.
 pub fn write_svg(out: &mut impl Write, flat: &Flat<'_>, field: Option<&Field>, style: &Style) -> Result<()> {
-    let fit = fit(flat, style.size);
+    let fit = fit(flat, style);
     let size = style.size as f64;
     let width = if field.is_some() { (fit.width as f64).max(0.75 * size) } else { fit.width as f64 };
     let legend = field.map(|f| (&f.scale, Plan::new(&f.scale, width, size)));
@@ -226,14 +226,13 @@ fn write_legend(out: &mut impl Write, scale: &Scale, plan: &Plan, top: f64) -> R
     let [left, bar_top, length, height] = plan.bar;
     writeln!(out, r#"<g transform="translate(0 {})">"#, decimal(top))?;
     write!(out, r#"<defs><linearGradient id="map">"#)?;
-    const STOPS: usize = 20;
-    for (k, color) in scale.table(STOPS + 1).into_iter().enumerate() {
-        write!(
-            out,
-            r#"<stop offset="{}" stop-color="{}"/>"#,
-            decimal(k as f64 / STOPS as f64),
-            to_hex(color)
-        )?;
+    // Pairs of stops, so that classes end where they end.
+    const STEPS: usize = 16;
+    for k in 0..STEPS {
+        for t in [k as f64 + 0.001, k as f64 + 0.999].map(|x| x / STEPS as f64) {
+            let color = to_hex(scale.on_bar(t));
+            write!(out, r#"<stop offset="{}" stop-color="{color}"/>"#, decimal(t))?;
+        }
     }
     writeln!(out, "</linearGradient></defs>")?;
     let [x, y, w, h] = [left, bar_top, length, height].map(decimal);

@@ -124,7 +124,7 @@ fn lines_behind_the_surface_are_hidden_and_cones_keep_their_colour() {
 fn creases_are_sharp_and_round_surfaces_smooth() {
     let soup = cube();
     for (face, normals) in soup.faces.iter().zip(corner_normals(&soup.positions, &soup.faces)) {
-        let flat = unit(vector::normal(face.map(|v| soup.positions[v as usize]))).unwrap();
+        let flat = unit(normal(face.map(|v| soup.positions[v as usize]))).unwrap();
         normals.iter().for_each(|n| assert!(norm(sub(*n, flat)) < 1e-12, "{n:?} on {flat:?}"));
     }
     // With a needle of no area on an edge of the cube, whose own direction is noise.

@@ -3,7 +3,10 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod attributes;
+mod charts;
 mod files;
+mod flips;
 mod flow;
 mod info;
 mod make;

@@ -39,6 +39,10 @@ fn patterns_colours_wire_and_views_change_the_picture_and_threads_do_not() {
         "--color qc",
         "--color area",
         "--color u --texture checker",
+        "--color pieces",
+        "--zoom 5,3",
+        "--zoom 5,6",
+        "--zoom 6,6 --color pieces",
     ];
     let mut seen = vec![usual];
     for option in options {
@@ -47,6 +51,9 @@ fn patterns_colours_wire_and_views_change_the_picture_and_threads_do_not() {
         seen.push(picture);
     }
     draw("--palette");
+    // A part is as wide as high, on both sides.
+    let part = draw("--zoom 5,3 --threads 3");
+    assert!(seen.contains(&part) && part.1 == 120 && part.0 > 240, "{} by {}", part.0, part.1);
     place.expect(0, "info torus.obj --quiet --size 100 --picture i.png --color curvature --wire");
     place.expect(0, "repair disk.obj -o d.obj --quiet --size 100 --picture r.png");
     place.expect(
@@ -64,6 +71,7 @@ fn drawings_are_vectors_with_a_legend() {
         ("--texture circles", "<circle"),
         ("--color u", "log conformal factor"),
         ("--scheme tangential --wire", "<circle"),
+        ("--color pieces --zoom 4,3", "shade by face of the input"),
     ] {
         place.expect(0, &format!("flow disk.obj --quiet --picture p.svg {options}"));
         let svg = place.text("p.svg");
@@ -83,6 +91,13 @@ fn wishes_that_cannot_be_met_are_exit_2() {
         "flow torus.obj --picture p.png --view 10,100",
         "flow torus.obj --picture p.png --up w",
         "flow torus.obj --picture p.png --color speed",
+        "flow torus.obj --zoom 3,2",
+        "flow torus.obj --picture p.png --zoom 3",
+        "flow torus.obj --picture p.png --zoom 3,0.5",
+        "flow torus.obj --picture p.png --zoom 3,inf",
+        "flow torus.obj --picture p.png --zoom 384,2",
+        "flow torus.obj --picture p.png --space h2 --zoom 3,2",
+        "flow torus.obj --picture p.png --space h2 --color pieces",
         "flow torus.obj --picture p.png --space h2 --color qc",
         "info torus.obj --picture p.png --color qc",
         "info torus.obj --picture p.svg",

@@ -42,6 +42,13 @@ pub fn torus(n: usize, m: usize) -> Surface {
 }
 
 /// Graph of a smooth function over a square of n × n cells: a disk.
+/// The hill sheared: triangles at two of its sides are obtuse, and edges are flipped across its boundary.
+pub fn sheared_hill(n: usize) -> Surface {
+    let mut hill = hill(n);
+    hill.positions.iter_mut().for_each(|p| p[0] += 1.5 * p[1]);
+    hill
+}
+
 pub fn hill(n: usize) -> Surface {
     let at = |i: usize, j: usize| i * (n + 1) + j;
     let mut positions = Vec::new();

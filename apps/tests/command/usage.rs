@@ -23,13 +23,22 @@ fn requests_that_do_not_exist_are_exit_2() {
         ("flow torus.obj --space e3", "invalid value"),
         ("flow torus.obj --tolerance 0", "positive"),
         ("flow torus.obj --threads 100000", "1024"),
-        ("flow torus.obj --target auto:4", "not in this version"),
+        ("flow torus.obj --target auto:x", "not a number of cones"),
+        ("flow torus.obj --target auto:1", "torus"),
+        ("flow ball.obj --target auto:2", "3 cones"),
+        ("flow torus.obj --target auto:97", "96 interior"),
+        ("flow torus.obj --target auto:4 --pin 3", "leave one out"),
+        ("flow two.obj --target auto:4 --space h2", "e2 only"),
         ("flow two.obj --picture p.svg", "use .png"),
         ("flow torus.obj --picture p.jpg", ".png or .svg"),
-        ("flow torus.obj --charts", "not in this version"),
+        ("flow torus.obj --charts --scheme tangential --circles c.json", "leave --charts or --circles out"),
+        ("flow torus.obj --margin 0.1", "--charts"),
+        ("flow torus.obj --charts --margin 1", "in [0, 1)"),
+        ("flow two.obj --charts", "--space e2"),
         ("flow torus.obj --target boundary", "uniform"),
         ("flow disk.obj --target uniform", "boundary"),
         ("flow torus.obj --target single:96", "0 to 95"),
+        ("flow torus.obj --picture p.png --zoom 96,2", "0 to 95"),
         ("flow two.obj --uv o.obj", "--space e2"),
         ("flow ball.obj --space s2 --uv o.obj", "s2"),
         ("flow torus.obj --circles c.json", "yamabe has no circles"),
@@ -86,6 +95,10 @@ fn metric_files_are_not_trusted() {
     };
     place.put("m.json", &file(tetrahedron, unit, ""));
     place.expect(0, "flow m.json");
+    // Two triangles on the same vertices: with their gluing they are a sphere.
+    let gluing = r#", "face_edges": [[1,2,3],[-1,-3,-2]]"#;
+    place.put("m.json", &file("[[0,1,2],[0,2,1]]", "[[1,1,1],[1,1,1]]", gluing));
+    place.expect(0, "info m.json");
     for (text, says) in [
         ("{".to_string(), "EOF"),
         (file(tetrahedron, "[[1,1,1]]", ""), "1 entries"),
@@ -99,6 +112,9 @@ fn metric_files_are_not_trusted() {
         (file("[[0,1,2]]", "[[1,1,null]]", ""), "invalid type"),
         (file("[[0,1,2]]", "[[1,1,1e999]]", ""), "out of range"),
         (file("[]", "[]", ""), "no faces"),
+        (file("[[0,1,2],[0,2,1]]", "[[1,1,1],[1,1,1]]", ""), "face 1 repeats face 0"),
+        (file("[[0,1,2],[0,2,1]]", "[[1,1,1],[1,1,1]]", ""), "need `face_edges`"),
+        (file("[[0,0,0]]", "[[1,1,1]]", ""), "need `face_edges`"),
         (file(tetrahedron, unit, r#", "input_geometry": "e4""#), "input_geometry"),
         (file(tetrahedron, unit, r#", "face_edges": [[1,2,3]]"#), "face_edges"),
         (file("[[0,0,0]]", "[[1,1,1]]", r#", "face_edges": [[1,1,1]]"#), "face 0"),

@@ -191,13 +191,20 @@ fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
     }
 }
 
-/// Write an OBJ file with 17 significant digits (which read back to the same doubles), atomically.
+/// Write an OBJ file with 17 significant digits (which read back to the same doubles), atomically. With
+/// [`Textured::texcoord_weights`] a comment on the first line says that the `vt` are homogeneous.
 ///
 /// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of
 /// range, [`crate::Error::Size`], [`crate::Error::Io`].
 pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
     data.check()?;
     write_atomically(path, |out| {
+        if !data.texcoord_weights.is_empty() {
+            writeln!(
+                out,
+                "# vt are homogeneous: (q x, q y, q), linear within each face; the texture is at (x, y)"
+            )?;
+        }
         for (v, [x, y, z]) in data.positions.iter().enumerate() {
             write!(out, "v {x:.16e} {y:.16e} {z:.16e}")?;
             if let Some([r, g, b, a]) = data.colors.get(v) {
@@ -208,8 +215,11 @@ pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
             }
             writeln!(out)?;
         }
-        for [s, t] in data.texcoords {
-            writeln!(out, "vt {s:.16e} {t:.16e}")?;
+        for (k, [s, t]) in data.texcoords.iter().enumerate() {
+            match data.texcoord_weights.get(k) {
+                Some(q) => writeln!(out, "vt {:.16e} {:.16e} {q:.16e}", q * s, q * t)?,
+                None => writeln!(out, "vt {s:.16e} {t:.16e}")?,
+            }
         }
         for [x, y, z] in data.normals {
             writeln!(out, "vn {x:.16e} {y:.16e} {z:.16e}")?;

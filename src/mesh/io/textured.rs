@@ -15,6 +15,9 @@ pub struct Textured<'a> {
     pub normals: &'a [Point],
     /// Texture coordinates; empty for none.
     pub texcoords: &'a [[f64; 2]],
+    /// Homogeneous weights q of the texture coordinates, one for each; empty for none. OBJ then has `vt qs qt q`: within a triangle the
+    /// map to the texture is linear in these three, and divided by the third. Other formats have no place for them.
+    pub texcoord_weights: &'a [f64],
     /// Corners of the faces, 0-based into `positions`.
     pub faces: &'a [[u32; 3]],
     /// Corners of the faces, 0-based into `texcoords`; as many as faces, or empty for none.
@@ -36,6 +39,9 @@ impl Textured<'_> {
         }
         if !self.colors.is_empty() {
             check_size("colors", self.colors.len(), self.positions.len())?;
+        }
+        if !self.texcoord_weights.is_empty() {
+            check_size("texcoord_weights", self.texcoord_weights.len(), self.texcoords.len())?;
         }
         finite("position", self.positions)?;
         finite("colour", self.colors)?;
@@ -59,6 +65,7 @@ pub(super) fn with_textured<T>(soup: &Soup, write: impl FnOnce(&Textured<'_>) ->
         colors: colors.as_deref().unwrap_or_default(),
         normals: if face_normals.is_empty() { normals.as_deref().unwrap_or_default() } else { &of_corners },
         texcoords: &texcoords,
+        texcoord_weights: &[],
         face_texcoords: &face_texcoords,
         face_normals: &face_normals,
     })

@@ -1,4 +1,4 @@
-// What the OpenMesh tests share: the kernels, and lengths, angles and curvature in long double.
+// What the OpenMesh tests share: the kernels, lengths, angles and curvature in long double, and grids.
 #ifndef MEASURE_HPP
 #define MEASURE_HPP
 
@@ -83,6 +83,21 @@ inline Real cgal_angle(const Mesh::Point &at, const Mesh::Point &p, const Mesh::
     const auto exact = [](const Mesh::Point &x) { return Kernel::Point_3(x[0], x[1], x[2]); };
     const Kernel::Vector_3 u(exact(at), exact(p)), v(exact(at), exact(q));
     return std::atan2(std::sqrt(CGAL::cross_product(u, v).squared_length()), u * v);
+}
+
+// An n x m grid, closed up in neither, one or both directions; `place` gives the positions.
+template <class Place> Mesh grid(int n, int m, bool close_n, bool close_m, Place place) {
+    Mesh mesh;
+    std::vector<Mesh::VertexHandle> vertices;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < m; j++) vertices.push_back(mesh.add_vertex(place(i, j)));
+    const auto at = [&](int i, int j) { return vertices[i % n * m + j % m]; };
+    for (int i = 0; i + (close_n ? 0 : 1) < n; i++)
+        for (int j = 0; j + (close_m ? 0 : 1) < m; j++) {
+            mesh.add_face(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+            mesh.add_face(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+    return mesh;
 }
 
 #endif

@@ -182,10 +182,13 @@ bool check_flow(const Mesh &input, const ricci_mesh *mesh, const Surface &surfac
     ricci_metric *metric = nullptr, *end = nullptr;
     ricci_report *report = nullptr;
     ricci_report_summary done;
+    ricci_flow_options options; // the faces stay the kernel's; refined.cpp has flips
+    OK(ricci_flow_options_init(&options, sizeof options));
+    options.flips = RICCI_FLIPS_NEVER;
     std::vector<double> target(surface.n_vertices), lengths(surface.n_edges), curvature(surface.n_vertices);
     OK(ricci_metric_new(mesh, scheme, space, &metric));
     OK(ricci_target_default(metric, target.data(), target.size()));
-    OK(ricci_flow(metric, target.data(), target.size(), nullptr, nullptr, &end, &report));
+    OK(ricci_flow(metric, target.data(), target.size(), &options, nullptr, &end, &report));
     OK(ricci_report_summarise(report, &done, sizeof done));
     OK(ricci_metric_lengths(end, lengths.data(), lengths.size()));
     OK(ricci_metric_curvature(end, curvature.data(), curvature.size()));
@@ -250,21 +253,6 @@ int check(const std::string &name, const Mesh &input) {
         reached += check_flow(input, mesh, surface, scheme, space);
     ricci_mesh_free(mesh);
     return reached;
-}
-
-// An n x m grid, closed up in neither, one or both directions; `place` gives the positions.
-template <class Place> Mesh grid(int n, int m, bool close_n, bool close_m, Place place) {
-    Mesh mesh;
-    std::vector<Mesh::VertexHandle> vertices;
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < m; j++) vertices.push_back(mesh.add_vertex(place(i, j)));
-    const auto at = [&](int i, int j) { return vertices[i % n * m + j % m]; };
-    for (int i = 0; i + (close_n ? 0 : 1) < n; i++)
-        for (int j = 0; j + (close_m ? 0 : 1) < m; j++) {
-            mesh.add_face(at(i, j), at(i + 1, j), at(i + 1, j + 1));
-            mesh.add_face(at(i, j), at(i + 1, j + 1), at(i, j + 1));
-        }
-    return mesh;
 }
 
 int check_generated() {

@@ -20,8 +20,7 @@ int whole_job() {
     ricci::report report;
     ricci::metric end = ricci::flow(start, target.data(), 4, ricci::flow_options(), &report);
     if (!ricci::summary(ricci_report_summarise, report).converged) return 2;
-    std::vector<double> lengths(6);
-    ricci::check(ricci_metric_lengths(end.get(), lengths.data(), lengths.size()));
+    const std::vector<double> lengths = ricci::values(ricci_metric_lengths, end, 6);
     for (double l : lengths)
         if (std::abs(l / lengths[0] - 1) > 1e-9) return 3;
     return 0;

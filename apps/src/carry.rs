@@ -1,0 +1,65 @@
+//! What the input's file says of vertices and corners, on the mesh that is written with the layout.
+
+use crate::input::Input;
+use crate::laid::Laid;
+use ricci::mesh::Point;
+use std::collections::HashMap;
+
+/// Colours and normals of the written mesh; empty for none.
+#[derive(Default)]
+pub struct Carried {
+    pub colors: Vec<[f64; 4]>,
+    pub normals: Vec<Point>,
+    /// Indices of the corners' normals, where the vertices have more than one.
+    pub face_normals: Vec<[u32; 3]>,
+}
+
+/// Where the layout's mesh is a refinement, crossings have what is linear along the input's edges, corners what is linear in the
+/// input's faces: drawn, both look as in the input. Normals are not made unit vectors: their direction between corners is that of
+/// their sum.
+pub fn carry(input: &Input, laid: &Laid) -> ricci::Result<Carried> {
+    let given = &input.attributes;
+    let mut carried = Carried::default();
+    if let Some(colors) = &given.colors {
+        carried.colors = at_vertices(laid, colors)?;
+    }
+    match (&given.corner_normals, &given.normals) {
+        (Some(corners), _) => {
+            let corners = match &laid.refinement {
+                Some(r) => &r.from_input_corners(corners)?,
+                None => corners,
+            };
+            (carried.normals, carried.face_normals) = numbered(corners);
+        }
+        (None, Some(normals)) => carried.normals = at_vertices(laid, normals)?,
+        (None, None) => {}
+    }
+    Ok(carried)
+}
+
+fn at_vertices<const N: usize>(laid: &Laid, values: &[[f64; N]]) -> ricci::Result<Vec<[f64; N]>> {
+    laid.refinement.as_ref().map_or_else(|| Ok(values.to_vec()), |r| r.from_input_vertices(values))
+}
+
+/// What of the input's attributes the written file has no place for.
+pub fn left_out(input: &Input) -> Vec<&'static str> {
+    let uv = input
+        .attributes
+        .uv
+        .as_ref()
+        .map(|_| "texture coordinates of the input: the layout takes their place");
+    uv.into_iter().collect()
+}
+
+/// The different values in order of appearance, and which of them the corners have.
+fn numbered(corners: &[[Point; 3]]) -> (Vec<Point>, Vec<[u32; 3]>) {
+    let (mut values, mut known) = (Vec::new(), HashMap::new());
+    let mut number = |value: Point| {
+        *known.entry(value.map(f64::to_bits)).or_insert_with(|| {
+            values.push(value);
+            values.len() as u32 - 1
+        })
+    };
+    let numbers = corners.iter().map(|corners| corners.map(&mut number)).collect();
+    (values, numbers)
+}

@@ -1,0 +1,199 @@
+//! Layouts cut into charts that do not overlap, packed into the unit square.
+
+use crate::arrays::copy_out;
+use crate::control::{self, ricci_control};
+use crate::guard::{self, Handle, Poison, output};
+use crate::layout::ricci_layout;
+use crate::sized::{self, Sized64};
+use crate::status::ricci_status;
+use ricci::embed::{ChartOptions, Charts, charts};
+use ricci::mesh::{Mesh, Point};
+use ricci::metric::{Refinement, SurfaceMetric};
+use std::sync::Arc;
+
+/// A layout in charts that do not overlap, packed into the unit square.
+pub struct ricci_charts {
+    poison: Poison,
+    pub(crate) mesh: Arc<Mesh>,
+    pub(crate) positions: Option<Arc<Vec<Point>>>,
+    pub(crate) charts: Charts,
+    /// Of the layout.
+    pub(crate) surface: Arc<SurfaceMetric>,
+    pub(crate) refinement: Option<Arc<Refinement>>,
+}
+
+impl Handle for ricci_charts {
+    const NAME: &'static str = "charts";
+    fn poison(&self) -> &Poison {
+        &self.poison
+    }
+}
+
+/// Figures of charts.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_charts_summary {
+    /// Bytes of this struct that are filled.
+    pub size: usize,
+    /// Number of charts.
+    pub n_charts: usize,
+    /// F.
+    pub n_faces: usize,
+    /// Number of points in the unit square.
+    pub n_points: usize,
+    /// Faces that are clockwise by more than rounding, each a chart of its own.
+    pub n_flipped: usize,
+    /// Lengths in the unit square over lengths in the layout, the same for all charts.
+    pub scale: f64,
+    /// Share of the unit square that is covered.
+    pub efficiency: f64,
+    /// Total length of the layout's seams, in its units.
+    pub layout_seams: f64,
+    /// Total length of the charts' seams, in units of the layout.
+    pub chart_seams: f64,
+    /// Faces without area beyond rounding, in the layout or in the unit square; they lie in the charts of their neighbours, and
+    /// are left out where it says that none overlap.
+    pub n_degenerate: usize,
+}
+
+// SAFETY: only ever written by the library; 8-byte alignment, size first.
+unsafe impl Sized64 for ricci_charts_summary {
+    const NAME: &'static str = "summary";
+    fn with_size(self, size: usize) -> Self {
+        Self { size, ..self }
+    }
+}
+
+/// Cut a layout into charts and pack them into the unit square.
+///
+/// Every chart is connected, and no two faces overlap (decided exactly, in the layout's coordinates and in those of the charts),
+/// save degenerate ones. Charts are turned and moved, and all scaled by one factor. An injective layout is one chart.
+/// Deterministic.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (margin), RICCI_LAYOUT (no area), RICCI_CANCELLED.
+///
+/// @param layout   the layout.
+/// @param margin   least distance of two charts, in sides of the unit square, from 0 to below 1; 1/256 is usual.
+/// @param control  progress and cancellation; NULL for neither.
+/// @param charts   out: the new handle, to be released by ricci_charts_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_charts_new(
+    layout: *const ricci_layout,
+    margin: f64,
+    control: *const ricci_control,
+    charts: *mut *mut ricci_charts,
+) -> ricci_status {
+    guard::call(|door| {
+        let place = output("charts", charts)?;
+        let ricci_layout { mesh, positions, layout, surface, refinement, .. } = door.shared(layout)?;
+        let charts =
+            self::charts(mesh, |h| layout.corner_uv(h), &ChartOptions { margin }, &control::of(control))?;
+        place.hand_over(ricci_charts {
+            poison: Poison::default(),
+            mesh: mesh.clone(),
+            positions: positions.clone(),
+            charts,
+            surface: surface.clone(),
+            refinement: refinement.clone(),
+        });
+        Ok(())
+    })
+}
+
+/// Release charts.
+///
+/// @param charts  the handle, or NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_charts_free(charts: *mut ricci_charts) {
+    guard::free(charts);
+}
+
+/// The figures of charts.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+///
+/// @param charts   the charts.
+/// @param summary  out: the figures.
+/// @param size     sizeof *summary.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_charts_summarise(
+    charts: *const ricci_charts,
+    summary: *mut ricci_charts_summary,
+    size: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let ricci_charts { mesh, charts, .. } = door.shared(charts)?;
+        let figures = ricci_charts_summary {
+            size,
+            n_charts: charts.count(),
+            n_faces: mesh.n_faces(),
+            n_points: charts.coordinates.len(),
+            n_flipped: charts.flipped.len(),
+            scale: charts.scale,
+            efficiency: charts.efficiency,
+            layout_seams: charts.seam_length[0],
+            chart_seams: charts.seam_length[1],
+            n_degenerate: charts.degenerate.len(),
+        };
+        sized::write(figures, summary, size)
+    })
+}
+
+/// The chart of every face, from 0; charts with more area come first.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param charts    the charts.
+/// @param chart     out: n_faces chart numbers.
+/// @param capacity  entries of `chart`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_charts_faces(
+    charts: *const ricci_charts,
+    chart: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| copy_out("chart", &door.shared(charts)?.charts.chart, chart, capacity))
+}
+
+/// The points of the charts, in the unit square.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param charts    the charts.
+/// @param points    out: n_points x 2, from 0 to 1.
+/// @param capacity  entries of `points`, at least 2 n_points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_charts_points(
+    charts: *const ricci_charts,
+    points: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        copy_out("points", door.shared(charts)?.charts.coordinates.as_flattened(), points, capacity)
+    })
+}
+
+/// The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param charts    the charts.
+/// @param corners   out: n_faces x 3 indices of points.
+/// @param capacity  entries of `corners`, at least 3 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_charts_corners(
+    charts: *const ricci_charts,
+    corners: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let charts = door.shared(charts)?;
+        copy_out("corners", charts.corners().as_flattened(), corners, capacity)
+    })
+}
+
+impl ricci_charts {
+    pub(crate) fn corners(&self) -> Vec<[u32; 3]> {
+        let index = &self.charts.corner_index;
+        self.mesh.faces().map(|f| self.mesh.face_halfedges(f).map(|h| index[h])).collect()
+    }
+}

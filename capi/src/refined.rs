@@ -1,0 +1,260 @@
+//! What a layout unrolls, and the maps between it, the mesh that the metric was made from and the metric's
+//! triangulation.
+
+use crate::arrays::{check_buffer, copy_out};
+use crate::failure::Outcome;
+use crate::guard::{self, output};
+use crate::layout::ricci_layout;
+use crate::mesh::{Shape, ricci_mesh};
+use crate::status::ricci_status;
+use ricci::Control;
+use ricci::geometry::space::Space;
+use ricci::mesh::{EdgeId, FaceId, PerEdge, PerVertex};
+use ricci::metric::refinement::Crossing;
+use ricci::metric::{Refinement, SurfaceMetric};
+use std::sync::Arc;
+
+/// Which of the two triangulations a function asks about.
+#[derive(Clone, Copy)]
+enum Side {
+    Input,
+    Final,
+}
+
+pub(crate) fn n_pieces(refinement: &Refinement) -> usize {
+    refinement.piece.last().map_or(0, |&last| last as usize + 1)
+}
+
+/// What a layout unrolls as a mesh: the mesh that the metric was made from, or the common refinement.
+///
+/// The given vertices come first, where they were bit for bit; crossings lie on the edges of the given mesh.
+/// Of an intrinsic surface the mesh has the lengths of the layout. Crossings may be so near to others that
+/// they coincide: ricci_mesh_lengths then refuses.
+/// @return RICCI_OK, RICCI_NULL_POINTER.
+///
+/// @param layout  the layout.
+/// @param mesh    out: the new handle, to be released by ricci_mesh_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_mesh(
+    layout: *const ricci_layout,
+    mesh: *mut *mut ricci_mesh,
+) -> ricci_status {
+    guard::call(|door| {
+        let place = output("mesh", mesh)?;
+        let layout = door.shared(layout)?;
+        let mesh = &layout.mesh;
+        let shape = match &layout.positions {
+            Some(positions) => Shape::Positions(positions.clone()),
+            None => {
+                let length = |e: EdgeId| {
+                    let [h, twin] = [e.halfedge(), e.halfedge().twin()];
+                    let h = if mesh.is_outside(h) { twin } else { h };
+                    let [p, q] = [h, mesh.next(h)].map(|h| layout.layout.corner_uv(h));
+                    (q[0] - p[0]).hypot(q[1] - p[1])
+                };
+                Shape::Lengths(Arc::new(PerEdge::from_fn(mesh.n_edges(), length)), Space::E2)
+            }
+        };
+        place.hand_over(ricci_mesh::new(mesh.clone(), shape));
+        Ok(())
+    })
+}
+
+/// The face of the given mesh that every face of the layout is part of.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param faces     out: n_faces face indices of the mesh that the metric was made from.
+/// @param capacity  entries of `faces`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_input_faces(
+    layout: *const ricci_layout,
+    faces: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| copy_out("faces", &door.shared(layout)?.faces_of(Side::Input), faces, capacity))
+}
+
+/// The face of the metric's triangulation that every face of the layout is part of.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param faces     out: n_faces face indices of ricci_metric_mesh.
+/// @param capacity  entries of `faces`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_final_faces(
+    layout: *const ricci_layout,
+    faces: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| copy_out("faces", &door.shared(layout)?.faces_of(Side::Final), faces, capacity))
+}
+
+/// Where the corners of every face of the layout lie in its face of the given mesh: values at the corners of
+/// that face, added up with these weights, are the values there. Carries attributes of vertices and corners
+/// to the layout.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param weights   out: n_faces x 3 x 3 barycentric coordinates [face, corner, corner of the other face].
+/// @param capacity  entries of `weights`, at least 9 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_input_barycentric(
+    layout: *const ricci_layout,
+    weights: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let rows = door.shared(layout)?.barycentric(Side::Input);
+        copy_out("weights", rows.as_flattened().as_flattened(), weights, capacity)
+    })
+}
+
+/// Where the corners of every face of the layout lie in its face of the metric's triangulation, with its
+/// lengths.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param weights   out: n_faces x 3 x 3 barycentric coordinates [face, corner, corner of the other face].
+/// @param capacity  entries of `weights`, at least 9 n_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_final_barycentric(
+    layout: *const ricci_layout,
+    weights: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let rows = door.shared(layout)?.barycentric(Side::Final);
+        copy_out("weights", rows.as_flattened().as_flattened(), weights, capacity)
+    })
+}
+
+/// The piece that every face of the layout is part of, from 0. Faces of a piece have consecutive numbers and
+/// one projective map.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout    the layout.
+/// @param pieces    out: n_faces piece numbers, below n_pieces.
+/// @param capacity  entries of `pieces`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_pieces(
+    layout: *const ricci_layout,
+    pieces: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let layout = door.shared(layout)?;
+        match &layout.refinement {
+            Some(refinement) => copy_out("pieces", &refinement.piece, pieces, capacity),
+            None => copy_out("pieces", &layout.faces_of(Side::Input), pieces, capacity),
+        }
+    })
+}
+
+/// The homogeneous weight q of every vertex of the layout. In a piece the map from the given mesh to the
+/// plane is projective, and with (x, y) the point of a corner it is (q x, q y, q) that is linear: as texture
+/// coordinates of three components.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_DOMAIN.
+///
+/// @param layout    the layout.
+/// @param weights   out: n_vertices weights, positive; only their quotients in a piece mean anything.
+/// @param capacity  entries of `weights`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_weights(
+    layout: *const ricci_layout,
+    weights: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| {
+        let layout = door.shared(layout)?;
+        check_buffer("weights", layout.mesh.n_vertices(), weights, capacity)?;
+        let values = self::weights(&layout.surface, layout.refinement.as_ref())?;
+        copy_out("weights", &values, weights, capacity)
+    })
+}
+
+/// The crossings on the edges of the given mesh: vertex n_given_vertices + k lies at end 0 (1 - t) + end 1 t
+/// of its edge.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout     the layout.
+/// @param edges      out: n_crossings rows of ricci_mesh_edges of the mesh that the metric was made from.
+/// @param fractions  out: n_crossings numbers t, from 0 to 1.
+/// @param capacity   entries of `edges` and of `fractions`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_input_crossings(
+    layout: *const ricci_layout,
+    edges: *mut u32,
+    fractions: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| door.shared(layout)?.crossings(Side::Input, edges, fractions, capacity))
+}
+
+/// The crossings on the edges of the metric's triangulation, with its lengths.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+///
+/// @param layout     the layout.
+/// @param edges      out: n_crossings rows of ricci_mesh_edges of ricci_metric_mesh.
+/// @param fractions  out: n_crossings numbers t, from 0 to 1.
+/// @param capacity   entries of `edges` and of `fractions`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_final_crossings(
+    layout: *const ricci_layout,
+    edges: *mut u32,
+    fractions: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::call(|door| door.shared(layout)?.crossings(Side::Final, edges, fractions, capacity))
+}
+
+/// Homogeneous weight of every vertex of what a layout unrolls.
+pub(crate) fn weights(
+    surface: &SurfaceMetric,
+    refinement: Option<&Arc<Refinement>>,
+) -> Outcome<PerVertex<f64>> {
+    Ok(match refinement {
+        Some(refinement) => refinement.weight.clone(),
+        None => surface.refinement(&Control::new())?.weight,
+    })
+}
+
+impl ricci_layout {
+    fn faces_of(&self, side: Side) -> Vec<u32> {
+        let of = |f: FaceId| match (&self.refinement, side) {
+            (Some(refinement), Side::Input) => refinement.input_face[f].0,
+            (Some(refinement), Side::Final) => refinement.final_face[f].0,
+            (None, _) => f.0,
+        };
+        self.mesh.faces().map(of).collect()
+    }
+
+    fn barycentric(&self, side: Side) -> Vec<[[f64; 3]; 3]> {
+        let of = |f: FaceId| match (&self.refinement, side) {
+            (Some(refinement), Side::Input) => refinement.input_barycentric(f),
+            (Some(refinement), Side::Final) => refinement.final_barycentric(f),
+            (None, _) => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        };
+        self.mesh.faces().map(of).collect()
+    }
+
+    fn crossings(&self, side: Side, edges: *mut u32, fractions: *mut f64, capacity: usize) -> Outcome {
+        let crossings = self.refinement.as_ref().map_or(&[][..], |refinement| &refinement.crossings);
+        let of = |c: &Crossing| match side {
+            Side::Input => (c.input_edge.0, c.input_weights[1]),
+            Side::Final => (c.final_edge.0, c.final_weights[1]),
+        };
+        let (names, values): (Vec<u32>, Vec<f64>) = crossings.iter().map(of).unzip();
+        check_buffer("fractions", values.len(), fractions, capacity)?;
+        copy_out("edges", &names, edges, capacity)?;
+        copy_out("fractions", &values, fractions, capacity)
+    }
+}

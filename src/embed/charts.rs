@@ -1,0 +1,248 @@
+//! Charts: a layout that overlaps itself, cut into pieces that do not and packed into the unit square.
+//!
+//! Charts grow face by face around a seed, in the order of the distance from it; a face whose image would overlap the chart stays
+//! outside. Overlap is decided exactly ([`super::overlap`]). Seeds are the largest faces that are left. A layout that is injective
+//! grows into one chart. At the end charts that fit together are joined.
+//!
+//! Packed, the charts are looked at again: scaling and moving rounds coordinates to those of the unit square, and a vertex that
+//! nearly touched another face may then lie inside it. Such charts are cut once more and all are packed anew, until what comes out
+//! does not overlap. A chart once cut stays cut, so that this ends.
+//!
+//! Faces that are smaller than doubles resolve are no obstacle to others: where scales span more than 1e16, as around a single
+//! cone on a surface of high genus, whole regions shrink to a point. They stay in the chart around them.
+
+use super::chart_growth::{Lie, Partition, Sheet, partition};
+use super::corner::number_corners;
+use super::overlap::Triangle;
+use super::pack::{least_rectangle, least_square, pack};
+use super::shape::{Shape, extent};
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::geometry::PlaneIsometry;
+use crate::geometry::predicates::orientation;
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge};
+use std::cmp::Ordering;
+use std::f64::consts::FRAC_PI_2;
+
+/// Coordinates in the unit square are multiples of 1/this, the spacing of doubles in its far half: everywhere the same, and no
+/// difference of two of them is rounded.
+const GRID: f64 = (1u64 << 53) as f64;
+/// Charts keep at least this distance, so that rounding lets none touch another: many steps of the grid.
+const ROOM: f64 = 64.0 / GRID;
+
+/// Options of [`charts`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChartOptions {
+    /// Least distance of two charts, in sides of the unit square; half of it is left at the border. Default 1/256.
+    pub margin: f64,
+}
+
+impl Default for ChartOptions {
+    fn default() -> Self {
+        ChartOptions { margin: 1.0 / 256.0 }
+    }
+}
+
+/// Charts in the unit square.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Charts {
+    /// The chart of each face. Charts are numbered by their area in the layout, the largest first.
+    pub chart: PerFace<u32>,
+    /// Per half-edge, the index into `coordinates` of the corner at its origin, in its face; outside the surface that of the face
+    /// across the edge. Corners share an index where no seam or boundary separates them.
+    pub corner_index: PerHalfedge<u32>,
+    /// Points in the unit square, multiples of 2⁻⁵³.
+    pub coordinates: Vec<[f64; 2]>,
+    /// Per chart the motion, after scaling by `scale`: `uv = motion(scale · layout)`.
+    pub motions: Vec<PlaneIsometry>,
+    /// Lengths in the unit square over lengths in the layout, the same for all charts.
+    pub scale: f64,
+    /// Share of the unit square that is covered.
+    pub efficiency: f64,
+    /// Interior edges along which the charts are cut: the seams of the layout, and more.
+    pub is_seam: PerEdge<bool>,
+    /// Total length of the layout's own seams, and of those of the charts, in units of the layout.
+    pub seam_length: [f64; 2],
+    /// Faces whose image is clockwise, by more than what makes it degenerate. Each is a chart of its own: no motion of the plane
+    /// mends it.
+    pub flipped: Vec<FaceId>,
+    /// Faces without area to speak of, in the layout or in the unit square: within [`super::refined::FLAT`] · longest edge² of zero,
+    /// or lower than two steps of the coordinates. They lie in the charts of their neighbours, and may overlap what is around them
+    /// by as much as their own size.
+    pub degenerate: Vec<FaceId>,
+}
+
+impl Charts {
+    /// Number of charts.
+    pub fn count(&self) -> usize {
+        self.motions.len()
+    }
+
+    /// Coordinates of the corner at the origin of `h`, in its face.
+    pub fn corner_uv(&self, h: HalfedgeId) -> [f64; 2] {
+        self.coordinates[self.corner_index[h] as usize]
+    }
+
+    /// Coordinates of a face's corners, in its corner order.
+    pub fn face_uv(&self, mesh: &Mesh, f: FaceId) -> Triangle {
+        mesh.face_halfedges(f).map(|h| self.corner_uv(h))
+    }
+}
+
+/// Cut a layout into charts that do not overlap themselves, and pack them.
+///
+/// `uv(h)`: plane coordinates of the corner at the origin of h, in its face (h inside the surface). Faces hang together across an
+/// edge where both give its ends exactly the same coordinates. Every chart is connected. In the layout and, exactly, in the
+/// [`Charts::coordinates`] that are returned, faces that are not named [`Charts::degenerate`] have disjoint interiors.
+///
+/// Deterministic. O(F log F) for layouts of bounded overlap, each time that rounding makes it necessary to cut again.
+///
+/// Errors: [`Error::Layout`] for coordinates that are not finite or a layout without area; [`Error::Argument`] for a margin that is
+/// negative or leaves no room; [`Error::Cancelled`].
+pub fn charts(
+    mesh: &Mesh,
+    uv: impl Fn(HalfedgeId) -> [f64; 2],
+    options: &ChartOptions,
+    control: &Control,
+) -> Result<Charts> {
+    let margin = options.margin;
+    if !(0.0..1.0).contains(&margin) {
+        return Err(Error::Argument { what: "margin", value: margin.to_string(), need: "in [0, 1)" });
+    }
+    let triangles: Vec<Triangle> = mesh.faces().map(|f| mesh.face_halfedges(f).map(&uv)).collect();
+    if let Some(f) = triangles.iter().position(|t| !t.as_flattened().iter().all(|x| x.is_finite())) {
+        return Err(Error::Layout(format!("face {f} has coordinates that are not finite")));
+    }
+    let area: f64 = triangles.iter().map(|t| doubled_area(t).abs()).sum::<f64>() * 0.5;
+    if !(area > 0.0 && area.is_finite()) {
+        return Err(Error::Layout("the layout has no area, or more than doubles hold".into()));
+    }
+    let size = extent(&triangles.concat());
+    let mut lie = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
+        let shape = Shape::of(triangles[f.index()]);
+        match (shape.is_degenerate(size), shape.is_flipped(size)) {
+            (true, _) => Lie::Degenerate,
+            (_, true) => Lie::Flipped,
+            _ => Lie::Solid,
+        }
+    });
+    let continuous = |e: EdgeId| {
+        let (h, t) = (e.halfedge(), e.halfedge().twin());
+        let faces = [h, t].map(|h| mesh.face(h).is_some_and(|f| lie[f] != Lie::Flipped));
+        faces == [true; 2] && uv(h) == uv(mesh.next(t)) && uv(mesh.next(h)) == uv(t)
+    };
+    let mut joined = PerEdge::from_fn(mesh.n_edges(), continuous);
+    let areas = PerFace::from_fn(mesh.n_faces(), |f: FaceId| doubled_area(&triangles[f.index()]).abs());
+    let own_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
+    let cut = |triangles: &[Triangle], lie: &PerFace<Lie>, joined: &PerEdge<bool>, stage: [f64; 2]| {
+        let sheet = Sheet { mesh, triangles, lie, joined, area: &areas };
+        partition(&sheet, stage, control)
+    };
+    let Partition { mut chart, mut count } = cut(&triangles, &lie, &joined, [0.0, 0.4])?;
+
+    let (corner_index, points, scale, motions) = loop {
+        for e in mesh.edges() {
+            let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).map(|f| chart[f]));
+            joined[e] &= f == g;
+        }
+        let is_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
+        let (corner_index, n_points) = number_corners(mesh, &is_seam);
+        let mut points = vec![[0.0; 2]; n_points];
+        let mut point_chart = vec![0u32; n_points];
+        for f in mesh.faces() {
+            for h in mesh.face_halfedges(f) {
+                let k = corner_index[h] as usize;
+                (points[k], point_chart[k]) = (uv(h), chart[f]);
+            }
+        }
+        let (scale, motions) = arrange(&mut points, &point_chart, count, margin, control)?;
+        let placed: Vec<Triangle> =
+            mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| points[corner_index[h] as usize])).collect();
+        for f in mesh.faces() {
+            let [a, b, c] = placed[f.index()];
+            let flat =
+                || orientation(a, b, c) != Ordering::Greater || Shape::of([a, b, c]).is_degenerate(1.0);
+            if lie[f] == Lie::Solid && flat() {
+                lie[f] = Lie::Degenerate;
+            }
+        }
+        let again = cut(&placed, &lie, &joined, [0.5, 0.4])?;
+        if again.count == count {
+            break (corner_index, points, scale, motions);
+        }
+        (chart, count) = (again.chart, again.count);
+    };
+    let is_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
+    let length = |h: HalfedgeId| {
+        let (p, q) = (uv(h), uv(mesh.next(h)));
+        (p[0] - q[0]).hypot(p[1] - q[1])
+    };
+    let total = |seam: &dyn Fn(EdgeId) -> bool| -> f64 {
+        let sides = mesh.edges().filter(|&e| seam(e)).map(|e| [e.halfedge(), e.halfedge().twin()]);
+        sides.map(|[h, t]| 0.5 * (length(h) + length(t))).sum()
+    };
+    let seam_length = [&own_seam, &is_seam].map(|is_seam| total(&|e| is_seam[e]));
+    let that = |what: Lie| mesh.faces().filter(|&f| lie[f] == what).collect();
+    Ok(Charts {
+        chart,
+        corner_index,
+        coordinates: points,
+        motions,
+        scale,
+        efficiency: area * scale * scale,
+        is_seam,
+        seam_length,
+        flipped: that(Lie::Flipped),
+        degenerate: that(Lie::Degenerate),
+    })
+}
+
+/// Turn, scale and move the points of all charts into the unit square.
+fn arrange(
+    points: &mut [[f64; 2]],
+    chart: &[u32],
+    count: usize,
+    margin: f64,
+    control: &Control,
+) -> Result<(f64, Vec<PlaneIsometry>)> {
+    let mut of_chart: Vec<Vec<[f64; 2]>> = vec![Vec::new(); count];
+    points.iter().zip(chart).for_each(|(&p, &c)| of_chart[c as usize].push(p));
+    let margin = margin.max(ROOM);
+    let rectangle = |points: &Vec<[f64; 2]>| control.check().map(|()| least_rectangle(points));
+    let mut rectangles: Vec<(f64, [f64; 2])> = of_chart.iter().map(rectangle).collect::<Result<_>>()?;
+    let sides =
+        |rectangles: &[(f64, [f64; 2])]| -> Vec<[f64; 2]> { rectangles.iter().map(|r| r.1).collect() };
+    let (mut scale, mut places) = pack(&sides(&rectangles), margin, control)?.ok_or_else(|| {
+        let need = "small enough to leave room between the charts";
+        Error::Argument { what: "margin", value: format!("{margin} with {count} charts"), need }
+    })?;
+    // Where the largest chart alone sets the scale, its least square counts, not its least rectangle.
+    let square = least_square(&of_chart[0]);
+    let first = std::mem::replace(&mut rectangles[0], square);
+    match pack(&sides(&rectangles), margin, control)? {
+        Some(better) if better.0 > scale => (scale, places) = better,
+        _ => rectangles[0] = first,
+    }
+    drop(of_chart);
+    control.check()?;
+    let angle = |c: usize| rectangles[c].0 + if places[c].turned { FRAC_PI_2 } else { 0.0 };
+    let turns: Vec<PlaneIsometry> = (0..count).map(|c| PlaneIsometry::new(angle(c), [0.0; 2])).collect();
+    let mut low = vec![[f64::INFINITY; 2]; count];
+    for (p, &c) in points.iter_mut().zip(chart) {
+        // A turn by nothing leaves the coordinates as they are.
+        let turned = turns[c as usize].apply_vector(*p);
+        *p = turned.map(|x| scale * x);
+        let low = &mut low[c as usize];
+        *low = [low[0].min(p[0]), low[1].min(p[1])];
+    }
+    for (p, &c) in points.iter_mut().zip(chart) {
+        let (low, at) = (low[c as usize], places[c as usize].at);
+        *p = [0, 1].map(|k| ((p[k] - low[k] + at[k]) * GRID).round() / GRID);
+    }
+    let motion = |c: usize| PlaneIsometry::new(angle(c), [0, 1].map(|k| places[c].at[k] - low[c][k]));
+    Ok((scale, (0..count).map(motion).collect()))
+}
+
+fn doubled_area(&[a, b, c]: &Triangle) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}

@@ -1,0 +1,178 @@
+//! Flips inside a conformal class, and the weighted Delaunay condition.
+//!
+//! Vertices are vectors v of Lorentz space with `⟨v_i, v_i⟩ = ε_i`, `⟨v_i, v_j⟩ = −η_ij`, and `l_ij = |e^{u_i} v_i − e^{u_j} v_j|`
+//! in E² \[BL23\]. The triangulation of two triangles ijk, jil may be changed without changing the vectors: what it takes is the
+//! product of v_k and v_l, on different sides of the plane through v_i and v_j.
+//!
+//! ```text
+//!         k             G = [[ε_i, −η_ij], [−η_ij, ε_j]],  D = −det G = η_ij² − ε_i ε_j
+//!       /   \           the part of v_k in span(v_i, v_j) and what is left of it across:
+//!      i ——— j              a_k = ε_k + (ε_j η_ik² + 2 η_ij η_ik η_jk + ε_i η_jk²)/D
+//!       \   /           η_kl = (ε_j η_ik η_il + η_ij (η_ik η_jl + η_jk η_il) + ε_i η_jk η_jl)/D + √(a_k a_l)
+//!         l             For ε = 0: √η_kl √η_ij = √η_ik √η_jl + √η_jk √η_il, Ptolemy.
+//! ```
+//!
+//! D > 0 needs a real circle orthogonal to those of i, j and k: the complement of an imaginary one (time-like) is Euclidean, where all
+//! ε are 1 and |η| < 1. Triangles around an imaginary circle are left as they are.
+//!
+//! Multiplying each vector by its `w > 0` leaves all of this as it is; the products are formed from `ε w²` and `η w w`, whose size
+//! is that of squared lengths, whatever that of η.
+
+use super::Space;
+use super::conformal::Vertex;
+
+/// `D` must exceed this share of η_ij²: nearer, circles i and j touch, and their plane has no direction across.
+const TANGENT: f64 = 1e-13;
+/// An edge is flipped when it fails the Delaunay condition by more than this share of the terms: rounding, with room.
+pub const TOLERANCE: f64 = 1e-12;
+
+/// The two triangles at an edge ij, with the opposite vertices k and l.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hinge {
+    /// `ε w²` of i, j, k, l, over `unit`.
+    square: [f64; 4],
+    /// `η w w` of ij, ik, jk, il, jl, over `unit`.
+    product: [f64; 5],
+    /// The largest of them: products of three then stay in the range of doubles, whatever the size of the triangles.
+    unit: f64,
+}
+
+/// The point that the edge ij and the line from k to l across it have in common, as a vector of Lorentz space written twice: from
+/// the vectors of k and l, and from those of i and j. All weights are positive where no ε is negative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meeting {
+    /// Weights of k and l.
+    pub diagonal: [f64; 2],
+    /// Weights of i and j.
+    pub edge: [f64; 2],
+}
+
+/// `w` of a vertex for the Delaunay condition: `e^u` in E², `tan γ`-like elsewhere, `2 e^u/(1 − λ ε e^{2u})`.
+pub fn weight(space: Space, v: Vertex) -> f64 {
+    match space {
+        Space::E2 => v.scale,
+        _ => 2.0 * v.scale / (1.0 - space.curvature() * v.epsilon * v.scale * v.scale),
+    }
+}
+
+impl Hinge {
+    /// From ε and w of the vertices i, j, k, l and η of the edges ij, ik, jk, il, jl.
+    pub fn new(epsilon: [f64; 4], w: [f64; 4], eta: [f64; 5]) -> Hinge {
+        let [i, j, k, l] = w;
+        let ends = [i * j, i * k, j * k, i * l, j * l];
+        Hinge::from_products(
+            std::array::from_fn(|v| epsilon[v] * w[v] * w[v]),
+            std::array::from_fn(|e| eta[e] * ends[e]),
+        )
+    }
+
+    /// From `ε w²` of the vertices i, j, k, l and `η w w` of the edges ij, ik, jk, il, jl.
+    pub fn from_products(square: [f64; 4], product: [f64; 5]) -> Hinge {
+        let size = |x: &[f64]| x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let unit = size(&square).max(size(&product));
+        Hinge { square: square.map(|x| x / unit), product: product.map(|x| x / unit), unit }
+    }
+
+    /// D, if the edge can be flipped at all.
+    fn determinant(&self) -> Option<f64> {
+        let [i, j, ..] = self.square;
+        let ij = self.product[0];
+        let d = if i * j > 0.0 {
+            // Both circles, or both imaginary: a product of differences.
+            let mean = (i * j).sqrt();
+            (ij - mean) * (ij + mean)
+        } else {
+            ij * ij - i * j
+        };
+        (ij > 0.0 && d > TANGENT * ij * ij).then_some(d)
+    }
+
+    /// a of the vertex with this square and these products with i and j.
+    fn across(&self, own: f64, ik: f64, jk: f64, d: f64) -> f64 {
+        let [i, j, ..] = self.square;
+        own + (j * ik * ik + 2.0 * self.product[0] * ik * jk + i * jk * jk) / d
+    }
+
+    fn sides(&self, d: f64) -> Option<[f64; 2]> {
+        let [_, _, k, l] = self.square;
+        let [_, ik, jk, il, jl] = self.product;
+        let across = [self.across(k, ik, jk, d), self.across(l, il, jl, d)];
+        across.iter().all(|&a| a > 0.0 && a < f64::INFINITY).then_some(across)
+    }
+
+    /// `η w w` of the other diagonal kl; `None` where there is none (tangent circles i and j, a vertex whose vector is not
+    /// space-like across their plane).
+    pub fn flipped(&self) -> Option<f64> {
+        let d = self.determinant()?;
+        let [across_k, across_l] = self.sides(d)?;
+        let [i, j, ..] = self.square;
+        let [ij, ik, jk, il, jl] = self.product;
+        let within = (j * ik * il + ij * (ik * jl + jk * il) + i * jk * jl) / d;
+        let kl = (within + across_k.sqrt() * across_l.sqrt()) * self.unit;
+        kl.is_finite().then_some(kl)
+    }
+
+    /// Where the line from k to l crosses the edge ij; `None` where it cannot be flipped.
+    ///
+    /// With `v_k = p_k + √a_k n`, `v_l = p_l − √a_l n` and p in span(v_i, v_j): `√a_l v_k + √a_k v_l = √a_l p_k + √a_k p_l`.
+    pub fn meeting(&self) -> Option<Meeting> {
+        let d = self.determinant()?;
+        let [k, l] = self.sides(d)?.map(f64::sqrt);
+        let [i, j, ..] = self.square;
+        let [ij, ik, jk, il, jl] = self.product;
+        let edge = [
+            l * (j * ik + ij * jk) + k * (j * il + ij * jl),
+            l * (ij * ik + i * jk) + k * (ij * il + i * jl),
+        ];
+        let meeting = Meeting { diagonal: [l, k], edge: edge.map(|x| x / d) };
+        let sound = meeting.diagonal.iter().chain(&meeting.edge).all(|&x| x > 0.0 && x < f64::INFINITY);
+        sound.then_some(meeting)
+    }
+
+    /// Whether the edge fails the weighted Delaunay condition `t_k + t_l ≥ 0` by more than [`TOLERANCE`] and can be flipped.
+    ///
+    /// t is the signed height of the face circle's centre over the edge, up to a positive factor common to both sides; it is
+    /// defined also where the triangle inequality breaks.
+    pub fn wants_flip(&self) -> bool {
+        let Some((sum, size)) = self.heights() else { return false };
+        sum < -TOLERANCE * size
+    }
+
+    /// `t_k + t_l` and the size of its terms.
+    fn heights(&self) -> Option<(f64, f64)> {
+        let d = self.determinant()?;
+        let across = self.sides(d)?;
+        let [i, j, ..] = self.square;
+        let [ij, ik, jk, il, jl] = self.product;
+        let (mut sum, mut size) = (0.0, 0.0);
+        for (near_i, near_j, across) in [(ik, jk, across[0]), (il, jl, across[1])] {
+            let x = ((j + ij) * near_i + (i + ij) * near_j) / d;
+            sum += (x - 1.0) / across.sqrt();
+            size += (x.abs() + 1.0) / across.sqrt();
+        }
+        (sum.is_finite() && size.is_finite()).then_some((sum, size))
+    }
+
+    /// `t_k + t_l` (up to a positive factor), which is positive for a Delaunay edge and 0 where the four circles have a common orthogonal one; `None` where
+    /// the edge cannot be flipped.
+    pub fn height(&self) -> Option<f64> {
+        self.heights().map(|(sum, _)| sum)
+    }
+}
+
+/// Length of the other diagonal of two triangles laid side by side along a common edge, which stay where they are: from the two
+/// sides that meet at one of its ends, and the angle between them there. (`l² = (a − b)² + 4 a b sin²(θ/2)` and the like.)
+pub fn diagonal(space: Space, a: f64, b: f64, angle: f64) -> f64 {
+    let sine = (0.5 * angle).sin();
+    match space {
+        Space::E2 => ((a - b) * (a - b) + 4.0 * a * b * sine * sine).sqrt(),
+        Space::H2 => {
+            let q2 = (0.5 * (a - b)).sinh().powi(2) + a.sinh() * b.sinh() * sine * sine;
+            2.0 * q2.sqrt().asinh()
+        }
+        Space::S2 => {
+            let q2 = (0.5 * (a - b)).sin().powi(2) + a.sin() * b.sin() * sine * sine;
+            2.0 * q2.sqrt().asin()
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Doubles with what they lose: sums, products and e^x.
+
+/// The sum of two doubles and what it loses, exactly (Knuth).
+pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// The product of two doubles and what it loses (Dekker; exact unless it over- or underflows).
+pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let split = |x: f64| {
+        let high = 134_217_729.0 * x;
+        let high = high - (high - x);
+        (high, x - high)
+    };
+    let product = a * b;
+    let ((a, a_low), (b, b_low)) = (split(a), split(b));
+    (product, ((a * b - product) + a * b_low + a_low * b) + a_low * b_low)
+}
+
+/// log 2 in three parts; the first has so few digits that its multiples in the range of [`exp`] are exact.
+const LN_2: [f64; 3] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10, 1.161_222_722_936_253_2e-26];
+/// e^x − 1 is formed at x/2^HALVINGS, where all but two terms of its series are below 1e-7 and need no second part, and squared out.
+const HALVINGS: i32 = 6;
+
+/// `e^x` as a double and what that misses of it, relative to it (error below 1e-21): u is known to more digits than a double
+/// holds, and the rounding of e^u would throw them away.
+///
+/// A result that is not a normal number is that of [`f64::exp`], with 0.
+pub(crate) fn exp(x: f64) -> (f64, f64) {
+    let rounded = x.exp();
+    if !rounded.is_normal() {
+        return (rounded, 0.0);
+    }
+    let k = (x * std::f64::consts::LOG2_E).round();
+    let (rest, lost) = two_sum(x, -k * LN_2[0]);
+    let (middle, middle_low) = two_product(k, LN_2[1]);
+    let (rest, more) = two_sum(rest, -middle);
+    let (mut x, mut low) = two_sum(rest, (lost + more) - (middle_low + k * LN_2[2]));
+    let small = 0.5f64.powi(HALVINGS);
+    (x, low) = (small * x, small * low);
+    // e^x − 1 = x + x²/2 + …
+    let (square, square_low) = two_product(0.5 * x, x);
+    let tail =
+        x * x * x * (1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0 + x / 5040.0))));
+    let (sum, first) = two_sum(x, square);
+    let (mut p, mut p_low) = two_sum(sum, tail);
+    p_low += first + (low + square_low + x * low);
+    for _ in 0..HALVINGS {
+        // (1 + p)² − 1
+        let (square, square_low) = two_product(p, p);
+        let (sum, lost) = two_sum(2.0 * p, square);
+        (p, p_low) = two_sum(sum, lost + (square_low + 2.0 * p * p_low + 2.0 * p_low));
+    }
+    let (sum, lost) = two_sum(1.0, p);
+    let (sum, lost) = two_sum(sum, lost + p_low);
+    (scaled(sum, k), lost / sum)
+}
+
+/// `x 2^k` for a normal result, whose power may itself be none.
+fn scaled(x: f64, k: f64) -> f64 {
+    let half = (0.5 * k).trunc();
+    x * 2f64.powi(half as i32) * 2f64.powi((k - half) as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// e^(a + b) = e^a e^b where a + b is a double.
+    #[test]
+    fn exponentials_multiply() {
+        let mut worst = 0.0f64;
+        for i in -4000..4000 {
+            let (a, b) = (f64::from(i) * 0.085_937_5, f64::from(i % 97) * 0.007_812_5);
+            let [(x, x_low), (y, y_low), (z, z_low)] = [a, b, a + b].map(exp);
+            assert!((z - (a + b).exp()).abs() <= 2.0 * f64::EPSILON * z, "{a} + {b}");
+            let (product, low) = two_product(x, y);
+            let error = (product - z) / z + (low / z + x_low + y_low - z_low);
+            worst = worst.max(error.abs());
+        }
+        assert!(worst < 3e-21, "{worst:e}");
+    }
+
+    /// d/dx e^x = e^x: differences far below an ulp of x's exponential are right.
+    #[test]
+    fn exponentials_are_smooth() {
+        for i in 0..1000 {
+            let x = f64::from(i) * 0.37 - 185.0;
+            let step = x.abs().max(1.0) * f64::EPSILON;
+            let [(e, low), (next, next_low)] = [x, x + step].map(exp);
+            let step = (x + step) - x;
+            let change = (next - e) / e + (next_low * (next / e) - low);
+            let expected = step + 0.5 * step * step;
+            assert!((change - expected).abs() < 1e-21, "{x}: {change:e} {expected:e}");
+        }
+    }
+
+    /// e and 2 to 20 digits.
+    #[test]
+    fn known_values() {
+        let (e, low) = exp(1.0);
+        assert_eq!(e, std::f64::consts::E);
+        assert!((low * e - 1.445_646_891_729_250_2e-16).abs() < 1e-20);
+        let (two, low) = exp(std::f64::consts::LN_2);
+        // log 2 is its double plus 2.319…e-17
+        assert!(((two - 2.0) / 2.0 + low + 2.319_046_813_846_299_6e-17).abs() < 1e-21);
+        assert_eq!(exp(0.0), (1.0, 0.0));
+        assert_eq!(exp(-800.0), ((-800.0f64).exp(), 0.0));
+        assert_eq!(exp(800.0), (f64::INFINITY, 0.0));
+        assert!(exp(f64::NAN).0.is_nan());
+    }
+}

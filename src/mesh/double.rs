@@ -1,0 +1,164 @@
+//! The double of a surface with boundary.
+
+use super::halfedge::Mesh;
+use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+use crate::error::{Error, Result};
+
+/// Two copies of a surface, the second mirrored, glued along the boundary: a closed surface with a mirror symmetry.
+///
+/// Vertices 0 … V − 1, edges 0 … E − 1 and faces 0 … F − 1 are those of the surface; then come the mirror images of the interior
+/// vertices, of the interior edges and of the faces, in the same order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Double {
+    /// The closed surface.
+    pub mesh: Mesh,
+    /// Vertices, edges and faces of the surface that was doubled.
+    counts: [usize; 3],
+    /// Per vertex of the double: its mirror image; itself on the boundary of the surface.
+    mirror: Vec<u32>,
+    /// Per edge of the double: the edge of the surface that it is or mirrors.
+    edge_origin: Vec<u32>,
+}
+
+impl Double {
+    /// Double a surface. Errors: [`Error::Argument`] for a closed one, [`Error::TooLarge`].
+    pub fn new(half: &Mesh) -> Result<Double> {
+        if half.is_closed() {
+            let value = "closed".into();
+            return Err(Error::Argument {
+                what: "surface",
+                value,
+                need: "one with boundary: there is nothing to glue",
+            });
+        }
+        let (n, e, f) = (half.n_vertices(), half.n_edges(), half.n_faces());
+        let interior: Vec<EdgeId> = half.edges().filter(|&e| !half.is_boundary_edge(e)).collect();
+        let n_halfedges = 2 * (e + interior.len());
+        if u32::try_from(n_halfedges).is_err() {
+            return Err(Error::TooLarge { what: "half-edges of the double", count: n_halfedges });
+        }
+        let mut mirror: Vec<u32> = (0..n as u32).collect();
+        for v in half.vertices().filter(|&v| !half.is_boundary_vertex(v)) {
+            mirror[v.index()] = mirror.len() as u32;
+            mirror.push(v.0);
+        }
+        let mut image: Vec<u32> = (0..e as u32).collect();
+        let mut edge_origin = image.clone();
+        for (k, edge) in interior.iter().enumerate() {
+            image[edge.index()] = (e + k) as u32;
+            edge_origin.push(edge.0);
+        }
+        // The mirror image of a half-edge runs the same way, with the mirrored face on its right: its twin is a side of it. A
+        // boundary edge is its own image.
+        let turned = |h: HalfedgeId| 2 * image[h.edge().index()] + (h.0 & 1 ^ 1);
+        let mut origin = vec![0; n_halfedges];
+        for h in half.halfedges() {
+            origin[h.index()] = half.origin(h).0;
+            origin[turned(h) as usize] = mirror[half.tip(h).index()];
+        }
+        let mut sides: Vec<[u32; 3]> = half.faces().map(|f| half.face_halfedges(f).map(|h| h.0)).collect();
+        for f in half.faces() {
+            let [ab, bc, ca] = half.face_halfedges(f).map(turned);
+            sides.push([ca, bc, ab]);
+        }
+        let mesh = Mesh::assemble(mirror.len(), origin, &sides)?;
+        Ok(Double { mesh, counts: [n, e, f], mirror, edge_origin })
+    }
+
+    /// The mirror image of a vertex: itself on the boundary of the surface.
+    pub fn mirror(&self, v: VertexId) -> VertexId {
+        VertexId(self.mirror[v.index()])
+    }
+
+    /// Number of vertices of the surface.
+    pub fn n_half_vertices(&self) -> usize {
+        self.counts[0]
+    }
+
+    /// Whether a face of the double, before any flip, belongs to the surface itself.
+    pub fn is_original(&self, f: FaceId) -> bool {
+        f.index() < self.counts[2]
+    }
+
+    /// Per edge of the double, before any flip, the value of the edge that it is or mirrors (E entries).
+    pub fn spread_edges<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        self.edge_origin.iter().map(|&e| values[e as usize]).collect()
+    }
+
+    /// These edges of the surface, and their mirror images.
+    pub fn with_images(&self, edges: &[EdgeId]) -> Vec<EdgeId> {
+        let mut chosen = vec![false; self.counts[1]];
+        edges.iter().filter(|e| e.index() < self.counts[1]).for_each(|e| chosen[e.index()] = true);
+        let all = (0..self.edge_origin.len()).filter(|&e| chosen[self.edge_origin[e] as usize]);
+        all.map(|e| EdgeId(e as u32)).collect()
+    }
+
+    /// Per vertex of the double, the value of the vertex that it is or mirrors (V entries).
+    pub fn spread_vertices<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        let n = self.counts[0];
+        (0..self.mirror.len()).map(|v| values[if v < n { v } else { self.mirror[v] as usize }]).collect()
+    }
+
+    /// The target on the double of a target on the surface: curvature on both sides of the boundary adds up.
+    pub fn target(&self, target: &[f64]) -> Vec<f64> {
+        let mut all = self.spread_vertices(target);
+        for (v, curvature) in all.iter_mut().enumerate() {
+            if self.mirror[v] as usize == v {
+                *curvature *= 2.0;
+            }
+        }
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::shapes;
+
+    #[test]
+    fn double_is_closed_and_symmetric() {
+        let surfaces = [
+            shapes::disk(3).unwrap(),
+            shapes::annulus(0.5, 1.0, 3, 9).unwrap(),
+            shapes::punch(&shapes::genus(2, 3).unwrap(), 2).unwrap(),
+        ];
+        for soup in surfaces {
+            let half = Mesh::from_soup(&soup).unwrap();
+            let double = Double::new(&half).unwrap();
+            assert!(double.mesh.is_closed());
+            assert_eq!(double.mesh.euler(), 2 * half.euler());
+            assert_eq!(double.mesh.genus(), 2 * half.genus() + half.boundary_loops().len() - 1);
+            assert_eq!(double.n_half_vertices(), half.n_vertices());
+            for f in half.faces() {
+                let [a, b, c] = half.face_vertices(f);
+                assert_eq!(double.mesh.face_vertices(f), [a, b, c]);
+                let image = FaceId(f.0 + half.n_faces() as u32);
+                assert!(double.is_original(f) && !double.is_original(image));
+                assert_eq!(double.mesh.face_vertices(image), [a, c, b].map(|v| double.mirror(v)));
+            }
+            for v in double.mesh.vertices() {
+                assert_eq!(double.mirror(double.mirror(v)), v);
+            }
+            for v in half.vertices() {
+                assert_eq!(double.mirror(v) == v, half.is_boundary_vertex(v));
+            }
+            // Edges are mirrored with their ends.
+            let lengths: Vec<[VertexId; 2]> = half.edges().map(|e| half.ends(e)).collect();
+            for (e, [a, b]) in double.spread_edges(&lengths).into_iter().enumerate() {
+                let ends = double.mesh.ends(EdgeId(e as u32));
+                assert!(ends == [a, b] || ends == [a, b].map(|v| double.mirror(v)));
+            }
+            let ones = double.target(&vec![1.0; half.n_vertices()]);
+            assert_eq!(ones.iter().sum::<f64>(), 2.0 * half.n_vertices() as f64);
+        }
+        assert!(Double::new(&Mesh::from_soup(&shapes::icosphere(1).unwrap()).unwrap()).is_err());
+    }
+
+    #[test]
+    fn a_single_triangle_has_the_double_of_two() {
+        let double = Double::new(&Mesh::from_faces(3, &[[0, 1, 2]]).unwrap()).unwrap();
+        assert_eq!((double.mesh.n_faces(), double.mesh.n_edges(), double.mesh.n_vertices()), (2, 3, 3));
+        assert_eq!(double.mesh.euler(), 2);
+    }
+}

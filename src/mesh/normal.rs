@@ -1,0 +1,158 @@
+//! Normal coordinates: the triangulation that a surface came with, as curves on the one that edge flips have made of it.
+//!
+//! Every edge of the given triangulation is a curve from vertex to vertex, pulled tight between the vertices. On a triangulation
+//! of the same vertices the curves are determined, up to sliding, by how often they cross each of its edges [GiSC21, §3]:
+//!
+//! ```text
+//!            k           n_e ≥ 0: crossings of edge e;  n_e = −1: e is itself one of the curves;  below, n⁺ = max(n, 0)
+//!           /|\          fan_k = max(0, n⁺_ij − n⁺_jk − n⁺_ki)      curves that leave corner k and cross the side ij;
+//!          / | \             at most one of a triangle's three fans is not empty
+//!         /\ | /\        arc_i = (max(0, n⁺_ij + n⁺_ki − n⁺_jk) − fan_j − fan_k)/2     curves that cut off corner i
+//!        /  \|/  \       along ij, from i: arc_i curves to ki, then fan_k to corner k, then arc_j to jk
+//!       i —————— j
+//! ```
+//!
+//! *Roundabouts* tell the curves apart: per half-edge h the first curve, counterclockwise from h (h included), that leaves its
+//! origin, as a number in the given triangulation's order around that vertex. Curves leave a vertex in the same order for ever.
+//!
+//! A flip changes one coordinate and two roundabouts. All of it is integers: nothing is rounded, and nothing can go wrong.
+
+use super::halfedge::Mesh;
+use super::ids::{EdgeId, HalfedgeId};
+use crate::error::{Error, Result, check_size};
+
+/// Coordinates beyond this are given up: no curve that long could be traced.
+const MOST: i64 = i64::MAX / 16;
+
+/// The given triangulation as curves on the current one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NormalCoordinates {
+    /// Per edge: n.
+    crossings: Vec<i64>,
+    /// Per half-edge: the roundabout, below the given degree of its origin.
+    first: Vec<u32>,
+    /// Per vertex: where its given half-edges start in `given`, and the end of the last.
+    start: Vec<u32>,
+    /// The half-edges of the given triangulation, counterclockwise around each vertex; on the boundary the one outside is last.
+    given: Vec<HalfedgeId>,
+    /// The first edge whose coordinate left the range.
+    overflow: Option<EdgeId>,
+}
+
+/// How curves run through a triangle with these crossings of the sides k → k + 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Strands {
+    /// Curves that cut off corner k.
+    pub arc: [i64; 3],
+    /// Curves that leave corner k through the opposite side.
+    pub fan: [i64; 3],
+}
+
+impl Strands {
+    /// From the normal coordinates of the sides k → k + 1.
+    pub fn new(sides: [i64; 3]) -> Strands {
+        let n = sides.map(|n| n.max(0));
+        // Corner k: sides k → k + 1 and k + 2 → k meet there, side k + 1 → k + 2 is opposite.
+        let near = |k: usize| n[k] + n[(k + 2) % 3];
+        let fan = [0, 1, 2].map(|k| (n[(k + 1) % 3] - near(k)).max(0));
+        let arc =
+            [0, 1, 2].map(|k| ((near(k) - n[(k + 1) % 3]).max(0) - fan[(k + 1) % 3] - fan[(k + 2) % 3]) / 2);
+        Strands { arc, fan }
+    }
+}
+
+impl NormalCoordinates {
+    /// The triangulation on itself: every edge is a curve.
+    pub fn new(mesh: &Mesh) -> NormalCoordinates {
+        let mut first = vec![0; mesh.n_halfedges()];
+        let mut start = Vec::with_capacity(mesh.n_vertices() + 1);
+        let mut given: Vec<HalfedgeId> = Vec::with_capacity(mesh.n_halfedges());
+        for v in mesh.vertices() {
+            let begin = given.len();
+            start.push(begin as u32);
+            given.extend(mesh.outgoing(v));
+            given[begin..].reverse();
+            for (k, h) in given[begin..].iter().enumerate() {
+                first[h.index()] = k as u32;
+            }
+        }
+        start.push(given.len() as u32);
+        NormalCoordinates { crossings: vec![-1; mesh.n_edges()], first, start, given, overflow: None }
+    }
+
+    /// Follow one flip: to be called with the triangulation as it is just before [`Mesh::flip`] of this edge. O(1).
+    ///
+    /// Does nothing where the mesh will not flip either. Errors are kept for [`NormalCoordinates::check`].
+    pub fn record(&mut self, mesh: &Mesh, e: EdgeId) {
+        // Names as at Mesh::flip: h = a → b, faces (a, b, c) and (b, a, d); afterwards h = d → c.
+        let h = e.halfedge();
+        let t = h.twin();
+        if mesh.face(h).is_none() || mesh.face(t).is_none() || mesh.face(h) == mesh.face(t) {
+            return;
+        }
+        let [bc, ca, ad, db] = mesh.quadrilateral(h);
+        let n = |h: HalfedgeId| self.crossings[h.edge().index()];
+        let ab = n(h);
+        let Strands { arc: [a, b, c], fan: [from_a, from_b, from_c] } = Strands::new([ab, n(bc), n(ca)]);
+        let Strands { arc: [b_below, a_below, d], fan: [also_b, also_a, from_d] } =
+            Strands::new([ab, n(ad), n(db)]);
+
+        // Along ab the curves go, above: a to side ca, from_c to c, b to bc; below: a_below to ad, from_d to d, b_below to db.
+        let left_of_c = (a_below - a).clamp(0, from_c);
+        let right_of_d = (b - b_below).clamp(0, from_d);
+        let joined = (a + from_c).min(a_below + from_d) > a.max(a_below);
+        let across = (a + b_below - ab.max(0)).max(0) + (b + a_below - ab.max(0)).max(0);
+        let fans = from_a + from_b + also_a + also_b;
+        let dc = if joined { -1 } else { c + d + fans + across + i64::from(ab < 0) };
+        if dc > MOST {
+            self.overflow.get_or_insert(e);
+        }
+        let at_c = i64::from(self.first[ca.index()]) + i64::from(n(ca) < 0) + left_of_c;
+        let at_d = i64::from(self.first[db.index()]) + i64::from(n(db) < 0) + right_of_d;
+        let degree = |h: HalfedgeId| {
+            let v = mesh.origin(h).index();
+            i64::from(self.start[v + 1] - self.start[v])
+        };
+        let (cd, dc_first) = (at_c % degree(ca), at_d % degree(db));
+        self.crossings[e.index()] = dc.min(MOST);
+        (self.first[h.index()], self.first[t.index()]) = (dc_first as u32, cd as u32);
+    }
+
+    /// n of an edge: how many curves cross it, −1 if it is a curve itself. Never 0: inside a triangle of the given triangulation
+    /// there is no other edge.
+    pub fn crossings(&self, e: EdgeId) -> i64 {
+        self.crossings[e.index()]
+    }
+
+    /// n of the sides of the face of `h`, from `h` on.
+    pub fn sides(&self, mesh: &Mesh, h: HalfedgeId) -> [i64; 3] {
+        [h, mesh.next(h), mesh.prev(h)].map(|h| self.crossings(h.edge()))
+    }
+
+    /// The given half-edge that leaves the origin of `h` as the `turn`-th counterclockwise from `h` (0: along `h`, or the first
+    /// after it; −1: the last before it).
+    pub fn leaving(&self, mesh: &Mesh, h: HalfedgeId, turn: i64) -> HalfedgeId {
+        let v = mesh.origin(h).index();
+        let [begin, end] = [v, v + 1].map(|v| i64::from(self.start[v]));
+        let k = (i64::from(self.first[h.index()]) + turn).rem_euclid(end - begin);
+        self.given[(begin + k) as usize]
+    }
+
+    /// The given half-edge that `h` runs along, if it does.
+    pub fn along(&self, mesh: &Mesh, h: HalfedgeId) -> Option<HalfedgeId> {
+        (self.crossings(h.edge()) < 0).then(|| self.leaving(mesh, h, 0))
+    }
+
+    /// Number of crossings of all curves with all edges. Errors: [`Error::Size`] if these are not the coordinates of this mesh;
+    /// [`Error::TooLarge`] if coordinates have left the range, or crossings are more than can be numbered.
+    pub fn check(&self, mesh: &Mesh) -> Result<usize> {
+        check_size("normal coordinates", self.crossings.len(), mesh.n_edges())?;
+        check_size("roundabouts", self.start.len(), mesh.n_vertices() + 1)?;
+        let what = "crossings of the input's edges with those of the final triangulation";
+        let total = self.crossings.iter().try_fold(0i64, |sum, &n| sum.checked_add(n.max(0)));
+        match total {
+            Some(total) if self.overflow.is_none() && total < i64::from(i32::MAX) => Ok(total as usize),
+            _ => Err(Error::TooLarge { what, count: total.map_or(usize::MAX, |n| n as usize) }),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The curves of normal coordinates, one by one.
+
+use super::halfedge::Mesh;
+use super::ids::{EdgeId, HalfedgeId};
+use super::normal::{NormalCoordinates, Strands};
+use crate::control::Control;
+use crate::error::{Error, Result};
+
+/// Half-edges or curves between two looks at the control.
+const PER_STEP: usize = 4096;
+
+/// Where a curve crosses an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CurveCrossing {
+    /// The half-edge crossed, from its left to its right.
+    pub halfedge: HalfedgeId,
+    /// How many curves cross the half-edge nearer to its origin.
+    pub position: u32,
+}
+
+/// The edges of the given triangulation on the current one, each from the origin of its half-edge `2e` to its tip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curves {
+    /// Per given edge: where its crossings start; and the end of the last.
+    start: Vec<u32>,
+    crossings: Vec<CurveCrossing>,
+    /// Per given edge: the half-edge it runs along.
+    along: Vec<Option<HalfedgeId>>,
+}
+
+impl Curves {
+    /// Follow every curve, O(edges + crossings). Errors: those of [`NormalCoordinates::check`]; [`Error::Connectivity`] if the
+    /// coordinates are not those of this triangulation; [`Error::Cancelled`].
+    pub fn trace(mesh: &Mesh, normal: &NormalCoordinates, control: &Control) -> Result<Curves> {
+        control.check()?;
+        let total = normal.check(mesh)?;
+        let mut along = vec![None; mesh.n_edges()];
+        // Per given edge: the corner that it leaves, and how many leave that corner before it.
+        let mut source: Vec<Option<(HalfedgeId, i64)>> = vec![None; mesh.n_edges()];
+        for h in mesh.halfedges() {
+            if h.index().is_multiple_of(PER_STEP) {
+                control.check()?;
+            }
+            if let Some(given) = normal.along(mesh, h)
+                && given == given.edge().halfedge()
+            {
+                along[given.edge().index()] = Some(h);
+            }
+            if mesh.is_outside(h) {
+                continue;
+            }
+            let sides = normal.sides(mesh, h);
+            for k in 0..Strands::new(sides).fan[0] {
+                let given = normal.leaving(mesh, h, i64::from(sides[0] < 0) + k);
+                if given == given.edge().halfedge() {
+                    source[given.edge().index()] = Some((h, k));
+                }
+            }
+        }
+        let mut curves = Curves { start: vec![0], crossings: Vec::with_capacity(total), along };
+        for e in 0..mesh.n_edges() {
+            if e.is_multiple_of(PER_STEP) {
+                control.check()?;
+            }
+            match (curves.along[e], source[e]) {
+                (Some(_), None) => {}
+                (None, Some((corner, k))) => curves.follow(mesh, normal, corner, k, total)?,
+                _ => return Err(lost(e)),
+            }
+            curves.start.push(curves.crossings.len() as u32);
+        }
+        if curves.crossings.len() == total { Ok(curves) } else { Err(lost(0)) }
+    }
+
+    /// Append the crossings of the k-th curve out of a corner.
+    fn follow(
+        &mut self,
+        mesh: &Mesh,
+        normal: &NormalCoordinates,
+        corner: HalfedgeId,
+        k: i64,
+        most: usize,
+    ) -> Result<()> {
+        let n = |h: HalfedgeId| normal.crossings(h.edge());
+        let (mut at, mut position) = (mesh.next(corner), n(corner).max(0) + k);
+        loop {
+            if self.crossings.len() == most || mesh.is_outside(at.twin()) {
+                return Err(lost(at.edge().index()));
+            }
+            self.crossings.push(CurveCrossing { halfedge: at, position: position as u32 });
+            // Into the next face through t, `entry` curves after its first corner.
+            let t = at.twin();
+            let entry = n(t) - 1 - position;
+            let strands = Strands::new(normal.sides(mesh, t));
+            if entry < strands.arc[0] {
+                at = mesh.prev(t);
+                position = n(at) - 1 - entry;
+            } else if entry < strands.arc[0] + strands.fan[2] {
+                return Ok(());
+            } else {
+                at = mesh.next(t);
+                position = n(t) - 1 - entry;
+            }
+        }
+    }
+
+    /// The crossings of a given edge, in order.
+    pub fn crossings(&self, e: EdgeId) -> &[CurveCrossing] {
+        &self.crossings[self.numbers(e)]
+    }
+
+    /// The numbers of a given edge's crossings among all of them.
+    pub fn numbers(&self, e: EdgeId) -> std::ops::Range<usize> {
+        self.start[e.index()] as usize..self.start[e.index() + 1] as usize
+    }
+
+    /// The half-edge that a given edge runs along, in its direction, if it crosses nothing.
+    pub fn along(&self, e: EdgeId) -> Option<HalfedgeId> {
+        self.along[e.index()]
+    }
+
+    /// Number of all crossings.
+    pub fn n_crossings(&self) -> usize {
+        self.crossings.len()
+    }
+}
+
+fn lost(edge: usize) -> Error {
+    let message = "the curve of this edge is lost: the coordinates are not those of this triangulation";
+    Error::Connectivity { element: "edge", index: edge, message }
+}

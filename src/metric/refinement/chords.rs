@@ -1,0 +1,190 @@
+//! Final edges inside intrinsic faces, and where a straight line through such a face crosses them.
+//!
+//! Within an intrinsic face the map to the final triangulation is projective on each of the parts into which
+//! final edges cut it, and final edges are straight in it: *chords* that cut off a corner or leave one
+//! ([`Strands`]). The line from one place on the face's border to another crosses those that separate the
+//! two: first outward those around the corner near which it starts, then some of the fan, then inward those
+//! around the corner near which it ends.
+//!
+//! ```text
+//!            2               All vectors are combinations of those of the corners. A line from A to B and a chord from C to D meet in
+//!           / \                  P = |CDB| A + |CDA| B = |ABD| C + |ABC| D     up to a factor,
+//!          D   \             |XYZ| being determinants: of places on sides they are products and sums of positive numbers, or
+//!         /·\   \            have one difference, of two places on one side.
+//!     A  / · \   \
+//!       0——C———B——1
+//! ```
+
+use super::Crossing;
+use super::geodesic::place;
+use super::order::{Place, TIP, before, between};
+use crate::mesh::normal::Strands;
+use crate::mesh::{Curves, FaceId, HalfedgeId, Mesh};
+
+/// The final edges on the intrinsic triangulation.
+pub(super) struct Chords<'a> {
+    pub mesh: &'a Mesh,
+    /// The intrinsic edges on the final triangulation.
+    pub curves: Curves,
+    /// Their crossings with final edges, "input" being the intrinsic triangulation, with homogeneous weights.
+    pub crossings: Vec<(Crossing, f64)>,
+    /// Homogeneous weights of the vertices.
+    pub weight: Vec<f64>,
+}
+
+/// A place on the border of a face.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Border {
+    Corner(usize),
+    /// On the side k → k + 1, beyond this many chords.
+    Side(usize, i64),
+}
+
+/// A point of a line, where it meets the border of a face.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Station {
+    pub border: Border,
+    /// Its place on the line.
+    pub line: Place,
+    /// As a vector: weights of the corners of the face.
+    pub vector: [f64; 3],
+}
+
+/// Where a line crosses a final half-edge, from its left to its right.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Passing {
+    pub halfedge: HalfedgeId,
+    /// Place on the line.
+    pub line: Place,
+    /// Place on the half-edge.
+    pub across: Place,
+    /// Homogeneous weight.
+    pub weight: f64,
+}
+
+/// An end of a chord: weights of the corners, place on the final half-edge, homogeneous weight.
+type End = ([f64; 3], Place, f64);
+
+impl Chords<'_> {
+    /// How many chords cross a half-edge nearer to its origin than this place on it.
+    pub fn rank(&self, h: HalfedgeId, at: Place) -> i64 {
+        let crossings = &self.crossings[self.curves.numbers(h.edge())];
+        let along = if h.0 & 1 == 0 { at } else { [at[1], at[0]] };
+        let rank = crossings.partition_point(|(c, _)| before(c.input_weights, along));
+        (if h.0 & 1 == 0 { rank } else { crossings.len() - rank }) as i64
+    }
+
+    /// How many chords cross a half-edge.
+    pub fn count(&self, h: HalfedgeId) -> i64 {
+        self.curves.numbers(h.edge()).len() as i64
+    }
+
+    /// Append what the line from one place on the border of a face to another passes on its way.
+    pub fn pass(&self, f: FaceId, from: Station, to: Station, passed: &mut Vec<Passing>) {
+        let sides = self.mesh.face_halfedges(f);
+        let n = sides.map(|h| self.count(h));
+        let Strands { arc, fan } = Strands::new(n);
+        let before = |k: usize| (k + 2) % 3;
+        // Chords around corner k that lie between it and the place.
+        let around = |k: usize, at: Station| match at.border {
+            Border::Corner(corner) if corner == k => 0,
+            Border::Side(side, rank) if side == k => rank.min(arc[k]),
+            Border::Side(side, rank) if side == before(k) => (n[side] - rank).min(arc[k]),
+            _ => arc[k],
+        };
+        let arc_at = |k: usize, m: i64| {
+            let (halfedge, first) = self.end(sides, k, m, None);
+            (halfedge, first, self.end(sides, before(k), n[before(k)] - 1 - m, Some(halfedge)).1)
+        };
+        for k in 0..3 {
+            for m in around(k, from)..around(k, to) {
+                let (halfedge, first, second) = arc_at(k, m);
+                passed.push(self.meet(halfedge, [first, second], [from, to]));
+            }
+        }
+        if let Some(k) = (0..3).find(|&k| fan[k] > 0) {
+            // Chords of the fan that lie between the side k → k + 1 and the place; the fan's own corner lies
+            // on all of them.
+            let (far, skip) = ((k + 1) % 3, arc[(k + 1) % 3]);
+            let beyond = |at: Station| match at.border {
+                Border::Corner(corner) if corner == k => None,
+                Border::Corner(corner) => Some(if corner == far { 0 } else { fan[k] }),
+                Border::Side(side, rank) if side == far => Some((rank - skip).clamp(0, fan[k])),
+                Border::Side(side, _) => Some(if side == k { 0 } else { fan[k] }),
+            };
+            if let (Some(a), Some(b)) = (beyond(from), beyond(to)) {
+                let mut meet = |m: i64| {
+                    let (halfedge, second) = self.end(sides, far, skip + m, None);
+                    let mut corner = [0.0; 3];
+                    corner[k] = 1.0;
+                    let first = (corner, TIP, self.weight[self.mesh.origin(sides[k]).index()]);
+                    let passing = self.meet(halfedge, [first, second], [from, to]);
+                    passed.push(if a < b { passing } else { passing.turned() });
+                };
+                (a..b).for_each(&mut meet);
+                (b..a).rev().for_each(meet);
+            }
+        }
+        for k in 0..3 {
+            for m in (around(k, to)..around(k, from)).rev() {
+                let (halfedge, first, second) = arc_at(k, m);
+                passed.push(self.meet(halfedge, [first, second], [from, to]).turned());
+            }
+        }
+    }
+
+    /// The end of a chord at this position along side k → k + 1; and the final half-edge that the side
+    /// crosses there from left to right, along which, or along `halfedge`, its place is given.
+    fn end(
+        &self,
+        sides: [HalfedgeId; 3],
+        k: usize,
+        position: i64,
+        halfedge: Option<HalfedgeId>,
+    ) -> (HalfedgeId, End) {
+        let side = sides[k];
+        let odd = side.0 & 1 == 1;
+        let along = if odd { self.count(side) - 1 - position } else { position } as usize;
+        let crossed = self.curves.crossings(side.edge())[along].halfedge;
+        let crossed = if odd { crossed.twin() } else { crossed };
+        let (crossing, weight) = self.crossings[self.curves.numbers(side.edge()).start + along];
+        let turned = |[x, y]: Place, odd: bool| if odd { [y, x] } else { [x, y] };
+        let mut vector = [0.0; 3];
+        [vector[k], vector[(k + 1) % 3]] = turned(crossing.input_weights, odd);
+        let place = turned(crossing.final_weights, halfedge.unwrap_or(crossed).0 & 1 == 1);
+        (crossed, (vector, place, weight))
+    }
+
+    /// Where the line between two stations meets the chord between two ends.
+    fn meet(&self, halfedge: HalfedgeId, [c, d]: [End; 2], [from, to]: [Station; 2]) -> Passing {
+        let (a, b) = (from.vector, to.vector);
+        let line = place([determinant(c.0, d.0, b).abs(), determinant(c.0, d.0, a).abs()]);
+        let chord = place([determinant(a, b, d.0).abs(), determinant(a, b, c.0).abs()]);
+        // The same vector twice, up to a factor.
+        let whole = |v: [f64; 3]| v[0] + v[1] + v[2];
+        let factor =
+            (line[0] * whole(a) + line[1] * whole(b)) / (chord[0] * whole(c.0) + chord[1] * whole(d.0));
+        let image = [0, 1].map(|k| chord[0] * c.2 * c.1[k] + chord[1] * d.2 * d.1[k]);
+        let total = image[0] + image[1];
+        Passing {
+            halfedge,
+            line: between(from.line, to.line, line[1]),
+            across: image.map(|x| x / total),
+            weight: factor * total,
+        }
+    }
+}
+
+impl Passing {
+    /// From the other side.
+    fn turned(self) -> Passing {
+        let [x, y] = self.across;
+        Passing { halfedge: self.halfedge.twin(), across: [y, x], ..self }
+    }
+}
+
+fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
+    a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+}

@@ -1,0 +1,178 @@
+//! Where the edges of the input, straight on the surface, cross those of an intrinsic triangulation of it.
+//!
+//! An edge a → b of the input runs through a strip of intrinsic triangles. Points are vectors of R³ in which
+//! lines are planes: (x, y, 1) in E², the hyperboloid in H², the sphere in S². Each crossed edge ij has a
+//! frame, with i at (0, 0, 1) and j on the x axis:
+//!
+//! ```text
+//!         a ·  y_a > 0               In it a is carried forward from edge to edge, b backward: turns about a common vertex of
+//!            ·                       two edges, shifts along an edge. The line from a to b meets ij at
+//!     i ——————·—————— j  → x             P = −y_b A + y_a B = w_i I + w_j J,
+//!              ·                     w_j = x_P/S(l), w_i = x'_P/S(l), x' being measured from j toward i
+//!               ·  b  y_b < 0        (S(l) = l, sinh l, sin l).
+//! ```
+//!
+//! The error is that of a chain of triangles whose sides and angles are rounded: a few ulp of the length of
+//! the edge, which is what rounding of the intrinsic lengths does too.
+
+use super::Intrinsic;
+use super::order::{Place, restore_order, restore_order_across};
+use crate::geometry::{Space, triangle};
+use crate::mesh::{Curves, EdgeId, HalfedgeId, PerEdge, PerHalfedge};
+use crate::parallel;
+
+/// Weight of an end that rounding has put on the wrong side of it.
+const LEAST: f64 = f64::EPSILON;
+
+/// A crossing of an edge of the input with an intrinsic half-edge, from its left to its right. Weights are
+/// those of positions.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Straight {
+    /// Of the ends of the input's edge.
+    pub edge: Place,
+    /// Of the origin and tip of the half-edge.
+    pub across: Place,
+    /// The point as vector, with the weights `across`, over that with the weights `edge`: 1 in E².
+    pub ratio: f64,
+}
+
+/// Frames of the intrinsic triangulation.
+struct Frames<'a> {
+    intrinsic: &'a Intrinsic<'a>,
+    curvature: f64,
+    /// Per edge: S(l) and C(l), that is l and 1, sinh l and cosh l, sin l and cos l.
+    shift: PerEdge<[f64; 2]>,
+    /// Per half-edge: cosine and sine of the angle of its face at its origin.
+    turn: PerHalfedge<[f64; 2]>,
+}
+
+/// All crossings, in the order of `curves`: those of every edge follow each other along it, and so do those
+/// of every intrinsic edge.
+pub(super) fn straight(intrinsic: &Intrinsic, geometry: Space, curves: &Curves) -> Vec<Straight> {
+    let frames = Frames::new(intrinsic, geometry);
+    let mut found = vec![Vec::new(); intrinsic.mesh.n_edges()];
+    parallel::fill(&mut found, |e| frames.along(curves, EdgeId::from(e)));
+    let mut all = found.concat();
+    let crossed = || intrinsic.mesh.edges().flat_map(|e| curves.crossings(e)).map(|at| at.halfedge);
+    let turned = |h: HalfedgeId, [x, y]: Place| if h.0 & 1 == 0 { [x, y] } else { [y, x] };
+    let mut places: Vec<Place> = crossed().zip(&all).map(|(h, s)| turned(h, s.across)).collect();
+    restore_order_across(intrinsic.mesh, curves, &mut places);
+    crossed().zip(&mut all).zip(places).for_each(|((h, s), place)| s.across = turned(h, place));
+    all
+}
+
+impl<'a> Frames<'a> {
+    fn new(intrinsic: &'a Intrinsic<'a>, geometry: Space) -> Frames<'a> {
+        let (mesh, lengths) = (intrinsic.mesh, intrinsic.lengths);
+        let mut angles = vec![[0.0; 3]; mesh.n_faces()];
+        parallel::fill(&mut angles, |f| {
+            triangle::angles(geometry, mesh.opposite_edges(f.into()).map(|e| lengths[e])).at
+        });
+        let mut turn = PerHalfedge::filled(mesh.n_halfedges(), [1.0, 0.0]);
+        for f in mesh.faces() {
+            for (h, angle) in mesh.face_halfedges(f).into_iter().zip(angles[f.index()]) {
+                turn[h] = [angle.cos(), angle.sin()];
+            }
+        }
+        let shift = PerEdge::from_fn(mesh.n_edges(), |e| {
+            let l: f64 = lengths[e];
+            match geometry {
+                Space::E2 => [l, 1.0],
+                Space::H2 => [l.sinh(), l.cosh()],
+                Space::S2 => [l.sin(), l.cos()],
+            }
+        });
+        Frames { intrinsic, curvature: geometry.curvature(), shift, turn }
+    }
+
+    /// The crossings of one edge a → b of the input, in order along it.
+    fn along(&self, curves: &Curves, e: EdgeId) -> Vec<Straight> {
+        let strip = curves.crossings(e);
+        let (Some(first), Some(last)) = (strip.first(), strip.last()) else { return Vec::new() };
+        let mesh = self.intrinsic.mesh;
+        // The third corners of the first and of the last face.
+        let x = first.halfedge;
+        let ([c, s], [sine, cosine]) = (self.turn[x], self.shift[mesh.prev(x).edge()]);
+        let mut a = [sine * c, sine * s, cosine];
+        let side = mesh.next(last.halfedge.twin());
+        let ([c, s], [sine, cosine]) = (self.turn[side], self.shift[side.edge()]);
+        let mut from_b = vec![[sine * c, -sine * s, cosine]; strip.len()];
+        for k in (1..strip.len()).rev() {
+            from_b[k - 1] = self.backward(from_b[k], strip[k - 1].halfedge, strip[k].halfedge);
+        }
+        let mut all = Vec::with_capacity(strip.len());
+        for (k, crossing) in strip.iter().enumerate() {
+            all.push(self.meeting(crossing.halfedge, a, from_b[k]));
+            if let Some(next) = strip.get(k + 1) {
+                a = self.forward(a, crossing.halfedge, next.halfedge);
+            }
+        }
+        let mut places: Vec<Place> = all.iter().map(|s| s.edge).collect();
+        restore_order(&mut places);
+        all.iter_mut().zip(places).for_each(|(s, place)| s.edge = place);
+        all
+    }
+
+    /// From the frame of `x` to that of `y`, a side of the face on the right of x.
+    fn forward(&self, p: [f64; 3], x: HalfedgeId, y: HalfedgeId) -> [f64; 3] {
+        let t = x.twin();
+        if y == self.intrinsic.mesh.next(t) {
+            // They start at the same vertex.
+            let [c, s] = self.turn[y];
+            return rotate(p, [c, -s]);
+        }
+        // They end at the same vertex.
+        let at_tip = rotate(self.shifted(p, self.shift[x.edge()]), self.turn[t]);
+        self.shifted(at_tip, back(self.shift[y.edge()]))
+    }
+
+    fn backward(&self, p: [f64; 3], x: HalfedgeId, y: HalfedgeId) -> [f64; 3] {
+        let t = x.twin();
+        if y == self.intrinsic.mesh.next(t) {
+            return rotate(p, self.turn[y]);
+        }
+        let [c, s] = self.turn[t];
+        let at_tip = rotate(self.shifted(p, self.shift[y.edge()]), [c, -s]);
+        self.shifted(at_tip, back(self.shift[x.edge()]))
+    }
+
+    /// In the frame that starts a length farther along the x axis.
+    fn shifted(&self, [x, y, t]: [f64; 3], [sine, cosine]: [f64; 2]) -> [f64; 3] {
+        [x * cosine - t * sine, y, t * cosine + self.curvature * x * sine]
+    }
+
+    /// Where the line from a to b crosses the half-edge in whose frame they are.
+    fn meeting(&self, h: HalfedgeId, a: [f64; 3], b: [f64; 3]) -> Straight {
+        let [sine, cosine] = self.shift[h.edge()];
+        let edge = place([-b[1], a[1]]);
+        let [x, _, t] = [0, 1, 2].map(|i| edge[0] * a[i] + edge[1] * b[i]);
+        let along = [t * sine - x * cosine, x];
+        let whole = (along[0] + along[1]) / sine;
+        let ratio =
+            if self.curvature == 0.0 || !(whole > 0.0 && whole < f64::INFINITY) { 1.0 } else { whole };
+        Straight { edge, across: place(along), ratio }
+    }
+}
+
+/// In the frame whose x axis has this direction (cosine, sine).
+fn rotate([x, y, t]: [f64; 3], [c, s]: [f64; 2]) -> [f64; 3] {
+    [c * x + s * y, c * y - s * x, t]
+}
+
+fn back([sine, cosine]: [f64; 2]) -> [f64; 2] {
+    [-sine, cosine]
+}
+
+/// Weights in this proportion. Of two that must be positive one may be rounded to less than that: it becomes
+/// [`LEAST`].
+pub(super) fn place(weights: [f64; 2]) -> Place {
+    let [x, y] = weights.map(|w| if w > 0.0 && w < f64::INFINITY { w } else { 0.0 });
+    match x + y {
+        total if total > 0.0 && total < f64::INFINITY => match [x / total, y / total] {
+            [0.0, _] => [LEAST, 1.0 - LEAST],
+            [_, 0.0] => [1.0 - LEAST, LEAST],
+            place => place,
+        },
+        _ => [0.5, 0.5],
+    }
+}

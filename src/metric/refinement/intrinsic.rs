@@ -1,0 +1,191 @@
+//! Crossings where the input's edges are straight on the surface, not in the class.
+//!
+//! Isometric flips have led from the input to an intrinsic triangulation of the same surface, flips inside
+//! the class from there to the final one. The map of the first step is the identity, that of the second
+//! projective on the pieces into which intrinsic edges cut the final triangles. A line that is straight in
+//! the class is straight on the surface only where it follows an intrinsic edge. Any other edge of the input
+//! is followed through the intrinsic faces, on a straight line ([`super::geodesic`]), and its crossings with
+//! the final edges there ([`super::chords`]) are those of the map itself.
+//!
+//! That line may cross final edges forth and back, which a curve pulled tight does not: what it meets is
+//! reduced to the crossings that normal coordinates tell of, by taking out passages forth and at once back,
+//! and around its ends. What is left may be out of order along either edge, there or by rounding: it is
+//! pooled ([`restore_order`]). The order of the crossings along both edges is all that a bijection takes.
+
+use super::chords::{Border, Chords, Passing, Station};
+use super::geodesic::{Straight, straight};
+use super::order::{ORIGIN, Place, TIP, restore_order, restore_order_across};
+use super::pieces::torn;
+use super::{Crossing, Final, HALFEDGES, Scales, Strips};
+use crate::control::Control;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::Space;
+use crate::mesh::normal_trace::CurveCrossing;
+use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates, PerEdge};
+
+/// Another triangulation of the same surface, which a flow starts from.
+#[derive(Debug, Clone, Copy)]
+pub struct Intrinsic<'a> {
+    /// The triangulation.
+    pub mesh: &'a Mesh,
+    /// Lengths of its edges, in the geometry of the input.
+    pub lengths: &'a PerEdge<f64>,
+    /// The input's edges on it.
+    pub given: &'a NormalCoordinates,
+    /// Its edges on the final triangulation.
+    pub normal: &'a NormalCoordinates,
+}
+
+/// Where crossings are to be placed.
+pub(super) struct Placement<'a> {
+    /// The input's edges on the intrinsic triangulation, with their crossings.
+    curves: Curves,
+    straight: Vec<Straight>,
+    /// Per intrinsic edge: the final half-edge along its half-edge 2e, if it stays.
+    stays: PerEdge<Option<HalfedgeId>>,
+    chords: Chords<'a>,
+}
+
+impl<'a> Placement<'a> {
+    /// O(edges + crossings of any two of the three triangulations). Errors: [`Error::Size`],
+    /// [`Error::TooLarge`], [`Error::Connectivity`], [`Error::EdgeWeight`] as those of
+    /// [`super::Refinement::new`].
+    pub fn new(
+        intrinsic: Intrinsic<'a>,
+        geometry: Space,
+        result: &Final,
+        strips: &Strips,
+        scales: &Scales,
+        control: &Control,
+    ) -> Result<Placement<'a>> {
+        let mesh = intrinsic.mesh;
+        check_size("intrinsic edges", mesh.n_edges(), result.mesh.n_edges())?;
+        check_size("intrinsic lengths", intrinsic.lengths.len(), mesh.n_edges())?;
+        for (what, count) in [
+            ("crossings of input and intrinsic edges", intrinsic.given.check(mesh)?),
+            ("crossings of intrinsic and final edges", intrinsic.normal.check(result.mesh)?),
+        ] {
+            if count > u32::MAX as usize / HALFEDGES {
+                return Err(Error::TooLarge { what, count });
+            }
+        }
+        let curves = Curves::trace(mesh, intrinsic.given, control)?;
+        control.check()?;
+        let straight = straight(&intrinsic, geometry, &curves);
+        control.check()?;
+        let on_final = Curves::trace(result.mesh, intrinsic.normal, control)?;
+        let ends: Vec<_> = mesh.edges().map(|e| mesh.ends(e)).collect();
+        let raw = strips.crossings(&ends, &on_final)?;
+        control.check()?;
+        let mut crossings = Vec::with_capacity(raw.len());
+        for e in mesh.edges() {
+            for (raw, at) in raw[on_final.numbers(e)].iter().zip(on_final.crossings(e)) {
+                crossings.push(scales.crossing(raw, e, ends[e.index()], at.halfedge, result.mesh));
+            }
+        }
+        let stays = PerEdge::from_fn(mesh.n_edges(), |e| on_final.along(e));
+        let chords = Chords { mesh, curves: on_final, crossings, weight: scales.vertices() };
+        Ok(Placement { curves, straight, stays, chords })
+    }
+
+    /// Place the crossings of an edge of the input, which are on straight lines of the class; whether they
+    /// have been moved.
+    pub fn place(&self, e: EdgeId, strip: &[CurveCrossing], placed: &mut [(Crossing, f64)]) -> Result<bool> {
+        let along_intrinsic = self.curves.along(e).is_some();
+        if !along_intrinsic && !strip.is_empty() {
+            for ((crossing, weight), passing) in placed.iter_mut().zip(reduced(self.line(e), strip)?) {
+                let Passing { halfedge, line, across: [x, y], weight: q } = passing;
+                crossing.input_weights = line;
+                crossing.final_weights = if halfedge.0 & 1 == 0 { [x, y] } else { [y, x] };
+                *weight = q;
+            }
+        }
+        let mut places: Vec<Place> = placed.iter().map(|(crossing, _)| crossing.input_weights).collect();
+        restore_order(&mut places);
+        let mut moved = !along_intrinsic;
+        for ((crossing, _), place) in placed.iter_mut().zip(places) {
+            moved |= crossing.input_weights != place;
+            crossing.input_weights = place;
+        }
+        Ok(moved)
+    }
+
+    /// Bring the crossings of each final edge with the input's edges into order, once all are placed: marks
+    /// those that this moves.
+    pub fn settle(result: &Mesh, curves: &Curves, crossings: &mut [Crossing], moved: &mut [bool]) {
+        let mut places: Vec<Place> = crossings.iter().map(|c| c.final_weights).collect();
+        restore_order_across(result, curves, &mut places);
+        for ((crossing, place), moved) in crossings.iter_mut().zip(places).zip(moved) {
+            *moved |= crossing.final_weights != place;
+            crossing.final_weights = place;
+        }
+    }
+
+    /// All that the straight line of an edge of the input passes.
+    fn line(&self, e: EdgeId) -> Vec<Passing> {
+        let (mesh, crossings) = (self.chords.mesh, self.curves.crossings(e));
+        let local =
+            |f: FaceId, h: HalfedgeId| mesh.face_halfedges(f).iter().position(|&x| x == h).unwrap_or(0);
+        let corner = |f: FaceId, k: usize, line: Place| {
+            let mut vector = [0.0; 3];
+            vector[k] = 1.0;
+            (f, Station { border: Border::Corner(k), line, vector })
+        };
+        let face = |h: HalfedgeId| mesh.face(h).unwrap_or(FaceId(0));
+        let mut passed = Vec::new();
+        let mut from = None;
+        for (straight, at) in self.straight[self.curves.numbers(e)].iter().zip(crossings) {
+            let h = at.halfedge;
+            // Half-edges h and its twin share what rank the crossing has.
+            let rank = self.chords.rank(h, straight.across);
+            let on = |h: HalfedgeId, [x, y]: Place, rank: i64| {
+                let f = face(h);
+                let k = local(f, h);
+                let mut vector = [0.0; 3];
+                (vector[k], vector[(k + 1) % 3]) = (straight.ratio * x, straight.ratio * y);
+                (f, Station { border: Border::Side(k, rank), line: straight.edge, vector })
+            };
+            let (f, to) = on(h, straight.across, rank);
+            let (_, start) = from.unwrap_or_else(|| corner(f, (local(f, h) + 2) % 3, ORIGIN));
+            self.chords.pass(f, start, to, &mut passed);
+            let [x, y] = straight.across;
+            if let Some(along) = self.stays[h.edge()] {
+                let ends = [mesh.origin(h), mesh.tip(h)].map(|v| self.chords.weight[v.index()]);
+                let image = [x * ends[0], y * ends[1]];
+                let total = image[0] + image[1];
+                let halfedge = if h.0 & 1 == 0 { along } else { along.twin() };
+                let across = image.map(|x| x / total);
+                passed.push(Passing {
+                    halfedge,
+                    line: straight.edge,
+                    across,
+                    weight: straight.ratio * total,
+                });
+            }
+            from = Some(on(h.twin(), [y, x], self.chords.count(h) - rank));
+        }
+        if let (Some((f, start)), Some(last)) = (from, crossings.last()) {
+            let (_, end) = corner(f, (local(f, last.halfedge.twin()) + 2) % 3, TIP);
+            self.chords.pass(f, start, end, &mut passed);
+        }
+        passed
+    }
+}
+
+/// What a line passes, pulled tight: the passages of `strip`.
+fn reduced(passed: Vec<Passing>, strip: &[CurveCrossing]) -> Result<Vec<Passing>> {
+    let mut tight: Vec<Passing> = Vec::with_capacity(strip.len());
+    for passing in passed {
+        match tight.last() {
+            Some(last) if last.halfedge == passing.halfedge.twin() => drop(tight.pop()),
+            _ => tight.push(passing),
+        }
+    }
+    // Before and after come passages around the ends.
+    let same =
+        |window: &[Passing]| window.iter().zip(strip).all(|(passing, at)| passing.halfedge == at.halfedge);
+    let start = tight.windows(strip.len()).position(same).ok_or_else(torn)?;
+    tight.drain(..start);
+    tight.truncate(strip.len());
+    Ok(tight)
+}

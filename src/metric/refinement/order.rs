@@ -1,0 +1,134 @@
+//! Places along an edge, and their order.
+//!
+//! A place is the pair of weights of an edge's ends, which add up to 1: near either end the smaller one tells
+//! how near, to the relative accuracy of doubles.
+
+use crate::mesh::normal_trace::CurveCrossing;
+use crate::mesh::{Curves, Mesh};
+
+/// Weights of the origin and of the tip.
+pub(super) type Place = [f64; 2];
+
+/// The ends themselves.
+pub(super) const ORIGIN: Place = [1.0, 0.0];
+pub(super) const TIP: Place = [0.0, 1.0];
+
+/// Share of the way to its neighbours over which places are spread that rounding has swapped or merged.
+/// Small, since the true places are nearer to each other than rounding; large against it, so that the spread
+/// places differ.
+const SPREAD: f64 = 1.0 / (1 << 20) as f64;
+
+/// Whether a lies nearer to the origin than b, and neither weight says otherwise.
+pub(super) fn before(a: Place, b: Place) -> bool {
+    a[1] <= b[1] && a[0] >= b[0] && a != b
+}
+
+/// `(1 − t) a + t b`.
+pub(super) fn between(a: Place, b: Place, t: f64) -> Place {
+    [0, 1].map(|k| (1.0 - t) * a[k] + t * b[k])
+}
+
+/// Bring places into strict order that should be so already, but for rounding.
+///
+/// Places out of order, or equal to their neighbour, are pooled: the least change that leaves none out of
+/// order (in the mean square) puts them into one place. Around it they are then spread evenly over [`SPREAD`]
+/// of the way to the next on both sides. Places in order stay as they are, bit for bit. What doubles cannot
+/// tell apart still coincides, but is not swapped: afterwards neither weight runs back anywhere.
+pub(super) fn restore_order(places: &mut [Place]) {
+    if places.windows(2).all(|pair| before(pair[0], pair[1])) {
+        return;
+    }
+    let mut pools: Vec<(Place, usize)> = Vec::with_capacity(places.len());
+    for &place in places.iter() {
+        let (mut mean, mut n) = (place, 1);
+        while let Some(&(last, m)) = pools.last().filter(|(last, _)| !before(*last, mean)) {
+            mean = between(last, mean, n as f64 / (n + m) as f64);
+            n += m;
+            pools.pop();
+        }
+        pools.push((mean, n));
+    }
+    let mut at = 0;
+    for (k, &(mean, n)) in pools.iter().enumerate() {
+        let low = k.checked_sub(1).map_or(ORIGIN, |k| pools[k].0);
+        let high = pools.get(k + 1).map_or(TIP, |pool| pool.0);
+        for (i, place) in places[at..at + n].iter_mut().enumerate() {
+            let off = (2 * i + 1) as f64 / n as f64 - 1.0;
+            *place = between(mean, if off < 0.0 { low } else { high }, off.abs() * SPREAD);
+        }
+        at += n;
+    }
+    // Where there is no double between two places, rounding has not kept them in order.
+    for k in 1..places.len() {
+        let [x, y] = places[k - 1];
+        places[k] = [places[k][0].min(x), places[k][1].max(y)];
+    }
+}
+
+/// The same for the crossings of all `curves` with the edges of a triangulation, in the order of the curves:
+/// places along the half-edges 2e.
+pub(super) fn restore_order_across(mesh: &Mesh, curves: &Curves, places: &mut [Place]) {
+    let crossings = || mesh.edges().flat_map(|e| curves.crossings(e));
+    let mut start = vec![0; mesh.n_edges() + 1];
+    crossings().for_each(|at| start[at.halfedge.edge().index() + 1] += 1);
+    (0..mesh.n_edges()).for_each(|e| start[e + 1] += start[e]);
+    let slot = |at: &CurveCrossing| {
+        let (e, position) = (at.halfedge.edge().index(), at.position as usize);
+        if at.halfedge.0 & 1 == 0 { start[e] + position } else { start[e + 1] - 1 - position }
+    };
+    let mut sorted = vec![ORIGIN; places.len()];
+    crossings().zip(places.iter()).for_each(|(at, &place)| sorted[slot(at)] = place);
+    (0..mesh.n_edges()).for_each(|e| restore_order(&mut sorted[start[e]..start[e + 1]]));
+    crossings().zip(places).for_each(|(at, place)| *place = sorted[slot(at)]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::shapes::SplitMix64;
+
+    fn at(t: f64) -> Place {
+        [1.0 - t, t]
+    }
+
+    #[test]
+    fn places_in_order_stay_as_they_are() {
+        let mut places: Vec<_> = [1e-300, 1e-20, 0.3, 0.5, 0.7].map(at).to_vec();
+        places.extend([[1e-17, 1.0], [1e-200, 1.0]]);
+        let before = places.clone();
+        restore_order(&mut places);
+        assert_eq!(places, before);
+    }
+
+    #[test]
+    fn what_doubles_cannot_tell_apart_coincides() {
+        let next = f64::from_bits(0.3f64.to_bits() + 1);
+        let mut places = [0.3, 0.3, next, 0.3, 0.3, next, next].map(at);
+        restore_order(&mut places);
+        assert!(places.windows(2).all(|p| before(p[0], p[1]) || p[0] == p[1]), "{places:?}");
+        assert!(places.iter().all(|p| (p[1] - 0.3).abs() < 1e-6));
+    }
+
+    #[test]
+    fn places_out_of_order_move_no_farther_than_they_were_out_of_it_and_come_into_strict_order() {
+        let mut random = SplitMix64::new(3);
+        let mut unit = || (random.bits() >> 11) as f64 / (1u64 << 53) as f64;
+        for round in 0..200 {
+            let n = 2 + round % 30;
+            let noise = [1e-12, 1e-6, 0.3][round % 3];
+            let exact: Vec<f64> = (1..=n).map(|k| k as f64 / (n + 1) as f64).collect();
+            let mut places: Vec<_> =
+                exact.iter().map(|t| (t + noise * (unit() - 0.5)).clamp(1e-9, 0.999)).map(at).collect();
+            places[n / 2] = places[n / 2 - 1];
+            let given = places.clone();
+            restore_order(&mut places);
+            assert!(places.windows(2).all(|p| before(p[0], p[1])), "{given:?} {places:?}");
+            assert!(places.iter().flatten().all(|&w| w > 0.0 && w < 1.0));
+            let gap = 1.0 / (n + 1) as f64;
+            for (place, t) in places.iter().zip(&exact) {
+                assert!((place[1] - t).abs() <= 1.01 * (noise + gap + SPREAD));
+                assert!((place[0] + place[1] - 1.0).abs() < 1e-15);
+            }
+        }
+    }
+}

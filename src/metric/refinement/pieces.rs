@@ -1,0 +1,316 @@
+//! The pieces into which the input's edges cut the final triangles, as a triangulated surface.
+//!
+//! ```text
+//!            2                 A final triangle: curves cut off its corners, and some may leave one corner (a fan). From the
+//!           / \                counts of both the pieces follow: at a corner a triangle and then strips between its curves;
+//!          /———\               between the curves of a fan triangles; what is left over is one piece with up to six corners.
+//!         /   / \              Every corner of a piece is a vertex or a crossing, every side a part of a final edge or of an
+//!        /\  /  /\             edge of the input: it knows its half-edge of the input triangle and of the final triangle.
+//!       0——\———/——1
+//! ```
+
+use super::Final;
+use crate::control::{Control, Stage};
+use crate::error::{Error, Result};
+use crate::mesh::normal::Strands;
+use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh};
+
+/// "No edge of the output yet".
+const NONE: u32 = u32::MAX;
+/// Faces between two looks at the control.
+const FACES_PER_STEP: usize = 1024;
+
+/// A corner of a piece within its final triangle.
+#[derive(Debug, Clone, Copy)]
+enum Spot {
+    /// Corner k, after this many curves of its fan.
+    Corner(usize, i64),
+    /// The crossing at this position along side k → k + 1.
+    Side(usize, i64),
+}
+
+/// What follows a corner of a piece, counterclockwise.
+#[derive(Debug, Clone, Copy)]
+enum Way {
+    /// Part number `.1` of side `.0` → `.0` + 1.
+    Side(usize, i64),
+    /// A curve of the input.
+    Curve,
+}
+
+/// A corner of a triangle of the output: vertex, and the half-edges of the input's and the final face at which (vertex) or on
+/// which (crossing) it lies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner {
+    pub vertex: u32,
+    pub input: HalfedgeId,
+    pub result: HalfedgeId,
+}
+
+/// Which edges an edge of the refinement is part of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Origin {
+    /// The edge of the input.
+    pub input: Option<EdgeId>,
+    /// The edge of the final triangulation.
+    pub result: Option<EdgeId>,
+}
+
+/// The pieces as triangles, half-edges not yet numbered without gaps.
+pub(super) struct Pieces<'a> {
+    input: &'a Mesh,
+    result: &'a Final<'a>,
+    curves: &'a Curves,
+    /// Per crossing, if any: whether the pieces at it are one projective map in each triangle only.
+    moved: &'a [bool],
+    /// Per final edge: its first slot; slots hold the crossings in order along half-edge 2e.
+    slot_start: Vec<u32>,
+    slots: Vec<u32>,
+    /// Per crossing: the edge of the input.
+    crossed_by: Vec<u32>,
+    /// Per final edge: its first part; per edge of the input the same for those that cross anything.
+    parts: Vec<u32>,
+    curve_parts: Vec<u32>,
+    /// Per edge of the output.
+    pub origins: Vec<Origin>,
+    /// Per triangle: its half-edges, corners, the piece it belongs to.
+    pub sides: Vec<[u32; 3]>,
+    pub corners: Vec<[Corner; 3]>,
+    pub piece: Vec<u32>,
+    n_pieces: u32,
+}
+
+impl<'a> Pieces<'a> {
+    /// Cut all final triangles, O(output); keep the pieces of those faces of the input that `keep` names. A piece with a crossing that
+    /// is `moved` (an entry for each, or none at all) is taken apart into its triangles.
+    pub fn cut(
+        input: &'a Mesh,
+        result: &'a Final<'a>,
+        curves: &'a Curves,
+        moved: &'a [bool],
+        keep: &dyn Fn(FaceId) -> bool,
+        control: &Control,
+    ) -> Result<Pieces<'a>> {
+        let mesh = result.mesh;
+        let n = |e: EdgeId| result.normal.crossings(e).max(0) as u32;
+        let mut pieces = Pieces {
+            input,
+            result,
+            curves,
+            moved,
+            slot_start: running_sum(mesh.edges().map(n)),
+            slots: vec![NONE; curves.n_crossings()],
+            crossed_by: vec![0; curves.n_crossings()],
+            parts: running_sum(mesh.edges().map(|e| n(e) + 1)),
+            curve_parts: Vec::new(),
+            origins: Vec::new(),
+            sides: Vec::new(),
+            corners: Vec::new(),
+            piece: Vec::new(),
+            n_pieces: 0,
+        };
+        for e in mesh.edges() {
+            let along = result.normal.along(mesh, e.halfedge()).map(HalfedgeId::edge);
+            pieces.origins.extend((0..=n(e)).map(|_| Origin { input: along, result: Some(e) }));
+        }
+        let first = pieces.origins.len() as u32;
+        let parts = |e| match curves.crossings(e).len() as u32 {
+            0 => 0,
+            m => m + 1,
+        };
+        pieces.curve_parts = running_sum(input.edges().map(parts)).into_iter().map(|k| first + k).collect();
+        for e in input.edges() {
+            pieces.origins.extend((0..parts(e)).map(|_| Origin { input: Some(e), result: None }));
+            for (c, crossing) in curves.numbers(e).zip(curves.crossings(e)) {
+                let slot = pieces.slot(crossing.halfedge, i64::from(crossing.position));
+                pieces.slots[slot] = c as u32;
+                pieces.crossed_by[c] = e.0;
+            }
+        }
+        for f in mesh.faces() {
+            if f.index().is_multiple_of(FACES_PER_STEP) {
+                control.step(Stage::Layout, f.index() as f64 / mesh.n_faces() as f64)?;
+            }
+            pieces.cut_face(f, keep)?;
+        }
+        Ok(pieces)
+    }
+
+    fn slot(&self, side: HalfedgeId, position: i64) -> usize {
+        let e = side.edge();
+        let n = self.result.normal.crossings(e);
+        let along = if side.0 & 1 == 0 { position } else { n - 1 - position };
+        self.slot_start[e.index()] as usize + along as usize
+    }
+
+    fn cut_face(&mut self, f: FaceId, keep: &dyn Fn(FaceId) -> bool) -> Result<()> {
+        let h = self.result.mesh.face_halfedges(f);
+        let n = h.map(|h| self.result.normal.crossings(h.edge()).max(0));
+        let Strands { arc, fan } = Strands::new(n);
+        let next = |k: usize| (k + 1) % 3;
+        let mut polygon: Vec<(Spot, Way)> = Vec::with_capacity(6);
+        for k in 0..3 {
+            let before = (k + 2) % 3;
+            for m in 0..arc[k] {
+                polygon.clear();
+                let (out, back) = (Spot::Side(k, m), Spot::Side(before, n[before] - 1 - m));
+                if m == 0 {
+                    polygon.push((Spot::Corner(k, 0), Way::Side(k, 0)));
+                } else {
+                    polygon.push((Spot::Side(k, m - 1), Way::Side(k, m)));
+                }
+                polygon.push((out, Way::Curve));
+                polygon.push((back, Way::Side(before, n[before] - m)));
+                if m > 0 {
+                    polygon.push((Spot::Side(before, n[before] - m), Way::Curve));
+                }
+                self.emit(h, &polygon, keep)?;
+            }
+        }
+        // What is left over runs around the outermost arcs.
+        let around = |polygon: &mut Vec<(Spot, Way)>, k: usize| {
+            let before = (k + 2) % 3;
+            if arc[k] == 0 {
+                polygon.push((Spot::Corner(k, 0), Way::Side(k, 0)));
+            } else {
+                polygon.push((Spot::Side(before, n[before] - arc[k]), Way::Curve));
+                polygon.push((Spot::Side(k, arc[k] - 1), Way::Side(k, arc[k])));
+            }
+        };
+        polygon.clear();
+        let Some(k) = (0..3).find(|&k| fan[k] > 0) else {
+            (0..3).for_each(|k| around(&mut polygon, k));
+            return self.emit(h, &polygon, keep);
+        };
+        // The fan of corner k crosses the side `far` after its first `skip` curves; `last` crossings of it are on the way.
+        let (far, skip) = (next(k), arc[next(k)]);
+        polygon.push((Spot::Corner(k, 0), Way::Side(k, 0)));
+        around(&mut polygon, far);
+        for m in 0..fan[k] {
+            let at = skip + m;
+            polygon.push((Spot::Side(far, at), Way::Curve));
+            self.emit(h, &polygon, keep)?;
+            polygon.clear();
+            polygon.push((Spot::Corner(k, m + 1), Way::Curve));
+            polygon.push((Spot::Side(far, at), Way::Side(far, at + 1)));
+        }
+        around(&mut polygon, next(far));
+        self.emit(h, &polygon, keep)
+    }
+
+    /// Triangulate one piece.
+    fn emit(
+        &mut self,
+        h: [HalfedgeId; 3],
+        polygon: &[(Spot, Way)],
+        keep: &dyn Fn(FaceId) -> bool,
+    ) -> Result<()> {
+        let size = polygon.len();
+        let mut corners = Vec::with_capacity(size);
+        let mut sides = Vec::with_capacity(size);
+        // The half-edge of the input that a curve is part of, per side of the piece.
+        let mut curves = Vec::with_capacity(size);
+        for (i, &(spot, way)) in polygon.iter().enumerate() {
+            let (side, curve) = match way {
+                Way::Side(k, part) => (self.side_part(h[k], part), None),
+                Way::Curve => {
+                    let (side, along) = self.curve_part(h, spot, polygon[(i + 1) % size].0)?;
+                    (side, Some(along))
+                }
+            };
+            sides.push(side);
+            curves.push(curve);
+        }
+        let mut face = None;
+        for (i, &(spot, _)) in polygon.iter().enumerate() {
+            let input = match spot {
+                Spot::Corner(k, turn) => {
+                    let coincident = i64::from(self.result.normal.crossings(h[k].edge()) < 0);
+                    self.result.normal.leaving(self.result.mesh, h[k], coincident + turn - 1)
+                }
+                Spot::Side(..) => curves[i].or(curves[(i + size - 1) % size]).ok_or_else(torn)?,
+            };
+            let (vertex, result) = match spot {
+                Spot::Corner(k, _) => (self.result.mesh.origin(h[k]).0, h[k]),
+                Spot::Side(k, at) => {
+                    (self.result.mesh.n_vertices() as u32 + self.slots[self.slot(h[k], at)], h[k])
+                }
+            };
+            let lies_in = self.input.face(input).ok_or_else(torn)?;
+            if *face.get_or_insert(lies_in) != lies_in {
+                return Err(torn());
+            }
+            corners.push(Corner { vertex, input, result });
+        }
+        if !face.is_some_and(keep) {
+            return Ok(());
+        }
+        // Numbers of crossings follow those of the vertices.
+        let n = self.result.mesh.n_vertices();
+        let is_moved =
+            |c: &Corner| self.moved.get((c.vertex as usize).wrapping_sub(n)).is_some_and(|&moved| moved);
+        let apart = corners.iter().any(is_moved);
+        // A fan of triangles, each cut off by a new edge.
+        let mut left = sides[0];
+        for i in 1..size - 1 {
+            let closing = if i + 2 == size {
+                sides[size - 1]
+            } else {
+                self.origins.push(Origin { input: None, result: None });
+                2 * (self.origins.len() as u32 - 1)
+            };
+            self.sides.push([left, sides[i], closing]);
+            self.corners.push([corners[0], corners[i], corners[i + 1]]);
+            self.piece.push(self.n_pieces);
+            left = closing ^ 1;
+            self.n_pieces += u32::from(apart || i + 2 == size);
+        }
+        Ok(())
+    }
+
+    /// The half-edge of a part of a final half-edge.
+    fn side_part(&self, side: HalfedgeId, part: i64) -> u32 {
+        let e = side.edge();
+        let [begin, end] = [0, 1].map(|k| self.parts[e.index() + k]);
+        let (part, odd) = (part as u32, side.0 & 1);
+        2 * if odd == 0 { begin + part } else { end - 1 - part } + odd
+    }
+
+    /// The half-edge of the part of a curve that runs from one spot to the next, and the half-edge of the input it is part of.
+    fn curve_part(&self, h: [HalfedgeId; 3], from: Spot, to: Spot) -> Result<(u32, HalfedgeId)> {
+        let crossing = |k: usize, at: i64| {
+            let c = self.slots[self.slot(h[k], at)] as usize;
+            let e = EdgeId(self.crossed_by[c]);
+            let number = c - self.curves.numbers(e).start;
+            // Whether the curve leaves the face here.
+            (e, number as u32, self.curves.crossings(e)[number].halfedge == h[k])
+        };
+        let (e, part, forward) = match (from, to) {
+            (Spot::Side(k, at), _) => {
+                let (e, number, leaves) = crossing(k, at);
+                (e, if leaves { number } else { number + 1 }, !leaves)
+            }
+            (_, Spot::Side(k, at)) => {
+                let (e, number, leaves) = crossing(k, at);
+                (e, if leaves { number } else { number + 1 }, leaves)
+            }
+            _ => return Err(torn()),
+        };
+        let odd = u32::from(!forward);
+        Ok((2 * (self.curve_parts[e.index()] + part) + odd, HalfedgeId(e.halfedge().0 + odd)))
+    }
+}
+
+fn running_sum(counts: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut sum = 0;
+    let sums = counts.map(|n| {
+        sum += n;
+        sum
+    });
+    std::iter::once(0).chain(sums.collect::<Vec<_>>()).collect()
+}
+
+pub(super) fn torn() -> Error {
+    let message = "its faces and those of the final triangulation do not overlap as the flips say";
+    Error::Connectivity { element: "mesh", index: 0, message }
+}

@@ -1,0 +1,149 @@
+//! Where the edges of the input cross those of the final triangulation.
+//!
+//! An edge a → b of the input runs through a strip of final triangles. Laid out in Lorentz space, where a vertex is a vector of
+//! square ε and an edge has the product −η ([`crate::geometry::flip`]), it becomes the straight line from v_a to v_b:
+//!
+//! ```text
+//!         i₁————i₂————i₄            crossing edge ij, v_a on its left and v_b on its right, form a hinge: what their products
+//!       / ·\    ·\   · \            with v_i and v_j are, decides the crossing. Products of v_a are carried forward from edge
+//!      a ——·\———·—\——·—— b          to edge by the flip rule, those of v_b backward; every term is positive (ε = 0, 1), so
+//!       \ ·  \ ·   \·  /            strips of any length keep the relative accuracy of doubles.
+//!         i₀———i₃———i₅
+//! ```
+
+use super::Final;
+use crate::error::{Error, Result};
+use crate::geometry::flip::{Hinge, Meeting};
+use crate::mesh::normal_trace::CurveCrossing;
+use crate::mesh::{Curves, EdgeId, HalfedgeId, PerEdge, VertexId};
+use crate::parallel;
+
+/// Circles nearer to each other than this (η − 1) are taken to be this far apart. Across two circles that touch, the straight
+/// line has no direction, and all lines would meet where they touch. Any η serves the refinement: it decides only where along its
+/// edge a crossing lies.
+const APART: f64 = 1e-6;
+/// Products are brought back near 1 by a power of 2, which rounds nothing, when they leave this range.
+const LARGE: f64 = 1e30;
+
+/// A vertex of the strip's line with its products with the ends of one edge of the strip, all multiplied by 2^exponent.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    vertex: VertexId,
+    products: [f64; 2],
+    exponent: i32,
+}
+
+/// A crossing in vectors: weights of the ends of the input's edge, times 2^exponent each, and of the final edge's ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Raw {
+    pub meeting: Meeting,
+    pub exponent: [i32; 2],
+}
+
+/// The final class with circles kept apart.
+pub(super) struct Strips<'a> {
+    result: &'a Final<'a>,
+    eta: PerEdge<f64>,
+}
+
+impl<'a> Strips<'a> {
+    pub fn new(result: &'a Final<'a>) -> Strips<'a> {
+        let metric = result.metric;
+        let eta = PerEdge::from_fn(metric.eta.len(), |e| {
+            let [i, j] = result.mesh.ends(e).map(|v| metric.epsilon[v]);
+            if i * j == 1 { metric.eta[e].max(1.0 + APART) } else { metric.eta[e] }
+        });
+        Strips { result, eta }
+    }
+
+    /// All crossings, in the order of `curves`. Errors: [`Error::EdgeWeight`] at a final edge where an imaginary circle leaves no
+    /// straight line.
+    pub fn crossings(&self, input_ends: &[[VertexId; 2]], curves: &Curves) -> Result<Vec<Raw>> {
+        let mut found = vec![Ok(Vec::new()); input_ends.len()];
+        parallel::fill(&mut found, |e| {
+            let edge = EdgeId::from(e);
+            self.along(input_ends[e], curves.crossings(edge))
+        });
+        let mut all = Vec::with_capacity(curves.n_crossings());
+        for crossings in found {
+            all.extend(crossings?);
+        }
+        Ok(all)
+    }
+
+    /// The crossings of one edge a → b with its strip.
+    fn along(&self, [a, b]: [VertexId; 2], strip: &[CurveCrossing]) -> Result<Vec<Raw>> {
+        let (Some(first), Some(last)) = (strip.first(), strip.last()) else { return Ok(Vec::new()) };
+        let mesh = self.result.mesh;
+        let eta = |h: HalfedgeId| self.eta[h.edge()];
+        // Of an edge i → j and a side l of the other face of j → i: the products with the ends of that side.
+        let turned = |seen: Seen, far: f64, side: HalfedgeId, entry: HalfedgeId| {
+            let [i, j] = seen.products;
+            Seen { products: if side == mesh.next(entry) { [i, far] } else { [far, j] }, ..seen }.scaled()
+        };
+        let entry = last.halfedge.twin();
+        let start = Seen { vertex: b, products: [eta(mesh.next(entry)), eta(mesh.prev(entry))], exponent: 0 };
+        let mut from_b = vec![start.scaled(); strip.len()];
+        for k in (1..strip.len()).rev() {
+            let (at, entry) = (strip[k].halfedge, strip[k - 1].halfedge.twin());
+            let far = self.far(from_b[k], at, at)?;
+            from_b[k - 1] = turned(from_b[k], far, at, entry);
+        }
+        let at = first.halfedge;
+        let start = Seen { vertex: a, products: [eta(mesh.prev(at)), eta(mesh.next(at))], exponent: 0 };
+        let mut from_a = start.scaled();
+        let mut all = Vec::with_capacity(strip.len());
+        for (k, crossing) in strip.iter().enumerate() {
+            let at = crossing.halfedge;
+            let meeting = self.hinge(at, from_a, from_b[k]).meeting().ok_or_else(|| self.refusal(at))?;
+            all.push(Raw { meeting, exponent: [from_a.exponent, from_b[k].exponent] });
+            if let Some(next) = strip.get(k + 1) {
+                let far = self.far(from_a, at, at.twin())?;
+                from_a = turned(from_a, far, next.halfedge, at.twin());
+            }
+        }
+        Ok(all)
+    }
+
+    /// The product with the third vertex of the face of `side`, which is `at` or its twin, seen from across.
+    fn far(&self, seen: Seen, at: HalfedgeId, side: HalfedgeId) -> Result<f64> {
+        let mesh = self.result.mesh;
+        let [next, prev] = [mesh.next(side), mesh.prev(side)];
+        let [il, jl] = if side == at { [prev, next] } else { [next, prev] }.map(|h| self.eta[h.edge()]);
+        let third = Seen { vertex: mesh.origin(prev), products: [il, jl], exponent: 0 };
+        self.hinge(at, seen, third).flipped().ok_or_else(|| self.refusal(at))
+    }
+
+    /// The edge of `at` with the vertices seen from it on its two sides.
+    fn hinge(&self, at: HalfedgeId, left: Seen, right: Seen) -> Hinge {
+        let mesh = self.result.mesh;
+        let epsilon = |v: VertexId| f64::from(self.result.metric.epsilon[v]);
+        let own = |seen: Seen| epsilon(seen.vertex) * power(2 * seen.exponent);
+        let square = [epsilon(mesh.origin(at)), epsilon(mesh.tip(at)), own(left), own(right)];
+        let [[ik, jk], [il, jl]] = [left.products, right.products];
+        Hinge::from_products(square, [self.eta[at.edge()], ik, jk, il, jl])
+    }
+
+    fn refusal(&self, at: HalfedgeId) -> Error {
+        let need = "one across which the edges of the input can be drawn straight (imaginary circles may leave none)";
+        Error::EdgeWeight { edge: at.edge().index(), eta: self.eta[at.edge()], need }
+    }
+}
+
+impl Seen {
+    /// The same with products near 1.
+    fn scaled(self) -> Seen {
+        let size = self.products[0].max(self.products[1]);
+        if !(size > 0.0 && size < f64::INFINITY) || (1.0 / LARGE..LARGE).contains(&size) {
+            return self;
+        }
+        let shift = -(size.log2() as i32);
+        let exponent = self.exponent.saturating_add(shift);
+        Seen { products: self.products.map(|x| x * power(shift)), exponent, ..self }
+    }
+}
+
+/// 2^n, 0 or infinite beyond the doubles.
+fn power(n: i32) -> f64 {
+    f64::from(n).exp2()
+}

@@ -1,0 +1,208 @@
+//! Cancelling: every stage between a surface and its charts ends soon, with an error, and leaves its input as it was.
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
+
+mod common;
+
+use common::Random;
+use common::flow::surface;
+use ricci::embed::overlap::overlapping;
+use ricci::embed::pack::pack;
+use ricci::embed::{ChartOptions, charts, layout_of, layout_refined, refined_cut};
+use ricci::flow::{Options, SurfaceFlow, auto_cones};
+use ricci::geometry::Space;
+use ricci::mesh::{Curves, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
+use ricci::metric::delaunay::{Queue, intrinsic_delaunay, restore_delaunay};
+use ricci::metric::{Scheme, Target, delaunay_start, initial_metric};
+use ricci::topology::cut_graph;
+use ricci::{Control, Error, Result};
+use std::time::Duration;
+
+/// A torus whose triangulation is far from Delaunay.
+fn skewed(n: usize) -> (Mesh, PerEdge<f64>) {
+    let mut soup = shapes::torus(2.0, 0.2, n, n).unwrap();
+    let mut random = Random::new(4);
+    let step = 0.8 / n as f64;
+    soup.positions.as_flattened_mut().iter_mut().for_each(|x| *x += step * (random.unit() - 0.5));
+    surface(&soup)
+}
+
+fn cancelled() -> Control {
+    let control = Control::new();
+    control.cancel();
+    control
+}
+
+fn flow(surface: &(Mesh, PerEdge<f64>), control: &Control) -> Result<SurfaceFlow> {
+    let (mesh, lengths) = surface;
+    SurfaceFlow::new(
+        mesh,
+        lengths,
+        Space::E2,
+        Scheme::Inversive,
+        Space::E2,
+        &[],
+        &Options::default(),
+        control,
+    )
+}
+
+fn is_cancelled<T>(what: &str, result: Result<T>) {
+    assert!(matches!(result, Err(Error::Cancelled)), "{what}");
+}
+
+#[test]
+fn a_cancelled_control_stops_every_stage() {
+    let given = skewed(40);
+    let (mesh, lengths) = &given;
+    let (free, stop) = (Control::new(), cancelled());
+    is_cancelled("SurfaceFlow::new", flow(&given, &stop));
+    let target = Target::Cones(vec![(VertexId(3), 3.0), (VertexId(700), -3.0)]);
+    let target = target.values(mesh, lengths, Space::E2).unwrap();
+    let mut made = flow(&given, &free).unwrap();
+    let before = (made.mesh().clone(), made.metric().clone());
+    is_cancelled("solve", made.solve(&target, &stop));
+    is_cancelled("resume", SurfaceFlow::resume(&made.now(), &[], &Options::default(), &stop));
+    assert!(before == (made.mesh().clone(), made.metric().clone()));
+    assert!(made.solve(&target, &free).unwrap().converged);
+    let now = made.now();
+    is_cancelled("refinement", now.refinement(&stop));
+    let normal = NormalCoordinates::new(mesh);
+    is_cancelled("Curves::trace", Curves::trace(mesh, &normal, &stop));
+    let cones = [VertexId(3), VertexId(700)];
+    is_cancelled("cut_graph", cut_graph(mesh, lengths, &cones, &stop));
+    let r = now.refinement(&free).unwrap();
+    is_cancelled("refined_cut", refined_cut(&r, made.mesh(), made.metric(), &cones, &stop));
+    let cut = refined_cut(&r, made.mesh(), made.metric(), &cones, &free).unwrap();
+    is_cancelled("layout_refined", layout_refined(&r, made.mesh(), made.metric(), &cut, &stop));
+    let layout = layout_refined(&r, made.mesh(), made.metric(), &cut, &free).unwrap().layout;
+    is_cancelled("charts", charts(&r.mesh, |h| layout.corner_uv(h), &ChartOptions::default(), &stop));
+    is_cancelled("pack", pack(&[[1.0, 2.0], [1.0, 1.0]], 0.0, &stop));
+    let triangles: Vec<_> = r.mesh.faces().map(|f| layout.face_uv(&r.mesh, f)).collect();
+    is_cancelled("overlapping", overlapping(&triangles, &stop));
+    is_cancelled("auto_cones", auto_cones(mesh, lengths, 4, &stop));
+}
+
+#[test]
+fn flips_that_are_cancelled_on_their_way_leave_the_surface() {
+    let (mesh, lengths) = skewed(120);
+    for stop_at in [1, 1000] {
+        let (mut m, mut l) = (mesh.clone(), lengths.clone());
+        let (control, mut flips) = (Control::new(), 0);
+        let mut record = |_: &Mesh, _| {
+            flips += 1;
+            if flips == stop_at {
+                control.cancel();
+            }
+        };
+        is_cancelled(
+            "intrinsic_delaunay",
+            intrinsic_delaunay(&mut m, &mut l, None, Space::E2, &[], &mut record, &control),
+        );
+        assert!(m == mesh && l == lengths);
+        // It looks every 4096 edges, each of which is one flip at most.
+        assert!((stop_at..stop_at + 4097).contains(&flips), "{flips}");
+    }
+    // In the second round of flips, to the weighted triangulation, the surface is the same on another triangulation.
+    let count = |mesh: &mut Mesh, lengths: &mut PerEdge<f64>| {
+        let mut n = 0;
+        let record = &mut |_: &Mesh, _| n += 1;
+        intrinsic_delaunay(mesh, lengths, None, Space::E2, &[], record, &Control::new()).unwrap();
+        n
+    };
+    let (mut flipped, mut its_lengths) = (mesh.clone(), lengths.clone());
+    let first_round = count(&mut flipped, &mut its_lengths);
+    let (mut m, mut l) = (mesh.clone(), lengths.clone());
+    let (control, mut flips) = (Control::new(), 0);
+    let mut record = |_: &Mesh, _| {
+        flips += 1;
+        if flips == first_round + 1 {
+            control.cancel();
+        }
+    };
+    let kind = (Space::E2, Scheme::Inversive, Space::E2);
+    let start = delaunay_start(&mut m, &mut l, kind.0, kind.1, kind.2, None, &[], &mut record, &control);
+    assert!(flips > first_round);
+    // The end may come before the next look.
+    assert!(matches!(start, Ok(_) | Err(Error::Cancelled)));
+    assert!(start.is_ok() || (m == flipped && l == its_lengths));
+
+    let mut metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap().metric;
+    let u = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| (v.index() as f64).sin());
+    let (mut m, mut queue, control) = (mesh.clone(), Queue::all(&mesh, &[]), Control::new());
+    let mut record = |_: &Mesh, _| control.cancel();
+    is_cancelled(
+        "restore_delaunay",
+        restore_delaunay(&mut m, &mut metric, &u, &mut queue, &mut record, &control),
+    );
+}
+
+/// Cancel from another thread, at a moment that depends on the machine: whatever the work has come to, it ends or is cancelled.
+fn interrupt<T>(what: &str, work: impl Fn(&Control) -> Result<T>) {
+    let mut latencies = Vec::new();
+    for delay in [1, 4, 16, 64] {
+        let control = Control::new();
+        let other = control.clone();
+        let canceller = std::thread::spawn(move || {
+            std::thread::sleep(Duration::from_millis(delay));
+            other.cancel();
+        });
+        let result = work(&control);
+        let latency = control.since_cancel();
+        canceller.join().unwrap();
+        match result {
+            Err(Error::Cancelled) => latencies.extend(latency),
+            result => assert!(result.is_ok(), "{what}"),
+        }
+    }
+    let worst = latencies.iter().max();
+    println!("{what}: cancelled {} times of 4, at most {worst:?} later", latencies.len());
+}
+
+#[test]
+fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
+    let given = skewed(200);
+    let (mesh, lengths) = &given;
+    let free = Control::new();
+    interrupt("SurfaceFlow::new", |c| flow(&given, c).map(drop));
+    interrupt("intrinsic_delaunay", |c| {
+        let (mut m, mut l) = given.clone();
+        let flips = intrinsic_delaunay(&mut m, &mut l, None, Space::E2, &[], &mut |_, _| {}, c);
+        assert!(flips.is_ok() || (m == *mesh && l == *lengths));
+        flips
+    });
+    let (mut flat, mut its_lengths) = given.clone();
+    let start = (Space::E2, Scheme::Yamabe, Space::E2);
+    let mut normal = NormalCoordinates::new(mesh);
+    let mut record = |mesh: &Mesh, e| normal.record(mesh, e);
+    delaunay_start(&mut flat, &mut its_lengths, start.0, start.1, start.2, None, &[], &mut record, &free)
+        .unwrap();
+    interrupt("Curves::trace", |c| Curves::trace(&flat, &normal, c).map(drop));
+    interrupt("cut_graph", |c| cut_graph(mesh, lengths, &[], c).map(drop));
+    interrupt("auto_cones", |c| auto_cones(mesh, lengths, 6, c).map(drop));
+    let mut made =
+        SurfaceFlow::new(mesh, lengths, start.0, start.1, start.2, &[], &Options::default(), &free).unwrap();
+    let before = (made.mesh().clone(), made.metric().clone());
+    let target = Target::Uniform.values(mesh, lengths, Space::E2).unwrap();
+    for delay in [5, 50, 200] {
+        let control = Control::new();
+        let other = control.clone();
+        std::thread::spawn(move || {
+            std::thread::sleep(Duration::from_millis(delay));
+            other.cancel();
+        });
+        if made.solve(&target, &control).is_ok() {
+            break;
+        }
+        println!("solve: cancelled {:?} later", control.since_cancel());
+        assert!(before == (made.mesh().clone(), made.metric().clone()));
+    }
+    made.solve(&target, &free).unwrap();
+    let cut = cut_graph(made.mesh(), &made.metric().lengths(made.mesh()).unwrap(), &[], &free).unwrap();
+    let layout = layout_of(made.mesh(), made.metric(), &cut, &free).unwrap();
+    let uv = |h| layout.corner_uv(h);
+    interrupt("charts", |c| charts(made.mesh(), uv, &ChartOptions::default(), c).map(drop));
+    let triangles: Vec<_> = made.mesh().faces().map(|f| layout.face_uv(made.mesh(), f)).collect();
+    interrupt("overlapping", |c| overlapping(&triangles, c));
+    let sides: Vec<[f64; 2]> = (1..3000).map(|k| [k as f64, 1.0 + (k % 7) as f64]).collect();
+    interrupt("pack", |c| pack(&sides, 0.001, c));
+}

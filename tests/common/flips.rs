@@ -1,0 +1,165 @@
+//! What every flow with flips must satisfy, recomputed with formulas of our own.
+#![allow(dead_code)]
+
+use super::Random;
+use ricci::Control;
+use ricci::flow::{Options, Report, StopReason, SurfaceFlow};
+use ricci::geometry::Space;
+use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
+use ricci::metric::delaunay::failing;
+use ricci::metric::{Metric, Scheme};
+use std::f64::consts::PI;
+
+/// Schemes that represent every metric with real circles or none.
+pub const SCHEMES: [Scheme; 2] = [Scheme::Yamabe, Scheme::Inversive];
+
+/// A surface in the class of `scheme`, from Euclidean lengths.
+pub fn started(
+    (mesh, lengths): &(Mesh, PerEdge<f64>),
+    (space, scheme): (Space, Scheme),
+    options: &Options,
+) -> SurfaceFlow {
+    SurfaceFlow::new(mesh, lengths, Space::E2, scheme, space, &[], options, &Control::new()).unwrap()
+}
+
+/// `a + b` and what rounding loses of it.
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// Curvature from lengths and their remainders alone, broken faces, and per vertex what the rounding of the lengths as they are
+/// given can do to its curvature.
+pub struct Measured {
+    pub curvature: Vec<f64>,
+    pub broken: usize,
+    pub rounding: Vec<f64>,
+}
+
+/// Measure a metric with plain formulas: `tan²(θ_a/2) = f(s − b) f(s − c) / (f(s) f(s − a))` (f = identity, sinh) with the
+/// half-perimeter differences to twice the digits.
+pub fn measure(mesh: &Mesh, metric: &Metric) -> Measured {
+    let lengths = metric.lengths(mesh).unwrap();
+    let low = metric.length_remainders(mesh).unwrap();
+    let f = |x: f64| if metric.space == Space::H2 { x.sinh() } else { x };
+    let at = |v| if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI };
+    let mut found = Measured {
+        curvature: mesh.vertices().map(at).collect(),
+        broken: 0,
+        rounding: vec![1e-14; mesh.n_vertices()],
+    };
+    for face in mesh.faces() {
+        let sides = mesh.opposite_edges(face).map(|e| (lengths[e], low[e]));
+        assert!(sides.iter().all(|(l, rest)| *l > 0.0 && l.is_finite() && rest.is_finite()));
+        // s − l_k, and an ulp of the longest side where no remainder is known.
+        let r = [0, 1, 2].map(|k| {
+            let [own, a, b] = [sides[k], sides[(k + 1) % 3], sides[(k + 2) % 3]];
+            let (sum, lost) = two_sum(a.0, b.0);
+            let (rest, lost_too) = two_sum(sum, -own.0);
+            0.5 * (rest + (lost + lost_too + a.1 + b.1 - own.1))
+        });
+        if r.iter().any(|&r| r <= 0.0) {
+            found.broken += 1;
+            continue;
+        }
+        let s = r[0] + r[1] + r[2];
+        let longest = sides.iter().fold(0.0f64, |m, side| m.max(side.0));
+        let known = sides.iter().all(|side| side.1 != 0.0) || metric.space == Space::E2;
+        let ulp = if known { f64::EPSILON * f64::EPSILON } else { f64::EPSILON } * longest;
+        for (k, v) in mesh.face_vertices(face).into_iter().enumerate() {
+            let [own, a, b] = [r[k], r[(k + 1) % 3], r[(k + 2) % 3]].map(f);
+            let angle = 2.0 * (a.sqrt() * b.sqrt()).atan2(f(s).sqrt() * own.sqrt());
+            found.curvature[v.index()] -= angle;
+            // d log tan(θ/2) is half the sum of the relative changes, dθ = sin θ times it.
+            let relative: f64 = r.iter().chain([&s]).map(|r| ulp / r).sum();
+            found.rounding[v.index()] += angle.sin() * relative.min(1.0) + f64::EPSILON * angle;
+        }
+    }
+    assert!(found.curvature.iter().all(|k| !k.is_nan()));
+    found
+}
+
+/// What a flow with flips claims is so: Euler's and Delaunay's conditions, whole triangles and, where it says that it reached
+/// its target, the curvature of the target to the tolerance it states. Nothing is NaN. Returns whether it reached it.
+pub fn honest(flow: &SurfaceFlow, report: &Report, target: &PerVertex<f64>, what: &str) -> bool {
+    let (mesh, metric) = (flow.mesh(), flow.metric());
+    mesh.validate().unwrap();
+    let reached = matches!(report.stop_reason, StopReason::Converged | StopReason::RoundingFloor);
+    assert_eq!(report.converged, reached, "{what}");
+    assert!(metric.u.iter().chain(metric.eta.iter()).all(|x| x.is_finite()), "{what}");
+    assert!(!report.max_curvature_error.is_nan() && !report.gauss_bonnet.is_nan(), "{what}");
+    if !reached {
+        return false;
+    }
+    assert!(report.max_curvature_error <= report.tolerance && report.broken_triangles == 0, "{what}");
+    match report.stop_reason {
+        StopReason::Converged => assert!(report.tolerance <= 1e-10, "{what}"),
+        _ => assert!(report.rounding_floor.is_some() && report.tolerance <= 1e-7, "{what}: {report:?}"),
+    }
+    let found = measure(mesh, metric);
+    assert_eq!(found.broken, 0, "{what}");
+    let target = flow.target(target);
+    for v in mesh.vertices() {
+        let error = (found.curvature[v.index()] - target[v]).abs();
+        let most = report.tolerance + found.rounding[v.index()];
+        assert!(error <= most, "{what}: {error:e} at {v}, allowed {most:e}");
+    }
+    assert!(failing(mesh, metric, &metric.u).is_empty(), "{what}: not Delaunay");
+    true
+}
+
+/// Flow to a target, which must be reached.
+pub fn reach(flow: &mut SurfaceFlow, target: &PerVertex<f64>, what: &str) -> Report {
+    let report = flow.solve(target, &Control::new()).unwrap();
+    assert!(
+        honest(flow, &report, target, what),
+        "{what}: {} after {} steps, {:.1e}",
+        report.stop_reason,
+        report.iterations,
+        report.max_curvature_error
+    );
+    report
+}
+
+/// Flip an edge whose two triangles form a strictly convex quadrilateral in the plane; the surface stays as it is.
+pub fn isometric_flip(mesh: &mut Mesh, lengths: &mut PerEdge<f64>, e: EdgeId) -> bool {
+    let h = e.halfedge();
+    if mesh.is_outside(h) || mesh.is_outside(h.twin()) || mesh.face(h) == mesh.face(h.twin()) {
+        return false;
+    }
+    let place = |h| {
+        let [base, left, right] = [h, mesh.next(h), mesh.prev(h)].map(|h| lengths[h.edge()]);
+        let x = (base * base + right * right - left * left) / (2.0 * base);
+        [x, (right * right - x * x).max(0.0).sqrt()]
+    };
+    let (k, l) = (place(h), place(h.twin()));
+    let l = [lengths[e] - l[0], -l[1]];
+    // Where the new edge crosses the line of the old one, well inside.
+    let crossing = k[0] + (l[0] - k[0]) * k[1] / (k[1] - l[1]);
+    if !(0.05 * lengths[e]..0.95 * lengths[e]).contains(&crossing) {
+        return false;
+    }
+    let length = (k[0] - l[0]).hypot(k[1] - l[1]);
+    mesh.flip(e) && {
+        lengths[e] = length;
+        true
+    }
+}
+
+/// Another geodesic triangulation of the same surface, by `tries` random flips that keep it. Returns how many there were.
+pub fn shuffle(mesh: &mut Mesh, lengths: &mut PerEdge<f64>, tries: usize, random: &mut Random) -> usize {
+    let mut edge = || EdgeId::from(random.below(mesh.n_edges()));
+    let edges: Vec<EdgeId> = (0..tries).map(|_| edge()).collect();
+    edges.into_iter().filter(|&e| isometric_flip(mesh, lengths, e)).count()
+}
+
+/// The target drawn towards its mean, as far as `most` asks for at its largest entry.
+pub fn drawn_below(target: &mut PerVertex<f64>, total: f64, most: f64) {
+    let mean = total / target.len() as f64;
+    let shift = target.iter().sum::<f64>() / target.len() as f64;
+    target.iter_mut().for_each(|k| *k += mean - shift);
+    let largest = target.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let pull = if largest > most { (most - mean) / (largest - mean) } else { 1.0 };
+    target.iter_mut().for_each(|k| *k = mean + pull * (*k - mean));
+}

@@ -1,0 +1,171 @@
+/* Attributes carried to layouts, and homogeneous texture coordinates, against formulas written here. */
+#include "arrays.h"
+
+enum { COMPONENTS = 2 };
+
+/* Values without a pattern. */
+static double *values(size_t n) {
+    double *x = (double *)room(n, sizeof *x);
+    for (size_t i = 0; i < n; i++) x[i] = sin(1.7 * (double)i) + 0.01 * (double)(i % 7);
+    return x;
+}
+
+typedef ricci_status carry(const ricci_layout *, const double *, size_t, size_t, double *, size_t);
+typedef ricci_status crossings(const ricci_layout *, uint32_t *, double *, size_t);
+typedef ricci_status faces_of(const ricci_layout *, uint32_t *, size_t);
+typedef ricci_status barycentric(const ricci_layout *, double *, size_t);
+
+/* Values at vertices are linear along the edges of the triangulation that they come from. */
+static void check_vertices(const ricci_layout *layout, const ricci_layout_summary *s, const arrays *from,
+                           carry *carry, crossings *crossings) {
+    const size_t n = from->n.n_vertices, all = COMPONENTS * s->n_vertices;
+    double *x = values(COMPONENTS * n), *y = (double *)room(all, sizeof *y);
+    double *t = (double *)room(s->n_crossings, sizeof *t);
+    uint32_t *edges = (uint32_t *)room(s->n_crossings, sizeof *edges);
+    OK(carry(layout, x, n, COMPONENTS, y, all));
+    OK(crossings(layout, edges, t, s->n_crossings));
+    CHECK(memcmp(x, y, COMPONENTS * s->n_given_vertices * sizeof *x) == 0);
+    for (size_t k = 0; k < s->n_crossings; k++)
+        for (size_t i = 0; i < COMPONENTS; i++) {
+            const double a = x[COMPONENTS * from->ends[2 * edges[k]] + i];
+            const double b = x[COMPONENTS * from->ends[2 * edges[k] + 1] + i];
+            CHECK(fabs(y[COMPONENTS * (s->n_given_vertices + k) + i] - (1 - t[k]) * a - t[k] * b) < 1e-14);
+        }
+    FAILS(carry(layout, x, n, COMPONENTS, y, all - 1), RICCI_BUFFER_TOO_SMALL, "carried");
+    FAILS(carry(layout, x, n + 1, COMPONENTS, y, all), RICCI_WRONG_SIZE, "values");
+    FAILS(carry(layout, x, n, SIZE_MAX / 2, y, all), RICCI_TOO_LARGE, "values");
+    FAILS(carry(layout, NULL, n, COMPONENTS, y, all), RICCI_NULL_POINTER, "values");
+    FAILS(carry(NULL, x, n, COMPONENTS, y, all), RICCI_NULL_POINTER, "layout");
+    OK(carry(layout, NULL, n, 0, NULL, 0));
+    x[3] = NAN;
+    FAILS(carry(layout, x, n, COMPONENTS, y, all), RICCI_ARGUMENT, "values[3]");
+    free(x), free(y), free(t), free(edges);
+}
+
+/* Values at corners are linear in the faces of the triangulation that they come from. */
+static void check_corners(const ricci_layout *layout, const ricci_layout_summary *s, const arrays *from,
+                          carry *carry, faces_of *faces_of, barycentric *barycentric) {
+    const size_t n = from->n.n_faces, all = 3 * COMPONENTS * s->n_faces;
+    double *x = values(3 * COMPONENTS * n), *y = (double *)room(all, sizeof *y);
+    double *b = (double *)room(9 * s->n_faces, sizeof *b);
+    uint32_t *of = (uint32_t *)room(s->n_faces, sizeof *of);
+    OK(carry(layout, x, n, COMPONENTS, y, all));
+    OK(faces_of(layout, of, s->n_faces));
+    OK(barycentric(layout, b, 9 * s->n_faces));
+    for (size_t f = 0; f < s->n_faces; f++)
+        for (size_t k = 0; k < 3; k++)
+            for (size_t i = 0; i < COMPONENTS; i++) {
+                double expected = 0;
+                for (size_t c = 0; c < 3; c++)
+                    expected += b[9 * f + 3 * k + c] * x[COMPONENTS * (3 * of[f] + c) + i];
+                CHECK(fabs(y[COMPONENTS * (3 * f + k) + i] - expected) < 1e-14);
+            }
+    FAILS(carry(layout, x, n, COMPONENTS, y, all - 1), RICCI_BUFFER_TOO_SMALL, "carried");
+    FAILS(carry(layout, x, n - 1, COMPONENTS, y, all), RICCI_WRONG_SIZE, "values");
+    free(x), free(y), free(b), free(of);
+}
+
+/* The n_points lines `vt a b c` of a file, in order; there must be exactly as many. */
+static double *texture_coordinates(const char *path, size_t n_points) {
+    double *vt = (double *)room(3 * n_points, sizeof *vt);
+    char line[512];
+    size_t n = 0;
+    FILE *file = fopen(path, "r");
+    CHECK(file);
+    while (fgets(line, sizeof line, file))
+        if (strncmp(line, "vt ", 3) == 0) {
+            double *p = vt + 3 * n++;
+            CHECK(n <= n_points && sscanf(line, "vt %lf %lf %lf", p, p + 1, p + 2) == 3);
+        }
+    CHECK(n == n_points);
+    fclose(file);
+    return vt;
+}
+
+/* Divided by the third they are the plane points; the third is the weight of the vertex at every corner. */
+static void check_homogeneous(const char *path, const ricci_layout *layout, const ricci_layout_summary *s,
+                              const uint32_t *faces, const double *points, const uint32_t *corners,
+                              size_t n_points) {
+    double *vt = texture_coordinates(path, n_points), *q = (double *)room(s->n_vertices, sizeof *q);
+    double least = INFINITY, most = 0;
+    OK(ricci_layout_weights(layout, q, s->n_vertices));
+    for (size_t c = 0; c < 3 * s->n_faces; c++) CHECK(vt[3 * corners[c] + 2] == q[faces[c]]);
+    for (size_t p = 0; p < n_points; p++) {
+        least = fmin(least, vt[3 * p + 2]), most = fmax(most, vt[3 * p + 2]);
+        for (int i = 0; i < 2; i++)
+            CHECK(fabs(vt[3 * p + i] / vt[3 * p + 2] - points[2 * p + i]) < 1e-14 * (1 + s->diameter));
+    }
+    CHECK(least > 0 && most > 1.05 * least); /* the map is not the identity */
+    free(vt), free(q);
+}
+
+static void check_layout(const ricci_mesh *mesh, ricci_flips flips, const char *path) {
+    arrays given = arrays_of(mesh, 1);
+    const size_t n = given.n.n_vertices;
+    ricci_metric *metric = NULL, *flat = NULL;
+    ricci_layout *layout = NULL;
+    ricci_charts *charts = NULL;
+    ricci_mesh *refined = NULL, *final_mesh = NULL;
+    ricci_layout_summary s;
+    ricci_charts_summary c;
+    ricci_flow_options options;
+    double *target = (double *)room(n, sizeof *target);
+    OK(ricci_flow_options_init(&options, sizeof options));
+    options.flips = flips;
+    OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
+    OK(ricci_target_default(metric, target, n));
+    OK(ricci_flow(metric, target, n, &options, NULL, &flat, NULL));
+    OK(ricci_layout_new(flat, target, n, NULL, &layout));
+    OK(ricci_layout_summarise(layout, &s, sizeof s));
+    CHECK((s.n_crossings > 0) == (flips == RICCI_FLIPS_AUTO));
+    OK(ricci_layout_mesh(layout, &refined));
+    OK(ricci_metric_mesh(flat, &final_mesh));
+    arrays r = arrays_of(refined, 1), last = arrays_of(final_mesh, 0);
+
+    check_vertices(layout, &s, &given, ricci_layout_from_input_vertices, ricci_layout_input_crossings);
+    check_vertices(layout, &s, &last, ricci_layout_from_final_vertices, ricci_layout_final_crossings);
+    check_corners(layout, &s, &given, ricci_layout_from_input_corners, ricci_layout_input_faces,
+                  ricci_layout_input_barycentric);
+    check_corners(layout, &s, &last, ricci_layout_from_final_corners, ricci_layout_final_faces,
+                  ricci_layout_final_barycentric);
+    /* Positions are such values. */
+    double *positions = (double *)room(3 * s.n_vertices, sizeof *positions);
+    OK(ricci_layout_from_input_vertices(layout, given.positions, n, 3, positions, 3 * s.n_vertices));
+    CHECK(memcmp(positions, r.positions, 3 * s.n_vertices * sizeof *positions) == 0);
+
+    double *points = (double *)room(2 * s.n_points, sizeof *points);
+    uint32_t *corners = (uint32_t *)room(3 * s.n_faces, sizeof *corners);
+    OK(ricci_layout_points(layout, points, 2 * s.n_points));
+    OK(ricci_layout_corners(layout, corners, 3 * s.n_faces));
+    OK(ricci_layout_write_obj_homogeneous(layout, path));
+    check_homogeneous(path, layout, &s, r.faces, points, corners, s.n_points);
+    FAILS(ricci_layout_write_obj_homogeneous(layout, NULL), RICCI_NULL_POINTER, "path");
+    free(points);
+
+    OK(ricci_charts_new(layout, 0.01, NULL, &charts));
+    OK(ricci_charts_summarise(charts, &c, sizeof c));
+    points = (double *)room(2 * c.n_points, sizeof *points);
+    OK(ricci_charts_points(charts, points, 2 * c.n_points));
+    OK(ricci_charts_corners(charts, corners, 3 * c.n_faces));
+    OK(ricci_charts_write_obj_homogeneous(charts, path));
+    check_homogeneous(path, layout, &s, r.faces, points, corners, c.n_points);
+    FAILS(ricci_charts_write_obj_homogeneous(NULL, path), RICCI_NULL_POINTER, "charts");
+
+    printf("%s: %zu vertices, %zu crossings, %zu charts\n", path, n, s.n_crossings, c.n_charts);
+    free(points), free(corners), free(positions), free(target);
+    arrays_free(&r), arrays_free(&last), arrays_free(&given);
+    ricci_mesh_free(refined), ricci_mesh_free(final_mesh);
+    ricci_charts_free(charts), ricci_layout_free(layout);
+    ricci_metric_free(flat), ricci_metric_free(metric);
+}
+
+int main(void) {
+    torus t = torus_new(24, 12);
+    ricci_mesh *closed = torus_mesh(&t), *open = bump(13);
+    check_layout(closed, RICCI_FLIPS_AUTO, "transfer_torus.obj");
+    check_layout(closed, RICCI_FLIPS_NEVER, "transfer_unflipped.obj");
+    check_layout(open, RICCI_FLIPS_AUTO, "transfer_bump.obj");
+    ricci_mesh_free(closed), ricci_mesh_free(open);
+    torus_free(&t);
+    return 0;
+}

@@ -1,0 +1,170 @@
+//! What holds of every refinement, and of its layout.
+
+use crate::common::Random;
+use crate::flown::Flown;
+use ricci::Control;
+use ricci::embed::{layout_refined, refined_cut};
+use ricci::geometry::Space;
+use ricci::mesh::{FaceId, Mesh, PerEdge, PerVertex, Point};
+use ricci::metric::{Refinement, curvature};
+
+#[derive(Default, Debug)]
+pub struct Worst {
+    pub area: f64,
+    pub position: f64,
+    pub projective: f64,
+}
+
+/// Everything that holds of every refinement of `input` (the half, for a double).
+pub fn check(r: &Refinement, input: &Mesh, flown: &Flown, positions: &[Point], what: &str) -> Worst {
+    let mut worst = Worst::default();
+    r.mesh.validate().unwrap();
+    assert_eq!(r.mesh.euler(), input.euler(), "{what}");
+    assert_eq!(r.mesh.boundary_loops().len(), input.boundary_loops().len(), "{what}");
+    assert_eq!(r.n_input_vertices, input.n_vertices(), "{what}");
+    assert!(r.weight.iter().all(|&q| q > 0.0 && q.is_finite()));
+
+    // Areas of the pieces add up to the faces'.
+    let mut input_area = vec![0.0; input.n_faces()];
+    let mut final_area = vec![0.0; flown.mesh.n_faces()];
+    for f in r.mesh.faces() {
+        for (corners, sum) in [
+            (r.input_barycentric(f), &mut input_area[r.input_face[f].index()]),
+            (r.final_barycentric(f), &mut final_area[r.final_face[f].index()]),
+        ] {
+            let area = determinant(corners);
+            assert!(area > -1e-12, "{what}: {area}");
+            assert!(corners.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
+            *sum += area;
+        }
+    }
+    let closed = input.is_closed();
+    for area in input_area.iter().chain(final_area.iter().filter(|_| closed)) {
+        worst.area = worst.area.max((area - 1.0).abs());
+    }
+
+    // The crossings of an edge follow each other, and cut it into one more part than they are.
+    let mut parts = vec![0; input.n_edges()];
+    r.origin.iter().filter_map(|o| o.input).for_each(|e| parts[e.index()] += 1);
+    let mut crossings = vec![Vec::new(); input.n_edges()];
+    r.crossings.iter().for_each(|c| crossings[c.input_edge.index()].push(c.input_weights[1]));
+    for (parts, crossings) in parts.iter().zip(&crossings) {
+        assert_eq!(*parts, crossings.len() + 1, "{what}");
+        assert!(crossings.is_sorted(), "{what}: {crossings:?}");
+    }
+
+    // Positions: every corner of every piece, seen from its own face of the input, is where its vertex is.
+    let at = r.from_input_vertices(positions).unwrap();
+    let extent = positions.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    for f in r.mesh.faces() {
+        let corners = input.face_vertices(r.input_face[f]).map(|v| positions[v.index()]);
+        for (b, v) in r.input_barycentric(f).into_iter().zip(r.mesh.face_vertices(f)) {
+            for i in 0..3 {
+                let x: f64 = (0..3).map(|k| b[k] * corners[k][i]).sum();
+                worst.position = worst.position.max((x - at[v.index()][i]).abs() / extent);
+            }
+        }
+    }
+    // There and back again.
+    let (forward, backward) = (r.forward(), r.backward());
+    let mut random = Random::new(1);
+    for _ in 0..200 {
+        let face = FaceId::from(random.below(input.n_faces()));
+        let (x, y) = (random.unit(), random.unit());
+        let b = if x + y > 1.0 { [1.0 - x, 1.0 - y, x + y - 1.0] } else { [x, y, 1.0 - x - y] };
+        let (there, image) = forward.image(face, b).unwrap();
+        let (back, again) = backward.image(there, image).unwrap();
+        let place = |f, b: [f64; 3]| {
+            let corners = input.face_vertices(f).map(|v| positions[v.index()]);
+            [0, 1, 2].map(|i| (0..3).map(|k| b[k] * corners[k][i]).sum::<f64>())
+        };
+        let (p, q) = (place(face, b), place(back, again));
+        let off = (0..3).fold(0.0f64, |m, i| m.max((p[i] - q[i]).abs()));
+        worst.position = worst.position.max(off / extent);
+    }
+
+    // One projective map per piece: q · (final weights) is linear in the input weights.
+    let faces: Vec<_> = r.mesh.faces().collect();
+    for piece in faces.chunk_by(|&f, &g| r.piece[f] == r.piece[g]) {
+        let corners: Vec<_> = piece
+            .iter()
+            .flat_map(|&f| {
+                let (a, b, q) = (r.input_barycentric(f), r.final_barycentric(f), r.weights(f));
+                (0..3).map(move |k| (a[k], b[k].map(|x| q[k] * x)))
+            })
+            .collect();
+        for other in corners.iter().skip(3) {
+            // other = Σ t_k corner_k, in both.
+            let base = [corners[0].0, corners[1].0, corners[2].0];
+            let total = determinant(base);
+            if total < 1e-6 {
+                continue;
+            }
+            let t = [0, 1, 2].map(|k| {
+                let mut with = base;
+                with[k] = other.0;
+                determinant(with) / total
+            });
+            let size = other.1.iter().fold(0.0f64, |m, x| m.max(*x));
+            for i in 0..3 {
+                let terms = [0, 1, 2].map(|k| t[k] * corners[k].1[i]);
+                let scale = terms.iter().fold(size, |m, x| m.max(x.abs()));
+                worst.projective =
+                    worst.projective.max((terms.iter().sum::<f64>() - other.1[i]).abs() / scale);
+            }
+        }
+    }
+    worst
+}
+
+pub fn check_layout(
+    r: &Refinement,
+    input: &Mesh,
+    lengths: &PerEdge<f64>,
+    flown: &Flown,
+    target: &PerVertex<f64>,
+    what: &str,
+) {
+    let cones: Vec<_> =
+        input.vertices().filter(|&v| !input.is_boundary_vertex(v) && target[v].abs() > 1e-12).collect();
+    let cut = refined_cut(r, &flown.mesh, &flown.metric, &cones, &Control::new()).unwrap();
+    let laid = layout_refined(r, &flown.mesh, &flown.metric, &cut, &Control::new()).unwrap();
+    let quality = laid.quality(r, input, lengths).unwrap();
+    println!(
+        "    consistency {:.0e}, {:.0e} of a face; of {} triangles {} flipped, {} degenerate; qc mean {:.2}, max {:.0e}",
+        laid.layout.consistency,
+        laid.layout.local_consistency,
+        r.mesh.n_faces(),
+        laid.layout.flipped.len(),
+        laid.degenerate.len(),
+        quality.qc_mean,
+        quality.qc_max
+    );
+    assert!(laid.layout.consistency < 1e-10, "{what}");
+    // Where faces are so small against where they lie that doubles lose their shape, nothing can be said of their pieces.
+    if laid.layout.local_consistency < 1e-6 {
+        assert!(laid.layout.flipped.is_empty() && laid.degenerate.is_empty(), "{what}");
+    }
+    // Where the two sides of a seam are glued by an isometry, that carries one onto the other.
+    assert!(laid.layout.seams.iter().all(|seam| seam.residual < 1e-10), "{what}");
+    if input.is_closed() {
+        let area =
+            curvature(&flown.mesh, Space::E2, &flown.metric.lengths(&flown.mesh).unwrap()).unwrap().area;
+        assert!((laid.layout.area / area - 1.0).abs() < 1e-10, "{what}");
+        let mut scaled = laid.clone();
+        scaled.scale_to_area(r, 2.0).unwrap();
+        let sum: f64 = r.mesh.faces().map(|f| plane_area(scaled.layout.face_uv(&r.mesh, f))).sum();
+        assert!((sum - 2.0).abs() < 1e-9, "{what}: {sum}");
+    }
+    assert!(laid.layout.broken.is_empty(), "{what}");
+}
+
+fn plane_area([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+}
+
+pub fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+}
