@@ -34,7 +34,6 @@ TARGETS = {
     "single": "E², genus 1 to 3: all of 2πχ at vertex 0.",
 }
 TOLERANCE = 1e-10
-LARGE = 50_000      # default targets only above
 SECONDS = 900
 
 meshes = [m for m in csv.DictReader(open(os.path.join(corpus, "INDEX.csv"))) if not sys.argv[2:] or m["name"] in sys.argv[2:]]
@@ -133,8 +132,8 @@ def run(mesh, scheme, target, flips="auto"):
 
 def work(mesh):
     print(mesh["name"], file=sys.stderr)
-    genus, small = int(mesh["genus"]), int(mesh["V"]) <= LARGE
-    targets = ["default"] + ["cones"] * small + ["straight"] * (small and int(mesh["boundary_loops"]) > 0) + ["single"] * (small and 1 <= genus <= 3)
+    genus = int(mesh["genus"])
+    targets = ["default", "cones"] + ["straight"] * (int(mesh["boundary_loops"]) > 0) + ["single"] * (1 <= genus <= 3)
     flown = {(target, scheme): run(mesh, scheme, target) for target in targets for scheme in SCHEMES}
     return flown, {scheme: run(mesh, scheme, "default", "never") for scheme in RIGID}
 
@@ -240,7 +239,7 @@ print(f"Made by `docs/results/flow.py`: `ricci flow` on each of the {len(meshes)
       "command on one thread, files included.\n")
 for name, text in TARGETS.items():
     print(f"- *{name}*: {text}")
-print(f"\nMeshes of more than {LARGE} vertices are run with default targets only.\n\n## With flips\n")
+print("\n## With flips\n")
 absent = outside()[1]
 if absent:
     print(f"No outside verdict: {absent}.\n")

@@ -53,7 +53,7 @@ impl Run<'_> {
         report: &mut Report,
     ) -> Result<State> {
         let n = self.mesh.n_vertices();
-        let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
+        let [mut residual, mut before, mut step] = [(); 3].map(|()| vec![0.0; n]);
         let mut trial = State::new(self.mesh, self.start, self.start_low);
         let mut error = state.residual(self.target, self.pinned, &mut residual);
         let (first, mut best, mut since_best, mut shift, mut factored) = (error, error, 0, 0.0, false);
@@ -91,13 +91,14 @@ impl Run<'_> {
             }
             report.iterations += 1;
             state.hand_on(&mut trial);
+            before.copy_from_slice(&residual);
             let accepted = self.line_search(&state, &mut trial, &mut residual, &step, error, report)?;
             let Some(now) = accepted else {
                 // Back to the triangulation of the last metric, or one of the same.
                 self.evaluate(&mut state, report)?;
-                let before =
-                    std::mem::replace(&mut error, state.residual(self.target, self.pinned, &mut residual));
-                if (error - before).abs() > MOVED * before && restarts < RESTARTS {
+                error = state.residual(self.target, self.pinned, &mut residual);
+                let moved = before.iter().zip(&residual).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                if moved > MOVED * error && restarts < RESTARTS {
                     restarts += 1;
                     continue;
                 }
