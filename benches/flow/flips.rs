@@ -111,7 +111,8 @@ fn cones(surface: &Surface) -> PerVertex<f64> {
 fn open(vertices: usize, scheme: Scheme) -> ([Run; 2], f64) {
     let surface = acute_disk(vertices);
     let mut target = Target::Boundary.values(&surface.0, &surface.1, Space::E2).unwrap();
-    target.iter_mut().zip(waves(&surface.0).iter()).for_each(|(k, wave)| *k += wave);
+    // The disk is not as regular as the torus.
+    target.iter_mut().zip(waves(&surface.0).iter()).for_each(|(k, wave)| *k += 0.1 * wave);
     let run = |flips| {
         let (start, mut flow) = start(&surface, scheme, flips);
         let report = flow.solve(&target, &Control::new()).unwrap();
