@@ -329,6 +329,11 @@ fn what_cannot_be_is_refused_by_name() {
     }
 }
 
+/// Isometric flips to the plain Delaunay triangulation, and their number.
+fn to_delaunay(mesh: &mut Mesh, lengths: &mut PerEdge<f64>) -> usize {
+    intrinsic_delaunay(mesh, lengths, None, Space::E2, &[], &mut |_, _| (), &Control::new()).unwrap()
+}
+
 /// The flat torus with periods 1 and k + τ is that with periods 1 and τ, sheared k times: it takes k flips to see it.
 #[test]
 fn sheared_tori_are_unwound() {
@@ -338,16 +343,7 @@ fn sheared_tori_are_unwound() {
     for k in [10.0f64, 1e3, 5e3] {
         let torus = shapes::flat_torus([k + tau[0], tau[1]], 1, 1).unwrap();
         let (mut mesh, mut lengths) = torus.build().unwrap();
-        let flips = intrinsic_delaunay(
-            &mut mesh,
-            &mut lengths,
-            None,
-            Space::E2,
-            &[],
-            &mut |_, _| (),
-            &Control::new(),
-        )
-        .unwrap();
+        let flips = to_delaunay(&mut mesh, &mut lengths);
         let mut found = [0, 1, 2].map(|e| lengths[EdgeId(e)]);
         found.sort_by(f64::total_cmp);
         let worst = (0..3).map(|i| (found[i] - reduced[i]).abs()).fold(0.0, f64::max);
@@ -379,16 +375,7 @@ fn needles_beside_caps_are_told_from_delaunay_edges() {
                 lengths[next.edge()] = side;
             }
         }
-        let made = intrinsic_delaunay(
-            &mut mesh,
-            &mut lengths,
-            None,
-            Space::E2,
-            &[],
-            &mut |_, _| (),
-            &Control::new(),
-        )
-        .unwrap();
+        let made = to_delaunay(&mut mesh, &mut lengths);
         assert_eq!(made, flips, "π − {cap:e} and {needle:e}");
     }
 }

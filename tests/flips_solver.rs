@@ -140,19 +140,13 @@ fn fixed_edges_stay() {
     let ends: Vec<[VertexId; 2]> = fixed.iter().map(|&e| given.ends(e)).collect();
     let target = Target::default_for(&given, &lengths, Space::E2).unwrap();
     let target = target.values(&given, &lengths, Space::E2).unwrap();
-    let run = |fixed_edges| {
+    let begin = |fixed_edges| {
         let options = Options { fixed_edges, ..Options::default() };
-        let mut flow = SurfaceFlow::new(
-            &given,
-            &lengths,
-            Space::E2,
-            Scheme::Yamabe,
-            Space::E2,
-            &[],
-            &options,
-            &Control::new(),
-        )
-        .unwrap();
+        let (space, scheme) = (Space::E2, Scheme::Yamabe);
+        SurfaceFlow::new(&given, &lengths, Space::E2, scheme, space, &[], &options, &Control::new())
+    };
+    let run = |fixed_edges| {
+        let mut flow = begin(fixed_edges).unwrap();
         flow.solve(&target, &Control::new()).unwrap();
         flow
     };
@@ -161,18 +155,7 @@ fn fixed_edges_stay() {
         fixed.iter().zip(&ends).all(|(&e, ends)| flow.mesh().ends(e) == *ends && sides(e)[0] != sides(e)[1])
     };
     assert!(!kept(&run(Vec::new())) && kept(&run(fixed.clone())));
-    let missing = vec![EdgeId(given.n_edges() as u32)];
-    let options = Options { fixed_edges: missing, ..Options::default() };
-    let refused = SurfaceFlow::new(
-        &given,
-        &lengths,
-        Space::E2,
-        Scheme::Yamabe,
-        Space::E2,
-        &[],
-        &options,
-        &Control::new(),
-    );
+    let refused = begin(vec![EdgeId(given.n_edges() as u32)]);
     assert!(refused.is_err_and(|e| e.to_string().contains("fixed edge")));
 }
 

@@ -62,8 +62,8 @@ impl Run<'_> {
         let (mut flipped, mut restarts) = (report.flips, 0);
         report.stop_reason = loop {
             let at_limit = report.iterations >= self.options.iteration_limit();
-            let fails = |run: &Self| boundary_fails(run.mesh, run.class, &state.u, &run.options.fixed_edges);
-            if self.one_copy && !at_limit && fails(self) {
+            let fixed = &self.options.fixed_edges;
+            if self.one_copy && !at_limit && boundary_fails(self.mesh, self.class, &state.u, fixed) {
                 self.left = true;
                 report.max_curvature_error = error;
                 return Ok(state);

@@ -288,10 +288,7 @@ pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> 
 
 /// Whether a boundary edge would be flipped on the surface's double, where its face meets its mirror image; `fixed` ones would not.
 pub fn boundary_fails(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>, fixed: &[EdgeId]) -> bool {
-    let fails = |e: EdgeId| {
-        let Some(h) = [e.halfedge(), e.halfedge().twin()].into_iter().find(|&h| !mesh.is_outside(h)) else {
-            return false;
-        };
+    let fails = |h: HalfedgeId| {
         let [jk, ki] = [mesh.next(h), mesh.prev(h)];
         let [i, j, k] = [h, jk, ki].map(|h| mesh.origin(h));
         let corners = [i, j, k, k];
@@ -299,8 +296,8 @@ pub fn boundary_fails(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>, fixed: &
         let eta = [h, ki, jk, ki, jk].map(|h| metric.eta[h.edge()]);
         Hinge::new(corners.map(|v| f64::from(metric.epsilon[v])), w, eta).wants_flip()
     };
-    let on_boundary = |e: &EdgeId| mesh.is_outside(e.halfedge()) || mesh.is_outside(e.halfedge().twin());
-    mesh.edges().filter(on_boundary).any(|e| fails(e) && !fixed.contains(&e))
+    let mut along = mesh.edges().flat_map(|e| [e.halfedge(), e.halfedge().twin()]);
+    along.any(|h| mesh.is_outside(h.twin()) && fails(h) && !fixed.contains(&h.edge()))
 }
 
 /// `w` of every vertex at variables `u`.

@@ -41,7 +41,6 @@ pub fn torus(n: usize, m: usize) -> Surface {
     Surface { positions, faces: faces.collect() }
 }
 
-/// Graph of a smooth function over a square of n × n cells: a disk.
 /// The hill sheared: triangles at two of its sides are obtuse, and edges are flipped across its boundary.
 pub fn sheared_hill(n: usize) -> Surface {
     let mut hill = hill(n);
@@ -49,6 +48,7 @@ pub fn sheared_hill(n: usize) -> Surface {
     hill
 }
 
+/// Graph of a smooth function over a square of n × n cells: a disk.
 pub fn hill(n: usize) -> Surface {
     let at = |i: usize, j: usize| i * (n + 1) + j;
     let mut positions = Vec::new();
