@@ -93,16 +93,30 @@ pub fn angles(space: Space, l: [f64; 3]) -> Angles {
 /// The angles from the half-perimeter differences, which may be known better than the lengths.
 #[inline]
 pub fn angles_from(space: Space, r: [f64; 3]) -> Angles {
+    Angles { at: half_tangents(space, r).map(|[y, x]| 2.0 * y.atan2(x)) }
+}
+
+/// `[cos, sin]` of half the angle at each corner, from the half-perimeter differences.
+pub fn half_angles_from(space: Space, r: [f64; 3]) -> [[f64; 2]; 3] {
+    half_tangents(space, r).map(|[y, x]| {
+        let norm = x.hypot(y);
+        [x / norm, y / norm]
+    })
+}
+
+/// Numerator and denominator of the tangents of half the angles; of a broken triangle those of (π, 0, 0) or (π, π, π).
+#[inline]
+fn half_tangents(space: Space, r: [f64; 3]) -> [[f64; 2]; 3] {
     let s = r[0] + r[1] + r[2];
     if let Some(corner) = (0..3).find(|&i| r[i] <= 0.0) {
-        return Angles { at: [0, 1, 2].map(|k| if k == corner { PI } else { 0.0 }) };
+        return [0, 1, 2].map(|k| if k == corner { [1.0, 0.0] } else { [0.0, 1.0] });
     }
     if space == Space::S2 && s >= PI {
-        return Angles { at: [PI; 3] };
+        return [[1.0, 0.0]; 3];
     }
     // The roots first: f_i f_j may underflow.
     let [a, b, c] = ratios(space, s, r).map(f64::sqrt);
-    Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * y.atan2(x)) }
+    [[b * c, a], [c * a, b], [a * b, c]]
 }
 
 /// Area: Heron in E²; in H² and S² by l'Huilier's formula

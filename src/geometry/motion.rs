@@ -1,0 +1,385 @@
+//! Orientation-preserving isometries of the three spaces by their Cayley–Klein parameters.
+//!
+//! With κ = λ = 0, −1, +1 and complex a, b, `|a|² + κ |b|² = 1`, the isometry is, in the stereographic coordinate z (E²: half the
+//! plane's; H²: the Poincaré disk; S²: projection from the south pole, the north pole at 0),
+//!
+//! ```text
+//! z ↦ (a z + b) / (−κ b̄ z + ā)        ±(a, b) are the same map       (a, b)(c, d) = (a c − κ b d̄, a d + b c̄)
+//! translation by l along the x axis: a = cos, cosh, 1 of l/2,  b = sin, sinh, identity of l/2       rotation by θ: a = e^{iθ/2}
+//! ```
+//!
+//! that is, unit quaternions in S² (SU(2)), SU(1,1) in H². One text serves the three, and entries keep their *relative* accuracy
+//! far from the origin, where coordinates in the disk run out of digits.
+
+use super::{Space, Twofold};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// What the entries of a [`Motion`] may be: doubles, or doubles with twice the digits.
+pub trait Real:
+    Copy
+    + From<f64>
+    + Into<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The square root of a number that is not negative.
+    fn root(self) -> Self;
+}
+
+impl Real for f64 {
+    fn root(self) -> f64 {
+        self.sqrt()
+    }
+}
+
+impl Real for Twofold {
+    fn root(self) -> Twofold {
+        self.sqrt()
+    }
+}
+
+/// A complex number.
+type Complex<T> = [T; 2];
+
+/// An orientation-preserving isometry of E², H² or S².
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion<T = f64> {
+    /// Of which space.
+    pub space: Space,
+    /// a, as `[Re, Im]`.
+    pub a: Complex<T>,
+    /// b, as `[Re, Im]`; |b| is half the distance by which the origin moves, its hyperbolic sine, its sine.
+    pub b: Complex<T>,
+}
+
+impl<T: Real> Motion<T> {
+    /// The identity.
+    pub fn identity(space: Space) -> Self {
+        let zero = T::from(0.0);
+        Motion { space, a: [T::from(1.0), zero], b: [zero; 2] }
+    }
+
+    /// Rotation about the origin, counterclockwise, from cosine and sine of *half* its angle.
+    pub fn rotation([cos, sin]: [f64; 2], space: Space) -> Self {
+        Motion { a: [cos.into(), sin.into()], ..Motion::identity(space) }
+    }
+
+    /// Translation by `length` along the x axis. Lengths of H² beyond 1400 overflow.
+    pub fn translation(length: f64, space: Space) -> Self {
+        let half = 0.5 * length;
+        let (a, b) = match space {
+            Space::E2 => (1.0, half),
+            Space::H2 => (half.cosh(), half.sinh()),
+            Space::S2 => (half.cos(), half.sin()),
+        };
+        let zero = T::from(0.0);
+        Motion { space, a: [a.into(), zero], b: [b.into(), zero] }
+    }
+
+    /// `self ∘ first`: `first` acts first.
+    pub fn compose(&self, first: &Self) -> Self {
+        let sign = self.sign();
+        let a = add(mul(self.a, first.a), scaled(-sign, mul(self.b, conj(first.b))));
+        let b = add(mul(self.a, first.b), mul(self.b, conj(first.a)));
+        Motion { space: self.space, a, b }
+    }
+
+    /// The inverse.
+    pub fn inverse(&self) -> Self {
+        Motion { space: self.space, a: conj(self.a), b: self.b.map(|x| -x) }
+    }
+
+    /// The image of the point with these ambient coordinates `[x, y, w]`: of the plane `w = 1`, of the hyperboloid
+    /// `w² = 1 + x² + y²`, of the unit sphere.
+    pub fn apply(&self, [x, y, w]: [T; 3]) -> [T; 3] {
+        let (a, b, sign) = (self.a, self.b, self.sign());
+        let p = [x, y];
+        // X ↦ a² X − κ b² X̄ + 2ab w,   w ↦ (|a|² − κ|b|²) w − 2κ Re(a b̄ X)
+        let moved = add(mul(mul(a, a), p), scaled(-sign, mul(mul(b, b), conj(p))));
+        let from_w = mul(a, b);
+        let two = T::from(2.0);
+        let height = (norm2(a) - sign * norm2(b)) * w - two * sign * mul(mul(a, conj(b)), p)[0];
+        [moved[0] + two * from_w[0] * w, moved[1] + two * from_w[1] * w, height]
+    }
+
+    /// The image of the origin (the plane's origin, the hyperboloid's and the sphere's pole), in ambient coordinates.
+    pub fn origin(&self) -> [T; 3] {
+        let [x, y] = mul(self.a, self.b);
+        let two = T::from(2.0);
+        [two * x, two * y, norm2(self.a) - self.sign() * norm2(self.b)]
+    }
+
+    /// The matrix of [`Motion::apply`], by rows: in SE(2) (homogeneous), SO⁺(2,1) or SO(3).
+    pub fn matrix(&self) -> [[T; 3]; 3] {
+        let (zero, one) = (T::from(0.0), T::from(1.0));
+        let columns = [[one, zero, zero], [zero, one, zero], [zero, zero, one]].map(|e| self.apply(e));
+        [0, 1, 2].map(|row| columns.map(|column| column[row]))
+    }
+
+    /// Half the trace: Re a, of either sign. H²: cosh(L/2) for a translation of length L, above 1 in absolute value.
+    pub fn half_trace(&self) -> T {
+        self.a[0]
+    }
+
+    /// The same map with `|a|² + κ|b|² = 1` to the last digit: b is kept (in S² its direction), which says how far the origin moves.
+    pub fn normalised(&self) -> Self {
+        let (square, moved) = (norm2(self.a), norm2(self.b));
+        let one = T::from(1.0);
+        let (a, b) = match self.space {
+            Space::S2 => {
+                let scale = one / (square + moved).root();
+                (scaled(scale, self.a), scaled(scale, self.b))
+            }
+            Space::E2 => (scaled(one / square.root(), self.a), self.b),
+            Space::H2 => (scaled(((one + moved) / square).root(), self.a), self.b),
+        };
+        Motion { space: self.space, a, b }
+    }
+
+    fn sign(&self) -> T {
+        self.space.curvature().into()
+    }
+}
+
+impl Motion<f64> {
+    /// With twice the digits, `|a|² + κ|b|² = 1` to all of them.
+    pub fn precise(&self) -> Motion<Twofold> {
+        Motion { space: self.space, a: self.a.map(Twofold::from), b: self.b.map(Twofold::from) }.normalised()
+    }
+}
+
+impl Motion<Twofold> {
+    /// To the digits of doubles.
+    pub fn rounded(&self) -> Motion {
+        Motion { space: self.space, a: self.a.map(f64::from), b: self.b.map(f64::from) }
+    }
+
+    /// The distance by which the origin moves.
+    pub fn displacement(&self) -> f64 {
+        let moved = f64::from(norm2(self.b).root());
+        2.0 * match self.space {
+            Space::E2 => moved,
+            Space::H2 => moved.asinh(),
+            Space::S2 => moved.min(1.0).asin(),
+        }
+    }
+
+    /// The angle θ ∈ [0, π] of the rotation that it is or contains: 2 acos |Re a| (0 for the hyperbolic ones).
+    pub fn rotation_angle(&self) -> f64 {
+        let imaginary = f64::from(self.a[1]).abs();
+        let real = f64::from(self.a[0]).abs();
+        match self.space {
+            Space::E2 => 2.0 * imaginary.atan2(real),
+            // sin²(θ/2) = 1 − (Re a)² = (Im a)² + κ|b|²
+            _ => {
+                let square = self.a[1] * self.a[1] + self.sign() * norm2(self.b);
+                2.0 * f64::from(square.sqrt()).atan2(real)
+            }
+        }
+    }
+
+    /// How far a translation moves along its axis. H²: L with `cosh(L/2) = |Re a|`, 0 for what is no translation; E²: |t| (with
+    /// [`Motion::rotation_angle`] 0); S²: 0.
+    pub fn translation_length(&self) -> f64 {
+        match self.space {
+            Space::E2 => self.displacement(),
+            // sinh²(L/2) = (Re a)² − 1 = |b|² − (Im a)²
+            Space::H2 => 2.0 * f64::from((norm2(self.b) - self.a[1] * self.a[1]).sqrt()).asinh(),
+            Space::S2 => 0.0,
+        }
+    }
+
+    /// Which half-plane of matrices it lies in is no property of a map: the one of ±(a, b) with Re a ≥ 0.
+    pub fn positive(&self) -> Self {
+        let negative = f64::from(self.a[0]) < 0.0;
+        if negative { Motion { a: self.a.map(|x| -x), b: self.b.map(|x| -x), ..*self } } else { *self }
+    }
+
+    /// How far it is from the identity: the Frobenius norm of `±M − I` for its 2×2 matrix M, with the nearer sign.
+    pub fn distance_from_identity(&self) -> f64 {
+        let near = self.positive();
+        let rest = near.a[0] - 1.0.into();
+        let square = rest * rest + near.a[1] * near.a[1] + norm2(near.b);
+        f64::from((Twofold::from(2.0) * square).sqrt())
+    }
+
+    /// The square of the Frobenius norm of its 2×2 matrix, `2(|a|² + |b|²)`.
+    pub fn norm_square(&self) -> f64 {
+        2.0 * f64::from(norm2(self.a) + norm2(self.b))
+    }
+
+    /// The 2×2 complex matrix of the Möbius transformation in the plane (E²: `[[e^{iθ}, t], [0, 1]]`), the Poincaré disk or the
+    /// stereographic plane of the sphere: determinant 1 (E²: e^{iθ}).
+    pub fn mobius(&self) -> [[[f64; 2]; 2]; 2] {
+        let near = self.positive();
+        let (a, b) = (near.a, near.b);
+        let out = |z: Complex<Twofold>| z.map(f64::from);
+        match self.space {
+            Space::E2 => {
+                let two = Twofold::from(2.0);
+                [[out(mul(a, a)), out(scaled(two, mul(a, b)))], [[0.0, 0.0], [1.0, 0.0]]]
+            }
+            _ => [[out(a), out(b)], [out(scaled(-self.sign(), conj(b))), out(conj(a))]],
+        }
+    }
+}
+
+fn mul<T: Real>([a, b]: Complex<T>, [c, d]: Complex<T>) -> Complex<T> {
+    [a * c - b * d, a * d + b * c]
+}
+
+fn add<T: Real>([a, b]: Complex<T>, [c, d]: Complex<T>) -> Complex<T> {
+    [a + c, b + d]
+}
+
+fn conj<T: Real>([a, b]: Complex<T>) -> Complex<T> {
+    [a, -b]
+}
+
+fn scaled<T: Real>(s: T, z: Complex<T>) -> Complex<T> {
+    z.map(|x| s * x)
+}
+
+fn norm2<T: Real>([a, b]: Complex<T>) -> T {
+    a * a + b * b
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    const SPACES: [Space; 3] = [Space::E2, Space::H2, Space::S2];
+
+    fn turn(angle: f64, space: Space) -> Motion {
+        let (s, c) = (0.5 * angle).sin_cos();
+        Motion::rotation([c, s], space)
+    }
+
+    fn some(space: Space) -> Vec<Motion> {
+        let one = |i: u32| {
+            let (x, y) = (f64::from(i) * 0.7, f64::from(i * i % 7) * 0.4);
+            turn(x, space).compose(&Motion::translation(y, space)).compose(&turn(x * y, space))
+        };
+        (1..8).map(one).collect()
+    }
+
+    /// The form that each space's ambient coordinates keep: w = 1, x² + y² − w², x² + y² + w².
+    fn form(space: Space, p: [f64; 3], q: [f64; 3]) -> f64 {
+        let plane = p[0] * q[0] + p[1] * q[1];
+        match space {
+            Space::E2 => p[2] * q[2],
+            Space::H2 => plane - p[2] * q[2],
+            Space::S2 => plane + p[2] * q[2],
+        }
+    }
+
+    #[test]
+    fn motions_act_as_isometries_and_compose_as_maps() {
+        for space in SPACES {
+            let points = [[0.3, 0.4], [-1.2, 0.1], [0.0, 0.0]].map(|[x, y]| {
+                let r2: f64 = x * x + y * y;
+                match space {
+                    Space::E2 => [x, y, 1.0],
+                    Space::H2 => [x, y, (1.0 + r2).sqrt()],
+                    Space::S2 => [x / 2.0, y / 2.0, (1.0 - r2 / 4.0).sqrt()],
+                }
+            });
+            for (g, h) in some(space).iter().zip(some(space).iter().skip(1)) {
+                for (p, q) in points.iter().zip(points.iter().cycle().skip(1)) {
+                    let (gp, gq) = (g.apply(*p), g.apply(*q));
+                    assert!((form(space, gp, gq) - form(space, *p, *q)).abs() < 1e-12, "{space}");
+                    let (both, one) = (g.compose(h).apply(*p), g.apply(h.apply(*p)));
+                    let back = g.inverse().apply(gp);
+                    for k in 0..3 {
+                        assert!(
+                            (both[k] - one[k]).abs() < 1e-12 && (back[k] - p[k]).abs() < 1e-12,
+                            "{space}"
+                        );
+                    }
+                }
+                assert_eq!(g.origin(), g.apply([0.0, 0.0, 1.0]));
+            }
+        }
+    }
+
+    /// Walking round a regular polygon leads back, turning by the exterior angles: angle sums of the three geometries.
+    #[test]
+    fn walking_round_an_equilateral_triangle_leads_back() {
+        for space in SPACES {
+            let length = 0.8;
+            let half = match space {
+                Space::E2 => PI / 6.0,
+                Space::H2 => (0.5 / (0.5f64 * length).cosh()).asin(),
+                Space::S2 => (0.5 / (0.5f64 * length).cos()).asin(),
+            };
+            let side = Motion::translation(length, space).compose(&turn(PI - 2.0 * half, space)).precise();
+            let round = side.compose(&side).compose(&side);
+            assert!(round.distance_from_identity() < 1e-15, "{space}: {:e}", round.distance_from_identity());
+        }
+    }
+
+    #[test]
+    fn translations_and_rotations_have_their_length_and_angle_wherever_they_act() {
+        for space in SPACES {
+            for (g, length) in some(space).iter().zip([1e-3, 0.7, 2.0, 0.1]) {
+                let around = |x: Motion| g.compose(&x).compose(&g.inverse()).precise();
+                let translation = around(Motion::translation(length, space));
+                let rotation = around(turn(length, space));
+                assert!((rotation.rotation_angle() - length).abs() < 1e-12, "{space}");
+                match space {
+                    Space::S2 => assert!((translation.rotation_angle() - length).abs() < 1e-12),
+                    _ => {
+                        assert!((translation.translation_length() - length).abs() < 1e-12, "{space}");
+                        assert!(translation.rotation_angle() < 1e-12);
+                    }
+                }
+            }
+        }
+        assert!((Motion::translation(3.0, Space::H2).precise().displacement() - 3.0).abs() < 1e-15);
+    }
+
+    /// Sixty there and sixty back: entries of e^30, which doubles cannot take apart again.
+    #[test]
+    fn twofold_motions_come_back_from_far_out() {
+        let go = turn(0.3, Space::H2).compose(&Motion::translation(1.5, Space::H2)).precise();
+        let mut there = Motion::<Twofold>::identity(Space::H2);
+        let mut back = there;
+        let straight = Motion::<Twofold>::translation(1.5, Space::H2);
+        for _ in 0..40 {
+            there = there.compose(&straight);
+            back = straight.inverse().compose(&back);
+        }
+        assert!(there.displacement() > 59.0);
+        assert!(there.compose(&back).distance_from_identity() < 1e-4);
+        let near = there.compose(&go).compose(&go.inverse()).compose(&there.inverse());
+        assert!(near.distance_from_identity() < 1e-3, "{:e}", near.distance_from_identity());
+    }
+
+    #[test]
+    fn matrices_act_as_the_maps() {
+        for space in SPACES {
+            let g = some(space)[2];
+            let p = [0.2, -0.1, 0.9];
+            let image = g.matrix().map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2]);
+            let expected = g.apply(p);
+            assert!((0..3).all(|k| (image[k] - expected[k]).abs() < 1e-15));
+            let [[a, b], [c, d]] = g.precise().mobius();
+            // z ↦ (a z + b)/(c z + d) at 0 is the image of the origin.
+            let at = |[x, y]: [f64; 2], [u, v]: [f64; 2]| {
+                let n = u * u + v * v;
+                [(x * u + y * v) / n, (y * u - x * v) / n]
+            };
+            let z = at(b, d);
+            let [x, y, w] = g.origin();
+            let expected = if space == Space::E2 { [x, y] } else { [x / (1.0 + w), y / (1.0 + w)] };
+            assert!((z[0] - expected[0]).abs() < 1e-15 && (z[1] - expected[1]).abs() < 1e-15, "{space}");
+            let det = |p: [f64; 2], q: [f64; 2]| [p[0] * q[0] - p[1] * q[1], p[0] * q[1] + p[1] * q[0]];
+            let (ad, bc) = (det(a, d), det(b, c));
+            assert!(((ad[0] - bc[0]).hypot(ad[1] - bc[1]) - 1.0).abs() < 1e-15);
+        }
+    }
+}
