@@ -13,6 +13,8 @@ pub mod refined;
 mod refined_develop;
 pub mod seam;
 mod shape;
+mod space_develop;
+pub mod space_layout;
 mod triangle;
 
 pub use charts::{ChartOptions, Charts, charts};
@@ -20,3 +22,4 @@ pub use layout::{Layout, layout, layout_of};
 pub use quality::{Quality, quality};
 pub use refined::{RefinedLayout, layout_refined, refined_cut};
 pub use seam::Seam;
+pub use space_layout::{SpaceLayout, layout_in_space};

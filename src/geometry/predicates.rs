@@ -1,6 +1,6 @@
 //! Exact geometric predicates (Shewchuk's adaptive arithmetic, crate `robust`).
 
-use robust::{Coord, orient2d};
+use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
 
 /// Powers of two that move products of coordinates out of the range where they underflow.
@@ -26,6 +26,14 @@ pub fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
     }
 }
 
+/// The sign of the determinant of three vectors: `Greater` if they run counterclockwise about the origin, seen from where they point
+/// [She97, ORIENT3D]. Exact for finite coordinates whose products neither overflow nor underflow.
+pub fn winding(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Ordering {
+    let [a, b, c, o] = [a, b, c, [0.0; 3]].map(|[x, y, z]| Coord3D { x, y, z });
+    let signed = orient3d(a, b, c, o);
+    (signed > 0.0).cmp(&(signed < 0.0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -39,6 +47,22 @@ mod tests {
         assert_eq!(orientation(a, b, on), Ordering::Equal);
         assert_eq!(orientation(a, b, above), Ordering::Greater);
         assert_eq!(orientation(a, b, below), Ordering::Less);
+    }
+
+    #[test]
+    fn winding_is_that_of_the_images_in_a_plane_and_exact() {
+        let up = |[x, y]: [f64; 2]| [3.0 * x, 3.0 * y, 3.0];
+        let (a, b) = ([0.5, 0.5], [12.0, 12.0]);
+        for (c, expected) in [
+            ([24.0, 24.0], Ordering::Equal),
+            ([24.0, 24.0_f64.next_up()], Ordering::Greater),
+            ([24.0, 24.0_f64.next_down()], Ordering::Less),
+        ] {
+            let [p, q] = [a, b].map(|[x, y]| [x, y, 1.0]);
+            assert_eq!(winding(p, q, [c[0], c[1], 1.0]), expected);
+        }
+        assert_eq!(winding(up([0.0, 0.0]), up([1.0, 0.0]), up([0.0, 1.0])), Ordering::Greater);
+        assert_eq!(winding([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]), Ordering::Equal);
     }
 
     #[test]

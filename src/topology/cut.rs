@@ -20,6 +20,21 @@ pub struct CutGraph {
 }
 
 impl CutGraph {
+    /// What is left of marked interior edges when branches that end nowhere, neither at a branch point nor on the boundary, are taken
+    /// away one edge after the other.
+    pub(crate) fn around(mesh: &Mesh, marked: PerEdge<bool>) -> CutGraph {
+        let mut cut = Cut {
+            is_cut: PerEdge::filled(mesh.n_edges(), false),
+            degree: PerVertex::filled(mesh.n_vertices(), 0),
+            fixed: PerVertex::from_fn(mesh.n_vertices(), |v| mesh.is_boundary_vertex(v)),
+        };
+        for e in mesh.edges().filter(|&e| marked[e] && !mesh.is_boundary_edge(e)) {
+            cut.set(mesh, e, true);
+        }
+        prune(mesh, &mut cut);
+        cut.into_graph(mesh)
+    }
+
     /// Total length of the cut.
     pub fn length(&self, lengths: &PerEdge<f64>) -> f64 {
         self.segments.iter().flatten().fold(0.0, |sum, h| sum + lengths[h.edge()])

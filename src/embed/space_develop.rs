@@ -1,0 +1,182 @@
+//! Developing a surface of constant curvature into its model space, face by face.
+
+use crate::control::{Control, Stage};
+use crate::error::{Error, Result};
+use crate::geometry::triangle::half_angles_from;
+use crate::geometry::{Motion, Space};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
+use crate::metric::Metric;
+use crate::topology::CutGraph;
+use crate::topology::spanning::Key;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Faces between two looks at the control.
+const FACES_PER_STEP: usize = 4096;
+
+/// The triangles of a metric, each by itself.
+pub(super) struct Faces<'a> {
+    pub mesh: &'a Mesh,
+    pub space: Space,
+    pub lengths: PerEdge<f64>,
+    pub differences: PerFace<[f64; 3]>,
+    /// `[cos, sin]` of half the angle at each corner.
+    half_angles: PerFace<[[f64; 2]; 3]>,
+}
+
+/// Where every face lies.
+pub(super) struct Grown {
+    /// Per face, the isometry that brings its first corner from the origin, with its first side along x, to where it lies.
+    pub frames: PerFace<Motion>,
+    /// Faces in the order in which they were added, each with the half-edge it was entered through.
+    pub order: Vec<HalfedgeId>,
+    /// Edges through which a face was entered.
+    pub crossed: PerEdge<bool>,
+}
+
+impl<'a> Faces<'a> {
+    pub fn new(mesh: &'a Mesh, metric: &Metric) -> Result<Faces<'a>> {
+        let differences = metric.differences(mesh)?;
+        let half_angles =
+            PerFace::from_fn(mesh.n_faces(), |f| half_angles_from(metric.space, differences[f]));
+        Ok(Faces { mesh, space: metric.space, lengths: metric.lengths(mesh)?, differences, half_angles })
+    }
+
+    /// Whether the lengths break the triangle inequality.
+    pub fn is_broken(&self, f: FaceId) -> bool {
+        self.half_angles[f].iter().all(|[cos, sin]| *cos == 0.0 || *sin == 0.0)
+    }
+
+    /// Add face after face to the one at `root`, next the one whose far corner is nearest to it; over no edge of the `cut`.
+    pub fn grow(&self, root: VertexId, cut: Option<&CutGraph>, control: &Control) -> Result<Grown> {
+        let mesh = self.mesh;
+        let Some(first) = mesh.outgoing(root).find(|&h| !mesh.is_outside(h)) else {
+            return Err(Error::Layout(format!("vertex {root} has no face")));
+        };
+        let mut grown = Grown {
+            frames: PerFace::filled(mesh.n_faces(), Motion::identity(self.space)),
+            order: Vec::with_capacity(mesh.n_faces()),
+            crossed: PerEdge::filled(mesh.n_edges(), false),
+        };
+        let mut done = PerFace::filled(mesh.n_faces(), false);
+        let mut queue = BinaryHeap::from([Reverse((Key(0.0), first))]);
+        while let Some(Reverse((_, entry))) = queue.pop() {
+            let Some(f) = mesh.face(entry).filter(|&f| !std::mem::replace(&mut done[f], true)) else {
+                continue;
+            };
+            if grown.order.len().is_multiple_of(FACES_PER_STEP) {
+                control.step(Stage::Layout, grown.order.len() as f64 / mesh.n_faces() as f64)?;
+            }
+            let frame = match entry == first {
+                true => Motion::identity(self.space),
+                false => {
+                    grown.crossed[entry.edge()] = true;
+                    self.across(&self.frame(&grown.frames, entry.twin()), entry)
+                }
+            };
+            grown.frames[f] = self.turned_to_first(&frame, entry);
+            grown.order.push(entry);
+            let mut side = entry;
+            let mut frame = frame;
+            for _ in 0..3 {
+                let across = side.twin();
+                let open = cut.is_none_or(|cut| !cut.is_cut[side.edge()]);
+                if open && mesh.face(across).is_some_and(|g| !done[g]) {
+                    let apex = self.apex(&self.across(&frame, across), across);
+                    let [x, y] = apex.b;
+                    if !(x.is_finite() && y.is_finite()) {
+                        return Err(Error::Layout(format!(
+                            "edge {} lies beyond the range of doubles",
+                            side.edge()
+                        )));
+                    }
+                    queue.push(Reverse((Key(x.hypot(y)), across)));
+                }
+                frame = self.along(&frame, side);
+                side = mesh.next(side);
+            }
+        }
+        if grown.order.len() < mesh.n_faces() {
+            return Err(Error::Layout("the surface has several components: lay out each alone".into()));
+        }
+        Ok(grown)
+    }
+
+    /// Ambient coordinates per number of a corner: each from the first of its faces that was added.
+    pub fn place(&self, grown: &Grown, corner: &PerHalfedge<u32>, n_corners: usize) -> Vec<[f64; 3]> {
+        let mut points = vec![[f64::NAN; 3]; n_corners];
+        for &entry in &grown.order {
+            let frame = self.frame(&grown.frames, entry);
+            let apex = self.mesh.prev(entry);
+            let tip = self.mesh.next(entry);
+            let at = |frame: Motion| {
+                if entry == grown.order[0] && frame.b == [0.0; 2] { [0.0, 0.0, 1.0] } else { frame.origin() }
+            };
+            for (h, motion) in
+                [(entry, frame), (tip, self.along(&frame, entry)), (apex, self.apex(&frame, entry))]
+            {
+                let point = &mut points[corner[h] as usize];
+                if point[0].is_nan() {
+                    *point = at(motion);
+                }
+            }
+        }
+        points
+    }
+
+    /// The frame of a half-edge inside the surface: its origin from 0, itself from the x axis.
+    pub fn frame(&self, frames: &PerFace<Motion>, h: HalfedgeId) -> Motion {
+        let Some(f) = self.mesh.face(h) else { return Motion::identity(self.space) };
+        let (mut frame, mut at) = (frames[f], self.mesh.face_halfedge(f));
+        while at != h {
+            frame = self.along(&frame, at);
+            at = self.mesh.next(at);
+        }
+        frame
+    }
+
+    /// The frame of the first half-edge of the face of `h`, from that of `h`.
+    fn turned_to_first(&self, frame: &Motion, h: HalfedgeId) -> Motion {
+        let Some(f) = self.mesh.face(h) else { return *frame };
+        let (first, mut frame, mut at) = (self.mesh.face_halfedge(f), *frame, h);
+        while at != first {
+            frame = self.along(&frame, at);
+            at = self.mesh.next(at);
+        }
+        frame
+    }
+
+    /// The frame of `across`, the twin of the half-edge with this frame.
+    pub fn across(&self, frame: &Motion, across: HalfedgeId) -> Motion {
+        let half_turn = Motion::rotation([0.0, 1.0], self.space);
+        frame.compose(&Motion::translation(self.lengths[across.edge()], self.space).compose(&half_turn))
+    }
+
+    /// The frame of the next half-edge of the face.
+    fn along(&self, frame: &Motion, h: HalfedgeId) -> Motion {
+        let [cos, sin] = self.half_angle(self.mesh.next(h));
+        let turn = Motion::rotation([sin, cos], self.space); // by π − θ
+        frame.compose(&Motion::translation(self.lengths[h.edge()], self.space).compose(&turn))
+    }
+
+    /// What brings the origin to the corner opposite `h`, from that end of `h` which is nearer to the origin.
+    fn apex(&self, frame: &Motion, h: HalfedgeId) -> Motion {
+        let (next, prev) = (self.mesh.next(h), self.mesh.prev(h));
+        let tip = self.along(frame, h);
+        let far = |m: &Motion| m.b[0].hypot(m.b[1]);
+        let (from, length) = match far(frame) <= far(&tip) {
+            true => {
+                (frame.compose(&Motion::rotation(self.half_angle(h), self.space)), self.lengths[prev.edge()])
+            }
+            false => (tip, self.lengths[next.edge()]),
+        };
+        from.compose(&Motion::translation(length, self.space))
+    }
+
+    /// `[cos, sin]` of half the angle at the origin of `h` in its face.
+    fn half_angle(&self, h: HalfedgeId) -> [f64; 2] {
+        let Some(f) = self.mesh.face(h) else { return [1.0, 0.0] };
+        let corner = self.mesh.face_halfedges(f).iter().position(|&x| x == h).unwrap_or(0);
+        self.half_angles[f][corner]
+    }
+}
