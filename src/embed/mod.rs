@@ -15,6 +15,7 @@ pub mod seam;
 mod shape;
 mod space_develop;
 pub mod space_layout;
+pub mod space_refined;
 mod triangle;
 
 pub use charts::{ChartOptions, Charts, charts};
@@ -23,3 +24,4 @@ pub use quality::{Quality, quality};
 pub use refined::{RefinedLayout, layout_refined, refined_cut};
 pub use seam::Seam;
 pub use space_layout::{SpaceLayout, layout_in_space};
+pub use space_refined::{RefinedSpaceLayout, refine_space_layout};

@@ -1,9 +1,11 @@
 //! Distortion of a layout: quasi-conformal dilatation and area.
 
 use super::layout::Layout;
+use super::shape::{FLAT, Shape};
 use super::triangle::Triangle;
 use crate::error::{Error, Result, check_size};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace};
+use crate::metric::Refinement;
 use crate::topology::check_lengths;
 
 /// The dilatation of a face whose image or original has no area: doubles resolve none beyond 1/ε.
@@ -58,8 +60,41 @@ pub fn quality(mesh: &Mesh, input_lengths: &PerEdge<f64>, layout: &Layout) -> Re
     Ok(summary(mesh, qc, &areas))
 }
 
+/// Compare the pieces of a refinement with their images: corners, area and whether there is anything to compare.
+pub(super) fn refined_quality(
+    r: &Refinement,
+    input: &Mesh,
+    lengths: &PerEdge<f64>,
+    image: impl Fn(FaceId) -> ([[f64; 2]; 3], f64, bool),
+) -> Result<Quality> {
+    check_lengths(input, lengths)?;
+    let need = r.input_face.iter().map(|f| f.index() + 1).fold(0, usize::max);
+    check_size("input faces", input.n_faces().min(need), need)?;
+    let unit = lengths.iter().copied().fold(0.0, f64::max);
+    let mut qc = PerFace::filled(r.mesh.n_faces(), DILATATION_CAP);
+    let mut areas = PerFace::filled(r.mesh.n_faces(), [0.0; 2]);
+    let vectors = |p: [[f64; 2]; 3]| [minus(p[1], p[0]), minus(p[2], p[0])];
+    for f in r.mesh.faces() {
+        let face = r.input_face[f];
+        let sides = input.opposite_edges(face).map(|e| lengths[e] / unit);
+        let triangle = Triangle::from_sides(sides);
+        if triangle.excess > 0.0 {
+            return Err(Error::TriangleInequality { face: face.index(), excess: triangle.excess });
+        }
+        let [first, way] = [[sides[2], 0.0], triangle.direction[0].map(|x| sides[1] * x)];
+        let from = r.input_barycentric(f).map(|[_, x, y]| [x * first[0] + y * way[0], y * way[1]]);
+        let [p, q] = vectors(from);
+        let (to, area, sound) = image(f);
+        areas[f] = [0.5 * cross(p, q).abs(), area];
+        if Shape::of(from).share > FLAT && sound {
+            qc[f] = dilatation_of_vectors(vectors(from), vectors(to));
+        }
+    }
+    Ok(summary(&r.mesh, qc, &areas))
+}
+
 /// The statistics of dilatations and of areas `[input, layout]` per face.
-pub(super) fn summary(mesh: &Mesh, qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality {
+fn summary(mesh: &Mesh, qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality {
     let total = areas.iter().fold([0.0; 2], |t, a| [t[0] + a[0], t[1] + a[1]]);
     let ratio = |&[a, b]: &[f64; 2]| {
         let r = (b / total[1]) / (a / total[0]);
@@ -102,7 +137,7 @@ fn dilatation(sides: [f64; 3], triangle: &Triangle, image: [[f64; 2]; 3]) -> f64
 }
 
 /// Dilatation of the linear map that carries the vectors `p` to the vectors `q`.
-pub(super) fn dilatation_of_vectors(p: [[f64; 2]; 2], q: [[f64; 2]; 2]) -> f64 {
+fn dilatation_of_vectors(p: [[f64; 2]; 2], q: [[f64; 2]; 2]) -> f64 {
     let [[p, r], [q, s]] = [p, q];
     // α = q r̄ − s p̄, β = q r − s p.
     let alpha = [

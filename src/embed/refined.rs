@@ -2,17 +2,16 @@
 
 use super::corner::number_corners;
 use super::layout::{Layout, bounding_diagonal, check_cut, seam_sides};
-use super::quality::{DILATATION_CAP, Quality, cross, dilatation_of_vectors, minus, summary};
+use super::quality::{Quality, cross, minus, refined_quality};
 use super::refined_develop::{Faces, Placed, place};
 use super::seam::Seam;
 pub use super::shape::FLAT;
 use super::shape::{Shape, extent};
-use super::triangle::Triangle;
 use crate::control::Control;
-use crate::error::{Error, Result, check_size};
+use crate::error::{Error, Result};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::{Metric, Refinement};
-use crate::topology::{CutGraph, check_lengths, cut_graph};
+use crate::topology::{CutGraph, cut_graph};
 
 /// Shortest edge that a cut reckons with, relative to the longest: crossings may coincide.
 const SHORTEST: f64 = 1e-12;
@@ -132,31 +131,12 @@ impl RefinedLayout {
     /// Triangles that are degenerate on either side are named, and left out of the mean and the extremes. Errors: [`Error::Size`],
     /// [`Error::EdgeLength`], [`Error::TriangleInequality`].
     pub fn quality(&self, r: &Refinement, input: &Mesh, lengths: &PerEdge<f64>) -> Result<Quality> {
-        check_lengths(input, lengths)?;
-        let need = r.input_face.iter().map(|f| f.index() + 1).fold(0, usize::max);
-        check_size("input faces", input.n_faces().min(need), need)?;
-        let unit = lengths.iter().copied().fold(0.0, f64::max);
-        let mut qc = PerFace::filled(r.mesh.n_faces(), DILATATION_CAP);
-        let mut areas = PerFace::filled(r.mesh.n_faces(), [0.0; 2]);
-        for f in r.mesh.faces() {
-            let face = r.input_face[f];
-            let sides = input.opposite_edges(face).map(|e| lengths[e] / unit);
-            let triangle = Triangle::from_sides(sides);
-            if triangle.excess > 0.0 {
-                return Err(Error::TriangleInequality { face: face.index(), excess: triangle.excess });
-            }
-            let [first, way] = [[sides[2], 0.0], triangle.direction[0].map(|x| sides[1] * x)];
-            let from = r.input_barycentric(f).map(|[_, x, y]| [x * first[0] + y * way[0], y * way[1]]);
+        let image = |f| {
             let to = self.layout.face_uv(&r.mesh, f).map(|p| p.map(|x| x / self.layout.diameter));
-            let vectors = |p: [[f64; 2]; 3]| [minus(p[1], p[0]), minus(p[2], p[0])];
-            let area = |p: [[f64; 2]; 3]| 0.5 * cross(minus(p[1], p[0]), minus(p[2], p[0])).abs();
-            areas[f] = [area(from), area(to)];
-            let extent = extent(&to).max(1.0);
-            let (from_shape, to_shape) = (Shape::of(from), Shape::of(to));
-            if from_shape.share > FLAT && to_shape.share.abs() > to_shape.flat(extent) {
-                qc[f] = dilatation_of_vectors(vectors(from), vectors(to));
-            }
-        }
-        Ok(summary(&r.mesh, qc, &areas))
+            let shape = Shape::of(to);
+            let area = 0.5 * cross(minus(to[1], to[0]), minus(to[2], to[0])).abs();
+            (to, area, shape.share.abs() > shape.flat(extent(&to).max(1.0)))
+        };
+        refined_quality(r, input, lengths, image)
     }
 }

@@ -8,6 +8,7 @@ use super::quality::{cross, minus};
 pub const FLAT: f64 = 1e-12;
 
 /// A triangle in the plane.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Shape {
     /// Signed area over the square of the longest edge; 0 for a point.
     pub share: f64,

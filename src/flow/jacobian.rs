@@ -10,7 +10,7 @@
 
 use super::evaluate::State;
 use crate::error::{Error, Result};
-use crate::geometry::Space;
+use crate::geometry::conformal::is_precise;
 use crate::linalg::{Pattern, Symmetric};
 use crate::mesh::{Mesh, VertexId};
 use crate::metric::Metric;
@@ -88,10 +88,11 @@ impl Jacobian {
     }
 
     /// What rounding e^u and forming the angles from it can do to the curvature of each vertex, where this was assembled:
-    /// `Σ |∂K_i/∂u_j| δ` with δ an ulp (its square in E², where u and the lengths have twice the digits), term by term, and two ulp
-    /// of π for every angle.
+    /// `Σ |∂K_i/∂u_j| δ` with δ an ulp (its square where u and the lengths have twice the digits: [`is_precise`]), term by term, and two
+    /// ulp of π for every angle.
     pub fn rounding_floor(&self, mesh: &Mesh, class: &Metric, state: &State) -> Vec<f64> {
-        let moved = if class.space == Space::E2 { f64::EPSILON * f64::EPSILON } else { f64::EPSILON };
+        let precise = class.epsilon.iter().all(|&e| is_precise(class.space, e));
+        let moved = if precise { f64::EPSILON * f64::EPSILON } else { f64::EPSILON };
         let mut floor = vec![0.0; mesh.n_vertices()];
         for f in mesh.faces() {
             let (corners, edges) = (mesh.face_vertices(f), mesh.opposite_edges(f));

@@ -6,6 +6,7 @@ use super::solver::{Run, center};
 use super::system::System;
 use crate::control::Stage;
 use crate::error::Result;
+use crate::geometry::Space;
 use crate::metric::delaunay::boundary_fails;
 
 /// Below this max |K − K̄| a smaller residual also accepts a step. Far from the solution only the slope does: mixing
@@ -41,7 +42,8 @@ const AT_THE_END: f64 = 1e-8;
 /// Lengths within one metric that differ by more than e^MAX_RANGE mean that there is no solution to run to: solutions
 /// of the test corpus stay below e^350, and doubles end at e^700.
 const MAX_RANGE: f64 = 500.0;
-/// Once converged, the last factor is reused to bring the error down to this, each step at least halving it.
+/// Once converged, the last factor is reused to bring the error down to this, each step at least halving it; in H², whose layouts magnify
+/// errors by e^distance, as far as it goes.
 const POLISH_TO: f64 = 1e-13;
 const POLISH_STEPS: usize = 3;
 
@@ -123,7 +125,7 @@ impl Run<'_> {
         // A factor of another triangulation is no good, and its matrix is of another pattern.
         factored &= flipped == report.flips;
         let system = self.prepare(kept, report.flips - flipped, report)?;
-        if factored && report.stop_reason != StopReason::IterationLimit && error > POLISH_TO {
+        if factored && report.stop_reason != StopReason::IterationLimit && error > self.polished() {
             self.polish(system, &mut state, &mut trial, &mut residual, &mut step, report, &mut error)?;
         }
         if !state.is_measured() {
@@ -268,6 +270,11 @@ impl Run<'_> {
         Ok(real)
     }
 
+    /// An error that needs no more polish.
+    fn polished(&self) -> f64 {
+        if self.class.space == Space::H2 { 0.0 } else { POLISH_TO }
+    }
+
     /// Steps with the last factor, as long as they at least halve the error: iterative refinement of the nonlinear
     /// system at the price of a solve.
     fn polish(
@@ -306,7 +313,7 @@ impl Run<'_> {
             }
             let halved = now <= 0.5 * *error;
             *error = now;
-            if !halved || now <= POLISH_TO {
+            if !halved || now <= self.polished() {
                 return Ok(());
             }
         }

@@ -108,7 +108,8 @@ pub struct Report {
     pub tolerance: f64,
     /// Largest curvature error that rounding can cause at the final metric; determined where a flow stalls.
     pub rounding_floor: Option<f64>,
-    /// Whether u, lengths and curvature were carried to twice the digits of a double (Newton in E²; the corrections are doubles).
+    /// Whether u, lengths and curvature were carried to twice the digits of a double (Newton in E², and in H² where
+    /// every ε is 0; the corrections are doubles).
     pub double_double: bool,
     /// Faces that break the triangle inequality.
     pub broken_triangles: usize,

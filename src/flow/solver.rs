@@ -8,6 +8,7 @@ use super::system::System;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
+use crate::geometry::conformal::is_precise;
 use crate::mesh::{Mesh, NormalCoordinates, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::gauss_bonnet;
@@ -184,7 +185,8 @@ impl Solver {
             settle_total(&self.mesh, self.metric.space, &mut target);
         }
         let mut report = Report::new(self.options.tolerance);
-        report.double_double = self.metric.space == Space::E2 && self.options.method == Method::Newton;
+        let precise = self.metric.epsilon.iter().all(|&e| is_precise(self.metric.space, e));
+        report.double_double = precise && self.options.method == Method::Newton;
         let mut seconds = 0.0;
         let free_scale = self.metric.space == Space::E2 && !self.pinned.contains(&true);
         let before = (self.options.flips == Flips::Auto)

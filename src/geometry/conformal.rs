@@ -19,7 +19,7 @@
 
 use super::Space;
 use super::triangle::half_differences;
-use super::twofold::{self, two_product, two_sum};
+use super::twofold::{self, Twofold, two_product, two_sum};
 use std::f64::consts::PI;
 
 /// A vertex at its current u.
@@ -29,7 +29,7 @@ pub struct Vertex {
     pub epsilon: f64,
     /// e^u.
     pub scale: f64,
-    /// What `scale` misses of e^u, relative to it: in E², where the part of u that its double loses is kept apart.
+    /// What `scale` misses of e^u, relative to it: where [`is_precise`]; there the part of u that its double loses is kept apart.
     pub low: f64,
     /// d = 1 + λ ε e^{2u}; NaN outside the metric's domain (d ≤ 0).
     pub d: f64,
@@ -42,7 +42,7 @@ pub struct Vertex {
 pub struct Edge {
     /// l − γ_i − γ_j with the radii of [`Vertex::radius`].
     pub gap: f64,
-    /// What the double `gap` loses, as far as it is known: in E².
+    /// What the double `gap` loses, as far as it is known: where both ends are [`is_precise`].
     pub low: f64,
     /// Squared half chord: l²/4, sinh²(l/2), sin²(l/2) in E², H², S².
     pub q2: f64,
@@ -64,12 +64,17 @@ pub fn radius(space: Space, epsilon: i8, u: f64) -> f64 {
     }
 }
 
+/// Whether lengths between vertices of type ε are formed to twice the digits: in E², and in H² where ε = 0.
+pub fn is_precise(space: Space, epsilon: i8) -> bool {
+    space == Space::E2 || (space == Space::H2 && epsilon == 0)
+}
+
 impl Vertex {
     /// The quantities of a vertex of type ε with variable `u + low`, where `low` is what the double u loses (half an ulp of it at
     /// most): e^u has 16 digits also where u is large.
     pub fn precise(space: Space, epsilon: i8, u: f64, low: f64) -> Vertex {
         let rounded = Vertex::new(space, epsilon, u);
-        if space == Space::E2 {
+        if is_precise(space, epsilon) {
             let (scale, lost) = twofold::exp(u);
             let radius = if epsilon == 1 { scale } else { 0.0 };
             return Vertex { scale, low: lost + low, radius, ..rounded };
@@ -123,7 +128,11 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
     let length = length(space, q2);
     let sum = a.radius + b.radius;
     let gap = if circles { circle_gap(space, a, b, eta, length + sum) } else { length - sum };
-    let low = if space == Space::E2 { lost_gap(a, b, eta, gap) } else { 0.0 };
+    let low = match space {
+        Space::E2 => lost_gap(a, b, eta, gap),
+        Space::H2 if a.epsilon == 0.0 && b.epsilon == 0.0 => lost_length(a, b, eta, gap),
+        _ => 0.0,
+    };
     gap.is_finite().then_some(Edge { gap, low: if low.is_finite() { low } else { 0.0 }, q2 })
 }
 
@@ -144,6 +153,17 @@ fn lost_gap(a: Vertex, b: Vertex, eta: f64, gap: f64) -> f64 {
     let (rest, first) = two_sum(length, -a.radius);
     let (rest, second) = two_sum(rest, -b.radius);
     (rest - gap) + (first + second + length_low)
+}
+
+/// `l − length` in H² where ε = 0, from `sinh²(l/2) = 2 η e^{u_a + u_b}` to twice the digits: `2 (q − sinh(length/2))/cosh(length/2)`.
+fn lost_length(a: Vertex, b: Vertex, eta: f64, length: f64) -> f64 {
+    let twofold = |high: f64, low: f64| Twofold::from(high) + low.into();
+    let chord = twofold(a.scale, a.scale * a.low) * twofold(b.scale, b.scale * b.low) * (2.0 * eta).into();
+    let (up, lost) = twofold::exp(0.5 * length);
+    let up = twofold(up, up * lost);
+    let down = Twofold::from(1.0) / up;
+    let rest = chord.sqrt() - (up - down) * 0.5.into();
+    4.0 * rest.high / (up.high + down.high)
 }
 
 impl Edge {

@@ -66,7 +66,7 @@ impl Metric {
 
     /// What the doubles of [`Metric::lengths`] lose, per edge: `l` to twice the digits is `length + remainder`.
     ///
-    /// It matters where circles of very different sizes meet. Where ε is 0 at both ends: in E² only, 0 elsewhere. Errors: as [`Metric::lengths`].
+    /// It matters where circles of very different sizes meet, and far out in H². Where ε is 0 at both ends: in E² and H², 0 in S². Errors: as [`Metric::lengths`].
     pub fn length_remainders(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
         let (vertices, edges) = self.elements(mesh)?;
         Ok(PerEdge::from_fn(mesh.n_edges(), |e| {

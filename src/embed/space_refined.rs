@@ -1,0 +1,189 @@
+//! Layout of a common refinement in a model space.
+
+use super::corner::number_corners;
+use super::quality::{Quality, refined_quality};
+use super::shape::Shape;
+use super::space_layout::SpaceLayout;
+use crate::control::Control;
+use crate::error::{Result, check_size};
+use crate::geometry::model::{distance, klein, poincare};
+use crate::geometry::triangle::area;
+use crate::geometry::{Space, Twofold};
+use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, PerHalfedge};
+use crate::metric::Refinement;
+use crate::parallel;
+
+/// A common refinement, opened where its final triangulation is, in the model space of the final metric.
+///
+/// A piece lies in its final face: its corners are the combinations of the face's corners, as vectors, that the refinement names,
+/// brought back to the plane, the hyperboloid or the sphere. So the map from the input is projective on every piece.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RefinedSpaceLayout {
+    /// Per half-edge of [`Refinement::mesh`], the index into `points` of the corner at its origin, in its face.
+    pub corner_index: PerHalfedge<u32>,
+    /// Ambient coordinates ([`SpaceLayout::points`]) of the vertices of the opened refinement.
+    pub points: Vec<[f64; 3]>,
+    /// Whether an edge of the refinement lies on the cut.
+    pub is_cut: PerEdge<bool>,
+    /// Triangles with an area below −[`super::refined::FLAT`] · longest edge², seen from within.
+    pub flipped: Vec<FaceId>,
+    /// Triangles whose area is within that of zero.
+    pub degenerate: Vec<FaceId>,
+    space: Space,
+}
+
+/// Lay a refinement out on the layout of its final triangulation, O(pieces).
+///
+/// Errors: [`crate::Error::Size`] for the layout of another triangulation; [`crate::Error::Cancelled`].
+pub fn refine_space_layout(
+    layout: &SpaceLayout,
+    r: &Refinement,
+    mesh: &Mesh,
+    control: &Control,
+) -> Result<RefinedSpaceLayout> {
+    control.check()?;
+    check_size("corner_index", layout.corner_index.len(), mesh.n_halfedges())?;
+    let need = r.final_face.iter().map(|f| f.index() + 1).fold(0, usize::max);
+    check_size("final faces", mesh.n_faces().min(need), need)?;
+    let on_cut = |h| r.final_halfedge(h).is_some_and(|h| layout.cut.is_cut[h.edge()]);
+    let is_cut = PerEdge::from_fn(r.mesh.n_edges(), |e: crate::mesh::EdgeId| on_cut(e.halfedge()));
+    let (corner_index, n_corners) = number_corners(&r.mesh, &is_cut);
+    let mut points = vec![[f64::NAN; 3]; n_corners];
+    for f in r.mesh.faces() {
+        let corners = layout.face_points(mesh, r.final_face[f]);
+        for (h, weights) in r.mesh.face_halfedges(f).into_iter().zip(r.final_barycentric(f)) {
+            let point = &mut points[corner_index[h] as usize];
+            if point[0].is_nan() {
+                *point = combination(layout.space, corners, weights);
+            }
+        }
+    }
+    control.check()?;
+    let mut refined = RefinedSpaceLayout {
+        corner_index,
+        points,
+        is_cut,
+        flipped: Vec::new(),
+        degenerate: Vec::new(),
+        space: layout.space,
+    };
+    let shapes = refined.shapes(layout, r);
+    let faces =
+        |pick: fn(&(Shape, f64)) -> bool| r.mesh.faces().filter(|f| pick(&shapes[f.index()])).collect();
+    refined.flipped = faces(|(shape, extent)| shape.is_flipped(*extent));
+    refined.degenerate = faces(|(shape, extent)| shape.is_degenerate(*extent));
+    control.check()?;
+    Ok(refined)
+}
+
+/// The point of the plane, hyperboloid or sphere in the direction of a combination of points; at a corner, the corner itself.
+fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
+    if let Some(corner) = weights.iter().position(|&w| w == 1.0) {
+        return corners[corner];
+    }
+    let [x, y, w] = [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * corners[k][i]).sum::<f64>());
+    // −⟨P, P⟩ = Σ w_i² + Σ 2 w_i w_j cosh d_ij, and cosh d − 1 is half the square of the difference.
+    let norm = match space {
+        Space::E2 => w,
+        Space::S2 => (x * x + y * y + w * w).sqrt(),
+        Space::H2 => {
+            let pairs = [[0, 1], [1, 2], [2, 0]].map(|[i, j]| {
+                let half = (0.5 * distance(corners[i], corners[j])).sinh();
+                4.0 * weights[i] * weights[j] * half * half
+            });
+            let sum: f64 = weights.iter().sum();
+            (sum * sum + pairs.iter().sum::<f64>()).sqrt()
+        }
+    };
+    let (x, y) = (x / norm, y / norm);
+    // On the hyperboloid to the last digit.
+    let w = if space == Space::H2 { 1.0f64.hypot(x.hypot(y)) } else { w / norm };
+    [x, y, w]
+}
+
+impl RefinedSpaceLayout {
+    /// Ambient coordinates of a triangle's corners, in its corner order.
+    pub fn face_points(&self, r: &Refinement, f: FaceId) -> [[f64; 3]; 3] {
+        r.mesh.face_halfedges(f).map(|h| self.points[self.corner_index[h] as usize])
+    }
+
+    /// Plane coordinates of all points: in E² their own, in H² of the Poincaré disk, in S² by stereographic projection from the south
+    /// pole.
+    pub fn coordinates(&self) -> Vec<[f64; 2]> {
+        self.points.iter().map(|&p| flat(self.space, p)).collect()
+    }
+
+    /// Shapes of all triangles as they are about their own place, where doubles are as dense as they can be, each with what its
+    /// coordinates have been rounded at.
+    fn shapes(&self, layout: &SpaceLayout, r: &Refinement) -> Vec<(Shape, f64)> {
+        let mut shapes = vec![(Shape { share: 0.0, longest: 0.0 }, 0.0); r.mesh.n_faces()];
+        parallel::fill(&mut shapes, |f| {
+            let f = FaceId::from(f);
+            let points = self.face_points(r, f);
+            let near = self.brought_home(layout, r, f, points);
+            let plane = points.map(|[x, y, _]| x.hypot(y)).into_iter().fold(0.0, f64::max);
+            let extent = if self.space == Space::E2 { plane } else { plane.max(1.0) };
+            let image = near.map(|p| if self.space == Space::E2 { [p[0], p[1]] } else { klein(p) });
+            (Shape::of(image), extent)
+        });
+        shapes
+    }
+
+    /// Points of a triangle moved by the isometry that brings the first corner of its final face to the origin.
+    fn brought_home(
+        &self,
+        layout: &SpaceLayout,
+        r: &Refinement,
+        f: FaceId,
+        points: [[f64; 3]; 3],
+    ) -> [[f64; 3]; 3] {
+        let home = layout.frames[r.final_face[f]].precise().inverse();
+        points.map(|p| home.apply(p.map(Twofold::from)).map(f64::from))
+    }
+
+    /// How the vertex-linear maps from the input's pieces to [`RefinedSpaceLayout::coordinates`] distort, with the Euclidean `lengths` of
+    /// the input's edges; areas are those of the space.
+    ///
+    /// Triangles that are degenerate on either side are named, and left out of the mean and the extremes. Errors: [`crate::Error::Size`],
+    /// [`crate::Error::EdgeLength`], [`crate::Error::TriangleInequality`].
+    pub fn quality(
+        &self,
+        layout: &SpaceLayout,
+        r: &Refinement,
+        input: &Mesh,
+        lengths: &PerEdge<f64>,
+    ) -> Result<Quality> {
+        let flat_out = self.degenerate.iter().chain(&self.flipped);
+        let mut is_flat = PerFace::filled(r.mesh.n_faces(), false);
+        flat_out.for_each(|&f| is_flat[f] = true);
+        let image = |f| {
+            let points = self.face_points(r, f);
+            let sound = !is_flat[f];
+            let area = match self.space {
+                Space::E2 => {
+                    let [a, b, c] = points.map(|p| [p[0], p[1]]);
+                    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+                }
+                Space::H2 => {
+                    let [a, b, c] = self.brought_home(layout, r, f, points);
+                    area(Space::H2, [distance(b, c), distance(c, a), distance(a, b)])
+                }
+                Space::S2 => {
+                    area(Space::S2, [[1, 2], [2, 0], [0, 1]].map(|[i, j]| spherical(points[i], points[j])))
+                }
+            };
+            (points.map(|p| flat(self.space, p)), area, sound)
+        };
+        refined_quality(r, input, lengths, image)
+    }
+}
+
+fn flat(space: Space, p: [f64; 3]) -> [f64; 2] {
+    if space == Space::E2 { [p[0], p[1]] } else { poincare(p) }
+}
+
+/// Angle between two unit vectors.
+fn spherical(p: [f64; 3], q: [f64; 3]) -> f64 {
+    let half = (0..3).map(|i| (p[i] - q[i]) * (p[i] - q[i])).sum::<f64>().sqrt() * 0.5;
+    2.0 * half.min(1.0).asin()
+}
