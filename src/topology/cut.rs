@@ -109,7 +109,7 @@ pub fn is_disk(mesh: &Mesh, is_cut: &PerEdge<bool>) -> bool {
 }
 
 /// Whether all faces hang together through interior edges that are not walls.
-fn is_connected(mesh: &Mesh, wall: impl Fn(EdgeId) -> bool) -> bool {
+pub(super) fn is_connected(mesh: &Mesh, wall: impl Fn(EdgeId) -> bool) -> bool {
     let mut joined = DisjointSets::new(mesh.n_faces());
     let mut components = mesh.n_faces();
     for e in mesh.edges().filter(|&e| !wall(e)) {

@@ -1,18 +1,37 @@
-//! Spanning trees, homology generators and cut graphs. Everything is walked through half-edges, so loops and
-//! repeated edges of a Δ-complex are no special cases.
+//! Spanning trees, homology generators, cut graphs, homotopy bases and lifts to the universal cover. Everything is walked
+//! through half-edges, so loops and repeated edges of a Δ-complex are no special cases.
 
+mod brahana;
 pub mod cut;
+pub mod domain;
 pub mod farthest;
+pub mod group;
+mod handle;
 pub mod homology;
+pub mod homotopy;
+pub mod intersection;
+pub mod lift;
+mod polygon;
+pub mod reduction;
+mod rooted;
+mod shorten;
 pub mod spanning;
+pub mod word;
 
 pub use cut::{CutGraph, cut_graph};
+pub use domain::{FundamentalDomain, Side};
 pub use farthest::farthest_vertices;
+pub use group::SurfaceGroup;
 pub use homology::homology_generators;
+pub use homotopy::{HomotopyBasis, homotopy_basis};
+pub use intersection::{intersection_matrix, intersection_number};
+pub use lift::{Lift, LiftedPath};
+pub use reduction::Reduction;
 pub use spanning::{Forest, shortest_paths};
+pub use word::{Letter, Word};
 
 use crate::error::{Error, Result, check_size};
-use crate::mesh::{Mesh, PerEdge, VertexId};
+use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
 
 /// Lengths outside this range are refused: their squares would leave the range of doubles.
 const LENGTHS: std::ops::RangeInclusive<f64> = 1e-150..=1e150;
@@ -23,6 +42,33 @@ pub(crate) fn check_vertex(mesh: &Mesh, v: VertexId) -> Result<()> {
         return Ok(());
     }
     Err(Error::Argument { what: "vertex", value: v.to_string(), need: "an existing vertex" })
+}
+
+/// The half-edges exist and each starts where the one before it ends.
+fn check_path(mesh: &Mesh, path: &[HalfedgeId]) -> Result<()> {
+    let known = |h: &HalfedgeId| h.index() < mesh.n_halfedges();
+    let wrong = path.iter().find(|h| !known(h)).or_else(|| {
+        let broken = path.windows(2).find(|pair| mesh.tip(pair[0]) != mesh.origin(pair[1]));
+        broken.map(|pair| &pair[1])
+    });
+    wrong.map_or(Ok(()), |&h| {
+        Err(bad_path(h, "each half-edge must exist and start where the one before it ends"))
+    })
+}
+
+/// A path that ends where it starts.
+fn check_loop(mesh: &Mesh, path: &[HalfedgeId]) -> Result<()> {
+    check_path(mesh, path)?;
+    match (path.first(), path.last()) {
+        (Some(&first), Some(&last)) if mesh.tip(last) != mesh.origin(first) => {
+            Err(bad_path(last, "the last half-edge must end where the first one starts"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn bad_path(h: HalfedgeId, need: &'static str) -> Error {
+    Error::Argument { what: "half-edge of a path", value: h.to_string(), need }
 }
 
 /// One positive length per edge, neither too small nor too large for doubles, or the error that names the first edge without.

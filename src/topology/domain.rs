@@ -1,0 +1,168 @@
+//! Fundamental domains: a surface opened along a cut, as a polygon whose sides are paired by deck transformations.
+
+use super::check_path;
+use super::cut::is_disk;
+use super::homotopy::HomotopyBasis;
+use super::lift::Lift;
+use super::reduction::Reduction;
+use super::word::Word;
+use crate::error::{Error, Result, check_size};
+use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
+
+/// A side of a fundamental domain.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Side {
+    /// Its half-edges in order, each of a face of the domain.
+    pub halfedges: Vec<HalfedgeId>,
+    /// The side with the same edges, run through the other way; `None` on the boundary of the surface.
+    pub partner: Option<usize>,
+    /// The deck transformation that carries the partner onto this side, so it carries the domain D to its neighbour across
+    /// this side. The partner's is the inverse. Reduced; the identity on the boundary of the surface.
+    pub element: Word,
+}
+
+/// A surface opened into a disk D, lifted to the universal cover.
+#[derive(Debug, Clone)]
+pub struct FundamentalDomain {
+    /// The sides of D, counterclockwise: D lies on the left of their half-edges. They end where the cut branches or
+    /// ends (cones), or meets the boundary.
+    pub sides: Vec<Side>,
+    /// `corners[k]`: the lift at which side k starts.
+    pub corners: Vec<Lift>,
+    side_of: PerHalfedge<Option<u32>>,
+}
+
+impl FundamentalDomain {
+    /// The domain of a cut that opens the surface into a disk, as [`super::cut_graph`] and [`HomotopyBasis::cut`] do, with
+    /// elements of the group of `basis` (of the same mesh).
+    ///
+    /// D is the lift of the opened surface whose first corner is the tree lift ṽ of its vertex (see [`HomotopyBasis`]).
+    /// O(E + g · length of the cut).
+    ///
+    /// Errors: [`Error::Size`]; [`Error::Layout`] where the opened surface is no disk, or a basis of another surface does
+    /// not close around it.
+    pub fn new(mesh: &Mesh, is_cut: &PerEdge<bool>, basis: &HomotopyBasis) -> Result<FundamentalDomain> {
+        check_size("cut marks", is_cut.len(), mesh.n_edges())?;
+        basis.check_fits(mesh)?;
+        let wall = PerEdge::from_fn(mesh.n_edges(), |e| is_cut[e] || mesh.is_boundary_edge(e));
+        let inner = PerEdge::from_fn(mesh.n_edges(), |e| is_cut[e] && !mesh.is_boundary_edge(e));
+        if !is_disk(mesh, &inner) || !wall.contains(&true) {
+            let message = "the cut does not open the surface into a disk: take `cut_graph` (on a sphere, with two cones)";
+            return Err(Error::Layout(message.into()));
+        }
+        // Where sides end: a vertex that the cut does not just pass.
+        let is_node = |v: VertexId| {
+            let degree = mesh.outgoing(v).filter(|h| inner[h.edge()]).count();
+            degree > 0 && (degree != 2 || mesh.is_boundary_vertex(v))
+        };
+        let Some(start) = first_side(mesh, &wall, basis.base, is_node) else {
+            return Err(Error::Layout("the opened surface has no boundary".into()));
+        };
+        let mut reduction = Reduction::new(basis.group);
+        let mut side_of = PerHalfedge::filled(mesh.n_halfedges(), None);
+        let (mut chains, mut corners): (Vec<Vec<HalfedgeId>>, Vec<Lift>) = (Vec::new(), Vec::new());
+        let mut h = start;
+        loop {
+            if h == start || is_node(mesh.origin(h)) {
+                corners.push(Lift { vertex: mesh.origin(h), element: reduction.word() });
+                chains.push(Vec::new());
+            }
+            side_of[h] = Some(chains.len() as u32 - 1);
+            if let Some(chain) = chains.last_mut() {
+                chain.push(h);
+            }
+            basis.advance(mesh, &mut reduction, h);
+            h = next_side(mesh, &wall, h);
+            if h == start {
+                break;
+            }
+        }
+        let n = chains.len();
+        let pair = |(k, halfedges): (usize, Vec<HalfedgeId>)| {
+            let partner = halfedges.last().and_then(|h| side_of[h.twin()]).map(|j| j as usize);
+            // Side k starts where its partner ends.
+            let element = partner.map_or_else(Word::identity, |j| {
+                let end = &corners[(j + 1) % n].element;
+                basis.group.reduce(&corners[k].element.times(&end.inverse()))
+            });
+            Side { halfedges, partner, element }
+        };
+        let sides = chains.into_iter().enumerate().map(pair).collect();
+        Ok(FundamentalDomain { sides, corners, side_of })
+    }
+
+    /// The sides that an edge path crosses out of the copies of D it runs through, one after the other. The path
+    /// starts at the corner of D at the origin of `corner` (a half-edge of a face); a closed path ends at the same
+    /// corner of the copy `γ D`, where γ is the product of the crossed sides' elements, left to right. So in any layout
+    /// the product of the isometries of the side pairings is the isometry of γ, for a loop through that corner.
+    ///
+    /// [`Error::Argument`] for a path that is none, or does not start at that corner.
+    pub fn crossings(&self, mesh: &Mesh, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<usize>> {
+        check_path(mesh, path)?;
+        let starts = |h: HalfedgeId| {
+            !mesh.is_outside(h) && path.first().is_none_or(|&p| mesh.origin(p) == mesh.origin(h))
+        };
+        if corner.index() >= mesh.n_halfedges() || !starts(corner) {
+            return Err(Error::Argument {
+                what: "corner",
+                value: format!("half-edge {corner}"),
+                need: "take a half-edge of a face at the vertex where the path starts",
+            });
+        }
+        let mut crossed = Vec::new();
+        let mut at = corner;
+        for &h in path {
+            if mesh.is_outside(h) {
+                self.turn(mesh, at, mesh.next(h.twin()), &mut crossed);
+                at = h.twin();
+            } else {
+                self.turn(mesh, at, h, &mut crossed);
+                at = mesh.next(h);
+            }
+        }
+        if mesh.origin(at) == mesh.origin(corner) {
+            self.turn(mesh, at, corner, &mut crossed);
+        }
+        Ok(crossed)
+    }
+
+    /// Turn around a vertex from one of its corners to another, counterclockwise unless the boundary is in the way.
+    fn turn(&self, mesh: &Mesh, from: HalfedgeId, to: HalfedgeId, crossed: &mut Vec<usize>) {
+        let side = |h: HalfedgeId| self.side_of[h].map(|k| k as usize);
+        let (n, mut h) = (crossed.len(), from);
+        while h != to && !mesh.is_boundary_edge(mesh.prev(h).edge()) {
+            crossed.extend(side(mesh.prev(h)));
+            h = mesh.prev(h).twin();
+        }
+        if h == to {
+            return;
+        }
+        crossed.truncate(n);
+        h = from;
+        while h != to && !mesh.is_boundary_edge(h.edge()) {
+            crossed.extend(side(h));
+            h = mesh.next(h.twin());
+        }
+    }
+}
+
+/// The wall after `h` around the opened surface.
+fn next_side(mesh: &Mesh, wall: &PerEdge<bool>, h: HalfedgeId) -> HalfedgeId {
+    let mut next = mesh.next(h);
+    while !wall[next.edge()] {
+        next = mesh.next(next.twin());
+    }
+    next
+}
+
+/// A half-edge of a face on a wall, leaving a node if there is one, the base if that is on the walls.
+fn first_side(
+    mesh: &Mesh,
+    wall: &PerEdge<bool>,
+    base: VertexId,
+    is_node: impl Fn(VertexId) -> bool,
+) -> Option<HalfedgeId> {
+    let leaving = |v: VertexId| mesh.outgoing(v).find(|h| wall[h.edge()] && !mesh.is_outside(*h));
+    let node = std::iter::once(base).chain(mesh.vertices()).find(|&v| is_node(v));
+    node.into_iter().chain([base]).chain(mesh.vertices()).find_map(leaving)
+}

@@ -1,0 +1,127 @@
+//! Fundamental groups of oriented surfaces: one relator, names of the generators, the word problem.
+
+use super::reduction::Reduction;
+use super::word::{Letter, Word};
+use crate::error::{Error, Result};
+
+/// The fundamental group of the surface of genus g with b boundary loops,
+///
+/// ```text
+///     ⟨ a1, b1, …, ag, bg, c1, …, cb | a1 b1 a1⁻¹ b1⁻¹ … ag bg ag⁻¹ bg⁻¹ c1 … cb ⟩.
+/// ```
+///
+/// Generators are numbered in this order: `a_i` is `2i − 2`, `b_i` is `2i − 1`, `c_j` is `2g + j − 1`. In words given
+/// to its methods, letters of other numbers count as the identity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SurfaceGroup {
+    /// Genus g.
+    pub genus: usize,
+    /// Number b of boundary loops.
+    pub boundaries: usize,
+}
+
+impl SurfaceGroup {
+    /// Number of generators, 2g + b.
+    pub fn n_generators(&self) -> usize {
+        2 * self.genus + self.boundaries
+    }
+
+    /// The name of generator `k`, counted from 0: `a1`, `b1`, `a2`, …, `c1`, ….
+    pub fn name(&self, k: usize) -> String {
+        match k.checked_sub(2 * self.genus) {
+            Some(j) => format!("c{}", j + 1),
+            None => format!("{}{}", if k % 2 == 0 { 'a' } else { 'b' }, k / 2 + 1),
+        }
+    }
+
+    /// The names of all generators.
+    pub fn names(&self) -> Vec<String> {
+        (0..self.n_generators()).map(|k| self.name(k)).collect()
+    }
+
+    /// A word as text: letters with spaces between them, inverses marked `^-1`; the empty word is `1`.
+    pub fn text(&self, word: &Word) -> String {
+        let letter = |l: &Letter| self.name(l.index()) + if l.is_inverse() { "^-1" } else { "" };
+        match word.is_empty() {
+            true => "1".into(),
+            false => word.letters().iter().map(letter).collect::<Vec<_>>().join(" "),
+        }
+    }
+
+    /// The word that a text like `a1 b1 a1^-1` means, freely reduced; `1` stands for the identity.
+    /// [`Error::Argument`] names what is no letter.
+    pub fn parse(&self, text: &str) -> Result<Word> {
+        let mut word = Word::identity();
+        for token in text.split_whitespace().filter(|&token| token != "1") {
+            let (name, inverse) = token.strip_suffix("^-1").map_or((token, false), |name| (name, true));
+            let letter = self.number(name).map(Letter::generator).ok_or_else(|| Error::Argument {
+                what: "letter",
+                value: token.into(),
+                need: "write generators of this surface's group as a1, b1, c1, inverses as a1^-1, with spaces between them",
+            })?;
+            word.push(if inverse { letter.inverse() } else { letter });
+        }
+        Ok(word)
+    }
+
+    /// The number of the generator with this name.
+    fn number(&self, name: &str) -> Option<usize> {
+        let kind = name.chars().next().filter(char::is_ascii)?;
+        let digits = &name[1..];
+        let i = digits.parse::<usize>().ok()?.checked_sub(1)?;
+        let (k, count) = match kind {
+            'a' => (i.checked_mul(2)?, self.genus),
+            'b' => (i.checked_mul(2)?.checked_add(1)?, self.genus),
+            'c' => (i.checked_add(2 * self.genus)?, self.boundaries),
+            _ => return None,
+        };
+        (i < count && !digits.starts_with(['0', '+'])).then_some(k)
+    }
+
+    /// The relator `a1 b1 a1⁻¹ b1⁻¹ … ag bg ag⁻¹ bg⁻¹ c1 … cb`.
+    pub fn relator(&self) -> Word {
+        let handle = |i: usize| {
+            let (a, b) = (Letter::generator(2 * i), Letter::generator(2 * i + 1));
+            [a, b, a.inverse(), b.inverse()]
+        };
+        let ends = (2 * self.genus..self.n_generators()).map(Letter::generator);
+        (0..self.genus).flat_map(handle).chain(ends).collect()
+    }
+
+    /// A word of the same element, never longer than the word on a closed surface; empty exactly for the identity.
+    ///
+    /// Closed surfaces of genus ≥ 2: Dehn's algorithm \[Deh12\]; what is left need not be the only such word. Genus 1:
+    /// `a1^p b1^q`. With boundary: freely reduced without `cb`, which the relator expresses by the others. These two
+    /// are normal forms: equal elements, equal words. O(g · length).
+    pub fn reduce(&self, word: &Word) -> Word {
+        let mut reduction = Reduction::new(*self);
+        reduction.extend(word.letters().iter().copied());
+        reduction.word()
+    }
+
+    /// Whether a word is the identity of the group.
+    pub fn is_trivial(&self, word: &Word) -> bool {
+        self.reduce(word).is_empty()
+    }
+
+    /// Whether two words are the same element of the group.
+    pub fn equal(&self, u: &Word, v: &Word) -> bool {
+        self.is_trivial(&u.inverse().times(v))
+    }
+
+    /// The image in the first homology ℤ^{2g + max(b − 1, 0)}: the sum of each generator's exponents, where `cb` counts
+    /// as `−c1 − … − c(b−1)`.
+    pub fn abelianisation(&self, word: &Word) -> Vec<i64> {
+        let mut sums = vec![0; self.n_generators()];
+        for letter in word.letters() {
+            if let Some(sum) = sums.get_mut(letter.index()) {
+                *sum += if letter.is_inverse() { -1 } else { 1 };
+            }
+        }
+        if self.boundaries > 0 {
+            let last = sums.pop().unwrap_or(0);
+            sums[2 * self.genus..].iter_mut().for_each(|sum| *sum -= last);
+        }
+        sums
+    }
+}

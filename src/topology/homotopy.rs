@@ -1,0 +1,218 @@
+//! Canonical homotopy bases, and the group element of any edge path.
+
+use super::brahana::{NormalForm, Prefix, shortest_normal_form};
+use super::check_lengths;
+use super::cut::is_connected;
+use super::group::SurfaceGroup;
+use super::handle::HandleLoops;
+use super::polygon::Polygon;
+use super::reduction::Reduction;
+use super::rooted::RootedTree;
+use super::shorten::shorten;
+use super::spanning::Forest;
+use super::word::{Letter, Word, inverse};
+use super::{check_path, check_vertex};
+use crate::control::Control;
+use crate::error::{Error, Result, check_size};
+use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
+
+/// Generators of the fundamental group of a surface as loops through one base vertex p, with the one relator
+///
+/// ```text
+///     a1 b1 a1⁻¹ b1⁻¹ … ag bg ag⁻¹ bg⁻¹ c1 … cb = 1,
+/// ```
+///
+/// and what it takes to name places of the universal cover. Letters compose left to right, as paths do. `b_i` crosses
+/// `a_i` once, from right to left (intersection number +1); c_j runs around a boundary loop with the surface on its
+/// left.
+///
+/// **Lifts.** One lift p̃ of the base is chosen. A group element γ acts on the cover by the deck transformation that
+/// carries p̃ to the end of the lift of γ that starts there. Every vertex v has a tree path from p, and ṽ is the end of
+/// its lift from p̃; the lifts of v are `γ ṽ`, each for one γ.
+///
+/// **Polygon.** The surface opened along the tree and the edges left over is a disk. Its lift D with a corner at p̃ is a
+/// fundamental domain; γ D are its copies. The corner of D at the origin of h is the lift `corner_word(h) ṽ`.
+#[derive(Debug, Clone)]
+pub struct HomotopyBasis {
+    /// The base vertex p.
+    pub base: VertexId,
+    /// The group, with its names and relator.
+    pub group: SurfaceGroup,
+    /// Per generator (a1, b1, …, ag, bg, c1, …, cb) its loop: half-edges that start and end at the base.
+    pub loops: Vec<Vec<HalfedgeId>>,
+    tree: Forest,
+    place: PerHalfedge<u32>,
+    corner_words: Vec<Word>,
+}
+
+/// A canonical homotopy basis of a connected surface, with short loops.
+///
+/// `lengths`: finite and positive, one per edge. `base`: the base vertex; `None` takes one from which the loops are
+/// short. The edges that a shortest-path tree and a dual tree leave over generate the group \[EW05\]; the disk's
+/// boundary word in them is brought into normal form \[Bra21\]; the loops of each handle are then changed by
+/// Dehn twists along one another (`a → a b^±1`, `b → b a^±1`, which leave the commutator) and pulled straight across
+/// triangles, as long as they become shorter. O(E log E + g² + length of the loops) for a fixed number of roots.
+///
+/// Errors: [`Error::EdgeLength`], [`Error::Size`]; [`Error::Argument`] for a base that is no vertex;
+/// [`Error::Layout`] for an empty surface or one of several components; [`Error::Cancelled`].
+pub fn homotopy_basis(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    base: Option<VertexId>,
+    control: &Control,
+) -> Result<HomotopyBasis> {
+    control.check()?;
+    check_lengths(mesh, lengths)?;
+    if !is_connected(mesh, |_| false) {
+        let message = "the surface is empty or has several components: take a homotopy basis of each alone";
+        return Err(Error::Layout(message.into()));
+    }
+    let rooted = match base {
+        Some(base) => {
+            check_vertex(mesh, base)?;
+            RootedTree::new(mesh, lengths, base, control)?
+        }
+        None => RootedTree::central(mesh, lengths, control)?,
+    };
+    let polygon = Polygon::new(mesh, &rooted);
+    let cost: Vec<_> = polygon.halfedges.iter().map(|h| rooted.arc(mesh, lengths, h.edge())).collect();
+    let NormalForm { handles, ends, prefixes } = shortest_normal_form(&polygon.letters, &cost);
+    let straight = |word: &Word| {
+        let path: Vec<_> = word
+            .letters()
+            .iter()
+            .flat_map(|&letter| letter_loop(mesh, &rooted.tree, &polygon, letter))
+            .collect();
+        shorten(mesh, lengths, path.into_iter(), control)
+    };
+    let (mut loops, mut products) = (Vec::with_capacity(2 * handles.len() + ends.len()), Vec::new());
+    for (i, handle) in handles.iter().enumerate() {
+        let mut handle = HandleLoops::new([straight(&handle.a)?, straight(&handle.b)?]);
+        handle.twist(mesh, lengths, control)?;
+        products.push(handle.prefixes(i));
+        loops.extend(handle.loops);
+    }
+    for &end in &ends {
+        loops.push(straight(&Word::from_iter([end]))?);
+    }
+    let from_start = |prefix: &Prefix| {
+        let mut word = Word::identity();
+        for (digit, products) in prefix.digits.iter().zip(&products) {
+            word.extend(products[usize::from(*digit)].letters().iter().copied());
+        }
+        word.extend((0..prefix.n_ends).map(|j| Letter::generator(2 * handles.len() + j)));
+        word
+    };
+    // Place 0 has a corner at the root.
+    let to_root = prefixes.first().map_or_else(Word::identity, |prefix| from_start(prefix).inverse());
+    let corner_words = prefixes.iter().map(|prefix| to_root.times(&from_start(prefix))).collect();
+    Ok(HomotopyBasis {
+        base: rooted.root,
+        group: SurfaceGroup { genus: handles.len(), boundaries: ends.len() },
+        loops,
+        tree: rooted.tree,
+        place: polygon.place,
+        corner_words,
+    })
+}
+
+/// The loop of a polygon letter: from the base to its edge, along it, and back.
+fn letter_loop(mesh: &Mesh, tree: &Forest, polygon: &Polygon, letter: Letter) -> Vec<HalfedgeId> {
+    let h = polygon.halfedges[letter.index()];
+    let h = if letter.is_inverse() { h.twin() } else { h };
+    let mut path: Vec<_> = tree.path(mesh, mesh.origin(h)).collect();
+    path.reverse();
+    path.push(h);
+    path.extend(tree.path(mesh, mesh.tip(h)).map(HalfedgeId::twin));
+    path
+}
+
+impl HomotopyBasis {
+    /// Total length of the loops.
+    pub fn length(&self, lengths: &PerEdge<f64>) -> f64 {
+        self.loops.iter().flatten().fold(0.0, |sum, h| sum + lengths[h.edge()])
+    }
+
+    /// The tree path from the base to `v`; its lift from p̃ ends at ṽ.
+    ///
+    /// [`Error::Argument`] for what is no vertex.
+    pub fn tree_path(&self, mesh: &Mesh, v: VertexId) -> Result<Vec<HalfedgeId>> {
+        self.check_fits(mesh)?;
+        check_vertex(mesh, v)?;
+        let mut path: Vec<_> = self.tree.path(mesh, v).collect();
+        path.reverse();
+        Ok(path)
+    }
+
+    /// The lift of a face's corner: the corner at the origin v of `h`, a half-edge of a face, is the place `γ ṽ` of the
+    /// polygon D with γ = this word, of at most 8g + 2b letters (more where a handle has been twisted).
+    pub fn corner_word(&self, h: HalfedgeId) -> &Word {
+        &self.corner_words[self.place[h] as usize]
+    }
+
+    /// The element of a half-edge from u to v: of the loop along the tree to u, along `h`, and back along the tree.
+    /// The lift of `h` that starts at ũ ends at `γ ṽ`. Freely reduced; empty on the tree.
+    pub fn halfedge_word(&self, mesh: &Mesh, h: HalfedgeId) -> Word {
+        self.halfedge_letters(mesh, h).collect()
+    }
+
+    fn halfedge_letters(&self, mesh: &Mesh, h: HalfedgeId) -> impl Iterator<Item = Letter> + '_ {
+        // Inside a face the two corners are lifted together; an outside half-edge is the way back along its twin.
+        let (from, to) = match mesh.is_outside(h) {
+            false => (h, mesh.next(h)),
+            true => (mesh.next(h.twin()), h.twin()),
+        };
+        let (from, to) = match self.place[from] == self.place[to] {
+            true => (&[][..], &[][..]),
+            false => (self.corner_word(from).letters(), self.corner_word(to).letters()),
+        };
+        inverse(from).chain(to.iter().copied())
+    }
+
+    /// The element of an edge path from u to v: of the loop along the tree to u, along the path, and back along the
+    /// tree; for a loop at the base, of the loop itself. Reduced in the group ([`SurfaceGroup::reduce`]). The lift of the
+    /// path that starts at ũ ends at `γ ṽ`.
+    ///
+    /// [`Error::Argument`] for half-edges that do not follow each other.
+    pub fn path_word(&self, mesh: &Mesh, path: &[HalfedgeId]) -> Result<Word> {
+        self.check_fits(mesh)?;
+        check_path(mesh, path)?;
+        let mut reduction = Reduction::new(self.group);
+        path.iter().for_each(|&h| reduction.extend(self.halfedge_letters(mesh, h)));
+        Ok(reduction.word())
+    }
+
+    /// Which copy of the polygon D lies across a half-edge of a face: crossing `h` out of the copy γ D leads into
+    /// `γ · transition(h) D`. Freely reduced; empty where the polygon is not cut, and outside the surface.
+    pub fn transition(&self, mesh: &Mesh, h: HalfedgeId) -> Word {
+        if mesh.is_boundary_edge(h.edge()) {
+            return Word::identity();
+        }
+        // The lift of h's origin is a corner of both copies.
+        let across = mesh.next(h.twin());
+        match self.place[h] == self.place[across] {
+            true => Word::identity(),
+            false => self.corner_word(h).times(&self.corner_word(across).inverse()),
+        }
+    }
+
+    /// The interior edges along which the polygon D is cut: those that [`HomotopyBasis::transition`] does not cross
+    /// trivially. They open the surface into a disk (a closed surface of genus 0 has none).
+    pub fn cut(&self, mesh: &Mesh) -> PerEdge<bool> {
+        PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| {
+            let h = e.halfedge();
+            !mesh.is_boundary_edge(e) && self.place[h] != self.place[mesh.next(h.twin())]
+        })
+    }
+
+    /// The mesh has as many elements as that of the basis.
+    pub(super) fn check_fits(&self, mesh: &Mesh) -> Result<()> {
+        check_size("half-edges of the basis", self.place.len(), mesh.n_halfedges())?;
+        check_size("vertices of the basis", self.tree.parent.len(), mesh.n_vertices())
+    }
+
+    /// The reduction of a product in this group, letter by letter, with the element of `h` multiplied to its right.
+    pub(super) fn advance(&self, mesh: &Mesh, reduction: &mut Reduction, h: HalfedgeId) {
+        reduction.extend(self.halfedge_letters(mesh, h));
+    }
+}
