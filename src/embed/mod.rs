@@ -4,7 +4,10 @@
 mod chart_growth;
 pub mod charts;
 mod corner;
+pub mod cover;
+pub mod deck;
 mod develop;
+pub mod dirichlet;
 pub mod layout;
 pub mod overlap;
 pub mod pack;
@@ -19,6 +22,8 @@ pub mod space_refined;
 mod triangle;
 
 pub use charts::{ChartOptions, Charts, charts};
+pub use deck::{DeckElement, DeckGroup};
+pub use dirichlet::{DirichletDomain, dirichlet_domain};
 pub use layout::{Layout, layout, layout_of};
 pub use quality::{Quality, quality};
 pub use refined::{RefinedLayout, layout_refined, refined_cut};

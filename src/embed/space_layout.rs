@@ -154,60 +154,6 @@ impl SpaceLayout {
         }
     }
 
-    /// Sides of the cut (as [`SpaceLayout::side`]) that a walk along edges crosses when it starts in the face of the half-edge `from`, at its
-    /// origin, and ends in the face of `to`, at its origin.
-    ///
-    /// The walk turns about each of its vertices from face to face until it reaches the face on the left of its next edge. No vertex
-    /// inside the opened surface and none on the cut has curvature, so which way it turns does not matter; on the boundary there is
-    /// one way only. Composing [`SpaceLayout::neighbour`] of the crossings, first one first, gives the isometry that carries the opened
-    /// surface to where the lifted walk ends.
-    pub fn crossings(&self, mesh: &Mesh, from: HalfedgeId, path: &[HalfedgeId], to: HalfedgeId) -> Vec<i32> {
-        let mut crossed = Vec::new();
-        let mut at = from;
-        for &h in path {
-            // A half-edge outside the surface is walked along its inner side.
-            match mesh.is_outside(h) {
-                false => {
-                    self.turn(mesh, at, h, &mut crossed);
-                    at = mesh.next(h);
-                }
-                true => {
-                    self.turn(mesh, at, mesh.next(h.twin()), &mut crossed);
-                    at = h.twin();
-                }
-            }
-        }
-        self.turn(mesh, at, to, &mut crossed);
-        crossed
-    }
-
-    /// Turn about the common origin of two half-edges inside the surface, from the face of the one to that of the other.
-    fn turn(&self, mesh: &Mesh, from: HalfedgeId, to: HalfedgeId, crossed: &mut Vec<i32>) {
-        let start = crossed.len();
-        // Counterclockwise: over the side that ends at the vertex.
-        let mut at = from;
-        while at != to {
-            let over = mesh.prev(at);
-            if mesh.is_outside(over.twin()) {
-                break;
-            }
-            crossed.extend(Some(self.side[over]).filter(|&s| s != 0));
-            at = over.twin();
-            if at == from {
-                break;
-            }
-        }
-        if at == to {
-            return;
-        }
-        crossed.truncate(start);
-        let mut at = from;
-        while at != to && !mesh.is_outside(at.twin()) {
-            crossed.extend(Some(self.side[at]).filter(|&s| s != 0));
-            at = mesh.next(at.twin());
-        }
-    }
-
     /// Largest distance between a corner as its face has it, and where it lies in this face's layout or, across a cut, its neighbour's.
     fn worst_corner(&self, faces: &Faces) -> f64 {
         let mesh = faces.mesh;

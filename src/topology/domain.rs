@@ -7,7 +7,8 @@ use super::lift::Lift;
 use super::reduction::Reduction;
 use super::word::Word;
 use crate::error::{Error, Result, check_size};
-use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
+use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
+use std::collections::VecDeque;
 
 /// A side of a fundamental domain.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -124,6 +125,42 @@ impl FundamentalDomain {
             self.turn(mesh, at, corner, &mut crossed);
         }
         Ok(crossed)
+    }
+
+    /// The element γ of the corner of D at the origin v of `corner`, a half-edge of a face: that corner is `γ ṽ`. `basis`: the one that
+    /// the domain was made with. O(F). [`Error::Argument`] for a half-edge of no face.
+    pub fn element_at(&self, mesh: &Mesh, basis: &HomotopyBasis, corner: HalfedgeId) -> Result<Word> {
+        basis.check_fits(mesh)?;
+        let first = self.sides.first().and_then(|side| side.halfedges.first());
+        let target = (corner.index() < mesh.n_halfedges()).then(|| mesh.face(corner)).flatten();
+        let (Some(&first), Some(target), Some(start)) = (first, target, self.corners.first()) else {
+            let need = "take a half-edge of a face";
+            return Err(Error::Argument { what: "corner", value: format!("half-edge {corner}"), need });
+        };
+        // Face by face, over no side of D, to the face of the corner; back along the way, the copies of the polygon that it ran through.
+        let mut entered: PerFace<Option<HalfedgeId>> = PerFace::filled(mesh.n_faces(), None);
+        let mut reached: VecDeque<_> = mesh.face(first).into_iter().collect();
+        while let Some(f) = reached.pop_front().filter(|&f| f != target) {
+            for h in mesh.face_halfedges(f) {
+                let next =
+                    mesh.face(h.twin()).filter(|&g| Some(g) != mesh.face(first) && entered[g].is_none());
+                if let Some(g) =
+                    next.filter(|_| self.side_of[h].is_none() && !mesh.is_boundary_edge(h.edge()))
+                {
+                    entered[g] = Some(h);
+                    reached.push_back(g);
+                }
+            }
+        }
+        let way = std::iter::successors(entered[target], |h| mesh.face(*h).and_then(|f| entered[f]));
+        let mut way: Vec<_> = way.collect();
+        way.reverse();
+        // The copy γ D of the polygon that holds the first face has its corner there at the domain's first corner.
+        let mut word = start.element.times(&basis.corner_word(first).inverse());
+        for h in way {
+            word = word.times(&basis.transition(mesh, h));
+        }
+        Ok(basis.group.reduce(&word.times(basis.corner_word(corner))))
     }
 
     /// Turn around a vertex from one of its corners to another, counterclockwise unless the boundary is in the way.

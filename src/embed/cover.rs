@@ -1,0 +1,148 @@
+//! Finite pieces of the universal cover.
+
+use super::deck::{DeckElement, DeckGroup};
+use super::dirichlet::{DirichletDomain, identity, to_origin};
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::geometry::{Motion, Twofold};
+use crate::parallel;
+use crate::topology::SurfaceGroup;
+use crate::topology::word::{Letter, Word};
+use std::collections::HashMap;
+
+/// Elements between two looks at the control.
+const ELEMENTS_PER_STEP: usize = 256;
+/// Displacements of one element along two words agree to this; it only chooses which elements are compared as words.
+const SAME: f64 = 1e-6;
+
+/// All deck elements of word length at most `depth` in the canonical generators, each once, shortest first, the identity to begin with.
+///
+/// Whether two words mean the same is decided in the group ([`SurfaceGroup::equal`]), not by coordinates.
+/// [`Error::TooLarge`] for more than `limit` elements; [`Error::Cancelled`].
+pub fn elements_to_depth(
+    deck: &DeckGroup,
+    depth: usize,
+    limit: usize,
+    control: &Control,
+) -> Result<Vec<DeckElement>> {
+    let letters: Vec<DeckElement> = (0..deck.group.n_generators())
+        .flat_map(|k| [Letter::generator(k), Letter::generator(k).inverse()])
+        .map(|letter| DeckElement { word: Word::from_iter([letter]), motion: deck.letter(letter) })
+        .collect();
+    let mut found = Found::new(deck, limit);
+    let mut level = 0..1;
+    for _ in 0..depth {
+        for k in level.clone() {
+            found.grow(k, &letters, |_| true, control)?;
+        }
+        level = level.end..found.elements.len();
+    }
+    Ok(found.elements)
+}
+
+/// All deck elements that move the centre of a Dirichlet domain by at most `radius`, each once, nearest first.
+///
+/// The segment from the centre to such an image runs through copies of the domain whose centres lie within `radius` and the domain's
+/// own radius of it, each next to the one before: they are reached over sides. Errors: those of [`elements_to_depth`].
+pub fn elements_within(
+    deck: &DeckGroup,
+    domain: &DirichletDomain,
+    radius: f64,
+    limit: usize,
+    control: &Control,
+) -> Result<Vec<DeckElement>> {
+    let mut found = Found::new(deck, limit);
+    let home = to_origin(deck.space, domain.centre);
+    let back = home.inverse();
+    let moved = |g: &Motion<Twofold>| home.compose(g).compose(&back).displacement();
+    let mut next = 0;
+    while next < found.elements.len() {
+        found.grow(next, &domain.sides, |g| moved(g) <= radius + domain.radius, control)?;
+        next += 1;
+    }
+    let mut near: Vec<(f64, DeckElement)> =
+        found.elements.into_iter().map(|g| (moved(&g.motion), g)).filter(|(d, _)| *d <= radius).collect();
+    near.sort_by(|(a, g), (b, h)| {
+        a.total_cmp(b).then_with(|| g.word.len().cmp(&h.word.len())).then_with(|| g.word.cmp(&h.word))
+    });
+    Ok(near.into_iter().map(|(_, g)| g).collect())
+}
+
+/// Elements that were found, by what they have in common if they are equal.
+struct Found {
+    group: SurfaceGroup,
+    elements: Vec<DeckElement>,
+    /// By image in the abelianisation and displacement in units of [`SAME`].
+    alike: HashMap<(Vec<i64>, i64), Vec<u32>>,
+    limit: usize,
+}
+
+impl Found {
+    fn new(deck: &DeckGroup, limit: usize) -> Found {
+        let mut found =
+            Found { group: deck.group, elements: Vec::new(), alike: HashMap::new(), limit: limit.max(1) };
+        let one = identity(deck.space);
+        let key = found.key(&one);
+        found.insert(one, key);
+        found
+    }
+
+    /// Multiply element `k` by `factors` from the right; keep what is new and `wanted`.
+    fn grow(
+        &mut self,
+        k: usize,
+        factors: &[DeckElement],
+        wanted: impl Fn(&Motion<Twofold>) -> bool,
+        control: &Control,
+    ) -> Result<()> {
+        if k.is_multiple_of(ELEMENTS_PER_STEP) {
+            control.check()?;
+        }
+        for factor in factors {
+            let from = &self.elements[k];
+            let motion = from.motion.compose(&factor.motion);
+            if !wanted(&motion) {
+                continue;
+            }
+            let word = self.group.reduce(&from.word.times(&factor.word));
+            let next = DeckElement { word, motion };
+            let key = self.key(&next);
+            if self.contains(&next, &key) {
+                continue;
+            }
+            if self.elements.len() >= self.limit {
+                return Err(Error::TooLarge {
+                    what: "copies of the fundamental domain",
+                    count: self.limit + 1,
+                });
+            }
+            self.insert(next, key);
+        }
+        Ok(())
+    }
+
+    fn key(&self, g: &DeckElement) -> (Vec<i64>, i64) {
+        (self.group.abelianisation(&g.word), (g.motion.displacement() / SAME).floor() as i64)
+    }
+
+    fn contains(&self, g: &DeckElement, key: &(Vec<i64>, i64)) -> bool {
+        [-1, 0, 1].iter().any(|step| {
+            let near = self.alike.get(&(key.0.clone(), key.1 + step));
+            near.is_some_and(|all| {
+                all.iter().any(|&k| self.group.equal(&self.elements[k as usize].word, &g.word))
+            })
+        })
+    }
+
+    fn insert(&mut self, g: DeckElement, key: (Vec<i64>, i64)) {
+        self.alike.entry(key).or_default().push(self.elements.len() as u32);
+        self.elements.push(g);
+    }
+}
+
+/// Points in ambient coordinates moved by an isometry, with twice the digits on the way: parallel inside a pool.
+pub fn moved(points: &[[f64; 3]], motion: &Motion<Twofold>) -> Vec<[f64; 3]> {
+    let mut out = vec![[0.0; 3]; points.len()];
+    parallel::fill(&mut out, |k| motion.apply(points[k].map(Twofold::from)).map(f64::from));
+    out
+}

@@ -1,0 +1,163 @@
+//! The deck group of a surface of constant curvature: its fundamental group as isometries of the model space.
+
+use super::space_layout::SpaceLayout;
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::geometry::{Motion, Space, Twofold};
+use crate::mesh::{HalfedgeId, Mesh};
+use crate::topology::word::{Letter, Word};
+use crate::topology::{FundamentalDomain, HomotopyBasis, SurfaceGroup};
+
+/// An element of the deck group.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeckElement {
+    /// As a word in the canonical generators.
+    pub word: Word,
+    /// As an isometry.
+    pub motion: Motion<Twofold>,
+}
+
+/// The group of deck transformations of the universal cover of a layout, acting from the left: M(γ) carries the base lift to the end of
+/// γ's lift, `M(γδ) = M(γ) M(δ)`.
+///
+/// Isometries are carried to twice the digits of doubles: what a product of far translations loses is then below what the side pairings
+/// are known to.
+#[derive(Debug, Clone)]
+pub struct DeckGroup {
+    /// The space it acts on.
+    pub space: Space,
+    /// The group with its names and relator.
+    pub group: SurfaceGroup,
+    /// The isometries of the canonical generators a1, b1, …, ag, bg, c1, …, cb.
+    pub generators: Vec<Motion<Twofold>>,
+    /// Sides of the layout's fundamental domain: the elements that carry it onto its neighbours, counterclockwise.
+    pub sides: Vec<DeckElement>,
+    /// The corner of the layout that is the base lift: a half-edge of a face at the base vertex.
+    pub corner: HalfedgeId,
+    /// `‖R − I‖_F / max_k ‖P_k‖²` of the relator's matrix R over its partial products P_k (Frobenius norms of 2×2 matrices, R with the
+    /// nearer sign). 0 without a relation.
+    pub relation_residual: f64,
+    /// The same for each side: how far its pairing is from its word's isometry; the largest.
+    pub side_residual: f64,
+}
+
+impl DeckGroup {
+    /// The deck group of a layout without cones, with the generators of a homotopy basis of the same mesh.
+    ///
+    /// The base lift is the corner at the base vertex that is nearest to the layout's origin.
+    ///
+    /// Errors: [`Error::Layout`] for a layout or basis of another mesh, or where the opened surface is no disk; [`Error::Cancelled`].
+    pub fn new(
+        mesh: &Mesh,
+        layout: &SpaceLayout,
+        basis: &HomotopyBasis,
+        control: &Control,
+    ) -> Result<DeckGroup> {
+        control.check()?;
+        let at_base = mesh.outgoing(basis.base).filter(|&h| !mesh.is_outside(h));
+        let nearest = at_base.min_by(|&g, &h| {
+            let far = |h| layout.corner(h)[0].hypot(layout.corner(h)[1]);
+            far(g).total_cmp(&far(h))
+        });
+        let Some(corner) = nearest else {
+            return Err(Error::Layout(format!("base vertex {} has no face", basis.base)));
+        };
+        let mut deck = DeckGroup {
+            space: layout.space,
+            group: basis.group,
+            generators: Vec::new(),
+            sides: Vec::new(),
+            corner,
+            relation_residual: 0.0,
+            side_residual: 0.0,
+        };
+        if deck.group.n_generators() == 0 {
+            return Ok(deck);
+        }
+        let domain = FundamentalDomain::new(mesh, &layout.cut.is_cut, basis)?;
+        // The base's corner here is γ p̃ of the domain as it was lifted: lift it by γ⁻¹.
+        let lift = domain.element_at(mesh, basis, corner)?;
+        let lifted = |word: &Word| deck_word(basis, &lift, word);
+        let pairing = |k: usize| match domain.sides[k].halfedges.first() {
+            Some(&h) => layout.neighbour(h).precise(),
+            None => Motion::identity(layout.space),
+        };
+        let pairings: Vec<_> = (0..domain.sides.len()).map(pairing).collect();
+        for path in &basis.loops {
+            control.check()?;
+            let crossed = domain.crossings(mesh, corner, path)?;
+            let whole = crossed.iter().fold(Motion::identity(layout.space), |m, &k| m.compose(&pairings[k]));
+            deck.generators.push(whole.normalised());
+        }
+        for (side, motion) in domain.sides.iter().zip(pairings).filter(|(side, _)| side.partner.is_some()) {
+            let word = lifted(&side.element);
+            let spelled = deck.motion(&word).compose(&motion.inverse());
+            deck.side_residual = deck.side_residual.max(deck.residual(&word, &spelled));
+            deck.sides.push(DeckElement { word, motion });
+        }
+        let relator = deck.group.relator();
+        deck.relation_residual = deck.residual(&relator, &deck.products(relator.letters()));
+        Ok(deck)
+    }
+
+    /// The isometry of a generator or its inverse.
+    pub fn letter(&self, letter: Letter) -> Motion<Twofold> {
+        match self.generators.get(letter.index()) {
+            Some(g) if letter.is_inverse() => g.inverse(),
+            Some(g) => *g,
+            None => Motion::identity(self.space),
+        }
+    }
+
+    /// The isometry of a word.
+    pub fn motion(&self, word: &Word) -> Motion<Twofold> {
+        self.products(word.letters())
+    }
+
+    fn products(&self, letters: &[Letter]) -> Motion<Twofold> {
+        letters.iter().fold(Motion::identity(self.space), |m, &l| m.compose(&self.letter(l)))
+    }
+
+    /// How far `rest` is from the identity, relative to the largest ‖P‖² of the partial products of a word.
+    fn residual(&self, word: &Word, rest: &Motion<Twofold>) -> f64 {
+        let mut product = Motion::identity(self.space);
+        let mut largest = product.norm_square();
+        for &letter in word.letters() {
+            product = product.compose(&self.letter(letter));
+            largest = largest.max(product.norm_square());
+        }
+        rest.distance_from_identity() / largest
+    }
+
+    /// |tr| of the generators' matrices of determinant 1: 2 cosh(L/2) in H².
+    pub fn traces(&self) -> Vec<f64> {
+        self.generators.iter().map(|g| 2.0 * f64::from(g.half_trace()).abs()).collect()
+    }
+
+    /// The translation length of each generator ([`Motion::translation_length`]).
+    pub fn translation_lengths(&self) -> Vec<f64> {
+        self.generators.iter().map(Motion::translation_length).collect()
+    }
+
+    /// Corners of the canonical polygon, whose sides are geodesics from lift to lift of the base along the relator: the images of the base
+    /// lift at `base` under its prefixes, in ambient coordinates; 4g + b of them.
+    ///
+    /// It is a fundamental domain of a closed surface: the geodesic loops of the generators meet in the base alone. Its corners need
+    /// not be convex.
+    pub fn canonical_polygon(&self, base: [f64; 3]) -> Vec<[f64; 3]> {
+        let mut product = Motion::identity(self.space);
+        let base = base.map(Twofold::from);
+        let relator = self.group.relator();
+        let corner = |&letter: &Letter| {
+            let at = product.apply(base).map(f64::from);
+            product = product.compose(&self.letter(letter));
+            at
+        };
+        relator.letters().iter().map(corner).collect()
+    }
+}
+
+/// `γ⁻¹ w γ`, reduced.
+fn deck_word(basis: &HomotopyBasis, lift: &Word, word: &Word) -> Word {
+    basis.group.reduce(&lift.inverse().times(word).times(lift))
+}
