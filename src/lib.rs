@@ -9,11 +9,13 @@
 //! | [`geometry`] | pure formulas: spaces, triangles, isometries, predicates |
 //! | [`linalg`] | sparse symmetric matrices with a fixed pattern, Cholesky |
 //! | [`mesh`] | connectivity (half-edge Δ-complex), building, diagnosis, files, generators |
-//! | [`topology`] | spanning trees, homology generators, cut graphs |
+//! | [`topology`] | spanning trees, homology generators, cut graphs; fundamental groups |
 //! | [`metric`] | conformal classes (ε, η), lengths, angles, curvature, targets |
 //! | [`flow`] | Newton and gradient flow, cones |
-//! | [`embed`] | layouts, their quality, charts |
+//! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |
+//! | [`canonical`] | metrics of constant curvature |
 
+pub mod canonical;
 pub mod control;
 pub mod embed;
 pub mod error;

@@ -154,6 +154,17 @@ impl SpaceLayout {
         }
     }
 
+    /// Scale a layout in E² (nothing else has a scale): lengths by `factor`.
+    pub fn scale(&mut self, factor: f64) {
+        if self.space != Space::E2 {
+            return;
+        }
+        self.points.iter_mut().for_each(|[x, y, _]| (*x, *y) = (factor * *x, factor * *y));
+        self.pairings.iter_mut().chain(self.frames.iter_mut()).for_each(|m| m.b = m.b.map(|x| factor * x));
+        (self.disagreement, self.radius) = (factor * self.disagreement, factor * self.radius);
+        self.area *= factor * factor;
+    }
+
     /// Largest distance between a corner as its face has it, and where it lies in this face's layout or, across a cut, its neighbour's.
     fn worst_corner(&self, faces: &Faces) -> f64 {
         let mesh = faces.mesh;

@@ -20,7 +20,7 @@ pub mod word;
 
 pub use cut::{CutGraph, cut_graph};
 pub use domain::{FundamentalDomain, Side};
-pub use farthest::farthest_vertices;
+pub use farthest::{central_vertex, farthest_vertices};
 pub use group::SurfaceGroup;
 pub use homology::homology_generators;
 pub use homotopy::{HomotopyBasis, homotopy_basis};

@@ -1,0 +1,5 @@
+//! Closed surfaces in their canonical shape: metrics of constant curvature.
+
+pub mod quotient;
+
+pub use quotient::{Quotient, QuotientOptions, uniformize_quotient};
