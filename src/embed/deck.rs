@@ -1,12 +1,15 @@
 //! The deck group of a surface of constant curvature: its fundamental group as isometries of the model space.
 
+use super::dirichlet::to_origin;
 use super::space_layout::SpaceLayout;
 use crate::control::Control;
 use crate::error::{Error, Result};
+use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{HalfedgeId, Mesh};
 use crate::topology::word::{Letter, Word};
 use crate::topology::{FundamentalDomain, HomotopyBasis, SurfaceGroup};
+use std::f64::consts::TAU;
 
 /// An element of the deck group.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,7 +82,7 @@ impl DeckGroup {
         let lift = domain.element_at(mesh, basis, corner)?;
         let lifted = |word: &Word| deck_word(basis, &lift, word);
         let pairing = |k: usize| match domain.sides[k].halfedges.first() {
-            Some(&h) => layout.neighbour(h).precise(),
+            Some(&h) => layout.neighbour(h).normalised(),
             None => Motion::identity(layout.space),
         };
         let pairings: Vec<_> = (0..domain.sides.len()).map(pairing).collect();
@@ -146,7 +149,7 @@ impl DeckGroup {
     /// not be convex.
     pub fn canonical_polygon(&self, base: [f64; 3]) -> Vec<[f64; 3]> {
         let mut product = Motion::identity(self.space);
-        let base = base.map(Twofold::from);
+        let base = precise_point(self.space, base);
         let relator = self.group.relator();
         let corner = |&letter: &Letter| {
             let at = product.apply(base).map(f64::from);
@@ -154,6 +157,28 @@ impl DeckGroup {
             at
         };
         relator.letters().iter().map(corner).collect()
+    }
+
+    /// The angles of the canonical polygon inside its corners, in [0, 2π): on a closed surface they add up to 2π, since all corners are one
+    /// point of it.
+    ///
+    /// Each is formed at the base: seen from corner P_k, the neighbours are where the last letter came from and where the next one
+    /// leads.
+    pub fn canonical_angles(&self, base: [f64; 3]) -> Vec<f64> {
+        let home = to_origin(self.space, base);
+        let direction = |g: Motion<Twofold>| {
+            let [x, y, _] = home.compose(&g).compose(&home.inverse()).origin().map(f64::from);
+            y.atan2(x)
+        };
+        let relator = self.group.relator();
+        let letters = relator.letters();
+        let n = letters.len();
+        let angle = |k: usize| {
+            let [before, after] =
+                [letters[(k + n - 1) % n].inverse(), letters[k]].map(|l| direction(self.letter(l)));
+            (before - after).rem_euclid(TAU)
+        };
+        (0..n).map(angle).collect()
     }
 }
 
