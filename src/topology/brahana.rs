@@ -30,33 +30,31 @@ pub(super) struct Prefix {
 /// Starts of reading that are tried: all of them up to genus 32.
 const MAX_STARTS: usize = 128;
 
-/// The normal form with the shortest handles among those that start to read the polygon's word at different places.
-///
-/// `word`: of a polygon that is glued to an oriented connected surface. `cost`: the length of each letter's loop; a
-/// handle is as long as the letters of its words together. O(g²) per start in general, O(g³) at worst.
-pub(super) fn shortest_normal_form(word: &[Letter], cost: &[f64]) -> NormalForm {
-    let read_from = |start: usize| {
-        let mut turned = word.to_vec();
-        turned.rotate_left(start);
-        let mut form = normalise(&turned, cost);
-        form.prefixes.rotate_right(start);
-        form
-    };
-    let length = |form: &NormalForm| {
-        let words = form.handles.iter().flat_map(|handle| [&handle.a, &handle.b]);
+/// The places of a polygon's word from which to start to read it, those with the shortest handles first: a handle is as
+/// long as the loops of the letters of its words together. O(g²) per start in general, O(g³) at worst.
+pub(super) fn best_starts(word: &[Letter], cost: &[f64]) -> Vec<usize> {
+    let length = |start: usize| {
+        let handles = normal_form(word, cost, start).handles;
+        let words = handles.iter().flat_map(|handle| [&handle.a, &handle.b]);
         words.flat_map(Word::letters).fold(0.0, |sum, letter| sum + cost[letter.index()])
     };
-    let mut best = read_from(0);
-    for start in (1..word.len()).step_by(word.len().div_ceil(MAX_STARTS).max(1)) {
-        let form = read_from(start);
-        if length(&form) < length(&best) {
-            best = form;
-        }
-    }
-    best
+    let starts = (0..word.len().max(1)).step_by(word.len().div_ceil(MAX_STARTS).max(1));
+    let mut starts: Vec<(f64, usize)> = starts.map(|start| (length(start), start)).collect();
+    starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    starts.into_iter().map(|(_, start)| start).collect()
 }
 
-/// Brahana's normalisation \[Bra21\], \[Sti93, §1.3\], exactly in the free group.
+/// The normal form of a polygon's word, read from a place on. `word`: of a polygon that is glued to an oriented connected
+/// surface. `cost`: the length of each letter's loop.
+pub(super) fn normal_form(word: &[Letter], cost: &[f64], start: usize) -> NormalForm {
+    let mut turned = word.to_vec();
+    turned.rotate_left(start);
+    let mut form = normalise(&turned, cost);
+    form.prefixes.rotate_right(start);
+    form
+}
+
+/// Brahana's normalisation \[Bra21\], \[Sti93\], exactly in the free group.
 ///
 /// Two letters whose occurrences are linked, `W = U x A y B x⁻¹ C y⁻¹ D`, make a handle:
 ///

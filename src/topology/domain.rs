@@ -7,7 +7,8 @@ use super::lift::Lift;
 use super::reduction::Reduction;
 use super::word::Word;
 use crate::error::{Error, Result, check_size};
-use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
+use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
+use std::collections::VecDeque;
 
 /// A side of a fundamental domain.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,9 +22,11 @@ pub struct Side {
     pub element: Word,
 }
 
-/// A surface opened into a disk D, lifted to the universal cover.
+/// A surface opened into a disk D, lifted to the universal cover so that it has a corner at the base lift p̃.
 #[derive(Debug, Clone)]
 pub struct FundamentalDomain {
+    /// The half-edge of a face whose origin, in D, is the base lift p̃.
+    pub base_corner: HalfedgeId,
     /// The sides of D, counterclockwise: D lies on the left of their half-edges. They end where the cut branches or
     /// ends (cones), or meets the boundary.
     pub sides: Vec<Side>,
@@ -36,11 +39,10 @@ impl FundamentalDomain {
     /// The domain of a cut that opens the surface into a disk, as [`super::cut_graph`] and [`HomotopyBasis::cut`] do, with
     /// elements of the group of `basis` (of the same mesh).
     ///
-    /// D is the lift of the opened surface whose first corner is the tree lift ṽ of its vertex (see [`HomotopyBasis`]).
-    /// O(E + g · length of the cut).
+    /// Of the lifts with a corner at p̃ it is the one with the same corner there as the polygon of the basis; for
+    /// [`HomotopyBasis::cut`] D is that polygon. O(E + g · length of the cut).
     ///
-    /// Errors: [`Error::Size`]; [`Error::Layout`] where the opened surface is no disk, or a basis of another surface does
-    /// not close around it.
+    /// Errors: [`Error::Size`]; [`Error::Layout`] where the opened surface is no disk.
     pub fn new(mesh: &Mesh, is_cut: &PerEdge<bool>, basis: &HomotopyBasis) -> Result<FundamentalDomain> {
         check_size("cut marks", is_cut.len(), mesh.n_edges())?;
         basis.check_fits(mesh)?;
@@ -55,10 +57,15 @@ impl FundamentalDomain {
             let degree = mesh.outgoing(v).filter(|h| inner[h.edge()]).count();
             degree > 0 && (degree != 2 || mesh.is_boundary_vertex(v))
         };
-        let Some(start) = first_side(mesh, &wall, basis.base, is_node) else {
+        let at_base = |h: &HalfedgeId| !mesh.is_outside(*h) && basis.corner_word(*h).is_empty();
+        let ends = mesh.outgoing(basis.base).find(at_base).zip(first_side(mesh, &wall, is_node));
+        let Some((base_corner, start)) = ends else {
             return Err(Error::Layout("the opened surface has no boundary".into()));
         };
         let mut reduction = Reduction::new(basis.group);
+        path_within(mesh, &wall, base_corner, start)
+            .into_iter()
+            .for_each(|h| basis.advance(mesh, &mut reduction, h));
         let mut side_of = PerHalfedge::filled(mesh.n_halfedges(), None);
         let (mut chains, mut corners): (Vec<Vec<HalfedgeId>>, Vec<Lift>) = (Vec::new(), Vec::new());
         let mut h = start;
@@ -88,13 +95,14 @@ impl FundamentalDomain {
             Side { halfedges, partner, element }
         };
         let sides = chains.into_iter().enumerate().map(pair).collect();
-        Ok(FundamentalDomain { sides, corners, side_of })
+        Ok(FundamentalDomain { base_corner, sides, corners, side_of })
     }
 
     /// The sides that an edge path crosses out of the copies of D it runs through, one after the other. The path
     /// starts at the corner of D at the origin of `corner` (a half-edge of a face); a closed path ends at the same
-    /// corner of the copy `γ D`, where γ is the product of the crossed sides' elements, left to right. So in any layout
-    /// the product of the isometries of the side pairings is the isometry of γ, for a loop through that corner.
+    /// corner of the copy `γ D`, where γ is the product of the crossed sides' elements, left to right. From
+    /// `base_corner`, γ is the element of the loop. So the isometries of the side pairings of any layout of D, multiplied
+    /// along the crossings of the loops of the basis, are the generators of its deck group.
     ///
     /// [`Error::Argument`] for a path that is none, or does not start at that corner.
     pub fn crossings(&self, mesh: &Mesh, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<usize>> {
@@ -155,14 +163,36 @@ fn next_side(mesh: &Mesh, wall: &PerEdge<bool>, h: HalfedgeId) -> HalfedgeId {
     next
 }
 
-/// A half-edge of a face on a wall, leaving a node if there is one, the base if that is on the walls.
-fn first_side(
-    mesh: &Mesh,
-    wall: &PerEdge<bool>,
-    base: VertexId,
-    is_node: impl Fn(VertexId) -> bool,
-) -> Option<HalfedgeId> {
+/// A half-edge of a face on a wall, leaving a node if there is one.
+fn first_side(mesh: &Mesh, wall: &PerEdge<bool>, is_node: impl Fn(VertexId) -> bool) -> Option<HalfedgeId> {
     let leaving = |v: VertexId| mesh.outgoing(v).find(|h| wall[h.edge()] && !mesh.is_outside(*h));
-    let node = std::iter::once(base).chain(mesh.vertices()).find(|&v| is_node(v));
-    node.into_iter().chain([base]).chain(mesh.vertices()).find_map(leaving)
+    mesh.vertices().filter(|&v| is_node(v)).chain(mesh.vertices()).find_map(leaving)
+}
+
+/// An edge path inside the opened surface from one of its corners to another, along the sides of a chain of faces.
+fn path_within(mesh: &Mesh, wall: &PerEdge<bool>, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
+    // Per face, the half-edge through which one goes on towards the face of `to`, found from there.
+    let mut exit = PerFace::filled(mesh.n_faces(), None);
+    let goal = mesh.face(to);
+    let mut waiting: VecDeque<_> = goal.into_iter().collect();
+    while let Some(f) = waiting.pop_front() {
+        for h in mesh.face_halfedges(f).into_iter().filter(|h| !wall[h.edge()]) {
+            if let Some(g) = mesh.face(h.twin()).filter(|&g| Some(g) != goal && exit[g].is_none()) {
+                exit[g] = Some(h.twin());
+                waiting.push_back(g);
+            }
+        }
+    }
+    let (mut path, mut at) = (Vec::new(), from);
+    loop {
+        let leave = mesh.face(at).and_then(|f| exit[f]);
+        while at != leave.unwrap_or(to) {
+            path.push(at);
+            at = mesh.next(at);
+        }
+        match leave {
+            Some(h) => at = mesh.next(h.twin()),
+            None => return path,
+        }
+    }
 }

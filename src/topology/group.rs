@@ -30,7 +30,7 @@ impl SurfaceGroup {
     pub fn name(&self, k: usize) -> String {
         match k.checked_sub(2 * self.genus) {
             Some(j) => format!("c{}", j + 1),
-            None => format!("{}{}", if k % 2 == 0 { 'a' } else { 'b' }, k / 2 + 1),
+            None => format!("{}{}", if k.is_multiple_of(2) { 'a' } else { 'b' }, k / 2 + 1),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The two loops of a handle, and Dehn twists along them.
 
-use super::shorten::shorten;
+use super::shorten::{path_length, shorten};
 use super::word::{Letter, Word};
 use crate::control::Control;
 use crate::error::Result;
@@ -25,11 +25,10 @@ impl HandleLoops {
     ///
     /// Both leave the commutator: `[a bᵏ, b] = a bᵏ b b⁻ᵏ a⁻¹ b⁻¹ = [a, b]`, `[a, b aᵏ] = a b aᵏ a⁻¹ a⁻ᵏ b⁻¹ = [a, b]`.
     pub fn twist(&mut self, mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<()> {
-        let length = |path: &[HalfedgeId]| path.iter().fold(0.0, |sum, h| sum + lengths[h.edge()]);
         for _ in 0..MAX_TWISTS {
             let (mut best, mut saving) = (None, 0.0_f64);
             for k in 0..2 {
-                let old = length(&self.loops[k]);
+                let old = path_length(lengths, &self.loops[k]);
                 for back in [false, true] {
                     let along = self.loops[k].iter().copied();
                     let other = &self.loops[1 - k];
@@ -40,7 +39,7 @@ impl HandleLoops {
                             shorten(mesh, lengths, along.chain(inverse), control)?
                         }
                     };
-                    let saved = old - length(&twisted);
+                    let saved = old - path_length(lengths, &twisted);
                     if saved > saving.max(1e-12 * old) {
                         (best, saving) = (Some((k, back, twisted)), saved);
                     }

@@ -1,6 +1,6 @@
 //! Canonical homotopy bases, and the group element of any edge path.
 
-use super::brahana::{NormalForm, Prefix, shortest_normal_form};
+use super::brahana::{NormalForm, Prefix, best_starts, normal_form};
 use super::check_lengths;
 use super::cut::is_connected;
 use super::group::SurfaceGroup;
@@ -8,7 +8,7 @@ use super::handle::HandleLoops;
 use super::polygon::Polygon;
 use super::reduction::Reduction;
 use super::rooted::RootedTree;
-use super::shorten::shorten;
+use super::shorten::{path_length, shorten};
 use super::spanning::Forest;
 use super::word::{Letter, Word, inverse};
 use super::{check_path, check_vertex};
@@ -23,8 +23,8 @@ use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
 /// ```
 ///
 /// and what it takes to name places of the universal cover. Letters compose left to right, as paths do. `b_i` crosses
-/// `a_i` once, from right to left (intersection number +1); c_j runs around a boundary loop with the surface on its
-/// left.
+/// `a_i` once, from right to left (intersection number +1); `c_j` is freely homotopic to a boundary loop that has the
+/// surface on its left.
 ///
 /// **Lifts.** One lift p̃ of the base is chosen. A group element γ acts on the cover by the deck transformation that
 /// carries p̃ to the end of the lift of γ that starts there. Every vertex v has a tree path from p, and ṽ is the end of
@@ -40,16 +40,23 @@ pub struct HomotopyBasis {
     pub group: SurfaceGroup,
     /// Per generator (a1, b1, …, ag, bg, c1, …, cb) its loop: half-edges that start and end at the base.
     pub loops: Vec<Vec<HalfedgeId>>,
+    /// Per c_j the half-edge of a face on its boundary loop that the tree leaves out: along the tree to its tip, once
+    /// around the boundary with the surface on the left, and back is c_j.
+    pub rims: Vec<HalfedgeId>,
     tree: Forest,
     place: PerHalfedge<u32>,
     corner_words: Vec<Word>,
 }
 
+/// The loops of several starts of reading the polygon are pulled straight, to choose among them: as many as together have
+/// this number of edges per edge of the mesh.
+const WORK_PER_EDGE: usize = 8;
+
 /// A canonical homotopy basis of a connected surface, with short loops.
 ///
 /// `lengths`: finite and positive, one per edge. `base`: the base vertex; `None` takes one from which the loops are
 /// short. The edges that a shortest-path tree and a dual tree leave over generate the group \[EW05\]; the disk's
-/// boundary word in them is brought into normal form \[Bra21\]; the loops of each handle are then changed by
+/// boundary word in them is brought into normal form \[Bra21\], \[LPVV01\]; the loops of each handle are then changed by
 /// Dehn twists along one another (`a → a b^±1`, `b → b a^±1`, which leave the commutator) and pulled straight across
 /// triangles, as long as they become shorter. O(E log E + g² + length of the loops) for a fixed number of roots.
 ///
@@ -76,31 +83,47 @@ pub fn homotopy_basis(
     };
     let polygon = Polygon::new(mesh, &rooted);
     let cost: Vec<_> = polygon.halfedges.iter().map(|h| rooted.arc(mesh, lengths, h.edge())).collect();
-    let NormalForm { handles, ends, prefixes } = shortest_normal_form(&polygon.letters, &cost);
-    let straight = |word: &Word| {
-        let path: Vec<_> = word
-            .letters()
-            .iter()
-            .flat_map(|&letter| letter_loop(mesh, &rooted.tree, &polygon, letter))
-            .collect();
-        shorten(mesh, lengths, path.into_iter(), control)
+    let path = |word: &Word| -> Vec<HalfedgeId> {
+        let letters = word.letters().iter();
+        letters.flat_map(|&letter| letter_loop(mesh, &rooted.tree, &polygon, letter)).collect()
     };
-    let (mut loops, mut products) = (Vec::with_capacity(2 * handles.len() + ends.len()), Vec::new());
-    for (i, handle) in handles.iter().enumerate() {
-        let mut handle = HandleLoops::new([straight(&handle.a)?, straight(&handle.b)?]);
+    let straight = |path: Vec<HalfedgeId>| shorten(mesh, lengths, path.into_iter(), control);
+    let (mut best, mut least, mut work) = (None, f64::INFINITY, 0);
+    for start in best_starts(&polygon.letters, &cost) {
+        if work > WORK_PER_EDGE * mesh.n_edges() {
+            break;
+        }
+        let form = normal_form(&polygon.letters, &cost, start);
+        let pairs: Vec<_> = form.handles.iter().map(|handle| [path(&handle.a), path(&handle.b)]).collect();
+        work += pairs.as_flattened().iter().map(Vec::len).sum::<usize>();
+        let pairs: Result<Vec<_>> =
+            pairs.into_iter().map(|[a, b]| Ok([straight(a)?, straight(b)?])).collect();
+        let pairs = pairs?;
+        let length = pairs.as_flattened().iter().map(|path| path_length(lengths, path)).sum();
+        if best.is_none() || length < least {
+            (best, least) = (Some((form, pairs)), length);
+        }
+    }
+    let Some((NormalForm { ends, prefixes, .. }, handles)) = best else {
+        return Err(Error::Layout("the opened surface has no boundary".into()));
+    };
+    let mut loops = Vec::with_capacity(2 * handles.len() + ends.len());
+    let mut products = Vec::with_capacity(handles.len());
+    for (i, pair) in handles.into_iter().enumerate() {
+        let mut handle = HandleLoops::new(pair);
         handle.twist(mesh, lengths, control)?;
         products.push(handle.prefixes(i));
         loops.extend(handle.loops);
     }
     for &end in &ends {
-        loops.push(straight(&Word::from_iter([end]))?);
+        loops.push(straight(letter_loop(mesh, &rooted.tree, &polygon, end))?);
     }
     let from_start = |prefix: &Prefix| {
         let mut word = Word::identity();
         for (digit, products) in prefix.digits.iter().zip(&products) {
             word.extend(products[usize::from(*digit)].letters().iter().copied());
         }
-        word.extend((0..prefix.n_ends).map(|j| Letter::generator(2 * handles.len() + j)));
+        word.extend((0..prefix.n_ends).map(|j| Letter::generator(2 * products.len() + j)));
         word
     };
     // Place 0 has a corner at the root.
@@ -108,8 +131,9 @@ pub fn homotopy_basis(
     let corner_words = prefixes.iter().map(|prefix| to_root.times(&from_start(prefix))).collect();
     Ok(HomotopyBasis {
         base: rooted.root,
-        group: SurfaceGroup { genus: handles.len(), boundaries: ends.len() },
+        group: SurfaceGroup { genus: products.len(), boundaries: ends.len() },
         loops,
+        rims: ends.iter().map(|end| polygon.halfedges[end.index()]).collect(),
         tree: rooted.tree,
         place: polygon.place,
         corner_words,
@@ -130,7 +154,7 @@ fn letter_loop(mesh: &Mesh, tree: &Forest, polygon: &Polygon, letter: Letter) ->
 impl HomotopyBasis {
     /// Total length of the loops.
     pub fn length(&self, lengths: &PerEdge<f64>) -> f64 {
-        self.loops.iter().flatten().fold(0.0, |sum, h| sum + lengths[h.edge()])
+        self.loops.iter().map(|path| path_length(lengths, path)).sum()
     }
 
     /// The tree path from the base to `v`; its lift from p̃ ends at ṽ.

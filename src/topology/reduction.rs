@@ -12,6 +12,8 @@ pub struct Reduction {
     stack: Vec<Entry>,
     /// Genus 1 without boundary: the exponents of a1 and b1.
     exponents: [i64; 2],
+    /// Letters still to be pushed, last one first; empty between calls.
+    ahead: Vec<Letter>,
 }
 
 /// A letter, and the lengths of the longest stretches of the cyclic relator and of its inverse that end with it.
@@ -25,7 +27,7 @@ struct Entry {
 impl Reduction {
     /// The identity.
     pub fn new(group: SurfaceGroup) -> Reduction {
-        Reduction { group, stack: Vec::new(), exponents: [0; 2] }
+        Reduction { group, stack: Vec::new(), exponents: [0; 2], ahead: Vec::new() }
     }
 
     /// The reduced word.
@@ -84,8 +86,8 @@ impl Reduction {
     /// O(g) per letter.
     fn push_closed(&mut self, letter: Letter) {
         let half = 2 * self.group.genus;
-        let mut ahead = vec![letter];
-        while let Some(letter) = ahead.pop() {
+        self.ahead.push(letter);
+        while let Some(letter) = self.ahead.pop() {
             let (mut along, mut against) = (1, 1);
             if let Some(&top) = self.stack.last() {
                 if top.letter == letter.inverse() {
@@ -106,7 +108,7 @@ impl Reduction {
                 let mut t = letter;
                 for _ in 1..half {
                     t = if along > against { self.after(t) } else { self.after_against(t) };
-                    ahead.push(t.inverse());
+                    self.ahead.push(t.inverse());
                 }
             }
         }

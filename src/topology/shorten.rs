@@ -98,3 +98,8 @@ fn fan(
     }
     Some((way, length))
 }
+
+/// The length of an edge path.
+pub(super) fn path_length(lengths: &PerEdge<f64>, path: &[HalfedgeId]) -> f64 {
+    path.iter().fold(0.0, |sum, h| sum + lengths[h.edge()])
+}

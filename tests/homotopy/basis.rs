@@ -30,6 +30,17 @@ fn check(name: &str, mesh: &Mesh, basis: &HomotopyBasis) {
             assert_eq!(number, standard, "{name}: {} · {}", group.name(i), group.name(j));
         }
     }
+    let rims: std::collections::BTreeSet<_> = basis.rims.iter().map(|h| h.0).collect();
+    let all = mesh.boundary_loops();
+    assert!(all.iter().all(|rim| rim.iter().filter(|h| rims.contains(&h.twin().0)).count() == 1), "{name}");
+    for (j, &h) in basis.rims.iter().enumerate() {
+        let rim = all.iter().find(|rim| rim.contains(&h.twin())).unwrap();
+        let at = rim.iter().position(|&k| k == h.twin()).unwrap();
+        let around = reversed(&[&rim[at..], &rim[..at]].concat());
+        let word = basis.path_word(mesh, &around).unwrap();
+        let c = Word::from_iter([Letter::generator(2 * group.genus + j)]);
+        assert!(group.equal(&word, &c), "{name}: boundary loop {j} is {}", group.text(&word));
+    }
     // The words of half-edges are a homomorphism: around each face and there and back along each edge they cancel.
     for h in mesh.halfedges() {
         let there_and_back = basis.halfedge_word(mesh, h).times(&basis.halfedge_word(mesh, h.twin()));

@@ -2,7 +2,7 @@
 
 use crate::samples::*;
 use crate::surfaces::Random;
-use ricci::mesh::{Mesh, PerEdge, VertexId};
+use ricci::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
 use ricci::topology::*;
 use ricci::{Control, Error};
 use std::collections::BTreeSet;
@@ -42,18 +42,20 @@ fn check(name: &str, mesh: &Mesh, basis: &HomotopyBasis, is_cut: &PerEdge<bool>,
         mesh.edges().map(|e| if mesh.is_boundary_edge(e) { 1 } else { 2 * usize::from(is_cut[e]) }).sum();
     assert_eq!(covered.len(), walls, "{name}: every wall is on the polygon once");
 
-    // A loop through the first corner: the sides that it crosses multiply up to its element.
-    let start = domain.corners[0].vertex;
-    assert!(domain.corners[0].element.is_empty());
+    // A loop through the base corner: the sides that it crosses multiply up to its element. For the loops of the basis
+    // that is a generator.
+    let product = |path: &[HalfedgeId]| {
+        let crossed = domain.crossings(mesh, domain.base_corner, path).unwrap();
+        crossed.iter().fold(Word::identity(), |w, &k| w.times(&domain.sides[k].element))
+    };
     for steps in [0, 3, 30, 100] {
-        let mut path = walk(mesh, start, steps, random);
-        let end = path.last().map_or(start, |&h| mesh.tip(h));
-        path.extend(reversed(&basis.tree_path(mesh, end).unwrap()));
-        path.extend(basis.tree_path(mesh, start).unwrap());
-        let crossed = domain.crossings(mesh, domain.sides[0].halfedges[0], &path).unwrap();
-        let product = crossed.iter().fold(Word::identity(), |w, &k| w.times(&domain.sides[k].element));
-        assert!(group.equal(&product, &basis.path_word(mesh, &path).unwrap()), "{name}: {crossed:?}");
+        let path = random_loop(mesh, basis, steps, random);
+        assert!(group.equal(&product(&path), &basis.path_word(mesh, &path).unwrap()), "{name}");
     }
+    for (k, path) in basis.loops.iter().enumerate() {
+        assert!(group.equal(&product(path), &Word::from_iter([Letter::generator(k)])), "{name}");
+    }
+    let start = domain.corners[0].vertex;
     let corner = domain.sides[0].halfedges[0];
     let elsewhere =
         mesh.face_halfedges(mesh.face(corner).unwrap()).into_iter().find(|&h| mesh.origin(h) != start);
@@ -69,6 +71,13 @@ fn check_all(surfaces: Vec<Surface>) {
         let sphere = mesh.euler() == 2;
         if !sphere {
             check(&name, &mesh, &basis, &basis.cut(&mesh), &mut random);
+            // The polygon of the basis itself: elements are transitions, corners are its corners.
+            let polygon = FundamentalDomain::new(&mesh, &basis.cut(&mesh), &basis).unwrap();
+            for (side, corner) in polygon.sides.iter().zip(&polygon.corners) {
+                let h = side.halfedges[0];
+                assert!(basis.group.equal(&side.element, &basis.transition(&mesh, h)), "{name}");
+                assert!(basis.group.equal(&corner.element, basis.corner_word(h)), "{name}");
+            }
             let cut = cut_graph(&mesh, &lengths, &[], &Control::new()).unwrap();
             check(&name, &mesh, &basis, &cut.is_cut, &mut random);
         }
