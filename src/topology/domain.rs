@@ -1,4 +1,5 @@
-//! Fundamental domains: a surface opened along a cut, as a polygon whose sides are paired by deck transformations.
+//! Fundamental domains: a surface opened along a cut, as a polygon whose sides are paired by deck
+//! transformations.
 
 use super::check_path;
 use super::cut::is_disk;
@@ -17,8 +18,9 @@ pub struct Side {
     pub halfedges: Vec<HalfedgeId>,
     /// The side with the same edges, run through the other way; `None` on the boundary of the surface.
     pub partner: Option<usize>,
-    /// The deck transformation that carries the partner onto this side, so it carries the domain D to its neighbour across
-    /// this side. The partner's is the inverse. Reduced; the identity on the boundary of the surface.
+    /// The deck transformation that carries the partner onto this side, so it carries the domain D to its
+    /// neighbour across this side. The partner's is the inverse. Reduced; the identity on the boundary of the
+    /// surface.
     pub element: Word,
 }
 
@@ -27,8 +29,8 @@ pub struct Side {
 pub struct FundamentalDomain {
     /// The half-edge of a face whose origin, in D, is the base lift p̃.
     pub base_corner: HalfedgeId,
-    /// The sides of D, counterclockwise: D lies on the left of their half-edges. They end where the cut branches or
-    /// ends (cones), or meets the boundary.
+    /// The sides of D, counterclockwise: D lies on the left of their half-edges. They end where the cut
+    /// branches or ends (cones), or meets the boundary.
     pub sides: Vec<Side>,
     /// `corners[k]`: the lift at which side k starts.
     pub corners: Vec<Lift>,
@@ -36,11 +38,11 @@ pub struct FundamentalDomain {
 }
 
 impl FundamentalDomain {
-    /// The domain of a cut that opens the surface into a disk, as [`super::cut_graph`] and [`HomotopyBasis::cut`] do, with
-    /// elements of the group of `basis` (of the same mesh).
+    /// The domain of a cut that opens the surface into a disk, as [`super::cut_graph`] and
+    /// [`HomotopyBasis::cut`] do, with elements of the group of `basis` (of the same mesh).
     ///
-    /// Of the lifts with a corner at p̃ it is the one with the same corner there as the polygon of the basis; for
-    /// [`HomotopyBasis::cut`] D is that polygon. O(E + g · length of the cut).
+    /// Of the lifts with a corner at p̃ it is the one with the same corner there as the polygon of the basis;
+    /// for [`HomotopyBasis::cut`] D is that polygon. O(E + g · length of the cut).
     ///
     /// Errors: [`Error::Size`]; [`Error::Layout`] where the opened surface is no disk.
     pub fn new(mesh: &Mesh, is_cut: &PerEdge<bool>, basis: &HomotopyBasis) -> Result<FundamentalDomain> {
@@ -49,7 +51,7 @@ impl FundamentalDomain {
         let wall = PerEdge::from_fn(mesh.n_edges(), |e| is_cut[e] || mesh.is_boundary_edge(e));
         let inner = PerEdge::from_fn(mesh.n_edges(), |e| is_cut[e] && !mesh.is_boundary_edge(e));
         if !is_disk(mesh, &inner) || !wall.contains(&true) {
-            let message = "the cut does not open the surface into a disk: take `cut_graph` (on a sphere, with two cones)";
+            let message = "the cut does not open the surface into a disk: take one of `cut_graph`";
             return Err(Error::Layout(message.into()));
         }
         // Where sides end: a vertex that the cut does not just pass.
@@ -98,11 +100,12 @@ impl FundamentalDomain {
         Ok(FundamentalDomain { base_corner, sides, corners, side_of })
     }
 
-    /// The sides that an edge path crosses out of the copies of D it runs through, one after the other. The path
-    /// starts at the corner of D at the origin of `corner` (a half-edge of a face); a closed path ends at the same
-    /// corner of the copy `γ D`, where γ is the product of the crossed sides' elements, left to right. From
-    /// `base_corner`, γ is the element of the loop. So the isometries of the side pairings of any layout of D, multiplied
-    /// along the crossings of the loops of the basis, are the generators of its deck group.
+    /// The sides that an edge path crosses out of the copies of D it runs through, one after the other. The
+    /// path starts at the corner of D at the origin of `corner` (a half-edge of a face); a closed path ends
+    /// at the same corner of the copy `γ D`, where γ is the product of the crossed sides' elements, left to
+    /// right. From `base_corner`, γ is the element of the loop. So the isometries of the side pairings of any
+    /// layout of D, multiplied along the crossings of the loops of the basis, are the generators of its deck
+    /// group.
     ///
     /// [`Error::Argument`] for a path that is none, or does not start at that corner.
     pub fn crossings(&self, mesh: &Mesh, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<usize>> {
@@ -134,7 +137,8 @@ impl FundamentalDomain {
         Ok(crossed)
     }
 
-    /// Turn around a vertex from one of its corners to another, counterclockwise unless the boundary is in the way.
+    /// Turn around a vertex from one of its corners to another, counterclockwise unless the boundary is in
+    /// the way.
     fn turn(&self, mesh: &Mesh, from: HalfedgeId, to: HalfedgeId, crossed: &mut Vec<usize>) {
         let side = |h: HalfedgeId| self.side_of[h].map(|k| k as usize);
         let (n, mut h) = (crossed.len(), from);
@@ -169,7 +173,8 @@ fn first_side(mesh: &Mesh, wall: &PerEdge<bool>, is_node: impl Fn(VertexId) -> b
     mesh.vertices().filter(|&v| is_node(v)).chain(mesh.vertices()).find_map(leaving)
 }
 
-/// An edge path inside the opened surface from one of its corners to another, along the sides of a chain of faces.
+/// An edge path inside the opened surface from one of its corners to another, along the sides of a chain of
+/// faces.
 fn path_within(mesh: &Mesh, wall: &PerEdge<bool>, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
     // Per face, the half-edge through which one goes on towards the face of `to`, found from there.
     let mut exit = PerFace::filled(mesh.n_faces(), None);

@@ -9,21 +9,25 @@ use crate::mesh::{HalfedgeId, Mesh, PerEdge};
 /// Twists tried per handle at most: the shorter loop is wound off the longer one, a few times in all.
 const MAX_TWISTS: usize = 32;
 
+/// The loops a and b of a handle.
+pub(super) type LoopPair = [Vec<HalfedgeId>; 2];
+
 /// Loops a and b of a handle that are being made shorter, and what they were in terms of what they are.
 pub(super) struct HandleLoops {
-    pub loops: [Vec<HalfedgeId>; 2],
+    pub loops: LoopPair,
     /// The first loops a and b as words in the present ones (generators 0 and 1).
     first: [Word; 2],
 }
 
 impl HandleLoops {
-    pub fn new(loops: [Vec<HalfedgeId>; 2]) -> HandleLoops {
+    pub fn new(loops: LoopPair) -> HandleLoops {
         HandleLoops { loops, first: [0, 1].map(|k| Word::from_iter([Letter::generator(k)])) }
     }
 
     /// Replace a by `a b^±1` or b by `b a^±1`, the one that saves most, as long as that makes a loop shorter.
     ///
-    /// Both leave the commutator: `[a bᵏ, b] = a bᵏ b b⁻ᵏ a⁻¹ b⁻¹ = [a, b]`, `[a, b aᵏ] = a b aᵏ a⁻¹ a⁻ᵏ b⁻¹ = [a, b]`.
+    /// Both leave the commutator: `[a bᵏ, b] = a bᵏ b b⁻ᵏ a⁻¹ b⁻¹ = [a, b]`, and `[a, b aᵏ] = a b aᵏ a⁻¹ a⁻ᵏ
+    /// b⁻¹ = [a, b]`.
     pub fn twist(&mut self, mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<()> {
         for _ in 0..MAX_TWISTS {
             let (mut best, mut saving) = (None, 0.0_f64);

@@ -16,7 +16,8 @@ pub struct Reduction {
     ahead: Vec<Letter>,
 }
 
-/// A letter, and the lengths of the longest stretches of the cyclic relator and of its inverse that end with it.
+/// A letter, and the lengths of the longest stretches of the cyclic relator and of its inverse that end with
+/// it.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
     letter: Letter,
@@ -79,11 +80,11 @@ impl Reduction {
         }
     }
 
-    /// Dehn's algorithm. A non-empty freely reduced word that is the identity of a closed surface's group of genus
-    /// ≥ 2 contains more than half of the cyclic relator or of its inverse \[Deh12\]. Every letter stands once in
-    /// either of them, so a stretch is known by its last letter and its length, and the stack, on which no stretch
-    /// of 2g + 1 letters stays, is looked at only at its top. Each replacement shortens the word by two letters:
-    /// O(g) per letter.
+    /// Dehn's algorithm. A non-empty freely reduced word that is the identity of a closed surface's group of
+    /// genus ≥ 2 contains more than half of the cyclic relator or of its inverse \[Deh12\]. Every letter
+    /// stands once in either of them, so a stretch is known by its last letter and its length, and the stack,
+    /// on which no stretch of 2g + 1 letters stays, is looked at only at its top. Each replacement shortens
+    /// the word by two letters: O(g) per letter.
     fn push_closed(&mut self, letter: Letter) {
         let half = 2 * self.group.genus;
         self.ahead.push(letter);
@@ -103,7 +104,8 @@ impl Reduction {
             }
             self.stack.push(Entry { letter, along, against });
             if along.max(against) > half {
-                // The relator is s t with the stretch s: it is replaced by the inverse of t, last letter of t first.
+                // The relator is s t with the stretch s: it is replaced by the inverse of t, last letter of t
+                // first.
                 self.stack.truncate(self.stack.len() - (half + 1));
                 let mut t = letter;
                 for _ in 1..half {

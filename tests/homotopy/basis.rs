@@ -41,7 +41,8 @@ fn check(name: &str, mesh: &Mesh, basis: &HomotopyBasis) {
         let c = Word::from_iter([Letter::generator(2 * group.genus + j)]);
         assert!(group.equal(&word, &c), "{name}: boundary loop {j} is {}", group.text(&word));
     }
-    // The words of half-edges are a homomorphism: around each face and there and back along each edge they cancel.
+    // The words of half-edges are a homomorphism: around each face and there and back along each edge they
+    // cancel.
     for h in mesh.halfedges() {
         let there_and_back = basis.halfedge_word(mesh, h).times(&basis.halfedge_word(mesh, h.twin()));
         assert!(group.is_trivial(&there_and_back), "{name}: half-edge {h}");
@@ -231,7 +232,8 @@ fn loops_are_short() {
         let shortest = 1.0 + tau[0].hypot(tau[1]);
         assert!((basis.length(&lengths) - shortest).abs() < 1e-9, "{}", basis.length(&lengths));
     }
-    // A torus of revolution: a meridian of length 2πr, and at most the inner equator besides; both as polygons of chords.
+    // A torus of revolution: a meridian of length 2πr, and at most the inner equator besides; both as
+    // polygons of chords.
     let (_, mesh, lengths) = from_soup("torus", &shapes::torus(2.0, 0.5, 60, 24).unwrap());
     let basis = basis_of(&mesh, &lengths);
     let most = std::f64::consts::TAU * (0.5 + 1.5 + 0.1);
@@ -239,8 +241,9 @@ fn loops_are_short() {
     // The octagon's sides are its loops.
     let (mesh, lengths) = octagon();
     assert!((basis_of(&mesh, &lengths).length(&lengths) - 4.0).abs() < 1e-12);
-    // Any generating loops through a vertex are together as long as the greedy ones [EW05]; canonical ones, on smooth
-    // surfaces of genus 2 to 5, are less than three times as long as those through the best of some vertices.
+    // Any generating loops through a vertex are together as long as the greedy ones [EW05]; canonical ones,
+    // on smooth surfaces of genus 2 to 5, are less than three times as long as those through the best of some
+    // vertices.
     for g in 2..=5 {
         let (name, mesh, lengths) = from_soup(&format!("genus {g}"), &shapes::genus(g, 3).unwrap());
         let greedy: f64 =

@@ -42,8 +42,8 @@ fn check(name: &str, mesh: &Mesh, basis: &HomotopyBasis, is_cut: &PerEdge<bool>,
         mesh.edges().map(|e| if mesh.is_boundary_edge(e) { 1 } else { 2 * usize::from(is_cut[e]) }).sum();
     assert_eq!(covered.len(), walls, "{name}: every wall is on the polygon once");
 
-    // A loop through the base corner: the sides that it crosses multiply up to its element. For the loops of the basis
-    // that is a generator.
+    // A loop through the base corner: the sides that it crosses multiply up to its element. For the loops of
+    // the basis that is a generator.
     let product = |path: &[HalfedgeId]| {
         let crossed = domain.crossings(mesh, domain.base_corner, path).unwrap();
         crossed.iter().fold(Word::identity(), |w, &k| w.times(&domain.sides[k].element))

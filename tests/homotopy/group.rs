@@ -76,8 +76,9 @@ fn frame(p: Complex64, q: Complex64) -> Matrix {
     [half / scale, p * half.conj() / scale]
 }
 
-/// Generators a1, b1, … as isometries: side pairings of the regular 4g-gon with angles 2π/4g whose sides, counterclockwise,
-/// read a1 b1 a1⁻¹ b1⁻¹ …, expressed in the deck transformations that take corner 0 along its sides.
+/// Generators a1, b1, … as isometries: side pairings of the regular 4g-gon with angles 2π/4g whose sides,
+/// counterclockwise, read a1 b1 a1⁻¹ b1⁻¹ …, expressed in the deck transformations that take corner 0 along
+/// its sides.
 fn polygon_group(genus: usize) -> Vec<Matrix> {
     let n = 4 * genus;
     let cosh_radius = (PI / n as f64).tan().powi(-2);
@@ -88,8 +89,9 @@ fn polygon_group(genus: usize) -> Vec<Matrix> {
     let mut generators = Vec::new();
     let mut before = [Complex64::ONE, Complex64::ZERO];
     for i in (0..n).step_by(4) {
-        // a⁻¹ runs from corner i + 2 to i + 3 where a runs from i + 1 to i; with P = `before` the transformation from
-        // corner 0 to corner i, the pairing of a is P (a b a⁻¹)⁻¹ P⁻¹ and that of b is P a (a b a⁻¹ b⁻¹)⁻¹ P⁻¹.
+        // a⁻¹ runs from corner i + 2 to i + 3 where a runs from i + 1 to i; with P = `before` the
+        // transformation from corner 0 to corner i, the pairing of a is P (a b a⁻¹)⁻¹ P⁻¹ and that of b is P
+        // a (a b a⁻¹ b⁻¹)⁻¹ P⁻¹.
         let pair_a = carry(corner(i + 3), corner(i + 2), corner(i), corner(i + 1));
         let pair_b = carry(corner(i + 4), corner(i + 3), corner(i + 1), corner(i + 2));
         let local = |m| multiply(multiply(invert(before), m), before);
@@ -111,8 +113,8 @@ fn dehns_algorithm_decides_as_the_group_of_the_regular_polygon() {
     for genus in [2, 3] {
         let group = SurfaceGroup { genus, boundaries: 0 };
         let generators = polygon_group(genus);
-        // The product, and the largest entry met on the way: rounding grows with its square, from the 1e-10 to which
-        // the generators are known.
+        // The product, and the largest entry met on the way: rounding grows with its square, from the 1e-10
+        // to which the generators are known.
         let matrix = |word: &Word| {
             word.letters().iter().fold(
                 ([Complex64::ONE, Complex64::ZERO], 1.0_f64),
@@ -127,7 +129,8 @@ fn dehns_algorithm_decides_as_the_group_of_the_regular_polygon() {
         assert!(is_one(matrix(&group.relator()).0));
         let (mut trivial, mut decided) = (0, 0);
         for round in 0..4000 {
-            // Short words, with pieces of the relator in them, so that many are trivial and many just fail to be.
+            // Short words, with pieces of the relator in them, so that many are trivial and many just fail to
+            // be.
             let relator = group.relator();
             let mut word = random_word(group, random.below(3), &mut random);
             for _ in 0..round % 3 {

@@ -1,5 +1,6 @@
-//! Random homomorphisms of fundamental groups to symmetric groups, made of faces and edges alone: a permutation per
-//! half-edge such that around every face the product is 1. They know nothing of trees, polygons or words.
+//! Random homomorphisms of fundamental groups to symmetric groups, made of faces and edges alone: a
+//! permutation per half-edge such that around every face the product is 1. They know nothing of trees,
+//! polygons or words.
 
 use crate::surfaces::Random;
 use ricci::mesh::{HalfedgeId, Mesh};
@@ -33,9 +34,9 @@ fn random<const N: usize>(random: &mut Random) -> Permutation<N> {
 pub struct Representation<const N: usize>(Vec<Permutation<N>>);
 
 impl<const N: usize> Representation<N> {
-    /// Faces are settled from the leaves of a dual spanning tree to its root: each determines the edge towards the
-    /// root, all other edges are free. The root is the outside; on a closed surface it is a face, and one draws
-    /// until its product is 1, too.
+    /// Faces are settled from the leaves of a dual spanning tree to its root: each determines the edge
+    /// towards the root, all other edges are free. The root is the outside; on a closed surface it is a face,
+    /// and one draws until its product is 1, too.
     pub fn random(mesh: &Mesh, dice: &mut Random) -> Representation<N> {
         let (order, towards_root) = dual_tree(mesh);
         loop {

@@ -17,8 +17,8 @@ pub fn from_soup(name: &str, soup: &Soup) -> Surface {
     (name.into(), mesh, lengths)
 }
 
-/// The surface after random flips, with lengths for which every face is a triangle: vertices of degree 1, loops and
-/// repeated edges.
+/// The surface after random flips, with lengths for which every face is a triangle: vertices of degree 1,
+/// loops and repeated edges.
 fn flipped((name, mut mesh, _): Surface, random: &mut Random) -> Surface {
     for _ in 0..3 * mesh.n_edges() {
         mesh.flip(EdgeId::from(random.below(mesh.n_edges())));
@@ -27,7 +27,8 @@ fn flipped((name, mut mesh, _): Surface, random: &mut Random) -> Surface {
     (format!("{name}, flipped"), mesh, lengths)
 }
 
-/// Generated surfaces: spheres, disks, annuli, pants, tori, genus 2 to 7, with holes, and all of them flipped.
+/// Generated surfaces: spheres, disks, annuli, pants, tori, genus 2 to 7, with holes, and all of them
+/// flipped.
 pub fn generated() -> Vec<Surface> {
     let mut all = vec![
         from_soup("icosphere", &shapes::icosphere(3).unwrap()),
