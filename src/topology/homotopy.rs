@@ -1,16 +1,17 @@
 //! Canonical homotopy bases, and the group element of any edge path.
 
-use super::brahana::{NormalForm, Prefix, best_starts, normal_form};
+use super::brahana::{NormalForm, best_starts, normal_form};
 use super::check_lengths;
 use super::cut::is_connected;
 use super::group::SurfaceGroup;
 use super::handle::{HandleLoops, LoopPair};
+use super::places::Places;
 use super::polygon::Polygon;
 use super::reduction::Reduction;
 use super::rooted::RootedTree;
 use super::shorten::{path_length, shorten};
 use super::spanning::Forest;
-use super::word::{Letter, Word, inverse};
+use super::word::{Letter, Word};
 use super::{check_path, check_vertex};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
@@ -46,7 +47,7 @@ pub struct HomotopyBasis {
     pub rims: Vec<HalfedgeId>,
     tree: Forest,
     place: PerHalfedge<u32>,
-    corner_words: Vec<Word>,
+    places: Places,
 }
 
 /// The loops of several starts of reading the polygon are pulled straight, to choose among them: as many as
@@ -105,7 +106,7 @@ pub fn homotopy_basis(
         rims: ends.iter().map(|end| polygon.halfedges[end.index()]).collect(),
         tree: rooted.tree,
         place: polygon.place,
-        corner_words: corner_words(&prefixes, &products),
+        places: Places::new(prefixes, products),
     })
 }
 
@@ -148,21 +149,6 @@ fn shortest_handles(
     Ok(best)
 }
 
-/// The words of the polygon's places, the first of which has a corner at the root, from the beginnings of the
-/// handles' commutators.
-fn corner_words(prefixes: &[Prefix], products: &[[Word; 5]]) -> Vec<Word> {
-    let from_start = |prefix: &Prefix| {
-        let mut word = Word::identity();
-        for (digit, products) in prefix.digits.iter().zip(products) {
-            word.extend(products[usize::from(*digit)].letters().iter().copied());
-        }
-        word.extend((0..prefix.n_ends).map(|j| Letter::generator(2 * products.len() + j)));
-        word
-    };
-    let to_root = prefixes.first().map_or_else(Word::identity, |prefix| from_start(prefix).inverse());
-    prefixes.iter().map(|prefix| to_root.times(&from_start(prefix))).collect()
-}
-
 /// The loop of a polygon letter: from the base to its edge, along it, and back.
 fn letter_loop(mesh: &Mesh, tree: &Forest, polygon: &Polygon, letter: Letter) -> Vec<HalfedgeId> {
     let h = polygon.halfedges[letter.index()];
@@ -194,8 +180,9 @@ impl HomotopyBasis {
     /// The lift of a face's corner: the corner at the origin v of `h`, a half-edge of a face, is the place `γ
     /// ṽ` of the polygon D with γ = this word, of at most 8g + 2b letters (more where a handle has been
     /// twisted).
-    pub fn corner_word(&self, h: HalfedgeId) -> &Word {
-        &self.corner_words[self.place[h] as usize]
+    pub fn corner_word(&self, h: HalfedgeId) -> Word {
+        // The first place has a corner at the base.
+        self.places.between(0, self.place[h]).collect()
     }
 
     /// The element of a half-edge from u to v: of the loop along the tree to u, along `h`, and back along the
@@ -211,11 +198,7 @@ impl HomotopyBasis {
             false => (h, mesh.next(h)),
             true => (mesh.next(h.twin()), h.twin()),
         };
-        let (from, to) = match self.place[from] == self.place[to] {
-            true => (&[][..], &[][..]),
-            false => (self.corner_word(from).letters(), self.corner_word(to).letters()),
-        };
-        inverse(from).chain(to.iter().copied())
+        self.places.between(self.place[from], self.place[to])
     }
 
     /// The element of an edge path from u to v: of the loop along the tree to u, along the path, and back

@@ -11,6 +11,7 @@ pub mod homology;
 pub mod homotopy;
 pub mod intersection;
 pub mod lift;
+mod places;
 mod polygon;
 pub mod reduction;
 mod rooted;

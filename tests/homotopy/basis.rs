@@ -204,8 +204,8 @@ fn walls_of_copies_agree_with_lifts_of_their_corners() {
         for h in mesh.halfedges().filter(|h| !mesh.is_boundary_edge(h.edge())) {
             let pairs = [(h, mesh.next(h.twin())), (mesh.next(h), h.twin())];
             for (here, there) in pairs {
-                let from_there = basis.transition(&mesh, h).times(basis.corner_word(there));
-                assert!(basis.group.equal(basis.corner_word(here), &from_there), "{name}");
+                let from_there = basis.transition(&mesh, h).times(&basis.corner_word(there));
+                assert!(basis.group.equal(&basis.corner_word(here), &from_there), "{name}");
             }
         }
         let at_base = mesh.outgoing(basis.base).filter(|&h| !mesh.is_outside(h));

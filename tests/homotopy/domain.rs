@@ -76,7 +76,7 @@ fn check_all(surfaces: Vec<Surface>) {
             for (side, corner) in polygon.sides.iter().zip(&polygon.corners) {
                 let h = side.halfedges[0];
                 assert!(basis.group.equal(&side.element, &basis.transition(&mesh, h)), "{name}");
-                assert!(basis.group.equal(&corner.element, basis.corner_word(h)), "{name}");
+                assert!(basis.group.equal(&corner.element, &basis.corner_word(h)), "{name}");
             }
             let cut = cut_graph(&mesh, &lengths, &[], &Control::new()).unwrap();
             check(&name, &mesh, &basis, &cut.is_cut, &mut random);
