@@ -14,6 +14,7 @@
 //! | [`flow`] | Newton and gradient flow, cones |
 //! | [`embed`] | layouts, their quality, charts |
 
+pub mod canonical;
 pub mod control;
 pub mod embed;
 pub mod error;

@@ -3,8 +3,8 @@
 
 mod chart_growth;
 pub mod charts;
-mod corner;
-mod develop;
+pub(crate) mod corner;
+pub(crate) mod develop;
 pub mod layout;
 pub mod overlap;
 pub mod pack;

@@ -1,5 +1,6 @@
 //! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
 
+pub mod barycentre;
 pub mod circle;
 pub mod conformal;
 pub mod flip;
@@ -8,6 +9,7 @@ pub mod isometry;
 pub mod modulus;
 pub mod predicates;
 pub mod space;
+pub mod sphere;
 pub mod symplectic;
 pub mod triangle;
 pub(crate) mod twofold;

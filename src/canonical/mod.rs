@@ -1,0 +1,9 @@
+//! Closed surfaces in their canonical shape: spheres as convex polyhedra inscribed in the unit sphere.
+
+mod candidates;
+mod lift;
+mod puncture;
+pub mod sphere;
+mod star;
+
+pub use sphere::{Sphere, SphereOptions, SphereReport, uniformize_sphere};

@@ -1,0 +1,114 @@
+//! The flat metric of a punctured sphere: the plane.
+//!
+//! Among the metrics that keep their bounds ([`super::star`]) the convex energy `∫ Σ K_j du_j` of the planar part has one lowest point
+//! [Spr20]. There K = 0 inside; at the vertices that are held by their bound, the link of ∞, the gradient K_j is the turning of
+//! the outline and is not negative. So the planar part is a convex polygon with a Delaunay triangulation, or, in the upper
+//! half-space, an ideal convex polyhedron with one vertex at infinity.
+//!
+//! Newton's method with an active set: after each step, vertices that overstep their bound are put on it; those that
+//! are held against their gradient are let go.
+
+use super::star::Punctured;
+use crate::control::Control;
+use crate::error::Result;
+use crate::flow::{Options, Report, Solver, StopReason};
+use crate::geometry::twofold::two_sum;
+use crate::mesh::{PerVertex, VertexId};
+
+/// Vertices are let go once |K| inside is below this: before, turning says little.
+const SETTLED: f64 = 0.5;
+/// Most of its reflex angle that a vertex is let go by at once.
+const WIDEST: f64 = 0.5;
+
+/// How a flat metric was found.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Found {
+    /// |K| inside is within the tolerance and the outline is convex, as far as was asked for.
+    pub converged: bool,
+    pub stop_reason: StopReason,
+    /// Newton steps.
+    pub iterations: usize,
+    /// Largest |K| inside.
+    pub error: f64,
+    /// Least turning of the outline.
+    pub turning: f64,
+}
+
+impl Punctured {
+    /// Flow from the present u to the plane with an outline that turns by `−straight` at least, in `most` Newton steps. `needles`: see
+    /// [`Punctured::restore`].
+    pub fn flatten(
+        &mut self,
+        straight: f64,
+        needles: bool,
+        most: usize,
+        options: &Options,
+        control: &Control,
+    ) -> Result<Found> {
+        let target = PerVertex::filled(self.mesh.n_vertices(), 0.0);
+        let mut iterations = 0;
+        self.restore(needles)?;
+        loop {
+            let report = self.step(&target, options, control)?;
+            iterations += report.iterations;
+            let (error, stop_reason) = (report.max_curvature_error, report.stop_reason);
+            let changed = self.restore(needles)?;
+            let turning = self.turning();
+            let least = turning.iter().copied().fold(f64::INFINITY, f64::min);
+            log::debug!(
+                "punctured at {}, step {iterations}: max |K| = {error:.1e}, {} arcs, least turning {least:.1e}",
+                self.at,
+                turning.len()
+            );
+            let ended = stop_reason != StopReason::IterationLimit;
+            let go_on =
+                changed || ((error < SETTLED || ended) && self.release(&turning, error.max(straight)));
+            if (!go_on && ended) || iterations >= most {
+                let converged = report.converged && !go_on;
+                let stop_reason = if go_on { StopReason::IterationLimit } else { stop_reason };
+                return Ok(Found { converged, stop_reason, iterations, error, turning: least });
+            }
+            // A step that had nothing to do counts too: nothing may go on for ever.
+            iterations += usize::from(report.iterations == 0);
+        }
+    }
+
+    /// One Newton step with the star held.
+    fn step(&mut self, target: &PerVertex<f64>, options: &Options, control: &Control) -> Result<Report> {
+        let mut held: Vec<VertexId> = self.star().iter().map(|&arc| self.mesh.tip(arc)).collect();
+        held.push(self.at);
+        let options = Options { fixed_edges: self.rim(), max_iterations: 1, ..options.clone() };
+        let mut solver = Solver::new(self.mesh.clone(), self.closed(), options)?;
+        solver.pin(&held)?;
+        for normal in self.followed.drain(..) {
+            solver.follow(normal)?;
+        }
+        let report = solver.solve(target, control)?;
+        (self.mesh, self.metric, self.followed) = solver.into_parts();
+        self.metric.u[self.at] = 0.0;
+        self.flips += report.flips;
+        Ok(report)
+    }
+
+    /// Let go of link vertices j that turn by less than `−most`, no two next to each other; returns whether there were any.
+    ///
+    /// Flipped out, j lies on the side of a triangle (a, b, a + b); raising u_j by x opens its angle there to `π − φ` with
+    /// `φ² = x (a + b)²/(a b)`. Half of what the outline turns in excess is taken: all else moves too.
+    fn release(&mut self, turning: &[f64], most: f64) -> bool {
+        let before = self.flips;
+        let mut near = PerVertex::filled(self.mesh.n_vertices(), false);
+        for (arc, turning) in self.star().into_iter().zip(turning) {
+            let ([left, right], j) = ([self.link(arc), self.mesh.prev(arc.twin())], self.mesh.tip(arc));
+            let ends = [j, self.mesh.tip(left), self.mesh.origin(right)];
+            let [a, b] = [left, right].map(|h| self.length(h));
+            if *turning >= -most || ends.iter().any(|&v| near[v]) || !self.flip(arc.edge()) {
+                continue;
+            }
+            let angle = (-0.5 * turning).min(WIDEST);
+            let rise = angle * angle * (a / (a + b)) * (b / (a + b));
+            (self.metric.u[j], self.metric.u_low[j]) = two_sum(self.metric.u[j], rise);
+            ends.iter().for_each(|&v| near[v] = true);
+        }
+        self.flips > before
+    }
+}
