@@ -5,5 +5,6 @@ mod lift;
 mod puncture;
 pub mod sphere;
 mod star;
+mod tries;
 
 pub use sphere::{Sphere, SphereOptions, SphereReport, uniformize_sphere};

@@ -61,8 +61,8 @@ impl Punctured {
                 turning.len()
             );
             let ended = stop_reason != StopReason::IterationLimit;
-            let go_on =
-                changed || ((error < SETTLED || ended) && self.release(&turning, error.max(straight)));
+            let settled = error < SETTLED || ended;
+            let go_on = changed || (settled && self.release(&turning, error.max(straight))?);
             if (!go_on && ended) || iterations >= most {
                 let converged = report.converged && !go_on;
                 let stop_reason = if go_on { StopReason::IterationLimit } else { stop_reason };
@@ -90,25 +90,37 @@ impl Punctured {
         Ok(report)
     }
 
-    /// Let go of link vertices j that turn by less than `−most`, no two next to each other; returns whether there were any.
+    /// Let go of link vertices that turn by less than `−most`, no two next to each other; returns whether there were any.
     ///
     /// Flipped out, j lies on the side of a triangle (a, b, a + b); raising u_j by x opens its angle there to `π − φ` with
-    /// `φ² = x (a + b)²/(a b)`. Half of what the outline turns in excess is taken: all else moves too.
-    fn release(&mut self, turning: &[f64], most: f64) -> bool {
-        let before = self.flips;
+    /// `φ² = x (a + b)²/(a b)`. Half of what the outline turns in excess is taken: all else moves too. A vertex j with m arcs has
+    /// `K_j = Σ κ − 2π (m − 1) < 0`, since κ ≤ π: it is let go.
+    fn release(&mut self, turning: &[f64], most: f64) -> Result<bool> {
         let mut near = PerVertex::filled(self.mesh.n_vertices(), false);
-        for (arc, turning) in self.star().into_iter().zip(turning) {
+        let mut arcs = PerVertex::filled(self.mesh.n_vertices(), 0);
+        let star = self.star();
+        star.iter().for_each(|&arc| arcs[self.mesh.tip(arc)] += 1);
+        let mut any = false;
+        for (arc, turning) in star.into_iter().zip(turning) {
             let ([left, right], j) = ([self.link(arc), self.mesh.prev(arc.twin())], self.mesh.tip(arc));
             let ends = [j, self.mesh.tip(left), self.mesh.origin(right)];
             let [a, b] = [left, right].map(|h| self.length(h));
-            if *turning >= -most || ends.iter().any(|&v| near[v]) || !self.flip(arc.edge()) {
+            let several = arcs[j] > 1;
+            if (*turning >= -most && !several) || ends.iter().any(|&v| near[v]) {
                 continue;
             }
-            let angle = (-0.5 * turning).min(WIDEST);
+            if !several && !self.flip(arc.edge()) {
+                continue;
+            }
+            let angle = if several { WIDEST } else { (-0.5 * turning).min(WIDEST) };
             let rise = angle * angle * (a / (a + b)) * (b / (a + b));
             (self.metric.u[j], self.metric.u_low[j]) = two_sum(self.metric.u[j], rise);
             ends.iter().for_each(|&v| near[v] = true);
+            any = true;
         }
-        self.flips > before
+        if any {
+            self.restore(false)?;
+        }
+        Ok(any)
     }
 }

@@ -2,30 +2,24 @@
 
 use super::candidates::range;
 use super::lift::{lifted, nonconvexity, off_centre};
-use super::puncture::Found;
 use super::star::Punctured;
+use super::tries::Tried;
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::flow::{Options, StopReason};
+use crate::flow::{Options, Solver, StopReason};
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::metric::lengths::face_lengths;
-use crate::metric::{Metric, Scheme, SurfaceMetric};
+use crate::metric::{Curvature, Metric, Scheme, SurfaceMetric};
 use crate::parallel::Pool;
-use crate::topology::spanning::shortest_paths_under;
-use crate::topology::{check_vertex, farthest_vertices};
+use crate::topology::check_vertex;
 use std::sync::Arc;
 
-/// Outlines of the first plane may turn the wrong way by this: it is only to see from which vertex the plane is best.
-const ROUGHLY: f64 = 1e-4;
-/// Outlines turn by minus this at least: rounding.
-const STRAIGHT: f64 = 1e-12;
 /// Edges of a result are Delaunay, and its outline convex, to this (radians).
 const DELAUNAY: f64 = 1e-9;
-/// Vertices that are tried, until the flow from one ends well: first from a guess, then from the plane that was found.
-const TRIES: usize = 8;
-/// Newton steps from a plane that is known to the plane seen from another vertex: 1, and some where angles are narrow.
-const STEPS: usize = 60;
+
+/// Newton steps on the sphere after the lift.
+const POLISH_STEPS: usize = 10;
 
 /// Options of [`uniformize_sphere`].
 #[derive(Debug, Clone, PartialEq)]
@@ -158,40 +152,16 @@ fn uniformize(
         threads: options.threads,
         ..Options::default()
     };
-    let mut tried = Tried { flows: 0, iterations: 0 };
+    let mut tried = Tried::new(&weights, &flow, control);
     let (surface, plane, found) = match options.puncture {
-        Some(v) => {
-            let rough = tried.from_guess(&begin, &[v], ROUGHLY, &flow, control)?;
-            tried.first_good(
-                [Ok(rough.0.clone())].into_iter(),
-                Some(rough),
-                STRAIGHT,
-                STEPS,
-                &flow,
-                control,
-            )?
-        }
-        None => {
-            let first = begin.widest();
-            let rough = tried.from_guess(&begin, &[first], ROUGHLY, &flow, control);
-            let rough = match rough {
-                Ok(rough) if rough.2.converged => rough,
-                Err(Error::Cancelled) => return Err(Error::Cancelled),
-                _ => {
-                    let lengths = begin.metric.lengths(&begin.mesh)?;
-                    let others = farthest_vertices(&begin.mesh, &lengths, first, TRIES)?;
-                    tried.from_guess(&begin, &others[1..], ROUGHLY, &flow, control)?
-                }
-            };
-            tried.from_plane(rough, &weights, &flow, control)?
-        }
+        Some(v) => tried.punctured_at(&begin, v)?,
+        None => tried.best(&begin)?,
     };
     let view = surface.centre(&plane, &weights)?;
     let plane = PerVertex::from_fn(n, |v| view.apply(plane[v]));
     let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
-    let curvature = spherical.curvature(&surface.mesh)?;
+    let (spherical, curvature) = polished(&surface.mesh, spherical, &flow, control)?;
     let delaunay_violation = surface.delaunay_violation();
-    let largest = |x: &[f64]| x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     let report = SphereReport {
         converged: found.converged && delaunay_violation <= DELAUNAY && found.turning >= -DELAUNAY,
         stop_reason: found.stop_reason,
@@ -215,118 +185,26 @@ fn uniformize(
     Ok(Sphere { metric, positions, plane, report })
 }
 
-/// A punctured surface, its plane, and how it was found.
-type Flat = (Punctured, PerVertex<[f64; 2]>, Found);
-
-/// What was done so far.
-struct Tried {
-    flows: usize,
-    iterations: usize,
+/// The spherical metric with K = 0 to the tolerance, and its curvature. As lifted it has that but for what rounding of the plane does to
+/// needles, which a step or two of Newton's method on the sphere make up for.
+fn polished(mesh: &Mesh, lifted: Metric, flow: &Options, control: &Control) -> Result<(Metric, Curvature)> {
+    let curvature = lifted.curvature(mesh)?;
+    if largest(&curvature.at) <= flow.tolerance {
+        return Ok((lifted, curvature));
+    }
+    let options = Options { max_iterations: POLISH_STEPS, ..flow.clone() };
+    let mut solver = Solver::new(mesh.clone(), lifted, options)?;
+    let before = solver.metric().clone();
+    let report = solver.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), control)?;
+    let metric =
+        if report.max_curvature_error < largest(&curvature.at) { solver.into_parts().1 } else { before };
+    let curvature = metric.curvature(mesh)?;
+    Ok((metric, curvature))
 }
 
-impl Tried {
-    fn flow(
-        &mut self,
-        mut surface: Punctured,
-        straight: f64,
-        most: usize,
-        flow: &Options,
-        control: &Control,
-    ) -> Result<Flat> {
-        self.flows += 1;
-        let found = surface.flatten(straight, straight < ROUGHLY, most, flow, control)?;
-        self.iterations += found.iterations;
-        let plane = surface.lay_out(control)?;
-        Ok((surface, plane, found))
-    }
-
-    /// Punctured at the first vertex from which the flow ends well, or else from which it came closest: as `−2 log(distance)`, the
-    /// inversion of a surface that is nearly a plane.
-    fn from_guess(
-        &mut self,
-        begin: &Punctured,
-        vertices: &[VertexId],
-        straight: f64,
-        flow: &Options,
-        control: &Control,
-    ) -> Result<Flat> {
-        let lengths = begin.metric.lengths(&begin.mesh)?;
-        let surface = |&v: &VertexId| {
-            let distance = shortest_paths_under(&begin.mesh, &lengths, [v], control)?.distance;
-            if let Some(other) = begin.mesh.vertices().find(|&i| i != v && distance[i] == 0.0) {
-                let value = format!("in pieces: no way from vertex {v} to vertex {other}");
-                return Err(Error::Argument {
-                    what: "surface",
-                    value,
-                    need: "one closed surface of genus 0",
-                });
-            }
-            let mut surface = Punctured { at: v, ..begin.clone() };
-            surface.metric.u =
-                PerVertex::from_fn(distance.len(), |i| if i == v { 0.0 } else { -2.0 * distance[i].ln() });
-            Ok(surface)
-        };
-        self.first_good(vertices.iter().map(surface), None, straight, flow.iteration_limit(), flow, control)
-    }
-
-    /// From a plane to the best one.
-    fn from_plane(
-        &mut self,
-        (surface, plane, found): Flat,
-        weights: &PerVertex<f64>,
-        flow: &Options,
-        control: &Control,
-    ) -> Result<Flat> {
-        let view = surface.centre(&plane, weights)?;
-        let centred = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
-        let u = surface.spherical(&centred, view.scale.ln()).u;
-        let moved = |v: VertexId| {
-            let mut moved = surface.clone();
-            if v != surface.at {
-                moved.puncture(v, &plane);
-            }
-            Ok(moved)
-        };
-        let best = surface.candidates(&plane, &u).into_iter().take(TRIES).map(moved);
-        self.first_good(best, Some((surface.clone(), plane.clone(), found)), STRAIGHT, STEPS, flow, control)
-    }
-
-    /// The first flow that ends well, or the best of them and of what was known.
-    fn first_good(
-        &mut self,
-        surfaces: impl Iterator<Item = Result<Punctured>>,
-        known: Option<Flat>,
-        straight: f64,
-        most: usize,
-        flow: &Options,
-        control: &Control,
-    ) -> Result<Flat> {
-        let (mut best, off) = (known, |found: &Found| found.error.max(-found.turning));
-        let mut failure = Error::Layout("there is no vertex to send to infinity".into());
-        for surface in surfaces {
-            match self.flow(surface?, straight, most, flow, control) {
-                Ok(flat) if flat.2.converged => return Ok(flat),
-                Ok(flat) => {
-                    let closer = |best: &Flat| off(&flat.2) < off(&best.2);
-                    if best.as_ref().is_none_or(closer) {
-                        best = Some(flat);
-                    }
-                }
-                Err(Error::Cancelled) => return Err(Error::Cancelled),
-                Err(error) => failure = error,
-            }
-        }
-        best.ok_or(failure)
-    }
-}
-
-impl Punctured {
-    /// The vertex whose shortest edge is the longest.
-    fn widest(&self) -> VertexId {
-        let near = |v| self.mesh.outgoing(v).map(|arc| self.bound(arc)).fold(f64::NEG_INFINITY, f64::max);
-        let better = |(best, least), v| if near(v) < least { (v, near(v)) } else { (best, least) };
-        self.mesh.vertices().fold((VertexId(0), f64::INFINITY), better).0
-    }
+/// Maximum norm.
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
 /// One third of the area of the faces at each vertex.
