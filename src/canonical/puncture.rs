@@ -20,6 +20,9 @@ const SETTLED: f64 = 0.5;
 /// Most of its reflex angle that a vertex is let go by at once.
 const WIDEST: f64 = 0.5;
 
+/// Angles of slivers below this change nothing around them: lengths move by their squares.
+const NARROW: f64 = 1e-3;
+
 /// How a flat metric was found.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Found {
@@ -92,9 +95,11 @@ impl Punctured {
 
     /// Let go of link vertices that turn by less than `−most`, no two next to each other; returns whether there were any.
     ///
-    /// Flipped out, j lies on the side of a triangle (a, b, a + b); raising u_j by x opens its angle there to `π − φ` with
-    /// `φ² = x (a + b)²/(a b)`. Half of what the outline turns in excess is taken: all else moves too. A vertex j with m arcs has
-    /// `K_j = Σ κ − 2π (m − 1) < 0`, since κ ≤ π: it is let go.
+    /// Flipped out, j lies on the side c of a triangle (a, b, c = a + b). Raising u_j by x makes a + b − c larger by x (a + b)/2, which
+    /// is `φ² a b/(2 (a + b))` where the angle at j is `π − φ`. A narrow φ is all of what the outline turns in excess, as nothing else
+    /// moves then; a wide one half of it. c is rounded: the difference is taken as it came out.
+    ///
+    /// A vertex j with m arcs has `K_j = Σ κ − 2π (m − 1) < 0`, since κ ≤ π: it is let go of all.
     fn release(&mut self, turning: &[f64], most: f64) -> Result<bool> {
         let mut near = PerVertex::filled(self.mesh.n_vertices(), false);
         let mut arcs = PerVertex::filled(self.mesh.n_vertices(), 0);
@@ -109,11 +114,14 @@ impl Punctured {
             if (*turning >= -most && !several) || ends.iter().any(|&v| near[v]) {
                 continue;
             }
-            if !several && !self.flip(arc.edge()) {
+            let rise = if several {
+                WIDEST
+            } else if self.flip(arc.edge()) {
+                let angle = if -turning < NARROW { -turning } else { (-0.5 * turning).min(WIDEST) };
+                angle * angle * (a / (a + b)) * (b / (a + b)) - 4.0 * self.slack(arc) / (a + b)
+            } else {
                 continue;
-            }
-            let angle = if several { WIDEST } else { (-0.5 * turning).min(WIDEST) };
-            let rise = angle * angle * (a / (a + b)) * (b / (a + b));
+            };
             (self.metric.u[j], self.metric.u_low[j]) = two_sum(self.metric.u[j], rise);
             ends.iter().for_each(|&v| near[v] = true);
             any = true;

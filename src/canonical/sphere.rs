@@ -43,7 +43,7 @@ impl Default for SphereOptions {
 /// What became of a sphere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereReport {
-    /// The plane is flat to the tolerance, every edge Delaunay and the outline convex to 1e-9.
+    /// Plane and sphere have K = 0 to the tolerance, every edge is Delaunay and the outline convex to 1e-9.
     pub converged: bool,
     /// Why the last flow stopped.
     pub stop_reason: StopReason,
@@ -163,7 +163,10 @@ fn uniformize(
     let (spherical, curvature) = polished(&surface.mesh, spherical, &flow, control)?;
     let delaunay_violation = surface.delaunay_violation();
     let report = SphereReport {
-        converged: found.converged && delaunay_violation <= DELAUNAY && found.turning >= -DELAUNAY,
+        converged: found.converged
+            && delaunay_violation <= DELAUNAY
+            && found.turning >= -DELAUNAY
+            && largest(&curvature.at) <= flow.tolerance,
         stop_reason: found.stop_reason,
         iterations: tried.iterations,
         flips: surface.flips,

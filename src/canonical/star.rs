@@ -140,7 +140,7 @@ impl Punctured {
                 let edge = self.link(arc);
                 let beyond = edge.twin();
                 let k = self.mesh.origin(self.mesh.prev(beyond));
-                if k != self.at && self.reaches(beyond) && self.flip(edge.edge()) {
+                if k != self.at && self.slack(beyond) <= 0.0 && self.flip(edge.edge()) {
                     self.metric.u[k] = self.metric.u[k].max(self.bound(edge));
                     self.metric.u_low[k] = 0.0;
                 }
@@ -163,11 +163,12 @@ impl Punctured {
         Ok(self.flips > before)
     }
 
-    /// Whether a side of a face is as long as the other two together.
-    fn reaches(&self, side: HalfedgeId) -> bool {
-        let Some(f) = self.mesh.face(side) else { return false };
+    /// Half of what the other two sides of the planar face at an edge exceed it by: of the one beyond the star.
+    pub fn slack(&self, side: HalfedgeId) -> f64 {
+        let side = if self.in_star(side) { side.twin() } else { side };
+        let Some(f) = self.mesh.face(side) else { return 0.0 };
         let corner = self.mesh.face_halfedges(f).iter().position(|&h| h == side).unwrap_or(0);
-        self.differences(f)[(corner + 2) % 3] <= 0.0
+        self.differences(f)[(corner + 2) % 3]
     }
 
     /// Flip edges that are not Delaunay by more than rounding. Newton's own test takes the cosines of the angles, which among needles
