@@ -13,35 +13,39 @@ use crate::mesh::{PerVertex, VertexId};
 
 /// Depths looked at, in steps of 1 of u.
 const DEPTHS: usize = 64;
+/// And so many vertices at any depth.
+const ANYWHERE: usize = 8;
 /// Angles below this are the same.
 const LEAST_ANGLE: f64 = 1e-12;
 
 impl Punctured {
     /// Vertices to puncture, the best one first: by the range of u in the plane seen from them, and the digits lost in narrow angles.
-    /// `plane` is the present layout, `depth` u on the centred sphere.
+    /// `plane` is the present layout, `u` that of the centred sphere.
     pub fn candidates(&self, plane: &PerVertex<[f64; 2]>, u: &PerVertex<f64>) -> Vec<VertexId> {
+        // Least exterior angle of the polyhedron at the edges of a vertex.
         let mut narrow = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
         let mut note = |v: VertexId, angle: f64| narrow[v] = narrow[v].min(angle);
-        let rim = self.star();
         for e in self.mesh.edges().filter(|&e| !self.mesh.ends(e).contains(&self.at)) {
             self.mesh.ends(e).into_iter().for_each(|v| note(v, -self.excess(e)));
         }
-        for (arc, turning) in rim.into_iter().zip(self.turning()) {
+        for (arc, turning) in self.star().into_iter().zip(self.turning()) {
             [self.at, self.mesh.tip(arc)].into_iter().for_each(|v| note(v, turning));
         }
         let lost = |v: VertexId| -narrow[v].max(LEAST_ANGLE).ln();
         let near = |v| self.mesh.outgoing(v).map(|arc| self.bound(arc)).fold(f64::NEG_INFINITY, f64::max);
         let top = u.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let mut best = vec![None; DEPTHS];
-        for v in self.mesh.vertices() {
-            let depth = ((top - u[v]) as usize).min(DEPTHS - 1);
-            let cost = near(v) + lost(v);
-            if best[depth].is_none_or(|(least, _)| cost < least) {
-                best[depth] = Some((cost, v));
+        let depth = |v: VertexId| ((top - u[v]) as usize).min(DEPTHS - 1);
+        let mut all: Vec<(f64, VertexId)> = self.mesh.vertices().map(|v| (near(v) + lost(v), v)).collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut seen = [false; DEPTHS];
+        let mut chosen: Vec<VertexId> = Vec::new();
+        for (rank, &(_, v)) in all.iter().enumerate() {
+            if !std::mem::replace(&mut seen[depth(v)], true) || rank < ANYWHERE {
+                chosen.push(v);
             }
         }
-        let cost = |(_, v)| (range(&self.seen_from(v, plane), v) + lost(v), v);
-        let mut ranked: Vec<(f64, VertexId)> = best.into_iter().flatten().map(cost).collect();
+        let cost = |v| (range(&self.seen_from(v, plane), v) + lost(v), v);
+        let mut ranked: Vec<(f64, VertexId)> = chosen.into_iter().map(cost).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         ranked.into_iter().map(|(_, v)| v).collect()
     }

@@ -19,7 +19,10 @@ use crate::mesh::{PerVertex, VertexId};
 const SETTLED: f64 = 0.5;
 /// Most of its reflex angle that a vertex is let go by at once.
 const WIDEST: f64 = 0.5;
-
+/// Below this |K| a good step lowers it.
+const NEAR: f64 = 1e-3;
+/// Steps of u are not made shorter than this: squares of angles that are rounding.
+const LEAST_STEP: f64 = 1e-24;
 /// Angles of slivers below this change nothing around them: lengths move by their squares.
 const NARROW: f64 = 1e-3;
 
@@ -38,24 +41,37 @@ pub(super) struct Found {
 }
 
 impl Punctured {
-    /// Flow from the present u to the plane with an outline that turns by `−straight` at least, in `most` Newton steps. `needles`: see
-    /// [`Punctured::restore`].
+    /// Flow from the present u to the plane with an outline that turns by `−straight` at least, in `most` Newton steps or little more.
+    ///
+    /// `slivers`: at the end angles far below 1e-4 count. Then edges of slivers are flipped by [`Punctured::restore`], and a step that
+    /// raises the error, which is one over the edge of where slivers are triangles, is made again a quarter as long.
     pub fn flatten(
         &mut self,
         straight: f64,
-        needles: bool,
+        slivers: bool,
         most: usize,
         options: &Options,
         control: &Control,
     ) -> Result<Found> {
-        let target = PerVertex::filled(self.mesh.n_vertices(), 0.0);
-        let mut iterations = 0;
-        self.restore(needles)?;
+        let (mut iterations, mut longest) = (0, options.max_step);
+        self.restore(slivers)?;
         loop {
-            let report = self.step(&target, options, control)?;
-            iterations += report.iterations;
+            let before = slivers.then(|| self.clone());
+            let report = self.step(longest, options, control)?;
+            // A step that had nothing to do counts too: nothing may go on for ever.
+            iterations += report.iterations.max(1);
             let (error, stop_reason) = (report.max_curvature_error, report.stop_reason);
-            let changed = self.restore(needles)?;
+            let first = report.residuals.first().copied().unwrap_or(f64::INFINITY);
+            longest = options.max_step;
+            if let Some(before) = before.filter(|_| first < NEAR && first < error && iterations < most) {
+                let moved = |v: VertexId| (self.metric.u[v] - before.metric.u[v]).abs();
+                let moved = self.mesh.vertices().map(moved).fold(0.0, f64::max);
+                if moved > LEAST_STEP {
+                    (*self, longest) = (before, 0.25 * moved);
+                    continue;
+                }
+            }
+            let changed = self.restore(slivers)?;
             let turning = self.turning();
             let least = turning.iter().copied().fold(f64::INFINITY, f64::min);
             log::debug!(
@@ -71,22 +87,20 @@ impl Punctured {
                 let stop_reason = if go_on { StopReason::IterationLimit } else { stop_reason };
                 return Ok(Found { converged, stop_reason, iterations, error, turning: least });
             }
-            // A step that had nothing to do counts too: nothing may go on for ever.
-            iterations += usize::from(report.iterations == 0);
         }
     }
 
     /// One Newton step with the star held.
-    fn step(&mut self, target: &PerVertex<f64>, options: &Options, control: &Control) -> Result<Report> {
+    fn step(&mut self, max_step: f64, options: &Options, control: &Control) -> Result<Report> {
         let mut held: Vec<VertexId> = self.star().iter().map(|&arc| self.mesh.tip(arc)).collect();
         held.push(self.at);
-        let options = Options { fixed_edges: self.rim(), max_iterations: 1, ..options.clone() };
+        let options = Options { fixed_edges: self.rim(), max_iterations: 1, max_step, ..options.clone() };
         let mut solver = Solver::new(self.mesh.clone(), self.closed(), options)?;
         solver.pin(&held)?;
         for normal in self.followed.drain(..) {
             solver.follow(normal)?;
         }
-        let report = solver.solve(target, control)?;
+        let report = solver.solve(&PerVertex::filled(self.mesh.n_vertices(), 0.0), control)?;
         (self.mesh, self.metric, self.followed) = solver.into_parts();
         self.metric.u[self.at] = 0.0;
         self.flips += report.flips;

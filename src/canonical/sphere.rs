@@ -1,4 +1,4 @@
-//! Closed surfaces of genus 0 on the unit sphere [Spr20; BPS15].
+//! Closed surfaces of genus 0 on the unit sphere [Riv94; Spr20; BPS15].
 
 use super::candidates::range;
 use super::lift::{lifted, nonconvexity, off_centre};
@@ -141,10 +141,12 @@ fn uniformize(
         &[],
         control,
     )?;
-    let weights = vertex_areas(&given, &lengths, geometry);
     let (start, mesh, metric, followed, start_flips) = from.into_parts();
     let n = mesh.n_vertices();
-    let metric = Metric { space: Space::E2, u: PerVertex::filled(n, 0.0), ..metric };
+    let mut metric = Metric { space: Space::E2, u: PerVertex::filled(n, 0.0), ..metric };
+    let unit = unit(&metric);
+    metric.eta.iter_mut().for_each(|eta| *eta = *eta / unit / unit);
+    let weights = vertex_areas(&given, &lengths, geometry, unit);
     let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
     let flow = Options {
         tolerance: options.tolerance,
@@ -160,7 +162,7 @@ fn uniformize(
     let view = surface.centre(&plane, &weights)?;
     let plane = PerVertex::from_fn(n, |v| view.apply(plane[v]));
     let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
-    let (spherical, curvature) = polished(&surface.mesh, spherical, &flow, control)?;
+    let (mut spherical, curvature) = polished(&surface.mesh, spherical, &flow, control)?;
     let delaunay_violation = surface.delaunay_violation();
     let report = SphereReport {
         converged: found.converged
@@ -184,6 +186,8 @@ fn uniformize(
         centring: off_centre(&positions, &weights),
     };
     let Punctured { mesh, followed, flips, .. } = surface;
+    spherical.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
+    spherical.u.iter_mut().for_each(|u| *u -= unit.ln());
     let metric = SurfaceMetric::at(start, mesh, spherical, followed, start_flips + flips);
     Ok(Sphere { metric, positions, plane, report })
 }
@@ -210,11 +214,19 @@ fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
-/// One third of the area of the faces at each vertex.
-fn vertex_areas(mesh: &Mesh, lengths: &PerEdge<f64>, geometry: Space) -> PerVertex<f64> {
+/// A power of two of about the size of the longest edge: with η over its square nothing depends on the size of the surface, and
+/// nothing is rounded.
+fn unit(metric: &Metric) -> f64 {
+    let largest = metric.eta.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    2f64.powi((0.5 * largest.log2()).round() as i32)
+}
+
+/// One third of the area of the faces at each vertex; in E² in units of `unit²`.
+fn vertex_areas(mesh: &Mesh, lengths: &PerEdge<f64>, geometry: Space, unit: f64) -> PerVertex<f64> {
+    let unit = if geometry == Space::E2 { unit } else { 1.0 };
     let mut areas = PerVertex::filled(mesh.n_vertices(), 0.0);
     for f in mesh.faces() {
-        let third = triangle::area(geometry, face_lengths(mesh, lengths, f)) / 3.0;
+        let third = triangle::area(geometry, face_lengths(mesh, lengths, f).map(|l| l / unit)) / 3.0;
         mesh.face_vertices(f).into_iter().for_each(|v| areas[v] += third);
     }
     areas

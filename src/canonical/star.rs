@@ -23,8 +23,8 @@ use std::f64::consts::PI;
 const OFF: f64 = 1e-12;
 /// Flips per edge before the star is given up.
 const MOST_FLIPS: usize = 100;
-/// Rounding of η moves a needle's angles π − φ and φ by a few ε/φ: what is below this many is not flipped.
-const NEEDLE: f64 = 32.0;
+/// Rounding of η moves an angle π − φ by a few ε/φ: edges that exceed π by less than this many are not flipped.
+const SLIVER: f64 = 32.0;
 /// Angles over π by less than this are at π.
 const FLAT: f64 = 1e-12;
 
@@ -122,9 +122,9 @@ impl Punctured {
         flipped
     }
 
-    /// Flips until the star is that of u, whose vertices are put on their bounds. `needles`: flip among these too. Returns whether
-    /// anything changed. Errors: flips that do not end.
-    pub fn restore(&mut self, needles: bool) -> Result<bool> {
+    /// Flips until the star is that of u, whose vertices are put on their bounds. `slivers`: edges of slivers are flipped too. Returns
+    /// whether anything changed. Errors: flips that do not end.
+    pub fn restore(&mut self, slivers: bool) -> Result<bool> {
         let before = self.flips;
         loop {
             let last = self.flips;
@@ -145,8 +145,8 @@ impl Punctured {
                     self.metric.u_low[k] = 0.0;
                 }
             }
-            if needles {
-                self.flip_needles();
+            if slivers {
+                self.flip_slivers();
             }
             if self.flips == last {
                 break;
@@ -171,13 +171,13 @@ impl Punctured {
         self.differences(f)[(corner + 2) % 3]
     }
 
-    /// Flip edges that are not Delaunay by more than rounding. Newton's own test takes the cosines of the angles, which among needles
-    /// cannot tell.
-    fn flip_needles(&mut self) {
+    /// Flip edges that are not Delaunay by more than rounding. Newton's own test takes the cosines of the angles, which cannot tell
+    /// where one is π − φ and the other about φ, below 1e-6.
+    fn flip_slivers(&mut self) {
         for e in self.mesh.edges() {
             let [a, b] = [e.halfedge(), e.halfedge().twin()].map(|h| self.angle(h, 2));
-            let needle = (PI - a.max(b)).max(f64::EPSILON);
-            if a + b - PI > FLAT + NEEDLE * f64::EPSILON / needle {
+            let phi = (PI - a.max(b)).max(f64::EPSILON);
+            if a + b - PI > FLAT + SLIVER * f64::EPSILON / phi {
                 self.flip(e);
             }
         }

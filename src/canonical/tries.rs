@@ -96,11 +96,11 @@ impl<'a> Tried<'a> {
         most: usize,
     ) -> Result<Flat> {
         let mut best = known;
-        let off = |flat: &Flat| flat.2.error.max(-flat.2.turning);
+        let off = |(surface, _, found): &Flat| found.error.max(surface.violation(found));
         let mut failure = Error::Layout("no plane was found from any vertex".into());
         for surface in surfaces {
             match self.flow(surface?, straight, most) {
-                Ok(flat) if flat.2.converged => return Ok(flat),
+                Ok(flat) if flat.2.converged && flat.0.violation(&flat.2) <= straight => return Ok(flat),
                 Ok(flat) if best.as_ref().is_none_or(|best| off(&flat) < off(best)) => best = Some(flat),
                 Ok(_) => {}
                 Err(Error::Cancelled) => return Err(Error::Cancelled),
@@ -120,6 +120,11 @@ impl<'a> Tried<'a> {
 }
 
 impl Punctured {
+    /// By how much angles at an edge exceed π, or the outline turns the wrong way, at most.
+    fn violation(&self, found: &Found) -> f64 {
+        self.delaunay_violation().max(-found.turning)
+    }
+
     /// The vertex whose shortest edge is the longest.
     fn widest(&self) -> VertexId {
         let near = |v| self.mesh.outgoing(v).map(|arc| self.bound(arc)).fold(f64::NEG_INFINITY, f64::max);

@@ -1,7 +1,7 @@
 //! The conformal barycentre of weighted points of the sphere, and the Möbius transformation that moves it to the centre.
 //!
 //! A point y of hyperbolic 3-space sees the points of its sphere at infinity in directions x_i(y) of the unit sphere. The *conformal
-//! barycentre* is where `Σ w_i x_i(y) = 0` [DE86, §11; Spr05]: the lowest point of `Σ w_i b_i`, with b_i the Busemann function of point
+//! barycentre* is where `Σ w_i x_i(y) = 0` [DE86; Spr05]: the lowest point of `Σ w_i b_i`, with b_i the Busemann function of point
 //! i, which is convex: its gradient is −x_i, its Hessian `1 − x_i x_iᵀ`. It exists and is unique where no point has half of the weight
 //! or more. In the upper half-space y = (p, t) and x_i is the lift of `(z_i − p)/t`.
 
