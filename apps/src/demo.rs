@@ -84,7 +84,7 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
             done.input.mesh.genus(),
             done.outcome.report.iterations,
             done.outcome.report.max_curvature_error,
-            laid.map_or("–".into(), |l| l.layout.flipped.len().to_string()),
+            laid.map_or("–".into(), |l| l.flipped().len().to_string()),
             laid.map_or("–".into(), |l| format!("{:.4}", l.quality.qc_mean)),
             done.seconds,
         );

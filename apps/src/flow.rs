@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::figures::FlowResult;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
+use crate::laid::OPEN_IN_H2;
 use crate::metric_file::MetricFile;
 use crate::output::{Outputs, check_extension, check_writable, extension};
 use crate::picture::{ColorChoice, FlowPictureArgs};
@@ -144,13 +145,29 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
 
 /// What can be refused once the surface is known.
 fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
-    let wishes =
-        [("--uv", args.uv.is_some()), ("--circles", args.circles.is_some()), ("--charts", args.charts)];
-    for (option, wanted) in wishes {
+    let laid_out = space == Space::E2 || (space == Space::H2 && input.mesh.is_closed());
+    let missing = |option: &str| {
+        let why = match space {
+            Space::H2 => OPEN_IN_H2,
+            _ => "ricci uniformize lays spheres out; use it, or --space e2",
+        };
+        Err(Failure::Usage(format!("{option}: {why}")))
+    };
+    for (option, wanted) in [("--uv", args.uv.is_some()), ("--zoom", args.picture.zoom.is_some())] {
+        if wanted && !laid_out {
+            return missing(option);
+        }
+    }
+    let in_plane = [
+        ("--circles", args.circles.is_some()),
+        ("--charts", args.charts),
+        ("--homogeneous", args.homogeneous),
+    ];
+    for (option, wanted) in in_plane {
         if wanted && space != Space::E2 {
             return Err(Failure::Usage(format!(
-                "{option}: layouts in {space} are not in this version; use --space e2 (with --target single:V or \
-                 cones:FILE.csv where the surface needs cones)"
+                "{option}: layouts in {space} have none; use --space e2 (with --target single:V or cones:FILE.csv \
+                 where the surface needs cones)"
             )));
         }
     }
@@ -163,10 +180,8 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
     if args.uv.is_some() && input.positions.is_none() {
         return Err(Failure::Usage("--uv: an intrinsic metric has no positions in space".into()));
     }
-    if let Some(name) = args.picture.color().filter(|_| space != Space::E2).and_then(ColorChoice::of_layout) {
-        return Err(Failure::Usage(format!(
-            "--color {name}: layouts in {space} are not in this version; use u or curvature"
-        )));
+    if let Some(name) = args.picture.color().filter(|_| !laid_out).and_then(ColorChoice::of_layout) {
+        return missing(&format!("--color {name}"));
     }
     if let Some(zoom) = args.picture.zoom {
         let n = input.mesh.n_vertices();
@@ -177,21 +192,16 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
                 n - 1
             )));
         }
-        if space != Space::E2 {
-            return Err(Failure::Usage(format!("--zoom: layouts in {space} are not in this version")));
-        }
     }
-    if let Some(path) = args.picture.base.picture.as_ref().filter(|_| space != Space::E2) {
+    if let Some(path) = args.picture.base.picture.as_ref().filter(|_| !laid_out) {
         let nothing = if extension(path) == "svg" {
-            "an SVG shows the layout alone, use .png"
+            "an SVG shows the layout alone"
         } else if input.positions.is_none() {
             "an intrinsic metric has no positions in space"
         } else {
             return Ok(());
         };
-        return Err(Failure::Usage(format!(
-            "--picture: layouts in {space} are not in this version; {nothing}"
-        )));
+        return missing(&format!("--picture: {nothing}"));
     }
     Ok(())
 }
@@ -248,9 +258,10 @@ fn write(
         let written = outputs.add(path, |out| show::draw(out, path, input, outcome, &args.picture, threads));
         outcome.attempt("picture", written)?;
     }
-    if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
-        let Outcome { mesh, metric, scheme, .. } = &*outcome;
-        let written = outputs.add_json(path, &circles(mesh, metric, scheme.name(), laid));
+    let Outcome { mesh, metric, scheme, .. } = &*outcome;
+    let all = outcome.layout.as_ref().ok().and_then(|laid| circles(mesh, metric, scheme.name(), laid));
+    if let (Some(path), Some(all)) = (&args.circles, all) {
+        let written = outputs.add_json(path, &all);
         outcome.attempt("circles", written)?;
     }
     outcome.seconds.write += begin.elapsed().as_secs_f64();

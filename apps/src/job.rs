@@ -178,7 +178,7 @@ impl Outcome {
             if let Some(packed) = &laid.packed {
                 checks.add("overlapping_in_charts", packed.overlapping as f64, 0.0);
             }
-            checks.add("flipped_triangles", laid.layout.flipped.len() as f64, 0.0);
+            checks.add("flipped_triangles", laid.flipped().len() as f64, 0.0);
         }
         checks
     }

@@ -108,7 +108,7 @@ fn layout(laid: &Laid) -> String {
     let q = &laid.quality;
     let mut text = format!(
         "{}, dilatation mean {:.4} max {:.3}, area ratio {:.2e} to {:.2e}",
-        count(laid.layout.flipped.len(), "triangle flipped", "triangles flipped"),
+        count(laid.flipped().len(), "triangle flipped", "triangles flipped"),
         q.qc_mean,
         q.qc_max,
         q.area_ratio_min,

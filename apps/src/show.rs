@@ -60,7 +60,7 @@ fn focus(zoom: &Zoom, laid: &Laid) -> Option<Focus> {
     let h = mesh.halfedges().find(|&h| !mesh.is_outside(h) && mesh.origin(h) == v)?;
     let at_layout = laid.corner_uv(h);
     let Some(positions) = &laid.positions else {
-        let radius = 0.5 * laid.layout.diameter / zoom.factor;
+        let radius = 0.5 * laid.diameter() / zoom.factor;
         return Some(Focus { at: [0.0; 3], radius, normal: [0.0; 3], at_layout, radius_layout: radius });
     };
     let extent = |k: usize| {
@@ -159,8 +159,11 @@ impl Parts {
             }
         }
         // Circles belong to the layout, not to its charts.
-        if outcome.scheme.epsilon() != 0 && laid.packed.is_none() {
-            let all = circles(&outcome.mesh, &outcome.metric, outcome.scheme.name(), laid);
+        let with_circles = outcome.scheme.epsilon() != 0 && laid.packed.is_none();
+        let all = with_circles
+            .then(|| circles(&outcome.mesh, &outcome.metric, outcome.scheme.name(), laid))
+            .flatten();
+        if let Some(all) = all {
             let vertex = all.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
             parts.circles = vertex.collect();
             let dual = |c: &crate::circles::DualCircle| Some(Circle { center: c.center, radius: c.radius? });
