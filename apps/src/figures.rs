@@ -156,7 +156,7 @@ impl FlowResult {
             modulus: laid.and_then(|l| l.modulus),
             seams: laid.and_then(Laid::plane).map(|layout| layout.seams.iter().map(seam).collect()),
             no_layout: layout.as_ref().err().cloned(),
-            failed: outcome.failed.clone(),
+            failed: outcome.failed.0.clone(),
             left_out: outcome.left_out.clone(),
             residuals: report.residuals.clone(),
         }

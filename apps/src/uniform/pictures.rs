@@ -1,0 +1,312 @@
+//! What pictures of uniformized surfaces and their covers show.
+
+use super::args::{ShowChoice, TilesChoice};
+use super::model_place::ModelPlace;
+use super::outline::{Side, loops, loops_on_surface, sides};
+use super::quotient::{ORIGIN, Uniformized};
+use super::tiling::{Prototype, Tiling, tint};
+use crate::failure::Failure;
+use crate::picture::{
+    self, Drawing, Frame, PALE, Pattern, Picture, Style, Surface, Tiles, write_drawing_svg,
+};
+use crate::show::is_svg;
+use ricci::Control;
+use ricci::embed::cover::elements_within;
+use ricci::embed::{DeckElement, DirichletDomain};
+use ricci::geometry::model::Model;
+use ricci::geometry::{Motion, Space};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Copies in the background of a polygon at most.
+const BACKGROUND: usize = 600;
+/// Widths of lines, in those of a seam.
+const THIN: f64 = 0.45;
+const SEAM: f64 = 1.25;
+const BOLD: f64 = 1.8;
+/// How much higher than its domain the shown part of the half-plane is.
+const HEADROOM: f64 = 1.12;
+
+/// What a picture shows.
+#[derive(Clone, Copy)]
+pub enum Shown {
+    Uniform(ShowChoice),
+    Cover(TilesChoice),
+}
+
+/// Where and how to draw.
+pub struct Canvas<'a> {
+    pub path: &'a Path,
+    pub at: ModelPlace,
+    pub style: Style,
+    pub threads: usize,
+}
+
+/// The parts of the picture, ready to be written.
+pub struct Ready {
+    tiling: Option<Tiling>,
+    uv: Vec<[[f64; 2]; 3]>,
+    tiles: Tiles,
+    faces: Vec<[u32; 3]>,
+    loops: Vec<(u32, u32, usize)>,
+    with_surface: bool,
+}
+
+/// Work out what is drawn.
+pub fn prepare(
+    u: &Uniformized,
+    shown: Shown,
+    canvas: &Canvas<'_>,
+    control: &Control,
+) -> Result<Ready, Failure> {
+    let (uv, tiles) = pattern(u);
+    let mesh = &u.laid.mesh;
+    let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
+    let tiling = match shown {
+        Shown::Uniform(ShowChoice::Surface) => None,
+        Shown::Uniform(ShowChoice::Both) => Some(domain(u, canvas, false)?),
+        Shown::Uniform(ShowChoice::Domain) => Some(domain(u, canvas, true)?),
+        Shown::Uniform(ShowChoice::Polygon) => Some(polygon(u, canvas, control)?),
+        Shown::Uniform(ShowChoice::Dirichlet) => Some(dirichlet(u, canvas)?),
+        Shown::Cover(TilesChoice::Copies) => Some(copies(u, canvas)?),
+        Shown::Cover(TilesChoice::Tiles) => Some(tiled(u, canvas)?),
+    };
+    Ok(Ready {
+        tiling,
+        uv,
+        tiles,
+        faces: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect(),
+        loops: if with_surface { loops_on_surface(u) } else { Vec::new() },
+        with_surface,
+    })
+}
+
+impl Ready {
+    /// Write the picture as PNG, or the drawing alone where the file is named `.svg`.
+    pub fn write(&self, out: &mut impl Write, u: &Uniformized, canvas: &Canvas<'_>) -> io::Result<()> {
+        let pattern = Pattern { uv: &self.uv, tiles: &self.tiles };
+        let drawing: Option<Drawing<'_>> = self.tiling.as_ref().map(|t| t.drawing(Some(pattern)));
+        if let (Some(drawing), true) = (&drawing, is_svg(canvas.path)) {
+            return write_drawing_svg(out, drawing, &canvas.style);
+        }
+        let base = [(u.basis.base.0, 1.0)];
+        let positions = u.laid.positions.as_ref().filter(|_| self.with_surface);
+        let surface = positions.map(|positions| Surface {
+            positions,
+            faces: &self.faces,
+            corner_uv: Some(&self.uv),
+            seams: &self.loops,
+            cones: &base,
+        });
+        let drawn = Picture {
+            surface,
+            flat: None,
+            drawing: drawing.as_ref(),
+            pattern: Some(&self.tiles),
+            field: None,
+        };
+        out.write_all(&picture::png(&drawn, &canvas.style, canvas.threads).map_err(io::Error::other)?)
+    }
+}
+
+/// The pattern: checks of one size in the metric, as far as octaves reach.
+fn pattern(u: &Uniformized) -> (Vec<[[f64; 2]; 3]>, Tiles) {
+    let laid = &u.laid;
+    let corners: Vec<[u32; 3]> =
+        laid.mesh.faces().map(|f| laid.mesh.face_halfedges(f).map(|h| laid.corner_index()[h])).collect();
+    let coordinates = laid.coordinates();
+    let uv: Vec<[[f64; 2]; 3]> = corners.iter().map(|f| f.map(|c| coordinates[c as usize])).collect();
+    let flat: Vec<f64> = uv.iter().map(|uv| 0.5 * picture::doubled_area(*uv).abs()).collect();
+    let stretch = |uv: &[[f64; 2]; 3]| {
+        let [x, y] = [0, 1].map(|k| (uv[0][k] + uv[1][k] + uv[2][k]) / 3.0);
+        let lambda = if u.deck.space == Space::H2 { 2.0 / (1.0 - x * x - y * y) } else { 1.0 };
+        lambda * lambda
+    };
+    let metric: Vec<f64> = uv.iter().zip(&flat).map(|(uv, area)| area * stretch(uv)).collect();
+    let tiles = Tiles::new(&metric, &flat, &corners, coordinates.len());
+    (uv, tiles)
+}
+
+/// The opened surface.
+fn prototype(u: &Uniformized, sides: &[Side]) -> Prototype {
+    let laid = &u.laid;
+    let points = u.place().map_or_else(Vec::new, |place| place.refined.points.clone());
+    Prototype {
+        points,
+        triangles: laid
+            .mesh
+            .faces()
+            .map(|f| laid.mesh.face_halfedges(f).map(|h| laid.corner_index()[h]))
+            .collect(),
+        border: sides.iter().flat_map(|s| &s.points[..s.points.len().saturating_sub(1)]).copied().collect(),
+        centre: ORIGIN,
+    }
+}
+
+fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
+    match at {
+        ModelPlace::Hyperbolic(Model::HalfPlane) => {
+            let high = around.iter().map(|p| at.flat(*p)[1]).fold(1.0, f64::max);
+            Frame::HalfPlane(HEADROOM * high)
+        }
+        ModelPlace::Hyperbolic(_) => Frame::Disk,
+        ModelPlace::Plane => {
+            let bound =
+                |k: usize, pick: fn(f64, f64) -> f64, start| around.iter().map(|p| p[k]).fold(start, pick);
+            let [low, high] =
+                [(f64::min as fn(f64, f64) -> f64, f64::INFINITY), (f64::max, f64::NEG_INFINITY)]
+                    .map(|(pick, start)| [0, 1].map(|k| bound(k, pick, start)));
+            let room = 0.06 * (high[0] - low[0]).max(high[1] - low[1]);
+            Frame::Rectangle([low.map(|x| x - room), high.map(|x| x + room)])
+        }
+    }
+}
+
+/// The layout, with its sides in pairs or the loops of the generators.
+fn domain(u: &Uniformized, canvas: &Canvas<'_>, named: bool) -> Result<Tiling, Failure> {
+    let sides = sides(u)?;
+    let shape = prototype(u, &sides);
+    let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
+    tiling.copy(&shape, &Motion::identity(u.deck.space), 0, None);
+    for side in sides {
+        tiling.line(&side.points, named.then_some(side.pair), if named { BOLD } else { THIN });
+        if named {
+            tiling.name_line(side.word, ORIGIN);
+        }
+    }
+    if !named {
+        loops(u).into_iter().for_each(|(ends, k)| tiling.line(&ends, Some(k), SEAM));
+    }
+    tiling.dots.push(canvas.at.flat(ORIGIN));
+    Ok(tiling)
+}
+
+/// The canonical polygon over copies of the layout.
+fn polygon(u: &Uniformized, canvas: &Canvas<'_>, control: &Control) -> Result<Tiling, Failure> {
+    let sides = sides(u)?;
+    let shape = prototype(u, &sides);
+    let corners = u.deck.canonical_polygon(ORIGIN);
+    let around: Vec<[f64; 3]> = corners.iter().chain(&shape.border).copied().collect();
+    let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &around), canvas.style.size);
+    for g in background(u, &corners, control)? {
+        tiling.copy(&shape, &g.motion, PALE, Some(THIN));
+    }
+    let relator = u.deck.group.relator();
+    for (k, letter) in relator.letters().iter().enumerate() {
+        tiling.line(&[corners[k], corners[(k + 1) % corners.len()]], Some(letter.index()), BOLD);
+        // Away from the middle of the polygon.
+        let text = u.deck.group.text(&std::iter::once(*letter).collect());
+        tiling.name_line(text, middle(&corners));
+    }
+    tiling.dots.extend(corners.iter().map(|p| canvas.at.flat(*p)));
+    Ok(tiling)
+}
+
+fn middle(points: &[[f64; 3]]) -> [f64; 3] {
+    let sum = [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f64>());
+    let [x, y] = [sum[0] / sum[2], sum[1] / sum[2]];
+    // In H² of vectors, as the centre of mass is; in E² the height is the count.
+    let square = 1.0 - x * x - y * y;
+    let scale = if points.iter().all(|p| p[2] == 1.0) || square <= 0.0 { 1.0 } else { 1.0 / square.sqrt() };
+    [scale * x, scale * y, scale]
+}
+
+/// Copies around the base point, as far as these points and as many as a picture shows.
+fn background(u: &Uniformized, reach: &[[f64; 3]], control: &Control) -> Result<Vec<DeckElement>, Failure> {
+    let Ok(domain) = &u.domain else { return Ok(u.elements.clone()) };
+    let far = |p: &[f64; 3]| ricci::embed::space_layout::distance_from_origin(u.deck.space, *p);
+    let mut radius = reach.iter().map(far).fold(domain.radius, f64::max);
+    loop {
+        match elements_within(&u.deck, domain, radius, BACKGROUND, control) {
+            Err(ricci::Error::TooLarge { .. }) if radius > domain.radius => {
+                radius = (0.8 * radius).max(domain.radius);
+            }
+            Err(ricci::Error::TooLarge { .. }) => return Ok(u.elements.clone()),
+            other => return Ok(other?),
+        }
+    }
+}
+
+/// The Dirichlet domain over its neighbours.
+fn dirichlet(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+    let domain = the_domain(u)?;
+    let sides = sides(u)?;
+    let shape = prototype(u, &sides);
+    let tile = tile(domain, canvas.at);
+    let around: Vec<[f64; 3]> = domain.corners.iter().chain(&shape.border).copied().collect();
+    let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &around), canvas.style.size);
+    for g in &domain.sides {
+        tiling.copy(&tile, &g.motion, PALE, Some(THIN));
+    }
+    tiling.copy(&shape, &Motion::identity(u.deck.space), 0, None);
+    outline(u, &mut tiling, domain, true);
+    tiling.dots.push(canvas.at.flat(domain.centre));
+    Ok(tiling)
+}
+
+/// The sides of the Dirichlet domain, coloured in pairs.
+fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named: bool) {
+    let n = domain.sides.len();
+    let mut pairs: Vec<usize> = (0..n).filter(|&k| domain.partner[k] >= k).collect();
+    pairs.dedup();
+    for k in 0..n {
+        let first = k.min(domain.partner[k]);
+        let color = pairs.iter().position(|&p| p == first).unwrap_or(0);
+        tiling.line(&[domain.corners[k], domain.corners[(k + 1) % n]], Some(color), BOLD);
+        if named {
+            tiling.name_line(u.deck.group.text(&domain.sides[k].word), domain.centre);
+        }
+    }
+}
+
+fn the_domain(u: &Uniformized) -> Result<&DirichletDomain, Failure> {
+    u.domain.as_ref().map_err(|why| Failure::Failed(why.clone()))
+}
+
+/// The Dirichlet domain as what is copied: its sides sampled along geodesics.
+fn tile(domain: &DirichletDomain, at: ModelPlace) -> Prototype {
+    let n = domain.corners.len();
+    let side = |k: usize| {
+        let mut points = at.geodesic(domain.corners[k], domain.corners[(k + 1) % n]);
+        points.pop();
+        points
+    };
+    let border = (0..n).flat_map(side).collect();
+    Prototype { points: Vec::new(), triangles: Vec::new(), border, centre: domain.centre }
+}
+
+/// The copies of the layout.
+fn copies(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+    let sides = sides(u)?;
+    let shape = prototype(u, &sides);
+    let mut tiling = Tiling::new(canvas.at, first_frame(u, canvas.at, &shape), canvas.style.size);
+    for g in &u.elements {
+        tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
+    }
+    tiling.dots.push(canvas.at.flat(ORIGIN));
+    Ok(tiling)
+}
+
+/// The copies of the Dirichlet domain.
+fn tiled(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+    let domain = the_domain(u)?;
+    let shape = tile(domain, canvas.at);
+    let mut tiling = Tiling::new(canvas.at, first_frame(u, canvas.at, &shape), canvas.style.size);
+    for g in &u.elements {
+        tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
+    }
+    outline(u, &mut tiling, domain, false);
+    tiling.dots.push(canvas.at.flat(domain.centre));
+    Ok(tiling)
+}
+
+/// What is shown of all copies: in the plane all of it.
+fn first_frame(u: &Uniformized, at: ModelPlace, shape: &Prototype) -> Frame {
+    if at != ModelPlace::Plane {
+        return frame(at, &shape.border);
+    }
+    let moved =
+        |g: &DeckElement| shape.border.iter().map(|p| g.motion.rounded().apply(*p)).collect::<Vec<_>>();
+    let all: Vec<[f64; 3]> = u.elements.iter().flat_map(moved).collect();
+    frame(at, &all)
+}
