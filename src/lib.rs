@@ -9,7 +9,7 @@
 //! | [`geometry`] | pure formulas: spaces, triangles, isometries, predicates |
 //! | [`linalg`] | sparse symmetric matrices with a fixed pattern, Cholesky |
 //! | [`mesh`] | connectivity (half-edge Δ-complex), building, diagnosis, files, generators |
-//! | [`topology`] | spanning trees, homology generators, cut graphs; fundamental groups |
+//! | [`topology`] | spanning trees, homology, cut graphs, homotopy bases, lifts to the cover |
 //! | [`metric`] | conformal classes (ε, η), lengths, angles, curvature, targets |
 //! | [`flow`] | Newton and gradient flow, cones |
 //! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |

@@ -33,6 +33,8 @@ impl Default for QuotientOptions {
 pub struct Quotient {
     /// What the flow did. Where it has not converged the rest is as good as the metric is.
     pub report: Report,
+    /// Largest |K| after corrections with twice the digits of doubles ([`SurfaceFlow::flatten`]).
+    pub angle_defect: f64,
     /// The metric, on the triangulation that flips have led to, with the way back.
     pub metric: SurfaceMetric,
     /// Its layout about the base vertex; in E² scaled to the area of the given surface.
@@ -66,6 +68,7 @@ pub fn uniformize_quotient(
     let mut flow =
         SurfaceFlow::new(mesh, lengths, geometry, options.scheme, space, &[], &options.flow, control)?;
     let report = flow.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), control)?;
+    let angle_defect = flow.flatten(control)?;
     let metric = flow.now();
     let given_area = area(mesh, geometry, lengths)?;
     Pool::new(options.flow.threads)?.run(|| {
@@ -80,6 +83,6 @@ pub fn uniformize_quotient(
         }
         let basis = homotopy_basis(&mesh, &lengths, Some(base), control)?;
         let deck = DeckGroup::new(&mesh, &layout, &basis, control)?;
-        Ok(Quotient { report, metric, layout, basis, deck })
+        Ok(Quotient { report, angle_defect, metric, layout, basis, deck })
     })
 }

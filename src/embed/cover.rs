@@ -4,6 +4,7 @@ use super::deck::{DeckElement, DeckGroup};
 use super::dirichlet::{DirichletDomain, identity, to_origin};
 use crate::control::Control;
 use crate::error::{Error, Result};
+use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Twofold};
 use crate::parallel;
 use crate::topology::SurfaceGroup;
@@ -42,8 +43,8 @@ pub fn elements_to_depth(
 
 /// All deck elements that move the centre of a Dirichlet domain by at most `radius`, each once, nearest first.
 ///
-/// The segment from the centre to such an image runs through copies of the domain whose centres lie within `radius` and the domain's
-/// own radius of it, each next to the one before: they are reached over sides. Errors: those of [`elements_to_depth`].
+/// The segment from the centre to such an image runs through copies of the domain that all meet the disk of that radius, each next to the
+/// one before: they are reached over sides. Errors: those of [`elements_to_depth`].
 pub fn elements_within(
     deck: &DeckGroup,
     domain: &DirichletDomain,
@@ -55,9 +56,15 @@ pub fn elements_within(
     let home = to_origin(deck.space, domain.centre);
     let back = home.inverse();
     let moved = |g: &Motion<Twofold>| home.compose(g).compose(&back).displacement();
+    // As far as the centre is from γ D, γ⁻¹ of the centre is from D.
+    let lines = domain.lines();
+    let meets = |g: &Motion<Twofold>| {
+        let centre = home.compose(&g.inverse()).compose(&back).origin();
+        !lines.keep_off(deck.space, centre, radius)
+    };
     let mut next = 0;
     while next < found.elements.len() {
-        found.grow(next, &domain.sides, |g| moved(g) <= radius + domain.radius, control)?;
+        found.grow(next, &domain.sides, meets, control)?;
         next += 1;
     }
     let mut near: Vec<(f64, DeckElement)> =
@@ -143,6 +150,6 @@ impl Found {
 /// Points in ambient coordinates moved by an isometry, with twice the digits on the way: parallel inside a pool.
 pub fn moved(points: &[[f64; 3]], motion: &Motion<Twofold>) -> Vec<[f64; 3]> {
     let mut out = vec![[0.0; 3]; points.len()];
-    parallel::fill(&mut out, |k| motion.apply(points[k].map(Twofold::from)).map(f64::from));
+    parallel::fill(&mut out, |k| motion.apply(precise_point(motion.space, points[k])).map(f64::from));
     out
 }

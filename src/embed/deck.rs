@@ -1,12 +1,15 @@
 //! The deck group of a surface of constant curvature: its fundamental group as isometries of the model space.
 
+use super::dirichlet::to_origin;
 use super::space_layout::SpaceLayout;
 use crate::control::Control;
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{HalfedgeId, Mesh};
 use crate::topology::word::{Letter, Word};
 use crate::topology::{FundamentalDomain, HomotopyBasis, SurfaceGroup};
+use std::f64::consts::TAU;
 
 /// An element of the deck group.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,9 +47,8 @@ pub struct DeckGroup {
 impl DeckGroup {
     /// The deck group of a layout without cones, with the generators of a homotopy basis of the same mesh.
     ///
-    /// The base lift is the corner at the base vertex that is nearest to the layout's origin.
-    ///
-    /// Errors: [`Error::Layout`] for a layout or basis of another mesh, or where the opened surface is no disk; [`Error::Cancelled`].
+    /// Errors: [`crate::Error::Layout`], [`crate::Error::Size`] for a layout or basis of another mesh, or where the opened surface is no disk;
+    /// [`crate::Error::Cancelled`].
     pub fn new(
         mesh: &Mesh,
         layout: &SpaceLayout,
@@ -54,20 +56,12 @@ impl DeckGroup {
         control: &Control,
     ) -> Result<DeckGroup> {
         control.check()?;
-        let at_base = mesh.outgoing(basis.base).filter(|&h| !mesh.is_outside(h));
-        let nearest = at_base.min_by(|&g, &h| {
-            let far = |h| layout.corner(h)[0].hypot(layout.corner(h)[1]);
-            far(g).total_cmp(&far(h))
-        });
-        let Some(corner) = nearest else {
-            return Err(Error::Layout(format!("base vertex {} has no face", basis.base)));
-        };
         let mut deck = DeckGroup {
             space: layout.space,
             group: basis.group,
             generators: Vec::new(),
             sides: Vec::new(),
-            corner,
+            corner: mesh.outgoing(basis.base).find(|&h| !mesh.is_outside(h)).unwrap_or(mesh.out(basis.base)),
             relation_residual: 0.0,
             side_residual: 0.0,
         };
@@ -75,22 +69,20 @@ impl DeckGroup {
             return Ok(deck);
         }
         let domain = FundamentalDomain::new(mesh, &layout.cut.is_cut, basis)?;
-        // The base's corner here is γ p̃ of the domain as it was lifted: lift it by γ⁻¹.
-        let lift = domain.element_at(mesh, basis, corner)?;
-        let lifted = |word: &Word| deck_word(basis, &lift, word);
+        deck.corner = domain.base_corner;
         let pairing = |k: usize| match domain.sides[k].halfedges.first() {
-            Some(&h) => layout.neighbour(h).precise(),
+            Some(&h) => layout.neighbour(h).normalised(),
             None => Motion::identity(layout.space),
         };
         let pairings: Vec<_> = (0..domain.sides.len()).map(pairing).collect();
         for path in &basis.loops {
             control.check()?;
-            let crossed = domain.crossings(mesh, corner, path)?;
+            let crossed = domain.crossings(mesh, deck.corner, path)?;
             let whole = crossed.iter().fold(Motion::identity(layout.space), |m, &k| m.compose(&pairings[k]));
             deck.generators.push(whole.normalised());
         }
         for (side, motion) in domain.sides.iter().zip(pairings).filter(|(side, _)| side.partner.is_some()) {
-            let word = lifted(&side.element);
+            let word = side.element.clone();
             let spelled = deck.motion(&word).compose(&motion.inverse());
             deck.side_residual = deck.side_residual.max(deck.residual(&word, &spelled));
             deck.sides.push(DeckElement { word, motion });
@@ -146,7 +138,7 @@ impl DeckGroup {
     /// not be convex.
     pub fn canonical_polygon(&self, base: [f64; 3]) -> Vec<[f64; 3]> {
         let mut product = Motion::identity(self.space);
-        let base = base.map(Twofold::from);
+        let base = precise_point(self.space, base);
         let relator = self.group.relator();
         let corner = |&letter: &Letter| {
             let at = product.apply(base).map(f64::from);
@@ -155,9 +147,26 @@ impl DeckGroup {
         };
         relator.letters().iter().map(corner).collect()
     }
-}
 
-/// `γ⁻¹ w γ`, reduced.
-fn deck_word(basis: &HomotopyBasis, lift: &Word, word: &Word) -> Word {
-    basis.group.reduce(&lift.inverse().times(word).times(lift))
+    /// The angles of the canonical polygon inside its corners, in [0, 2π): on a closed surface they add up to 2π, since all corners are one
+    /// point of it.
+    ///
+    /// Each is formed at the base: seen from corner P_k, the neighbours are where the last letter came from and where the next one
+    /// leads.
+    pub fn canonical_angles(&self, base: [f64; 3]) -> Vec<f64> {
+        let home = to_origin(self.space, base);
+        let direction = |g: Motion<Twofold>| {
+            let [x, y, _] = home.compose(&g).compose(&home.inverse()).origin().map(f64::from);
+            y.atan2(x)
+        };
+        let relator = self.group.relator();
+        let letters = relator.letters();
+        let n = letters.len();
+        let angle = |k: usize| {
+            let [before, after] =
+                [letters[(k + n - 1) % n].inverse(), letters[k]].map(|l| direction(self.letter(l)));
+            (before - after).rem_euclid(TAU)
+        };
+        (0..n).map(angle).collect()
+    }
 }

@@ -3,7 +3,7 @@
 use super::deck::{DeckElement, DeckGroup};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::geometry::model::distance;
+use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, triangle};
 use crate::topology::word::Word;
 
@@ -54,7 +54,10 @@ pub fn dirichlet_domain(
         word: g.word.clone(),
         motion: home.compose(&g.motion).compose(&home.inverse()),
     };
-    let mut polygon = Polygon::around(deck.space);
+    // The surface is covered by what the neighbours' centres are about: nothing nearest to the centre is farther out than all of them
+    // together.
+    let reach = deck.sides.iter().map(about).map(|g| g.motion.displacement()).sum();
+    let mut polygon = Polygon::around(deck.space, reach);
     for g in deck.sides.iter().map(about) {
         polygon.cut(&g);
         polygon.cut(&inverse(&g));
@@ -101,30 +104,79 @@ fn inverse(g: &DeckElement) -> DeckElement {
 
 /// An isometry that carries a point to the origin.
 pub(super) fn to_origin(space: Space, p: [f64; 3]) -> Motion<Twofold> {
-    let (r, length) = (p[0].hypot(p[1]), super::space_layout::distance_from_origin(space, p));
-    if r == 0.0 {
-        return Motion::identity(space);
-    }
-    let angle = 0.5 * p[1].atan2(p[0]);
-    let turn = Motion::rotation([angle.cos(), angle.sin()], space);
-    let out = turn.compose(&Motion::translation(length, space)).compose(&turn.inverse());
-    out.inverse().precise()
+    to_origin_precise(space, precise_point(space, p))
 }
 
-/// A convex polygon about the origin in the plane or in the Klein disk, its corners as vectors `[x, y, w]` (of any length), each side with
-/// the element whose bisector it lies on; none on the square that it starts from.
+fn to_origin_precise(space: Space, [x, y, w]: [Twofold; 3]) -> Motion<Twofold> {
+    let (one, two) = (Twofold::from(1.0), Twofold::from(2.0));
+    // 2ab is x + iy, with b in that direction and a real: 2a² = 1 + w.
+    let a = if space == Space::E2 { one } else { ((w + one) / two).sqrt() };
+    let b = [x, y].map(|x| x / (two * a));
+    Motion { space, a: [a, Twofold::from(0.0)], b }.normalised().inverse()
+}
+
+/// A convex polygon about the origin in the plane or in the Klein disk. Corners are vectors `[x, y, w]` of height 1, with twice the digits:
+/// at distance d the Klein disk's border is e^{−2d} away. Each side has the element whose bisector it lies on; none on the square
+/// that the polygon starts from.
 struct Polygon {
     space: Space,
-    corners: Vec<[f64; 3]>,
+    corners: Vec<[Twofold; 3]>,
     sides: Vec<Option<DeckElement>>,
+    /// Largest distance of a corner from the origin.
+    radius: f64,
+}
+
+/// The bisector of the origin and its image `[x, y, w]`, as the linear form `x X + y Y − h W` that is positive beyond it.
+struct Bisector {
+    form: [Twofold; 3],
+    /// The form's norm: form over norm is distance (H²: its hyperbolic sine).
+    norm: f64,
+}
+
+/// Below this a form in doubles is evaluated again with twice the digits.
+const CLOSE: f64 = 1e-4;
+
+impl Bisector {
+    fn new(g: &Motion<Twofold>) -> Bisector {
+        let [x, y, w] = g.origin();
+        let moved = g.displacement();
+        let (height, norm) = match g.space {
+            Space::H2 => (w - 1.0.into(), 2.0 * (0.5 * moved).sinh()),
+            _ => ((x * x + y * y) * 0.5.into(), moved),
+        };
+        Bisector { form: [x, y, -height], norm }
+    }
+
+    /// How far a corner lies beyond it: its distance, in H² the hyperbolic sine of that (for a corner outside the disk: some positive
+    /// number if beyond).
+    fn beyond(&self, space: Space, p: &[Twofold; 3]) -> f64 {
+        let size = match space {
+            Space::H2 => {
+                let rest = Twofold::from(1.0) - p[0] * p[0] - p[1] * p[1];
+                rest.high.max(f64::MIN_POSITIVE).sqrt()
+            }
+            _ => 1.0,
+        };
+        let unit = 1.0 / (self.norm * size);
+        let rough: f64 = (0..3).map(|i| self.form[i].high * p[i].high).sum();
+        if (rough * unit).abs() > CLOSE && size > CLOSE {
+            return rough * unit;
+        }
+        self.value(p).high * unit
+    }
+
+    fn value(&self, p: &[Twofold; 3]) -> Twofold {
+        self.form[0] * p[0] + self.form[1] * p[1] + self.form[2] * p[2]
+    }
 }
 
 impl Polygon {
-    /// A square about the whole Klein disk; in the plane, one that no surface's lengths reach.
-    fn around(space: Space) -> Polygon {
-        let far = if space == Space::H2 { 2.0 } else { 1e100 };
-        let corners = vec![[far, far, 1.0], [-far, far, 1.0], [-far, -far, 1.0], [far, -far, 1.0]];
-        Polygon { space, corners, sides: vec![None; 4] }
+    /// A square about the whole Klein disk; in the plane, one about the disk of radius `reach`.
+    fn around(space: Space, reach: f64) -> Polygon {
+        let far = if space == Space::H2 { 2.0 } else { 2.0 * reach };
+        let corners = [[far, far], [-far, far], [-far, -far], [far, -far]];
+        let corners = corners.map(|[x, y]| [x, y, 1.0].map(Twofold::from)).to_vec();
+        Polygon { space, corners, sides: vec![None; 4], radius: f64::INFINITY }
     }
 
     fn elements(&self) -> Vec<DeckElement> {
@@ -136,46 +188,14 @@ impl Polygon {
         self.sides.iter().all(Option::is_some)
     }
 
-    /// The bisector of the origin and its image under `g`, as the linear form that is positive beyond it; in units of distance where the
-    /// corner is a point.
-    fn beyond(&self, g: &Motion<Twofold>) -> impl Fn([f64; 3]) -> f64 + use<> {
-        let [x, y, w] = g.origin().map(f64::from);
-        let space = self.space;
-        let moved = g.displacement();
-        move |p| {
-            let plane = x * p[0] + y * p[1];
-            match space {
-                // (p·x − |x|²/2)/|x|
-                Space::H2 => {
-                    let form = (plane - (w - 1.0) * p[2]) / (2.0 * (0.5 * moved).sinh());
-                    form / (p[2] * p[2] - p[0] * p[0] - p[1] * p[1]).max(f64::MIN_POSITIVE).sqrt()
-                }
-                _ => (plane / p[2] - 0.5 * (x * x + y * y)) / moved,
-            }
-        }
-    }
-
     /// Whether the bisector of `g` cuts a corner off.
     fn is_cut_by(&self, g: &Motion<Twofold>) -> bool {
         let moved = g.displacement();
-        if moved <= SIDE || moved > 2.0 * self.radius() + SIDE {
+        if moved <= SIDE || moved > 2.0 * self.radius + SIDE {
             return false;
         }
-        let beyond = self.beyond(g);
-        self.corners.iter().any(|&p| beyond(p) > SIDE)
-    }
-
-    /// Largest distance of a corner from the origin.
-    fn radius(&self) -> f64 {
-        let far = |&[x, y, w]: &[f64; 3]| {
-            let r = x.hypot(y) / w;
-            match self.space {
-                Space::H2 if r >= 1.0 => f64::INFINITY,
-                Space::H2 => r.atanh(),
-                _ => r,
-            }
-        };
-        self.corners.iter().map(far).fold(0.0, f64::max)
+        let bisector = Bisector::new(g);
+        self.corners.iter().any(|p| bisector.beyond(self.space, p) > SIDE)
     }
 
     /// Cut off what lies beyond the bisector of `g`; false if that is nothing.
@@ -183,14 +203,14 @@ impl Polygon {
         if !self.is_cut_by(&g.motion) {
             return false;
         }
-        let beyond = self.beyond(&g.motion);
+        let bisector = Bisector::new(&g.motion);
         let n = self.corners.len();
-        let form: Vec<f64> = self.corners.iter().map(|&p| beyond(p)).collect();
+        let beyond: Vec<f64> = self.corners.iter().map(|p| bisector.beyond(self.space, p)).collect();
         let (mut corners, mut sides) = (Vec::with_capacity(n + 1), Vec::with_capacity(n + 1));
         for k in 0..n {
             let next = (k + 1) % n;
-            let inside = |k: usize| form[k] <= SIDE;
-            let crossing = || meeting(self.space, self.corners[k], self.corners[next], form[k], form[next]);
+            let inside = |k: usize| beyond[k] <= SIDE;
+            let crossing = || meeting(&bisector, &self.corners[k], &self.corners[next]);
             match (inside(k), inside(next)) {
                 (true, true) => {
                     corners.push(self.corners[k]);
@@ -199,13 +219,13 @@ impl Polygon {
                 (true, false) => {
                     corners.push(self.corners[k]);
                     // A side that ends on the bisector has no part beyond this corner.
-                    if form[k] < -SIDE {
+                    if beyond[k] < -SIDE {
                         sides.push(self.sides[k].clone());
                         corners.push(crossing());
                     }
                     sides.push(Some(g.clone()));
                 }
-                (false, true) if form[next] < -SIDE => {
+                (false, true) if beyond[next] < -SIDE => {
                     corners.push(crossing());
                     sides.push(self.sides[k].clone());
                 }
@@ -213,33 +233,43 @@ impl Polygon {
             }
         }
         (self.corners, self.sides) = (corners, sides);
+        self.radius = self.corners.iter().map(|p| self.distance(p)).fold(0.0, f64::max);
         true
+    }
+
+    /// Distance of a corner from the origin; infinite outside the Klein disk.
+    fn distance(&self, [x, y, _]: &[Twofold; 3]) -> f64 {
+        let square = *x * *x + *y * *y;
+        match self.space {
+            Space::H2 => {
+                let rest = f64::from(Twofold::from(1.0) - square);
+                // sinh² d = r²/(1 − r²)
+                if rest > 0.0 { (square.high / rest).sqrt().asinh() } else { f64::INFINITY }
+            }
+            _ => square.high.sqrt(),
+        }
     }
 
     /// The domain, with every side's partner; none if a side has no element or no partner.
     fn finish(self, centre: [f64; 3], back: &Motion<Twofold>) -> Option<DirichletDomain> {
-        if !self.is_bounded() || self.radius() == f64::INFINITY {
+        if !self.is_bounded() || self.radius == f64::INFINITY {
             return None;
         }
-        let (space, radius) = (self.space, self.radius());
+        let (space, radius) = (self.space, self.radius);
         let elements = self.elements();
-        let is_inverse = |g: &DeckElement, h: &DeckElement| {
-            let both = g.motion.compose(&h.motion);
-            both.displacement() <= SIDE
-        };
+        let is_inverse =
+            |g: &DeckElement, h: &DeckElement| g.motion.compose(&h.motion).displacement() <= SIDE;
         let partner: Option<Vec<usize>> =
             elements.iter().map(|g| elements.iter().position(|h| is_inverse(g, h))).collect();
-        let points: Vec<[f64; 3]> = self.corners.iter().map(|&p| normalised(space, p)).collect();
-        let origin = [0.0, 0.0, 1.0];
-        let length = |p: [f64; 3], q: [f64; 3]| match space {
-            Space::H2 => distance(p, q),
-            _ => (p[0] - q[0]).hypot(p[1] - q[1]),
-        };
+        let points: Vec<[Twofold; 3]> = self.corners.iter().map(|&p| on_hyperboloid(space, p)).collect();
         let n = points.len();
-        let sector = |k: usize| {
-            let (p, q) = (points[k], points[(k + 1) % n]);
-            triangle::area(space, [length(p, q), length(q, origin), length(origin, p)])
+        let ray = |k: usize| self.distance(&self.corners[k]);
+        let side = |k: usize| {
+            let to_corner = to_origin_precise(space, points[k]);
+            let [x, y, w] = to_corner.apply(points[(k + 1) % n]).map(f64::from);
+            super::space_layout::distance_from_origin(space, [x, y, w])
         };
+        let sector = |k: usize| triangle::area(space, [side(k), ray((k + 1) % n), ray(k)]);
         let area = (0..n).map(sector).sum();
         let place = |g: DeckElement| DeckElement {
             motion: back.compose(&g.motion).compose(&back.inverse()),
@@ -247,7 +277,7 @@ impl Polygon {
         };
         Some(DirichletDomain {
             centre,
-            corners: points.iter().map(|p| back.apply(p.map(Twofold::from)).map(f64::from)).collect(),
+            corners: points.iter().map(|&p| back.apply(p).map(f64::from)).collect(),
             sides: elements.into_iter().map(place).collect(),
             partner: partner?,
             area,
@@ -256,28 +286,41 @@ impl Polygon {
     }
 }
 
-/// Where a side crosses a bisector, from the bisector's form at its ends.
-fn meeting(space: Space, p: [f64; 3], q: [f64; 3], at_p: f64, at_q: f64) -> [f64; 3] {
-    // The forms were in units of distance: back to linear ones.
-    let unit = |p: [f64; 3]| match space {
-        Space::H2 => (p[2] * p[2] - p[0] * p[0] - p[1] * p[1]).max(f64::MIN_POSITIVE).sqrt(),
-        _ => p[2],
-    };
-    let (a, b) = (at_p * unit(p), at_q * unit(q));
+/// The lines of a domain's sides, the centre carried to the origin.
+pub(super) struct Lines(Vec<Bisector>);
+
+impl DirichletDomain {
+    pub(super) fn lines(&self) -> Lines {
+        let line = |side: &DeckElement| {
+            let home = to_origin(side.motion.space, self.centre);
+            Bisector::new(&home.compose(&side.motion).compose(&home.inverse()))
+        };
+        Lines(self.sides.iter().map(line).collect())
+    }
+}
+
+impl Lines {
+    /// Whether a point is surely farther than `radius` from the domain: it lies farther beyond the line of a side.
+    pub fn keep_off(&self, space: Space, p: [Twofold; 3], radius: f64) -> bool {
+        let most = if space == Space::H2 { radius.sinh() } else { radius };
+        self.0.iter().any(|line| line.value(&p).high > most * line.norm)
+    }
+}
+
+/// Where the side between two corners crosses a bisector, at height 1.
+fn meeting(bisector: &Bisector, p: &[Twofold; 3], q: &[Twofold; 3]) -> [Twofold; 3] {
+    let (a, b) = (bisector.value(p), bisector.value(q));
     let sum = [0, 1, 2].map(|i| b * p[i] - a * q[i]);
-    // In units of its height: corners stay of one size.
     sum.map(|x| x / sum[2])
 }
 
-fn normalised(space: Space, p: [f64; 3]) -> [f64; 3] {
-    match space {
-        Space::H2 => {
-            let r = p[0].hypot(p[1]) / p[2];
-            let w = 1.0 / ((1.0 - r) * (1.0 + r)).sqrt();
-            [w * p[0] / p[2], w * p[1] / p[2], w]
-        }
-        _ => [p[0] / p[2], p[1] / p[2], 1.0],
+/// The point of the hyperboloid (the plane) over a vector of height 1.
+fn on_hyperboloid(space: Space, [x, y, w]: [Twofold; 3]) -> [Twofold; 3] {
+    if space != Space::H2 {
+        return [x, y, w];
     }
+    let scale = Twofold::from(1.0) / (Twofold::from(1.0) - x * x - y * y).sqrt();
+    [x * scale, y * scale, scale]
 }
 
 /// The identity as an element.

@@ -2,10 +2,10 @@
 
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
-use crate::geometry::triangle::half_angles_from;
-use crate::geometry::{Motion, Space};
+use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Metric;
+use crate::metric::precise::half_angles;
 use crate::topology::CutGraph;
 use crate::topology::spanning::Key;
 use std::cmp::Reverse;
@@ -14,20 +14,23 @@ use std::collections::BinaryHeap;
 /// Faces between two looks at the control.
 const FACES_PER_STEP: usize = 4096;
 
+/// An isometry with twice the digits of doubles: what a layout loses is magnified by e^distance in H².
+type Frame = Motion<Twofold>;
+
 /// The triangles of a metric, each by itself.
 pub(super) struct Faces<'a> {
     pub mesh: &'a Mesh,
     pub space: Space,
-    pub lengths: PerEdge<f64>,
     pub differences: PerFace<[f64; 3]>,
     /// `[cos, sin]` of half the angle at each corner.
-    half_angles: PerFace<[[f64; 2]; 3]>,
+    half_angles: PerFace<[[Twofold; 2]; 3]>,
+    chords: PerEdge<Twofold>,
 }
 
 /// Where every face lies.
 pub(super) struct Grown {
     /// Per face, the isometry that brings its first corner from the origin, with its first side along x, to where it lies.
-    pub frames: PerFace<Motion>,
+    pub frames: PerFace<Frame>,
     /// Faces in the order in which they were added, each with the half-edge it was entered through.
     pub order: Vec<HalfedgeId>,
     /// Edges through which a face was entered.
@@ -36,15 +39,15 @@ pub(super) struct Grown {
 
 impl<'a> Faces<'a> {
     pub fn new(mesh: &'a Mesh, metric: &Metric) -> Result<Faces<'a>> {
+        let chords = metric.half_chords(mesh)?;
+        let half_angles = half_angles(metric, mesh, &chords);
         let differences = metric.differences(mesh)?;
-        let half_angles =
-            PerFace::from_fn(mesh.n_faces(), |f| half_angles_from(metric.space, differences[f]));
-        Ok(Faces { mesh, space: metric.space, lengths: metric.lengths(mesh)?, differences, half_angles })
+        Ok(Faces { mesh, space: metric.space, differences, half_angles, chords })
     }
 
     /// Whether the lengths break the triangle inequality.
     pub fn is_broken(&self, f: FaceId) -> bool {
-        self.half_angles[f].iter().all(|[cos, sin]| *cos == 0.0 || *sin == 0.0)
+        self.half_angles[f].iter().all(|[cos, sin]| cos.high == 0.0 || sin.high == 0.0)
     }
 
     /// Add face after face to the one at `root`, next the one whose far corner is nearest to it; over no edge of the `cut`.
@@ -83,7 +86,7 @@ impl<'a> Faces<'a> {
                 let open = cut.is_none_or(|cut| !cut.is_cut[side.edge()]);
                 if open && mesh.face(across).is_some_and(|g| !done[g]) {
                     let apex = self.apex(&self.across(&frame, across), across);
-                    let [x, y] = apex.b;
+                    let [x, y] = apex.b.map(f64::from);
                     if !(x.is_finite() && y.is_finite()) {
                         return Err(Error::Layout(format!(
                             "edge {} lies beyond the range of doubles",
@@ -109,15 +112,12 @@ impl<'a> Faces<'a> {
             let frame = self.frame(&grown.frames, entry);
             let apex = self.mesh.prev(entry);
             let tip = self.mesh.next(entry);
-            let at = |frame: Motion| {
-                if entry == grown.order[0] && frame.b == [0.0; 2] { [0.0, 0.0, 1.0] } else { frame.origin() }
-            };
             for (h, motion) in
                 [(entry, frame), (tip, self.along(&frame, entry)), (apex, self.apex(&frame, entry))]
             {
                 let point = &mut points[corner[h] as usize];
                 if point[0].is_nan() {
-                    *point = at(motion);
+                    *point = motion.origin().map(f64::from);
                 }
             }
         }
@@ -125,7 +125,7 @@ impl<'a> Faces<'a> {
     }
 
     /// The frame of a half-edge inside the surface: its origin from 0, itself from the x axis.
-    pub fn frame(&self, frames: &PerFace<Motion>, h: HalfedgeId) -> Motion {
+    pub fn frame(&self, frames: &PerFace<Frame>, h: HalfedgeId) -> Frame {
         let Some(f) = self.mesh.face(h) else { return Motion::identity(self.space) };
         let (mut frame, mut at) = (frames[f], self.mesh.face_halfedge(f));
         while at != h {
@@ -136,7 +136,7 @@ impl<'a> Faces<'a> {
     }
 
     /// The frame of the first half-edge of the face of `h`, from that of `h`.
-    fn turned_to_first(&self, frame: &Motion, h: HalfedgeId) -> Motion {
+    fn turned_to_first(&self, frame: &Frame, h: HalfedgeId) -> Frame {
         let Some(f) = self.mesh.face(h) else { return *frame };
         let (first, mut frame, mut at) = (self.mesh.face_halfedge(f), *frame, h);
         while at != first {
@@ -147,35 +147,37 @@ impl<'a> Faces<'a> {
     }
 
     /// The frame of `across`, the twin of the half-edge with this frame.
-    pub fn across(&self, frame: &Motion, across: HalfedgeId) -> Motion {
-        let half_turn = Motion::rotation([0.0, 1.0], self.space);
-        frame.compose(&Motion::translation(self.lengths[across.edge()], self.space).compose(&half_turn))
+    pub fn across(&self, frame: &Frame, across: HalfedgeId) -> Frame {
+        let half_turn = Motion::rotation([0.0.into(), 1.0.into()], self.space);
+        frame.compose(
+            &Motion::translation_of_chord(self.chords[across.edge()], self.space).compose(&half_turn),
+        )
     }
 
     /// The frame of the next half-edge of the face.
-    fn along(&self, frame: &Motion, h: HalfedgeId) -> Motion {
+    fn along(&self, frame: &Frame, h: HalfedgeId) -> Frame {
         let [cos, sin] = self.half_angle(self.mesh.next(h));
         let turn = Motion::rotation([sin, cos], self.space); // by π − θ
-        frame.compose(&Motion::translation(self.lengths[h.edge()], self.space).compose(&turn))
+        frame.compose(&Motion::translation_of_chord(self.chords[h.edge()], self.space).compose(&turn))
     }
 
     /// What brings the origin to the corner opposite `h`, from that end of `h` which is nearer to the origin.
-    fn apex(&self, frame: &Motion, h: HalfedgeId) -> Motion {
+    fn apex(&self, frame: &Frame, h: HalfedgeId) -> Frame {
         let (next, prev) = (self.mesh.next(h), self.mesh.prev(h));
         let tip = self.along(frame, h);
-        let far = |m: &Motion| m.b[0].hypot(m.b[1]);
-        let (from, length) = match far(frame) <= far(&tip) {
+        let far = |m: &Frame| f64::from(m.b[0]).hypot(m.b[1].into());
+        let (from, chord) = match far(frame) <= far(&tip) {
             true => {
-                (frame.compose(&Motion::rotation(self.half_angle(h), self.space)), self.lengths[prev.edge()])
+                (frame.compose(&Motion::rotation(self.half_angle(h), self.space)), self.chords[prev.edge()])
             }
-            false => (tip, self.lengths[next.edge()]),
+            false => (tip, self.chords[next.edge()]),
         };
-        from.compose(&Motion::translation(length, self.space))
+        from.compose(&Motion::translation_of_chord(chord, self.space))
     }
 
     /// `[cos, sin]` of half the angle at the origin of `h` in its face.
-    fn half_angle(&self, h: HalfedgeId) -> [f64; 2] {
-        let Some(f) = self.mesh.face(h) else { return [1.0, 0.0] };
+    fn half_angle(&self, h: HalfedgeId) -> [Twofold; 2] {
+        let Some(f) = self.mesh.face(h) else { return [1.0.into(), 0.0.into()] };
         let corner = self.mesh.face_halfedges(f).iter().position(|&x| x == h).unwrap_or(0);
         self.half_angles[f][corner]
     }

@@ -5,6 +5,7 @@ use super::layout::{check_cut, seam_sides};
 use super::space_develop::Faces;
 use crate::control::Control;
 use crate::error::Result;
+use crate::geometry::motion::precise_point;
 use crate::geometry::predicates::winding;
 use crate::geometry::triangle::area_from;
 use crate::geometry::{Motion, Space, Twofold};
@@ -33,7 +34,7 @@ pub struct SpaceLayout {
     pub points: Vec<[f64; 3]>,
     /// Per segment of the cut, the isometry that carries the opened surface onto its neighbour across the left side of the segment:
     /// the image of the segment's right side onto that of its left side.
-    pub pairings: Vec<Motion>,
+    pub pairings: Vec<Motion<Twofold>>,
     /// Faces whose images are not counterclockwise, by exact arithmetic on the points.
     pub flipped: Vec<FaceId>,
     /// Faces whose lengths break the triangle inequality, ascending.
@@ -46,7 +47,7 @@ pub struct SpaceLayout {
     /// Sum of the areas of the triangles, by formulas without angles.
     pub area: f64,
     /// Per face, the isometry that brings its first corner from the origin, with its first side along x, to where it lies.
-    pub frames: PerFace<Motion>,
+    pub frames: PerFace<Motion<Twofold>>,
     /// Per half-edge: 0 if not cut, k + 1 on the left side of segment k, −(k + 1) on its right side.
     side: PerHalfedge<i32>,
 }
@@ -116,11 +117,9 @@ pub fn distance_from_origin(space: Space, [x, y, w]: [f64; 3]) -> f64 {
 }
 
 /// The isometry that carries the right side of a segment onto its left side, from the edge nearest to the origin.
-fn pairing(faces: &Faces, frames: &PerFace<Motion>, segment: &[HalfedgeId]) -> Motion {
+fn pairing(faces: &Faces, frames: &PerFace<Motion<Twofold>>, segment: &[HalfedgeId]) -> Motion<Twofold> {
     let frame = |h: HalfedgeId| faces.frame(frames, h);
-    let far = |h: HalfedgeId| {
-        [h, h.twin()].map(|h| frame(h).b).map(|[x, y]| x.hypot(y)).into_iter().fold(0.0, f64::max)
-    };
+    let far = |h: HalfedgeId| [h, h.twin()].map(|h| frame(h).displacement()).into_iter().fold(0.0, f64::max);
     match segment.iter().min_by(|&&g, &&h| far(g).total_cmp(&far(h))) {
         Some(&h) => faces.across(&frame(h), h.twin()).compose(&frame(h.twin()).inverse()),
         None => Motion::identity(faces.space),
@@ -145,7 +144,7 @@ impl SpaceLayout {
     }
 
     /// The isometry that carries the opened surface onto its neighbour across `h`; the identity unless the edge is cut.
-    pub fn neighbour(&self, h: HalfedgeId) -> Motion {
+    pub fn neighbour(&self, h: HalfedgeId) -> Motion<Twofold> {
         let side = self.side[h];
         match self.pairings.get((side.unsigned_abs() as usize).wrapping_sub(1)) {
             Some(g) if side > 0 => *g,
@@ -160,7 +159,10 @@ impl SpaceLayout {
             return;
         }
         self.points.iter_mut().for_each(|[x, y, _]| (*x, *y) = (factor * *x, factor * *y));
-        self.pairings.iter_mut().chain(self.frames.iter_mut()).for_each(|m| m.b = m.b.map(|x| factor * x));
+        self.pairings
+            .iter_mut()
+            .chain(self.frames.iter_mut())
+            .for_each(|m| m.b = m.b.map(|x| x * factor.into()));
         (self.disagreement, self.radius) = (factor * self.disagreement, factor * self.radius);
         self.area *= factor * factor;
     }
@@ -171,15 +173,15 @@ impl SpaceLayout {
         let mut worst = vec![0.0; mesh.n_faces()];
         parallel::fill(&mut worst, |f| {
             let off = |h: HalfedgeId| {
-                let back = faces.frame(&self.frames, h).precise().inverse();
+                let back = faces.frame(&self.frames, h).inverse();
                 let own = self.corner(h);
                 let distance = |p: [f64; 3], g: Option<Motion<Twofold>>| {
-                    let p = p.map(Twofold::from);
+                    let p = precise_point(self.space, p);
                     let p = g.map_or(p, |g| g.apply(p));
                     distance_from_origin(self.space, back.apply(p).map(f64::from))
                 };
                 let other = (self.side[h] != 0 && !mesh.is_outside(h.twin()))
-                    .then(|| distance(self.corner(mesh.next(h.twin())), Some(self.neighbour(h).precise())));
+                    .then(|| distance(self.corner(mesh.next(h.twin())), Some(self.neighbour(h))));
                 distance(own, None).max(other.unwrap_or(0.0))
             };
             mesh.face_halfedges(f.into()).map(off).into_iter().fold(0.0, f64::max)

@@ -6,9 +6,10 @@ use super::shape::Shape;
 use super::space_layout::SpaceLayout;
 use crate::control::Control;
 use crate::error::{Result, check_size};
+use crate::geometry::Space;
 use crate::geometry::model::{distance, klein, poincare};
+use crate::geometry::motion::precise_point;
 use crate::geometry::triangle::area;
-use crate::geometry::{Space, Twofold};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, PerHalfedge};
 use crate::metric::Refinement;
 use crate::parallel;
@@ -137,8 +138,8 @@ impl RefinedSpaceLayout {
         f: FaceId,
         points: [[f64; 3]; 3],
     ) -> [[f64; 3]; 3] {
-        let home = layout.frames[r.final_face[f]].precise().inverse();
-        points.map(|p| home.apply(p.map(Twofold::from)).map(f64::from))
+        let home = layout.frames[r.final_face[f]].inverse();
+        points.map(|p| home.apply(precise_point(self.space, p)).map(f64::from))
     }
 
     /// How the vertex-linear maps from the input's pieces to [`RefinedSpaceLayout::coordinates`] distort, with the Euclidean `lengths` of

@@ -4,6 +4,7 @@
 mod cone_angles;
 pub mod cones;
 mod evaluate;
+mod flatten;
 mod gradient;
 mod jacobian;
 mod newton;

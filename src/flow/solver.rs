@@ -30,7 +30,7 @@ pub struct Solver {
     mirror: Option<Vec<u32>>,
     followed: Vec<NormalCoordinates>,
     pub(super) system: Option<System>,
-    pool: Pool,
+    pub(super) pool: Pool,
 }
 
 /// What the methods share during one solve.

@@ -234,6 +234,15 @@ impl SurfaceFlow {
         }
     }
 
+    /// Bring a curvature that is 0 to doubles' digits down to 0 to twice as many, on a closed surface after a flow to K̄ = 0: layouts in
+    /// H² magnify what is left by e^distance. Returns the largest |K| left ([`Metric::angle_defects`]), about 1e-20 where every ε is 0
+    /// in E² or H².
+    ///
+    /// Errors: [`Error::Cancelled`].
+    pub fn flatten(&mut self, control: &Control) -> Result<f64> {
+        self.solver.flatten(control)
+    }
+
     /// A target on the given surface as one on [`SurfaceFlow::mesh`]: curvature on both sides of the boundary
     /// adds up.
     pub fn target(&self, target: &PerVertex<f64>) -> PerVertex<f64> {

@@ -155,14 +155,24 @@ fn lost_gap(a: Vertex, b: Vertex, eta: f64, gap: f64) -> f64 {
     (rest - gap) + (first + second + length_low)
 }
 
+/// The half chord of an edge (l/2, sinh(l/2), sin(l/2) in E², H², S²) with twice the digits, as far as its ends have them
+/// ([`is_precise`]); 0 for an edge without a real length.
+pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: f64) -> Twofold {
+    let [x, y] = [a, b].map(|v| Twofold::from(v.scale) + (v.scale * v.low).into());
+    let square = |v: Vertex, x: Twofold| x * x * v.epsilon.into();
+    let n = x * y * (2.0 * eta).into() + square(a, x) + square(b, y);
+    match space {
+        Space::E2 => n.sqrt() * 0.5.into(),
+        _ => (n / (Twofold::from(a.d) * b.d.into())).sqrt(),
+    }
+}
+
 /// `l − length` in H² where ε = 0, from `sinh²(l/2) = 2 η e^{u_a + u_b}` to twice the digits: `2 (q − sinh(length/2))/cosh(length/2)`.
 fn lost_length(a: Vertex, b: Vertex, eta: f64, length: f64) -> f64 {
-    let twofold = |high: f64, low: f64| Twofold::from(high) + low.into();
-    let chord = twofold(a.scale, a.scale * a.low) * twofold(b.scale, b.scale * b.low) * (2.0 * eta).into();
     let (up, lost) = twofold::exp(0.5 * length);
-    let up = twofold(up, up * lost);
+    let up = Twofold::from(up) + (up * lost).into();
     let down = Twofold::from(1.0) / up;
-    let rest = chord.sqrt() - (up - down) * 0.5.into();
+    let rest = half_chord(Space::H2, a, b, eta) - (up - down) * 0.5.into();
     4.0 * rest.high / (up.high + down.high)
 }
 

@@ -62,9 +62,16 @@ impl<T: Real> Motion<T> {
         Motion { space, a: [T::from(1.0), zero], b: [zero; 2] }
     }
 
-    /// Rotation about the origin, counterclockwise, from cosine and sine of *half* its angle.
-    pub fn rotation([cos, sin]: [f64; 2], space: Space) -> Self {
-        Motion { a: [cos.into(), sin.into()], ..Motion::identity(space) }
+    /// Rotation about the origin, counterclockwise, from `[cos, sin]` of *half* its angle.
+    pub fn rotation(half_angle: [T; 2], space: Space) -> Self {
+        Motion { a: half_angle, ..Motion::identity(space) }
+    }
+
+    /// Translation along the x axis by the length with this half chord: l/2, sinh(l/2), sin(l/2) (below π) in E², H², S².
+    pub fn translation_of_chord(chord: T, space: Space) -> Self {
+        let (zero, one) = (T::from(0.0), T::from(1.0));
+        let a = (one - T::from(space.curvature()) * chord * chord).root();
+        Motion { space, a: [a, zero], b: [chord, zero] }
     }
 
     /// Translation by `length` along the x axis. Lengths of H² beyond 1400 overflow.
@@ -223,6 +230,21 @@ impl Motion<Twofold> {
                 [[out(mul(a, a)), out(scaled(two, mul(a, b)))], [[0.0, 0.0], [1.0, 0.0]]]
             }
             _ => [[out(a), out(b)], [out(scaled(-self.sign(), conj(b))), out(conj(a))]],
+        }
+    }
+}
+
+/// The point with twice the digits that ambient coordinates in doubles stand for: on the hyperboloid and in the plane x and y say where,
+/// and w is computed from them (far out its rounding would throw the point off by e^{2d} ulp); a unit vector in S².
+pub fn precise_point(space: Space, p: [f64; 3]) -> [Twofold; 3] {
+    let [x, y, w] = p.map(Twofold::from);
+    let one = Twofold::from(1.0);
+    match space {
+        Space::E2 => [x, y, one],
+        Space::H2 => [x, y, (one + x * x + y * y).sqrt()],
+        Space::S2 => {
+            let norm = (x * x + y * y + w * w).sqrt();
+            [x / norm, y / norm, w / norm]
         }
     }
 }

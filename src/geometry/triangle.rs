@@ -12,7 +12,7 @@
 //! Everything is written in `f(s)` and `f(r)`, so one text serves the three geometries and no difference of
 //! nearly equal numbers is formed.
 
-use super::Space;
+use super::{Space, Twofold};
 use std::f64::consts::PI;
 
 /// Angles and validity of a triangle.
@@ -93,30 +93,35 @@ pub fn angles(space: Space, l: [f64; 3]) -> Angles {
 /// The angles from the half-perimeter differences, which may be known better than the lengths.
 #[inline]
 pub fn angles_from(space: Space, r: [f64; 3]) -> Angles {
-    Angles { at: half_tangents(space, r).map(|[y, x]| 2.0 * y.atan2(x)) }
-}
-
-/// `[cos, sin]` of half the angle at each corner, from the half-perimeter differences.
-pub fn half_angles_from(space: Space, r: [f64; 3]) -> [[f64; 2]; 3] {
-    half_tangents(space, r).map(|[y, x]| {
-        let norm = x.hypot(y);
-        [x / norm, y / norm]
-    })
-}
-
-/// Numerator and denominator of the tangents of half the angles; of a broken triangle those of (π, 0, 0) or (π, π, π).
-#[inline]
-fn half_tangents(space: Space, r: [f64; 3]) -> [[f64; 2]; 3] {
     let s = r[0] + r[1] + r[2];
     if let Some(corner) = (0..3).find(|&i| r[i] <= 0.0) {
-        return [0, 1, 2].map(|k| if k == corner { [1.0, 0.0] } else { [0.0, 1.0] });
+        return Angles { at: [0, 1, 2].map(|k| if k == corner { PI } else { 0.0 }) };
     }
     if space == Space::S2 && s >= PI {
-        return [[1.0, 0.0]; 3];
+        return Angles { at: [PI; 3] };
     }
     // The roots first: f_i f_j may underflow.
     let [a, b, c] = ratios(space, s, r).map(f64::sqrt);
-    [[b * c, a], [c * a, b], [a * b, c]]
+    Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * y.atan2(x)) }
+}
+
+/// `[cos, sin]` of half the angle at each corner, from the half chords q of the sides (l/2, sinh(l/2), sin(l/2)), with twice the digits.
+/// A broken triangle has those of (π, 0, 0).
+///
+/// With `c = C(l/2)`, `d = q_i c_j − q_j c_i`, `p = q_i c_j + q_j c_i` the half-angle law reads
+/// `tan²(θ_k/2) = (q_k − d)(q_k + d) / ((p − q_k)(p + q_k))`: no function but the root.
+pub fn half_angles_of_chords(space: Space, q: [Twofold; 3]) -> [[Twofold; 2]; 3] {
+    let (one, curvature) = (Twofold::from(1.0), Twofold::from(space.curvature()));
+    let c = q.map(|q| (one - curvature * q * q).sqrt());
+    [0, 1, 2].map(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let (there, back) = (q[i] * c[j], q[j] * c[i]);
+        let (d, p) = (there - back, there + back);
+        let sin = ((q[k] - d) * (q[k] + d)).sqrt();
+        let cos = ((p - q[k]) * (p + q[k])).sqrt();
+        let norm = (cos * cos + sin * sin).sqrt();
+        [cos / norm, sin / norm]
+    })
 }
 
 /// Area: Heron in E²; in H² and S² by l'Huilier's formula

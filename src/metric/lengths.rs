@@ -49,7 +49,7 @@ impl Metric {
 
     /// The edge lengths; the first edge without a real positive length is an error that names it.
     pub fn lengths(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
-        let (_, edges) = self.elements(mesh)?;
+        let (_, edges) = self.vertices_and_edges(mesh)?;
         Ok(edges.iter().map(|e| length(self.space, e.q2)).collect::<Vec<_>>().into())
     }
 
@@ -58,7 +58,7 @@ impl Metric {
     /// They have their full relative accuracy also where circles of very different sizes meet, which the lengths, once
     /// rounded, have not. Errors: as [`Metric::lengths`].
     pub fn differences(&self, mesh: &Mesh) -> Result<PerFace<[f64; 3]>> {
-        let (vertices, edges) = self.elements(mesh)?;
+        let (vertices, edges) = self.vertices_and_edges(mesh)?;
         Ok(PerFace::from_fn(mesh.n_faces(), |f| {
             differences(mesh.face_vertices(f).map(|v| vertices[v]), mesh.opposite_edges(f).map(|e| edges[e]))
         }))
@@ -68,14 +68,14 @@ impl Metric {
     ///
     /// It matters where circles of very different sizes meet, and far out in H². Where ε is 0 at both ends: in E² and H², 0 in S². Errors: as [`Metric::lengths`].
     pub fn length_remainders(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
-        let (vertices, edges) = self.elements(mesh)?;
+        let (vertices, edges) = self.vertices_and_edges(mesh)?;
         Ok(PerEdge::from_fn(mesh.n_edges(), |e| {
             let [a, b] = mesh.ends(e).map(|v| vertices[v]);
             edges[e].remainder(a, b, length(self.space, edges[e].q2))
         }))
     }
 
-    fn elements(&self, mesh: &Mesh) -> Result<(PerVertex<Vertex>, PerEdge<Edge>)> {
+    pub(super) fn vertices_and_edges(&self, mesh: &Mesh) -> Result<(PerVertex<Vertex>, PerEdge<Edge>)> {
         self.check(mesh)?;
         let vertices: PerVertex<Vertex> = PerVertex::from_fn(mesh.n_vertices(), |v| self.vertex(v));
         if let Some(v) = mesh.vertices().find(|&v| vertices[v].d.is_nan()) {

@@ -4,6 +4,7 @@ pub mod curvature;
 pub mod delaunay;
 pub mod initial;
 pub mod lengths;
+pub mod precise;
 pub mod refinement;
 pub mod scheme;
 pub mod start;

@@ -9,14 +9,15 @@ pub(super) struct Handle {
     pub b: Word,
 }
 
-/// A polygon's word W, from some start, as a product of commutators and boundary letters, in the free group of its letters.
+/// A polygon's word W, from some start, as a product of commutators and boundary letters, in the free group
+/// of its letters.
 pub(super) struct NormalForm {
     /// `W = [a1, b1] … [ag, bg] z1 … zb`.
     pub handles: Vec<Handle>,
     /// The boundary letters z1, …, zb.
     pub ends: Vec<Letter>,
-    /// Per place of the polygon (before letter k): the letters of W from its start to there are the product over the
-    /// handles of the first `digits` letters of `a b a⁻¹ b⁻¹`, times `z1 … zr`.
+    /// Per place of the polygon (before letter k): the letters of W from its start to there are the product
+    /// over the handles of the first `digits` letters of `a b a⁻¹ b⁻¹`, times `z1 … zr`.
     pub prefixes: Vec<Prefix>,
 }
 
@@ -30,33 +31,32 @@ pub(super) struct Prefix {
 /// Starts of reading that are tried: all of them up to genus 32.
 const MAX_STARTS: usize = 128;
 
-/// The normal form with the shortest handles among those that start to read the polygon's word at different places.
-///
-/// `word`: of a polygon that is glued to an oriented connected surface. `cost`: the length of each letter's loop; a
-/// handle is as long as the letters of its words together. O(g²) per start in general, O(g³) at worst.
-pub(super) fn shortest_normal_form(word: &[Letter], cost: &[f64]) -> NormalForm {
-    let read_from = |start: usize| {
-        let mut turned = word.to_vec();
-        turned.rotate_left(start);
-        let mut form = normalise(&turned, cost);
-        form.prefixes.rotate_right(start);
-        form
-    };
-    let length = |form: &NormalForm| {
-        let words = form.handles.iter().flat_map(|handle| [&handle.a, &handle.b]);
+/// The places of a polygon's word from which to start to read it, those with the shortest handles first: a
+/// handle is as long as the loops of the letters of its words together. O(g²) per start in general, O(g³) at
+/// worst.
+pub(super) fn best_starts(word: &[Letter], cost: &[f64]) -> Vec<usize> {
+    let length = |start: usize| {
+        let handles = normal_form(word, cost, start).handles;
+        let words = handles.iter().flat_map(|handle| [&handle.a, &handle.b]);
         words.flat_map(Word::letters).fold(0.0, |sum, letter| sum + cost[letter.index()])
     };
-    let mut best = read_from(0);
-    for start in (1..word.len()).step_by(word.len().div_ceil(MAX_STARTS).max(1)) {
-        let form = read_from(start);
-        if length(&form) < length(&best) {
-            best = form;
-        }
-    }
-    best
+    let starts = (0..word.len().max(1)).step_by(word.len().div_ceil(MAX_STARTS).max(1));
+    let mut starts: Vec<(f64, usize)> = starts.map(|start| (length(start), start)).collect();
+    starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    starts.into_iter().map(|(_, start)| start).collect()
 }
 
-/// Brahana's normalisation \[Bra21\], \[Sti93, §1.3\], exactly in the free group.
+/// The normal form of a polygon's word, read from a place on. `word`: of a polygon that is glued to an
+/// oriented connected surface. `cost`: the length of each letter's loop.
+pub(super) fn normal_form(word: &[Letter], cost: &[f64], start: usize) -> NormalForm {
+    let mut turned = word.to_vec();
+    turned.rotate_left(start);
+    let mut form = normalise(&turned, cost);
+    form.prefixes.rotate_right(start);
+    form
+}
+
+/// Brahana's normalisation \[Bra21\], \[Sti93\], exactly in the free group.
 ///
 /// Two letters whose occurrences are linked, `W = U x A y B x⁻¹ C y⁻¹ D`, make a handle:
 ///
@@ -64,8 +64,9 @@ pub(super) fn shortest_normal_form(word: &[Letter], cost: &[f64]) -> NormalForm 
 ///     a = U x B⁻¹ C⁻¹ U⁻¹,    b = U C B A y C⁻¹ U⁻¹,    W = [a, b] · U C B A D.
 /// ```
 ///
-/// What is left is a word in the same letters, so words do not grow. A prefix of W is the product of a prefix of
-/// `a b a⁻¹ b⁻¹` and one of the word that is left (primes: beginnings; the equations above, multiplied out):
+/// What is left is a word in the same letters, so words do not grow. A prefix of W is the product of a prefix
+/// of `a b a⁻¹ b⁻¹` and one of the word that is left (primes: beginnings; the equations above, multiplied
+/// out):
 ///
 /// ```text
 ///     U′                                  = 1 · U′
@@ -77,9 +78,9 @@ pub(super) fn shortest_normal_form(word: &[Letter], cost: &[f64]) -> NormalForm 
 ///
 /// so by induction every prefix of W has at most four letters of each handle and one of each end.
 ///
-/// The pair whose handle has the shortest words goes first. In the end no letter occurs twice: what is left over of two
-/// trees are 2g interior edges; each handle takes two of them and one off the genus; and letters of which no two are
-/// linked glue a polygon to a surface of genus 0.
+/// The pair whose handle has the shortest words goes first. In the end no letter occurs twice: what is left
+/// over of two trees are 2g interior edges; each handle takes two of them and one off the genus; and letters
+/// of which no two are linked glue a polygon to a surface of genus 0.
 fn normalise(word: &[Letter], cost: &[f64]) -> NormalForm {
     let mut word = word.to_vec();
     let mut place: Vec<usize> = (0..word.len().max(1)).collect();
@@ -109,8 +110,8 @@ fn normalise(word: &[Letter], cost: &[f64]) -> NormalForm {
     NormalForm { handles, ends: word, prefixes }
 }
 
-/// The positions of x, y, x⁻¹, y⁻¹ of the linked pair with the shortest words a and b, counted in the lengths of the
-/// letters' loops: `4 U + x + y + A + 2 B + 3 C`.
+/// The positions of x, y, x⁻¹, y⁻¹ of the linked pair with the shortest words a and b, counted in the lengths
+/// of the letters' loops: `4 U + x + y + A + 2 B + 3 C`.
 fn cheapest_pair(word: &[Letter], cost: &[f64]) -> Option<[usize; 4]> {
     let mut second = vec![None; word.len()];
     let mut seen = vec![None; cost.len()];

@@ -1,4 +1,5 @@
-//! Fundamental domains: a surface opened along a cut, as a polygon whose sides are paired by deck transformations.
+//! Fundamental domains: a surface opened along a cut, as a polygon whose sides are paired by deck
+//! transformations.
 
 use super::check_path;
 use super::cut::is_disk;
@@ -17,16 +18,19 @@ pub struct Side {
     pub halfedges: Vec<HalfedgeId>,
     /// The side with the same edges, run through the other way; `None` on the boundary of the surface.
     pub partner: Option<usize>,
-    /// The deck transformation that carries the partner onto this side, so it carries the domain D to its neighbour across
-    /// this side. The partner's is the inverse. Reduced; the identity on the boundary of the surface.
+    /// The deck transformation that carries the partner onto this side, so it carries the domain D to its
+    /// neighbour across this side. The partner's is the inverse. Reduced; the identity on the boundary of the
+    /// surface.
     pub element: Word,
 }
 
-/// A surface opened into a disk D, lifted to the universal cover.
+/// A surface opened into a disk D, lifted to the universal cover so that it has a corner at the base lift p̃.
 #[derive(Debug, Clone)]
 pub struct FundamentalDomain {
-    /// The sides of D, counterclockwise: D lies on the left of their half-edges. They end where the cut branches or
-    /// ends (cones), or meets the boundary.
+    /// The half-edge of a face whose origin, in D, is the base lift p̃.
+    pub base_corner: HalfedgeId,
+    /// The sides of D, counterclockwise: D lies on the left of their half-edges. They end where the cut
+    /// branches or ends (cones), or meets the boundary.
     pub sides: Vec<Side>,
     /// `corners[k]`: the lift at which side k starts.
     pub corners: Vec<Lift>,
@@ -34,21 +38,20 @@ pub struct FundamentalDomain {
 }
 
 impl FundamentalDomain {
-    /// The domain of a cut that opens the surface into a disk, as [`super::cut_graph`] and [`HomotopyBasis::cut`] do, with
-    /// elements of the group of `basis` (of the same mesh).
+    /// The domain of a cut that opens the surface into a disk, as [`super::cut_graph`] and
+    /// [`HomotopyBasis::cut`] do, with elements of the group of `basis` (of the same mesh).
     ///
-    /// D is the lift of the opened surface whose first corner is the tree lift ṽ of its vertex (see [`HomotopyBasis`]).
-    /// O(E + g · length of the cut).
+    /// Of the lifts with a corner at p̃ it is the one with the same corner there as the polygon of the basis;
+    /// for [`HomotopyBasis::cut`] D is that polygon. O(E + g · length of the cut).
     ///
-    /// Errors: [`Error::Size`]; [`Error::Layout`] where the opened surface is no disk, or a basis of another surface does
-    /// not close around it.
+    /// Errors: [`Error::Size`]; [`Error::Layout`] where the opened surface is no disk.
     pub fn new(mesh: &Mesh, is_cut: &PerEdge<bool>, basis: &HomotopyBasis) -> Result<FundamentalDomain> {
         check_size("cut marks", is_cut.len(), mesh.n_edges())?;
         basis.check_fits(mesh)?;
         let wall = PerEdge::from_fn(mesh.n_edges(), |e| is_cut[e] || mesh.is_boundary_edge(e));
         let inner = PerEdge::from_fn(mesh.n_edges(), |e| is_cut[e] && !mesh.is_boundary_edge(e));
         if !is_disk(mesh, &inner) || !wall.contains(&true) {
-            let message = "the cut does not open the surface into a disk: take `cut_graph` (on a sphere, with two cones)";
+            let message = "the cut does not open the surface into a disk: take one of `cut_graph`";
             return Err(Error::Layout(message.into()));
         }
         // Where sides end: a vertex that the cut does not just pass.
@@ -56,10 +59,15 @@ impl FundamentalDomain {
             let degree = mesh.outgoing(v).filter(|h| inner[h.edge()]).count();
             degree > 0 && (degree != 2 || mesh.is_boundary_vertex(v))
         };
-        let Some(start) = first_side(mesh, &wall, basis.base, is_node) else {
+        let at_base = |h: &HalfedgeId| !mesh.is_outside(*h) && basis.corner_word(*h).is_empty();
+        let ends = mesh.outgoing(basis.base).find(at_base).zip(first_side(mesh, &wall, is_node));
+        let Some((base_corner, start)) = ends else {
             return Err(Error::Layout("the opened surface has no boundary".into()));
         };
         let mut reduction = Reduction::new(basis.group);
+        path_within(mesh, &wall, base_corner, start)
+            .into_iter()
+            .for_each(|h| basis.advance(mesh, &mut reduction, h));
         let mut side_of = PerHalfedge::filled(mesh.n_halfedges(), None);
         let (mut chains, mut corners): (Vec<Vec<HalfedgeId>>, Vec<Lift>) = (Vec::new(), Vec::new());
         let mut h = start;
@@ -89,13 +97,15 @@ impl FundamentalDomain {
             Side { halfedges, partner, element }
         };
         let sides = chains.into_iter().enumerate().map(pair).collect();
-        Ok(FundamentalDomain { sides, corners, side_of })
+        Ok(FundamentalDomain { base_corner, sides, corners, side_of })
     }
 
-    /// The sides that an edge path crosses out of the copies of D it runs through, one after the other. The path
-    /// starts at the corner of D at the origin of `corner` (a half-edge of a face); a closed path ends at the same
-    /// corner of the copy `γ D`, where γ is the product of the crossed sides' elements, left to right. So in any layout
-    /// the product of the isometries of the side pairings is the isometry of γ, for a loop through that corner.
+    /// The sides that an edge path crosses out of the copies of D it runs through, one after the other. The
+    /// path starts at the corner of D at the origin of `corner` (a half-edge of a face); a closed path ends
+    /// at the same corner of the copy `γ D`, where γ is the product of the crossed sides' elements, left to
+    /// right. From `base_corner`, γ is the element of the loop. So the isometries of the side pairings of any
+    /// layout of D, multiplied along the crossings of the loops of the basis, are the generators of its deck
+    /// group.
     ///
     /// [`Error::Argument`] for a path that is none, or does not start at that corner.
     pub fn crossings(&self, mesh: &Mesh, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<usize>> {
@@ -127,43 +137,8 @@ impl FundamentalDomain {
         Ok(crossed)
     }
 
-    /// The element γ of the corner of D at the origin v of `corner`, a half-edge of a face: that corner is `γ ṽ`. `basis`: the one that
-    /// the domain was made with. O(F). [`Error::Argument`] for a half-edge of no face.
-    pub fn element_at(&self, mesh: &Mesh, basis: &HomotopyBasis, corner: HalfedgeId) -> Result<Word> {
-        basis.check_fits(mesh)?;
-        let first = self.sides.first().and_then(|side| side.halfedges.first());
-        let target = (corner.index() < mesh.n_halfedges()).then(|| mesh.face(corner)).flatten();
-        let (Some(&first), Some(target), Some(start)) = (first, target, self.corners.first()) else {
-            let need = "take a half-edge of a face";
-            return Err(Error::Argument { what: "corner", value: format!("half-edge {corner}"), need });
-        };
-        // Face by face, over no side of D, to the face of the corner; back along the way, the copies of the polygon that it ran through.
-        let mut entered: PerFace<Option<HalfedgeId>> = PerFace::filled(mesh.n_faces(), None);
-        let mut reached: VecDeque<_> = mesh.face(first).into_iter().collect();
-        while let Some(f) = reached.pop_front().filter(|&f| f != target) {
-            for h in mesh.face_halfedges(f) {
-                let next =
-                    mesh.face(h.twin()).filter(|&g| Some(g) != mesh.face(first) && entered[g].is_none());
-                if let Some(g) =
-                    next.filter(|_| self.side_of[h].is_none() && !mesh.is_boundary_edge(h.edge()))
-                {
-                    entered[g] = Some(h);
-                    reached.push_back(g);
-                }
-            }
-        }
-        let way = std::iter::successors(entered[target], |h| mesh.face(*h).and_then(|f| entered[f]));
-        let mut way: Vec<_> = way.collect();
-        way.reverse();
-        // The copy γ D of the polygon that holds the first face has its corner there at the domain's first corner.
-        let mut word = start.element.times(&basis.corner_word(first).inverse());
-        for h in way {
-            word = word.times(&basis.transition(mesh, h));
-        }
-        Ok(basis.group.reduce(&word.times(basis.corner_word(corner))))
-    }
-
-    /// Turn around a vertex from one of its corners to another, counterclockwise unless the boundary is in the way.
+    /// Turn around a vertex from one of its corners to another, counterclockwise unless the boundary is in
+    /// the way.
     fn turn(&self, mesh: &Mesh, from: HalfedgeId, to: HalfedgeId, crossed: &mut Vec<usize>) {
         let side = |h: HalfedgeId| self.side_of[h].map(|k| k as usize);
         let (n, mut h) = (crossed.len(), from);
@@ -192,14 +167,37 @@ fn next_side(mesh: &Mesh, wall: &PerEdge<bool>, h: HalfedgeId) -> HalfedgeId {
     next
 }
 
-/// A half-edge of a face on a wall, leaving a node if there is one, the base if that is on the walls.
-fn first_side(
-    mesh: &Mesh,
-    wall: &PerEdge<bool>,
-    base: VertexId,
-    is_node: impl Fn(VertexId) -> bool,
-) -> Option<HalfedgeId> {
+/// A half-edge of a face on a wall, leaving a node if there is one.
+fn first_side(mesh: &Mesh, wall: &PerEdge<bool>, is_node: impl Fn(VertexId) -> bool) -> Option<HalfedgeId> {
     let leaving = |v: VertexId| mesh.outgoing(v).find(|h| wall[h.edge()] && !mesh.is_outside(*h));
-    let node = std::iter::once(base).chain(mesh.vertices()).find(|&v| is_node(v));
-    node.into_iter().chain([base]).chain(mesh.vertices()).find_map(leaving)
+    mesh.vertices().filter(|&v| is_node(v)).chain(mesh.vertices()).find_map(leaving)
+}
+
+/// An edge path inside the opened surface from one of its corners to another, along the sides of a chain of
+/// faces.
+fn path_within(mesh: &Mesh, wall: &PerEdge<bool>, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
+    // Per face, the half-edge through which one goes on towards the face of `to`, found from there.
+    let mut exit = PerFace::filled(mesh.n_faces(), None);
+    let goal = mesh.face(to);
+    let mut waiting: VecDeque<_> = goal.into_iter().collect();
+    while let Some(f) = waiting.pop_front() {
+        for h in mesh.face_halfedges(f).into_iter().filter(|h| !wall[h.edge()]) {
+            if let Some(g) = mesh.face(h.twin()).filter(|&g| Some(g) != goal && exit[g].is_none()) {
+                exit[g] = Some(h.twin());
+                waiting.push_back(g);
+            }
+        }
+    }
+    let (mut path, mut at) = (Vec::new(), from);
+    loop {
+        let leave = mesh.face(at).and_then(|f| exit[f]);
+        while at != leave.unwrap_or(to) {
+            path.push(at);
+            at = mesh.next(at);
+        }
+        match leave {
+            Some(h) => at = mesh.next(h.twin()),
+            None => return path,
+        }
+    }
 }

@@ -10,8 +10,8 @@ use crate::error::{Error, Result};
 ///     ⟨ a1, b1, …, ag, bg, c1, …, cb | a1 b1 a1⁻¹ b1⁻¹ … ag bg ag⁻¹ bg⁻¹ c1 … cb ⟩.
 /// ```
 ///
-/// Generators are numbered in this order: `a_i` is `2i − 2`, `b_i` is `2i − 1`, `c_j` is `2g + j − 1`. In words given
-/// to its methods, letters of other numbers count as the identity.
+/// Generators are numbered in this order: `a_i` is `2i − 2`, `b_i` is `2i − 1`, `c_j` is `2g + j − 1`. In
+/// words given to its methods, letters of other numbers count as the identity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SurfaceGroup {
     /// Genus g.
@@ -30,7 +30,7 @@ impl SurfaceGroup {
     pub fn name(&self, k: usize) -> String {
         match k.checked_sub(2 * self.genus) {
             Some(j) => format!("c{}", j + 1),
-            None => format!("{}{}", if k % 2 == 0 { 'a' } else { 'b' }, k / 2 + 1),
+            None => format!("{}{}", if k.is_multiple_of(2) { 'a' } else { 'b' }, k / 2 + 1),
         }
     }
 
@@ -57,7 +57,7 @@ impl SurfaceGroup {
             let letter = self.number(name).map(Letter::generator).ok_or_else(|| Error::Argument {
                 what: "letter",
                 value: token.into(),
-                need: "write generators of this surface's group as a1, b1, c1, inverses as a1^-1, with spaces between them",
+                need: "write generators of the surface's group as a1, b1, c1, inverses as a1^-1, spaced apart",
             })?;
             word.push(if inverse { letter.inverse() } else { letter });
         }
@@ -88,11 +88,12 @@ impl SurfaceGroup {
         (0..self.genus).flat_map(handle).chain(ends).collect()
     }
 
-    /// A word of the same element, never longer than the word on a closed surface; empty exactly for the identity.
+    /// A word of the same element, never longer than the word on a closed surface; empty exactly for the
+    /// identity.
     ///
-    /// Closed surfaces of genus ≥ 2: Dehn's algorithm \[Deh12\]; what is left need not be the only such word. Genus 1:
-    /// `a1^p b1^q`. With boundary: freely reduced without `cb`, which the relator expresses by the others. These two
-    /// are normal forms: equal elements, equal words. O(g · length).
+    /// Closed surfaces of genus ≥ 2: Dehn's algorithm \[Deh12\]; what is left need not be the only such word.
+    /// Genus 1: `a1^p b1^q`. With boundary: freely reduced without `cb`, which the relator expresses by the
+    /// others. These two are normal forms: equal elements, equal words. O(g · length).
     pub fn reduce(&self, word: &Word) -> Word {
         let mut reduction = Reduction::new(*self);
         reduction.extend(word.letters().iter().copied());
@@ -109,8 +110,8 @@ impl SurfaceGroup {
         self.is_trivial(&u.inverse().times(v))
     }
 
-    /// The image in the first homology ℤ^{2g + max(b − 1, 0)}: the sum of each generator's exponents, where `cb` counts
-    /// as `−c1 − … − c(b−1)`.
+    /// The image in the first homology ℤ^{2g + max(b − 1, 0)}: the sum of each generator's exponents, where
+    /// `cb` counts as `−c1 − … − c(b−1)`.
     pub fn abelianisation(&self, word: &Word) -> Vec<i64> {
         let mut sums = vec![0; self.n_generators()];
         for letter in word.letters() {

@@ -1,6 +1,6 @@
 //! The two loops of a handle, and Dehn twists along them.
 
-use super::shorten::shorten;
+use super::shorten::{path_length, shorten};
 use super::word::{Letter, Word};
 use crate::control::Control;
 use crate::error::Result;
@@ -9,27 +9,30 @@ use crate::mesh::{HalfedgeId, Mesh, PerEdge};
 /// Twists tried per handle at most: the shorter loop is wound off the longer one, a few times in all.
 const MAX_TWISTS: usize = 32;
 
+/// The loops a and b of a handle.
+pub(super) type LoopPair = [Vec<HalfedgeId>; 2];
+
 /// Loops a and b of a handle that are being made shorter, and what they were in terms of what they are.
 pub(super) struct HandleLoops {
-    pub loops: [Vec<HalfedgeId>; 2],
+    pub loops: LoopPair,
     /// The first loops a and b as words in the present ones (generators 0 and 1).
     first: [Word; 2],
 }
 
 impl HandleLoops {
-    pub fn new(loops: [Vec<HalfedgeId>; 2]) -> HandleLoops {
+    pub fn new(loops: LoopPair) -> HandleLoops {
         HandleLoops { loops, first: [0, 1].map(|k| Word::from_iter([Letter::generator(k)])) }
     }
 
     /// Replace a by `a b^±1` or b by `b a^±1`, the one that saves most, as long as that makes a loop shorter.
     ///
-    /// Both leave the commutator: `[a bᵏ, b] = a bᵏ b b⁻ᵏ a⁻¹ b⁻¹ = [a, b]`, `[a, b aᵏ] = a b aᵏ a⁻¹ a⁻ᵏ b⁻¹ = [a, b]`.
+    /// Both leave the commutator: `[a bᵏ, b] = a bᵏ b b⁻ᵏ a⁻¹ b⁻¹ = [a, b]`, and `[a, b aᵏ] = a b aᵏ a⁻¹ a⁻ᵏ
+    /// b⁻¹ = [a, b]`.
     pub fn twist(&mut self, mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<()> {
-        let length = |path: &[HalfedgeId]| path.iter().fold(0.0, |sum, h| sum + lengths[h.edge()]);
         for _ in 0..MAX_TWISTS {
             let (mut best, mut saving) = (None, 0.0_f64);
             for k in 0..2 {
-                let old = length(&self.loops[k]);
+                let old = path_length(lengths, &self.loops[k]);
                 for back in [false, true] {
                     let along = self.loops[k].iter().copied();
                     let other = &self.loops[1 - k];
@@ -40,7 +43,7 @@ impl HandleLoops {
                             shorten(mesh, lengths, along.chain(inverse), control)?
                         }
                     };
-                    let saved = old - length(&twisted);
+                    let saved = old - path_length(lengths, &twisted);
                     if saved > saving.max(1e-12 * old) {
                         (best, saving) = (Some((k, back, twisted)), saved);
                     }

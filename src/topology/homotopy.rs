@@ -1,16 +1,17 @@
 //! Canonical homotopy bases, and the group element of any edge path.
 
-use super::brahana::{NormalForm, Prefix, shortest_normal_form};
+use super::brahana::{NormalForm, best_starts, normal_form};
 use super::check_lengths;
 use super::cut::is_connected;
 use super::group::SurfaceGroup;
-use super::handle::HandleLoops;
+use super::handle::{HandleLoops, LoopPair};
+use super::places::Places;
 use super::polygon::Polygon;
 use super::reduction::Reduction;
 use super::rooted::RootedTree;
-use super::shorten::shorten;
+use super::shorten::{path_length, shorten};
 use super::spanning::Forest;
-use super::word::{Letter, Word, inverse};
+use super::word::{Letter, Word};
 use super::{check_path, check_vertex};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
@@ -22,16 +23,17 @@ use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
 ///     a1 b1 a1⁻¹ b1⁻¹ … ag bg ag⁻¹ bg⁻¹ c1 … cb = 1,
 /// ```
 ///
-/// and what it takes to name places of the universal cover. Letters compose left to right, as paths do. `b_i` crosses
-/// `a_i` once, from right to left (intersection number +1); c_j runs around a boundary loop with the surface on its
-/// left.
+/// and what it takes to name places of the universal cover. Letters compose left to right, as paths do. `b_i`
+/// crosses `a_i` once, from right to left (intersection number +1); `c_j` is freely homotopic to a boundary
+/// loop that has the surface on its left.
 ///
-/// **Lifts.** One lift p̃ of the base is chosen. A group element γ acts on the cover by the deck transformation that
-/// carries p̃ to the end of the lift of γ that starts there. Every vertex v has a tree path from p, and ṽ is the end of
-/// its lift from p̃; the lifts of v are `γ ṽ`, each for one γ.
+/// **Lifts.** One lift p̃ of the base is chosen. A group element γ acts on the cover by the deck
+/// transformation that carries p̃ to the end of the lift of γ that starts there. Every vertex v has a tree
+/// path from p, and ṽ is the end of its lift from p̃; the lifts of v are `γ ṽ`, each for one γ.
 ///
-/// **Polygon.** The surface opened along the tree and the edges left over is a disk. Its lift D with a corner at p̃ is a
-/// fundamental domain; γ D are its copies. The corner of D at the origin of h is the lift `corner_word(h) ṽ`.
+/// **Polygon.** The surface opened along the tree and the edges left over is a disk. Its lift D with a corner
+/// at p̃ is a fundamental domain; γ D are its copies. The corner of D at the origin of h is the lift
+/// `corner_word(h) ṽ`.
 #[derive(Debug, Clone)]
 pub struct HomotopyBasis {
     /// The base vertex p.
@@ -40,18 +42,26 @@ pub struct HomotopyBasis {
     pub group: SurfaceGroup,
     /// Per generator (a1, b1, …, ag, bg, c1, …, cb) its loop: half-edges that start and end at the base.
     pub loops: Vec<Vec<HalfedgeId>>,
+    /// Per c_j the half-edge of a face on its boundary loop that the tree leaves out: along the tree to its
+    /// tip, once around the boundary with the surface on the left, and back is c_j.
+    pub rims: Vec<HalfedgeId>,
     tree: Forest,
     place: PerHalfedge<u32>,
-    corner_words: Vec<Word>,
+    places: Places,
 }
+
+/// The loops of several starts of reading the polygon are pulled straight, to choose among them: as many as
+/// together have this number of edges per edge of the mesh.
+const WORK_PER_EDGE: usize = 8;
 
 /// A canonical homotopy basis of a connected surface, with short loops.
 ///
-/// `lengths`: finite and positive, one per edge. `base`: the base vertex; `None` takes one from which the loops are
-/// short. The edges that a shortest-path tree and a dual tree leave over generate the group \[EW05\]; the disk's
-/// boundary word in them is brought into normal form \[Bra21\]; the loops of each handle are then changed by
-/// Dehn twists along one another (`a → a b^±1`, `b → b a^±1`, which leave the commutator) and pulled straight across
-/// triangles, as long as they become shorter. O(E log E + g² + length of the loops) for a fixed number of roots.
+/// `lengths`: finite and positive, one per edge. `base`: the base vertex; `None` takes one from which the
+/// loops are short. The edges that a shortest-path tree and a dual tree leave over generate the group
+/// \[EW05\]; the disk's boundary word in them is brought into normal form \[Bra21\], \[LPVV01\]; the loops of
+/// each handle are then changed by Dehn twists along one another (`a → a b^±1`, `b → b a^±1`, which leave the
+/// commutator) and pulled straight across triangles, as long as they become shorter. O(E log E) for a fixed
+/// genus; O(g³) at worst for the words.
 ///
 /// Errors: [`Error::EdgeLength`], [`Error::Size`]; [`Error::Argument`] for a base that is no vertex;
 /// [`Error::Layout`] for an empty surface or one of several components; [`Error::Cancelled`].
@@ -75,45 +85,68 @@ pub fn homotopy_basis(
         None => RootedTree::central(mesh, lengths, control)?,
     };
     let polygon = Polygon::new(mesh, &rooted);
-    let cost: Vec<_> = polygon.halfedges.iter().map(|h| rooted.arc(mesh, lengths, h.edge())).collect();
-    let NormalForm { handles, ends, prefixes } = shortest_normal_form(&polygon.letters, &cost);
-    let straight = |word: &Word| {
-        let path: Vec<_> = word
-            .letters()
-            .iter()
-            .flat_map(|&letter| letter_loop(mesh, &rooted.tree, &polygon, letter))
-            .collect();
-        shorten(mesh, lengths, path.into_iter(), control)
-    };
-    let (mut loops, mut products) = (Vec::with_capacity(2 * handles.len() + ends.len()), Vec::new());
-    for (i, handle) in handles.iter().enumerate() {
-        let mut handle = HandleLoops::new([straight(&handle.a)?, straight(&handle.b)?]);
+    let (NormalForm { ends, prefixes, .. }, pairs) =
+        shortest_handles(mesh, lengths, &rooted, &polygon, control)?;
+    let mut loops = Vec::with_capacity(2 * pairs.len() + ends.len());
+    let mut products = Vec::with_capacity(pairs.len());
+    for (i, pair) in pairs.into_iter().enumerate() {
+        let mut handle = HandleLoops::new(pair);
         handle.twist(mesh, lengths, control)?;
         products.push(handle.prefixes(i));
         loops.extend(handle.loops);
     }
     for &end in &ends {
-        loops.push(straight(&Word::from_iter([end]))?);
+        let path = letter_loop(mesh, &rooted.tree, &polygon, end);
+        loops.push(shorten(mesh, lengths, path.into_iter(), control)?);
     }
-    let from_start = |prefix: &Prefix| {
-        let mut word = Word::identity();
-        for (digit, products) in prefix.digits.iter().zip(&products) {
-            word.extend(products[usize::from(*digit)].letters().iter().copied());
-        }
-        word.extend((0..prefix.n_ends).map(|j| Letter::generator(2 * handles.len() + j)));
-        word
-    };
-    // Place 0 has a corner at the root.
-    let to_root = prefixes.first().map_or_else(Word::identity, |prefix| from_start(prefix).inverse());
-    let corner_words = prefixes.iter().map(|prefix| to_root.times(&from_start(prefix))).collect();
     Ok(HomotopyBasis {
         base: rooted.root,
-        group: SurfaceGroup { genus: handles.len(), boundaries: ends.len() },
+        group: SurfaceGroup { genus: products.len(), boundaries: ends.len() },
         loops,
+        rims: ends.iter().map(|end| polygon.halfedges[end.index()]).collect(),
         tree: rooted.tree,
         place: polygon.place,
-        corner_words,
+        places: Places::new(prefixes, products),
     })
+}
+
+/// The normal form of the polygon's word, among those of several starts of reading, whose handles have the
+/// shortest loops once these are pulled straight; with these loops.
+fn shortest_handles(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    rooted: &RootedTree,
+    polygon: &Polygon,
+    control: &Control,
+) -> Result<(NormalForm, Vec<LoopPair>)> {
+    let cost: Vec<_> = polygon.halfedges.iter().map(|h| rooted.arc(mesh, lengths, h.edge())).collect();
+    let path = |word: &Word| -> Vec<HalfedgeId> {
+        let letters = word.letters().iter();
+        letters.flat_map(|&letter| letter_loop(mesh, &rooted.tree, polygon, letter)).collect()
+    };
+    let read_from = |start: usize| -> Result<_> {
+        let form = normal_form(&polygon.letters, &cost, start);
+        let (mut pairs, mut length, mut work) = (Vec::with_capacity(form.handles.len()), 0.0, 0);
+        for handle in &form.handles {
+            let paths = [path(&handle.a), path(&handle.b)];
+            work += paths[0].len() + paths[1].len();
+            let [a, b] = paths.map(|path| shorten(mesh, lengths, path.into_iter(), control));
+            let pair = [a?, b?];
+            length += path_length(lengths, &pair[0]) + path_length(lengths, &pair[1]);
+            pairs.push(pair);
+        }
+        Ok((length, work, (form, pairs)))
+    };
+    let mut starts = best_starts(&polygon.letters, &cost).into_iter();
+    let (mut least, mut done, mut best) = read_from(starts.next().unwrap_or(0))?;
+    while let Some(start) = starts.next().filter(|_| done <= WORK_PER_EDGE * mesh.n_edges()) {
+        let (length, work, next) = read_from(start)?;
+        done += work;
+        if length < least {
+            (least, best) = (length, next);
+        }
+    }
+    Ok(best)
 }
 
 /// The loop of a polygon letter: from the base to its edge, along it, and back.
@@ -130,7 +163,7 @@ fn letter_loop(mesh: &Mesh, tree: &Forest, polygon: &Polygon, letter: Letter) ->
 impl HomotopyBasis {
     /// Total length of the loops.
     pub fn length(&self, lengths: &PerEdge<f64>) -> f64 {
-        self.loops.iter().flatten().fold(0.0, |sum, h| sum + lengths[h.edge()])
+        self.loops.iter().map(|path| path_length(lengths, path)).sum()
     }
 
     /// The tree path from the base to `v`; its lift from p̃ ends at ṽ.
@@ -144,34 +177,33 @@ impl HomotopyBasis {
         Ok(path)
     }
 
-    /// The lift of a face's corner: the corner at the origin v of `h`, a half-edge of a face, is the place `γ ṽ` of the
-    /// polygon D with γ = this word, of at most 8g + 2b letters (more where a handle has been twisted).
-    pub fn corner_word(&self, h: HalfedgeId) -> &Word {
-        &self.corner_words[self.place[h] as usize]
+    /// The lift of a face's corner: the corner at the origin v of `h`, a half-edge of a face, is the place `γ
+    /// ṽ` of the polygon D with γ = this word, of at most 8g + 2b letters (more where a handle has been
+    /// twisted).
+    pub fn corner_word(&self, h: HalfedgeId) -> Word {
+        // The first place has a corner at the base.
+        self.places.between(0, self.place[h]).collect()
     }
 
-    /// The element of a half-edge from u to v: of the loop along the tree to u, along `h`, and back along the tree.
-    /// The lift of `h` that starts at ũ ends at `γ ṽ`. Freely reduced; empty on the tree.
+    /// The element of a half-edge from u to v: of the loop along the tree to u, along `h`, and back along the
+    /// tree. The lift of `h` that starts at ũ ends at `γ ṽ`. Freely reduced; empty on the tree.
     pub fn halfedge_word(&self, mesh: &Mesh, h: HalfedgeId) -> Word {
         self.halfedge_letters(mesh, h).collect()
     }
 
     fn halfedge_letters(&self, mesh: &Mesh, h: HalfedgeId) -> impl Iterator<Item = Letter> + '_ {
-        // Inside a face the two corners are lifted together; an outside half-edge is the way back along its twin.
+        // Inside a face the two corners are lifted together; an outside half-edge is the way back along its
+        // twin.
         let (from, to) = match mesh.is_outside(h) {
             false => (h, mesh.next(h)),
             true => (mesh.next(h.twin()), h.twin()),
         };
-        let (from, to) = match self.place[from] == self.place[to] {
-            true => (&[][..], &[][..]),
-            false => (self.corner_word(from).letters(), self.corner_word(to).letters()),
-        };
-        inverse(from).chain(to.iter().copied())
+        self.places.between(self.place[from], self.place[to])
     }
 
-    /// The element of an edge path from u to v: of the loop along the tree to u, along the path, and back along the
-    /// tree; for a loop at the base, of the loop itself. Reduced in the group ([`SurfaceGroup::reduce`]). The lift of the
-    /// path that starts at ũ ends at `γ ṽ`.
+    /// The element of an edge path from u to v: of the loop along the tree to u, along the path, and back
+    /// along the tree; for a loop at the base, of the loop itself. Reduced in the group
+    /// ([`SurfaceGroup::reduce`]). The lift of the path that starts at ũ ends at `γ ṽ`.
     ///
     /// [`Error::Argument`] for half-edges that do not follow each other.
     pub fn path_word(&self, mesh: &Mesh, path: &[HalfedgeId]) -> Result<Word> {
@@ -182,8 +214,9 @@ impl HomotopyBasis {
         Ok(reduction.word())
     }
 
-    /// Which copy of the polygon D lies across a half-edge of a face: crossing `h` out of the copy γ D leads into
-    /// `γ · transition(h) D`. Freely reduced; empty where the polygon is not cut, and outside the surface.
+    /// Which copy of the polygon D lies across a half-edge of a face: crossing `h` out of the copy γ D leads
+    /// into `γ · transition(h) D`. Freely reduced; empty where the polygon is not cut, and outside the
+    /// surface.
     pub fn transition(&self, mesh: &Mesh, h: HalfedgeId) -> Word {
         if mesh.is_boundary_edge(h.edge()) {
             return Word::identity();
@@ -196,8 +229,8 @@ impl HomotopyBasis {
         }
     }
 
-    /// The interior edges along which the polygon D is cut: those that [`HomotopyBasis::transition`] does not cross
-    /// trivially. They open the surface into a disk (a closed surface of genus 0 has none).
+    /// The interior edges along which the polygon D is cut: those that [`HomotopyBasis::transition`] does not
+    /// cross trivially. They open the surface into a disk (a closed surface of genus 0 has none).
     pub fn cut(&self, mesh: &Mesh) -> PerEdge<bool> {
         PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| {
             let h = e.halfedge();
@@ -211,7 +244,8 @@ impl HomotopyBasis {
         check_size("vertices of the basis", self.tree.parent.len(), mesh.n_vertices())
     }
 
-    /// The reduction of a product in this group, letter by letter, with the element of `h` multiplied to its right.
+    /// The reduction of a product in this group, letter by letter, with the element of `h` multiplied to its
+    /// right.
     pub(super) fn advance(&self, mesh: &Mesh, reduction: &mut Reduction, h: HalfedgeId) {
         reduction.extend(self.halfedge_letters(mesh, h));
     }

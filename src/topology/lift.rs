@@ -29,11 +29,12 @@ pub struct LiftedPath<'a> {
 }
 
 impl HomotopyBasis {
-    /// The lift of an edge path that starts at `start`, vertex by vertex. Steps cost O(g) and the length of the word.
+    /// The lift of an edge path that starts at `start`, vertex by vertex. Steps cost O(g) and the length of
+    /// the word.
     ///
-    /// A loop's lift closes exactly if the loop is contractible; the lift from p̃ of a loop at the base ends at `γ p̃`, γ
-    /// being the loop's element. [`Error::Argument`] for a path that is none or does not start at a vertex below
-    /// `start`.
+    /// A loop's lift closes exactly if the loop is contractible; the lift from p̃ of a loop at the base ends
+    /// at `γ p̃`, γ being the loop's element. [`Error::Argument`] for a path that is none or does not start
+    /// at a vertex below `start`.
     pub fn lift<'a>(
         &'a self,
         mesh: &'a Mesh,

@@ -1,5 +1,5 @@
-//! Spanning trees, homology generators, cut graphs, homotopy bases and lifts to the universal cover. Everything is walked
-//! through half-edges, so loops and repeated edges of a Δ-complex are no special cases.
+//! Spanning trees, homology generators, cut graphs, homotopy bases and lifts to the universal cover.
+//! Everything is walked through half-edges, so loops and repeated edges of a Δ-complex are no special cases.
 
 mod brahana;
 pub mod cut;
@@ -11,6 +11,7 @@ pub mod homology;
 pub mod homotopy;
 pub mod intersection;
 pub mod lift;
+mod places;
 mod polygon;
 pub mod reduction;
 mod rooted;
@@ -71,7 +72,8 @@ fn bad_path(h: HalfedgeId, need: &'static str) -> Error {
     Error::Argument { what: "half-edge of a path", value: h.to_string(), need }
 }
 
-/// One positive length per edge, neither too small nor too large for doubles, or the error that names the first edge without.
+/// One positive length per edge, neither too small nor too large for doubles, or the error that names the
+/// first edge without.
 pub(crate) fn check_lengths(mesh: &Mesh, lengths: &PerEdge<f64>) -> Result<()> {
     check_size("lengths", lengths.len(), mesh.n_edges())?;
     match lengths.iter().enumerate().find(|(_, l)| !LENGTHS.contains(*l)) {

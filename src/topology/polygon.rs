@@ -4,12 +4,14 @@ use super::rooted::RootedTree;
 use super::word::Letter;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge};
 
-/// The boundary of the opened surface, read counterclockwise, with a letter where a side is an edge left over.
+/// The boundary of the opened surface, read counterclockwise, with a letter where a side is an edge left
+/// over.
 ///
-/// Sides on tree edges have no letter. Every vertex of the mesh lies on the boundary of the polygon, so every corner of
-/// a face is a place there: the polygon's corners between letter k − 1 and letter k have place k.
+/// Sides on tree edges have no letter. Every vertex of the mesh lies on the boundary of the polygon, so every
+/// corner of a face is a place there: the polygon's corners between letter k − 1 and letter k have place k.
 pub(super) struct Polygon {
-    /// Each generator of an interior edge twice, once as its inverse; each of a boundary edge once, not inverted.
+    /// Each generator of an interior edge twice, once as its inverse; each of a boundary edge once, not
+    /// inverted.
     pub letters: Vec<Letter>,
     /// Per generator, the half-edge in whose direction the letter runs.
     pub halfedges: Vec<HalfedgeId>,

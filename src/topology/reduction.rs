@@ -12,9 +12,12 @@ pub struct Reduction {
     stack: Vec<Entry>,
     /// Genus 1 without boundary: the exponents of a1 and b1.
     exponents: [i64; 2],
+    /// Letters still to be pushed, last one first; empty between calls.
+    ahead: Vec<Letter>,
 }
 
-/// A letter, and the lengths of the longest stretches of the cyclic relator and of its inverse that end with it.
+/// A letter, and the lengths of the longest stretches of the cyclic relator and of its inverse that end with
+/// it.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
     letter: Letter,
@@ -25,7 +28,7 @@ struct Entry {
 impl Reduction {
     /// The identity.
     pub fn new(group: SurfaceGroup) -> Reduction {
-        Reduction { group, stack: Vec::new(), exponents: [0; 2] }
+        Reduction { group, stack: Vec::new(), exponents: [0; 2], ahead: Vec::new() }
     }
 
     /// The reduced word.
@@ -77,15 +80,15 @@ impl Reduction {
         }
     }
 
-    /// Dehn's algorithm. A non-empty freely reduced word that is the identity of a closed surface's group of genus
-    /// ≥ 2 contains more than half of the cyclic relator or of its inverse \[Deh12\]. Every letter stands once in
-    /// either of them, so a stretch is known by its last letter and its length, and the stack, on which no stretch
-    /// of 2g + 1 letters stays, is looked at only at its top. Each replacement shortens the word by two letters:
-    /// O(g) per letter.
+    /// Dehn's algorithm. A non-empty freely reduced word that is the identity of a closed surface's group of
+    /// genus ≥ 2 contains more than half of the cyclic relator or of its inverse \[Deh12\]. Every letter
+    /// stands once in either of them, so a stretch is known by its last letter and its length, and the stack,
+    /// on which no stretch of 2g + 1 letters stays, is looked at only at its top. Each replacement shortens
+    /// the word by two letters: O(g) per letter.
     fn push_closed(&mut self, letter: Letter) {
         let half = 2 * self.group.genus;
-        let mut ahead = vec![letter];
-        while let Some(letter) = ahead.pop() {
+        self.ahead.push(letter);
+        while let Some(letter) = self.ahead.pop() {
             let (mut along, mut against) = (1, 1);
             if let Some(&top) = self.stack.last() {
                 if top.letter == letter.inverse() {
@@ -101,12 +104,13 @@ impl Reduction {
             }
             self.stack.push(Entry { letter, along, against });
             if along.max(against) > half {
-                // The relator is s t with the stretch s: it is replaced by the inverse of t, last letter of t first.
+                // The relator is s t with the stretch s: it is replaced by the inverse of t, last letter of t
+                // first.
                 self.stack.truncate(self.stack.len() - (half + 1));
                 let mut t = letter;
                 for _ in 1..half {
                     t = if along > against { self.after(t) } else { self.after_against(t) };
-                    ahead.push(t.inverse());
+                    self.ahead.push(t.inverse());
                 }
             }
         }

@@ -10,8 +10,8 @@ use std::collections::BinaryHeap;
 /// Vertices between two looks at the control.
 const VERTICES_PER_STEP: usize = 4096;
 
-/// Roots sampled, and moves made from the best of them. On the closed meshes and disks of the corpus the loops are
-/// then within a few percent of the best of forty sampled roots.
+/// Roots sampled, and moves made from the best of them. On the closed meshes and disks of the corpus the
+/// loops are then within a few percent of the best of forty sampled roots.
 const SAMPLED_ROOTS: usize = 8;
 const MAX_MOVES: usize = 4;
 
@@ -27,9 +27,10 @@ pub(super) struct RootedTree {
 impl RootedTree {
     /// The tree of `root`, on a connected surface; lengths are checked.
     ///
-    /// The interior edges left over are those of \[EW05\], whose loops through the root are short: their dual tree is a
-    /// maximum spanning tree. T has all of a boundary loop but one edge, so with a disk glued into each loop the dual
-    /// graph stays connected without T, and those disks are leaves of it: it is connected without them, too.
+    /// The interior edges left over are those of \[EW05\], whose loops through the root are short: their dual
+    /// tree is a maximum spanning tree. T has all of a boundary loop but one edge, so with a disk glued into
+    /// each loop the dual graph stays connected without T, and those disks are leaves of it: it is connected
+    /// without them, too.
     pub fn new(mesh: &Mesh, lengths: &PerEdge<f64>, root: VertexId, control: &Control) -> Result<RootedTree> {
         let tree = tree_along_boundary(mesh, lengths, root, control)?;
         control.check()?;
@@ -42,8 +43,8 @@ impl RootedTree {
 
     /// A tree with a root from which the loops of the edges left over are short together.
     ///
-    /// Roots are sampled far from each other; from the best, the search goes on at the far end of the shortest loop as
-    /// long as that helps.
+    /// Roots are sampled far from each other; from the best, the search goes on at the far end of the
+    /// shortest loop as long as that helps.
     pub fn central(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<RootedTree> {
         let mut best = RootedTree::new(mesh, lengths, VertexId(0), control)?;
         let mut nearest = best.tree.distance.clone();
@@ -78,8 +79,8 @@ impl RootedTree {
     }
 }
 
-/// The shortest-path tree of `root` (Dijkstra, ties as in [`super::shortest_paths`]), except that a boundary loop,
-/// once reached, is walked around from there to both sides until one edge of it is left.
+/// The shortest-path tree of `root` (Dijkstra, ties as in [`super::shortest_paths`]), except that a boundary
+/// loop, once reached, is walked around from there to both sides until one edge of it is left.
 fn tree_along_boundary(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -121,8 +122,8 @@ fn tree_along_boundary(
     Ok(Forest { distance, parent })
 }
 
-/// The other vertices of the boundary loop through `v`, with their distance from it along the loop and the half-edge
-/// that enters them.
+/// The other vertices of the boundary loop through `v`, with their distance from it along the loop and the
+/// half-edge that enters them.
 fn around_boundary(mesh: &Mesh, lengths: &PerEdge<f64>, v: VertexId) -> Vec<(VertexId, f64, HalfedgeId)> {
     let start = mesh.out(v);
     let onwards = |&h: &HalfedgeId| Some(mesh.next(h)).filter(|&next| next != start);

@@ -4,12 +4,12 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge};
 
-/// A move must save this fraction of the length it replaces. Far above the rounding of a sum of lengths, so no
-/// sequence of moves comes back to where it was.
+/// A move must save this fraction of the length it replaces. Far above the rounding of a sum of lengths, so
+/// no sequence of moves comes back to where it was.
 const LEAST_SAVING: f64 = 1e-12;
 
-/// Moves allowed per face of the mesh, besides those that take out a spur. Paths made of shortest paths need far fewer;
-/// the bound keeps the worst case linear.
+/// Moves allowed per face of the mesh, besides those that take out a spur. Paths made of shortest paths need
+/// far fewer; the bound keeps the worst case linear.
 const MOVES_PER_FACE: usize = 8;
 
 /// Steps between two looks at the control.
@@ -24,8 +24,8 @@ const STEPS_PER_LOOK: usize = 4096;
 ///   u ---- v --- w
 /// ```
 ///
-/// No move is left at the end: what lies behind the vertex looked at has been looked at with the edges it has.
-/// Moves are of paths, not of curves: a path may pass a vertex or an edge as often as it likes.
+/// No move is left at the end: what lies behind the vertex looked at has been looked at with the edges it
+/// has. Moves are of paths, not of curves: a path may pass a vertex or an edge as often as it likes.
 pub(super) fn shorten(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -74,8 +74,8 @@ fn shorter_side(
     }
 }
 
-/// The edges opposite the origin of `from` in the fan counterclockwise from it to `to`, with their length; `None` if
-/// that reaches `limit` or the fan leaves the surface.
+/// The edges opposite the origin of `from` in the fan counterclockwise from it to `to`, with their length;
+/// `None` if that reaches `limit` or the fan leaves the surface.
 fn fan(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -97,4 +97,9 @@ fn fan(
         h = mesh.prev(h).twin();
     }
     Some((way, length))
+}
+
+/// The length of an edge path.
+pub(super) fn path_length(lengths: &PerEdge<f64>, path: &[HalfedgeId]) -> f64 {
+    path.iter().fold(0.0, |sum, h| sum + lengths[h.edge()])
 }

@@ -30,8 +30,8 @@ impl Letter {
     }
 }
 
-/// A freely reduced word: no letter follows its inverse. The empty word is the identity; equality, order and hash are
-/// those of the free group. Letters compose left to right, as paths do.
+/// A freely reduced word: no letter follows its inverse. The empty word is the identity; equality, order and
+/// hash are those of the free group. Letters compose left to right, as paths do.
 #[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Word(Vec<Letter>);
 

@@ -1,0 +1,59 @@
+//! Chords, angles and curvature of a metric to twice the digits of doubles, from its variables.
+
+use super::lengths::Metric;
+use crate::error::Result;
+use crate::geometry::Twofold;
+use crate::geometry::conformal::half_chord;
+use crate::geometry::triangle::half_angles_of_chords;
+use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex};
+use crate::parallel;
+
+impl Metric {
+    /// The half chords of the edges: l/2, sinh(l/2), sin(l/2) in E², H², S². To 20 digits where lengths are precise
+    /// ([`crate::geometry::conformal::is_precise`]), else to those of doubles. Errors: as [`Metric::lengths`].
+    pub fn half_chords(&self, mesh: &Mesh) -> Result<PerEdge<Twofold>> {
+        let vertices = self.vertices_and_edges(mesh)?.0;
+        let mut chords = vec![Twofold::default(); mesh.n_edges()];
+        parallel::fill(&mut chords, |e| {
+            let e = EdgeId::from(e);
+            let [a, b] = mesh.ends(e).map(|v| vertices[v]);
+            half_chord(self.space, a, b, self.eta[e])
+        });
+        Ok(chords.into())
+    }
+
+    /// By how much the angles around each vertex inside miss 2π, in (−2π, 2π], to twice the digits: the curvature of vertices
+    /// that are meant to be flat, where the sum of double angles shows its own rounding. 0 on the boundary.
+    ///
+    /// The rotations by all the angles are multiplied; no angle is formed. Errors: as [`Metric::lengths`].
+    pub fn angle_defects(&self, mesh: &Mesh) -> Result<PerVertex<f64>> {
+        let half_angles = half_angles(self, mesh, &self.half_chords(mesh)?);
+        let mut turn: PerVertex<[Twofold; 2]> =
+            PerVertex::filled(mesh.n_vertices(), [1.0.into(), 0.0.into()]);
+        for f in mesh.faces() {
+            for (v, [c, s]) in mesh.face_vertices(f).into_iter().zip(half_angles[f]) {
+                let [x, y] = turn[v];
+                turn[v] = [x * c - y * s, x * s + y * c];
+            }
+        }
+        Ok(PerVertex::from_fn(mesh.n_vertices(), |v| {
+            // Half the angles add up to π − K/2.
+            let [x, y] = turn[v].map(f64::from);
+            if mesh.is_boundary_vertex(v) { 0.0 } else { 2.0 * y.atan2(-x) }
+        }))
+    }
+}
+
+/// `[cos, sin]` of half the angle at each corner, from the half chords.
+pub(crate) fn half_angles(
+    metric: &Metric,
+    mesh: &Mesh,
+    chords: &PerEdge<Twofold>,
+) -> PerFace<[[Twofold; 2]; 3]> {
+    let mut angles = vec![[[Twofold::default(); 2]; 3]; mesh.n_faces()];
+    parallel::fill(&mut angles, |f| {
+        let chords = mesh.opposite_edges(FaceId::from(f)).map(|e| chords[e]);
+        half_angles_of_chords(metric.space, chords)
+    });
+    angles.into()
+}

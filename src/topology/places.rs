@@ -1,0 +1,43 @@
+//! Words of the places of a polygon, put together when they are asked for.
+
+use super::brahana::Prefix;
+use super::word::{Letter, Word};
+
+/// What it takes to spell the way along a polygon's boundary from one place to another.
+///
+/// A word has up to 4g + b letters (twice that between two places), and there are as many places; per place only a
+/// number per handle is kept, so the memory is O(g (g + b)).
+#[derive(Debug, Clone)]
+pub(super) struct Places {
+    prefixes: Vec<Prefix>,
+    /// Per handle the first k letters of `a b a⁻¹ b⁻¹`, k = 0 … 4, spelled in the generators.
+    products: Vec<[Word; 5]>,
+}
+
+impl Places {
+    pub fn new(prefixes: Vec<Prefix>, products: Vec<[Word; 5]>) -> Places {
+        Places { prefixes, products }
+    }
+
+    /// The word of the boundary between two places: `P(from)⁻¹ P(to)`, with what the two have in common left out.
+    pub fn between(&self, from: u32, to: u32) -> impl Iterator<Item = Letter> + '_ {
+        let [from, to] = [from, to].map(|place| &self.prefixes[place as usize]);
+        let common = from.digits.iter().zip(&to.digits).take_while(|(k, l)| k == l).count();
+        let n_common_ends = match common == self.products.len() {
+            true => from.n_ends.min(to.n_ends),
+            false => 0,
+        };
+        let letters = move |prefix: &'_ Prefix| {
+            let n_ends = prefix.n_ends;
+            let handles = prefix.digits.iter().zip(&self.products).skip(common);
+            let ends = (n_common_ends..n_ends).map(|j| Letter::generator(2 * self.products.len() + j));
+            handles
+                .flat_map(|(&k, products)| products[usize::from(k)].letters())
+                .copied()
+                .chain(ends)
+                .collect()
+        };
+        let (back, there): (Vec<_>, Vec<_>) = (letters(from), letters(to));
+        back.into_iter().rev().map(Letter::inverse).chain(there)
+    }
+}

@@ -1,0 +1,11 @@
+//! Canonical homotopy bases, lifts and fundamental domains, by theorem. What they say is compared with
+//! homomorphisms to symmetric groups that are made of faces alone, and with intersection numbers.
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
+
+mod basis;
+mod domain;
+mod group;
+mod representation;
+mod samples;
+#[path = "../surfaces/mod.rs"]
+mod surfaces;
