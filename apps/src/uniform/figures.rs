@@ -16,6 +16,8 @@ pub struct UniformFigures {
     flips: usize,
     start_flips: usize,
     max_curvature_error: f64,
+    /// max |K| of the metric that was laid out, whose lengths have twice the digits of doubles.
+    angle_defect: f64,
     tolerance: f64,
     rounding_floor: Option<f64>,
     double_double: bool,
@@ -80,6 +82,7 @@ impl UniformFigures {
             flips: u.metric.start_flips() + flips,
             start_flips: u.metric.start_flips(),
             max_curvature_error: u.curvature_error(),
+            angle_defect: u.angle_defect,
             tolerance: u.report.tolerance,
             rounding_floor: u.report.rounding_floor,
             double_double: u.report.double_double,

@@ -32,6 +32,8 @@ const DOMAIN_AREA: f64 = 1e-7;
 /// A uniformized surface.
 pub struct Uniformized {
     pub report: Report,
+    /// max |K| to twice the digits of doubles.
+    pub angle_defect: f64,
     pub metric: SurfaceMetric,
     pub lengths: PerEdge<f64>,
     pub curvature: Curvature,
@@ -61,7 +63,7 @@ pub fn uniformized(input: &Input, args: &CanonicalArgs, control: &Control) -> Re
     let quotient = timed(&mut total, || {
         uniformize_quotient(&input.mesh, &input.lengths, input.geometry, &options, control)
     })?;
-    let Quotient { report, metric, layout, basis, deck } = quotient;
+    let Quotient { report, angle_defect, metric, layout, basis, deck } = quotient;
     let mut seconds = Seconds {
         read: input.seconds_read,
         build: input.seconds_build,
@@ -97,6 +99,7 @@ pub fn uniformized(input: &Input, args: &CanonicalArgs, control: &Control) -> Re
     Ok(Uniformized {
         target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
         report,
+        angle_defect,
         metric,
         lengths,
         curvature,
