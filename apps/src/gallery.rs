@@ -5,7 +5,8 @@ use crate::demo::parse;
 use crate::failure::Failure;
 use crate::input::read_text;
 use crate::output::Outputs;
-use crate::{flow, info, make, say};
+use crate::report::Checks;
+use crate::{flow, info, make, say, uniform};
 use ricci::Control;
 use std::io::Write;
 use std::path::Path;
@@ -301,10 +302,9 @@ fn draw(
         match row.draw {
             "" => Ok(()),
             line => match parse(words(&format!("{line} {drawing}")))? {
-                Command::Flow(args) => match flow::execute(&args, control)?.checks.failed().as_slice() {
-                    [] => Ok(()),
-                    failed => Err(Failure::Failed(format!("these checks of the flow fail: {failed:?}"))),
-                },
+                Command::Flow(args) => held(&flow::execute(&args, control)?.checks),
+                Command::Uniformize(args) => held(&uniform::execute_uniformize(&args, control)?.checks),
+                Command::Cover(args) => held(&uniform::execute_cover(&args, control)?.checks),
                 Command::Info(args) => info::run(&args, control).map(|_| ()),
                 other => Err(Failure::Failed(format!("{other:?} draws nothing"))),
             },
@@ -320,6 +320,14 @@ fn draw(
         shown.push(format!("`ricci {} {name}`", row.draw.replace("{}", &file)));
     }
     (shown.join("<br>"), result)
+}
+
+/// A failure if a check does not hold.
+fn held(checks: &Checks) -> Result<(), Failure> {
+    match checks.failed().as_slice() {
+        [] => Ok(()),
+        failed => Err(Failure::Failed(format!("these checks fail: {failed:?}"))),
+    }
 }
 
 #[cfg(test)]

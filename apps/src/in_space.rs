@@ -10,7 +10,7 @@ use ricci::mesh::HalfedgeId;
 use ricci::metric::{Refinement, SurfaceMetric};
 
 /// In H² the two sides of a seam may always differ by this, a distance: what copies of the layout are to meet to.
-const MEETING: f64 = 1e-8;
+pub const MEETING: f64 = 1e-8;
 
 /// A surface in the model space of its metric.
 pub struct InSpace {

@@ -48,7 +48,7 @@ pub fn draw(
         seams: parts.as_ref().map_or(&[], |p| &p.edges),
         cones: &cones,
     });
-    let drawn = Picture { surface, flat, drawing: None, pattern: None, field: field.as_ref() };
+    let drawn = Picture { surface, flat, field: field.as_ref(), ..Picture::default() };
     out.write_all(&picture::png(&drawn, &style, threads).map_err(io::Error::other)?)
 }
 
@@ -107,8 +107,7 @@ pub fn draw_surface(
     let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut keep)).collect();
     let surface = Surface { positions: &seen, faces: &faces, corner_uv: None, seams: &[], cones: &[] };
     let field = args.curvature().then(|| quantity::curvature_of_triangles(&seen, &faces));
-    let drawn =
-        Picture { surface: Some(surface), flat: None, drawing: None, pattern: None, field: field.as_ref() };
+    let drawn = Picture { surface: Some(surface), flat: None, field: field.as_ref(), ..Picture::default() };
     out.write_all(&picture::png(&drawn, &args.style(), threads).map_err(io::Error::other)?)
 }
 

@@ -130,9 +130,11 @@ impl Default for Style {
 }
 
 /// What one picture shows: the surface on the left, the layout or a drawing on the right, or one of them.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub struct Picture<'a> {
     pub surface: Option<Surface<'a>>,
+    /// A second surface, on the right.
+    pub beside: Option<Surface<'a>>,
     pub flat: Option<Flat<'a>>,
     /// A drawing in place of the layout, or beside it.
     pub drawing: Option<&'a Drawing<'a>>,
@@ -178,10 +180,11 @@ impl Picture<'_> {
             wire: style.wire,
             size: style.size,
         };
-        let surface = self.surface.map(|s| solid::draw(&s, &wish(s.corner_uv), style, threads));
+        let [surface, beside] = [self.surface, self.beside]
+            .map(|surface| surface.map(|s| solid::draw(&s, &wish(s.corner_uv), style, threads)));
         let flat = self.flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style, threads));
         let drawing = self.drawing.map(|d| drawing::draw(d, style, threads));
-        let panels: Vec<Image> = [surface, flat, drawing].into_iter().flatten().collect();
+        let panels: Vec<Image> = [surface, beside, flat, drawing].into_iter().flatten().collect();
         let gap = (BETWEEN * style.size as f64) as usize * panels.len().saturating_sub(1);
         let width = (panels.iter().map(|p| p.width).sum::<usize>() + gap).max(1);
         let height = panels.iter().map(|p| p.height).max().unwrap_or(1);

@@ -12,12 +12,14 @@ Example: a surface of genus 2 in the hyperbolic plane, the group of its universa
     ricci make genus -o two.obj
     ricci uniformize two.obj --uv disk.obj --generators group.json --picture two.png --report two.json
 
-A torus comes to lie in the plane, surfaces of higher genus in the hyperbolic plane, about the base vertex.
+A torus comes to lie in the plane, surfaces of higher genus in the hyperbolic plane, about the base vertex. A sphere comes to lie on the
+unit sphere, as a convex polyhedron with its centre of mass in the middle (with --method gradient by the flow in S², not centred).
 
 Files
     --metric M.json            the metric on its triangulation, as of ricci flow
     --uv OUT.obj | OUT.glb     the surface, opened, with its layout as texture coordinates: of the plane (scaled to the surface's
                                area), of the Poincaré disk
+    --sphere S.obj | S.glb     of a sphere: the input's vertices, in order, on the unit sphere, with the faces that flips have led to
     --generators C.json        space, basis (a1, b1, …), word, and a Möbius matrix per generator: of the plane, of the Poincaré disk";
 
 pub const COVER_HELP: &str = "\
@@ -39,7 +41,8 @@ pub struct CanonicalArgs {
     pub surface: SurfaceArgs,
     #[command(flatten)]
     pub solve: SolveArgs,
-    /// The vertex at the origin, where the loops of the generators meet [default: one from which no vertex is far]
+    /// The vertex at the origin, where the loops of the generators meet [default: one from which no vertex is far]; of a sphere, the one
+    /// that is sent to infinity on the way [default: one from which sizes differ least]
     #[arg(long, value_name = "VERTEX")]
     pub base: Option<u32>,
     /// Write the metric
@@ -48,6 +51,9 @@ pub struct CanonicalArgs {
     /// Write the opened surface with its layout as texture coordinates, .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<PathBuf>,
+    /// Write a sphere: the final triangulation with its vertices on the unit sphere, .obj or .glb
+    #[arg(long, value_name = "S.obj")]
+    pub sphere: Option<PathBuf>,
     /// Write the generators of the deck group
     #[arg(long, value_name = "C.json")]
     pub generators: Option<PathBuf>,

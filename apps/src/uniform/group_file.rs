@@ -21,6 +21,11 @@ pub struct GroupFile {
 }
 
 impl GroupFile {
+    /// The group of what is its own universal cover.
+    pub fn trivial(space: &'static str) -> GroupFile {
+        GroupFile { space, basis: Vec::new(), word: Vec::new(), generators: BTreeMap::new() }
+    }
+
     pub fn new(deck: &DeckGroup) -> GroupFile {
         let basis = deck.group.names();
         let matrices = deck.generators.iter().map(|g| g.mobius());

@@ -98,13 +98,8 @@ impl Ready {
             seams: &self.loops,
             cones: &base,
         });
-        let drawn = Picture {
-            surface,
-            flat: None,
-            drawing: drawing.as_ref(),
-            pattern: Some(&self.tiles),
-            field: None,
-        };
+        let drawn =
+            Picture { surface, drawing: drawing.as_ref(), pattern: Some(&self.tiles), ..Picture::default() };
         out.write_all(&picture::png(&drawn, &canvas.style, canvas.threads).map_err(io::Error::other)?)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::args::CanonicalArgs;
 use crate::failure::Failure;
-use crate::in_space::{InSpace, in_space};
+use crate::in_space::{InSpace, MEETING, in_space};
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
 use crate::laid::{Laid, Placed};
@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 pub const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
 /// A relation residual beyond this is no relation.
 const RELATION: f64 = 1e-8;
-/// What products of far translations lose in the relation is rounding, as for sides of the domain.
+/// Rounding of the area, per vertex.
 const AREA_ROUNDING: f64 = 1e-12;
 /// Deck transformations of a torus turn by this at most, radians.
 const TURNING: f64 = 1e-10;
@@ -139,7 +139,8 @@ impl Uniformized {
         checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET);
         checks.add("max_curvature_error", self.curvature_error(), self.report.tolerance);
         checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
-        checks.add("layout_consistency", self.laid.consistency(), self.laid.consistency_limit);
+        let meeting = if self.deck.space == Space::H2 { MEETING } else { self.laid.consistency_limit };
+        checks.add("layout_consistency", self.laid.consistency(), meeting);
         checks.add("flipped_triangles", self.laid.flipped().len() as f64, 0.0);
         checks.add("relation_residual", self.deck.relation_residual.max(self.deck.side_residual), RELATION);
         let n = self.curvature.at.len() as f64;
