@@ -203,10 +203,12 @@ struct Panel<'a> {
 impl Painter for Panel<'_> {
     fn paint(&self, pixel: [f64; 2], hit: Option<&Hit>) -> Rgb {
         let cells = self.drawing.cells;
-        if let Some(stroke) = hit.and_then(|hit| hit.shape.checked_sub(cells.len())) {
-            return self.strokes[stroke];
-        }
         let [x, y] = self.fit.invert(pixel);
+        if let Some(stroke) = hit.and_then(|hit| hit.shape.checked_sub(cells.len())) {
+            let beyond = |far: f64| y > far || x.abs() > far;
+            let outside = matches!(self.drawing.frame, Frame::HalfPlane(far) if beyond(far));
+            return if outside { [1.0; 3] } else { self.strokes[stroke] };
+        }
         let (inside, empty) = match self.drawing.frame {
             Frame::Disk => (x.hypot(y) < 1.0, from_hex(EMPTY)),
             Frame::HalfPlane(far) => (y > 0.0 && y < far && x.abs() < far, from_hex(EMPTY)),

@@ -20,4 +20,5 @@ mod summary;
 mod tiling;
 
 pub use args::{COVER_HELP, CoverArgs, UNIFORMIZE_HELP, UniformizeArgs};
-pub use commands::{Shape, cover, execute_cover, execute_uniformize, uniformize};
+pub use commands::{Done, Shape, cover, execute_cover, execute_uniformize, uniformize};
+pub use figures::UniformFigures;

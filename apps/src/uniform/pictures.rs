@@ -12,9 +12,10 @@ use crate::picture::{
 use crate::show::is_svg;
 use ricci::Control;
 use ricci::embed::cover::elements_within;
+use ricci::embed::space_layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
-use ricci::geometry::{Motion, Space};
+use ricci::geometry::{Motion, Space, Twofold};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -176,41 +177,52 @@ fn domain(u: &Uniformized, canvas: &Canvas<'_>, named: bool) -> Result<Tiling, F
     Ok(tiling)
 }
 
-/// The canonical polygon over copies of the layout.
+/// The canonical polygon over copies of the layout, moved to the middle of the picture.
 fn polygon(u: &Uniformized, canvas: &Canvas<'_>, control: &Control) -> Result<Tiling, Failure> {
     let sides = sides(u)?;
     let shape = prototype(u, &sides);
-    let corners = u.deck.canonical_polygon(ORIGIN);
-    let around: Vec<[f64; 3]> = corners.iter().chain(&shape.border).copied().collect();
+    let given = u.deck.canonical_polygon(ORIGIN);
+    let middle = middle(u.deck.space, &given);
+    let home = translation_to(u.deck.space, middle).inverse();
+    let moved = |p: &[f64; 3]| home.apply(p.map(Twofold::from)).map(f64::from);
+    let corners: Vec<[f64; 3]> = given.iter().map(moved).collect();
+    let around = if canvas.at == ModelPlace::Plane { corners.clone() } else { shape.border.clone() };
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &around), canvas.style.size);
-    for g in background(u, &corners, control)? {
-        tiling.copy(&shape, &g.motion, PALE, Some(THIN));
+    for g in background(u, &given, control)? {
+        tiling.copy(&shape, &home.compose(&g.motion), PALE, Some(THIN));
     }
     let relator = u.deck.group.relator();
     for (k, letter) in relator.letters().iter().enumerate() {
         tiling.line(&[corners[k], corners[(k + 1) % corners.len()]], Some(letter.index()), BOLD);
-        // Away from the middle of the polygon.
-        let text = u.deck.group.text(&std::iter::once(*letter).collect());
-        tiling.name_line(text, middle(&corners));
+        tiling.name_line(u.deck.group.text(&std::iter::once(*letter).collect()), ORIGIN);
     }
     tiling.dots.extend(corners.iter().map(|p| canvas.at.flat(*p)));
     Ok(tiling)
 }
 
-fn middle(points: &[[f64; 3]]) -> [f64; 3] {
-    let sum = [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f64>());
-    let [x, y] = [sum[0] / sum[2], sum[1] / sum[2]];
-    // In H² of vectors, as the centre of mass is; in E² the height is the count.
-    let square = 1.0 - x * x - y * y;
-    let scale = if points.iter().all(|p| p[2] == 1.0) || square <= 0.0 { 1.0 } else { 1.0 / square.sqrt() };
-    [scale * x, scale * y, scale]
+/// The point whose ambient coordinates are the mean of some, brought back to the plane or the hyperboloid.
+fn middle(space: Space, points: &[[f64; 3]]) -> [f64; 3] {
+    let [x, y, w] = [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f64>());
+    let square = match space {
+        Space::H2 => (w - x.hypot(y)) * (w + x.hypot(y)),
+        _ => w * w,
+    };
+    [x, y, w].map(|k| k / square.sqrt())
+}
+
+/// The translation that carries the origin to a point.
+fn translation_to(space: Space, p: [f64; 3]) -> Motion<Twofold> {
+    let half = 0.5 * p[1].atan2(p[0]);
+    let turn: Motion = Motion::rotation([half.cos(), half.sin()], space);
+    let along = Motion::translation(distance_from_origin(space, p), space);
+    turn.compose(&along).compose(&turn.inverse()).precise()
 }
 
 /// Copies around the base point, as far as these points and as many as a picture shows.
 fn background(u: &Uniformized, reach: &[[f64; 3]], control: &Control) -> Result<Vec<DeckElement>, Failure> {
     let Ok(domain) = &u.domain else { return Ok(u.elements.clone()) };
-    let far = |p: &[f64; 3]| ricci::embed::space_layout::distance_from_origin(u.deck.space, *p);
-    let mut radius = reach.iter().map(far).fold(domain.radius, f64::max);
+    let far = |p: &[f64; 3]| distance_from_origin(u.deck.space, *p);
+    let mut radius = reach.iter().map(far).fold(0.0, f64::max) + 2.0 * domain.radius;
     loop {
         match elements_within(&u.deck, domain, radius, BACKGROUND, control) {
             Err(ricci::Error::TooLarge { .. }) if radius > domain.radius => {
@@ -233,7 +245,11 @@ fn dirichlet(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
     for g in &domain.sides {
         tiling.copy(&tile, &g.motion, PALE, Some(THIN));
     }
+    // The first on a place is seen: the layout fills the domain but for its jagged border, its neighbours fill that.
     tiling.copy(&shape, &Motion::identity(u.deck.space), 0, None);
+    for g in &domain.sides {
+        tiling.copy(&shape, &g.motion, 0, None);
+    }
     outline(u, &mut tiling, domain, true);
     tiling.dots.push(canvas.at.flat(domain.centre));
     Ok(tiling)

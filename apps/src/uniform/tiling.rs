@@ -136,16 +136,17 @@ impl Tiling {
         let step = |w: &[[f64; 2]]| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]);
         let length: f64 = line.points.windows(2).map(step).sum();
         let (mut rest, mut at) = (0.5 * length, line.points.first().copied().unwrap_or_default());
-        let mut along = [0.0, 1.0];
         for w in line.points.windows(2) {
             let l = step(w);
             if rest <= l && l > 0.0 {
                 at = [0, 1].map(|k| w[0][k] + rest / l * (w[1][k] - w[0][k]));
-                along = [0, 1].map(|k| (w[1][k] - w[0][k]) / l);
                 break;
             }
             rest -= l;
         }
+        // Its direction as a whole: the border of a layout is jagged.
+        let ends = [line.points.first(), line.points.last()].map(|p| p.copied().unwrap_or_default());
+        let along = [0, 1].map(|k| ends[1][k] - ends[0][k]);
         // Across the line, on the side that is away.
         let from = self.at.flat(from);
         let across = [along[1], -along[0]];
