@@ -167,7 +167,7 @@ const CANONICAL: &[Row] = &[
     row(
         "bolza-tiles",
         Lengths("bolza --level 3"),
-        "cover {} --radius 6 --show tiles",
+        "cover {} --radius 6 --show tiles --base 0",
         "the Bolza surface: regular octagons",
     ),
     row("torus-cover", Made("torus --noise 0.2"), "cover {} --radius 20", "a torus tiles the plane"),

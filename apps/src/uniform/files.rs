@@ -124,7 +124,7 @@ impl Wish<'_> {
         if let Some(path) = &args.picture.picture {
             let texture = args.texture.unwrap_or(Texture::Checker);
             let canvas = Canvas { path, at, style: args.picture.style(texture), threads };
-            let ready = pictures::prepare(u, shown, &canvas, control);
+            let ready = pictures::prepare(u, shown, &canvas);
             let written = ready.and_then(|ready| outputs.add(path, |out| ready.write(out, u, &canvas)));
             u.failed.attempt("picture", written)?;
         }

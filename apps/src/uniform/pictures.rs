@@ -10,17 +10,18 @@ use crate::picture::{
     self, Drawing, Frame, PALE, Pattern, Picture, Style, Surface, Tiles, write_drawing_svg,
 };
 use crate::show::is_svg;
-use ricci::Control;
-use ricci::embed::cover::elements_within;
 use ricci::embed::space_layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
 use ricci::geometry::{Motion, Space, Twofold};
+use ricci::topology::word::Word;
 use std::io::{self, Write};
 use std::path::Path;
 
 /// Copies in the background of a polygon at most.
-const BACKGROUND: usize = 600;
+const BACKGROUND: usize = 250;
+/// Images of the base point closer than this are one.
+const SAME: f64 = 1e-6;
 /// Widths of lines, in those of a seam.
 const THIN: f64 = 0.45;
 const SEAM: f64 = 1.25;
@@ -54,12 +55,7 @@ pub struct Ready {
 }
 
 /// Work out what is drawn.
-pub fn prepare(
-    u: &Uniformized,
-    shown: Shown,
-    canvas: &Canvas<'_>,
-    control: &Control,
-) -> Result<Ready, Failure> {
+pub fn prepare(u: &Uniformized, shown: Shown, canvas: &Canvas<'_>) -> Result<Ready, Failure> {
     let (uv, tiles) = pattern(u);
     let mesh = &u.laid.mesh;
     let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
@@ -67,7 +63,7 @@ pub fn prepare(
         Shown::Uniform(ShowChoice::Surface) => None,
         Shown::Uniform(ShowChoice::Both) => Some(domain(u, canvas, false)?),
         Shown::Uniform(ShowChoice::Domain) => Some(domain(u, canvas, true)?),
-        Shown::Uniform(ShowChoice::Polygon) => Some(polygon(u, canvas, control)?),
+        Shown::Uniform(ShowChoice::Polygon) => Some(polygon(u, canvas)?),
         Shown::Uniform(ShowChoice::Dirichlet) => Some(dirichlet(u, canvas)?),
         Shown::Cover(TilesChoice::Copies) => Some(copies(u, canvas)?),
         Shown::Cover(TilesChoice::Tiles) => Some(tiled(u, canvas)?),
@@ -178,7 +174,7 @@ fn domain(u: &Uniformized, canvas: &Canvas<'_>, named: bool) -> Result<Tiling, F
 }
 
 /// The canonical polygon over copies of the layout, moved to the middle of the picture.
-fn polygon(u: &Uniformized, canvas: &Canvas<'_>, control: &Control) -> Result<Tiling, Failure> {
+fn polygon(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
     let sides = sides(u)?;
     let shape = prototype(u, &sides);
     let given = u.deck.canonical_polygon(ORIGIN);
@@ -188,8 +184,11 @@ fn polygon(u: &Uniformized, canvas: &Canvas<'_>, control: &Control) -> Result<Ti
     let corners: Vec<[f64; 3]> = given.iter().map(moved).collect();
     let around = if canvas.at == ModelPlace::Plane { corners.clone() } else { shape.border.clone() };
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &around), canvas.style.size);
-    for g in background(u, &given, control)? {
-        tiling.copy(&shape, &home.compose(&g.motion), PALE, Some(THIN));
+    let far = |k: &usize| distance_from_origin(u.deck.space, corners[*k]);
+    let nearest = (0..corners.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
+    let start: Word = u.deck.group.relator().letters()[..nearest].iter().copied().collect();
+    for motion in background(u, &home, &start) {
+        tiling.copy(&shape, &motion, PALE, Some(THIN));
     }
     let relator = u.deck.group.relator();
     for (k, letter) in relator.letters().iter().enumerate() {
@@ -218,20 +217,32 @@ fn translation_to(space: Space, p: [f64; 3]) -> Motion<Twofold> {
     turn.compose(&along).compose(&turn.inverse()).precise()
 }
 
-/// Copies around the base point, as far as these points and as many as a picture shows.
-fn background(u: &Uniformized, reach: &[[f64; 3]], control: &Control) -> Result<Vec<DeckElement>, Failure> {
-    let Ok(domain) = &u.domain else { return Ok(u.elements.clone()) };
-    let far = |p: &[f64; 3]| distance_from_origin(u.deck.space, *p);
-    let mut radius = reach.iter().map(far).fold(0.0, f64::max) + 2.0 * domain.radius;
-    loop {
-        match elements_within(&u.deck, domain, radius, BACKGROUND, control) {
-            Err(ricci::Error::TooLarge { .. }) if radius > domain.radius => {
-                radius = (0.8 * radius).max(domain.radius);
+/// Copies of the layout around the origin that the group has been moved to by `home`, nearest first, as many as a picture shows.
+/// `start`: a word that leads near there.
+fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> Vec<Motion<Twofold>> {
+    let Ok(domain) = &u.domain else { return Vec::new() };
+    let place = |g: &Motion<Twofold>| g.origin().map(f64::from);
+    let mut waiting = vec![home.compose(&u.deck.motion(start))];
+    let mut known: Vec<[f64; 3]> = waiting.iter().map(place).collect();
+    let mut found = Vec::new();
+    while found.len() < BACKGROUND {
+        let nearest = (0..waiting.len())
+            .min_by(|&a, &b| waiting[a].displacement().total_cmp(&waiting[b].displacement()));
+        let Some(nearest) = nearest else { break };
+        let g = waiting.swap_remove(nearest);
+        for side in &domain.sides {
+            let next = g.compose(&side.motion);
+            let at = place(&next);
+            // The base's images are apart; out there coordinates are as large as their digits allow.
+            let same = |p: &[f64; 3]| (0..2).all(|k| (p[k] - at[k]).abs() <= SAME * at[2]);
+            if !known.iter().any(same) {
+                known.push(at);
+                waiting.push(next);
             }
-            Err(ricci::Error::TooLarge { .. }) => return Ok(u.elements.clone()),
-            other => return Ok(other?),
         }
+        found.push(g);
     }
+    found
 }
 
 /// The Dirichlet domain over its neighbours.
