@@ -1,5 +1,5 @@
-//! Closed surfaces in their canonical shape: spheres as convex polyhedra inscribed in the unit sphere, others as quotients of the plane or
-//! the hyperbolic plane.
+//! Closed surfaces in their canonical shape: spheres as convex polyhedra inscribed in the unit sphere, all others as quotients of the
+//! plane or the hyperbolic plane.
 
 mod candidates;
 mod lift;
@@ -8,6 +8,8 @@ pub mod quotient;
 pub mod sphere;
 mod star;
 mod tries;
+pub mod uniformize;
 
 pub use quotient::{Quotient, QuotientOptions, uniformize_quotient};
 pub use sphere::{Sphere, SphereOptions, SphereReport, uniformize_sphere};
+pub use uniformize::{Uniformization, uniformize};

@@ -53,17 +53,17 @@ impl Punctured {
         options: &Options,
         control: &Control,
     ) -> Result<Found> {
-        let (mut iterations, mut longest) = (0, options.max_step);
+        let (mut rounds, mut iterations, mut longest) = (0, 0, options.max_step);
         self.restore(slivers)?;
         loop {
             let before = slivers.then(|| self.clone());
             let report = self.step(longest, options, control)?;
-            // A step that had nothing to do counts too: nothing may go on for ever.
-            iterations += report.iterations.max(1);
+            rounds += 1;
+            iterations += report.iterations;
             let (error, stop_reason) = (report.max_curvature_error, report.stop_reason);
             let first = report.residuals.first().copied().unwrap_or(f64::INFINITY);
             longest = options.max_step;
-            if let Some(before) = before.filter(|_| first < NEAR && first < error && iterations < most) {
+            if let Some(before) = before.filter(|_| first < NEAR && first < error && rounds < most) {
                 let moved = |v: VertexId| (self.metric.u[v] - before.metric.u[v]).abs();
                 let moved = self.mesh.vertices().map(moved).fold(0.0, f64::max);
                 if moved > LEAST_STEP {
@@ -82,7 +82,7 @@ impl Punctured {
             let ended = stop_reason != StopReason::IterationLimit;
             let settled = error < SETTLED || ended;
             let go_on = changed || (settled && self.release(&turning, error.max(straight))?);
-            if (!go_on && ended) || iterations >= most {
+            if (!go_on && ended) || rounds >= most {
                 let converged = report.converged && !go_on;
                 let stop_reason = if go_on { StopReason::IterationLimit } else { stop_reason };
                 return Ok(Found { converged, stop_reason, iterations, error, turning: least });

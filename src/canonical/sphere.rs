@@ -96,7 +96,7 @@ pub struct Sphere {
 /// edges are, after flips inside the conformal class, chords of lengths in that class. Its vertices are moved by the Möbius transformation
 /// after which `Σ w x = 0`, w one third of the area of the given faces at a vertex; they are determined up to a rotation.
 ///
-/// A vertex is sent to infinity, the rest flows to the plane ([`super::puncture`]), and is lifted. Errors: a surface that is
+/// A vertex is sent to infinity, the rest flows to the plane, and is lifted. Errors: a surface that is
 /// no sphere, or of fewer than four vertices; sizes, lengths and triangles as for
 /// [`SurfaceMetric::delaunay`]; a vertex with half of the area or more; [`Error::Layout`] where
 /// all vertices lie on one circle (the double of a polygon); [`Error::Cancelled`].

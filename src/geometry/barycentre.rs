@@ -5,8 +5,8 @@
 //! i, which is convex: its gradient is −x_i, its Hessian `1 − x_i x_iᵀ`. It exists and is unique where no point has half of the weight
 //! or more. In the upper half-space y = (p, t) and x_i is the lift of `(z_i − p)/t`.
 
-use super::sphere::{SOUTH, Similarity, lift};
-use super::vector::{Vector, add, norm, scale};
+use super::sphere::{SOUTH, Similarity, lift, project};
+use super::vector::{Vector, add, dot, norm, scale};
 use crate::error::{Error, Result, check_size};
 
 /// Longest step: within this hyperbolic distance the directions, and so the Hessian, change moderately.
@@ -15,6 +15,8 @@ const LONGEST: f64 = 1.0;
 const STEPS: usize = 2000;
 /// A step halved so often is rounding.
 const HALVINGS: usize = 30;
+/// What cannot be lowered further is taken for rounding if it is below this many of what rounding makes at most.
+const FLOOR: f64 = 8.0;
 /// `|Σ w x|/Σw` that is enough: rounding of a sum of many terms leaves less.
 const ENOUGH: f64 = 1e-15;
 
@@ -56,13 +58,18 @@ pub fn conformal_barycentre(points: &[[f64; 2]], weights: &[f64], at_infinity: f
         }
         let step = newton(mean, square);
         let length = norm(step);
+        if length <= ENOUGH {
+            break;
+        }
         let to = scale(1.0 / length, step);
         let mut distance = length.min(LONGEST);
         let mut found = None;
         for _ in 0..HALVINGS {
             let next = y.towards(to, distance);
             let there = moments(&next);
-            if norm(there.0) < norm(mean) {
+            // Downhill still: what lies ahead outweighs the rest. Or, near the end, better balanced.
+            let ahead = project(to).map_or(SOUTH, |z| lift(next.apply(y.before(z))));
+            if dot(there.0, ahead) >= 0.0 || norm(there.0) < norm(mean) {
                 found = Some((next, there));
                 break;
             }
@@ -73,9 +80,9 @@ pub fn conformal_barycentre(points: &[[f64; 2]], weights: &[f64], at_infinity: f
             None => break,
         }
     }
-    // Rounding of the sums: V terms of size w.
-    let floor = f64::EPSILON * (points.len() as f64 + 8.0);
-    if norm(mean) <= floor.max(ENOUGH) { Ok(y) } else { Err(heavy(largest / total)) }
+    // Rounding: of a sum of that many terms, and of p in units of t.
+    let terms = points.len() as f64 + y.centre[0].hypot(y.centre[1]) / y.scale;
+    if norm(mean) <= FLOOR * f64::EPSILON * terms { Ok(y) } else { Err(heavy(largest / total)) }
 }
 
 fn heavy(share: f64) -> Error {
@@ -84,7 +91,7 @@ fn heavy(share: f64) -> Error {
     Error::Argument { what: "largest weight", value, need }
 }
 
-/// `(1 − square)⁻¹ mean`, or `mean` itself where rounding has left nothing to invert.
+/// `(1 − square)⁻¹ mean`, or `mean` itself where rounding has left nothing to invert: all is seen in one direction.
 fn newton(mean: Vector, square: [Vector; 3]) -> Vector {
     let mut m = square.map(|row| row.map(|x| -x));
     (0..3).for_each(|k| m[k][k] += 1.0);
@@ -95,13 +102,12 @@ fn newton(mean: Vector, square: [Vector; 3]) -> Vector {
     };
     let determinant = (0..3).map(|j| m[0][j] * minor(0, j)).sum::<f64>();
     let step = [0, 1, 2].map(|i| (0..3).map(|j| minor(j, i) * mean[j]).sum::<f64>() / determinant);
-    if step.iter().all(|x| x.is_finite()) && norm(step) > 0.0 { step } else { mean }
+    if step.iter().all(|x| x.is_finite()) && dot(step, mean) > 0.0 { step } else { mean }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::sphere::project;
 
     fn residual(points: &[[f64; 2]], weights: &[f64], at_infinity: f64, y: &Similarity) -> f64 {
         let start = scale(at_infinity, SOUTH);
@@ -114,7 +120,7 @@ mod tests {
         let cube: Vec<[f64; 2]> = corners.map(|x| project(scale(1.0 / 3f64.sqrt(), x)).unwrap()).collect();
         for (t, p) in [(1.0, [0.0, 0.0]), (1e-9, [0.3, 0.1]), (1e12, [-5.0, 1e3]), (3.0, [2e5, -7.0])] {
             let moved: Vec<[f64; 2]> = cube.iter().map(|z| [0, 1].map(|k| t * z[k] + p[k])).collect();
-            let y = conformal_barycentre(&moved, &[1.0; 8], 0.0).unwrap();
+            let y = conformal_barycentre(&moved, &[1.0; 8], 0.0).unwrap_or_else(|e| panic!("{t} {p:?} {e}"));
             let rounding = 1e-15 * (1.0 + p[0].hypot(p[1]) / t);
             assert!((y.scale / t - 1.0).abs() < 10.0 * rounding, "{t} {p:?} {y:?}");
             assert!((y.centre[0] - p[0]).hypot(y.centre[1] - p[1]) < 10.0 * t * rounding);
@@ -122,7 +128,7 @@ mod tests {
     }
 
     /// Three points and ∞ with equal weights: the centre of their regular ideal tetrahedron, where they are for an equilateral
-    /// triangle with centre 0 and vertices at distance r: t = r/√2.
+    /// triangle with centre 0 and vertices at distance r: at height (1 − r²/t²)/(1 + r²/t²) = 1/3, t = √2 r.
     #[test]
     fn an_equilateral_triangle_and_infinity() {
         let r = 5.0;
@@ -131,7 +137,7 @@ mod tests {
             [r * angle.cos(), r * angle.sin()]
         });
         let y = conformal_barycentre(&points, &[1.0; 3], 1.0).unwrap();
-        assert!((y.scale - r / 2f64.sqrt()).abs() < 1e-14 && y.centre[0].hypot(y.centre[1]) < 1e-14);
+        assert!((y.scale - r * 2f64.sqrt()).abs() < 1e-13 && y.centre[0].hypot(y.centre[1]) < 1e-13);
     }
 
     #[test]
