@@ -9,7 +9,6 @@ use crate::failure::Failure;
 use crate::figures::FlowResult;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
-use crate::laid::OPEN_IN_H2;
 use crate::metric_file::MetricFile;
 use crate::options::{FlipsChoice, MethodChoice, SchemeChoice};
 use crate::output::{self, Outputs, check_extension, extension};
@@ -124,12 +123,9 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
 
 /// What can be refused once the surface is known.
 fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
-    let laid_out = space == Space::E2 || (space == Space::H2 && input.mesh.is_closed());
+    let laid_out = space != Space::S2;
     let missing = |option: &str| {
-        let why = match space {
-            Space::H2 => OPEN_IN_H2,
-            _ => "ricci uniformize lays spheres out; use it, or --space e2",
-        };
+        let why = "ricci uniformize lays spheres out; use it, or --space e2";
         Err(Failure::Usage(format!("{option}: {why}")))
     };
     for (option, wanted) in [("--uv", args.uv.is_some()), ("--zoom", args.picture.zoom.is_some())] {

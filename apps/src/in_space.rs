@@ -4,19 +4,22 @@ use crate::input::Input;
 use crate::laid::{Laid, Placed, STEP_ROUNDING};
 use crate::report::{Seconds, timed};
 use ricci::Control;
-use ricci::embed::{RefinedSpaceLayout, SpaceLayout, refine_space_layout};
+use ricci::embed::{
+    RefinedSpaceLayout, SpaceLayout, layout_refined_in_space, refine_space_layout, refined_lengths,
+};
 use ricci::geometry::Space;
-use ricci::mesh::HalfedgeId;
+use ricci::mesh::{HalfedgeId, VertexId};
 use ricci::metric::{Refinement, SurfaceMetric};
+use ricci::topology::{central_vertex, cut_graph};
 
 /// In H² the two sides of a seam may always differ by this, a distance: what copies of the layout are to meet to.
 pub const MEETING: f64 = 1e-8;
 
 /// A surface in the model space of its metric.
 pub struct InSpace {
-    /// The layout of the final triangulation.
-    pub whole: SpaceLayout,
-    /// That of the common refinement on it.
+    /// The layout of the final triangulation; none where that is of the surface's double.
+    pub whole: Option<SpaceLayout>,
+    /// That of the common refinement.
     pub refined: RefinedSpaceLayout,
     /// Plane coordinates of its points: of the plane, in H² of the Poincaré disk.
     pub coordinates: Vec<[f64; 2]>,
@@ -36,7 +39,41 @@ pub fn in_space(
     let refinement = timed(&mut seconds.refine, || metric.refinement(control))?;
     let lay = || refine_space_layout(&whole, &refinement, metric.mesh(), control);
     let refined = timed(&mut seconds.layout, lay)?;
-    let quality = refined.quality(&whole, &refinement, &input.mesh, &input.lengths)?;
+    let seams = seams(&whole, &refinement);
+    laid(input, metric, refinement, (Some(whole), refined, seams), errors)
+}
+
+/// Lay out the given half of the double that a metric lives on. `cones`: vertices inside that the cut has to pass.
+pub fn half_in_space(
+    input: &Input,
+    metric: &SurfaceMetric,
+    cones: &[VertexId],
+    errors: f64,
+    seconds: &mut Seconds,
+    control: &Control,
+) -> ricci::Result<Laid> {
+    let refinement = timed(&mut seconds.refine, || metric.refinement(control))?;
+    let (refined, cut) = timed(&mut seconds.layout, || {
+        let lengths = refined_lengths(&refinement, metric.mesh(), metric.metric())?;
+        let half = &refinement.mesh;
+        let cut = if cones.is_empty() { None } else { Some(cut_graph(half, &lengths, cones, control)?) };
+        let root = central_vertex(half, &lengths, control)?;
+        layout_refined_in_space(&refinement, metric.mesh(), metric.metric(), root, cut.as_ref(), control)
+    })?;
+    let numbered =
+        |(k, segment): (usize, &Vec<HalfedgeId>)| -> Vec<_> { segment.iter().map(|&h| (h, k)).collect() };
+    let seams = cut.segments.iter().enumerate().flat_map(numbered).collect();
+    laid(input, metric, refinement, (None, refined, seams), errors)
+}
+
+fn laid(
+    input: &Input,
+    metric: &SurfaceMetric,
+    refinement: Refinement,
+    (whole, refined, seams): (Option<SpaceLayout>, RefinedSpaceLayout, Vec<(HalfedgeId, usize)>),
+    errors: f64,
+) -> ricci::Result<Laid> {
+    let quality = refined.quality(&refinement, &input.mesh, &input.lengths)?;
     let positions = match &input.positions {
         Some(positions) => Some(refinement.from_input_vertices(positions)?),
         None => None,
@@ -44,9 +81,8 @@ pub fn in_space(
     // A vertex with curvature error δ turns what lies beyond it by δ: in H² that moves a point at distance r by sinh(r) δ.
     let off = errors + STEP_ROUNDING * metric.mesh().n_faces() as f64;
     let consistency_limit =
-        if whole.space == Space::H2 { MEETING.max(whole.radius.sinh() * off) } else { off };
-    let place =
-        InSpace { coordinates: refined.coordinates(), seams: seams(&whole, &refinement), whole, refined };
+        if refined.space == Space::H2 { MEETING.max(refined.radius.sinh() * off) } else { off };
+    let place = InSpace { coordinates: refined.coordinates(), seams, whole, refined };
     Ok(Laid {
         mesh: refinement.mesh.clone(),
         weight: refinement.weight.clone(),
@@ -73,10 +109,8 @@ fn seams(whole: &SpaceLayout, refinement: &Refinement) -> Vec<(HalfedgeId, usize
 impl InSpace {
     /// Largest disagreement of corners: relative to the diameter in E², a distance in H².
     pub fn consistency(&self) -> f64 {
-        match self.whole.space {
-            Space::E2 => self.whole.disagreement / (2.0 * self.whole.radius),
-            _ => self.whole.disagreement,
-        }
+        let RefinedSpaceLayout { space, disagreement, radius, .. } = &self.refined;
+        if *space == Space::E2 { disagreement / (2.0 * radius) } else { *disagreement }
     }
 
     /// The diagonal of the coordinates' bounding box.

@@ -68,6 +68,10 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
         SurfaceFlow::new(mesh, lengths, *geometry, job.scheme, space, &job.pinned, &job.options, control)
     })?;
     let report = flow.solve(&target, control)?;
+    // Layouts in H² magnify what is left of the curvature by e^distance.
+    if report.converged && space == Space::H2 && flow.mesh().is_closed() && target.iter().all(|&k| k == 0.0) {
+        flow.flatten(control)?;
+    }
     let (mesh, metric) = (flow.mesh().clone(), flow.metric().clone());
 
     // What goes wrong from here on is no fault of the input.

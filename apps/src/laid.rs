@@ -2,7 +2,7 @@
 
 use crate::charts::Packed;
 use crate::failure::Failure;
-use crate::in_space::{InSpace, in_space};
+use crate::in_space::{InSpace, half_in_space, in_space};
 use crate::input::Input;
 use crate::report::{Seconds, timed};
 use ricci::Control;
@@ -19,9 +19,6 @@ use ricci::topology::{central_vertex, cut_graph};
 /// An interior vertex with more target curvature than this is a cone, and the cut passes it. Left inside, the vertex opens
 /// the layout by an angle of that size, which is below what the flow's tolerance leaves open anyway.
 const CONE: f64 = 1e-12;
-/// Why some flows in H² have no layout.
-pub const OPEN_IN_H2: &str =
-    "layouts in h2 of surfaces with boundary are not in this version; use --space e2";
 /// Rounding of one step of the development: a unit direction and a point are rotated and added, a few ulp each.
 pub const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -72,9 +69,6 @@ pub fn lay_out(
     if metric.space == Space::S2 {
         return Ok(Err("ricci uniformize lays spheres out".into()));
     }
-    if metric.space == Space::H2 && !input.mesh.is_closed() {
-        return Ok(Err(OPEN_IN_H2.into()));
-    }
     if !curvature.broken.is_empty() {
         let n = curvature.broken.len();
         return Ok(Err(format!(
@@ -91,6 +85,9 @@ pub fn lay_out(
     let errors: f64 = curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum();
     let consistency_limit = errors + STEP_ROUNDING * mesh.n_faces() as f64;
     let result = (|| {
+        if metric.space == Space::H2 && flow.double().is_some() {
+            return half_in_space(input, &flow.now(), &cones, errors, seconds, control);
+        }
         if metric.space == Space::H2 {
             let lengths = metric.lengths(mesh)?;
             let cut = if cones.is_empty() { None } else { Some(cut_graph(mesh, &lengths, &cones, control)?) };

@@ -19,6 +19,7 @@ mod shape;
 mod space_develop;
 pub mod space_layout;
 pub mod space_refined;
+pub mod space_refined_develop;
 mod triangle;
 
 pub use charts::{ChartOptions, Charts, charts};
@@ -30,3 +31,4 @@ pub use refined::{RefinedLayout, layout_refined, refined_cut};
 pub use seam::Seam;
 pub use space_layout::{SpaceLayout, layout_in_space};
 pub use space_refined::{RefinedSpaceLayout, refine_space_layout};
+pub use space_refined_develop::{layout_refined_in_space, refined_lengths};

@@ -130,8 +130,16 @@ impl<'a> Faces<'a> {
 
     /// The frame of a half-edge inside the surface: its origin from 0, itself from the x axis.
     pub fn frame(&self, frames: &PerFace<Frame>, h: HalfedgeId) -> Frame {
-        let Some(f) = self.mesh.face(h) else { return Motion::identity(self.space) };
-        let (mut frame, mut at) = (frames[f], self.mesh.face_halfedge(f));
+        match self.mesh.face(h) {
+            Some(f) => self.frame_in(&frames[f], h),
+            None => Motion::identity(self.space),
+        }
+    }
+
+    /// The frame of a half-edge of a face, from that of the face's first half-edge.
+    pub fn frame_in(&self, first: &Frame, h: HalfedgeId) -> Frame {
+        let Some(f) = self.mesh.face(h) else { return *first };
+        let (mut frame, mut at) = (*first, self.mesh.face_halfedge(f));
         while at != h {
             frame = self.along(&frame, at);
             at = self.mesh.next(at);
@@ -139,8 +147,13 @@ impl<'a> Faces<'a> {
         frame
     }
 
+    /// Ambient coordinates of a face's corners, in its corner order, from the frame of its first half-edge.
+    pub fn corners(&self, f: FaceId, first: &Frame) -> [[f64; 3]; 3] {
+        self.mesh.face_halfedges(f).map(|h| self.frame_in(first, h).origin().map(f64::from))
+    }
+
     /// The frame of the first half-edge of the face of `h`, from that of `h`.
-    fn turned_to_first(&self, frame: &Frame, h: HalfedgeId) -> Frame {
+    pub fn turned_to_first(&self, frame: &Frame, h: HalfedgeId) -> Frame {
         let Some(f) = self.mesh.face(h) else { return *frame };
         let (first, mut frame, mut at) = (self.mesh.face_halfedge(f), *frame, h);
         while at != first {
@@ -163,7 +176,7 @@ impl<'a> Faces<'a> {
     }
 
     /// What brings the origin to the corner opposite `h`, from that end of `h` which is nearer to the origin.
-    fn apex<T: Real + From<Twofold>>(&self, frame: &Motion<T>, h: HalfedgeId) -> Motion<T> {
+    pub fn apex<T: Real + From<Twofold>>(&self, frame: &Motion<T>, h: HalfedgeId) -> Motion<T> {
         let tip = self.along(frame, h);
         let far = |m: &Motion<T>| -> f64 { m.b[0].into().hypot(m.b[1].into()) };
         match far(frame) <= far(&tip) {

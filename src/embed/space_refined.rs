@@ -3,23 +3,25 @@
 use super::corner::number_corners;
 use super::quality::{Quality, refined_quality};
 use super::shape::Shape;
-use super::space_layout::SpaceLayout;
+use super::space_layout::{SpaceLayout, distance_from_origin};
 use crate::control::Control;
 use crate::error::{Result, check_size};
-use crate::geometry::Space;
 use crate::geometry::model::{distance, klein, poincare};
 use crate::geometry::motion::precise_point;
 use crate::geometry::triangle::area;
+use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, PerHalfedge};
 use crate::metric::Refinement;
 use crate::parallel;
 
-/// A common refinement, opened where its final triangulation is, in the model space of the final metric.
+/// A common refinement, opened along a cut, in the model space of the final metric.
 ///
 /// A piece lies in its final face: its corners are the combinations of the face's corners, as vectors, that the refinement names,
 /// brought back to the plane, the hyperboloid or the sphere. So the map from the input is projective on every piece.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefinedSpaceLayout {
+    /// The space.
+    pub space: Space,
     /// Per half-edge of [`Refinement::mesh`], the index into `points` of the corner at its origin, in its face.
     pub corner_index: PerHalfedge<u32>,
     /// Ambient coordinates ([`SpaceLayout::points`]) of the vertices of the opened refinement.
@@ -30,10 +32,17 @@ pub struct RefinedSpaceLayout {
     pub flipped: Vec<FaceId>,
     /// Triangles whose area is within that of zero.
     pub degenerate: Vec<FaceId>,
-    space: Space,
+    /// As [`SpaceLayout::disagreement`].
+    pub disagreement: f64,
+    /// Largest distance of a point from the origin.
+    pub radius: f64,
+    /// Isometries that bring final faces (first corner from the origin, first side from the x axis) to where they lie …
+    pub(super) frames: Vec<Motion<Twofold>>,
+    /// … and per triangle of the refinement the number of its own.
+    pub(super) patch: PerFace<u32>,
 }
 
-/// Lay a refinement out on the layout of its final triangulation, O(pieces).
+/// Lay a refinement out on the layout of its final triangulation, opened where that is; O(pieces).
 ///
 /// Errors: [`crate::Error::Size`] for the layout of another triangulation; [`crate::Error::Cancelled`].
 pub fn refine_space_layout(
@@ -49,36 +58,19 @@ pub fn refine_space_layout(
     let on_cut = |h| r.final_halfedge(h).is_some_and(|h| layout.cut.is_cut[h.edge()]);
     let is_cut = PerEdge::from_fn(r.mesh.n_edges(), |e: crate::mesh::EdgeId| on_cut(e.halfedge()));
     let (corner_index, n_corners) = number_corners(&r.mesh, &is_cut);
-    let mut points = vec![[f64::NAN; 3]; n_corners];
-    for f in r.mesh.faces() {
-        let corners = layout.face_points(mesh, r.final_face[f]);
-        for (h, weights) in r.mesh.face_halfedges(f).into_iter().zip(r.final_barycentric(f)) {
-            let point = &mut points[corner_index[h] as usize];
-            if point[0].is_nan() {
-                *point = combination(layout.space, corners, weights);
-            }
-        }
-    }
+    let patch = r.final_face.iter().map(|f| f.0).collect::<Vec<_>>().into();
+    let frames = layout.frames.to_vec();
+    let mut refined = RefinedSpaceLayout::empty(layout.space, corner_index, n_corners, is_cut, frames, patch);
+    refined.place(r, |f, _| layout.face_points(mesh, r.final_face[f]));
     control.check()?;
-    let mut refined = RefinedSpaceLayout {
-        corner_index,
-        points,
-        is_cut,
-        flipped: Vec::new(),
-        degenerate: Vec::new(),
-        space: layout.space,
-    };
-    let shapes = refined.shapes(layout, r);
-    let faces =
-        |pick: fn(&(Shape, f64)) -> bool| r.mesh.faces().filter(|f| pick(&shapes[f.index()])).collect();
-    refined.flipped = faces(|(shape, extent)| shape.is_flipped(*extent));
-    refined.degenerate = faces(|(shape, extent)| shape.is_degenerate(*extent));
+    refined.measure(r);
+    refined.disagreement = layout.disagreement;
     control.check()?;
     Ok(refined)
 }
 
 /// The point of the plane, hyperboloid or sphere in the direction of a combination of points; at a corner, the corner itself.
-fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
+pub(super) fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
     if let Some(corner) = weights.iter().position(|&w| w == 1.0) {
         return corners[corner];
     }
@@ -102,7 +94,75 @@ fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3]) -> [f64;
     [x, y, w]
 }
 
+/// A point of a face with this frame, by the weights of the face's corners: combined about the origin, where products of the vectors have
+/// their digits.
+pub(super) fn in_face(
+    space: Space,
+    frame: &Motion<Twofold>,
+    corners: [[f64; 3]; 3],
+    weights: [f64; 3],
+) -> [Twofold; 3] {
+    if let Some(corner) = weights.iter().position(|&w| w == 1.0) {
+        return precise_point(space, corners[corner]);
+    }
+    let home = frame.inverse();
+    let near = corners.map(|p| home.apply(precise_point(space, p)).map(f64::from));
+    frame.apply(precise_point(space, combination(space, near, weights)))
+}
+
 impl RefinedSpaceLayout {
+    /// Nothing placed yet.
+    pub(super) fn empty(
+        space: Space,
+        corner_index: PerHalfedge<u32>,
+        n_corners: usize,
+        is_cut: PerEdge<bool>,
+        frames: Vec<Motion<Twofold>>,
+        patch: PerFace<u32>,
+    ) -> RefinedSpaceLayout {
+        RefinedSpaceLayout {
+            space,
+            corner_index,
+            points: vec![[f64::NAN; 3]; n_corners],
+            is_cut,
+            flipped: Vec::new(),
+            degenerate: Vec::new(),
+            disagreement: 0.0,
+            radius: 0.0,
+            frames,
+            patch,
+        }
+    }
+
+    /// Place every corner by the first triangle that has it; `corners`: where a triangle has the corners of its final face, whose frame
+    /// is given.
+    pub(super) fn place(
+        &mut self,
+        r: &Refinement,
+        corners: impl Fn(FaceId, &Motion<Twofold>) -> [[f64; 3]; 3],
+    ) {
+        for f in r.mesh.faces() {
+            let frame = self.frames[self.patch[f] as usize];
+            let corners = corners(f, &frame);
+            for (h, weights) in r.mesh.face_halfedges(f).into_iter().zip(r.final_barycentric(f)) {
+                let point = &mut self.points[self.corner_index[h] as usize];
+                if point[0].is_nan() {
+                    *point = in_face(self.space, &frame, corners, weights).map(f64::from);
+                }
+            }
+        }
+    }
+
+    /// Find what is flipped, degenerate, and farthest out.
+    pub(super) fn measure(&mut self, r: &Refinement) {
+        let shapes = self.shapes(r);
+        let faces =
+            |pick: fn(&(Shape, f64)) -> bool| r.mesh.faces().filter(|f| pick(&shapes[f.index()])).collect();
+        self.flipped = faces(|(shape, extent)| shape.is_flipped(*extent));
+        self.degenerate = faces(|(shape, extent)| shape.is_degenerate(*extent));
+        let far = self.points.iter().map(|&p| distance_from_origin(self.space, p));
+        self.radius = far.fold(0.0, f64::max);
+    }
     /// Ambient coordinates of a triangle's corners, in its corner order.
     pub fn face_points(&self, r: &Refinement, f: FaceId) -> [[f64; 3]; 3] {
         r.mesh.face_halfedges(f).map(|h| self.points[self.corner_index[h] as usize])
@@ -116,12 +176,12 @@ impl RefinedSpaceLayout {
 
     /// Shapes of all triangles as they are about their own place, where doubles are as dense as they can be, each with what its
     /// coordinates have been rounded at.
-    fn shapes(&self, layout: &SpaceLayout, r: &Refinement) -> Vec<(Shape, f64)> {
+    fn shapes(&self, r: &Refinement) -> Vec<(Shape, f64)> {
         let mut shapes = vec![(Shape { share: 0.0, longest: 0.0 }, 0.0); r.mesh.n_faces()];
         parallel::fill(&mut shapes, |f| {
             let f = FaceId::from(f);
             let points = self.face_points(r, f);
-            let near = self.brought_home(layout, r, f, points);
+            let near = self.brought_home(f, points);
             let plane = points.map(|[x, y, _]| x.hypot(y)).into_iter().fold(0.0, f64::max);
             let extent = if self.space == Space::E2 { plane } else { plane.max(1.0) };
             let image = near.map(|p| if self.space == Space::E2 { [p[0], p[1]] } else { klein(p) });
@@ -131,14 +191,8 @@ impl RefinedSpaceLayout {
     }
 
     /// Points of a triangle moved by the isometry that brings the first corner of its final face to the origin.
-    fn brought_home(
-        &self,
-        layout: &SpaceLayout,
-        r: &Refinement,
-        f: FaceId,
-        points: [[f64; 3]; 3],
-    ) -> [[f64; 3]; 3] {
-        let home = layout.frames[r.final_face[f]].inverse();
+    fn brought_home(&self, f: FaceId, points: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        let home = self.frames[self.patch[f] as usize].inverse();
         points.map(|p| home.apply(precise_point(self.space, p)).map(f64::from))
     }
 
@@ -147,13 +201,7 @@ impl RefinedSpaceLayout {
     ///
     /// Triangles that are degenerate on either side are named, and left out of the mean and the extremes. Errors: [`crate::Error::Size`],
     /// [`crate::Error::EdgeLength`], [`crate::Error::TriangleInequality`].
-    pub fn quality(
-        &self,
-        layout: &SpaceLayout,
-        r: &Refinement,
-        input: &Mesh,
-        lengths: &PerEdge<f64>,
-    ) -> Result<Quality> {
+    pub fn quality(&self, r: &Refinement, input: &Mesh, lengths: &PerEdge<f64>) -> Result<Quality> {
         let flat_out = self.degenerate.iter().chain(&self.flipped);
         let mut is_flat = PerFace::filled(r.mesh.n_faces(), false);
         flat_out.for_each(|&f| is_flat[f] = true);
@@ -166,7 +214,7 @@ impl RefinedSpaceLayout {
                     0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
                 }
                 Space::H2 => {
-                    let [a, b, c] = self.brought_home(layout, r, f, points);
+                    let [a, b, c] = self.brought_home(f, points);
                     area(Space::H2, [distance(b, c), distance(c, a), distance(a, b)])
                 }
                 Space::S2 => {

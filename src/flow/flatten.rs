@@ -21,7 +21,11 @@ impl Solver {
     ///
     /// For a metric that a flow to K̄ = 0 has come to. Errors: [`crate::Error::Cancelled`].
     pub(super) fn flatten(&mut self, control: &Control) -> Result<f64> {
-        let Solver { mesh, metric, pinned, system, pool, .. } = self;
+        let Solver { mesh, metric, pinned, mirror, system, pool, .. } = self;
+        if mirror.is_some() {
+            // Its unknowns are those of one half; rounding differs between the two.
+            *system = None;
+        }
         let free_scale = metric.space == Space::E2 && !pinned.contains(&true);
         pool.run(|| {
             let mut residual = defects(metric.angle_defects(mesh)?, pinned);
@@ -36,7 +40,15 @@ impl Solver {
                 Some(kept) => kept.flipped(mesh, &fixed, None, 0)?,
                 None => System::new(mesh, &fixed, None)?,
             };
-            let system = system.insert(kept);
+            // Of other unknowns than the next solve's, where that keeps a mirror symmetry.
+            let mut own;
+            let system = match mirror {
+                Some(_) => {
+                    own = kept;
+                    &mut own
+                }
+                None => system.insert(kept),
+            };
             system.jacobian.assemble(mesh, metric, &state);
             control.check()?;
             if system.factor().is_err() {

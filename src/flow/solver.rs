@@ -27,7 +27,7 @@ pub struct Solver {
     start_low: PerVertex<f64>,
     pub(super) options: Options,
     pub(super) pinned: Vec<bool>,
-    mirror: Option<Vec<u32>>,
+    pub(super) mirror: Option<Vec<u32>>,
     followed: Vec<NormalCoordinates>,
     pub(super) system: Option<System>,
     pub(super) pool: Pool,

@@ -235,7 +235,7 @@ fn refinements_lie_in_the_layout() {
         let mesh = q.metric.mesh();
         let refined = ricci::embed::refine_space_layout(&q.layout, &r, mesh, &Control::new()).unwrap();
         assert!(refined.flipped.is_empty(), "{}: {:?}", surface.name, refined.flipped);
-        let quality = refined.quality(&q.layout, &r, &surface.mesh, &surface.lengths);
+        let quality = refined.quality(&r, &surface.mesh, &surface.lengths);
         if surface.geometry == Space::E2 {
             let quality = quality.unwrap();
             assert!(

@@ -17,8 +17,8 @@ pub struct Side {
 
 /// The sides of the opened surface, counterclockwise.
 pub fn sides(u: &Uniformized) -> ricci::Result<Vec<Side>> {
-    let Some(place) = u.place() else { return Ok(Vec::new()) };
-    let (mesh, whole) = (&**u.metric.mesh(), &place.whole);
+    let Some(whole) = u.whole() else { return Ok(Vec::new()) };
+    let mesh = &**u.metric.mesh();
     let domain = FundamentalDomain::new(mesh, &whole.cut.is_cut, &u.basis)?;
     let mut pair = vec![usize::MAX; domain.sides.len()];
     let mut n_pairs = 0;
@@ -46,8 +46,8 @@ fn chain(mesh: &Mesh, whole: &SpaceLayout, halfedges: &[HalfedgeId]) -> Vec<[f64
 
 /// The loops of the generators in the opened surface: the two ends of each edge in each of its places, with the loop's number.
 pub fn loops(u: &Uniformized) -> Vec<([[f64; 3]; 2], usize)> {
-    let Some(place) = u.place() else { return Vec::new() };
-    let (mesh, whole) = (u.metric.mesh(), &place.whole);
+    let Some(whole) = u.whole() else { return Vec::new() };
+    let mesh = u.metric.mesh();
     let ends = |h: HalfedgeId| [whole.corner(h), whole.corner(mesh.next(h))];
     let of = |(k, path): (usize, &Vec<HalfedgeId>)| -> Vec<_> {
         path.iter().flat_map(|h| [*h, h.twin()]).map(|h| (ends(h), k)).collect()

@@ -9,7 +9,7 @@ use crate::laid::{Laid, Placed};
 use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
-use ricci::embed::{DeckElement, DeckGroup, DirichletDomain, dirichlet_domain};
+use ricci::embed::{DeckElement, DeckGroup, DirichletDomain, SpaceLayout, dirichlet_domain};
 use ricci::flow::Report;
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
@@ -123,6 +123,11 @@ impl Uniformized {
         }
     }
 
+    /// The layout of the final triangulation.
+    pub fn whole(&self) -> Option<&SpaceLayout> {
+        self.place().and_then(|place| place.whole.as_ref())
+    }
+
     /// max |K| of the metric.
     pub fn curvature_error(&self) -> f64 {
         self.curvature.at.iter().fold(0.0, |m, k| f64::max(m, k.abs()))
@@ -130,7 +135,7 @@ impl Uniformized {
 
     /// The area of the layout's triangles, by formulas without angles.
     pub fn area(&self) -> f64 {
-        self.place().map_or(self.curvature.area, |place| place.whole.area)
+        self.whole().map_or(self.curvature.area, |whole| whole.area)
     }
 
     /// What the result is held against.
