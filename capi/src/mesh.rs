@@ -391,6 +391,13 @@ pub(crate) fn signed_edge(h: HalfedgeId) -> i32 {
     if h == h.edge().halfedge() { number } else { -number }
 }
 
+/// The half-edge of such a number; none if there is no such edge.
+pub(crate) fn halfedge(mesh: &Mesh, number: i32) -> Option<HalfedgeId> {
+    let e = number.unsigned_abs().checked_sub(1).filter(|&e| (e as usize) < mesh.n_edges())?;
+    let h = ricci::mesh::EdgeId(e).halfedge();
+    Some(if number > 0 { h } else { h.twin() })
+}
+
 pub(crate) fn face_vertices(mesh: &Mesh) -> Vec<[u32; 3]> {
     mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect()
 }

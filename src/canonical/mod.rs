@@ -2,4 +2,4 @@
 
 pub mod quotient;
 
-pub use quotient::{Quotient, QuotientOptions, uniformize_quotient};
+pub use quotient::{Quotient, QuotientOptions, quotient_of, uniformize_quotient};
