@@ -177,7 +177,7 @@ pub unsafe extern "C" fn ricci_domain_partners(
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
 ///
 /// @param domain            the domain.
-/// @param letters           out: n_side_letters letters, word after word; the partner's word is the inverse.
+/// @param letters           out: n_side_letters letters, word after word; the partner's element is the inverse.
 /// @param letters_capacity  entries of `letters`.
 /// @param starts            out: n_sides + 1 offsets: the word of side i is letters[starts[i] .. starts[i + 1]).
 /// @param starts_capacity   entries of `starts`.
