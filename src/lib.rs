@@ -13,7 +13,7 @@
 //! | [`metric`] | conformal classes (ε, η), lengths, angles, curvature, targets |
 //! | [`flow`] | Newton and gradient flow, cones |
 //! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |
-//! | [`canonical`] | metrics of constant curvature |
+//! | [`canonical`] | closed surfaces in their canonical shape |
 
 pub mod canonical;
 pub mod control;

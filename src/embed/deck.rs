@@ -4,6 +4,7 @@ use super::dirichlet::to_origin;
 use super::space_layout::SpaceLayout;
 use crate::control::Control;
 use crate::error::Result;
+use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{HalfedgeId, Mesh};
@@ -129,6 +130,14 @@ impl DeckGroup {
     /// The translation length of each generator ([`Motion::translation_length`]).
     pub fn translation_lengths(&self) -> Vec<f64> {
         self.generators.iter().map(Motion::translation_length).collect()
+    }
+
+    /// The modulus of a flat torus, `[Re τ, Im τ]` reduced ([`modulus`]); `None` for another group.
+    pub fn modulus(&self) -> Option<[f64; 2]> {
+        match self.generators.as_slice() {
+            [a, b] if self.space == Space::E2 => modulus([a, b].map(|g| g.mobius()[0][1])),
+            _ => None,
+        }
     }
 
     /// Corners of the canonical polygon, whose sides are geodesics from lift to lift of the base along the relator: the images of the base

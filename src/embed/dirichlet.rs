@@ -7,11 +7,13 @@ use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, triangle};
 use crate::topology::word::Word;
 
-/// A side counts, and a corner is cut off, where that moves the border by more than this: deck transformations are known to about
-/// 1e-11, corners where several bisectors meet to a few times that.
-const SIDE: f64 = 1e-8;
+/// A side counts, and a corner is cut off, where that moves the border by more than the first of these for which the sides can be paired:
+/// elements are known to 1e-20 (some schemes: 1e-14) times e^distance, and corners where more than three bisectors meet to as much.
+const TOLERANCES: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
 /// Rounds of products of side elements. Each at least doubles the word length that is looked at; two or three are usual.
 const ROUNDS: usize = 12;
+/// An element that moves the centre by less is the identity: no surface in doubles has so short a loop.
+const SAME: f64 = 1e-6;
 /// The polygon's area against the surface's, relative.
 const AREA: f64 = 1e-6;
 
@@ -57,45 +59,58 @@ pub fn dirichlet_domain(
     // The surface is covered by what the neighbours' centres are about: nothing nearest to the centre is farther out than all of them
     // together.
     let reach = deck.sides.iter().map(about).map(|g| g.motion.displacement()).sum();
-    let mut polygon = Polygon::around(deck.space, reach);
-    for g in deck.sides.iter().map(about) {
-        polygon.cut(&g);
-        polygon.cut(&inverse(&g));
-    }
-    let mut pool: Vec<_> = deck.sides.iter().map(about).collect();
-    for _ in 0..ROUNDS {
-        control.check()?;
-        let sides = polygon.elements();
-        pool.retain(|_| !polygon.is_bounded());
-        let factors: Vec<_> = sides.iter().chain(&pool).cloned().collect();
-        let mut changed = false;
-        for (i, g) in factors.iter().enumerate() {
-            if i % 16 == 0 {
-                control.check()?;
-            }
-            for h in &sides {
-                let motion = g.motion.compose(&h.motion);
-                if polygon.is_cut_by(&motion) {
-                    let word = deck.group.reduce(&g.word.times(&h.word));
-                    changed |= polygon.cut(&DeckElement { word, motion });
-                }
-            }
+    let factors: Vec<_> = deck.sides.iter().map(about).collect();
+    let mut nearest = None;
+    for tolerance in TOLERANCES {
+        let mut polygon = Polygon::around(deck.space, reach, tolerance);
+        polygon.close(deck, &factors, control)?;
+        match polygon.finish(centre, &home.inverse()) {
+            Some(domain) if (domain.area - area).abs() <= AREA * area => return Ok(domain),
+            found => nearest = found.or(nearest),
         }
-        if !changed && polygon.is_bounded() {
+    }
+    let message = match nearest {
+        Some(domain) => format!("the polygon found has area {}, the surface {area}", domain.area),
+        None => "the sides of the polygon found are not paired".into(),
+    };
+    Err(Error::Layout(format!("no Dirichlet domain: {message}")))
+}
+
+fn product(deck: &DeckGroup, g: &DeckElement, h: &DeckElement, motion: Motion<Twofold>) -> DeckElement {
+    DeckElement { word: deck.group.reduce(&g.word.times(&h.word)), motion }
+}
+
+/// Elements that take the place of factors whose bisectors do not bound the polygon, at most.
+const MOST_FACTORS: usize = 600;
+
+/// Of some elements and their products by twos, other than the identity, those that move the origin least: twice as many as were given.
+fn shortest_products(deck: &DeckGroup, all: &[DeckElement], control: &Control) -> Result<Vec<DeckElement>> {
+    let identity = identity(deck.space);
+    let mut pairs = Vec::with_capacity(all.len() * (all.len() + 1));
+    for (i, g) in all.iter().enumerate() {
+        control.check()?;
+        for (j, h) in std::iter::once(&identity).chain(all).enumerate() {
+            let motion = g.motion.compose(&h.motion);
+            pairs.push((motion.displacement(), i, j, motion));
+        }
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let most = (2 * all.len()).min(MOST_FACTORS).max(all.len());
+    let mut found: Vec<DeckElement> = Vec::new();
+    for (moved, i, j, motion) in pairs.into_iter().filter(|pair| pair.0 > SAME) {
+        let back = motion.inverse();
+        let is_known = |g: &&DeckElement| back.compose(&g.motion).displacement() <= SAME;
+        let near = found.iter().rev().take_while(|g| g.motion.displacement() > moved - SAME);
+        if near.into_iter().any(|g| is_known(&g)) {
+            continue;
+        }
+        let h = if j == 0 { &identity } else { &all[j - 1] };
+        found.push(product(deck, &all[i], h, motion));
+        if found.len() == most {
             break;
         }
     }
-    let found = polygon.finish(centre, &home.inverse());
-    match found {
-        Some(domain) if (domain.area - area).abs() <= AREA * area => Ok(domain),
-        Some(domain) => Err(Error::Layout(format!(
-            "no Dirichlet domain: the polygon found has area {}, the surface {area}",
-            domain.area
-        ))),
-        None => {
-            Err(Error::Layout("no Dirichlet domain: the sides of the polygon found are not paired".into()))
-        }
-    }
+    Ok(found)
 }
 
 fn inverse(g: &DeckElement) -> DeckElement {
@@ -124,6 +139,8 @@ struct Polygon {
     sides: Vec<Option<DeckElement>>,
     /// Largest distance of a corner from the origin.
     radius: f64,
+    /// One of [`TOLERANCES`].
+    tolerance: f64,
 }
 
 /// The bisector of the origin and its image `[x, y, w]`, as the linear form `x X + y Y − h W` that is positive beyond it.
@@ -147,13 +164,13 @@ impl Bisector {
         Bisector { form: [x, y, -height], norm }
     }
 
-    /// How far a corner lies beyond it: its distance, in H² the hyperbolic sine of that (for a corner outside the disk: some positive
-    /// number if beyond).
+    /// How far a corner lies beyond it: its distance, in H² the hyperbolic sine of that, or for a corner outside the disk
+    /// some number of the same sign.
     fn beyond(&self, space: Space, p: &[Twofold; 3]) -> f64 {
         let size = match space {
             Space::H2 => {
                 let rest = Twofold::from(1.0) - p[0] * p[0] - p[1] * p[1];
-                rest.high.max(f64::MIN_POSITIVE).sqrt()
+                if rest.high > 0.0 { rest.high.sqrt() } else { 1.0 }
             }
             _ => 1.0,
         };
@@ -172,30 +189,64 @@ impl Bisector {
 
 impl Polygon {
     /// A square about the whole Klein disk; in the plane, one about the disk of radius `reach`.
-    fn around(space: Space, reach: f64) -> Polygon {
+    fn around(space: Space, reach: f64, tolerance: f64) -> Polygon {
         let far = if space == Space::H2 { 2.0 } else { 2.0 * reach };
         let corners = [[far, far], [-far, far], [-far, -far], [far, -far]];
         let corners = corners.map(|[x, y]| [x, y, 1.0].map(Twofold::from)).to_vec();
-        Polygon { space, corners, sides: vec![None; 4], radius: f64::INFINITY }
+        Polygon { space, corners, sides: vec![None; 4], radius: f64::INFINITY, tolerance }
+    }
+
+    /// Cut by the bisectors of `factors` and of their inverses, then of products of the elements of its sides, until none cuts anything off.
+    /// Where the factors move the centre so far that their bisectors do not bound the polygon, short products take their place.
+    fn close(&mut self, deck: &DeckGroup, factors: &[DeckElement], control: &Control) -> Result<()> {
+        let mut factors: Vec<_> = factors.iter().flat_map(|g| [g.clone(), inverse(g)]).collect();
+        for _ in 0..ROUNDS {
+            factors.iter().for_each(|g| {
+                self.cut_by_both(g);
+            });
+            let sides = self.elements();
+            let mut changed = false;
+            for g in sides.iter().chain(&factors) {
+                control.check()?;
+                for h in &sides {
+                    let motion = g.motion.compose(&h.motion);
+                    if self.is_cut_by(&motion) || self.is_cut_by(&motion.inverse()) {
+                        changed |= self.cut_by_both(&product(deck, g, h, motion));
+                    }
+                }
+            }
+            match self.is_bounded() {
+                true if !changed => break,
+                true => {}
+                false => factors = shortest_products(deck, &factors, control)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Cut by the bisectors of an element and of its inverse: they belong together.
+    fn cut_by_both(&mut self, g: &DeckElement) -> bool {
+        let first = self.cut(g);
+        self.cut(&inverse(g)) || first
     }
 
     fn elements(&self) -> Vec<DeckElement> {
         self.sides.iter().flatten().cloned().collect()
     }
 
-    /// Whether bisectors alone bound it.
+    /// Whether bisectors alone bound it, inside the Klein disk.
     fn is_bounded(&self) -> bool {
-        self.sides.iter().all(Option::is_some)
+        self.radius < f64::INFINITY && self.sides.iter().all(Option::is_some)
     }
 
     /// Whether the bisector of `g` cuts a corner off.
     fn is_cut_by(&self, g: &Motion<Twofold>) -> bool {
         let moved = g.displacement();
-        if moved <= SIDE || moved > 2.0 * self.radius + SIDE {
+        if moved <= self.tolerance || moved > 2.0 * self.radius + self.tolerance {
             return false;
         }
         let bisector = Bisector::new(g);
-        self.corners.iter().any(|p| bisector.beyond(self.space, p) > SIDE)
+        self.corners.iter().any(|p| bisector.beyond(self.space, p) > self.tolerance)
     }
 
     /// Cut off what lies beyond the bisector of `g`; false if that is nothing.
@@ -206,31 +257,33 @@ impl Polygon {
         let bisector = Bisector::new(&g.motion);
         let n = self.corners.len();
         let beyond: Vec<f64> = self.corners.iter().map(|p| bisector.beyond(self.space, p)).collect();
+        // The corners that are cut off are one run about the farthest, from one that stays to the next that does.
+        let farthest = (0..n).fold(0, |far, k| if beyond[k] > beyond[far] { k } else { far });
+        let stays = |k: &usize| beyond[*k] <= 0.0;
+        let Some(last) = (1..n).map(|step| (farthest + n - step) % n).find(stays) else { return false };
+        let Some(first) = (1..n).map(|step| (farthest + step) % n).find(stays) else { return false };
+        let before_first = (first + n - 1) % n;
+        // A corner nearer than the tolerance takes the place of the crossing beside it.
         let (mut corners, mut sides) = (Vec::with_capacity(n + 1), Vec::with_capacity(n + 1));
-        for k in 0..n {
-            let next = (k + 1) % n;
-            let inside = |k: usize| beyond[k] <= SIDE;
-            let crossing = || meeting(&bisector, &self.corners[k], &self.corners[next]);
-            match (inside(k), inside(next)) {
-                (true, true) => {
-                    corners.push(self.corners[k]);
-                    sides.push(self.sides[k].clone());
-                }
-                (true, false) => {
-                    corners.push(self.corners[k]);
-                    // A side that ends on the bisector has no part beyond this corner.
-                    if beyond[k] < -SIDE {
-                        sides.push(self.sides[k].clone());
-                        corners.push(crossing());
-                    }
-                    sides.push(Some(g.clone()));
-                }
-                (false, true) if beyond[next] < -SIDE => {
-                    corners.push(crossing());
-                    sides.push(self.sides[k].clone());
-                }
-                _ => {}
-            }
+        if beyond[last] < -self.tolerance {
+            corners.push(meeting(&bisector, &self.corners[last], &self.corners[(last + 1) % n]));
+        } else {
+            corners.push(self.corners[last]);
+        }
+        sides.push(Some(g.clone()));
+        if beyond[first] < -self.tolerance {
+            corners.push(meeting(&bisector, &self.corners[before_first], &self.corners[first]));
+            sides.push(self.sides[before_first].clone());
+        }
+        let mut k = first;
+        while k != last {
+            corners.push(self.corners[k]);
+            sides.push(self.sides[k].clone());
+            k = (k + 1) % n;
+        }
+        if beyond[last] < -self.tolerance {
+            corners.push(self.corners[last]);
+            sides.push(self.sides[last].clone());
         }
         (self.corners, self.sides) = (corners, sides);
         self.radius = self.corners.iter().map(|p| self.distance(p)).fold(0.0, f64::max);
@@ -252,13 +305,13 @@ impl Polygon {
 
     /// The domain, with every side's partner; none if a side has no element or no partner.
     fn finish(self, centre: [f64; 3], back: &Motion<Twofold>) -> Option<DirichletDomain> {
-        if !self.is_bounded() || self.radius == f64::INFINITY {
+        if !self.is_bounded() {
             return None;
         }
         let (space, radius) = (self.space, self.radius);
         let elements = self.elements();
         let is_inverse =
-            |g: &DeckElement, h: &DeckElement| g.motion.compose(&h.motion).displacement() <= SIDE;
+            |g: &DeckElement, h: &DeckElement| g.motion.compose(&h.motion).displacement() <= SAME;
         let partner: Option<Vec<usize>> =
             elements.iter().map(|g| elements.iter().position(|h| is_inverse(g, h))).collect();
         let points: Vec<[Twofold; 3]> = self.corners.iter().map(|&p| on_hyperboloid(space, p)).collect();

@@ -3,10 +3,10 @@
 
 mod chart_growth;
 pub mod charts;
-mod corner;
+pub(crate) mod corner;
 pub mod cover;
 pub mod deck;
-mod develop;
+pub(crate) mod develop;
 pub mod dirichlet;
 pub mod layout;
 pub mod overlap;

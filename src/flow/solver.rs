@@ -124,6 +124,11 @@ impl Solver {
         &self.followed
     }
 
+    /// The triangulation, the metric and what [`Solver::follow`] has recorded.
+    pub fn into_parts(self) -> (Mesh, Metric, Vec<NormalCoordinates>) {
+        (self.mesh, self.metric, self.followed)
+    }
+
     /// Do other work on this solver's threads.
     pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         self.pool.run(work)

@@ -1,5 +1,6 @@
 //! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
 
+pub mod barycentre;
 pub mod circle;
 pub mod conformal;
 pub mod flip;
@@ -10,6 +11,7 @@ pub mod modulus;
 pub mod motion;
 pub mod predicates;
 pub mod space;
+pub mod sphere;
 pub mod symplectic;
 pub mod triangle;
 pub mod twofold;

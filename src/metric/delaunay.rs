@@ -161,6 +161,31 @@ pub fn restore_delaunay(
     queue.run(MOST_FLIPS * mesh.n_edges(), mesh, &mut metric.eta, decide, record, control)
 }
 
+/// Flip one edge inside the conformal class, whether it is Delaunay or not; `record` is told just before. False, and nothing done,
+/// where it has no other diagonal.
+pub(crate) fn flip_in_class(
+    mesh: &mut Mesh,
+    metric: &mut Metric,
+    e: EdgeId,
+    record: &mut dyn FnMut(&Mesh, EdgeId),
+) -> bool {
+    let h = e.halfedge();
+    if !between(mesh, h) {
+        return false;
+    }
+    let w = |v: VertexId| weight(metric.space, metric.vertex(v));
+    let [jk, ki, il, lj] = mesh.quadrilateral(h);
+    let vertices = [h, h.twin(), ki, lj].map(|h| mesh.origin(h));
+    let w = vertices.map(w);
+    let epsilon = vertices.map(|v| f64::from(metric.epsilon[v]));
+    let eta = [h, ki, jk, il, lj].map(|h| metric.eta[h.edge()]);
+    let flipped = Hinge::new(epsilon, w, eta).flipped().map(|product| product / (w[2] * w[3]));
+    let Some(eta) = flipped.filter(|eta| eta.is_finite()) else { return false };
+    record(mesh, e);
+    metric.eta[e] = eta;
+    mesh.flip(e)
+}
+
 /// Isometric flips until the triangulation is the intrinsic Delaunay one of the surface (weighted by circles of these `radii`
 /// around its vertices, 0 for none; `lengths` in `geometry`): it depends on the surface and the circles alone, up to ties.
 ///

@@ -1,0 +1,90 @@
+//! From the punctured plane to the sphere: layout, centring, lift, and whether the lifted triangulation is convex.
+
+use super::star::Punctured;
+use crate::control::Control;
+use crate::embed::corner::number_corners;
+use crate::embed::develop::develop;
+use crate::error::{Error, Result};
+use crate::geometry::Space;
+use crate::geometry::barycentre::conformal_barycentre;
+use crate::geometry::sphere::{SOUTH, Similarity, lift, log_density};
+use crate::geometry::twofold::two_sum;
+use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
+use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
+use crate::metric::Metric;
+
+impl Punctured {
+    /// The vertices in the plane, the smallest triangle at the origin; the puncture at (∞, ∞). Errors: [`Error::Layout`] where
+    /// vertices lie in no triangle of the plane; [`Error::Cancelled`].
+    pub fn lay_out(&self, control: &Control) -> Result<PerVertex<[f64; 2]>> {
+        let mut is_cut = PerEdge::filled(self.mesh.n_edges(), false);
+        self.star().into_iter().for_each(|arc| is_cut[self.link(arc).edge()] = true);
+        let closed = self.closed();
+        let (lengths, differences) = (closed.lengths(&self.mesh)?, closed.differences(&self.mesh)?);
+        let (corner, n) = number_corners(&self.mesh, &is_cut);
+        let laid = develop(&self.mesh, &lengths, &differences, &is_cut, &corner, n, control)?;
+        let mut plane = PerVertex::filled(self.mesh.n_vertices(), [f64::INFINITY; 2]);
+        for h in self.mesh.halfedges().filter(|&h| !self.in_star(h)) {
+            plane[self.mesh.origin(h)] = laid.coordinates[corner[h] as usize];
+        }
+        let outside = |v: &VertexId| *v != self.at && plane[*v].iter().any(|x| !x.is_finite());
+        match self.mesh.vertices().find(outside) {
+            Some(v) => {
+                Err(Error::Layout(format!("seen from vertex {} vertex {v} lies in no triangle", self.at)))
+            }
+            None => Ok(plane),
+        }
+    }
+
+    /// The similarity of the plane after which the lifted vertices have their weighted mean at the centre of the sphere.
+    pub fn centre(&self, plane: &PerVertex<[f64; 2]>, weights: &PerVertex<f64>) -> Result<Similarity> {
+        let others = || self.mesh.vertices().filter(|&v| v != self.at);
+        let points: Vec<[f64; 2]> = others().map(|v| plane[v]).collect();
+        let masses: Vec<f64> = others().map(|v| weights[v]).collect();
+        conformal_barycentre(&points, &masses, weights[self.at])
+    }
+
+    /// The metric of the class whose chords are those of the lifted vertices, with `plane` after the similarity of that scale:
+    /// `u_i − log t − log(1 + |z_i|²)`, and log t at the puncture.
+    pub fn spherical(&self, plane: &PerVertex<[f64; 2]>, log_scale: f64) -> Metric {
+        let n = self.mesh.n_vertices();
+        let [mut u, mut u_low] = [(); 2].map(|()| PerVertex::filled(n, 0.0));
+        for v in self.mesh.vertices() {
+            let (density, lost) = if v == self.at { (0.0, 0.0) } else { log_density(plane[v]) };
+            let seen = if v == self.at { 2.0 * log_scale } else { self.metric.u[v] };
+            let (sum, first) = two_sum(seen, -log_scale);
+            let (sum, second) = two_sum(sum, -density);
+            (u[v], u_low[v]) = two_sum(sum, self.metric.u_low[v] + (first + second - lost));
+        }
+        Metric { space: Space::S2, u, u_low, ..self.metric.clone() }
+    }
+
+    /// By how much the angles opposite an edge of the planar part exceed π at most: 0 where every edge is Delaunay.
+    pub fn delaunay_violation(&self) -> f64 {
+        self.mesh.edges().map(|e| self.excess(e)).fold(0.0, f64::max)
+    }
+}
+
+/// Points of the plane, (∞, ∞) among them, on the unit sphere.
+pub(super) fn lifted(plane: &PerVertex<[f64; 2]>) -> PerVertex<Point> {
+    PerVertex::from_fn(plane.len(), |v| if plane[v][0].is_finite() { lift(plane[v]) } else { SOUTH })
+}
+
+/// The largest signed distance of a vertex over the plane of a face next to one of its faces: not positive where every edge is convex.
+/// Faces that are no triangle in doubles have no plane.
+pub(super) fn nonconvexity(mesh: &Mesh, positions: &PerVertex<Point>) -> f64 {
+    let over = |h| {
+        let [a, b, c] = [h, mesh.next(h), mesh.prev(h)].map(|h| positions[mesh.origin(h)]);
+        let normal = cross(sub(b, a), sub(c, a));
+        let size = norm(normal);
+        let top = positions[mesh.origin(mesh.prev(h.twin()))];
+        if size > 0.0 { dot(normal, sub(top, a)) / size } else { f64::NEG_INFINITY }
+    };
+    mesh.halfedges().map(over).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// `|Σ w x| / Σ w`.
+pub(super) fn off_centre(positions: &PerVertex<Point>, weights: &PerVertex<f64>) -> f64 {
+    let sum = positions.iter().zip(weights.iter()).fold([0.0; 3], |sum, (x, w)| add(sum, scale(*w, *x)));
+    norm(sum) / weights.iter().sum::<f64>()
+}

@@ -1,0 +1,233 @@
+//! Closed surfaces of genus 0 on the unit sphere [Riv94; Spr20; BPS15].
+
+use super::candidates::range;
+use super::lift::{lifted, nonconvexity, off_centre};
+use super::star::Punctured;
+use super::tries::Tried;
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::flow::{Options, Solver, StopReason};
+use crate::geometry::{Space, triangle};
+use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
+use crate::metric::lengths::face_lengths;
+use crate::metric::{Curvature, Metric, Scheme, SurfaceMetric};
+use crate::parallel::Pool;
+use crate::topology::check_vertex;
+use std::sync::Arc;
+
+/// Edges of a result are Delaunay, and its outline convex, to this (radians).
+const DELAUNAY: f64 = 1e-9;
+
+/// Newton steps on the sphere after the lift.
+const POLISH_STEPS: usize = 10;
+
+/// Options of [`uniformize_sphere`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct SphereOptions {
+    /// Largest |K| inside the plane, radians. Default 1e-10.
+    pub tolerance: f64,
+    /// Newton steps of one flow before giving up; 0 (default) means 500.
+    pub max_iterations: usize,
+    /// The vertex to send to infinity. Default `None`: one from which u has a small range.
+    pub puncture: Option<VertexId>,
+    /// Threads; 0 (default) is one per core. The result does not depend on it.
+    pub threads: usize,
+}
+
+impl Default for SphereOptions {
+    fn default() -> Self {
+        SphereOptions { tolerance: 1e-10, max_iterations: 0, puncture: None, threads: 0 }
+    }
+}
+
+/// What became of a sphere.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SphereReport {
+    /// Plane and sphere have K = 0 to the tolerance, every edge is Delaunay and the outline convex to 1e-9.
+    pub converged: bool,
+    /// Why the last flow stopped.
+    pub stop_reason: StopReason,
+    /// Newton steps of all flows.
+    pub iterations: usize,
+    /// Flips inside the class, on the way to the result.
+    pub flips: usize,
+    /// Isometric flips before them.
+    pub start_flips: usize,
+    /// The vertex at infinity of the plane, at (0, 0, −1) on the sphere.
+    pub puncture: VertexId,
+    /// Flows that were started.
+    pub tried: usize,
+    /// max |K| of the plane at all vertices but the puncture and its link, radians.
+    pub max_curvature_error: f64,
+    /// max |K| of the spherical metric, radians, measured from its variables.
+    pub spherical_curvature_error: f64,
+    /// max |Σ K + area − 4π| of the spherical metric.
+    pub gauss_bonnet: f64,
+    /// Largest minus smallest u of the plane. Beyond about 30 positions on the sphere run out of digits (edges near 1e-14), where
+    /// the metric does not.
+    pub u_range: f64,
+    /// Length of the shortest edge of the spherical metric.
+    pub smallest_edge: f64,
+    /// By how much the planar angles opposite an edge exceed π at most, radians: 0 where all are Delaunay.
+    pub delaunay_violation: f64,
+    /// Least turning of the planar outline, the link of the puncture, radians: not negative where it is convex.
+    pub link_turning: f64,
+    /// Largest signed distance of a vertex over the plane of a neighbouring face: not positive where the positions are convex.
+    pub nonconvexity: f64,
+    /// `|Σ w x|/Σ w` of the positions, w one third of the area of the given faces at a vertex.
+    pub centring: f64,
+}
+
+/// A surface on the unit sphere.
+#[derive(Debug, Clone)]
+pub struct Sphere {
+    /// The spherical metric, K = 0 at every vertex, with its triangulation and the way back to the given one: geodesic triangles
+    /// over the faces of a convex polyhedron.
+    pub metric: SurfaceMetric,
+    /// Unit vectors (V entries). Faces are counterclockwise from outside.
+    pub positions: PerVertex<Point>,
+    /// The plane under them by stereographic projection from (0, 0, −1) ([`crate::geometry::sphere::lift`]); (∞, ∞) at the puncture.
+    pub plane: PerVertex<[f64; 2]>,
+    /// How it went.
+    pub report: SphereReport,
+}
+
+/// The surface of genus 0 with these `lengths` (E entries, read in `geometry`) as a convex polyhedron in the unit sphere: the one whose
+/// edges are, after flips inside the conformal class, chords of lengths in that class. Its vertices are moved by the Möbius transformation
+/// after which `Σ w x = 0`, w one third of the area of the given faces at a vertex; they are determined up to a rotation.
+///
+/// A vertex is sent to infinity, the rest flows to the plane, and is lifted. Errors: a surface that is
+/// no sphere, or of fewer than four vertices; sizes, lengths and triangles as for
+/// [`SurfaceMetric::delaunay`]; a vertex with half of the area or more; [`Error::Layout`] where
+/// all vertices lie on one circle (the double of a polygon); [`Error::Cancelled`].
+pub fn uniformize_sphere(
+    given: Arc<Mesh>,
+    lengths: Arc<PerEdge<f64>>,
+    geometry: Space,
+    options: &SphereOptions,
+    control: &Control,
+) -> Result<Sphere> {
+    control.check()?;
+    check(&given, options)?;
+    Pool::new(options.threads)?.run(|| uniformize(given, lengths, geometry, options, control))
+}
+
+fn check(given: &Mesh, options: &SphereOptions) -> Result<()> {
+    if !given.is_closed() || given.euler() != 2 || given.n_vertices() < 4 {
+        let kind = if given.is_closed() { "closed" } else { "with boundary" };
+        let value =
+            format!("{kind}, of {} vertices and Euler characteristic {}", given.n_vertices(), given.euler());
+        let need = "one closed surface of genus 0 with at least four vertices";
+        return Err(Error::Argument { what: "surface", value, need });
+    }
+    options.puncture.map_or(Ok(()), |v| check_vertex(given, v))
+}
+
+fn uniformize(
+    given: Arc<Mesh>,
+    lengths: Arc<PerEdge<f64>>,
+    geometry: Space,
+    options: &SphereOptions,
+    control: &Control,
+) -> Result<Sphere> {
+    let (scheme, space) = (Scheme::Yamabe, Space::S2);
+    let from = SurfaceMetric::delaunay(
+        given.clone(),
+        lengths.clone(),
+        geometry,
+        scheme,
+        space,
+        false,
+        &[],
+        control,
+    )?;
+    let (start, mesh, metric, followed, start_flips) = from.into_parts();
+    let n = mesh.n_vertices();
+    let mut metric = Metric { space: Space::E2, u: PerVertex::filled(n, 0.0), ..metric };
+    let unit = unit(&metric);
+    metric.eta.iter_mut().for_each(|eta| *eta = *eta / unit / unit);
+    let weights = vertex_areas(&given, &lengths, geometry, unit);
+    let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
+    let flow = Options {
+        tolerance: options.tolerance,
+        max_iterations: options.max_iterations,
+        threads: options.threads,
+        ..Options::default()
+    };
+    let mut tried = Tried::new(&weights, &flow, control);
+    let (surface, plane, found) = match options.puncture {
+        Some(v) => tried.punctured_at(&begin, v)?,
+        None => tried.best(&begin)?,
+    };
+    let view = surface.centre(&plane, &weights)?;
+    let plane = PerVertex::from_fn(n, |v| view.apply(plane[v]));
+    let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
+    let (mut spherical, curvature) = polished(&surface.mesh, spherical, &flow, control)?;
+    let delaunay_violation = surface.delaunay_violation();
+    let report = SphereReport {
+        converged: found.converged
+            && delaunay_violation <= DELAUNAY
+            && found.turning >= -DELAUNAY
+            && largest(&curvature.at) <= flow.tolerance,
+        stop_reason: found.stop_reason,
+        iterations: tried.iterations,
+        flips: surface.flips,
+        start_flips,
+        puncture: surface.at,
+        tried: tried.flows,
+        max_curvature_error: found.error,
+        spherical_curvature_error: largest(&curvature.at),
+        gauss_bonnet: curvature.gauss_bonnet,
+        u_range: range(&surface.metric.u, surface.at),
+        smallest_edge: spherical.lengths(&surface.mesh)?.iter().copied().fold(f64::INFINITY, f64::min),
+        delaunay_violation,
+        link_turning: found.turning,
+        nonconvexity: nonconvexity(&surface.mesh, &positions),
+        centring: off_centre(&positions, &weights),
+    };
+    let Punctured { mesh, followed, flips, .. } = surface;
+    spherical.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
+    spherical.u.iter_mut().for_each(|u| *u -= unit.ln());
+    let metric = SurfaceMetric::at(start, mesh, spherical, followed, start_flips + flips);
+    Ok(Sphere { metric, positions, plane, report })
+}
+
+/// The spherical metric with K = 0 to the tolerance, and its curvature. As lifted it has that but for what rounding of the plane does to
+/// needles, which a step or two of Newton's method on the sphere make up for.
+fn polished(mesh: &Mesh, lifted: Metric, flow: &Options, control: &Control) -> Result<(Metric, Curvature)> {
+    let curvature = lifted.curvature(mesh)?;
+    if largest(&curvature.at) <= flow.tolerance {
+        return Ok((lifted, curvature));
+    }
+    let options = Options { max_iterations: POLISH_STEPS, ..flow.clone() };
+    let mut solver = Solver::new(mesh.clone(), lifted, options)?;
+    let before = solver.metric().clone();
+    let report = solver.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), control)?;
+    let metric =
+        if report.max_curvature_error < largest(&curvature.at) { solver.into_parts().1 } else { before };
+    let curvature = metric.curvature(mesh)?;
+    Ok((metric, curvature))
+}
+
+/// Maximum norm.
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |m, x| m.max(x.abs()))
+}
+
+/// A power of two of about the size of the longest edge: with η over its square nothing depends on the size of the surface, and
+/// nothing is rounded.
+fn unit(metric: &Metric) -> f64 {
+    let largest = metric.eta.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    2f64.powi((0.5 * largest.log2()).round() as i32)
+}
+
+/// One third of the area of the faces at each vertex; in E² in units of `unit²`.
+fn vertex_areas(mesh: &Mesh, lengths: &PerEdge<f64>, geometry: Space, unit: f64) -> PerVertex<f64> {
+    let unit = if geometry == Space::E2 { unit } else { 1.0 };
+    let mut areas = PerVertex::filled(mesh.n_vertices(), 0.0);
+    for f in mesh.faces() {
+        let third = triangle::area(geometry, face_lengths(mesh, lengths, f).map(|l| l / unit)) / 3.0;
+        mesh.face_vertices(f).into_iter().for_each(|v| areas[v] += third);
+    }
+    areas
+}

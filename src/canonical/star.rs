@@ -1,0 +1,207 @@
+//! The star of a puncture: a closed surface with one vertex sent to infinity.
+//!
+//! ```text
+//!        ∞           ∞ has u = 0, and with it a horocycle. The arc h from ∞ to j has length √(2 η_h e^{u_j}) ≥ 1: no horocycle may reach
+//!      / | \         into that of ∞, so u_j ≥ −log(2 η_h), the *bound*. The arcs of length 1 are the star, its link bounds the
+//!     i——j——m        planar part, where all else lies. Beyond a link edge of length c lies a triangle with sides a, b, c; the arc
+//!      \ | /         across it to its third corner k has length (a + b)/c (Ptolemy), so it has to be flipped
+//!        k           into the star, and u_k be raised to its bound, where c ≥ a + b: where the triangle breaks.
+//! ```
+//!
+//! The bound is the Delaunay condition with the horocycle of ∞ as one of the circles: the triangulation at given u is its one.
+
+use crate::error::{Error, Result};
+use crate::geometry::Space;
+use crate::geometry::conformal::{differences, edge};
+use crate::geometry::triangle::angles_from;
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates, PerVertex, VertexId};
+use crate::metric::Metric;
+use crate::metric::delaunay::flip_in_class;
+use std::f64::consts::PI;
+
+/// An arc longer than this, in units of log l², is off its bound: rounding of u and η is far below.
+const OFF: f64 = 1e-12;
+/// Flips per edge before the star is given up.
+const MOST_FLIPS: usize = 100;
+/// Rounding of η moves an angle π − φ by a few ε/φ: edges that exceed π by less than this many are not flipped.
+const SLIVER: f64 = 32.0;
+/// Angles over π by less than this are at π.
+const FLAT: f64 = 1e-12;
+
+/// A punctured surface: vertex scaling in E².
+#[derive(Debug, Clone)]
+pub(super) struct Punctured {
+    pub mesh: Mesh,
+    /// u is 0 at the puncture.
+    pub metric: Metric,
+    /// The puncture, ∞.
+    pub at: VertexId,
+    /// Told every flip.
+    pub followed: Vec<NormalCoordinates>,
+    /// Flips so far.
+    pub flips: usize,
+}
+
+impl Punctured {
+    /// The arcs from the puncture, clockwise.
+    pub fn star(&self) -> Vec<HalfedgeId> {
+        self.mesh.outgoing(self.at).collect()
+    }
+
+    /// The link edge of the face left of an arc.
+    pub fn link(&self, arc: HalfedgeId) -> HalfedgeId {
+        self.mesh.next(arc)
+    }
+
+    /// The edges of the star and of its link.
+    pub fn rim(&self) -> Vec<EdgeId> {
+        self.star().into_iter().flat_map(|arc| [arc.edge(), self.link(arc).edge()]).collect()
+    }
+
+    /// Least u that the tip of a half-edge may have if its origin is the puncture.
+    pub fn bound(&self, arc: HalfedgeId) -> f64 {
+        -(2.0 * self.metric.eta[arc.edge()]).ln()
+    }
+
+    /// Length of an edge.
+    pub fn length(&self, h: HalfedgeId) -> f64 {
+        let [a, b] = self.mesh.ends(h.edge()).map(|v| self.metric.u[v]);
+        (2.0 * self.metric.eta[h.edge()]).sqrt() * (0.5 * (a + b)).exp()
+    }
+
+    /// The metric with arcs so long that the star's faces are triangles too.
+    pub fn closed(&self) -> Metric {
+        let mut metric = self.metric.clone();
+        let longest = self.star().iter().map(|&arc| self.length(self.link(arc))).fold(1.0, f64::max);
+        metric.u[self.at] = 2.0 * (2.0 * longest).ln();
+        metric
+    }
+
+    /// Whether the face of a half-edge belongs to the star.
+    pub fn in_star(&self, h: HalfedgeId) -> bool {
+        [h, self.mesh.next(h), self.mesh.prev(h)].iter().any(|&h| self.mesh.origin(h) == self.at)
+    }
+
+    /// Half-perimeter differences of a face, from u to twice the digits.
+    fn differences(&self, f: FaceId) -> [f64; 3] {
+        let corners = self.mesh.face_vertices(f).map(|v| self.metric.vertex(v));
+        let sides = self.mesh.opposite_edges(f);
+        let side =
+            |k: usize| edge(Space::E2, corners[(k + 1) % 3], corners[(k + 2) % 3], self.metric.eta[sides[k]]);
+        differences(corners, [0, 1, 2].map(|k| side(k).unwrap_or_default()))
+    }
+
+    /// Angle of the planar part in the corner that is `turn` half-edges after `h` in its face; 0 in the star.
+    fn angle(&self, h: HalfedgeId, turn: usize) -> f64 {
+        let Some(f) = self.mesh.face(h).filter(|_| !self.in_star(h)) else { return 0.0 };
+        let corner = self.mesh.face_halfedges(f).iter().position(|&side| side == h).unwrap_or(0);
+        angles_from(Space::E2, self.differences(f)).at[(corner + turn) % 3]
+    }
+
+    /// By how much the angles opposite an edge exceed π (the star's have none at ∞); it is Delaunay where they do not.
+    pub fn excess(&self, e: EdgeId) -> f64 {
+        self.angle(e.halfedge(), 2) + self.angle(e.halfedge().twin(), 2) - PI
+    }
+
+    /// Turning of the link at the tip of each arc of the star: π − the angle inside. It adds up to 2π.
+    pub fn turning(&self) -> Vec<f64> {
+        let inside = |arc: HalfedgeId| {
+            let first = self.mesh.next(self.link(arc).twin());
+            let around = std::iter::successors(Some(first), |out| Some(self.mesh.next(out.twin())));
+            around.take_while(|&out| self.mesh.tip(out) != self.at).map(|out| self.angle(out, 0)).sum::<f64>()
+        };
+        self.star().into_iter().map(|arc| PI - inside(arc)).collect()
+    }
+
+    /// Flip an edge inside the class.
+    pub fn flip(&mut self, e: EdgeId) -> bool {
+        let followed = &mut self.followed;
+        let mut record = |mesh: &Mesh, e| followed.iter_mut().for_each(|normal| normal.record(mesh, e));
+        let flipped = flip_in_class(&mut self.mesh, &mut self.metric, e, &mut record);
+        self.flips += usize::from(flipped);
+        flipped
+    }
+
+    /// Flips until the star is that of u, whose vertices are put on their bounds. `slivers`: edges of slivers are flipped too. Returns
+    /// whether anything changed. Errors: flips that do not end.
+    pub fn restore(&mut self, slivers: bool) -> Result<bool> {
+        let before = self.flips;
+        loop {
+            let last = self.flips;
+            for arc in self.star() {
+                let j = self.mesh.tip(arc);
+                if self.mesh.origin(arc) == self.at
+                    && (j == self.at || self.metric.u[j] > self.bound(arc) + OFF)
+                {
+                    self.flip(arc.edge());
+                }
+            }
+            for arc in self.star() {
+                let edge = self.link(arc);
+                let beyond = edge.twin();
+                let k = self.mesh.origin(self.mesh.prev(beyond));
+                if k != self.at && self.slack(beyond) <= 0.0 && self.flip(edge.edge()) {
+                    self.metric.u[k] = self.metric.u[k].max(self.bound(edge));
+                    self.metric.u_low[k] = 0.0;
+                }
+            }
+            if slivers {
+                self.flip_slivers();
+            }
+            if self.flips == last {
+                break;
+            }
+            if self.flips - before > MOST_FLIPS * self.mesh.n_edges() {
+                let message = "flips around a puncture do not end";
+                return Err(Error::Connectivity { element: "vertex", index: self.at.index(), message });
+            }
+        }
+        for arc in self.star() {
+            let j = self.mesh.tip(arc);
+            (self.metric.u[j], self.metric.u_low[j]) = (self.bound(arc), 0.0);
+        }
+        Ok(self.flips > before)
+    }
+
+    /// Half of what the other two sides of the planar face at an edge exceed it by: of the one beyond the star.
+    pub fn slack(&self, side: HalfedgeId) -> f64 {
+        let side = if self.in_star(side) { side.twin() } else { side };
+        let Some(f) = self.mesh.face(side) else { return 0.0 };
+        let corner = self.mesh.face_halfedges(f).iter().position(|&h| h == side).unwrap_or(0);
+        self.differences(f)[(corner + 2) % 3]
+    }
+
+    /// Flip edges that are not Delaunay by more than rounding. Newton's own test takes the cosines of the angles, which cannot tell
+    /// where one is π − φ and the other about φ, below 1e-6.
+    fn flip_slivers(&mut self) {
+        for e in self.mesh.edges() {
+            let [a, b] = [e.halfedge(), e.halfedge().twin()].map(|h| self.angle(h, 2));
+            let phi = (PI - a.max(b)).max(f64::EPSILON);
+            if a + b - PI > FLAT + SLIVER * f64::EPSILON / phi {
+                self.flip(e);
+            }
+        }
+    }
+
+    /// Send another vertex v to infinity, by the inversion at its place in the `plane`: `u_i − 2 log |z_i − z_v|`, up to a constant.
+    pub fn puncture(&mut self, v: VertexId, plane: &PerVertex<[f64; 2]>) {
+        let u = self.seen_from(v, plane);
+        (self.metric.u, self.at) = (u, v);
+        self.metric.u_low = PerVertex::filled(self.mesh.n_vertices(), 0.0);
+        for arc in self.star() {
+            let j = self.mesh.tip(arc);
+            self.metric.u[j] = self.bound(arc);
+        }
+    }
+
+    /// u of the plane with v at infinity.
+    pub fn seen_from(&self, v: VertexId, plane: &PerVertex<[f64; 2]>) -> PerVertex<f64> {
+        let [x, y] = plane[v];
+        PerVertex::from_fn(self.mesh.n_vertices(), |i| match i {
+            i if v == self.at => self.metric.u[i],
+            i if i == v => 0.0,
+            i if i == self.at => self.metric.u[v],
+            i => self.metric.u[i] + self.metric.u[v] - 2.0 * (plane[i][0] - x).hypot(plane[i][1] - y).ln(),
+        })
+    }
+}

@@ -1,0 +1,134 @@
+//! Flows from one vertex after the other, until one ends well.
+
+use super::puncture::Found;
+use super::star::Punctured;
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::flow::Options;
+use crate::mesh::{PerVertex, VertexId};
+use crate::topology::farthest_vertices;
+use crate::topology::spanning::shortest_paths_under;
+
+/// Outlines of the first plane may turn the wrong way by this: it is only to see from which vertex the plane is best.
+const ROUGHLY: f64 = 1e-4;
+/// Outlines turn by minus this at least: rounding.
+const STRAIGHT: f64 = 1e-12;
+/// Vertices that are tried, until the flow from one ends well: first from a guess, then from the plane that was found.
+const TRIES: usize = 8;
+/// Newton steps from a plane that is known to the plane seen from another vertex: 1, and some where angles are narrow.
+const STEPS: usize = 60;
+
+/// A punctured surface, its plane, and how it was found.
+pub(super) type Flat = (Punctured, PerVertex<[f64; 2]>, Found);
+
+/// What was done so far, and with what.
+pub(super) struct Tried<'a> {
+    /// Flows that were started.
+    pub flows: usize,
+    /// Their Newton steps.
+    pub iterations: usize,
+    weights: &'a PerVertex<f64>,
+    options: &'a Options,
+    control: &'a Control,
+}
+
+impl<'a> Tried<'a> {
+    /// Nothing yet; `weights` of the vertices are those of the centring.
+    pub fn new(weights: &'a PerVertex<f64>, options: &'a Options, control: &'a Control) -> Tried<'a> {
+        Tried { flows: 0, iterations: 0, weights, options, control }
+    }
+
+    /// The plane with this vertex at infinity.
+    pub fn punctured_at(&mut self, begin: &Punctured, v: VertexId) -> Result<Flat> {
+        let rough = self.guessed(begin, &[v])?;
+        let again = [Ok(rough.0.clone())].into_iter();
+        self.first_good(again, Some(rough), STRAIGHT, STEPS)
+    }
+
+    /// The plane with a small range of u and no narrow angles: from any plane, the one that is best seen from there.
+    pub fn best(&mut self, begin: &Punctured) -> Result<Flat> {
+        let first = begin.widest();
+        let rough = match self.guessed(begin, &[first]) {
+            Ok(rough) if rough.2.converged => rough,
+            Err(Error::Cancelled) => return Err(Error::Cancelled),
+            _ => {
+                let lengths = begin.metric.lengths(&begin.mesh)?;
+                let others = farthest_vertices(&begin.mesh, &lengths, first, TRIES)?;
+                self.guessed(begin, &others[1..])?
+            }
+        };
+        let (surface, plane, _) = &rough;
+        let view = surface.centre(plane, self.weights)?;
+        let centred = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
+        let u = surface.spherical(&centred, view.scale.ln()).u;
+        let seen_from = |v: VertexId| {
+            let mut moved = surface.clone();
+            if v != surface.at {
+                moved.puncture(v, plane);
+            }
+            Ok(moved)
+        };
+        let candidates = surface.candidates(plane, &u);
+        let moved = candidates.into_iter().take(TRIES).map(seen_from);
+        self.first_good(moved, Some(rough.clone()), STRAIGHT, STEPS)
+    }
+
+    /// A plane whose outline is nearly convex, from the first of the vertices from which the flow ends well. The guess is
+    /// `u = −2 log(distance)`, the inversion of a surface that is nearly a plane.
+    fn guessed(&mut self, begin: &Punctured, vertices: &[VertexId]) -> Result<Flat> {
+        let (lengths, control) = (begin.metric.lengths(&begin.mesh)?, self.control);
+        let guess = |&v: &VertexId| {
+            let distance = shortest_paths_under(&begin.mesh, &lengths, [v], control)?.distance;
+            let mut surface = Punctured { at: v, ..begin.clone() };
+            let u = |i| if i == v { 0.0 } else { -2.0 * distance[i].ln() };
+            surface.metric.u = PerVertex::from_fn(distance.len(), u);
+            Ok(surface)
+        };
+        self.first_good(vertices.iter().map(guess), None, ROUGHLY, self.options.iteration_limit())
+    }
+
+    /// The first flow that ends well, or the one of them and of what was `known` that is least off.
+    fn first_good(
+        &mut self,
+        surfaces: impl Iterator<Item = Result<Punctured>>,
+        known: Option<Flat>,
+        straight: f64,
+        most: usize,
+    ) -> Result<Flat> {
+        let mut best = known;
+        let off = |(surface, _, found): &Flat| found.error.max(surface.violation(found));
+        let mut failure = Error::Layout("no plane was found from any vertex".into());
+        for surface in surfaces {
+            match self.flow(surface?, straight, most) {
+                Ok(flat) if flat.2.converged && flat.0.violation(&flat.2) <= straight => return Ok(flat),
+                Ok(flat) if best.as_ref().is_none_or(|best| off(&flat) < off(best)) => best = Some(flat),
+                Ok(_) => {}
+                Err(Error::Cancelled) => return Err(Error::Cancelled),
+                Err(error) => failure = error,
+            }
+        }
+        best.ok_or(failure)
+    }
+
+    fn flow(&mut self, mut surface: Punctured, straight: f64, most: usize) -> Result<Flat> {
+        self.flows += 1;
+        let found = surface.flatten(straight, straight < ROUGHLY, most, self.options, self.control)?;
+        self.iterations += found.iterations;
+        let plane = surface.lay_out(self.control)?;
+        Ok((surface, plane, found))
+    }
+}
+
+impl Punctured {
+    /// By how much angles at an edge exceed π, or the outline turns the wrong way, at most.
+    fn violation(&self, found: &Found) -> f64 {
+        self.delaunay_violation().max(-found.turning)
+    }
+
+    /// The vertex whose shortest edge is the longest.
+    fn widest(&self) -> VertexId {
+        let near = |v| self.mesh.outgoing(v).map(|arc| self.bound(arc)).fold(f64::NEG_INFINITY, f64::max);
+        let better = |(best, least), v| if near(v) < least { (v, near(v)) } else { (best, least) };
+        self.mesh.vertices().fold((VertexId(0), f64::INFINITY), better).0
+    }
+}

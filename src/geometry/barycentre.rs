@@ -1,0 +1,169 @@
+//! The conformal barycentre of weighted points of the sphere, and the Möbius transformation that moves it to the centre.
+//!
+//! A point y of hyperbolic 3-space sees the points of its sphere at infinity in directions x_i(y) of the unit sphere. The *conformal
+//! barycentre* is where `Σ w_i x_i(y) = 0` [DE86; Spr05]: the lowest point of `Σ w_i b_i`, with b_i the Busemann function of point
+//! i, which is convex: its gradient is −x_i, its Hessian `1 − x_i x_iᵀ`. It exists and is unique where no point has half of the weight
+//! or more. In the upper half-space y = (p, t) and x_i is the lift of `(z_i − p)/t`.
+
+use super::sphere::{SOUTH, Similarity, lift, project};
+use super::vector::{Vector, add, dot, norm, scale};
+use crate::error::{Error, Result, check_size};
+
+/// Longest step: within this hyperbolic distance the directions, and so the Hessian, change moderately.
+const LONGEST: f64 = 1.0;
+/// Steps before it is given up: points of doubles are within a distance of 1500.
+const STEPS: usize = 2000;
+/// A step halved so often is rounding.
+const HALVINGS: usize = 30;
+/// What cannot be lowered further is taken for rounding if it is below this many of what rounding makes at most.
+const FLOOR: f64 = 8.0;
+/// `|Σ w x|/Σw` that is enough: rounding of a sum of many terms leaves less.
+const ENOUGH: f64 = 1e-15;
+
+/// The similarity `z ↦ (z − p)/t` after which the lifts x of the `points` of the plane (∞ has weight `at_infinity`) have
+/// `Σ w x = 0`. Weights are not negative and one is positive at least; every other such Möbius transformation is a rotation after it.
+///
+/// Errors: sizes; a weight that is negative or not finite; a point with half of the weight or more, or points that have it and
+/// nearly coincide: then there is no such transformation.
+pub fn conformal_barycentre(points: &[[f64; 2]], weights: &[f64], at_infinity: f64) -> Result<Similarity> {
+    check_size("weights", weights.len(), points.len())?;
+    let total = weights.iter().sum::<f64>() + at_infinity;
+    let largest = weights.iter().fold(at_infinity, |m, &w| m.max(w));
+    let mut numbers = points.as_flattened().iter().chain(weights).chain([&at_infinity, &total]);
+    let negative = weights.iter().chain([&at_infinity]).any(|&w| w < 0.0);
+    if negative || total <= 0.0 || numbers.any(|x| !x.is_finite()) {
+        let need = "finite, not negative and not all 0, at finite points";
+        return Err(Error::Argument { what: "weights", value: format!("of sum {total}"), need });
+    }
+    if largest >= 0.5 * total {
+        return Err(heavy(largest / total));
+    }
+    let moments = |y: &Similarity| {
+        let (mut mean, mut square) = (scale(at_infinity, SOUTH), [[0.0; 3]; 3]);
+        square[2][2] = at_infinity;
+        for (z, w) in points.iter().zip(weights) {
+            let x = lift(y.apply(*z));
+            mean = add(mean, scale(*w, x));
+            for (row, a) in square.iter_mut().zip(x) {
+                row.iter_mut().zip(x).for_each(|(s, b)| *s += w * a * b);
+            }
+        }
+        (scale(1.0 / total, mean), square.map(|row| scale(1.0 / total, row)))
+    };
+    let mut y = Similarity::IDENTITY;
+    let (mut mean, mut square) = moments(&y);
+    for _ in 0..STEPS {
+        if norm(mean) <= ENOUGH {
+            return Ok(y);
+        }
+        let step = newton(mean, square);
+        let length = norm(step);
+        if length <= ENOUGH {
+            break;
+        }
+        let to = scale(1.0 / length, step);
+        let mut distance = length.min(LONGEST);
+        let mut found = None;
+        for _ in 0..HALVINGS {
+            let next = y.towards(to, distance);
+            let there = moments(&next);
+            // Downhill still: what lies ahead outweighs the rest. Or, near the end, better balanced.
+            let ahead = project(to).map_or(SOUTH, |z| lift(next.apply(y.before(z))));
+            if dot(there.0, ahead) >= 0.0 || norm(there.0) < norm(mean) {
+                found = Some((next, there));
+                break;
+            }
+            distance *= 0.5;
+        }
+        match found {
+            Some((next, there)) => (y, (mean, square)) = (next, there),
+            None => break,
+        }
+    }
+    // Rounding: of a sum of that many terms, and of p in units of t.
+    let terms = points.len() as f64 + y.centre[0].hypot(y.centre[1]) / y.scale;
+    if norm(mean) <= FLOOR * f64::EPSILON * terms { Ok(y) } else { Err(heavy(largest / total)) }
+}
+
+fn heavy(share: f64) -> Error {
+    let value = format!("{share} of the whole at one place");
+    let need = "points of less than half of the weight each, which do not coincide";
+    Error::Argument { what: "largest weight", value, need }
+}
+
+/// `(1 − square)⁻¹ mean`, or `mean` itself where rounding has left nothing to invert: all is seen in one direction.
+fn newton(mean: Vector, square: [Vector; 3]) -> Vector {
+    let mut m = square.map(|row| row.map(|x| -x));
+    (0..3).for_each(|k| m[k][k] += 1.0);
+    let minor = |i: usize, j: usize| {
+        let [a, b] = [(i + 1) % 3, (i + 2) % 3];
+        let [c, d] = [(j + 1) % 3, (j + 2) % 3];
+        m[a][c] * m[b][d] - m[a][d] * m[b][c]
+    };
+    let determinant = (0..3).map(|j| m[0][j] * minor(0, j)).sum::<f64>();
+    let step = [0, 1, 2].map(|i| (0..3).map(|j| minor(j, i) * mean[j]).sum::<f64>() / determinant);
+    if step.iter().all(|x| x.is_finite()) && dot(step, mean) > 0.0 { step } else { mean }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn residual(points: &[[f64; 2]], weights: &[f64], at_infinity: f64, y: &Similarity) -> f64 {
+        let start = scale(at_infinity, SOUTH);
+        norm(points.iter().zip(weights).fold(start, |sum, (z, w)| add(sum, scale(*w, lift(y.apply(*z))))))
+    }
+
+    #[test]
+    fn the_vertices_of_a_cube_are_found_again_after_any_similarity() {
+        let corners = (0..8u32).map(|k| [0, 1, 2].map(|i| if k >> i & 1 == 1 { 1.0 } else { -1.0 }));
+        let cube: Vec<[f64; 2]> = corners.map(|x| project(scale(1.0 / 3f64.sqrt(), x)).unwrap()).collect();
+        for (t, p) in [(1.0, [0.0, 0.0]), (1e-9, [0.3, 0.1]), (1e12, [-5.0, 1e3]), (3.0, [2e5, -7.0])] {
+            let moved: Vec<[f64; 2]> = cube.iter().map(|z| [0, 1].map(|k| t * z[k] + p[k])).collect();
+            let y = conformal_barycentre(&moved, &[1.0; 8], 0.0).unwrap_or_else(|e| panic!("{t} {p:?} {e}"));
+            let rounding = 1e-15 * (1.0 + p[0].hypot(p[1]) / t);
+            assert!((y.scale / t - 1.0).abs() < 10.0 * rounding, "{t} {p:?} {y:?}");
+            assert!((y.centre[0] - p[0]).hypot(y.centre[1] - p[1]) < 10.0 * t * rounding);
+        }
+    }
+
+    /// Three points and ∞ with equal weights: the centre of their regular ideal tetrahedron, where they are for an equilateral
+    /// triangle with centre 0 and vertices at distance r: at height (1 − r²/t²)/(1 + r²/t²) = 1/3, t = √2 r.
+    #[test]
+    fn an_equilateral_triangle_and_infinity() {
+        let r = 5.0;
+        let points = [0, 1, 2].map(|k| {
+            let angle = 2.0 * std::f64::consts::PI * f64::from(k) / 3.0;
+            [r * angle.cos(), r * angle.sin()]
+        });
+        let y = conformal_barycentre(&points, &[1.0; 3], 1.0).unwrap();
+        assert!((y.scale - r * 2f64.sqrt()).abs() < 1e-13 && y.centre[0].hypot(y.centre[1]) < 1e-13);
+    }
+
+    #[test]
+    fn residuals_are_at_rounding_for_points_over_sixty_orders_of_magnitude() {
+        let points: Vec<[f64; 2]> = (0..400)
+            .map(|k| {
+                let (r, angle) = (10f64.powf(-30.0 + 0.15 * f64::from(k)), 2.4 * f64::from(k));
+                [r * angle.cos(), r * angle.sin()]
+            })
+            .collect();
+        for heavy in [0, 100, 399] {
+            let weights: Vec<f64> = (0..400).map(|k| if k == heavy { 300.0 } else { 1.0 }).collect();
+            let y = conformal_barycentre(&points, &weights, 10.0).unwrap();
+            assert!(residual(&points, &weights, 10.0, &y) < 1e-11, "{heavy}");
+        }
+    }
+
+    #[test]
+    fn half_of_the_weight_has_no_barycentre() {
+        let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        assert!(conformal_barycentre(&points, &[2.0, 1.0, 1.0], 0.0).is_err());
+        assert!(conformal_barycentre(&points, &[1.0, 1.0, 1.0], 3.0).is_err());
+        assert!(conformal_barycentre(&[points[0], points[0], points[1]], &[1.0; 3], 0.5).is_err());
+        assert!(conformal_barycentre(&points, &[1.0, f64::NAN, 1.0], 0.0).is_err());
+        assert!(conformal_barycentre(&points, &[1.0, 1.0, -0.1], 0.0).is_err());
+        assert!(conformal_barycentre(&points, &[1.0; 2], 0.0).is_err());
+        assert!(conformal_barycentre(&points, &[1.0; 3], 0.0).is_ok());
+    }
+}

@@ -1,0 +1,230 @@
+//! Closed surfaces of genus 0 on the unit sphere.
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod check;
+mod known;
+
+use check::{check, finger, on_sphere, rough, run, same_up_to_moebius, surface};
+use common::Random;
+use common::flips::{measure, shuffle};
+use ricci::canonical::{SphereOptions, uniformize_sphere};
+use ricci::geometry::Space;
+use ricci::geometry::vector::dot;
+use ricci::mesh::shapes::{self, Intrinsic};
+use ricci::mesh::{Mesh, PerEdge, VertexId, io};
+use ricci::metric::lengths_from_positions;
+use ricci::{Control, Error};
+use std::sync::Arc;
+
+#[test]
+fn generated_shapes_become_convex_spheres() {
+    let shapes = [
+        ("icosahedron", shapes::icosphere(1).unwrap()),
+        ("icosphere", shapes::icosphere(9).unwrap()),
+        ("ellipsoid", shapes::ellipsoid([3.0, 1.0, 0.4], 10).unwrap()),
+        ("needle", shapes::ellipsoid([1.0, 1.0, 12.0], 10).unwrap()),
+        ("coin", shapes::ellipsoid([1.0, 1.0, 0.01], 10).unwrap()),
+        ("finger", finger()),
+        ("rough", rough(1, 0.3)),
+        ("rougher", rough(2, 0.8)),
+        ("spikes", rough(3, 0.95)),
+    ];
+    for (name, soup) in &shapes {
+        let (mesh, lengths) = surface(soup);
+        let sphere = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
+        check(&sphere, &mesh, &lengths, name);
+    }
+}
+
+#[test]
+fn every_sphere_of_the_corpus_uniformizes() {
+    let Some((folder, rows)) = common::index("good") else { return };
+    let mut n = 0;
+    for row in rows.iter().filter(|row| row["genus"] == "0" && row["boundary_loops"] == "0") {
+        n += 1;
+        let (mesh, lengths) = surface(&io::read(&folder.join(&row["file"])).unwrap());
+        let clock = std::time::Instant::now();
+        let sphere = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
+        let r = &sphere.report;
+        println!(
+            "{:32} range {:5.2}, {:2} steps, {:5} + {:5} flips, nonconvexity {:8.1e}, shortest edge {:7.1e}, {:.2} s",
+            row["name"],
+            r.u_range,
+            r.iterations,
+            r.start_flips,
+            r.flips,
+            r.nonconvexity,
+            r.smallest_edge,
+            clock.elapsed().as_secs_f64()
+        );
+        check(&sphere, &mesh, &lengths, &row["name"]);
+    }
+    assert_eq!(n, 29);
+}
+
+#[test]
+fn any_puncture_leads_to_the_same_sphere() {
+    let (mesh, lengths) = surface(&rough(4, 0.4));
+    let first = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
+    for v in [0, 100, 300, 491] {
+        let options = SphereOptions { puncture: Some(VertexId(v)), ..SphereOptions::default() };
+        let other = run(&mesh, &lengths, &options).unwrap();
+        check(&other, &mesh, &lengths, "other puncture");
+        assert_eq!(other.report.puncture, VertexId(v));
+        assert_eq!(other.positions[VertexId(v)], [0.0, 0.0, -1.0]);
+        for i in 0..mesh.n_vertices() {
+            for j in [0, 17, 200] {
+                let dots = [&first, &other].map(|s| dot(s.positions[i.into()], s.positions[j.into()]));
+                assert!((dots[0] - dots[1]).abs() < 1e-11, "{v}: {i} {j} {dots:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_sphere_depends_on_the_surface_not_on_its_triangulation() {
+    let (mesh, lengths) = surface(&rough(6, 0.3));
+    let first = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
+    let mut random = Random::new(11);
+    for _ in 0..3 {
+        let (mut mesh, mut lengths) = (mesh.clone(), lengths.clone());
+        // Edges become loops and double edges on the way.
+        assert!(shuffle(&mut mesh, &mut lengths, 4000, &mut random) > 500);
+        let sphere = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
+        check(&sphere, &mesh, &lengths, "shuffled");
+        same_up_to_moebius(&first.positions, &sphere.positions, 1e-9, "shuffled");
+    }
+}
+
+#[test]
+fn a_polyhedron_in_the_sphere_is_its_own_image() {
+    let first = on_sphere(&rough(8, 0.5));
+    let mesh = Mesh::clone(first.metric.mesh());
+    let lengths = lengths_from_positions(&mesh, &first.positions).unwrap();
+    let again = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
+    check(&again, &mesh, &lengths, "again");
+    same_up_to_moebius(&first.positions, &again.positions, 1e-9, "again");
+    let triangles = |mesh: &Mesh| {
+        let smallest_first = |t: [VertexId; 3]| (0..3).map(|k| [t[k], t[(k + 1) % 3], t[(k + 2) % 3]]).min();
+        let mut all: Vec<_> = mesh.faces().map(|f| smallest_first(mesh.face_vertices(f))).collect();
+        all.sort();
+        all
+    };
+    assert_eq!(triangles(again.metric.mesh()), triangles(&mesh));
+}
+
+#[test]
+fn lengths_of_any_size_give_the_same_sphere() {
+    let (mesh, lengths) = surface(&rough(5, 0.4));
+    let spheres = [1.0, 2f64.powi(200), 2f64.powi(-200)].map(|factor| {
+        let lengths: PerEdge<f64> = lengths.iter().map(|l| factor * l).collect::<Vec<_>>().into();
+        let sphere = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
+        assert!(sphere.report.converged);
+        sphere
+    });
+    for other in &spheres[1..] {
+        // Powers of two: to the last bit.
+        assert_eq!(spheres[0].positions, other.positions);
+    }
+}
+
+#[test]
+fn results_are_the_same_for_any_number_of_threads() {
+    let (mesh, lengths) = surface(&rough(9, 0.6));
+    let spheres = [1, 2, 3]
+        .map(|threads| run(&mesh, &lengths, &SphereOptions { threads, ..SphereOptions::default() }).unwrap());
+    for other in &spheres[1..] {
+        assert_eq!(other.positions, spheres[0].positions);
+        assert_eq!(other.report, spheres[0].report);
+        assert_eq!(other.metric.metric(), spheres[0].metric.metric());
+        assert_eq!(other.metric.mesh(), spheres[0].metric.mesh());
+    }
+}
+
+#[test]
+fn the_way_back_is_a_refinement_of_the_given_faces() {
+    let (mesh, lengths) = surface(&rough(2, 0.8));
+    let sphere = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
+    assert!(sphere.report.flips > 0 && sphere.report.start_flips > 0, "{:?}", sphere.report);
+    assert_eq!(sphere.metric.flips(), sphere.report.flips + sphere.report.start_flips);
+    let refinement = sphere.metric.refinement(&Control::new()).unwrap();
+    refinement.mesh.validate().unwrap();
+    assert_eq!(refinement.mesh.euler(), 2);
+    assert_eq!(refinement.n_input_vertices, mesh.n_vertices());
+    for crossing in &refinement.crossings {
+        assert!(crossing.final_weights.iter().all(|w| *w > 0.0 && *w < 1.0));
+    }
+    // The metric it is made of is flat in the plane too: the same class.
+    let mut plane = sphere.metric.metric().clone();
+    plane.space = Space::E2;
+    for v in mesh.vertices().filter(|&v| v != sphere.report.puncture) {
+        let [x, y] = sphere.plane[v];
+        plane.u[v] += (1.0 + x * x + y * y).ln();
+    }
+    let link: Vec<VertexId> = {
+        let mesh = sphere.metric.mesh();
+        mesh.outgoing(sphere.report.puncture).map(|h| mesh.tip(h)).collect()
+    };
+    plane.u[sphere.report.puncture] = 60.0;
+    let found = measure(sphere.metric.mesh(), &plane);
+    for v in mesh.vertices().filter(|v| *v != sphere.report.puncture && !link.contains(v)) {
+        assert!(found.curvature[v.index()].abs() < 1e-9, "{v}: {:e}", found.curvature[v.index()]);
+    }
+}
+
+#[test]
+fn a_cancelled_call_says_so() {
+    let (mesh, lengths) = surface(&rough(1, 0.2));
+    let control = Control::new();
+    control.cancel();
+    let result =
+        uniformize_sphere(Arc::new(mesh), Arc::new(lengths), Space::E2, &SphereOptions::default(), &control);
+    assert!(matches!(result, Err(Error::Cancelled)));
+}
+
+#[test]
+fn cancelling_from_another_thread_stops_it() {
+    let (mesh, lengths) = surface(&shapes::ellipsoid([1.0, 1.0, 9.0], 40).unwrap());
+    let control = Control::new();
+    let handle = control.clone();
+    let worker = std::thread::spawn(move || {
+        uniformize_sphere(Arc::new(mesh), Arc::new(lengths), Space::E2, &SphereOptions::default(), &handle)
+    });
+    std::thread::sleep(std::time::Duration::from_millis(60));
+    control.cancel();
+    assert!(matches!(worker.join().unwrap(), Err(Error::Cancelled)));
+}
+
+fn refused(intrinsic: &Intrinsic) -> String {
+    let (mesh, lengths) = intrinsic.build().unwrap();
+    run(&mesh, &lengths, &SphereOptions::default()).unwrap_err().to_string()
+}
+
+#[test]
+fn what_is_no_sphere_is_refused_by_name() {
+    assert!(refused(&shapes::two_triangle_sphere()).contains("at least four vertices"));
+    assert!(refused(&shapes::one_vertex(2).unwrap()).contains("genus 0"));
+    let (mesh, lengths) = surface(&shapes::disk(3).unwrap());
+    let error = run(&mesh, &lengths, &SphereOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("with boundary"), "{error}");
+
+    let (mesh, lengths) = surface(&shapes::icosphere(2).unwrap());
+    let missing = SphereOptions { puncture: Some(VertexId(1000)), ..SphereOptions::default() };
+    assert!(matches!(run(&mesh, &lengths, &missing), Err(Error::Argument { what: "vertex", .. })));
+    let tolerance = SphereOptions { tolerance: 0.0, ..SphereOptions::default() };
+    assert!(matches!(run(&mesh, &lengths, &tolerance), Err(Error::Argument { what: "tolerance", .. })));
+    let short = PerEdge::filled(3, 1.0);
+    assert!(matches!(run(&mesh, &short, &SphereOptions::default()), Err(Error::Size { .. })));
+
+    // Both sides of a square: four points on a circle, and no polyhedron.
+    let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3], [1, 0, 3], [1, 3, 2]]).unwrap();
+    let lengths = lengths_from_positions(&mesh, &points).unwrap();
+    match run(&mesh, &lengths, &SphereOptions::default()) {
+        Ok(sphere) => assert!(!sphere.report.converged, "{:?}", sphere.report),
+        Err(error) => println!("flat: {error}"),
+    }
+}

@@ -1,0 +1,92 @@
+//! Known answers.
+
+use crate::quotient::check;
+use crate::surfaces::Surface;
+use ricci::Control;
+use ricci::canonical::QuotientOptions;
+use ricci::embed::cover::elements_within;
+use ricci::embed::dirichlet_domain;
+use ricci::geometry::modulus::modulus;
+use ricci::mesh::{VertexId, shapes};
+
+const SQRT_2: f64 = std::f64::consts::SQRT_2;
+
+#[test]
+fn a_flat_torus_keeps_its_modulus() {
+    for tau in [[0.3, 1.2], [0.0, 1.0], [0.5, 0.75f64.sqrt()], [2.3, 0.4]] {
+        let surface = Surface::intrinsic("flat torus", &shapes::flat_torus(tau, 6, 5).unwrap());
+        let q = surface.uniformized();
+        check(&surface, &q);
+        let expected = modulus([[1.0, 0.0], tau]).unwrap();
+        let found = q.deck.modulus().unwrap();
+        assert!((0..2).all(|k| (found[k] - expected[k]).abs() < 1e-12), "{tau:?}: {found:?} {expected:?}");
+    }
+}
+
+/// The modulus i r/√(R² − r²) of the torus of revolution is approached with the square of the edge length.
+#[test]
+fn the_modulus_of_the_torus_of_revolution_converges() {
+    let (big, small) = (2.0f64, 1.2f64);
+    let expected = modulus([[1.0, 0.0], [0.0, small / (big * big - small * small).sqrt()]]).unwrap();
+    let error = |n: usize| {
+        let surface = Surface::from_soup("torus", &shapes::torus(big, small, n, n).unwrap());
+        let found = surface.uniformized().deck.modulus().unwrap();
+        (found[0] - expected[0]).hypot(found[1] - expected[1])
+    };
+    let errors = [12, 24, 48].map(error);
+    println!("modulus of the torus of revolution: errors {errors:?}");
+    assert!(errors[0] / errors[1] > 3.5 && errors[1] / errors[2] > 3.5 && errors[2] < 3e-3, "{errors:?}");
+}
+
+/// The Bolza surface: the Dirichlet domain of the octagon's centre is the octagon, whose side pairings have |tr| = 2(1 + √2), the systole's;
+/// every trace is 2(m + n√2) with whole m, n.
+#[test]
+fn the_bolza_surface_has_its_octagon_and_its_traces() {
+    for level in [0, 2, 3] {
+        let surface = Surface::intrinsic("Bolza surface", &shapes::bolza(level).unwrap());
+        // The centre is the vertex of degree 8 whose neighbourhood the generator builds first.
+        let (coarse, _) = shapes::bolza(0).unwrap().build().unwrap();
+        let centre = coarse.vertices().find(|&v| coarse.outgoing(v).count() == 8).unwrap();
+        let q = surface.with(&QuotientOptions { base: Some(centre), ..QuotientOptions::default() });
+        check(&surface, &q);
+        let at = q.layout.corner(q.deck.corner);
+        let domain = dirichlet_domain(&q.deck, at, q.layout.area, &Control::new()).unwrap();
+        assert_eq!(domain.sides.len(), 8);
+        for side in &domain.sides {
+            let trace = 2.0 * side.motion.half_trace().high.abs();
+            assert!((trace - 2.0 * (1.0 + SQRT_2)).abs() < 1e-9, "{trace}");
+        }
+        let all = elements_within(&q.deck, &domain, 8.0, 100_000, &Control::new()).unwrap();
+        assert!(all.len() > 500, "{}", all.len());
+        for g in &all[1..] {
+            let half = g.motion.half_trace().high.abs();
+            assert!(half > 1.0 + SQRT_2 - 1e-9, "{half}");
+            let found = (0..2000).any(|n| {
+                let m = half - f64::from(n) * SQRT_2;
+                (m - m.round()).abs() < 1e-9 * half
+            });
+            assert!(found, "{half}");
+        }
+        let shortest =
+            all[1..].iter().map(|g| g.motion.half_trace().high.abs()).fold(f64::INFINITY, f64::min);
+        assert!((shortest - 1.0 - SQRT_2).abs() < 1e-12);
+    }
+}
+
+/// The same surface on other triangulations has the same group: traces of all elements within a radius agree.
+#[test]
+fn traces_depend_on_the_surface_alone() {
+    let lengths = |level: usize| {
+        let surface = Surface::intrinsic("Bolza surface", &shapes::bolza(level).unwrap());
+        let q = surface.with(&QuotientOptions { base: Some(VertexId(0)), ..QuotientOptions::default() });
+        let at = q.layout.corner(q.deck.corner);
+        let domain = dirichlet_domain(&q.deck, at, q.layout.area, &Control::new()).unwrap();
+        let all = elements_within(&q.deck, &domain, 5.0, 10_000, &Control::new()).unwrap();
+        let mut lengths: Vec<f64> = all.iter().map(|g| g.motion.translation_length()).collect();
+        lengths.sort_by(f64::total_cmp);
+        lengths
+    };
+    let (coarse, fine) = (lengths(1), lengths(3));
+    assert_eq!(coarse.len(), fine.len());
+    assert!(coarse.iter().zip(&fine).all(|(a, b)| (a - b).abs() < 1e-12));
+}
