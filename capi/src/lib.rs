@@ -78,6 +78,10 @@ pub mod layout_file;
 
 pub mod model;
 
+pub mod sphere;
+
+pub mod stereographic;
+
 pub mod quotient;
 
 pub mod quotient_layout;

@@ -13,6 +13,11 @@
  *     RICCI_BUFFER_TOO_SMALL, whose message says how many entries are needed.
  *   - Vertices keep their numbers through flows with edge flips and their layouts; new ones come behind. Edges and
  *     faces are those of the handle they are asked of: ricci_metric_mesh, ricci_layout_mesh.
+ *   - Points of the hyperbolic plane and the sphere are ambient coordinates (x, y, w), n x 3; ricci_model_* and
+ *     ricci_stereographic_* convert. An edge path is an int32_t array of 1-based edge numbers, negative against the
+ *     edge; a word one of 1-based generator numbers, negative for inverses. -1 is none where something may be absent.
+ *   - Results whose size no summary tells (words, paths, texts) come with their size in the last argument: NULL with
+ *     capacity 0 asks for it alone.
  *   - A struct crosses with its size, so that fields can be added: `f(..., &s, sizeof s)`. Its first member is
  *     the number of bytes that are filled.
  *   - Angles are radians; a curvature is the angle defect of a vertex.
@@ -326,6 +331,9 @@ typedef struct ricci_report ricci_report;
  * which the next solve starts.
  */
 typedef struct ricci_solver ricci_solver;
+
+/** A closed surface of genus 0 as a convex polyhedron inscribed in the unit sphere, with its spherical metric of curvature 0. */
+typedef struct ricci_sphere ricci_sphere;
 
 /**
  * Receives one message. May be called from any thread, by several at once; it must not call into the
@@ -687,6 +695,62 @@ typedef struct {
      */
     size_t n_degenerate;
 } ricci_charts_summary;
+
+/** How a sphere is uniformized. Let ricci_sphere_options_init fill it, then change fields. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Largest |K| of a converged metric, radians, positive; default 1e-10. */
+    double tolerance;
+    /** Newton steps of one flow before giving up; default 0: 500. */
+    size_t max_iterations;
+    /** Threads, in a pool of the call's own; default 0: one per core. The result does not depend on it. */
+    size_t threads;
+    /** The vertex that is sent to infinity, and lies at (0, 0, -1); default -1: one from which u has a small range. */
+    int64_t puncture;
+} ricci_sphere_options;
+
+/** Figures of a sphere. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** 1 if plane and sphere have K = 0 to the tolerance, every edge is Delaunay and the plane's outline convex to 1e-9, else 0. */
+    int32_t converged;
+    /** Why the last flow stopped. */
+    ricci_stop_reason stop_reason;
+    /** V of the given mesh, and of the triangulation. */
+    size_t n_vertices;
+    /** F of the triangulation. */
+    size_t n_faces;
+    /** The vertex at infinity of the plane. */
+    size_t puncture;
+    /** Newton steps of all flows. */
+    size_t iterations;
+    /** Flows that were started. */
+    size_t n_tried;
+    /** Edge flips inside the conformal class. */
+    size_t n_flips;
+    /** Edge flips before them, which change no distance on the surface. */
+    size_t n_start_flips;
+    /** Largest |K| in the plane, at all vertices but the puncture and its neighbours, radians. */
+    double max_curvature_error;
+    /** Largest |K| of the spherical metric, radians. */
+    double spherical_curvature_error;
+    /** |sum of curvatures + area - 4 pi| of the spherical metric. */
+    double gauss_bonnet;
+    /** Largest minus smallest u in the plane. Beyond about 30 positions run out of digits, where the metric does not. */
+    double u_range;
+    /** Length of the shortest edge of the spherical metric. */
+    double smallest_edge;
+    /** By how much angles opposite an edge exceed pi in the plane at most, radians: 0 where all edges are Delaunay. */
+    double delaunay_violation;
+    /** Least turning of the plane's outline, radians: not negative where it is convex. */
+    double outline_turning;
+    /** Largest signed distance of a vertex over the plane of a neighbouring face: not positive where the polyhedron is convex. */
+    double nonconvexity;
+    /** |sum of w x| / sum of w over the vertices, w one third of the area of the given faces at x. */
+    double off_centre;
+} ricci_sphere_summary;
 
 /** How a surface is uniformized. Let ricci_uniformize_options_init fill it, then change fields. */
 typedef struct {
@@ -2736,6 +2800,169 @@ ricci_status ricci_model_to_hyperboloid(ricci_model model,
  * @param options  out: the defaults.
  * @param size     sizeof *options.
  */
+ricci_status ricci_sphere_options_init(ricci_sphere_options *options, size_t size);
+
+/**
+ * A closed surface of genus 0 as a convex polyhedron inscribed in the unit sphere: the one whose edges, after flips, are chords with
+ * lengths in the conformal class of the surface (vertex scaling).
+ *
+ * Vertices are moved by the Moebius transformation after which their mean is the centre, each weighed with one third of the area of the
+ * given faces at it: they are determined up to a rotation. Whether it came that far is in the summary. Deterministic.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no sphere, less than four vertices, no such vertex),
+ * RICCI_LAYOUT (a vertex has half of the area; all vertices lie on one circle), RICCI_EDGE_LENGTH, RICCI_TRIANGLE_INEQUALITY,
+ * RICCI_FACTORISATION, RICCI_CANCELLED.
+ *
+ * @param mesh     the mesh; lengths are measured in space, or those of an intrinsic mesh.
+ * @param options  how; NULL for the defaults.
+ * @param control  progress and cancellation; NULL for neither.
+ * @param sphere   out: the new handle, to be released by ricci_sphere_free.
+ */
+ricci_status ricci_uniformize_sphere(const ricci_mesh *mesh,
+                                     const ricci_sphere_options *options,
+                                     const ricci_control *control,
+                                     ricci_sphere **sphere);
+
+/**
+ * ricci_uniformize_sphere with lengths of the caller's in place of the mesh's own.
+ *
+ * @return as ricci_uniformize_sphere; RICCI_WRONG_SIZE.
+ *
+ * @param mesh      the mesh.
+ * @param lengths   n_edges lengths, finite and positive, in the order of ricci_mesh_edges.
+ * @param n_edges   number of edges of the mesh.
+ * @param geometry  the geometry in which the lengths are meant.
+ * @param options   how; NULL for the defaults.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param sphere    out: the new handle, to be released by ricci_sphere_free.
+ */
+ricci_status ricci_uniformize_sphere_lengths(const ricci_mesh *mesh,
+                                             const double *lengths,
+                                             size_t n_edges,
+                                             ricci_space geometry,
+                                             const ricci_sphere_options *options,
+                                             const ricci_control *control,
+                                             ricci_sphere **sphere);
+
+/**
+ * Release a sphere. What it has handed out lives on.
+ *
+ * @param sphere  the handle, or NULL.
+ */
+void ricci_sphere_free(ricci_sphere *sphere);
+
+/**
+ * The figures of a sphere.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param sphere   the sphere.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+ricci_status ricci_sphere_summarise(const ricci_sphere *sphere,
+                                    ricci_sphere_summary *summary,
+                                    size_t size);
+
+/**
+ * The spherical metric.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param sphere  the sphere.
+ * @param metric  out: the new handle, to be released by ricci_metric_free.
+ */
+ricci_status ricci_sphere_metric(const ricci_sphere *sphere, ricci_metric **metric);
+
+/**
+ * The polyhedron: unit vectors as positions, the metric's triangulation as faces, counterclockwise from outside.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param sphere  the sphere.
+ * @param mesh    out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_sphere_mesh(const ricci_sphere *sphere,
+                               ricci_mesh **mesh);
+
+/**
+ * The unit vector of every vertex of the given mesh.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param sphere     the sphere.
+ * @param positions  out: n_vertices x 3.
+ * @param capacity   entries of `positions`, at least 3 n_vertices.
+ */
+ricci_status ricci_sphere_positions(const ricci_sphere *sphere, double *positions, size_t capacity);
+
+/**
+ * The plane under the sphere (ricci_stereographic_project), in which far more digits are left near (0, 0, 1) than on the sphere.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param sphere    the sphere.
+ * @param points    out: n_vertices x 2; infinite at the puncture.
+ * @param capacity  entries of `points`, at least 2 n_vertices.
+ */
+ricci_status ricci_sphere_plane(const ricci_sphere *sphere,
+                                double *points,
+                                size_t capacity);
+
+/**
+ * The common refinement of the given mesh and the polyhedron: faces that are parts of faces of both. Its vertices are those of the mesh,
+ * then the crossings of edges; both meshes have the same faces.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (the given mesh is intrinsic: pass NULL for `on_surface`), RICCI_DOMAIN,
+ * RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE, RICCI_CANCELLED.
+ *
+ * @param sphere      the sphere.
+ * @param control     progress and cancellation; NULL for neither.
+ * @param on_surface  out: it on the given surface, to be released by ricci_mesh_free; NULL if not wanted.
+ * @param on_sphere   out: it on the unit sphere, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_sphere_refined(const ricci_sphere *sphere,
+                                  const ricci_control *control,
+                                  ricci_mesh **on_surface,
+                                  ricci_mesh **on_sphere);
+
+/**
+ * Points of the unit sphere in the plane, seen from the south pole: (x + i y)/(1 + w).
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a row is not finite, or w is not between -1 and 1).
+ *
+ * @param points    n_points x 3: x, y, w.
+ * @param n_points  number of points.
+ * @param plane     out: n_points x 2; infinite for the south pole (0, 0, -1). May be `points`.
+ * @param capacity  entries of `plane`, at least 2 n_points.
+ */
+ricci_status ricci_stereographic_project(const double *points,
+                                         size_t n_points,
+                                         double *plane,
+                                         size_t capacity);
+
+/**
+ * Points of the plane on the unit sphere, the inverse of ricci_stereographic_project: 0 goes to (0, 0, 1), infinity to (0, 0, -1).
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a coordinate is NaN).
+ *
+ * @param plane     n_points x 2.
+ * @param n_points  number of points.
+ * @param points    out: n_points x 3. May be `plane`.
+ * @param capacity  entries of `points`, at least 3 n_points.
+ */
+ricci_status ricci_stereographic_lift(const double *plane,
+                                      size_t n_points,
+                                      double *points,
+                                      size_t capacity);
+
+/**
+ * Fill options with their defaults.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param options  out: the defaults.
+ * @param size     sizeof *options.
+ */
 ricci_status ricci_uniformize_options_init(ricci_uniformize_options *options, size_t size);
 
 /**
@@ -3324,7 +3551,7 @@ ricci_status ricci_domain_partners(const ricci_domain *domain, int32_t *partners
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
  * @param domain            the domain.
- * @param letters           out: n_side_letters letters, word after word; the partner's word is the inverse.
+ * @param letters           out: n_side_letters letters, word after word; the partner's element is the inverse.
  * @param letters_capacity  entries of `letters`.
  * @param starts            out: n_sides + 1 offsets: the word of side i is letters[starts[i] .. starts[i + 1]).
  * @param starts_capacity   entries of `starts`.

@@ -43,6 +43,7 @@ struct deleter {
     void operator()(ricci_solver *p) const { ricci_solver_free(p); }
     void operator()(ricci_layout *p) const { ricci_layout_free(p); }
     void operator()(ricci_charts *p) const { ricci_charts_free(p); }
+    void operator()(ricci_sphere *p) const { ricci_sphere_free(p); }
     void operator()(ricci_quotient *p) const { ricci_quotient_free(p); }
     void operator()(ricci_homotopy *p) const { ricci_homotopy_free(p); }
     void operator()(ricci_domain *p) const { ricci_domain_free(p); }
@@ -61,6 +62,7 @@ using report = owned<ricci_report>;
 using solver = owned<ricci_solver>;
 using layout = owned<ricci_layout>;
 using charts = owned<ricci_charts>;
+using sphere = owned<ricci_sphere>;
 using quotient = owned<ricci_quotient>;
 using homotopy = owned<ricci_homotopy>;
 using domain = owned<ricci_domain>;
