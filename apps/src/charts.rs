@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::Outcome;
-use crate::laid::Laid;
+use crate::laid::{Laid, Placed};
 use crate::report::timed;
 use ricci::Control;
 use ricci::embed::overlap::{Triangle, overlapping};
@@ -44,7 +44,7 @@ pub fn cut(outcome: &mut Outcome, margin: f64, control: &Control) -> Result<(), 
     let packed = timed(&mut outcome.seconds.layout, || -> ricci::Result<Packed> {
         let mesh = &laid.mesh;
         let options = ChartOptions { margin };
-        let charts = ricci::embed::charts(mesh, |h| laid.layout.corner_uv(h), &options, control)?;
+        let charts = ricci::embed::charts(mesh, |h| laid.corner_uv(h), &options, control)?;
         let counts = |f: &FaceId| charts.degenerate.binary_search(f).is_err();
         let triangles: Vec<Triangle> = mesh.faces().filter(counts).map(|f| charts.face_uv(mesh, f)).collect();
         Ok(Packed { overlapping: overlapping(&triangles, control)?.len(), charts })
@@ -59,11 +59,19 @@ pub fn cut(outcome: &mut Outcome, margin: f64, control: &Control) -> Result<(), 
 /// The layout as it is written and drawn: in charts where it was cut into them.
 impl Laid {
     pub fn coordinates(&self) -> &[[f64; 2]] {
-        self.packed.as_ref().map_or(&self.layout.coordinates, |p| &p.charts.coordinates)
+        match (&self.packed, &self.placed) {
+            (Some(packed), _) => &packed.charts.coordinates,
+            (None, Placed::Plane(layout)) => &layout.coordinates,
+            (None, Placed::Space(place)) => &place.coordinates,
+        }
     }
 
     pub fn corner_index(&self) -> &PerHalfedge<u32> {
-        self.packed.as_ref().map_or(&self.layout.corner_index, |p| &p.charts.corner_index)
+        match (&self.packed, &self.placed) {
+            (Some(packed), _) => &packed.charts.corner_index,
+            (None, Placed::Plane(layout)) => &layout.corner_index,
+            (None, Placed::Space(place)) => &place.refined.corner_index,
+        }
     }
 
     pub fn corner_uv(&self, h: HalfedgeId) -> [f64; 2] {
@@ -72,16 +80,15 @@ impl Laid {
 
     /// Half-edges of the cut with a number: that of their seam, beyond those one for each pair of charts.
     pub fn numbered_seams(&self, mesh: &Mesh) -> Vec<(HalfedgeId, usize)> {
-        let seams = self.layout.seams.iter().enumerate();
-        let mut numbered: Vec<_> =
-            seams.flat_map(|(k, seam)| seam.halfedges.iter().map(move |&h| (h, k))).collect();
+        let mut numbered = self.seams();
+        let n_seams = numbered.iter().map(|(_, k)| k + 1).max().unwrap_or(0);
         let Some(packed) = &self.packed else { return numbered };
         let mut own = packed.charts.is_seam.clone();
         numbered.iter().for_each(|(h, _)| own[h.edge()] = false);
         let mut pairs = BTreeMap::new();
         for h in mesh.edges().filter(|&e| own[e]).map(|e| e.halfedge()) {
             let sides = [h, h.twin()].map(|h| mesh.face(h).map(|f| packed.charts.chart[f]));
-            let next = self.layout.seams.len() + pairs.len();
+            let next = n_seams + pairs.len();
             numbered
                 .push((h, *pairs.entry([sides[0].min(sides[1]), sides[0].max(sides[1])]).or_insert(next)));
         }

@@ -5,6 +5,7 @@
 //! null where that is negative.
 
 use crate::laid::Laid;
+use ricci::embed::Layout;
 use ricci::geometry::circle::power_circle;
 use ricci::mesh::{FaceId, Mesh};
 use ricci::metric::Metric;
@@ -40,9 +41,9 @@ pub struct Circles {
     pub dual_circles: Vec<DualCircle>,
 }
 
-/// The circles of a Euclidean metric laid out; `mesh` is the triangulation of the metric.
-pub fn circles(mesh: &Mesh, metric: &Metric, scheme: &'static str, laid: &Laid) -> Circles {
-    let (layout, scale) = (&laid.layout, laid.scale);
+/// The circles of a Euclidean metric laid out in the plane; `mesh` is the triangulation of the metric.
+pub fn circles(mesh: &Mesh, metric: &Metric, scheme: &'static str, laid: &Laid) -> Option<Circles> {
+    let (layout, scale) = (laid.plane()?, laid.scale);
     let gamma = metric.radii();
     let n_given = laid.refinement.as_ref().map_or(mesh.n_vertices(), |r| r.n_input_vertices);
     let mut vertex_of = vec![None; layout.coordinates.len()];
@@ -60,17 +61,17 @@ pub fn circles(mesh: &Mesh, metric: &Metric, scheme: &'static str, laid: &Laid) 
         let radius = (circle.power >= 0.0).then(|| circle.power.sqrt());
         Some(DualCircle { face: f.index(), center: circle.center, power: circle.power, radius })
     };
-    Circles {
+    Some(Circles {
         space: metric.space.name(),
         scheme,
         vertex_circles: vertex_of.into_iter().enumerate().filter_map(vertex_circle).collect(),
-        dual_circles: final_faces(laid).into_iter().filter_map(dual_circle).collect(),
-    }
+        dual_circles: final_faces(laid, layout).into_iter().filter_map(dual_circle).collect(),
+    })
 }
 
 /// The faces of the metric's triangulation where they lie in the layout: those of a refinement are found from their largest piece.
-fn final_faces(laid: &Laid) -> Vec<(FaceId, [[f64; 2]; 3])> {
-    let (mesh, layout) = (&laid.mesh, &laid.layout);
+fn final_faces(laid: &Laid, layout: &Layout) -> Vec<(FaceId, [[f64; 2]; 3])> {
+    let mesh = &laid.mesh;
     let Some(refinement) = &laid.refinement else {
         return mesh.faces().map(|f| (f, layout.face_uv(mesh, f))).collect();
     };

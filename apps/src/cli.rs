@@ -1,9 +1,10 @@
 //! The command line.
 
+use crate::options::{Common, SolveArgs, SurfaceArgs, distance};
 use crate::picture::{FlowPictureArgs, SurfacePictureArgs};
+use crate::uniform::{CoverArgs, UniformizeArgs};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ricci::geometry::Space;
-use ricci::metric::Scheme;
 use serde::{Serialize, Serializer};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -33,10 +34,16 @@ pub enum Command {
     /// The conformal metric with a prescribed curvature, and its layout
     #[command(after_help = FLOW_EXAMPLE)]
     Flow(FlowArgs),
+    /// The metric of constant curvature of a closed surface, in the sphere, the plane or the hyperbolic plane
+    #[command(after_help = crate::uniform::UNIFORMIZE_HELP)]
+    Uniformize(UniformizeArgs),
+    /// A finite piece of the universal cover, with the group that rebuilds the surface from one copy
+    #[command(after_help = crate::uniform::COVER_HELP)]
+    Cover(CoverArgs),
     /// Make a sample surface
     #[command(after_help = crate::make::HELP)]
     Make(crate::make::MakeArgs),
-    /// Run the flow on a torus, a genus-2 surface and a disk, with pictures and reports
+    /// Flows, a uniformization and a universal cover of small surfaces, with pictures and reports
     #[command(after_help = DEMO_EXAMPLE)]
     Demo(DemoArgs),
     /// One picture per kind of surface and of picture, with the commands that make them
@@ -93,35 +100,6 @@ const COMPLETIONS_EXAMPLE: &str = "\
 Example
     ricci completions bash > ~/.local/share/bash-completion/completions/ricci";
 
-/// What every command takes.
-#[derive(Args, Debug, Clone)]
-pub struct Common {
-    /// Write all numbers of the run as JSON
-    #[arg(long, value_name = "R.json")]
-    pub report: Option<PathBuf>,
-    /// No progress bar, no summary
-    #[arg(long)]
-    pub quiet: bool,
-    /// Threads, 0 for one per core; results do not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads())]
-    threads: u16,
-}
-
-impl Common {
-    /// The number of threads to use, at least 1.
-    pub fn threads(&self) -> usize {
-        match self.threads {
-            0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
-            n => n.into(),
-        }
-    }
-}
-
-/// More threads than this help nobody and can exhaust the system.
-fn threads() -> impl clap::builder::TypedValueParser<Value = u16> {
-    clap::value_parser!(u16).range(..=1024)
-}
-
 #[derive(Args, Debug)]
 pub struct InfoArgs {
     /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json)
@@ -165,48 +143,29 @@ pub struct RepairArgs {
 
 #[derive(Args, Debug)]
 pub struct FlowArgs {
-    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json: `faces` and `lengths` suffice)
-    pub mesh: PathBuf,
-    /// STL: corners within this distance are one vertex; 0: those in exactly the same place
-    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
-    pub weld: Option<f64>,
+    #[command(flatten)]
+    pub surface: SurfaceArgs,
     /// Background geometry; auto is h2 on closed surfaces of genus ≥ 2 and e2 elsewhere
     #[arg(long, value_enum, default_value_t = SpaceChoice::Auto)]
     pub space: SpaceChoice,
-    /// Discrete conformal structure
-    #[arg(long, value_enum, default_value_t = SchemeChoice::Yamabe)]
-    pub scheme: SchemeChoice,
     /// Curvature: uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
     #[arg(long, value_name = "TARGET", long_help = TARGET_HELP)]
     pub target: Option<TargetChoice>,
-    /// Newton's method, or the flow itself
-    #[arg(long, value_enum, default_value_t = MethodChoice::Newton)]
-    pub method: MethodChoice,
+    #[command(flatten)]
+    pub solve: SolveArgs,
     /// Keep the total area during the gradient flow (E²)
     #[arg(long)]
     pub area_normalised: bool,
     /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,…
     #[arg(long, value_name = "VERTICES")]
     pub pin: Option<PinChoice>,
-    /// Edge flips inside the conformal class: as needed, with the layout carried back to the given triangulation, or never
-    #[arg(long, value_enum, default_value_t = FlipsChoice::Auto)]
-    pub flips: FlipsChoice,
     /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex
     #[arg(long, value_name = "E.csv")]
     pub keep_edges: Option<PathBuf>,
-    /// Largest |K − K̄| of a converged metric, radians
-    #[arg(long, value_name = "T", default_value = "1e-10", value_parser = positive)]
-    pub tolerance: f64,
-    /// Steps before giving up [default: 500 for newton, 200000 for gradient]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
-    pub max_iterations: Option<u64>,
-    /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
-    #[arg(long, value_enum, value_name = "GEOMETRY")]
-    pub input_geometry: Option<GeometryChoice>,
     /// Write the metric
     #[arg(long, value_name = "M.json")]
     pub metric: Option<PathBuf>,
-    /// Write the surface with its layout as texture coordinates (E²), .obj or .glb
+    /// Write the surface with its layout as texture coordinates (E²; H² of closed surfaces), .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<PathBuf>,
     /// Write homogeneous texture coordinates to --uv, `vt qx qy q`: the projective map of each piece is linear in them
@@ -259,20 +218,6 @@ pub struct GalleryArgs {
     pub common: Common,
 }
 
-fn distance(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x >= 0.0 && x.is_finite() => Ok(x),
-        _ => Err("must be a distance".into()),
-    }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
-        _ => Err("must be a positive number".into()),
-    }
-}
-
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub enum SpaceChoice {
@@ -292,60 +237,6 @@ impl SpaceChoice {
             SpaceChoice::S2 => Some(Space::S2),
         }
     }
-}
-
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
-#[serde(rename_all = "lowercase")]
-pub enum GeometryChoice {
-    E2,
-    H2,
-    S2,
-}
-
-impl From<GeometryChoice> for Space {
-    fn from(choice: GeometryChoice) -> Space {
-        match choice {
-            GeometryChoice::E2 => Space::E2,
-            GeometryChoice::H2 => Space::H2,
-            GeometryChoice::S2 => Space::S2,
-        }
-    }
-}
-
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
-#[serde(rename_all = "lowercase")]
-pub enum SchemeChoice {
-    Yamabe,
-    Inversive,
-    Thurston,
-    Tangential,
-    Virtual,
-}
-
-impl From<SchemeChoice> for Scheme {
-    fn from(choice: SchemeChoice) -> Scheme {
-        match choice {
-            SchemeChoice::Yamabe => Scheme::Yamabe,
-            SchemeChoice::Inversive => Scheme::Inversive,
-            SchemeChoice::Thurston => Scheme::Thurston,
-            SchemeChoice::Tangential => Scheme::Tangential,
-            SchemeChoice::Virtual => Scheme::Virtual,
-        }
-    }
-}
-
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
-#[serde(rename_all = "lowercase")]
-pub enum MethodChoice {
-    Newton,
-    Gradient,
-}
-
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
-#[serde(rename_all = "lowercase")]
-pub enum FlipsChoice {
-    Auto,
-    Never,
 }
 
 /// A target as it is asked for.

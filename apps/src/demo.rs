@@ -1,43 +1,62 @@
-//! `ricci demo`: makes three surfaces and runs the flow on each, through the same command lines that a user would type.
+//! `ricci demo`: makes a few surfaces and runs a command on each, through the same command lines that a user would type.
 
 use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
 use crate::figures::FlowResult;
-use crate::flow::{self, Done};
+use crate::flow;
 use crate::output::{Outputs, check_writable};
 use crate::report::{Checks, InputSummary, Report, path_text, peak_bytes};
+use crate::uniform::{self, Shape, UniformFigures};
 use crate::{make, say};
 use clap::Parser;
 use ricci::Control;
 use serde::Serialize;
 use std::time::Instant;
 
-/// A surface, what `ricci make` and `ricci flow` are given for it, and what there is to see.
+/// A surface, what `ricci make` is given for it, what is run on it, and what there is to see.
 struct Example {
     name: &'static str,
     make: &'static [&'static str],
-    flow: &'static [&'static str],
+    command: &'static str,
+    options: &'static [&'static str],
     about: &'static str,
 }
 
-const EXAMPLES: [Example; 3] = [
+const EXAMPLES: [Example; 5] = [
     Example {
         name: "torus",
         make: &["torus"],
-        flow: &[],
+        command: "flow",
+        options: &[],
         about: "a torus becomes flat: the layout is a parallelogram up to its seams",
     },
     Example {
         name: "genus2",
         make: &["genus", "--genus", "2"],
-        flow: &["--space", "e2", "--target", "single:0"],
+        command: "flow",
+        options: &["--space", "e2", "--target", "single:0"],
         about: "all curvature of a genus-2 surface, −4π, gathered at vertex 0; flat elsewhere",
     },
     Example {
         name: "disk",
         make: &["disk", "--height", "0.4"],
-        flow: &[],
+        command: "flow",
+        options: &[],
         about: "a bumpy disk flattened, its curvature spread over the boundary",
+    },
+    Example {
+        name: "two",
+        make: &["genus", "--genus", "2", "-n", "6"],
+        command: "uniformize",
+        options: &[],
+        about: "a surface of genus 2 in the hyperbolic plane, opened, with the loops that generate its group",
+    },
+    Example {
+        name: "plane",
+        make: &["torus", "-n", "24"],
+        command: "cover",
+        options: &["--depth", "3"],
+        about: "the plane, tiled by copies of a torus",
     },
 ];
 
@@ -58,7 +77,28 @@ struct Run {
     name: &'static str,
     command: String,
     input: InputSummary,
-    result: FlowResult,
+    result: Figures,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Figures {
+    Flow(Box<FlowResult>),
+    Uniform(Box<UniformFigures>),
+}
+
+/// What came of one run.
+struct Ran {
+    line: String,
+    input: InputSummary,
+    steps: usize,
+    error: f64,
+    /// Flipped triangles and mean dilatation of the layout.
+    layout: Option<(usize, f64)>,
+    seconds: f64,
+    exit_code: u8,
+    checks: Checks,
+    result: Figures,
 }
 
 /// Run the command; the exit code is the worst of its flows.
@@ -75,29 +115,22 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
     let mut notes = String::new();
     let (mut exit_code, mut runs, mut checks) = (0, Vec::new(), Checks::default());
     for example in &EXAMPLES {
-        let (line, done) = run_example(example, args, control)?;
-        let laid = done.outcome.layout.as_ref().ok();
+        let ran = run_example(example, args, control)?;
         table += &format!(
             "{:<8} {:>8} {:>6} {:>6} {:>12.1e} {:>8} {:>10} {:>8.2}\n",
             example.name,
-            done.input.mesh.n_vertices(),
-            done.input.mesh.genus(),
-            done.outcome.report.iterations,
-            done.outcome.report.max_curvature_error,
-            laid.map_or("–".into(), |l| l.layout.flipped.len().to_string()),
-            laid.map_or("–".into(), |l| format!("{:.4}", l.quality.qc_mean)),
-            done.seconds,
+            ran.input.vertices,
+            ran.input.genus.unwrap_or(0),
+            ran.steps,
+            ran.error,
+            ran.layout.map_or("–".into(), |l| l.0.to_string()),
+            ran.layout.map_or("–".into(), |l| format!("{:.4}", l.1)),
+            ran.seconds,
         );
-        notes += &format!("\n{}: {}\n  ricci {line}\n", example.name, example.about);
-        exit_code = exit_code.max(done.exit_code);
-        let input = InputSummary::of(&done.input);
-        runs.push(Run {
-            name: example.name,
-            command: line,
-            input,
-            result: FlowResult::new(&done.input, &done.outcome),
-        });
-        checks.add(example.name, done.checks.failed().len() as f64, 0.0);
+        notes += &format!("\n{}: {}\n  ricci {}\n", example.name, example.about, ran.line);
+        exit_code = exit_code.max(ran.exit_code);
+        checks.add(example.name, ran.checks.failed().len() as f64, 0.0);
+        runs.push(Run { name: example.name, command: ran.line, input: ran.input, result: ran.result });
     }
     if let Some(path) = &args.common.report {
         let asked = Asked { out: path_text(out), threads: args.common.threads() };
@@ -115,8 +148,8 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
     Ok(exit_code)
 }
 
-/// Make one surface and run the flow on it; returns the flow's command line with what came out.
-fn run_example(example: &Example, args: &DemoArgs, control: &Control) -> Result<(String, Done), Failure> {
+/// Make one surface and run the command on it.
+fn run_example(example: &Example, args: &DemoArgs, control: &Control) -> Result<Ran, Failure> {
     let path = |suffix: &str| path_text(&args.out.join(format!("{}{suffix}", example.name)));
     let mut make = vec!["make".to_string()];
     make.extend(example.make.iter().map(ToString::to_string));
@@ -124,23 +157,57 @@ fn run_example(example: &Example, args: &DemoArgs, control: &Control) -> Result<
     if let Command::Make(make) = parse(make)? {
         make::run(&make)?;
     }
-    let mut flow = vec!["flow".to_string(), path(".obj")];
-    flow.extend(example.flow.iter().map(ToString::to_string));
+    let mut words = vec![example.command.to_string(), path(".obj")];
+    words.extend(example.options.iter().map(ToString::to_string));
     for (option, suffix) in [
         ("--uv", "_uv.obj"),
         ("--metric", "_metric.json"),
         ("--report", "_report.json"),
         ("--picture", ".png"),
     ] {
-        flow.extend([option.into(), path(suffix)]);
+        words.extend([option.into(), path(suffix)]);
     }
-    let line = flow.join(" ");
-    flow.push(format!("--threads={}", args.common.threads()));
-    flow.extend(args.common.quiet.then(|| "--quiet".into()));
-    match parse(flow)? {
-        Command::Flow(flow) => Ok((line, flow::execute(&flow, control)?)),
-        other => Err(Failure::Failed(format!("{other:?} is no flow"))),
+    let line = words.join(" ");
+    words.push(format!("--threads={}", args.common.threads()));
+    words.extend(args.common.quiet.then(|| "--quiet".into()));
+    match parse(words)? {
+        Command::Flow(flow) => Ok(flowed(line, flow::execute(&flow, control)?)),
+        Command::Uniformize(args) => uniformized(line, uniform::execute_uniformize(&args, control)?),
+        Command::Cover(args) => uniformized(line, uniform::execute_cover(&args, control)?),
+        other => Err(Failure::Failed(format!("{other:?} is no example"))),
     }
+}
+
+fn flowed(line: String, done: flow::Done) -> Ran {
+    let laid = done.outcome.layout.as_ref().ok();
+    Ran {
+        line,
+        input: InputSummary::of(&done.input),
+        steps: done.outcome.report.iterations,
+        error: done.outcome.report.max_curvature_error,
+        layout: laid.map(|l| (l.flipped().len(), l.quality.qc_mean)),
+        seconds: done.seconds,
+        exit_code: done.exit_code,
+        result: Figures::Flow(Box::new(FlowResult::new(&done.input, &done.outcome))),
+        checks: done.checks,
+    }
+}
+
+fn uniformized(line: String, done: uniform::Done) -> Result<Ran, Failure> {
+    let Shape::Quotient(u) = &done.shape else {
+        return Err(Failure::Failed("a sphere is no example".into()));
+    };
+    Ok(Ran {
+        line,
+        input: InputSummary::of(&done.input),
+        steps: u.report.iterations,
+        error: u.curvature_error(),
+        layout: Some((u.laid.flipped().len(), u.laid.quality.qc_mean)),
+        seconds: done.seconds,
+        exit_code: done.exit_code,
+        result: Figures::Uniform(Box::new(UniformFigures::new(u, u.elements.len() > 1))),
+        checks: done.checks,
+    })
 }
 
 /// The command of a line of words.

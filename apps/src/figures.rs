@@ -3,6 +3,7 @@
 use crate::charts;
 use crate::input::Input;
 use crate::job::Outcome;
+use crate::laid::Laid;
 use ricci::flow::Obstruction;
 use ricci::mesh::VertexId;
 use serde::Serialize;
@@ -142,7 +143,7 @@ impl FlowResult {
             clamped_edges: initial.clamped_edges,
             max_length_change: initial.max_length_change,
             area: outcome.curvature.area,
-            flipped_triangles: laid.map(|l| l.layout.flipped.len()),
+            flipped_triangles: laid.map(|l| l.flipped().len()),
             qc_mean: laid.map(|l| l.quality.qc_mean),
             qc_max: laid.map(|l| l.quality.qc_max),
             area_ratio_min: laid.map(|l| l.quality.area_ratio_min),
@@ -153,9 +154,9 @@ impl FlowResult {
             packing: packed.map(|p| p.charts.efficiency),
             cones: cones.map(|cones| cones.into_iter().map(|(v, k)| (v.0, k)).collect()),
             modulus: laid.and_then(|l| l.modulus),
-            seams: laid.map(|l| l.layout.seams.iter().map(seam).collect()),
+            seams: laid.and_then(Laid::plane).map(|layout| layout.seams.iter().map(seam).collect()),
             no_layout: layout.as_ref().err().cloned(),
-            failed: outcome.failed.clone(),
+            failed: outcome.failed.0.clone(),
             left_out: outcome.left_out.clone(),
             residuals: report.residuals.clone(),
         }

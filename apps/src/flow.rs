@@ -3,14 +3,16 @@
 use crate::carry;
 use crate::charts;
 use crate::circles::circles;
-use crate::cli::{FlipsChoice, FlowArgs, MethodChoice, PinChoice, SchemeChoice, TargetChoice};
+use crate::cli::{FlowArgs, PinChoice, TargetChoice};
 use crate::csv;
 use crate::failure::Failure;
 use crate::figures::FlowResult;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
+use crate::laid::OPEN_IN_H2;
 use crate::metric_file::MetricFile;
-use crate::output::{Outputs, check_extension, check_writable, extension};
+use crate::options::{FlipsChoice, MethodChoice, SchemeChoice};
+use crate::output::{self, Outputs, check_extension, extension};
 use crate::picture::{ColorChoice, FlowPictureArgs};
 use crate::progress::Progress;
 use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes};
@@ -19,7 +21,7 @@ use crate::show;
 use crate::uv;
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::flow::{Flips, Gradient, Method, Options};
+use ricci::flow::{Gradient, Options};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::{Scheme, Target};
@@ -52,17 +54,14 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.common.quiet);
-    let mut input = input::read(&args.mesh, args.weld, control)?;
-    if let Some(geometry) = args.input_geometry {
-        input.geometry = geometry.into();
-    }
+    let input = input::read(&args.surface, control)?;
     // Placed cones exist in E² alone.
     let automatic = if matches!(args.target, Some(TargetChoice::Auto(_))) { Some(Space::E2) } else { None };
     let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(&input.mesh));
     check_outputs(args, &input, space)?;
     let job = Job {
         space,
-        scheme: args.scheme.into(),
+        scheme: args.solve.scheme.into(),
         target: args.target.as_ref().map(|t| target(t, &input, space, control)).transpose()?,
         options: Options {
             fixed_edges: match &args.keep_edges {
@@ -76,32 +75,21 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     let mut outcome = job::run(&input, job, control)?;
     if args.charts {
         let cut = charts::cut(&mut outcome, args.margin, control);
-        outcome.attempt("charts", cut)?;
+        outcome.failed.attempt("charts", cut)?;
     }
     let files = write(args, &input, &mut outcome, control, start)?;
     drop(progress);
     let checks = outcome.checks();
     let svg = args.picture.base.picture.as_ref().is_some_and(|p| show::is_svg(p));
     let missing = outcome.layout.is_err() && (args.uv.is_some() || args.circles.is_some() || svg);
-    let exit_code = if missing || !outcome.failed.is_empty() { 1 } else { checks.exit_code() };
+    let exit_code = if missing || !outcome.failed.0.is_empty() { 1 } else { checks.exit_code() };
     Ok(Done { input, outcome, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
 }
 
 fn options(args: &FlowArgs) -> Options {
     Options {
-        method: match args.method {
-            MethodChoice::Newton => Method::Newton,
-            MethodChoice::Gradient => Method::Gradient,
-        },
-        tolerance: args.tolerance,
-        flips: match args.flips {
-            FlipsChoice::Auto => Flips::Auto,
-            FlipsChoice::Never => Flips::Never,
-        },
-        max_iterations: args.max_iterations.map_or(0, |n| n as usize),
-        threads: args.common.threads(),
         gradient: Gradient { area_normalised: args.area_normalised, ..Gradient::default() },
-        ..Options::default()
+        ..args.solve.options(args.common.threads())
     }
 }
 
@@ -117,10 +105,10 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     if args.pin.is_some() && matches!(args.target, Some(TargetChoice::Auto(_))) {
         return usage("--target auto chooses every curvature, --pin leaves some free; leave one out");
     }
-    if args.trace.is_some() && args.method != MethodChoice::Gradient {
+    if args.trace.is_some() && args.solve.method != MethodChoice::Gradient {
         return usage("--trace records the gradient flow; add --method gradient");
     }
-    if args.area_normalised && args.method != MethodChoice::Gradient {
+    if args.area_normalised && args.solve.method != MethodChoice::Gradient {
         return usage("--area-normalised is a variant of the gradient flow; add --method gradient");
     }
     if let Some(path) = &args.uv {
@@ -131,30 +119,38 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     }
     let files =
         [&args.metric, &args.uv, &args.circles, &args.picture.base.picture, &args.trace, &args.common.report];
-    let mut seen: Vec<&Path> = Vec::new();
-    for path in files.into_iter().flatten() {
-        if seen.contains(&path.as_path()) {
-            return Err(Failure::Usage(format!("{} is named for two outputs", path.display())));
-        }
-        seen.push(path);
-        check_writable(path)?;
-    }
-    Ok(())
+    output::check_outputs(&files.map(|path| path.as_deref()))
 }
 
 /// What can be refused once the surface is known.
 fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
-    let wishes =
-        [("--uv", args.uv.is_some()), ("--circles", args.circles.is_some()), ("--charts", args.charts)];
-    for (option, wanted) in wishes {
+    let laid_out = space == Space::E2 || (space == Space::H2 && input.mesh.is_closed());
+    let missing = |option: &str| {
+        let why = match space {
+            Space::H2 => OPEN_IN_H2,
+            _ => "ricci uniformize lays spheres out; use it, or --space e2",
+        };
+        Err(Failure::Usage(format!("{option}: {why}")))
+    };
+    for (option, wanted) in [("--uv", args.uv.is_some()), ("--zoom", args.picture.zoom.is_some())] {
+        if wanted && !laid_out {
+            return missing(option);
+        }
+    }
+    let in_plane = [
+        ("--circles", args.circles.is_some()),
+        ("--charts", args.charts),
+        ("--homogeneous", args.homogeneous),
+    ];
+    for (option, wanted) in in_plane {
         if wanted && space != Space::E2 {
             return Err(Failure::Usage(format!(
-                "{option}: layouts in {space} are not in this version; use --space e2 (with --target single:V or \
-                 cones:FILE.csv where the surface needs cones)"
+                "{option}: layouts in {space} have none; use --space e2 (with --target single:V or cones:FILE.csv \
+                 where the surface needs cones)"
             )));
         }
     }
-    let scheme: Scheme = args.scheme.into();
+    let scheme: Scheme = args.solve.scheme.into();
     if args.circles.is_some() && scheme.epsilon() == 0 {
         return Err(Failure::Usage(format!(
             "--circles: scheme {scheme} has no circles; use inversive, thurston, tangential or virtual"
@@ -163,10 +159,8 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
     if args.uv.is_some() && input.positions.is_none() {
         return Err(Failure::Usage("--uv: an intrinsic metric has no positions in space".into()));
     }
-    if let Some(name) = args.picture.color().filter(|_| space != Space::E2).and_then(ColorChoice::of_layout) {
-        return Err(Failure::Usage(format!(
-            "--color {name}: layouts in {space} are not in this version; use u or curvature"
-        )));
+    if let Some(name) = args.picture.color().filter(|_| !laid_out).and_then(ColorChoice::of_layout) {
+        return missing(&format!("--color {name}"));
     }
     if let Some(zoom) = args.picture.zoom {
         let n = input.mesh.n_vertices();
@@ -177,21 +171,16 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
                 n - 1
             )));
         }
-        if space != Space::E2 {
-            return Err(Failure::Usage(format!("--zoom: layouts in {space} are not in this version")));
-        }
     }
-    if let Some(path) = args.picture.base.picture.as_ref().filter(|_| space != Space::E2) {
+    if let Some(path) = args.picture.base.picture.as_ref().filter(|_| !laid_out) {
         let nothing = if extension(path) == "svg" {
-            "an SVG shows the layout alone, use .png"
+            "an SVG shows the layout alone"
         } else if input.positions.is_none() {
             "an intrinsic metric has no positions in space"
         } else {
             return Ok(());
         };
-        return Err(Failure::Usage(format!(
-            "--picture: layouts in {space} are not in this version; {nothing}"
-        )));
+        return missing(&format!("--picture: {nothing}"));
     }
     Ok(())
 }
@@ -228,16 +217,16 @@ fn write(
     let begin = Instant::now();
     if let Some(path) = &args.metric {
         let written = write_metric(&mut outputs, path, outcome);
-        outcome.attempt("metric", written)?;
+        outcome.failed.attempt("metric", written)?;
     }
     if let Some(path) = &args.trace {
         let written = outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace));
-        outcome.attempt("trace", written)?;
+        outcome.failed.attempt("trace", written)?;
     }
     control.check()?;
     if let (Some(path), Ok(laid)) = (&args.uv, &outcome.layout) {
         let written = uv::write(&mut outputs, path, input, laid, args.homogeneous);
-        if outcome.attempt("uv", written)?.is_some() {
+        if outcome.failed.attempt("uv", written)?.is_some() {
             outcome.left_out = carry::left_out(input);
         }
     }
@@ -246,12 +235,13 @@ fn write(
     if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
         let threads = args.common.threads();
         let written = outputs.add(path, |out| show::draw(out, path, input, outcome, &args.picture, threads));
-        outcome.attempt("picture", written)?;
+        outcome.failed.attempt("picture", written)?;
     }
-    if let (Some(path), Ok(laid)) = (&args.circles, &outcome.layout) {
-        let Outcome { mesh, metric, scheme, .. } = &*outcome;
-        let written = outputs.add_json(path, &circles(mesh, metric, scheme.name(), laid));
-        outcome.attempt("circles", written)?;
+    let Outcome { mesh, metric, scheme, .. } = &*outcome;
+    let all = outcome.layout.as_ref().ok().and_then(|laid| circles(mesh, metric, scheme.name(), laid));
+    if let (Some(path), Some(all)) = (&args.circles, all) {
+        let written = outputs.add_json(path, &all);
+        outcome.failed.attempt("circles", written)?;
     }
     outcome.seconds.write += begin.elapsed().as_secs_f64();
     control.step(Stage::Write, 0.5)?;
@@ -306,16 +296,16 @@ impl Asked {
     fn new(args: &FlowArgs, input: &Input, outcome: &Outcome) -> Self {
         let text = |path: &Option<PathBuf>| path.as_deref().map(path_text);
         Asked {
-            weld: args.weld,
+            weld: args.surface.weld,
             space: outcome.metric.space.name(),
-            scheme: args.scheme,
+            scheme: args.solve.scheme,
             target: args.target.as_ref().map_or_else(|| rule_text(&outcome.rule), ToString::to_string),
-            method: args.method,
+            method: args.solve.method,
             area_normalised: args.area_normalised,
             pin: outcome.pinned.iter().map(|v| v.0).collect(),
-            flips: args.flips,
+            flips: args.solve.flips,
             keep_edges: text(&args.keep_edges),
-            tolerance: args.tolerance,
+            tolerance: args.solve.tolerance,
             max_iterations: options(args).iteration_limit(),
             input_geometry: input.geometry.name(),
             threads: args.common.threads(),

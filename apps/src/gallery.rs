@@ -5,7 +5,8 @@ use crate::demo::parse;
 use crate::failure::Failure;
 use crate::input::read_text;
 use crate::output::Outputs;
-use crate::{flow, info, make, say};
+use crate::report::Checks;
+use crate::{flow, info, make, say, uniform};
 use ricci::Control;
 use std::io::Write;
 use std::path::Path;
@@ -15,7 +16,7 @@ struct Row {
     name: &'static str,
     /// What `ricci make` is given, or the name of a mesh of the corpus.
     source: Source,
-    /// `flow …` or `info …`; for what `make` draws itself nothing.
+    /// `flow …`, `uniformize …`, `cover …` or `info …`; for what `make` draws itself nothing.
     draw: &'static str,
     about: &'static str,
 }
@@ -118,6 +119,66 @@ const CLASSES: &[Row] = &[
     ),
 ];
 
+/// Closed surfaces in the sphere, the plane and the hyperbolic plane, and what tiles these.
+const CANONICAL: &[Row] = &[
+    row(
+        "two-surface",
+        Made("genus -n 8"),
+        "uniformize {}",
+        "genus 2: the loops of its four generators, and the surface opened in the Poincaré disk",
+    ),
+    row(
+        "two-domain",
+        Made("genus -n 8"),
+        "uniformize {} --show domain",
+        "its fundamental domain; sides of one colour are glued, by the deck transformation that is named",
+    ),
+    row(
+        "two-dirichlet",
+        Made("genus -n 8"),
+        "uniformize {} --show dirichlet",
+        "the Dirichlet domain of the base point, with geodesic sides",
+    ),
+    row(
+        "two-polygon",
+        Made("genus -n 8"),
+        "uniformize {} --show polygon",
+        "the canonical polygon a1 b1 a1⁻¹ b1⁻¹ a2 b2 a2⁻¹ b2⁻¹",
+    ),
+    row("two-cover", Made("genus -n 8"), "cover {} --radius 7", "its universal cover in the Poincaré disk"),
+    row(
+        "two-tiles",
+        Made("genus -n 8"),
+        "cover {} --radius 7 --show tiles",
+        "the same, tiled by Dirichlet domains",
+    ),
+    row(
+        "two-klein",
+        Made("genus -n 8"),
+        "cover {} --radius 7 --show tiles --model klein",
+        "in the Klein disk, where geodesics are straight",
+    ),
+    row(
+        "two-half-plane",
+        Made("genus -n 8"),
+        "cover {} --radius 7 --model half-plane",
+        "in the upper half-plane",
+    ),
+    row(
+        "bolza-tiles",
+        Lengths("bolza --level 3"),
+        "cover {} --radius 6 --show tiles --base 0",
+        "the Bolza surface: regular octagons",
+    ),
+    row("torus-cover", Made("torus --noise 0.2"), "cover {} --radius 20", "a torus tiles the plane"),
+    row("ball", Made("ellipsoid"), "uniformize {}", "an ellipsoid on the sphere"),
+    row("spot-sphere", Corpus("spot_low"), "uniformize {}", "genus 0 on the sphere"),
+    row("bob-plane", Corpus("bob"), "uniformize {}", "genus 1 in the plane"),
+    row("eight-disk", Corpus("eight_766"), "uniformize {}", "genus 2 in the hyperbolic plane"),
+    row("eight-cover", Corpus("eight_766"), "cover {} --radius 6.5", "and its universal cover"),
+    row("pretzel-disk", Corpus("pretzel"), "uniformize {}", "genus 3"),
+];
+
 /// Cones that the library places, charts of what overlaps itself, and the pieces of common refinements.
 const ATLASES: &[Row] = &[
     row(
@@ -190,9 +251,10 @@ pub fn run(args: &GalleryArgs, control: &Control) -> Result<u8, Failure> {
         .map_err(|e| Failure::Usage(format!("{}: cannot be made: {e}", out.display())))?;
     let meshes = args.meshes.as_deref();
     let index = meshes.map_or(Ok(String::new()), |folder| read_text(&folder.join("good/INDEX.csv")))?;
-    let sections: [(&str, &[Row]); 4] = [
+    let sections: [(&str, &[Row]); 5] = [
         ("Generators", GENERATORS),
         ("Real surfaces, one per topological class", CLASSES),
+        ("Sphere, plane and hyperbolic plane", CANONICAL),
         ("Cones, charts and pieces", ATLASES),
         ("Patterns and colour maps", LOOKS),
     ];
@@ -256,7 +318,8 @@ Written by `ricci gallery docs/pictures MESHES`, MESHES being a folder of meshes
 surface, on the right its layout; seams have one colour on both of their sides, cones are red where curvature is positive and blue where
 it is negative. Where the layout's scale varies by more than a factor of 8, checks and circles are drawn 8 times as large or small, on
 both sides alike, so that they stay visible: along the line where that happens they are cut off. With `--zoom` both sides show the
-surroundings of one vertex, as much of the surface as of its layout. Every picture is made by the commands
+surroundings of one vertex, as much of the surface as of its layout. Copies of a surface in its universal cover carry the same pattern; the
+copy that the others are moved images of is blue. Every picture is made by the commands
 beside it (with `--size 320 --palette`).
 ";
 
@@ -301,10 +364,9 @@ fn draw(
         match row.draw {
             "" => Ok(()),
             line => match parse(words(&format!("{line} {drawing}")))? {
-                Command::Flow(args) => match flow::execute(&args, control)?.checks.failed().as_slice() {
-                    [] => Ok(()),
-                    failed => Err(Failure::Failed(format!("these checks of the flow fail: {failed:?}"))),
-                },
+                Command::Flow(args) => held(&flow::execute(&args, control)?.checks),
+                Command::Uniformize(args) => held(&uniform::execute_uniformize(&args, control)?.checks),
+                Command::Cover(args) => held(&uniform::execute_cover(&args, control)?.checks),
                 Command::Info(args) => info::run(&args, control).map(|_| ()),
                 other => Err(Failure::Failed(format!("{other:?} draws nothing"))),
             },
@@ -322,6 +384,14 @@ fn draw(
     (shown.join("<br>"), result)
 }
 
+/// A failure if a check does not hold.
+fn held(checks: &Checks) -> Result<(), Failure> {
+    match checks.failed().as_slice() {
+        [] => Ok(()),
+        failed => Err(Failure::Failed(format!("these checks fail: {failed:?}"))),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -332,7 +402,7 @@ mod tests {
     #[test]
     fn every_row_is_a_command_line_and_has_a_name_of_its_own() {
         let mut names = HashSet::new();
-        for row in GENERATORS.iter().chain(CLASSES).chain(ATLASES).chain(LOOKS) {
+        for row in GENERATORS.iter().chain(CLASSES).chain(CANONICAL).chain(ATLASES).chain(LOOKS) {
             assert!(names.insert(row.name), "{} is there twice", row.name);
             let words = |line: &str| {
                 format!("ricci {line}")

@@ -3,6 +3,7 @@
 use crate::cli::InfoArgs;
 use crate::failure::Failure;
 use crate::input::{self, Input};
+use crate::options::SurfaceArgs;
 use crate::output::{Outputs, check_extension, check_writable, extension};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{InputSummary, Report, Seconds, path_text, peak_bytes, timed};
@@ -86,7 +87,8 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     let mut outputs = Outputs::default();
     let mut seconds = Seconds::default();
     let (summary, info) = if extension(&args.mesh) == "json" && args.weld.is_none() {
-        match input::read(&args.mesh, None, control) {
+        let surface = SurfaceArgs { mesh: args.mesh.clone(), weld: None, input_geometry: None };
+        match input::read(&surface, control) {
             Ok(surface) => {
                 (seconds.read, seconds.build) = (surface.seconds_read, surface.seconds_build);
                 (InputSummary::of(&surface), Info::of_metric(&surface))

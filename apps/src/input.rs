@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::metric_file::{self, Intrinsic};
+use crate::options::SurfaceArgs;
 use crate::output::extension;
 use crate::report::timed;
 use ricci::Control;
@@ -28,7 +29,8 @@ pub struct Input {
 }
 
 /// Read a mesh file ([`read_soup`]) or, from a name that ends in `.json`, an intrinsic metric.
-pub fn read(path: &Path, weld: Option<f64>, control: &Control) -> Result<Input, Failure> {
+pub fn read(args: &SurfaceArgs, control: &Control) -> Result<Input, Failure> {
+    let (path, weld) = (args.mesh.as_path(), args.weld);
     let (mut seconds_read, mut seconds_build) = (0.0, 0.0);
     control.step(Stage::Read, 0.0)?;
     let (mesh, lengths, geometry, positions, attributes) = if extension(path) == "json" && weld.is_none() {
@@ -49,6 +51,7 @@ pub fn read(path: &Path, weld: Option<f64>, control: &Control) -> Result<Input, 
     };
     control.check()?;
     let path = path.into();
+    let geometry = args.input_geometry.map_or(geometry, Space::from);
     Ok(Input { path, mesh, lengths, geometry, positions, attributes, seconds_read, seconds_build })
 }
 

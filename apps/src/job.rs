@@ -3,14 +3,13 @@
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::laid::{self, Laid};
-use crate::report::{Checks, Seconds, timed};
+use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
 use ricci::flow::{self, SurfaceFlow};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::target::{check_total, check_vertices, settle_total};
 use ricci::metric::{Curvature, Initial, Metric, Scheme, Target};
-use std::collections::BTreeMap;
 
 /// What to compute.
 pub struct Job {
@@ -48,8 +47,8 @@ pub struct Outcome {
     pub report: flow::Report,
     /// The layout, or why there is none.
     pub layout: Result<Laid, String>,
-    /// Wishes that the flow was no obstacle to but something else was, by option, with the reason.
-    pub failed: BTreeMap<&'static str, String>,
+    /// Wishes that the flow was no obstacle to but something else was.
+    pub failed: Attempts,
     /// What the input's file holds and the layout's file does not.
     pub left_out: Vec<&'static str>,
     pub seconds: Seconds,
@@ -102,7 +101,7 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
         curvature,
         report,
         layout,
-        failed: BTreeMap::new(),
+        failed: Attempts::default(),
         left_out: Vec::new(),
         seconds,
     })
@@ -133,29 +132,12 @@ fn target(mesh: &Mesh, lengths: &PerEdge<f64>, job: &Job) -> Result<(Target, Per
 
 /// Gauss–Bonnet must hold to this. Each of the 3F angles is off by a few ulp, which add up like a random walk: 1e-12 for a
 /// million faces.
-const GAUSS_BONNET: f64 = 1e-10;
+pub const GAUSS_BONNET: f64 = 1e-10;
 
 /// u at mirror images may differ by this: what rounding does where edges were flipped in another order.
 const MIRROR: f64 = 1e-8;
 
 impl Outcome {
-    /// Go on where a wish could not be fulfilled, and remember it: what else was asked for is still delivered. Errors:
-    /// [`Failure::Cancelled`] alone.
-    pub fn attempt<T>(
-        &mut self,
-        wish: &'static str,
-        result: Result<T, Failure>,
-    ) -> Result<Option<T>, Failure> {
-        match result {
-            Ok(value) => Ok(Some(value)),
-            Err(Failure::Cancelled) => Err(Failure::Cancelled),
-            Err(failure) => {
-                self.failed.insert(wish, failure.to_string());
-                Ok(None)
-            }
-        }
-    }
-
     /// max |K − K̄| of the metric as it is written.
     pub fn curvature_error(&self) -> f64 {
         self.curvature.at.iter().zip(&self.final_target).fold(0.0, |m, (k, t)| f64::max(m, (k - t).abs()))
@@ -178,7 +160,7 @@ impl Outcome {
             if let Some(packed) = &laid.packed {
                 checks.add("overlapping_in_charts", packed.overlapping as f64, 0.0);
             }
-            checks.add("flipped_triangles", laid.layout.flipped.len() as f64, 0.0);
+            checks.add("flipped_triangles", laid.flipped().len() as f64, 0.0);
         }
         checks
     }

@@ -1,27 +1,39 @@
-//! The layout of a flat metric with what is said about it.
+//! The layout of a flow's metric with what is said about it.
 
 use crate::charts::Packed;
 use crate::failure::Failure;
+use crate::in_space::{InSpace, in_space};
 use crate::input::Input;
 use crate::report::{Seconds, timed};
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::embed::{Layout, Quality, layout_of, layout_refined, quality, refined_cut};
+use ricci::embed::{Layout, Quality, layout_in_space, layout_of, layout_refined, quality, refined_cut};
 use ricci::flow::SurfaceFlow;
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
-use ricci::mesh::{FaceId, Mesh, PerVertex, Point, VertexId};
+use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
 use ricci::metric::curvature::area;
 use ricci::metric::{Curvature, Refinement};
-use ricci::topology::cut_graph;
+use ricci::topology::{central_vertex, cut_graph};
 
 /// An interior vertex with more target curvature than this is a cone, and the cut passes it. Left inside, the vertex opens
 /// the layout by an angle of that size, which is below what the flow's tolerance leaves open anyway.
 const CONE: f64 = 1e-12;
+/// Why some flows in H² have no layout.
+pub const OPEN_IN_H2: &str =
+    "layouts in h2 of surfaces with boundary are not in this version; use --space e2";
 /// Rounding of one step of the development: a unit direction and a point are rotated and added, a few ulp each.
-const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// A layout scaled to the area of the input.
+/// Where a surface lies.
+pub enum Placed {
+    /// In the plane, opened along a cut through the cones of its metric.
+    Plane(Layout),
+    /// In the model space of its metric, around a vertex.
+    Space(Box<InSpace>),
+}
+
+/// A layout; in E² it is scaled to the area of the input.
 pub struct Laid {
     /// What is laid out: the given triangulation, or its common refinement with the final one.
     pub mesh: Mesh,
@@ -31,7 +43,7 @@ pub struct Laid {
     pub weight: PerVertex<f64>,
     /// Positions of the vertices of `mesh`.
     pub positions: Option<Vec<Point>>,
-    pub layout: Layout,
+    pub placed: Placed,
     /// The layout in charts, where that was asked for.
     pub packed: Option<Packed>,
     pub quality: Quality,
@@ -42,7 +54,8 @@ pub struct Laid {
     pub scale: f64,
     /// τ of a flat torus.
     pub modulus: Option<[f64; 2]>,
-    /// What the curvature errors and rounding allow the development to be off, relative to the layout's diameter.
+    /// What the curvature errors and rounding allow the development to be off: relative to the layout's diameter in E², a distance in
+    /// H².
     pub consistency_limit: f64,
 }
 
@@ -56,8 +69,11 @@ pub fn lay_out(
     control: &Control,
 ) -> Result<Result<Laid, String>, Failure> {
     let (mesh, metric) = (flow.mesh(), flow.metric());
-    if metric.space != Space::E2 {
-        return Ok(Err(format!("layouts in {} are not in this version", metric.space)));
+    if metric.space == Space::S2 {
+        return Ok(Err("ricci uniformize lays spheres out".into()));
+    }
+    if metric.space == Space::H2 && !input.mesh.is_closed() {
+        return Ok(Err(OPEN_IN_H2.into()));
     }
     if !curvature.broken.is_empty() {
         let n = curvature.broken.len();
@@ -75,6 +91,15 @@ pub fn lay_out(
     let errors: f64 = curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum();
     let consistency_limit = errors + STEP_ROUNDING * mesh.n_faces() as f64;
     let result = (|| {
+        if metric.space == Space::H2 {
+            let lengths = metric.lengths(mesh)?;
+            let cut = if cones.is_empty() { None } else { Some(cut_graph(mesh, &lengths, &cones, control)?) };
+            let whole = timed(&mut seconds.layout, || {
+                let root = central_vertex(mesh, &lengths, control)?;
+                layout_in_space(mesh, metric, root, cut.as_ref(), control)
+            })?;
+            return in_space(input, &flow.now(), whole, errors, seconds, control);
+        }
         let area = area(given, input.geometry, &input.lengths)?;
         let refinement = match mesh == given {
             true => None,
@@ -116,7 +141,7 @@ fn plain(
         packed: None,
         degenerate: quality.degenerate.clone(),
         modulus: modulus_of(input, &layout, cones),
-        layout,
+        placed: Placed::Plane(layout),
         quality,
         scale,
         consistency_limit,
@@ -152,7 +177,7 @@ fn refined(
         packed: None,
         degenerate: refined.degenerate,
         modulus: modulus_of(input, &refined.layout, cones),
-        layout: refined.layout,
+        placed: Placed::Plane(refined.layout),
         quality,
         scale,
         consistency_limit,
@@ -178,9 +203,49 @@ impl Laid {
         weights
     }
 
-    /// Largest disagreement between the layout and the metric or between the two sides of a seam, relative to the layout's
-    /// diameter.
+    /// The layout of a cone metric in the plane, if this is one.
+    pub fn plane(&self) -> Option<&Layout> {
+        match &self.placed {
+            Placed::Plane(layout) => Some(layout),
+            Placed::Space(_) => None,
+        }
+    }
+
+    /// Triangles that are not counterclockwise.
+    pub fn flipped(&self) -> &[FaceId] {
+        match &self.placed {
+            Placed::Plane(layout) => &layout.flipped,
+            Placed::Space(place) => &place.refined.flipped,
+        }
+    }
+
+    /// Half-edges on the left side of the cut, with the number of their seam.
+    pub fn seams(&self) -> Vec<(HalfedgeId, usize)> {
+        match &self.placed {
+            Placed::Plane(layout) => {
+                let seams = layout.seams.iter().enumerate();
+                seams.flat_map(|(k, seam)| seam.halfedges.iter().map(move |&h| (h, k))).collect()
+            }
+            Placed::Space(place) => place.seams.clone(),
+        }
+    }
+
+    /// The extent of the coordinates.
+    pub fn diameter(&self) -> f64 {
+        match &self.placed {
+            Placed::Plane(layout) => layout.diameter,
+            Placed::Space(place) => place.extent(),
+        }
+    }
+
+    /// Largest disagreement between the layout and the metric or between the two sides of a seam: relative to the layout's diameter in E²,
+    /// a distance in H².
     pub fn consistency(&self) -> f64 {
-        self.layout.seams.iter().map(|s| s.residual).fold(self.layout.consistency, f64::max)
+        match &self.placed {
+            Placed::Plane(layout) => {
+                layout.seams.iter().map(|s| s.residual).fold(layout.consistency, f64::max)
+            }
+            Placed::Space(place) => place.consistency(),
+        }
     }
 }

@@ -11,12 +11,14 @@ mod failure;
 mod figures;
 mod flow;
 mod gallery;
+mod in_space;
 mod info;
 mod input;
 mod job;
 mod laid;
 mod make;
 mod metric_file;
+mod options;
 mod output;
 mod picture;
 mod progress;
@@ -27,6 +29,7 @@ mod say;
 mod shape;
 mod shape_quality;
 mod show;
+mod uniform;
 mod uv;
 
 use clap::{CommandFactory, Parser};
@@ -50,6 +53,8 @@ fn run(command: &Command) -> Result<u8, Failure> {
     let control = progress::cancellable();
     match command {
         Command::Flow(args) => flow::run(args, &control),
+        Command::Uniformize(args) => uniform::uniformize(args, &control),
+        Command::Cover(args) => uniform::cover(args, &control),
         Command::Info(args) => info::run(args, &control),
         Command::Repair(args) => repair::run(args, &control),
         Command::Make(args) => make::run(args),

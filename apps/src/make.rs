@@ -1,8 +1,8 @@
 //! `ricci make`: sample surfaces of every topology.
 
-use crate::cli::Common;
 use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
+use crate::options::Common;
 use crate::output::{Outputs, check_extension, check_writable, extension};
 use crate::report::{InputSummary, Report, peak_bytes};
 use crate::say::{self, count};

@@ -111,6 +111,19 @@ pub fn check_writable(path: &Path) -> Result<(), Failure> {
     }
 }
 
+/// A usage error if two of these files are one, or one could not be written.
+pub fn check_outputs(files: &[Option<&Path>]) -> Result<(), Failure> {
+    let mut seen: Vec<&Path> = Vec::new();
+    for path in files.iter().flatten() {
+        if seen.contains(path) {
+            return Err(Failure::Usage(format!("{} is named for two outputs", path.display())));
+        }
+        seen.push(path);
+        check_writable(path)?;
+    }
+    Ok(())
+}
+
 /// A usage error unless the file's extension is one of these (lower case).
 pub fn check_extension(option: &str, path: &Path, known: &[&str]) -> Result<(), Failure> {
     if known.contains(&extension(path).as_str()) {

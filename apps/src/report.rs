@@ -1,5 +1,6 @@
 //! The report: one JSON object with all numbers of a run.
 
+use crate::failure::Failure;
 use crate::input::Input;
 use ricci::mesh::Mesh;
 use serde::Serialize;
@@ -83,7 +84,7 @@ pub struct Check {
 }
 
 /// Checks by name.
-#[derive(Serialize, Default)]
+#[derive(Serialize, Default, Clone)]
 #[serde(transparent)]
 pub struct Checks(pub BTreeMap<&'static str, Check>);
 
@@ -100,6 +101,30 @@ impl Checks {
     /// Exit code of a run with these checks.
     pub fn exit_code(&self) -> u8 {
         u8::from(!self.failed().is_empty())
+    }
+}
+
+/// Wishes that could not be fulfilled, by option, with the reason.
+#[derive(Serialize, Default)]
+#[serde(transparent)]
+pub struct Attempts(pub BTreeMap<&'static str, String>);
+
+impl Attempts {
+    /// Go on where a wish could not be fulfilled, and remember it: what else was asked for is still delivered. Errors:
+    /// [`Failure::Cancelled`] alone.
+    pub fn attempt<T>(
+        &mut self,
+        wish: &'static str,
+        result: Result<T, Failure>,
+    ) -> Result<Option<T>, Failure> {
+        match result {
+            Ok(value) => Ok(Some(value)),
+            Err(Failure::Cancelled) => Err(Failure::Cancelled),
+            Err(failure) => {
+                self.0.insert(wish, failure.to_string());
+                Ok(None)
+            }
+        }
     }
 }
 

@@ -1,8 +1,10 @@
 //! What is said on stdout: a few lines for people. All numbers are in the report.
 
 use crate::flow::Done;
+use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
+use crate::report::{Attempts, Checks};
 use ricci::flow::StopReason;
 use ricci::mesh::VertexId;
 use std::io::{self, Write};
@@ -19,19 +21,9 @@ pub fn count(n: usize, one: &str, many: &str) -> String {
 
 /// The summary of a flow.
 pub fn flow(done: &Done) {
-    let (outcome, mesh) = (&done.outcome, &done.input.mesh);
+    let outcome = &done.outcome;
     let report = &outcome.report;
-    let mut text = format!(
-        "surface  {}: {}, {}, genus {}, {}\n",
-        done.input.path.display(),
-        count(mesh.n_vertices(), "vertex", "vertices"),
-        count(mesh.n_faces(), "face", "faces"),
-        mesh.genus(),
-        match mesh.boundary_loops().len() {
-            0 => "closed".into(),
-            n => count(n, "boundary loop", "boundary loops"),
-        }
-    );
+    let mut text = surface(&done.input);
     text += &format!(
         "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}\n",
         outcome.metric.space,
@@ -52,27 +44,55 @@ pub fn flow(done: &Done) {
         Ok(laid) => format!("layout   {}\n", layout(laid)),
         Err(why) => format!("layout   none: {why}\n"),
     };
-    for what in &outcome.left_out {
+    text += &ending(&outcome.left_out, &outcome.failed, &done.checks, &done.files, done.seconds);
+    lines(&text);
+}
+
+/// The first line of a summary: the surface.
+pub fn surface(input: &Input) -> String {
+    let mesh = &input.mesh;
+    format!(
+        "surface  {}: {}, {}, genus {}, {}\n",
+        input.path.display(),
+        count(mesh.n_vertices(), "vertex", "vertices"),
+        count(mesh.n_faces(), "face", "faces"),
+        mesh.genus(),
+        match mesh.boundary_loops().len() {
+            0 => "closed".into(),
+            n => count(n, "boundary loop", "boundary loops"),
+        }
+    )
+}
+
+/// The last lines of a summary: what is not there, whether the checks hold, the files, the time.
+pub fn ending(
+    left_out: &[&str],
+    failed: &Attempts,
+    checks: &Checks,
+    files: &[String],
+    seconds: f64,
+) -> String {
+    let mut text = String::new();
+    for what in left_out {
         text += &format!("left out {what}\n");
     }
-    for (wish, why) in &outcome.failed {
+    for (wish, why) in &failed.0 {
         text += &format!("FAILED   --{wish}: {why}\n");
     }
-    text += &match done.checks.failed().as_slice() {
+    text += &match checks.failed().as_slice() {
         [] => "checks   all hold\n".into(),
         failed => {
             let named = failed.iter().map(|name| {
-                let c = done.checks.0[name];
+                let c = checks.0[name];
                 format!("{name} = {:.3e}, limit {:.3e}", c.value, c.limit)
             });
             format!("checks   FAILED: {}\n", named.collect::<Vec<_>>().join("; "))
         }
     };
-    if !done.files.is_empty() {
-        text += &format!("wrote    {}\n", done.files.join(", "));
+    if !files.is_empty() {
+        text += &format!("wrote    {}\n", files.join(", "));
     }
-    text += &format!("{:.2} s\n", done.seconds);
-    lines(&text);
+    text + &format!("{seconds:.2} s\n")
 }
 
 /// Why a flow did not converge, as far as that is known.
@@ -104,11 +124,12 @@ fn named<Id: ToString>(one: &str, many: &str, list: &[Id]) -> String {
     format!("{} {}{more}", if list.len() == 1 { one } else { many }, ids.join(", "))
 }
 
-fn layout(laid: &Laid) -> String {
+/// The quality of a layout.
+pub fn layout(laid: &Laid) -> String {
     let q = &laid.quality;
     let mut text = format!(
         "{}, dilatation mean {:.4} max {:.3}, area ratio {:.2e} to {:.2e}",
-        count(laid.layout.flipped.len(), "triangle flipped", "triangles flipped"),
+        count(laid.flipped().len(), "triangle flipped", "triangles flipped"),
         q.qc_mean,
         q.qc_max,
         q.area_ratio_min,

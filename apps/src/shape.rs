@@ -1,6 +1,6 @@
 //! The shapes that `ricci make` knows, and what can be done to them.
 
-use crate::cli::Common;
+use crate::options::Common;
 use crate::picture::SurfacePictureArgs;
 use clap::{Args, Subcommand, ValueEnum};
 use num_complex::Complex64;

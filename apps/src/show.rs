@@ -48,7 +48,7 @@ pub fn draw(
         seams: parts.as_ref().map_or(&[], |p| &p.edges),
         cones: &cones,
     });
-    let drawn = Picture { surface, flat, field: field.as_ref() };
+    let drawn = Picture { surface, flat, field: field.as_ref(), ..Picture::default() };
     out.write_all(&picture::png(&drawn, &style, threads).map_err(io::Error::other)?)
 }
 
@@ -60,7 +60,7 @@ fn focus(zoom: &Zoom, laid: &Laid) -> Option<Focus> {
     let h = mesh.halfedges().find(|&h| !mesh.is_outside(h) && mesh.origin(h) == v)?;
     let at_layout = laid.corner_uv(h);
     let Some(positions) = &laid.positions else {
-        let radius = 0.5 * laid.layout.diameter / zoom.factor;
+        let radius = 0.5 * laid.diameter() / zoom.factor;
         return Some(Focus { at: [0.0; 3], radius, normal: [0.0; 3], at_layout, radius_layout: radius });
     };
     let extent = |k: usize| {
@@ -107,7 +107,7 @@ pub fn draw_surface(
     let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut keep)).collect();
     let surface = Surface { positions: &seen, faces: &faces, corner_uv: None, seams: &[], cones: &[] };
     let field = args.curvature().then(|| quantity::curvature_of_triangles(&seen, &faces));
-    let drawn = Picture { surface: Some(surface), flat: None, field: field.as_ref() };
+    let drawn = Picture { surface: Some(surface), flat: None, field: field.as_ref(), ..Picture::default() };
     out.write_all(&picture::png(&drawn, &args.style(), threads).map_err(io::Error::other)?)
 }
 
@@ -159,8 +159,11 @@ impl Parts {
             }
         }
         // Circles belong to the layout, not to its charts.
-        if outcome.scheme.epsilon() != 0 && laid.packed.is_none() {
-            let all = circles(&outcome.mesh, &outcome.metric, outcome.scheme.name(), laid);
+        let with_circles = outcome.scheme.epsilon() != 0 && laid.packed.is_none();
+        let all = with_circles
+            .then(|| circles(&outcome.mesh, &outcome.metric, outcome.scheme.name(), laid))
+            .flatten();
+        if let Some(all) = all {
             let vertex = all.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
             parts.circles = vertex.collect();
             let dual = |c: &crate::circles::DualCircle| Some(Circle { center: c.center, radius: c.radius? });

@@ -8,6 +8,8 @@ pub mod quotient;
 pub mod sphere;
 mod star;
 mod tries;
+pub mod uniformize;
 
 pub use quotient::{Quotient, QuotientOptions, quotient_of, uniformize_quotient};
 pub use sphere::{Sphere, SphereOptions, SphereReport, uniformize_sphere};
+pub use uniformize::{Uniformization, uniformize};

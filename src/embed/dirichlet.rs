@@ -80,7 +80,7 @@ fn product(deck: &DeckGroup, g: &DeckElement, h: &DeckElement, motion: Motion<Tw
     DeckElement { word: deck.group.reduce(&g.word.times(&h.word)), motion }
 }
 
-/// Elements that take the place of factors whose bisectors do not bound the polygon, at most.
+/// Products that come beside factors whose bisectors do not bound the polygon, at most.
 const MOST_FACTORS: usize = 600;
 
 /// Of some elements and their products by twos, other than the identity, those that move the origin least: twice as many as were given.
@@ -197,9 +197,11 @@ impl Polygon {
     }
 
     /// Cut by the bisectors of `factors` and of their inverses, then of products of the elements of its sides, until none cuts anything off.
-    /// Where the factors move the centre so far that their bisectors do not bound the polygon, short products take their place.
+    /// Where the factors move the centre so far that their bisectors do not bound the polygon, short products come beside them.
     fn close(&mut self, deck: &DeckGroup, factors: &[DeckElement], control: &Control) -> Result<()> {
-        let mut factors: Vec<_> = factors.iter().flat_map(|g| [g.clone(), inverse(g)]).collect();
+        // They generate the group, and stay.
+        let given: Vec<_> = factors.iter().flat_map(|g| [g.clone(), inverse(g)]).collect();
+        let mut factors = given.clone();
         for _ in 0..ROUNDS {
             factors.iter().for_each(|g| {
                 self.cut_by_both(g);
@@ -218,7 +220,10 @@ impl Polygon {
             match self.is_bounded() {
                 true if !changed => break,
                 true => {}
-                false => factors = shortest_products(deck, &factors, control)?,
+                false => {
+                    factors = shortest_products(deck, &factors, control)?;
+                    factors.extend_from_slice(&given);
+                }
             }
         }
         Ok(())

@@ -3,9 +3,10 @@
 use crate::quotient::check;
 use crate::surfaces::Surface;
 use ricci::Control;
-use ricci::canonical::QuotientOptions;
+use ricci::canonical::{QuotientOptions, Uniformization, uniformize};
 use ricci::embed::cover::elements_within;
-use ricci::embed::dirichlet_domain;
+use ricci::embed::{dirichlet_domain, layout_in_space};
+use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
 use ricci::mesh::{VertexId, shapes};
 
@@ -89,4 +90,50 @@ fn traces_depend_on_the_surface_alone() {
     let (coarse, fine) = (lengths(1), lengths(3));
     assert_eq!(coarse.len(), fine.len());
     assert!(coarse.iter().zip(&fine).all(|(a, b)| (a - b).abs() < 1e-12));
+}
+
+/// On the unit sphere the layout closes without a cut, and its triangles are those of the polyhedron.
+#[test]
+fn a_sphere_is_laid_out_without_a_cut() {
+    let surface = Surface::from_soup("ellipsoid", &shapes::ellipsoid([1.0, 1.3, 0.8], 4).unwrap());
+    let one =
+        uniformize(&surface.mesh, &surface.lengths, Space::E2, &QuotientOptions::default(), &Control::new());
+    let Uniformization::Sphere(sphere) = one.unwrap() else { panic!("a sphere") };
+    let (mesh, metric) = (sphere.metric.mesh(), sphere.metric.metric());
+    let layout = layout_in_space(mesh, metric, VertexId(7), None, &Control::new()).unwrap();
+    assert!(layout.cut.segments.is_empty() && layout.pairings.is_empty());
+    assert!(layout.flipped.is_empty() && layout.broken.is_empty());
+    assert!(layout.disagreement < 1e-10, "{:e}", layout.disagreement);
+    assert!((layout.area - 4.0 * std::f64::consts::PI).abs() < 1e-10);
+    // The polyhedron's, turned: the same products.
+    for e in mesh.edges() {
+        let h = e.halfedge();
+        let [p, q] = [layout.corner(h), layout.corner(mesh.next(h))];
+        let [a, b] = mesh.ends(e).map(|v| sphere.positions[v]);
+        let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+        assert!((dot(p, q) - dot(a, b)).abs() < 1e-10);
+    }
+}
+
+/// One call goes by the Euler characteristic.
+#[test]
+fn one_call_serves_every_closed_surface() {
+    let surfaces = [
+        (Surface::from_soup("sphere", &shapes::icosphere(3).unwrap()), Space::S2),
+        (Surface::from_soup("torus", &shapes::torus(2.0, 0.8, 12, 8).unwrap()), Space::E2),
+        (Surface::from_soup("genus 2", &shapes::genus(2, 2).unwrap()), Space::H2),
+    ];
+    for (surface, space) in surfaces {
+        let one = uniformize(
+            &surface.mesh,
+            &surface.lengths,
+            Space::E2,
+            &QuotientOptions::default(),
+            &Control::new(),
+        );
+        let one = one.unwrap();
+        assert!(one.converged() && one.space() == space, "{}", surface.name);
+        let curvature = one.metric().curvature().unwrap();
+        assert!(curvature.at.iter().all(|k| k.abs() < 1e-9), "{}", surface.name);
+    }
 }

@@ -27,7 +27,7 @@ fn dirichlet_domains_meet_the_conditions_of_the_polygon_theorem() {
             assert!(d.partner[partner] == k && partner != k, "{name}");
             assert!(q.deck.group.is_trivial(&side.word.times(&d.sides[partner].word)), "{name}");
             // The element carries the partner onto this side, turned round, and its word is the element's.
-            let apply = |p: [f64; 3]| side.motion.apply(p.map(Twofold::from)).map(f64::from);
+            let apply = |p: [f64; 3]| side.motion.apply(precise_point(q.layout.space, p)).map(f64::from);
             let (from, to) = (apply(d.corners[partner]), apply(d.corners[(partner + 1) % n]));
             let digits = 1e-13 * (1.0 + d.radius.min(30.0)).exp().min(1e6);
             assert!(
@@ -37,7 +37,7 @@ fn dirichlet_domains_meet_the_conditions_of_the_polygon_theorem() {
             let spelled = q.deck.motion(&side.word).compose(&side.motion.inverse());
             assert!(spelled.distance_from_identity() < 1e-12 * side.motion.norm_square(), "{name}: side {k}");
             // The side lies half way to the image of the centre.
-            let image = side.motion.apply(d.centre.map(Twofold::from)).map(f64::from);
+            let image = side.motion.apply(precise_point(q.layout.space, d.centre)).map(f64::from);
             for p in [d.corners[k], d.corners[(k + 1) % n]] {
                 let form = |c: [f64; 3]| match q.layout.space {
                     Space::E2 => (p[0] - c[0]).hypot(p[1] - c[1]),
@@ -64,25 +64,20 @@ fn dirichlet_domains_meet_the_conditions_of_the_polygon_theorem() {
 /// Interior angle at corner k, between the lines of the sides that meet there: bisectors of the centre and its images (corners as doubles say
 /// little of the direction of a short side).
 fn corner_angle(space: Space, d: &DirichletDomain, k: usize) -> f64 {
+    let dot = |a: [Twofold; 3], b: [Twofold; 3]| match space {
+        Space::E2 => a[0] * b[0] + a[1] * b[1],
+        _ => a[0] * b[0] + a[1] * b[1] - a[2] * b[2],
+    };
     let normal = |side: &DeckElement| {
-        let image = side.motion.apply(precise_point(space, d.centre)).map(f64::from);
-        let out = [0, 1, 2].map(|i| image[i] - d.centre[i]);
-        let square =
-            out[0] * out[0] + out[1] * out[1] - if space == Space::E2 { 0.0 } else { out[2] * out[2] };
-        out.map(|x| x / square.sqrt())
+        let centre = precise_point(space, d.centre);
+        let image = side.motion.apply(centre);
+        let out = [0, 1, 2].map(|i| image[i] - centre[i]);
+        out.map(|x| x / dot(out, out).sqrt())
     };
     let n = d.sides.len();
-    let (a, b, p) = (normal(&d.sides[(k + n - 1) % n]), normal(&d.sides[k]), d.corners[k]);
-    let (cos, sin) = match space {
-        Space::E2 => (a[0] * b[0] + a[1] * b[1], a[0] * b[1] - a[1] * b[0]),
-        _ => {
-            let det = p[2] * (a[0] * b[1] - a[1] * b[0])
-                - p[0] * (a[2] * b[1] - a[1] * b[2])
-                - p[1] * (a[0] * b[2] - a[2] * b[0]);
-            (a[0] * b[0] + a[1] * b[1] - a[2] * b[2], det)
-        }
-    };
-    PI - sin.atan2(cos)
+    let cos = dot(normal(&d.sides[(k + n - 1) % n]), normal(&d.sides[k]));
+    let sin = (Twofold::from(1.0) - cos * cos).sqrt();
+    PI - f64::from(sin).atan2(cos.into())
 }
 
 /// The canonical polygon: its 4g corners are one point of the surface, so its angles add up to 2π; and its area, from these angles, is the

@@ -9,8 +9,8 @@ use super::texture::{Patch, Texture, Tiles};
 /// Colour of a surface that shows nothing else.
 const CLAY: u32 = 0xd3c6b4;
 /// The two colours of a pattern.
-const LIGHT: u32 = 0xf3efe6;
-const DARK: u32 = 0x3a6ea5;
+pub const LIGHT: u32 = 0xf3efe6;
+pub const DARK: u32 = 0x3a6ea5;
 /// Colours of a map that are told apart.
 const TABLE: usize = 512;
 /// How much darker a pattern makes the colours of a quantity.

@@ -45,6 +45,11 @@ impl Fit {
         Fit::new([-radius, radius].map(|r| at.map(|x| x + r)).into_iter(), size)
     }
 
+    /// The point of the drawing at a pixel.
+    pub fn invert(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [(x - self.offset[0]) / self.scale, (self.offset[1] - y) / self.scale]
+    }
+
     /// Pixel coordinates, y down.
     pub fn apply(&self, p: [f64; 2]) -> [f64; 2] {
         [self.scale * p[0] + self.offset[0], self.offset[1] - self.scale * p[1]]

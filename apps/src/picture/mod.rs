@@ -9,10 +9,13 @@ mod camera;
 mod coat;
 mod color;
 mod colormap;
+mod drawing;
+mod drawing_svg;
 mod fit;
 mod flat;
 mod font;
 mod legend;
+mod lettering;
 mod light;
 mod normals;
 mod occlusion;
@@ -24,18 +27,19 @@ mod texture;
 mod upright;
 mod vector;
 
-pub use args::{ColorChoice, FlowPictureArgs, SurfacePictureArgs, Zoom};
+pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom};
 pub use camera::View;
 pub use colormap::{CLASSES, Scale};
+pub use drawing::{Cell, Drawing, Frame, Label, Line, PALE, Pattern, TINTS, tint_color};
+pub use drawing_svg::write_drawing_svg;
 pub use svg::write_svg;
-pub use texture::Texture;
+pub use texture::{Texture, Tiles};
 
-pub use raster::doubled_area;
+pub use raster::{doubled_area, in_parallel};
 pub use vector::normal;
 
 use coat::Wish;
 use raster::Image;
-use texture::Tiles;
 
 /// A surface in space.
 #[derive(Clone, Copy)]
@@ -125,11 +129,17 @@ impl Default for Style {
     }
 }
 
-/// What one picture shows: the surface on the left, the layout on the right, or one of them.
-#[derive(Clone, Copy)]
+/// What one picture shows: the surface on the left, the layout or a drawing on the right, or one of them.
+#[derive(Clone, Copy, Default)]
 pub struct Picture<'a> {
     pub surface: Option<Surface<'a>>,
+    /// A second surface, on the right.
+    pub beside: Option<Surface<'a>>,
     pub flat: Option<Flat<'a>>,
+    /// A drawing in place of the layout, or beside it.
+    pub drawing: Option<&'a Drawing<'a>>,
+    /// The size of the pattern, where it is not to be found from the areas on both sides.
+    pub pattern: Option<&'a Tiles>,
     pub field: Option<&'a Field>,
 }
 
@@ -160,18 +170,21 @@ impl Picture<'_> {
 
     /// The picture, drawn by this many threads (0: one per core).
     fn draw(&self, style: &Style, threads: usize) -> Image {
-        let tiles = self.tiles();
+        let own = if self.pattern.is_some() { None } else { self.tiles() };
+        let tiles = self.pattern.or(own.as_ref());
         let wish = |corner_uv| Wish {
             texture: style.texture,
-            tiles: tiles.as_ref(),
+            tiles,
             corner_uv,
             field: self.field,
             wire: style.wire,
             size: style.size,
         };
-        let surface = self.surface.map(|s| solid::draw(&s, &wish(s.corner_uv), style, threads));
+        let [surface, beside] = [self.surface, self.beside]
+            .map(|surface| surface.map(|s| solid::draw(&s, &wish(s.corner_uv), style, threads)));
         let flat = self.flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style, threads));
-        let panels: Vec<Image> = [surface, flat].into_iter().flatten().collect();
+        let drawing = self.drawing.map(|d| drawing::draw(d, style, threads));
+        let panels: Vec<Image> = [surface, beside, flat, drawing].into_iter().flatten().collect();
         let gap = (BETWEEN * style.size as f64) as usize * panels.len().saturating_sub(1);
         let width = (panels.iter().map(|p| p.width).sum::<usize>() + gap).max(1);
         let height = panels.iter().map(|p| p.height).max().unwrap_or(1);

@@ -80,7 +80,7 @@ impl Drawing<'_> {
 
     /// The outline of the layout, filled with the pattern at its median scale.
     fn pattern(&self, out: &mut impl Write, texture: Texture) -> Result<()> {
-        let tiles = Picture { surface: None, flat: Some(*self.flat), field: None }.tiles();
+        let tiles = Picture { flat: Some(*self.flat), ..Picture::default() }.tiles();
         let side = tiles.map_or(1.0, |t: Tiles| t.size) * self.fit.scale;
         let [x, y] = self.fit.apply([0.0, 0.0]);
         let place = format!(r#"patternUnits="userSpaceOnUse" x="{}" y="{}""#, decimal(x), decimal(y));
@@ -255,7 +255,7 @@ fn finite(points: &[[f64; 2]]) -> bool {
 }
 
 /// Two decimals at most.
-fn decimal(x: f64) -> String {
+pub fn decimal(x: f64) -> String {
     let text = format!("{x:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }

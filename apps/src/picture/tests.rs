@@ -27,7 +27,7 @@ fn surface<'a>(soup: &'a Soup, uv: Option<&'a [[[f64; 2]; 3]]>) -> Surface<'a> {
 }
 
 fn draw(surface: Surface<'_>, style: &Style) -> Image {
-    Picture { surface: Some(surface), flat: None, field: None }.draw(style, 0)
+    Picture { surface: Some(surface), ..Picture::default() }.draw(style, 0)
 }
 
 fn pixels(image: &Image) -> impl Iterator<Item = &[u8]> {
@@ -211,7 +211,8 @@ fn a_picture_is_the_same_for_any_number_of_threads() {
     let surface = Surface { seams: &seams, cones: &[(7, 1.0)], ..surface(&soup, Some(&uv)) };
     let flat =
         Flat { corner_uv: &uv, seams: &[], boundary: &[], cones: &[], circles: &[], dual_circles: &[] };
-    let picture = Picture { surface: Some(surface), flat: Some(flat), field: Some(&field) };
+    let picture =
+        Picture { surface: Some(surface), flat: Some(flat), field: Some(&field), ..Picture::default() };
     let style = Style { texture: Texture::Circles, wire: true, ground: true, ..style() };
     let one = png(&picture, &style, 1).unwrap();
     for threads in [2, 3, 0] {
@@ -286,7 +287,7 @@ fn drawings_are_well_formed_and_small() {
 
 #[test]
 fn degenerate_input_is_drawn_as_far_as_it_goes() {
-    assert!(!png(&Picture { surface: None, flat: None, field: None }, &style(), 1).unwrap().is_empty());
+    assert!(!png(&Picture::default(), &style(), 1).unwrap().is_empty());
     let uv = [[[1e300, 0.0], [f64::NAN, 1.0], [0.0, 1e-300]]];
     let flat =
         Flat { corner_uv: &uv, seams: &[], boundary: &[], cones: &[], circles: &[], dual_circles: &[] };
@@ -294,8 +295,12 @@ fn degenerate_input_is_drawn_as_far_as_it_goes() {
     for positions in [vec![[1.0; 3]; 3], vec![[1e300; 3], [-1e300; 3], [1e-300; 3]], vec![[f64::NAN; 3]; 3]] {
         let soup = Soup::new(positions, vec![[0, 1, 2]]);
         let field = Field { corners: vec![[f64::NAN; 3]], scale: Scale::of_amounts("nothing", &[]) };
-        let drawn =
-            Picture { surface: Some(surface(&soup, Some(&uv))), flat: Some(flat), field: Some(&field) };
+        let drawn = Picture {
+            surface: Some(surface(&soup, Some(&uv))),
+            flat: Some(flat),
+            field: Some(&field),
+            ..Picture::default()
+        };
         assert!(!png(&drawn, &everything, 2).unwrap().is_empty());
     }
     let mut svg = Vec::new();

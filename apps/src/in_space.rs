@@ -1,0 +1,90 @@
+//! The layout of a metric in its model space, on the surface as it was given.
+
+use crate::input::Input;
+use crate::laid::{Laid, Placed, STEP_ROUNDING};
+use crate::report::{Seconds, timed};
+use ricci::Control;
+use ricci::embed::{RefinedSpaceLayout, SpaceLayout, refine_space_layout};
+use ricci::geometry::Space;
+use ricci::mesh::HalfedgeId;
+use ricci::metric::{Refinement, SurfaceMetric};
+
+/// In H² the two sides of a seam may always differ by this, a distance: what copies of the layout are to meet to.
+pub const MEETING: f64 = 1e-8;
+
+/// A surface in the model space of its metric.
+pub struct InSpace {
+    /// The layout of the final triangulation.
+    pub whole: SpaceLayout,
+    /// That of the common refinement on it.
+    pub refined: RefinedSpaceLayout,
+    /// Plane coordinates of its points: of the plane, in H² of the Poincaré disk.
+    pub coordinates: Vec<[f64; 2]>,
+    /// Half-edges of the refinement on the left side of the cut, with the number of their segment.
+    pub seams: Vec<(HalfedgeId, usize)>,
+}
+
+/// Carry the layout of a metric's triangulation back to the given one. `errors`: the sum of |K − K̄| over the vertices.
+pub fn in_space(
+    input: &Input,
+    metric: &SurfaceMetric,
+    whole: SpaceLayout,
+    errors: f64,
+    seconds: &mut Seconds,
+    control: &Control,
+) -> ricci::Result<Laid> {
+    let refinement = timed(&mut seconds.refine, || metric.refinement(control))?;
+    let lay = || refine_space_layout(&whole, &refinement, metric.mesh(), control);
+    let refined = timed(&mut seconds.layout, lay)?;
+    let quality = refined.quality(&whole, &refinement, &input.mesh, &input.lengths)?;
+    let positions = match &input.positions {
+        Some(positions) => Some(refinement.from_input_vertices(positions)?),
+        None => None,
+    };
+    // A vertex with curvature error δ turns what lies beyond it by δ: in H² that moves a point at distance r by sinh(r) δ.
+    let off = errors + STEP_ROUNDING * metric.mesh().n_faces() as f64;
+    let consistency_limit =
+        if whole.space == Space::H2 { MEETING.max(whole.radius.sinh() * off) } else { off };
+    let place =
+        InSpace { coordinates: refined.coordinates(), seams: seams(&whole, &refinement), whole, refined };
+    Ok(Laid {
+        mesh: refinement.mesh.clone(),
+        weight: refinement.weight.clone(),
+        refinement: Some(refinement),
+        positions,
+        packed: None,
+        degenerate: place.refined.degenerate.clone(),
+        modulus: None,
+        placed: Placed::Space(Box::new(place)),
+        quality,
+        scale: 1.0,
+        consistency_limit,
+    })
+}
+
+fn seams(whole: &SpaceLayout, refinement: &Refinement) -> Vec<(HalfedgeId, usize)> {
+    let number = |h: HalfedgeId| {
+        let side = whole.side(refinement.final_halfedge(h)?);
+        (side > 0).then(|| (h, side as usize - 1))
+    };
+    refinement.mesh.halfedges().filter_map(number).collect()
+}
+
+impl InSpace {
+    /// Largest disagreement of corners: relative to the diameter in E², a distance in H².
+    pub fn consistency(&self) -> f64 {
+        match self.whole.space {
+            Space::E2 => self.whole.disagreement / (2.0 * self.whole.radius),
+            _ => self.whole.disagreement,
+        }
+    }
+
+    /// The diagonal of the coordinates' bounding box.
+    pub fn extent(&self) -> f64 {
+        let side = |k: usize| {
+            let x = self.coordinates.iter().map(|p| p[k]);
+            x.clone().fold(f64::NEG_INFINITY, f64::max) - x.fold(f64::INFINITY, f64::min)
+        };
+        side(0).hypot(side(1))
+    }
+}

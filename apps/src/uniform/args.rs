@@ -1,0 +1,158 @@
+//! The options of `ricci uniformize` and `ricci cover`.
+
+use crate::options::{Common, SolveArgs, SurfaceArgs};
+use crate::picture::{PictureArgs, Texture};
+use clap::{Args, ValueEnum};
+use ricci::geometry::model::Model;
+use serde::{Serialize, Serializer};
+use std::path::PathBuf;
+
+pub const UNIFORMIZE_HELP: &str = "\
+Example: a surface of genus 2 in the hyperbolic plane, the group of its universal cover, and a picture
+    ricci make genus -o two.obj
+    ricci uniformize two.obj --uv disk.obj --generators group.json --picture two.png --report two.json
+
+A torus comes to lie in the plane, surfaces of higher genus in the hyperbolic plane, about the base vertex. A sphere comes to lie on the
+unit sphere, as a convex polyhedron with its centre of mass in the middle (with --method gradient by the flow in S², not centred).
+
+Files
+    --metric M.json            the metric on its triangulation, as of ricci flow
+    --uv OUT.obj | OUT.glb     the surface, opened, with its layout as texture coordinates: of the plane (scaled to the surface's
+                               area), of the Poincaré disk
+    --sphere S.obj | S.glb     of a sphere: the input's vertices, in order, on the unit sphere, with the faces that flips have led to
+    --generators C.json        space, basis (a1, b1, …), word, and a Möbius matrix per generator: of the plane, of the Poincaré disk";
+
+pub const COVER_HELP: &str = "\
+Example: a piece of the hyperbolic plane, tiled by copies of a surface of genus 2
+    ricci make genus -o two.obj
+    ricci cover two.obj --depth 3 --cover tiles.obj --domain domain.json --picture tiles.png
+
+Copies are named by their deck transformation as a word in the generators, a1.b1^-1 for a1 after the inverse of b1.
+
+Files
+    --cover OUT.obj | OUT.glb  all copies of the surface opened as --uv has it: an object each, faces and texture coordinates as there
+    --domain D.json            the Dirichlet domain of the base point: corners, and per side word, matrix and partner; the corners of
+                               the canonical polygon, whose sides are the words of the generators";
+
+/// What both commands take.
+#[derive(Args, Debug, Clone)]
+pub struct CanonicalArgs {
+    #[command(flatten)]
+    pub surface: SurfaceArgs,
+    #[command(flatten)]
+    pub solve: SolveArgs,
+    /// The vertex at the origin, where the loops of the generators meet [default: one from which no vertex is far]; of a sphere, the one
+    /// that is sent to infinity on the way [default: one from which sizes differ least]
+    #[arg(long, value_name = "VERTEX")]
+    pub base: Option<u32>,
+    /// Write the metric
+    #[arg(long, value_name = "M.json")]
+    pub metric: Option<PathBuf>,
+    /// Write the opened surface with its layout as texture coordinates, .obj or .glb
+    #[arg(long, value_name = "OUT.obj")]
+    pub uv: Option<PathBuf>,
+    /// Write a sphere: the final triangulation with its vertices on the unit sphere, .obj or .glb
+    #[arg(long, value_name = "S.obj")]
+    pub sphere: Option<PathBuf>,
+    /// Write the generators of the deck group
+    #[arg(long, value_name = "C.json")]
+    pub generators: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Pattern of the layout [default: checker]
+    #[arg(long, value_enum, requires = "picture")]
+    pub texture: Option<Texture>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+#[derive(Args, Debug, Clone)]
+pub struct UniformizeArgs {
+    #[command(flatten)]
+    pub canonical: CanonicalArgs,
+    /// What the picture shows [default: both; without positions in space, and in .svg, domain]
+    #[arg(long, value_enum, requires = "picture")]
+    pub show: Option<ShowChoice>,
+    /// Model of the hyperbolic plane in pictures
+    #[arg(long, value_enum, value_name = "MODEL", requires = "picture")]
+    pub model: Option<ModelChoice>,
+}
+
+#[derive(Args, Debug, Clone)]
+pub struct CoverArgs {
+    #[command(flatten)]
+    pub canonical: CanonicalArgs,
+    /// Copies of word length N at most [default: 2]
+    #[arg(long, value_name = "N", conflicts_with = "radius", value_parser = clap::value_parser!(u16).range(0..=64))]
+    pub depth: Option<u16>,
+    /// Instead: copies whose base point is this far from the base point at most
+    #[arg(long, value_name = "DISTANCE", value_parser = crate::options::distance)]
+    pub radius: Option<f64>,
+    /// Most copies that are made
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub limit: u32,
+    /// Write the copies, .obj or .glb
+    #[arg(long, value_name = "OUT.obj")]
+    pub cover: Option<PathBuf>,
+    /// Write the Dirichlet domain
+    #[arg(long, value_name = "D.json")]
+    pub domain: Option<PathBuf>,
+    /// What the picture shows [default: copies]
+    #[arg(long, value_enum, requires = "picture")]
+    pub show: Option<TilesChoice>,
+    /// Model of the hyperbolic plane in --cover, --domain and pictures [default: poincare]
+    #[arg(long, value_enum, value_name = "MODEL")]
+    pub model: Option<ModelChoice>,
+}
+
+/// What a picture of `ricci uniformize` shows.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum ShowChoice {
+    /// The surface beside its layout, with the loops of the generators on both
+    Both,
+    /// The surface alone
+    Surface,
+    /// The layout, its sides coloured in pairs and named by their words
+    Domain,
+    /// The canonical polygon, geodesic from lift to lift of the base point
+    Polygon,
+    /// The Dirichlet domain of the base point, its sides coloured in pairs
+    Dirichlet,
+}
+
+/// What a picture of `ricci cover` shows.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum TilesChoice {
+    /// The copies of the layout with its pattern
+    Copies,
+    /// The copies of the Dirichlet domain
+    Tiles,
+}
+
+/// A model of the hyperbolic plane.
+#[derive(ValueEnum, Debug, Clone, Copy, PartialEq)]
+pub enum ModelChoice {
+    Poincare,
+    Klein,
+    HalfPlane,
+    Hyperboloid,
+}
+
+impl From<ModelChoice> for Model {
+    fn from(choice: ModelChoice) -> Model {
+        match choice {
+            ModelChoice::Poincare => Model::Poincare,
+            ModelChoice::Klein => Model::Klein,
+            ModelChoice::HalfPlane => Model::HalfPlane,
+            ModelChoice::Hyperboloid => Model::Hyperboloid,
+        }
+    }
+}
+
+impl Serialize for ModelChoice {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(Model::from(*self).name())
+    }
+}

@@ -1,0 +1,111 @@
+//! Both commands from beginning to end.
+
+use super::args::{CoverArgs, TilesChoice, UniformizeArgs};
+use super::pictures::Shown;
+use super::quotient::{Uniformized, uniformized};
+use super::request::{CoverWish, Wish};
+use super::sphere::{Round, round};
+use super::summary;
+use crate::failure::Failure;
+use crate::input::{self, Input};
+use crate::progress::Progress;
+use crate::report::{Attempts, Checks};
+use ricci::Control;
+use std::time::Instant;
+
+/// A surface in its canonical shape.
+pub enum Shape {
+    Sphere(Box<Round>),
+    Quotient(Box<Uniformized>),
+}
+
+impl Shape {
+    pub fn checks(&self) -> Checks {
+        match self {
+            Shape::Sphere(s) => s.checks(),
+            Shape::Quotient(u) => u.checks(),
+        }
+    }
+
+    pub fn failed(&self) -> &Attempts {
+        match self {
+            Shape::Sphere(s) => &s.failed,
+            Shape::Quotient(u) => &u.failed,
+        }
+    }
+}
+
+/// A finished run.
+pub struct Done {
+    pub input: Input,
+    pub shape: Shape,
+    pub checks: Checks,
+    /// Files written.
+    pub files: Vec<String>,
+    pub seconds: f64,
+    pub exit_code: u8,
+}
+
+/// Run `ricci uniformize` and say what came out.
+pub fn uniformize(args: &UniformizeArgs, control: &Control) -> Result<u8, Failure> {
+    let done = execute_uniformize(args, control)?;
+    if !args.canonical.common.quiet {
+        summary::say(&done, false);
+    }
+    Ok(done.exit_code)
+}
+
+/// Run `ricci cover` and say what came out.
+pub fn cover(args: &CoverArgs, control: &Control) -> Result<u8, Failure> {
+    let done = execute_cover(args, control)?;
+    if !args.canonical.common.quiet {
+        summary::say(&done, true);
+    }
+    Ok(done.exit_code)
+}
+
+pub fn execute_uniformize(args: &UniformizeArgs, control: &Control) -> Result<Done, Failure> {
+    let shown = args.show.map(Shown::Uniform);
+    execute(
+        &Wish { args: &args.canonical, command: "uniformize", shown, model: args.model, cover: None },
+        control,
+    )
+}
+
+pub fn execute_cover(args: &CoverArgs, control: &Control) -> Result<Done, Failure> {
+    let cover = CoverWish {
+        depth: args.depth.map_or(2, usize::from),
+        radius: args.radius,
+        limit: args.limit as usize,
+        cover: args.cover.as_deref(),
+        domain: args.domain.as_deref(),
+    };
+    let shown = Some(Shown::Cover(args.show.unwrap_or(TilesChoice::Copies)));
+    execute(
+        &Wish { args: &args.canonical, command: "cover", shown, model: args.model, cover: Some(cover) },
+        control,
+    )
+}
+
+/// The exit code is 1 if a check fails or a file that was asked for has nothing to hold.
+fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done, Failure> {
+    let (start, args) = (Instant::now(), wish.args);
+    wish.check_request()?;
+    let progress = Progress::watch(control, args.common.quiet);
+    let input = input::read(&args.surface, control)?;
+    let shown = wish.check_surface(&input)?;
+    let mut shape = if input.mesh.euler() > 0 {
+        Shape::Sphere(Box::new(round(&input, args, control)?))
+    } else {
+        let mut u = uniformized(&input, args, control)?;
+        if let Some(cover) = &wish.cover {
+            u.elements = cover.elements(&u, control)?;
+        }
+        Shape::Quotient(Box::new(u))
+    };
+    let checks = shape.checks();
+    let files = wish.write(&input, &mut shape, &checks, shown, control, start)?;
+    drop(progress);
+    let exit_code = if shape.failed().0.is_empty() { checks.exit_code() } else { 1 };
+    Ok(Done { input, shape, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
+}

@@ -1,0 +1,152 @@
+//! Copies of the opened surface as binary glTF: a node each, named by its word; faces, texture coordinates and the checkerboard once, for
+//! all, and a tint of its own for each of a few classes of copies.
+
+use super::cover_file::Copies;
+use super::tiling::tint;
+use crate::checkerboard;
+use crate::picture::{TINTS, tint_color};
+use ricci::Control;
+use serde_json::{Value, json};
+use std::io::{self, Seek, SeekFrom, Write};
+
+/// Bounds of positions are written when these are known; so much room is left for each.
+const BOUND: usize = 26;
+/// Most bytes of the file: what glTF can count.
+const MOST: u64 = u32::MAX as u64;
+
+/// Write the copies; coordinates are single precision, as glTF has them.
+pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>, control: &Control) -> io::Result<()> {
+    let png = checkerboard::png().map_err(|e| io::Error::other(e.to_string()))?;
+    let indices: Vec<u8> = copies.faces.as_flattened().iter().flat_map(|i| i.to_le_bytes()).collect();
+    let texcoords = checkerboard::coordinates(copies.texcoords);
+    // v downwards.
+    let st = texcoords.iter().flat_map(|[s, t]| [*s as f32, (1.0 - t) as f32]);
+    let texcoords: Vec<u8> = st.flat_map(f32::to_le_bytes).collect();
+    let mut shared = Vec::new();
+    let mut views = Vec::new();
+    for (bytes, target) in [(&indices, Some(34963)), (&texcoords, Some(34962)), (&png, None)] {
+        let mut view = json!({"buffer": 0, "byteOffset": shared.len(), "byteLength": bytes.len()});
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        views.push(view);
+        shared.extend_from_slice(bytes);
+        shared.resize(shared.len().next_multiple_of(4), 0);
+    }
+    let (n, copy) = (copies.elements().len(), 12 * copies.points.len());
+    let binary = shared.len() as u64 + n as u64 * copy as u64;
+    let none = vec![[[f64::MIN_POSITIVE; 3]; 2]; n];
+    let mut document = Document { copies, views, offset: shared.len(), copy, binary };
+    let json = document.text(&none);
+    let total = 28 + json.len() as u64 + binary;
+    if total > MOST {
+        let why = format!("{total} bytes are more than binary glTF can count; write .obj, or fewer copies");
+        return Err(io::Error::other(why));
+    }
+    let start = out.stream_position()?;
+    out.write_all(b"glTF")?;
+    out.write_all(&2u32.to_le_bytes())?;
+    out.write_all(&(total as u32).to_le_bytes())?;
+    out.write_all(&(json.len() as u32).to_le_bytes())?;
+    out.write_all(b"JSON")?;
+    out.write_all(json.as_bytes())?;
+    out.write_all(&(binary as u32).to_le_bytes())?;
+    out.write_all(b"BIN\0")?;
+    out.write_all(&shared)?;
+    let mut bounds = Vec::with_capacity(n);
+    let work = |k: usize| -> ([[f64; 3]; 2], Vec<u8>) {
+        let points: Vec<[f32; 3]> = copies.points(k).into_iter().map(|p| p.map(|x| x as f32)).collect();
+        let bound = |axis: usize, pick: fn(f32, f32) -> f32, start: f32| {
+            f64::from(points.iter().map(|p| p[axis]).fold(start, pick))
+        };
+        let low = [0, 1, 2].map(|axis| bound(axis, f32::min, f32::INFINITY));
+        let high = [0, 1, 2].map(|axis| bound(axis, f32::max, f32::NEG_INFINITY));
+        ([low, high], points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect())
+    };
+    copies.each(control, work, |(bound, bytes)| {
+        bounds.push(bound);
+        out.write_all(&bytes)
+    })?;
+    // What was left open.
+    let end = out.stream_position()?;
+    document.offset = shared.len();
+    out.seek(SeekFrom::Start(start + 20))?;
+    out.write_all(document.text(&bounds).as_bytes())?;
+    out.seek(SeekFrom::Start(end))?;
+    Ok(())
+}
+
+struct Document<'a> {
+    copies: &'a Copies<'a>,
+    /// Of the indices, the texture coordinates and the texture.
+    views: Vec<Value>,
+    /// Where the positions of the first copy begin, and the bytes of each.
+    offset: usize,
+    copy: usize,
+    binary: u64,
+}
+
+impl Document<'_> {
+    /// The JSON: equally long whatever the bounds are.
+    fn text(&self, bounds: &[[[f64; 3]; 2]]) -> String {
+        let n = self.copies.points.len();
+        let colors = (0..=TINTS).map(|t| {
+            let [r, g, b] = tint_color(t);
+            json!({
+                "doubleSided": true,
+                "pbrMetallicRoughness": {
+                    "baseColorFactor": [r, g, b, 1.0], "baseColorTexture": {"index": 0},
+                    "metallicFactor": 0.0, "roughnessFactor": 0.8
+                }
+            })
+        });
+        let head = json!({
+            "asset": {"version": "2.0", "generator": concat!("ricci ", env!("CARGO_PKG_VERSION"))},
+            "scene": 0,
+            "scenes": [{"nodes": (0..bounds.len()).collect::<Vec<_>>()}],
+            "materials": colors.collect::<Vec<_>>(),
+            "textures": [{"source": 0, "sampler": 0}],
+            "samplers": [{"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}],
+            "images": [{"bufferView": 2, "mimeType": "image/png"}],
+            "buffers": [{"byteLength": self.binary}]
+        });
+        let shared = [
+            json!({"bufferView": 0, "componentType": 5125, "count": 3 * self.copies.faces.len(), "type": "SCALAR"}),
+            json!({"bufferView": 1, "componentType": 5126, "count": n, "type": "VEC2"}),
+        ];
+        let mut views: Vec<String> = self.views.iter().map(Value::to_string).collect();
+        let mut accessors: Vec<String> = shared.iter().map(Value::to_string).collect();
+        let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
+        for (k, [low, high]) in bounds.iter().enumerate() {
+            let g = &self.copies.elements()[k];
+            let view = json!({
+                "buffer": 0, "byteOffset": self.offset as u64 + (k * self.copy) as u64, "byteLength": self.copy, "target": 34962
+            });
+            views.push(view.to_string());
+            let three = |p: &[f64; 3]| p.map(|x| format!("{x:>BOUND$?}")).join(",");
+            accessors.push(format!(
+                r#"{{"bufferView":{},"componentType":5126,"count":{n},"type":"VEC3","min":[{}],"max":[{}]}}"#,
+                3 + k,
+                three(low),
+                three(high)
+            ));
+            let primitive = json!({
+                "attributes": {"POSITION": 2 + k, "TEXCOORD_0": 1}, "indices": 0,
+                "material": tint(&self.copies.uniformized.deck, g)
+            });
+            meshes.push(json!({"primitives": [primitive]}).to_string());
+            nodes.push(json!({"mesh": k, "name": self.copies.name(k)}).to_string());
+        }
+        let list = |name: &str, items: &[String]| format!(",\"{name}\":[{}]", items.join(","));
+        let mut text = head.to_string();
+        text.pop();
+        for (name, items) in
+            [("bufferViews", &views), ("accessors", &accessors), ("nodes", &nodes), ("meshes", &meshes)]
+        {
+            text += &list(name, items);
+        }
+        text.push('}');
+        text.extend(std::iter::repeat_n(' ', text.len().next_multiple_of(4) - text.len()));
+        text
+    }
+}

@@ -1,0 +1,119 @@
+//! The figures of a uniformization, as its report has them.
+
+use super::group_file::letters;
+use super::quotient::Uniformized;
+use ricci::flow::Report;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+#[derive(Serialize)]
+pub struct UniformFigures {
+    space: &'static str,
+    scheme: &'static str,
+    converged: bool,
+    stop_reason: &'static str,
+    iterations: usize,
+    flips: usize,
+    start_flips: usize,
+    max_curvature_error: f64,
+    /// max |K| of the metric that was laid out, whose lengths have twice the digits of doubles.
+    angle_defect: f64,
+    tolerance: f64,
+    rounding_floor: Option<f64>,
+    double_double: bool,
+    flipped_triangles: usize,
+    qc_mean: f64,
+    qc_max: f64,
+    area_ratio_min: f64,
+    area_ratio_max: f64,
+    degenerate_pieces: usize,
+    crossings: Option<usize>,
+    /// Of the metric: 4π(g − 1) in H², that of the surface as given in E².
+    area: f64,
+    /// The vertex at the origin.
+    base: u32,
+    /// Largest distance of a vertex from it.
+    radius: f64,
+    /// Largest distance of the two places of a corner, see the check layout_consistency.
+    disagreement: f64,
+    word: Vec<String>,
+    relation_residual: f64,
+    /// How far the isometries of the layout's sides are from those of their words.
+    side_residual: f64,
+    traces: Vec<f64>,
+    translation_lengths: Vec<f64>,
+    /// Total length of each generator's loop on the surface, in the metric.
+    loop_lengths: Vec<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    modulus: Option<[f64; 2]>,
+    domain: Option<DomainFigures>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_domain: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    copies: Option<usize>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    failed: BTreeMap<&'static str, String>,
+    left_out: Vec<&'static str>,
+    residuals: Vec<f64>,
+}
+
+/// The Dirichlet domain of the base point.
+#[derive(Serialize)]
+struct DomainFigures {
+    sides: usize,
+    area: f64,
+    radius: f64,
+}
+
+impl UniformFigures {
+    /// `copies`: whether they were asked for.
+    pub fn new(u: &Uniformized, copies: bool) -> UniformFigures {
+        let Report { converged, stop_reason, iterations, flips, .. } = u.report;
+        let quality = &u.laid.quality;
+        let place = u.place();
+        let domain = u.domain.as_ref();
+        let length = |path: &Vec<ricci::mesh::HalfedgeId>| path.iter().map(|h| u.lengths[h.edge()]).sum();
+        UniformFigures {
+            space: u.deck.space.name(),
+            scheme: u.metric.scheme().name(),
+            converged,
+            stop_reason: stop_reason.name(),
+            iterations,
+            flips: u.metric.start_flips() + flips,
+            start_flips: u.metric.start_flips(),
+            max_curvature_error: u.curvature_error(),
+            angle_defect: u.angle_defect,
+            tolerance: u.report.tolerance,
+            rounding_floor: u.report.rounding_floor,
+            double_double: u.report.double_double,
+            flipped_triangles: u.laid.flipped().len(),
+            qc_mean: quality.qc_mean,
+            qc_max: quality.qc_max,
+            area_ratio_min: quality.area_ratio_min,
+            area_ratio_max: quality.area_ratio_max,
+            degenerate_pieces: u.laid.degenerate.len(),
+            crossings: u.laid.refinement.as_ref().map(|r| r.crossings.len()),
+            area: u.area(),
+            base: u.basis.base.0,
+            radius: place.map_or(0.0, |p| p.whole.radius),
+            disagreement: place.map_or(0.0, |p| p.whole.disagreement),
+            word: letters(&u.deck.group, &u.deck.group.relator()),
+            relation_residual: u.deck.relation_residual,
+            side_residual: u.deck.side_residual,
+            traces: u.deck.traces(),
+            translation_lengths: u.deck.translation_lengths(),
+            loop_lengths: u.basis.loops.iter().map(length).collect(),
+            modulus: u.laid.modulus,
+            domain: domain.ok().map(|d| DomainFigures {
+                sides: d.sides.len(),
+                area: d.area,
+                radius: d.radius,
+            }),
+            no_domain: domain.err().cloned(),
+            copies: copies.then_some(u.elements.len()),
+            failed: u.failed.0.clone(),
+            left_out: u.left_out.clone(),
+            residuals: u.report.residuals.clone(),
+        }
+    }
+}

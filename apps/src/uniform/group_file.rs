@@ -1,0 +1,110 @@
+//! Deck groups and fundamental polygons as JSON files.
+
+use super::model_place::ModelPlace;
+use super::quotient::{ORIGIN, Uniformized};
+use ricci::embed::{DeckGroup, DirichletDomain};
+use ricci::topology::SurfaceGroup;
+use ricci::topology::word::Word;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// A complex 2×2 matrix, entries `[re, im]`.
+type Mobius = [[[f64; 2]; 2]; 2];
+
+/// `--generators`.
+#[derive(Serialize)]
+pub struct GroupFile {
+    space: &'static str,
+    basis: Vec<String>,
+    word: Vec<String>,
+    generators: BTreeMap<String, Mobius>,
+}
+
+impl GroupFile {
+    /// The group of what is its own universal cover.
+    pub fn trivial(space: &'static str) -> GroupFile {
+        GroupFile { space, basis: Vec::new(), word: Vec::new(), generators: BTreeMap::new() }
+    }
+
+    pub fn new(deck: &DeckGroup) -> GroupFile {
+        let basis = deck.group.names();
+        let matrices = deck.generators.iter().map(|g| g.mobius());
+        GroupFile {
+            space: deck.space.name(),
+            word: letters(&deck.group, &deck.group.relator()),
+            generators: basis.iter().cloned().zip(matrices).collect(),
+            basis,
+        }
+    }
+}
+
+/// `--domain`.
+#[derive(Serialize)]
+pub struct DomainFile {
+    space: &'static str,
+    /// Of the coordinates of points; matrices act on the plane or the Poincaré disk.
+    model: &'static str,
+    centre: Vec<f64>,
+    area: f64,
+    /// Largest distance of a corner from the centre.
+    radius: f64,
+    /// Counterclockwise; side k runs from corner k to the next one.
+    corners: Vec<Vec<f64>>,
+    sides: Vec<SideFile>,
+    canonical_polygon: PolygonFile,
+}
+
+#[derive(Serialize)]
+struct SideFile {
+    /// The deck transformation that carries the domain to its neighbour across this side.
+    word: Vec<String>,
+    matrix: Mobius,
+    /// The side with the inverse transformation.
+    partner: usize,
+}
+
+/// The polygon from lift to lift of the base point along the relator.
+#[derive(Serialize)]
+struct PolygonFile {
+    corners: Vec<Vec<f64>>,
+    /// Per side the letter of the relator.
+    sides: Vec<String>,
+}
+
+impl DomainFile {
+    pub fn new(u: &Uniformized, domain: &DirichletDomain, at: ModelPlace) -> DomainFile {
+        let group = &u.deck.group;
+        let points = |list: &[[f64; 3]]| list.iter().map(|&p| at.numbers(p)).collect();
+        let side = |k: usize| SideFile {
+            word: letters(group, &domain.sides[k].word),
+            matrix: domain.sides[k].motion.mobius(),
+            partner: domain.partner[k],
+        };
+        DomainFile {
+            space: u.deck.space.name(),
+            model: at.name(),
+            centre: at.numbers(domain.centre),
+            area: domain.area,
+            radius: domain.radius,
+            corners: points(&domain.corners),
+            sides: (0..domain.sides.len()).map(side).collect(),
+            canonical_polygon: PolygonFile {
+                corners: points(&u.deck.canonical_polygon(ORIGIN)),
+                sides: letters(group, &group.relator()),
+            },
+        }
+    }
+}
+
+/// The letters of a word by name.
+pub fn letters(group: &SurfaceGroup, word: &Word) -> Vec<String> {
+    match word.is_empty() {
+        true => Vec::new(),
+        false => group.text(word).split(' ').map(String::from).collect(),
+    }
+}
+
+/// A word as one name: letters with dots between them, `1` for none.
+pub fn name(group: &SurfaceGroup, word: &Word) -> String {
+    group.text(word).replace(' ', ".")
+}

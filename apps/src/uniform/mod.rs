@@ -1,0 +1,24 @@
+//! `ricci uniformize` and `ricci cover`: closed surfaces in their metric of constant curvature, and their universal covers.
+
+mod args;
+mod commands;
+mod cover_file;
+mod cover_glb;
+mod cover_obj;
+mod figures;
+mod files;
+mod group_file;
+mod model_place;
+mod outline;
+mod pictures;
+mod quotient;
+mod request;
+mod sphere;
+mod sphere_figures;
+mod sphere_picture;
+mod summary;
+mod tiling;
+
+pub use args::{COVER_HELP, CoverArgs, UNIFORMIZE_HELP, UniformizeArgs};
+pub use commands::{Done, Shape, cover, execute_cover, execute_uniformize, uniformize};
+pub use figures::UniformFigures;

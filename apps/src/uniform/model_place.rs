@@ -1,0 +1,96 @@
+//! Coordinates of points of the plane, or of the hyperbolic plane in one of its models.
+
+use ricci::geometry::Space;
+use ricci::geometry::model::{Model, distance};
+
+/// Points of a geodesic per unit of length, and at most.
+const STEPS_PER_LENGTH: f64 = 14.0;
+const MOST_STEPS: f64 = 96.0;
+
+/// Where points are written or drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ModelPlace {
+    Plane,
+    Hyperbolic(Model),
+}
+
+impl ModelPlace {
+    pub fn new(space: Space, model: Model) -> ModelPlace {
+        if space == Space::H2 { ModelPlace::Hyperbolic(model) } else { ModelPlace::Plane }
+    }
+
+    /// The name of the model.
+    pub fn name(self) -> &'static str {
+        match self {
+            ModelPlace::Plane => "plane",
+            ModelPlace::Hyperbolic(model) => model.name(),
+        }
+    }
+
+    /// Coordinates of a point given in ambient coordinates, the third 0 but on the hyperboloid.
+    pub fn coordinates(self, p: [f64; 3]) -> [f64; 3] {
+        match self {
+            ModelPlace::Plane => [p[0], p[1], 0.0],
+            ModelPlace::Hyperbolic(model) => model.from_hyperboloid(p),
+        }
+    }
+
+    /// Plane coordinates.
+    pub fn flat(self, p: [f64; 3]) -> [f64; 2] {
+        let [x, y, _] = self.coordinates(p);
+        [x, y]
+    }
+
+    /// As many coordinates as the model has.
+    pub fn numbers(self, p: [f64; 3]) -> Vec<f64> {
+        let n = if self == ModelPlace::Hyperbolic(Model::Hyperboloid) { 3 } else { 2 };
+        self.coordinates(p)[..n].to_vec()
+    }
+
+    /// The geodesic from p to q as a polygon of ambient points, both ends included.
+    pub fn geodesic(self, p: [f64; 3], q: [f64; 3]) -> Vec<[f64; 3]> {
+        if self == ModelPlace::Plane || self == ModelPlace::Hyperbolic(Model::Klein) {
+            return vec![p, q];
+        }
+        let length = distance(p, q);
+        let steps = (STEPS_PER_LENGTH * length).clamp(1.0, MOST_STEPS).ceil() as usize;
+        (0..=steps).map(|k| along(p, q, length, k as f64 / steps as f64)).collect()
+    }
+
+    /// The point that is this share of the way from p to q.
+    pub fn between(self, p: [f64; 3], q: [f64; 3], share: f64) -> [f64; 3] {
+        match self {
+            ModelPlace::Plane => [0, 1, 2].map(|k| p[k] + share * (q[k] - p[k])),
+            ModelPlace::Hyperbolic(_) => along(p, q, distance(p, q), share),
+        }
+    }
+}
+
+fn along(p: [f64; 3], q: [f64; 3], length: f64, t: f64) -> [f64; 3] {
+    let whole = length.sinh();
+    let (a, b) = if whole > 0.0 {
+        (((1.0 - t) * length).sinh() / whole, (t * length).sinh() / whole)
+    } else {
+        (1.0 - t, t)
+    };
+    let [x, y] = [0, 1].map(|k| a * p[k] + b * q[k]);
+    [x, y, 1.0f64.hypot(x.hypot(y))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn geodesics_run_evenly_between_their_ends() {
+        let at = |r: f64, t: f64| [r.sinh() * t.cos(), r.sinh() * t.sin(), r.cosh()];
+        let (p, q) = (at(2.0, 0.3), at(1.4, 2.5));
+        let place = ModelPlace::Hyperbolic(Model::Poincare);
+        let points = place.geodesic(p, q);
+        let length: f64 = points.windows(2).map(|w| distance(w[0], w[1])).sum();
+        assert!((length - distance(p, q)).abs() < 1e-12);
+        let middle = place.between(p, q, 0.5);
+        assert!((distance(p, middle) - 0.5 * length).abs() < 1e-12);
+        assert_eq!(ModelPlace::Plane.between([0.0, 0.0, 1.0], [2.0, 4.0, 1.0], 0.25), [0.5, 1.0, 1.0]);
+    }
+}

@@ -1,0 +1,72 @@
+//! The border of the opened surface in space, once around.
+
+use super::quotient::Uniformized;
+use ricci::embed::SpaceLayout;
+use ricci::mesh::{HalfedgeId, Mesh};
+use ricci::topology::FundamentalDomain;
+
+/// One side of the opened surface.
+pub struct Side {
+    /// Ambient points along it, both ends included, counterclockwise.
+    pub points: Vec<[f64; 3]>,
+    /// Sides with the same number are glued.
+    pub pair: usize,
+    /// The deck transformation onto the neighbour across it, in letters with spaces.
+    pub word: String,
+}
+
+/// The sides of the opened surface, counterclockwise.
+pub fn sides(u: &Uniformized) -> ricci::Result<Vec<Side>> {
+    let Some(place) = u.place() else { return Ok(Vec::new()) };
+    let (mesh, whole) = (&**u.metric.mesh(), &place.whole);
+    let domain = FundamentalDomain::new(mesh, &whole.cut.is_cut, &u.basis)?;
+    let mut pair = vec![usize::MAX; domain.sides.len()];
+    let mut n_pairs = 0;
+    for k in 0..pair.len() {
+        if pair[k] == usize::MAX {
+            pair[k] = n_pairs;
+            if let Some(partner) = domain.sides[k].partner {
+                pair[partner] = n_pairs;
+            }
+            n_pairs += 1;
+        }
+    }
+    let side = |(k, side): (usize, &ricci::topology::Side)| Side {
+        points: chain(mesh, whole, &side.halfedges),
+        pair: pair[k],
+        word: u.deck.sides.get(k).map_or_else(String::new, |g| u.deck.group.text(&g.word)),
+    };
+    Ok(domain.sides.iter().enumerate().map(side).collect())
+}
+
+fn chain(mesh: &Mesh, whole: &SpaceLayout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]> {
+    let last = halfedges.last().map(|&h| whole.corner(mesh.next(h)));
+    halfedges.iter().map(|&h| whole.corner(h)).chain(last).collect()
+}
+
+/// The loops of the generators in the opened surface: the two ends of each edge in each of its places, with the loop's number.
+pub fn loops(u: &Uniformized) -> Vec<([[f64; 3]; 2], usize)> {
+    let Some(place) = u.place() else { return Vec::new() };
+    let (mesh, whole) = (u.metric.mesh(), &place.whole);
+    let ends = |h: HalfedgeId| [whole.corner(h), whole.corner(mesh.next(h))];
+    let of = |(k, path): (usize, &Vec<HalfedgeId>)| -> Vec<_> {
+        path.iter().flat_map(|h| [*h, h.twin()]).map(|h| (ends(h), k)).collect()
+    };
+    u.basis.loops.iter().enumerate().flat_map(of).collect()
+}
+
+/// The loops of the generators on the surface as it was given: edges of the common refinement, with the loop's number.
+pub fn loops_on_surface(u: &Uniformized) -> Vec<(u32, u32, usize)> {
+    let Some(refinement) = &u.laid.refinement else { return Vec::new() };
+    let mut of_edge = vec![None; u.metric.mesh().n_edges()];
+    for (k, path) in u.basis.loops.iter().enumerate() {
+        path.iter().for_each(|h| of_edge[h.edge().index()] = Some(k));
+    }
+    let mesh = &refinement.mesh;
+    let numbered = mesh.edges().filter_map(|e| {
+        let k = of_edge[refinement.origin[e].result?.index()]?;
+        let [a, b] = mesh.ends(e);
+        Some((a.0, b.0, k))
+    });
+    numbered.collect()
+}

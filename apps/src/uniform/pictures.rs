@@ -1,0 +1,334 @@
+//! What pictures of uniformized surfaces and their covers show.
+
+use super::args::{ShowChoice, TilesChoice};
+use super::model_place::ModelPlace;
+use super::outline::{Side, loops, loops_on_surface, sides};
+use super::quotient::{ORIGIN, Uniformized};
+use super::tiling::{Prototype, Tiling, tint};
+use crate::failure::Failure;
+use crate::picture::{
+    self, Drawing, Frame, PALE, Pattern, Picture, Style, Surface, Tiles, write_drawing_svg,
+};
+use crate::show::is_svg;
+use ricci::embed::space_layout::distance_from_origin;
+use ricci::embed::{DeckElement, DirichletDomain};
+use ricci::geometry::model::Model;
+use ricci::geometry::{Motion, Space, Twofold};
+use ricci::topology::word::Word;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Copies in the background of a polygon at most.
+const BACKGROUND: usize = 250;
+/// Images of the base point closer than this are one.
+const SAME: f64 = 1e-6;
+/// Widths of lines, in those of a seam.
+const THIN: f64 = 0.45;
+const SEAM: f64 = 1.25;
+const BOLD: f64 = 1.8;
+/// How much higher than its domain the shown part of the half-plane is.
+const HEADROOM: f64 = 1.12;
+
+/// What a picture shows.
+#[derive(Clone, Copy)]
+pub enum Shown {
+    Uniform(ShowChoice),
+    Cover(TilesChoice),
+}
+
+/// Where and how to draw.
+pub struct Canvas<'a> {
+    pub path: &'a Path,
+    pub at: ModelPlace,
+    pub style: Style,
+    pub threads: usize,
+}
+
+/// The parts of the picture, ready to be written.
+pub struct Ready {
+    tiling: Option<Tiling>,
+    uv: Vec<[[f64; 2]; 3]>,
+    tiles: Tiles,
+    faces: Vec<[u32; 3]>,
+    loops: Vec<(u32, u32, usize)>,
+    with_surface: bool,
+}
+
+/// Work out what is drawn.
+pub fn prepare(u: &Uniformized, shown: Shown, canvas: &Canvas<'_>) -> Result<Ready, Failure> {
+    let (uv, tiles) = pattern(u);
+    let mesh = &u.laid.mesh;
+    let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
+    let tiling = match shown {
+        Shown::Uniform(ShowChoice::Surface) => None,
+        Shown::Uniform(ShowChoice::Both) => Some(domain(u, canvas, false)?),
+        Shown::Uniform(ShowChoice::Domain) => Some(domain(u, canvas, true)?),
+        Shown::Uniform(ShowChoice::Polygon) => Some(polygon(u, canvas)?),
+        Shown::Uniform(ShowChoice::Dirichlet) => Some(dirichlet(u, canvas)?),
+        Shown::Cover(TilesChoice::Copies) => Some(copies(u, canvas)?),
+        Shown::Cover(TilesChoice::Tiles) => Some(tiled(u, canvas)?),
+    };
+    Ok(Ready {
+        tiling,
+        uv,
+        tiles,
+        faces: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect(),
+        loops: if with_surface { loops_on_surface(u) } else { Vec::new() },
+        with_surface,
+    })
+}
+
+impl Ready {
+    /// Write the picture as PNG, or the drawing alone where the file is named `.svg`.
+    pub fn write(&self, out: &mut impl Write, u: &Uniformized, canvas: &Canvas<'_>) -> io::Result<()> {
+        let pattern = Pattern { uv: &self.uv, tiles: &self.tiles };
+        let drawing: Option<Drawing<'_>> = self.tiling.as_ref().map(|t| t.drawing(Some(pattern)));
+        if let (Some(drawing), true) = (&drawing, is_svg(canvas.path)) {
+            return write_drawing_svg(out, drawing, &canvas.style);
+        }
+        let base = [(u.basis.base.0, 1.0)];
+        let positions = u.laid.positions.as_ref().filter(|_| self.with_surface);
+        let surface = positions.map(|positions| Surface {
+            positions,
+            faces: &self.faces,
+            corner_uv: Some(&self.uv),
+            seams: &self.loops,
+            cones: &base,
+        });
+        let drawn =
+            Picture { surface, drawing: drawing.as_ref(), pattern: Some(&self.tiles), ..Picture::default() };
+        out.write_all(&picture::png(&drawn, &canvas.style, canvas.threads).map_err(io::Error::other)?)
+    }
+}
+
+/// The pattern: checks of one size in the metric, as far as octaves reach.
+fn pattern(u: &Uniformized) -> (Vec<[[f64; 2]; 3]>, Tiles) {
+    let laid = &u.laid;
+    let corners: Vec<[u32; 3]> =
+        laid.mesh.faces().map(|f| laid.mesh.face_halfedges(f).map(|h| laid.corner_index()[h])).collect();
+    let coordinates = laid.coordinates();
+    let uv: Vec<[[f64; 2]; 3]> = corners.iter().map(|f| f.map(|c| coordinates[c as usize])).collect();
+    let flat: Vec<f64> = uv.iter().map(|uv| 0.5 * picture::doubled_area(*uv).abs()).collect();
+    let stretch = |uv: &[[f64; 2]; 3]| {
+        let [x, y] = [0, 1].map(|k| (uv[0][k] + uv[1][k] + uv[2][k]) / 3.0);
+        let lambda = if u.deck.space == Space::H2 { 2.0 / (1.0 - x * x - y * y) } else { 1.0 };
+        lambda * lambda
+    };
+    let metric: Vec<f64> = uv.iter().zip(&flat).map(|(uv, area)| area * stretch(uv)).collect();
+    let tiles = Tiles::new(&metric, &flat, &corners, coordinates.len());
+    (uv, tiles)
+}
+
+/// The opened surface.
+fn prototype(u: &Uniformized, sides: &[Side]) -> Prototype {
+    let laid = &u.laid;
+    let points = u.place().map_or_else(Vec::new, |place| place.refined.points.clone());
+    Prototype {
+        points,
+        triangles: laid
+            .mesh
+            .faces()
+            .map(|f| laid.mesh.face_halfedges(f).map(|h| laid.corner_index()[h]))
+            .collect(),
+        border: sides.iter().flat_map(|s| &s.points[..s.points.len().saturating_sub(1)]).copied().collect(),
+        centre: ORIGIN,
+    }
+}
+
+fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
+    match at {
+        ModelPlace::Hyperbolic(Model::HalfPlane) => {
+            let high = around.iter().map(|p| at.flat(*p)[1]).fold(1.0, f64::max);
+            Frame::HalfPlane(HEADROOM * high)
+        }
+        ModelPlace::Hyperbolic(_) => Frame::Disk,
+        ModelPlace::Plane => {
+            let bound =
+                |k: usize, pick: fn(f64, f64) -> f64, start| around.iter().map(|p| p[k]).fold(start, pick);
+            let [low, high] =
+                [(f64::min as fn(f64, f64) -> f64, f64::INFINITY), (f64::max, f64::NEG_INFINITY)]
+                    .map(|(pick, start)| [0, 1].map(|k| bound(k, pick, start)));
+            let room = 0.06 * (high[0] - low[0]).max(high[1] - low[1]);
+            Frame::Rectangle([low.map(|x| x - room), high.map(|x| x + room)])
+        }
+    }
+}
+
+/// The layout, with its sides in pairs or the loops of the generators.
+fn domain(u: &Uniformized, canvas: &Canvas<'_>, named: bool) -> Result<Tiling, Failure> {
+    let sides = sides(u)?;
+    let shape = prototype(u, &sides);
+    let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
+    tiling.copy(&shape, &Motion::identity(u.deck.space), 0, None);
+    for side in sides {
+        tiling.line(&side.points, named.then_some(side.pair), if named { BOLD } else { THIN });
+        if named {
+            tiling.name_line(side.word, ORIGIN);
+        }
+    }
+    if !named {
+        loops(u).into_iter().for_each(|(ends, k)| tiling.line(&ends, Some(k), SEAM));
+    }
+    tiling.dots.push(canvas.at.flat(ORIGIN));
+    Ok(tiling)
+}
+
+/// The canonical polygon over copies of the layout, moved to the middle of the picture.
+fn polygon(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+    let sides = sides(u)?;
+    let shape = prototype(u, &sides);
+    let given = u.deck.canonical_polygon(ORIGIN);
+    let middle = middle(u.deck.space, &given);
+    let home = translation_to(u.deck.space, middle).inverse();
+    let moved = |p: &[f64; 3]| home.apply(p.map(Twofold::from)).map(f64::from);
+    let corners: Vec<[f64; 3]> = given.iter().map(moved).collect();
+    let around = if canvas.at == ModelPlace::Plane { corners.clone() } else { shape.border.clone() };
+    let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &around), canvas.style.size);
+    let far = |k: &usize| distance_from_origin(u.deck.space, corners[*k]);
+    let nearest = (0..corners.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
+    let start: Word = u.deck.group.relator().letters()[..nearest].iter().copied().collect();
+    for motion in background(u, &home, &start) {
+        tiling.copy(&shape, &motion, PALE, Some(THIN));
+    }
+    let relator = u.deck.group.relator();
+    for (k, letter) in relator.letters().iter().enumerate() {
+        tiling.line(&[corners[k], corners[(k + 1) % corners.len()]], Some(letter.index()), BOLD);
+        tiling.name_line(u.deck.group.text(&std::iter::once(*letter).collect()), ORIGIN);
+    }
+    tiling.dots.extend(corners.iter().map(|p| canvas.at.flat(*p)));
+    Ok(tiling)
+}
+
+/// The point whose ambient coordinates are the mean of some, brought back to the plane or the hyperboloid.
+fn middle(space: Space, points: &[[f64; 3]]) -> [f64; 3] {
+    let [x, y, w] = [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f64>());
+    let square = match space {
+        Space::H2 => (w - x.hypot(y)) * (w + x.hypot(y)),
+        _ => w * w,
+    };
+    [x, y, w].map(|k| k / square.sqrt())
+}
+
+/// The translation that carries the origin to a point.
+fn translation_to(space: Space, p: [f64; 3]) -> Motion<Twofold> {
+    let half = 0.5 * p[1].atan2(p[0]);
+    let turn: Motion = Motion::rotation([half.cos(), half.sin()], space);
+    let along = Motion::translation(distance_from_origin(space, p), space);
+    turn.compose(&along).compose(&turn.inverse()).precise()
+}
+
+/// Copies of the layout around the origin that the group has been moved to by `home`, nearest first, as many as a picture shows.
+/// `start`: a word that leads near there.
+fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> Vec<Motion<Twofold>> {
+    let Ok(domain) = &u.domain else { return Vec::new() };
+    let place = |g: &Motion<Twofold>| g.origin().map(f64::from);
+    let mut waiting = vec![home.compose(&u.deck.motion(start))];
+    let mut known: Vec<[f64; 3]> = waiting.iter().map(place).collect();
+    let mut found = Vec::new();
+    while found.len() < BACKGROUND {
+        let nearest = (0..waiting.len())
+            .min_by(|&a, &b| waiting[a].displacement().total_cmp(&waiting[b].displacement()));
+        let Some(nearest) = nearest else { break };
+        let g = waiting.swap_remove(nearest);
+        for side in &domain.sides {
+            let next = g.compose(&side.motion);
+            let at = place(&next);
+            // The base's images are apart; out there coordinates are as large as their digits allow.
+            let same = |p: &[f64; 3]| (0..2).all(|k| (p[k] - at[k]).abs() <= SAME * at[2]);
+            if !known.iter().any(same) {
+                known.push(at);
+                waiting.push(next);
+            }
+        }
+        found.push(g);
+    }
+    found
+}
+
+/// The Dirichlet domain over its neighbours.
+fn dirichlet(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+    let domain = the_domain(u)?;
+    let sides = sides(u)?;
+    let shape = prototype(u, &sides);
+    let tile = tile(domain, canvas.at);
+    let around: Vec<[f64; 3]> = domain.corners.iter().chain(&shape.border).copied().collect();
+    let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &around), canvas.style.size);
+    for g in &domain.sides {
+        tiling.copy(&tile, &g.motion, PALE, Some(THIN));
+    }
+    // The first on a place is seen: the layout fills the domain but for its jagged border, its neighbours fill that.
+    tiling.copy(&shape, &Motion::identity(u.deck.space), 0, None);
+    for g in &domain.sides {
+        tiling.copy(&shape, &g.motion, 0, None);
+    }
+    outline(u, &mut tiling, domain, true);
+    tiling.dots.push(canvas.at.flat(domain.centre));
+    Ok(tiling)
+}
+
+/// The sides of the Dirichlet domain, coloured in pairs.
+fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named: bool) {
+    let n = domain.sides.len();
+    let mut pairs: Vec<usize> = (0..n).filter(|&k| domain.partner[k] >= k).collect();
+    pairs.dedup();
+    for k in 0..n {
+        let first = k.min(domain.partner[k]);
+        let color = pairs.iter().position(|&p| p == first).unwrap_or(0);
+        tiling.line(&[domain.corners[k], domain.corners[(k + 1) % n]], Some(color), BOLD);
+        if named {
+            tiling.name_line(u.deck.group.text(&domain.sides[k].word), domain.centre);
+        }
+    }
+}
+
+fn the_domain(u: &Uniformized) -> Result<&DirichletDomain, Failure> {
+    u.domain.as_ref().map_err(|why| Failure::Failed(why.clone()))
+}
+
+/// The Dirichlet domain as what is copied: its sides sampled along geodesics.
+fn tile(domain: &DirichletDomain, at: ModelPlace) -> Prototype {
+    let n = domain.corners.len();
+    let side = |k: usize| {
+        let mut points = at.geodesic(domain.corners[k], domain.corners[(k + 1) % n]);
+        points.pop();
+        points
+    };
+    let border = (0..n).flat_map(side).collect();
+    Prototype { points: Vec::new(), triangles: Vec::new(), border, centre: domain.centre }
+}
+
+/// The copies of the layout.
+fn copies(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+    let sides = sides(u)?;
+    let shape = prototype(u, &sides);
+    let mut tiling = Tiling::new(canvas.at, first_frame(u, canvas.at, &shape), canvas.style.size);
+    for g in &u.elements {
+        tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
+    }
+    tiling.dots.push(canvas.at.flat(ORIGIN));
+    Ok(tiling)
+}
+
+/// The copies of the Dirichlet domain.
+fn tiled(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+    let domain = the_domain(u)?;
+    let shape = tile(domain, canvas.at);
+    let mut tiling = Tiling::new(canvas.at, first_frame(u, canvas.at, &shape), canvas.style.size);
+    for g in &u.elements {
+        tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
+    }
+    outline(u, &mut tiling, domain, false);
+    tiling.dots.push(canvas.at.flat(domain.centre));
+    Ok(tiling)
+}
+
+/// What is shown of all copies: in the plane all of it.
+fn first_frame(u: &Uniformized, at: ModelPlace, shape: &Prototype) -> Frame {
+    if at != ModelPlace::Plane {
+        return frame(at, &shape.border);
+    }
+    let moved =
+        |g: &DeckElement| shape.border.iter().map(|p| g.motion.rounded().apply(*p)).collect::<Vec<_>>();
+    let all: Vec<[f64; 3]> = u.elements.iter().flat_map(moved).collect();
+    frame(at, &all)
+}

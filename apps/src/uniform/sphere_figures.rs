@@ -1,0 +1,230 @@
+//! The figures of a sphere, as the report has them, and what is said of it.
+
+use super::sphere::{Round, Way};
+use crate::input::Input;
+use crate::say;
+use ricci::mesh::FaceId;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Pieces whose image has a shorter longest edge are too small for the digits of positions to show their shape.
+const SMALL: f64 = 1e-7;
+/// Pieces with less area, relative to the square of their longest edge, have no shape.
+const FLAT: f64 = 1e-12;
+
+#[derive(Serialize)]
+pub struct SphereFigures {
+    space: &'static str,
+    scheme: &'static str,
+    converged: bool,
+    stop_reason: &'static str,
+    iterations: usize,
+    flips: usize,
+    start_flips: usize,
+    /// max |K| of the spherical metric.
+    max_curvature_error: f64,
+    tolerance: f64,
+    flipped_triangles: usize,
+    #[serde(flatten)]
+    quality: SphereQuality,
+    area: f64,
+    /// Length of the shortest edge.
+    smallest_edge: f64,
+    #[serde(flatten)]
+    plane: Option<PlaneFigures>,
+    word: Vec<String>,
+    traces: Vec<f64>,
+    /// The universal cover of a sphere is the sphere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    copies: Option<usize>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    failed: BTreeMap<&'static str, String>,
+}
+
+/// What the way over the punctured plane has to say.
+#[derive(Serialize)]
+struct PlaneFigures {
+    puncture: u32,
+    tried: usize,
+    planar_curvature_error: f64,
+    u_range: f64,
+    delaunay_violation: f64,
+    link_turning: f64,
+    nonconvexity: f64,
+    centring: f64,
+}
+
+/// How the map of the pieces of the common refinement to the sphere distorts.
+#[derive(Serialize)]
+struct SphereQuality {
+    qc_mean: f64,
+    qc_max: f64,
+    area_ratio_min: f64,
+    area_ratio_max: f64,
+    degenerate_pieces: usize,
+}
+
+impl SphereFigures {
+    /// `copies`: whether a cover was asked for.
+    pub fn new(input: &Input, s: &Round, copies: bool) -> SphereFigures {
+        let (converged, stop_reason, iterations, flips) = match &s.way {
+            Way::Puncture(r) => (r.converged, r.stop_reason, r.iterations, r.flips),
+            Way::Flow(r) => (r.converged, r.stop_reason, r.iterations, r.flips),
+        };
+        let plane = match &s.way {
+            Way::Flow(_) => None,
+            Way::Puncture(r) => Some(PlaneFigures {
+                puncture: r.puncture.0,
+                tried: r.tried,
+                planar_curvature_error: r.max_curvature_error,
+                u_range: r.u_range,
+                delaunay_violation: r.delaunay_violation,
+                link_turning: r.link_turning,
+                nonconvexity: r.nonconvexity,
+                centring: r.centring,
+            }),
+        };
+        SphereFigures {
+            space: "s2",
+            scheme: s.metric.scheme().name(),
+            converged,
+            stop_reason: stop_reason.name(),
+            iterations,
+            flips: s.metric.start_flips() + flips,
+            start_flips: s.metric.start_flips(),
+            max_curvature_error: s.curvature_error(),
+            tolerance: s.tolerance,
+            flipped_triangles: s.inward(),
+            quality: SphereQuality::new(input, s),
+            area: s.curvature.area,
+            smallest_edge: s.lengths.iter().copied().fold(f64::INFINITY, f64::min),
+            plane,
+            word: Vec::new(),
+            traces: Vec::new(),
+            copies: copies.then_some(1),
+            failed: s.failed.0.clone(),
+        }
+    }
+}
+
+impl SphereQuality {
+    fn new(input: &Input, s: &Round) -> SphereQuality {
+        let r = &s.refinement;
+        let mut pieces = Vec::with_capacity(r.mesh.n_faces());
+        let mut degenerate_pieces = 0;
+        for f in r.mesh.faces() {
+            match (flat(sides_in_input(input, s, f)), flat(sides(s.piece(f)))) {
+                (Some(from), Some(to)) if to.0 >= SMALL => pieces.push((from, to)),
+                _ => degenerate_pieces += 1,
+            }
+        }
+        let area = |p: &[[f64; 2]; 2]| 0.5 * (p[0][0] * p[1][1]);
+        let total = |all: &mut dyn Iterator<Item = f64>| all.sum::<f64>();
+        let [before, after] = [
+            total(&mut pieces.iter().map(|(from, _)| area(&from.1))),
+            total(&mut pieces.iter().map(|(_, to)| area(&to.1))),
+        ];
+        let mut q = SphereQuality {
+            qc_mean: 0.0,
+            qc_max: 1.0,
+            area_ratio_min: f64::INFINITY,
+            area_ratio_max: 0.0,
+            degenerate_pieces,
+        };
+        for ((_, from), (_, to)) in &pieces {
+            let ratio = area(to) / after / (area(from) / before);
+            let k = dilatation(from, to);
+            q.qc_mean += k * area(from) / before;
+            q.qc_max = q.qc_max.max(k);
+            q.area_ratio_min = q.area_ratio_min.min(ratio);
+            q.area_ratio_max = q.area_ratio_max.max(ratio);
+        }
+        if pieces.is_empty() {
+            (q.qc_mean, q.area_ratio_min, q.area_ratio_max) = (1.0, 1.0, 1.0);
+        }
+        q
+    }
+}
+
+/// Lengths of a piece's sides 0 → 1, 1 → 2, 2 → 0 in the input.
+fn sides_in_input(input: &Input, s: &Round, f: FaceId) -> [f64; 3] {
+    let given = s.refinement.input_face[f];
+    let [a, b, c] = input.mesh.opposite_edges(given).map(|e| input.lengths[e]);
+    let w = s.refinement.input_barycentric(f);
+    [(0, 1), (1, 2), (2, 0)].map(|(i, j)| {
+        // |Σ w_k p_k|² = −Σ w_j w_k l_jk² for weights that add up to 0.
+        let [x, y, z] = [0, 1, 2].map(|k| w[j][k] - w[i][k]);
+        (-(y * z * a * a + z * x * b * b + x * y * c * c)).max(0.0).sqrt()
+    })
+}
+
+fn sides(p: [[f64; 3]; 3]) -> [f64; 3] {
+    let far = |i: usize, j: usize| (0..3).map(|k| (p[i][k] - p[j][k]).powi(2)).sum::<f64>().sqrt();
+    [far(0, 1), far(1, 2), far(2, 0)]
+}
+
+/// A triangle with these sides in the plane: its longest side, and the vectors from corner 0 to the others, the first along x; none for one
+/// without a shape.
+fn flat([l01, l12, l20]: [f64; 3]) -> Option<(f64, [[f64; 2]; 2])> {
+    let longest = l01.max(l12).max(l20);
+    let x = (l01 * l01 + l20 * l20 - l12 * l12) / (2.0 * l01);
+    let y = (l20 * l20 - x * x).max(0.0).sqrt();
+    (0.5 * l01 * y > FLAT * longest * longest && x.is_finite()).then_some((longest, [[l01, 0.0], [x, y]]))
+}
+
+/// The quotient of the singular values of the linear map from one triangle to another.
+fn dilatation(from: &[[f64; 2]; 2], to: &[[f64; 2]; 2]) -> f64 {
+    let ([[a, _], [b, c]], [[p, _], [q, r]]) = (*from, *to);
+    // Upper triangular: [[p/a, (q − p b/a)/c], [0, r/c]].
+    let (m, n, o) = (p / a, (q - p * b / a) / c, r / c);
+    let (sum, product) = (m * m + n * n + o * o, m * o);
+    let root = ((sum - 2.0 * product) * (sum + 2.0 * product)).max(0.0).sqrt();
+    ((sum + root) / (2.0 * product)).max(1.0)
+}
+
+/// The summary of a sphere.
+pub fn text(s: &Round, copies: bool) -> String {
+    let (stop, steps) = match &s.way {
+        Way::Puncture(r) => (r.stop_reason, r.iterations),
+        Way::Flow(r) => (r.stop_reason, r.iterations),
+    };
+    let mut text = format!(
+        "metric   s2 {}: {stop} after {}, max |K| = {:.1e}, area {:.6}\n",
+        s.metric.scheme(),
+        say::count(steps, "step", "steps"),
+        s.curvature_error(),
+        s.curvature.area,
+    );
+    if let Way::Puncture(r) = &s.way {
+        text += &format!(
+            "sphere   vertex {} at infinity, u over {:.2}, off the middle by {:.1e}, convex to {:.1e}\n",
+            r.puncture, r.u_range, r.centring, r.nonconvexity
+        );
+    }
+    if copies {
+        text += "cover    1 copy: a sphere is its own universal cover\n";
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dilatation_is_the_quotient_of_singular_values() {
+        let unit = [[1.0, 0.0], [0.3, 0.8]];
+        assert!((dilatation(&unit, &unit) - 1.0).abs() < 1e-12);
+        let scaled = unit.map(|v| v.map(|x| 7.0 * x));
+        assert!((dilatation(&unit, &scaled) - 1.0).abs() < 1e-12);
+        let stretched = [[3.0, 0.0], [0.9, 0.8]];
+        assert!((dilatation(&unit, &stretched) - 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn triangles_are_laid_flat_by_their_sides() {
+        let (longest, [a, b]) = flat([3.0, 5.0, 4.0]).unwrap();
+        assert_eq!((longest, a, b), (5.0, [3.0, 0.0], [0.0, 4.0]));
+        assert!(flat([1.0, 2.0, 1.0]).is_none() && flat([0.0, 1.0, 1.0]).is_none());
+    }
+}

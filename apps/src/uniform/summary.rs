@@ -1,0 +1,69 @@
+//! What the commands say on stdout.
+
+use super::commands::{Done, Shape};
+use super::quotient::Uniformized;
+use super::sphere_figures;
+use crate::say;
+
+/// The summary of a run; `copies`: whether a cover was asked for.
+pub fn say(done: &Done, copies: bool) {
+    let mut text = say::surface(&done.input);
+    text += &match &done.shape {
+        Shape::Quotient(u) => quotient(u, copies),
+        Shape::Sphere(s) => sphere_figures::text(s, copies),
+    };
+    let left_out = match &done.shape {
+        Shape::Quotient(u) => u.left_out.as_slice(),
+        Shape::Sphere(_) => &[],
+    };
+    text += &say::ending(left_out, done.shape.failed(), &done.checks, &done.files, done.seconds);
+    say::lines(&text);
+}
+
+fn quotient(u: &Uniformized, copies: bool) -> String {
+    let mut text = format!(
+        "metric   {} {}: {} after {}, max |K| = {:.1e}, area {:.6}\n",
+        u.deck.space,
+        u.metric.scheme(),
+        u.report.stop_reason,
+        say::count(u.report.iterations, "step", "steps"),
+        u.curvature_error(),
+        u.area(),
+    );
+    text += &format!("layout   {}\n", say::layout(&u.laid));
+    let [least, most] = [(f64::min as fn(f64, f64) -> f64, f64::INFINITY), (f64::max, 0.0)]
+        .map(|(pick, start)| u.deck.translation_lengths().into_iter().fold(start, pick));
+    text += &format!(
+        "group    {} with {}, residual {:.1e}, translation lengths {least:.4} to {most:.4}\n",
+        say::count(u.deck.generators.len(), "generator", "generators"),
+        relator(u),
+        u.deck.relation_residual,
+    );
+    if let Ok(domain) = &u.domain {
+        text += &format!(
+            "domain   {}, radius {:.4}\n",
+            say::count(domain.sides.len(), "side", "sides"),
+            domain.radius
+        );
+    }
+    if let Err(why) = &u.domain {
+        text += &format!("domain   none: {why}\n");
+    }
+    if copies {
+        let n = u.elements.len();
+        let triangles = n * u.laid.mesh.n_faces();
+        text += &format!("cover    {}, {triangles} triangles\n", say::count(n, "copy", "copies"));
+    }
+    text
+}
+
+/// The relator, of many generators the first and the last handle.
+fn relator(u: &Uniformized) -> String {
+    const HANDLES: usize = 3;
+    let all = u.deck.group.text(&u.deck.group.relator());
+    let letters: Vec<&str> = all.split(' ').collect();
+    match letters.len() > 4 * HANDLES {
+        true => format!("{} … {}", letters[..4].join(" "), letters[letters.len() - 4..].join(" ")),
+        false => all,
+    }
+}
