@@ -109,7 +109,7 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
         return Err(Failure::new(
             ricci_status::RICCI_LAYOUT,
             format!(
-                "this metric lives in {}: ricci_layout_new unrolls those in e2, ricci_uniformize also closed surfaces in h2",
+                "this metric lives in {}: ricci_layout_new unrolls those in e2, ricci_quotient_new also closed surfaces in h2",
                 class.space
             ),
         ));

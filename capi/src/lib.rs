@@ -78,6 +78,8 @@ pub mod layout_file;
 
 pub mod model;
 
+pub mod uniformize;
+
 pub mod sphere;
 
 pub mod stereographic;

@@ -59,6 +59,13 @@ impl ricci_mesh {
         }
     }
 
+    pub(crate) fn positions_if_any(&self) -> Option<Arc<Vec<Point>>> {
+        match &self.shape {
+            Shape::Positions(positions) => Some(positions.clone()),
+            Shape::Lengths(..) => None,
+        }
+    }
+
     pub(crate) fn lengths(&self) -> Outcome<(Arc<PerEdge<f64>>, Space)> {
         match &self.shape {
             Shape::Positions(positions) => {

@@ -1,25 +1,22 @@
 //! Uniformization of closed surfaces of genus 1 and more.
 
 use crate::arrays;
-use crate::choice::{choose, name};
+use crate::choice::choose;
 use crate::control::{self, ricci_control};
 use crate::domain::ricci_domain;
 use crate::failure::Outcome;
-use crate::flow::ricci_flips;
 use crate::guard::{self, Handle, Poison, output};
-use crate::homotopy::{ricci_homotopy, vertex_or_none};
+use crate::homotopy::ricci_homotopy;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::metric::ricci_metric;
 use crate::report::ricci_report;
-use crate::scheme::ricci_scheme;
-use crate::sized::{self, Sized64};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
-use ricci::canonical::{Quotient, QuotientOptions, quotient_of, uniformize_quotient};
-use ricci::flow::Options;
+use crate::uniformize::{read_options, ricci_uniformize_options};
+use ricci::canonical::{Quotient, quotient_of, uniformize_quotient};
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
-use ricci::mesh::{EdgeId, PerEdge, Point};
+use ricci::mesh::{PerEdge, Point};
 use ricci::topology::FundamentalDomain;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
@@ -43,7 +40,7 @@ impl Handle for ricci_quotient {
 }
 
 impl ricci_quotient {
-    fn new(quotient: Quotient, positions: Option<Arc<Vec<Point>>>) -> ricci_quotient {
+    pub(crate) fn new(quotient: Quotient, positions: Option<Arc<Vec<Point>>>) -> ricci_quotient {
         log::info!(
             "uniformize: {} after {} iterations, max |K| = {:.1e}, side pairings within {:.1e}, relation {:.1e}",
             quotient.report.stop_reason,
@@ -54,90 +51,6 @@ impl ricci_quotient {
         );
         ricci_quotient { poison: Poison::default(), quotient: Arc::new(quotient), positions }
     }
-}
-
-/// How a surface is uniformized. Let ricci_uniformize_options_init fill it, then change fields.
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct ricci_uniformize_options {
-    /// Bytes of this struct that are filled.
-    pub size: usize,
-    /// How lengths depend on u; default RICCI_SCHEME_YAMABE.
-    pub scheme: MaybeUninit<ricci_scheme>,
-    /// Whether edges may be flipped; default RICCI_FLIPS_AUTO.
-    pub flips: MaybeUninit<ricci_flips>,
-    /// The vertex at the layout's origin, where the loops of the homotopy basis meet; default -1: one from which no vertex is far.
-    pub base: i64,
-    /// Largest |K| of a converged metric, radians, positive; default 1e-10. It is then lowered as far as twice the digits of a double
-    /// allow (`angle_defect`).
-    pub tolerance: f64,
-    /// Steps before giving up; default 0: 500.
-    pub max_iterations: usize,
-    /// Threads, in a pool of the call's own; default 0: one per core. The result does not depend on it.
-    pub threads: usize,
-    /// Largest change of any u in one step, positive; default 3.
-    pub max_step: f64,
-    /// Edges that are not flipped: rows of ricci_mesh_edges; default NULL.
-    pub fixed_edges: *const u32,
-    /// Entries of `fixed_edges`; default 0.
-    pub n_fixed_edges: usize,
-}
-
-// SAFETY: numbers, a raw pointer and `MaybeUninit` enums: any bytes are valid; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_uniformize_options {
-    const NAME: &'static str = "options";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
-
-fn defaults() -> Outcome<ricci_uniformize_options> {
-    let QuotientOptions { scheme, flow, .. } = QuotientOptions::default();
-    Ok(ricci_uniformize_options {
-        size: size_of::<ricci_uniformize_options>(),
-        scheme: MaybeUninit::new(name(scheme)?),
-        flips: MaybeUninit::new(name(flow.flips)?),
-        base: -1,
-        tolerance: flow.tolerance,
-        max_iterations: flow.max_iterations,
-        threads: flow.threads,
-        max_step: flow.max_step,
-        fixed_edges: std::ptr::null(),
-        n_fixed_edges: 0,
-    })
-}
-
-/// The library's options; NULL gives the defaults.
-fn read_options(options: *const ricci_uniformize_options) -> Outcome<QuotientOptions> {
-    let options = sized::read(defaults()?, options)?;
-    let fixed = arrays::array("fixed_edges", options.fixed_edges, options.n_fixed_edges)?;
-    Ok(QuotientOptions {
-        scheme: choose(options.scheme)?,
-        base: vertex_or_none("base", options.base)?,
-        flow: Options {
-            fixed_edges: fixed.into_iter().map(EdgeId).collect(),
-            flips: choose(options.flips)?,
-            tolerance: options.tolerance,
-            max_iterations: options.max_iterations,
-            threads: options.threads,
-            max_step: options.max_step,
-            ..Options::default()
-        },
-    })
-}
-
-/// Fill options with their defaults.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
-///
-/// @param options  out: the defaults.
-/// @param size     sizeof *options.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_uniformize_options_init(
-    options: *mut ricci_uniformize_options,
-    size: usize,
-) -> ricci_status {
-    guard::call(|_| sized::write(defaults()?, options, size))
 }
 
 /// The metric of constant curvature in the conformal class of a closed surface of genus 1 and more, with its layout and deck group.
@@ -152,7 +65,7 @@ pub unsafe extern "C" fn ricci_uniformize_options_init(
 /// @param control   progress and cancellation; NULL for neither.
 /// @param quotient  out: the new handle, to be released by ricci_quotient_free.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_uniformize(
+pub unsafe extern "C" fn ricci_quotient_new(
     mesh: *const ricci_mesh,
     options: *const ricci_uniformize_options,
     control: *const ricci_control,
@@ -167,9 +80,9 @@ pub unsafe extern "C" fn ricci_uniformize(
     })
 }
 
-/// ricci_uniformize with lengths of the caller's in place of the mesh's own.
+/// ricci_quotient_new with lengths of the caller's in place of the mesh's own.
 ///
-/// @return as ricci_uniformize; RICCI_WRONG_SIZE.
+/// @return as ricci_quotient_new; RICCI_WRONG_SIZE.
 ///
 /// @param mesh      the mesh.
 /// @param lengths   n_edges lengths, finite and positive, in the order of ricci_mesh_edges.
@@ -179,7 +92,7 @@ pub unsafe extern "C" fn ricci_uniformize(
 /// @param control   progress and cancellation; NULL for neither.
 /// @param quotient  out: the new handle, to be released by ricci_quotient_free.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_uniformize_lengths(
+pub unsafe extern "C" fn ricci_quotient_from_lengths(
     mesh: *const ricci_mesh,
     lengths: *const f64,
     n_edges: usize,
@@ -206,23 +119,19 @@ fn uniformize(
 ) -> Outcome<ricci_quotient> {
     let (options, control) = (read_options(options)?, control::of(control));
     let quotient = uniformize_quotient(&mesh.connectivity, lengths, geometry, &options, &control)?;
-    let positions = match &mesh.shape {
-        Shape::Positions(positions) => Some(positions.clone()),
-        Shape::Lengths(..) => None,
-    };
-    Ok(ricci_quotient::new(quotient, positions))
+    Ok(ricci_quotient::new(quotient, mesh.positions_if_any()))
 }
 
-/// ricci_uniformize from where a metric is, such as another solver's result: in the metric's scheme.
+/// ricci_quotient_new from where a metric is, such as another solver's result: in the metric's scheme.
 ///
-/// @return as ricci_uniformize; RICCI_LAYOUT also for a metric in another space than E2 (genus 1) or H2 (more).
+/// @return as ricci_quotient_new; RICCI_LAYOUT also for a metric in another space than E2 (genus 1) or H2 (more).
 ///
 /// @param metric    where the flow starts.
 /// @param options   how, without `scheme`; NULL for the defaults.
 /// @param control   progress and cancellation; NULL for neither.
 /// @param quotient  out: the new handle, to be released by ricci_quotient_free.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_uniformize_metric(
+pub unsafe extern "C" fn ricci_quotient_from_metric(
     metric: *const ricci_metric,
     options: *const ricci_uniformize_options,
     control: *const ricci_control,

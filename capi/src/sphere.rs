@@ -33,6 +33,18 @@ impl Handle for ricci_sphere {
     }
 }
 
+impl ricci_sphere {
+    pub(crate) fn new(sphere: Sphere, positions: Option<Arc<Vec<Point>>>) -> ricci_sphere {
+        log::info!(
+            "uniformize: sphere {} after {} iterations, max |K| = {:.1e}",
+            sphere.report.stop_reason,
+            sphere.report.iterations,
+            sphere.report.spherical_curvature_error
+        );
+        ricci_sphere { poison: Poison::default(), sphere, positions }
+    }
+}
+
 /// How a sphere is uniformized. Let ricci_sphere_options_init fill it, then change fields.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -143,7 +155,7 @@ pub unsafe extern "C" fn ricci_sphere_options_init(
 /// @param control  progress and cancellation; NULL for neither.
 /// @param sphere   out: the new handle, to be released by ricci_sphere_free.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_uniformize_sphere(
+pub unsafe extern "C" fn ricci_sphere_new(
     mesh: *const ricci_mesh,
     options: *const ricci_sphere_options,
     control: *const ricci_control,
@@ -158,9 +170,9 @@ pub unsafe extern "C" fn ricci_uniformize_sphere(
     })
 }
 
-/// ricci_uniformize_sphere with lengths of the caller's in place of the mesh's own.
+/// ricci_sphere_new with lengths of the caller's in place of the mesh's own.
 ///
-/// @return as ricci_uniformize_sphere; RICCI_WRONG_SIZE.
+/// @return as ricci_sphere_new; RICCI_WRONG_SIZE.
 ///
 /// @param mesh      the mesh.
 /// @param lengths   n_edges lengths, finite and positive, in the order of ricci_mesh_edges.
@@ -170,7 +182,7 @@ pub unsafe extern "C" fn ricci_uniformize_sphere(
 /// @param control   progress and cancellation; NULL for neither.
 /// @param sphere    out: the new handle, to be released by ricci_sphere_free.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_uniformize_sphere_lengths(
+pub unsafe extern "C" fn ricci_sphere_from_lengths(
     mesh: *const ricci_mesh,
     lengths: *const f64,
     n_edges: usize,
@@ -201,17 +213,7 @@ fn uniformize(
     let options = SphereOptions { tolerance, max_iterations, threads, puncture };
     let given = mesh.connectivity.clone();
     let sphere = uniformize_sphere(given, lengths, geometry, &options, &control::of(control))?;
-    log::info!(
-        "uniformize: sphere {} after {} iterations, max |K| = {:.1e}",
-        sphere.report.stop_reason,
-        sphere.report.iterations,
-        sphere.report.spherical_curvature_error
-    );
-    let positions = match &mesh.shape {
-        Shape::Positions(positions) => Some(positions.clone()),
-        Shape::Lengths(..) => None,
-    };
-    Ok(ricci_sphere { poison: Poison::default(), sphere, positions })
+    Ok(ricci_sphere::new(sphere, mesh.positions_if_any()))
 }
 
 /// Release a sphere. What it has handed out lives on.

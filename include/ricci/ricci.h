@@ -696,6 +696,33 @@ typedef struct {
     size_t n_degenerate;
 } ricci_charts_summary;
 
+/** How a surface is uniformized. Let ricci_uniformize_options_init fill it, then change fields. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** How lengths depend on u; default RICCI_SCHEME_YAMABE. */
+    ricci_scheme scheme;
+    /** Whether edges may be flipped; default RICCI_FLIPS_AUTO. */
+    ricci_flips flips;
+    /** The vertex at a quotient's origin, where the loops of its homotopy basis meet; default -1: one from which no vertex is far. */
+    int64_t base;
+    /**
+     * Largest |K| of a converged metric, radians, positive; default 1e-10. It is then lowered as far as twice the digits of a double
+     * allow (`angle_defect`).
+     */
+    double tolerance;
+    /** Steps before giving up; default 0: 500. */
+    size_t max_iterations;
+    /** Threads, in a pool of the call's own; default 0: one per core. The result does not depend on it. */
+    size_t threads;
+    /** Largest change of any u in one step, positive; default 3. */
+    double max_step;
+    /** Edges that are not flipped: rows of ricci_mesh_edges; default NULL. */
+    const uint32_t *fixed_edges;
+    /** Entries of `fixed_edges`; default 0. */
+    size_t n_fixed_edges;
+} ricci_uniformize_options;
+
 /** How a sphere is uniformized. Let ricci_sphere_options_init fill it, then change fields. */
 typedef struct {
     /** Bytes of this struct that are filled. */
@@ -751,33 +778,6 @@ typedef struct {
     /** |sum of w x| / sum of w over the vertices, w one third of the area of the given faces at x. */
     double off_centre;
 } ricci_sphere_summary;
-
-/** How a surface is uniformized. Let ricci_uniformize_options_init fill it, then change fields. */
-typedef struct {
-    /** Bytes of this struct that are filled. */
-    size_t size;
-    /** How lengths depend on u; default RICCI_SCHEME_YAMABE. */
-    ricci_scheme scheme;
-    /** Whether edges may be flipped; default RICCI_FLIPS_AUTO. */
-    ricci_flips flips;
-    /** The vertex at the layout's origin, where the loops of the homotopy basis meet; default -1: one from which no vertex is far. */
-    int64_t base;
-    /**
-     * Largest |K| of a converged metric, radians, positive; default 1e-10. It is then lowered as far as twice the digits of a double
-     * allow (`angle_defect`).
-     */
-    double tolerance;
-    /** Steps before giving up; default 0: 500. */
-    size_t max_iterations;
-    /** Threads, in a pool of the call's own; default 0: one per core. The result does not depend on it. */
-    size_t threads;
-    /** Largest change of any u in one step, positive; default 3. */
-    double max_step;
-    /** Edges that are not flipped: rows of ricci_mesh_edges; default NULL. */
-    const uint32_t *fixed_edges;
-    /** Entries of `fixed_edges`; default 0. */
-    size_t n_fixed_edges;
-} ricci_uniformize_options;
 
 /** Figures of a quotient. */
 typedef struct {
@@ -2800,6 +2800,35 @@ ricci_status ricci_model_to_hyperboloid(ricci_model model,
  * @param options  out: the defaults.
  * @param size     sizeof *options.
  */
+ricci_status ricci_uniformize_options_init(ricci_uniformize_options *options, size_t size);
+
+/**
+ * The metric of constant curvature in the conformal class of a closed surface: on the sphere, or as a quotient of the plane or the
+ * hyperbolic plane, by its Euler characteristic.
+ *
+ * Of the options a sphere takes tolerance, steps and threads; its scheme is RICCI_SCHEME_YAMABE. Deterministic.
+ * @return as ricci_sphere_new and ricci_quotient_new; RICCI_LAYOUT for a surface with boundary.
+ *
+ * @param mesh      the mesh; lengths are measured in space, or those of an intrinsic mesh.
+ * @param options   how; NULL for the defaults.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param sphere    out: for genus 0 the new handle, to be released by ricci_sphere_free; else NULL.
+ * @param quotient  out: for genus 1 and more the new handle, to be released by ricci_quotient_free; else NULL.
+ */
+ricci_status ricci_uniformize(const ricci_mesh *mesh,
+                              const ricci_uniformize_options *options,
+                              const ricci_control *control,
+                              ricci_sphere **sphere,
+                              ricci_quotient **quotient);
+
+/**
+ * Fill options with their defaults.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param options  out: the defaults.
+ * @param size     sizeof *options.
+ */
 ricci_status ricci_sphere_options_init(ricci_sphere_options *options, size_t size);
 
 /**
@@ -2817,15 +2846,15 @@ ricci_status ricci_sphere_options_init(ricci_sphere_options *options, size_t siz
  * @param control  progress and cancellation; NULL for neither.
  * @param sphere   out: the new handle, to be released by ricci_sphere_free.
  */
-ricci_status ricci_uniformize_sphere(const ricci_mesh *mesh,
-                                     const ricci_sphere_options *options,
-                                     const ricci_control *control,
-                                     ricci_sphere **sphere);
+ricci_status ricci_sphere_new(const ricci_mesh *mesh,
+                              const ricci_sphere_options *options,
+                              const ricci_control *control,
+                              ricci_sphere **sphere);
 
 /**
- * ricci_uniformize_sphere with lengths of the caller's in place of the mesh's own.
+ * ricci_sphere_new with lengths of the caller's in place of the mesh's own.
  *
- * @return as ricci_uniformize_sphere; RICCI_WRONG_SIZE.
+ * @return as ricci_sphere_new; RICCI_WRONG_SIZE.
  *
  * @param mesh      the mesh.
  * @param lengths   n_edges lengths, finite and positive, in the order of ricci_mesh_edges.
@@ -2835,13 +2864,13 @@ ricci_status ricci_uniformize_sphere(const ricci_mesh *mesh,
  * @param control   progress and cancellation; NULL for neither.
  * @param sphere    out: the new handle, to be released by ricci_sphere_free.
  */
-ricci_status ricci_uniformize_sphere_lengths(const ricci_mesh *mesh,
-                                             const double *lengths,
-                                             size_t n_edges,
-                                             ricci_space geometry,
-                                             const ricci_sphere_options *options,
-                                             const ricci_control *control,
-                                             ricci_sphere **sphere);
+ricci_status ricci_sphere_from_lengths(const ricci_mesh *mesh,
+                                       const double *lengths,
+                                       size_t n_edges,
+                                       ricci_space geometry,
+                                       const ricci_sphere_options *options,
+                                       const ricci_control *control,
+                                       ricci_sphere **sphere);
 
 /**
  * Release a sphere. What it has handed out lives on.
@@ -2956,16 +2985,6 @@ ricci_status ricci_stereographic_lift(const double *plane,
                                       size_t capacity);
 
 /**
- * Fill options with their defaults.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
- *
- * @param options  out: the defaults.
- * @param size     sizeof *options.
- */
-ricci_status ricci_uniformize_options_init(ricci_uniformize_options *options, size_t size);
-
-/**
  * The metric of constant curvature in the conformal class of a closed surface of genus 1 and more, with its layout and deck group.
  *
  * Genus 1: flat, with the area of the given surface; more: hyperbolic. Where the flow has not converged (`converged` of the summary) the
@@ -2978,15 +2997,15 @@ ricci_status ricci_uniformize_options_init(ricci_uniformize_options *options, si
  * @param control   progress and cancellation; NULL for neither.
  * @param quotient  out: the new handle, to be released by ricci_quotient_free.
  */
-ricci_status ricci_uniformize(const ricci_mesh *mesh,
-                              const ricci_uniformize_options *options,
-                              const ricci_control *control,
-                              ricci_quotient **quotient);
+ricci_status ricci_quotient_new(const ricci_mesh *mesh,
+                                const ricci_uniformize_options *options,
+                                const ricci_control *control,
+                                ricci_quotient **quotient);
 
 /**
- * ricci_uniformize with lengths of the caller's in place of the mesh's own.
+ * ricci_quotient_new with lengths of the caller's in place of the mesh's own.
  *
- * @return as ricci_uniformize; RICCI_WRONG_SIZE.
+ * @return as ricci_quotient_new; RICCI_WRONG_SIZE.
  *
  * @param mesh      the mesh.
  * @param lengths   n_edges lengths, finite and positive, in the order of ricci_mesh_edges.
@@ -2996,28 +3015,28 @@ ricci_status ricci_uniformize(const ricci_mesh *mesh,
  * @param control   progress and cancellation; NULL for neither.
  * @param quotient  out: the new handle, to be released by ricci_quotient_free.
  */
-ricci_status ricci_uniformize_lengths(const ricci_mesh *mesh,
-                                      const double *lengths,
-                                      size_t n_edges,
-                                      ricci_space geometry,
-                                      const ricci_uniformize_options *options,
-                                      const ricci_control *control,
-                                      ricci_quotient **quotient);
+ricci_status ricci_quotient_from_lengths(const ricci_mesh *mesh,
+                                         const double *lengths,
+                                         size_t n_edges,
+                                         ricci_space geometry,
+                                         const ricci_uniformize_options *options,
+                                         const ricci_control *control,
+                                         ricci_quotient **quotient);
 
 /**
- * ricci_uniformize from where a metric is, such as another solver's result: in the metric's scheme.
+ * ricci_quotient_new from where a metric is, such as another solver's result: in the metric's scheme.
  *
- * @return as ricci_uniformize; RICCI_LAYOUT also for a metric in another space than E2 (genus 1) or H2 (more).
+ * @return as ricci_quotient_new; RICCI_LAYOUT also for a metric in another space than E2 (genus 1) or H2 (more).
  *
  * @param metric    where the flow starts.
  * @param options   how, without `scheme`; NULL for the defaults.
  * @param control   progress and cancellation; NULL for neither.
  * @param quotient  out: the new handle, to be released by ricci_quotient_free.
  */
-ricci_status ricci_uniformize_metric(const ricci_metric *metric,
-                                     const ricci_uniformize_options *options,
-                                     const ricci_control *control,
-                                     ricci_quotient **quotient);
+ricci_status ricci_quotient_from_metric(const ricci_metric *metric,
+                                        const ricci_uniformize_options *options,
+                                        const ricci_control *control,
+                                        ricci_quotient **quotient);
 
 /**
  * Release a quotient. What it has handed out lives on.

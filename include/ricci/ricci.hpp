@@ -140,6 +140,16 @@ inline ricci_uniformize_options uniformize_options() {
     return options;
 }
 
+// ricci_uniformize: one of the two is not null.
+inline std::pair<sphere, quotient> uniformize(const mesh &surface,
+                                              const ricci_uniformize_options &options = uniformize_options(),
+                                              const ricci_control *control = nullptr) {
+    ricci_sphere *ball = nullptr;
+    ricci_quotient *plane = nullptr;
+    check(ricci_uniformize(surface.get(), &options, control, &ball, &plane));
+    return {sphere(ball), quotient(plane)};
+}
+
 } // namespace ricci
 
 #endif

@@ -109,7 +109,7 @@ static void a_torus_is_covered_by_its_lattice(void) {
     const double re = 0.3, im = 1.2, radius = 7.013, centre[3] = {0.4, -3, 1};
     size_t lattice = 0;
     OK(ricci_shape_flat_torus(re, im, 3, 4, &mesh));
-    OK(ricci_uniformize(mesh, NULL, NULL, &quotient));
+    OK(ricci_quotient_new(mesh, NULL, NULL, &quotient));
     for (size_t depth = 0; depth < 6; depth++) CHECK(count(quotient, depth) == 2 * depth * (depth + 1) + 1);
     OK(ricci_dirichlet_new(quotient, centre, NULL, &dirichlet));
     OK(ricci_cover_within(dirichlet, radius, 1000, NULL, &within));
@@ -130,7 +130,7 @@ static void a_surface_of_genus_2_is_covered_by_its_words(void) {
     ricci_quotient *quotient = NULL;
     const double centre[3] = {0.2, -0.1, 0};
     OK(ricci_shape_genus(2, 1, 1, &mesh));
-    OK(ricci_uniformize(mesh, NULL, NULL, &quotient));
+    OK(ricci_quotient_new(mesh, NULL, NULL, &quotient));
     CHECK(count(quotient, 0) == 1 && count(quotient, 1) == 9 && count(quotient, 2) == 65);
     CHECK(count(quotient, 3) == 457 && count(quotient, 4) == 457 + 8 * 343 - 8);
     copies_meet_along_their_sides(quotient, 0, 1e-10);
@@ -151,7 +151,7 @@ static void the_bolza_surface_has_its_traces(void) {
     OK(ricci_shape_bolza(1, &mesh));
     OK(ricci_uniformize_options_init(&options, sizeof options));
     options.base = 0;
-    OK(ricci_uniformize(mesh, &options, NULL, &quotient));
+    OK(ricci_quotient_new(mesh, &options, NULL, &quotient));
     OK(ricci_dirichlet_new(quotient, NULL, NULL, &octagon));
     OK(ricci_cover_within(octagon, shortest - 1e-8, 1000, NULL, &near));
     elements e = elements_of(near);
@@ -187,7 +187,7 @@ static void what_does_not_exist_is_refused(void) {
     const size_t starts[3] = {0, 2, 3}, wrong[3] = {0, 3, 2};
     double x[9] = {0, 0, 1};
     OK(ricci_shape_bolza(0, &mesh));
-    OK(ricci_uniformize(mesh, NULL, NULL, &quotient));
+    OK(ricci_quotient_new(mesh, NULL, NULL, &quotient));
     OK(ricci_dirichlet_new(quotient, NULL, NULL, &dirichlet));
     OK(ricci_control_new(&control));
     OK(ricci_control_cancel(control));

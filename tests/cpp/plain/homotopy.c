@@ -263,7 +263,7 @@ static void closed_surfaces(void) {
         rows loops = check_loops(own, meshes[i]);
         check_words(own), check_lifts(own, &loops, NULL);
         rows_free(&loops);
-        OK(ricci_uniformize(meshes[i], NULL, NULL, &quotient));
+        OK(ricci_quotient_new(meshes[i], NULL, NULL, &quotient));
         OK(ricci_quotient_homotopy(quotient, &basis));
         OK(ricci_quotient_mesh(quotient, &mesh));
         OK(ricci_quotient_domain(quotient, &layout));

@@ -34,8 +34,8 @@ static void round_spheres_come_back(void) {
     const double centre[3] = {1.2, 0.5, -0.3};
     OK(ricci_shape_sphere(5, &mesh));
     OK(ricci_mesh_invert(mesh, centre, 1, &inverted));
-    OK(ricci_uniformize_sphere(mesh, NULL, NULL, &sphere));
-    OK(ricci_uniformize_sphere(inverted, NULL, NULL, &other));
+    OK(ricci_sphere_new(mesh, NULL, NULL, &sphere));
+    OK(ricci_sphere_new(inverted, NULL, NULL, &other));
     arrays a = arrays_of(mesh, 1);
     const size_t n = a.n.n_vertices;
     const ricci_sphere_summary s = summary_of(sphere), t = summary_of(other);
@@ -90,7 +90,7 @@ static void metric_polyhedron_and_refinement_agree(void) {
     ricci_metric_summary m;
     ricci_sphere *sphere = NULL;
     OK(ricci_shape_ellipsoid(1, 0.6, 1.7, 6, &mesh));
-    OK(ricci_uniformize_sphere(mesh, NULL, NULL, &sphere));
+    OK(ricci_sphere_new(mesh, NULL, NULL, &sphere));
     const ricci_sphere_summary s = summary_of(sphere);
     OK(ricci_sphere_metric(sphere, &metric));
     OK(ricci_metric_summarise(metric, &m, sizeof m));
@@ -130,11 +130,10 @@ static void any_threads_give_the_same_bits_and_options_count(void) {
     OK(ricci_sphere_options_init(&options, sizeof options));
     CHECK(options.puncture == -1 && options.tolerance == 1e-10 && options.threads == 0);
     options.threads = 1;
-    OK(ricci_uniformize_sphere(mesh, &options, NULL, &spheres[0]));
+    OK(ricci_sphere_new(mesh, &options, NULL, &spheres[0]));
     options.threads = 3;
-    OK(ricci_uniformize_sphere(mesh, &options, NULL, &spheres[1]));
-    OK(ricci_uniformize_sphere_lengths(mesh, a.lengths, a.n.n_edges, RICCI_SPACE_E2, NULL, NULL,
-                                       &spheres[2]));
+    OK(ricci_sphere_new(mesh, &options, NULL, &spheres[1]));
+    OK(ricci_sphere_from_lengths(mesh, a.lengths, a.n.n_edges, RICCI_SPACE_E2, NULL, NULL, &spheres[2]));
     double *x = positions_of(spheres[0], n);
     for (int i = 1; i < 3; i++) {
         double *y = positions_of(spheres[i], n);
@@ -142,7 +141,7 @@ static void any_threads_give_the_same_bits_and_options_count(void) {
         free(y);
     }
     options.puncture = 7;
-    OK(ricci_uniformize_sphere(mesh, &options, NULL, &from_7));
+    OK(ricci_sphere_new(mesh, &options, NULL, &from_7));
     CHECK(summary_of(from_7).puncture == 7);
     /* The same sphere, turned. */
     double *y = positions_of(from_7, n);
@@ -167,27 +166,27 @@ static void what_is_no_sphere_is_refused(void) {
     OK(ricci_shape_disk(2, &disk));
     OK(ricci_shape_sphere(2, &ball));
     OK(ricci_shape_two_triangles(&three));
-    FAILS(ricci_uniformize_sphere(torus, NULL, NULL, &none), RICCI_ARGUMENT, "genus 0");
-    FAILS(ricci_uniformize_sphere(disk, NULL, NULL, &none), RICCI_ARGUMENT, "with boundary");
-    FAILS(ricci_uniformize_sphere(three, NULL, NULL, &none), RICCI_ARGUMENT, "four vertices");
-    FAILS(ricci_uniformize_sphere(NULL, NULL, NULL, &none), RICCI_NULL_POINTER, "mesh");
-    FAILS(ricci_uniformize_sphere(ball, NULL, NULL, NULL), RICCI_NULL_POINTER, "sphere");
-    FAILS(ricci_uniformize_sphere_lengths(ball, x, 3, RICCI_SPACE_E2, NULL, NULL, &none), RICCI_WRONG_SIZE,
+    FAILS(ricci_sphere_new(torus, NULL, NULL, &none), RICCI_ARGUMENT, "genus 0");
+    FAILS(ricci_sphere_new(disk, NULL, NULL, &none), RICCI_ARGUMENT, "with boundary");
+    FAILS(ricci_sphere_new(three, NULL, NULL, &none), RICCI_ARGUMENT, "four vertices");
+    FAILS(ricci_sphere_new(NULL, NULL, NULL, &none), RICCI_NULL_POINTER, "mesh");
+    FAILS(ricci_sphere_new(ball, NULL, NULL, NULL), RICCI_NULL_POINTER, "sphere");
+    FAILS(ricci_sphere_from_lengths(ball, x, 3, RICCI_SPACE_E2, NULL, NULL, &none), RICCI_WRONG_SIZE,
           "lengths");
     OK(ricci_sphere_options_init(&options, sizeof options));
     options.puncture = 1000000;
-    FAILS(ricci_uniformize_sphere(ball, &options, NULL, &none), RICCI_ARGUMENT, "1000000");
+    FAILS(ricci_sphere_new(ball, &options, NULL, &none), RICCI_ARGUMENT, "1000000");
     options.puncture = -3;
-    FAILS(ricci_uniformize_sphere(ball, &options, NULL, &none), RICCI_ARGUMENT, "puncture is -3");
+    FAILS(ricci_sphere_new(ball, &options, NULL, &none), RICCI_ARGUMENT, "puncture is -3");
     options.size = 12;
-    FAILS(ricci_uniformize_sphere(ball, &options, NULL, &none), RICCI_STRUCT_SIZE, "size 12");
+    FAILS(ricci_sphere_new(ball, &options, NULL, &none), RICCI_STRUCT_SIZE, "size 12");
     OK(ricci_control_new(&control));
     OK(ricci_control_cancel(control));
-    FAILS(ricci_uniformize_sphere(ball, NULL, control, &none), RICCI_CANCELLED, "");
+    FAILS(ricci_sphere_new(ball, NULL, control, &none), RICCI_CANCELLED, "");
     CHECK(none == NULL);
     ricci_mesh *tetrahedron = NULL;
     OK(ricci_mesh_from_gluing(4, faces[0], edges[0], 4, lengths, 6, RICCI_SPACE_E2, &tetrahedron));
-    OK(ricci_uniformize_sphere(tetrahedron, NULL, NULL, &sphere));
+    OK(ricci_sphere_new(tetrahedron, NULL, NULL, &sphere));
     s = summary_of(sphere);
     double *y = positions_of(sphere, 4);
     for (int v = 1; v < 4; v++) CHECK(fabs(apart(y, y + 3 * v) - sqrt(8.0 / 3)) < 1e-10);

@@ -32,7 +32,7 @@ static void the_bolza_surface_is_the_regular_octagon(void) {
     OK(ricci_shape_bolza(2, &mesh));
     OK(ricci_uniformize_options_init(&options, sizeof options));
     options.base = 0; /* the centre */
-    OK(ricci_uniformize(mesh, &options, NULL, &quotient));
+    OK(ricci_quotient_new(mesh, &options, NULL, &quotient));
     laid l = laid_of(quotient);
     check_layout(&l);
     CHECK(l.s.genus == 2 && l.s.base == 0 && l.s.n_generators == 4);
@@ -72,7 +72,7 @@ static void a_flat_torus_has_its_modulus(void) {
         ricci_deck *generators = NULL;
         double tau[2];
         OK(ricci_shape_flat_torus(shapes[i][0], shapes[i][1], 6, 5, &mesh));
-        OK(ricci_uniformize(mesh, NULL, NULL, &quotient));
+        OK(ricci_quotient_new(mesh, NULL, NULL, &quotient));
         laid l = laid_of(quotient);
         check_layout(&l);
         CHECK(l.s.space == RICCI_SPACE_E2 && l.s.n_generators == 2 && fabs(l.s.area - shapes[i][1]) < 1e-12);
@@ -222,7 +222,7 @@ static void surfaces_in_space_come_back_as_layouts(void) {
     OK(ricci_shape_genus(2, 2, 1, &meshes[1]));
     for (int i = 0; i < 2; i++) {
         ricci_quotient *quotient = NULL;
-        OK(ricci_uniformize(meshes[i], NULL, NULL, &quotient));
+        OK(ricci_quotient_new(meshes[i], NULL, NULL, &quotient));
         laid l = laid_of(quotient);
         check_layout(&l);
         if (l.s.genus == 2) {
@@ -258,15 +258,15 @@ static void every_way_in_and_any_threads_give_the_same_bits(void) {
     OK(ricci_uniformize_options_init(&options, sizeof options));
     CHECK(options.base == -1 && options.tolerance == 1e-10 && options.threads == 0);
     options.threads = 1;
-    OK(ricci_uniformize(mesh, &options, NULL, &all[0]));
+    OK(ricci_quotient_new(mesh, &options, NULL, &all[0]));
     options.threads = 3;
-    OK(ricci_uniformize(mesh, &options, NULL, &all[1]));
-    OK(ricci_uniformize_lengths(mesh, a.lengths, a.n.n_edges, RICCI_SPACE_E2, NULL, NULL, &all[2]));
+    OK(ricci_quotient_new(mesh, &options, NULL, &all[1]));
+    OK(ricci_quotient_from_lengths(mesh, a.lengths, a.n.n_edges, RICCI_SPACE_E2, NULL, NULL, &all[2]));
     OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_H2, &metric));
-    OK(ricci_uniformize_metric(metric, NULL, NULL, &all[3]));
+    OK(ricci_quotient_from_metric(metric, NULL, NULL, &all[3]));
     /* On from its own end there is nothing to do. */
     OK(ricci_quotient_metric(all[0], &end));
-    OK(ricci_uniformize_metric(end, NULL, NULL, &all[4]));
+    OK(ricci_quotient_from_metric(end, NULL, NULL, &all[4]));
     OK(ricci_quotient_report(all[4], &report));
     OK(ricci_report_summarise(report, &did, sizeof did));
     OK(ricci_metric_summarise(end, &m, sizeof m));
@@ -284,7 +284,7 @@ static void every_way_in_and_any_threads_give_the_same_bits(void) {
     /* The scheme and the base are those asked for. */
     ricci_quotient *packing = NULL;
     options.scheme = RICCI_SCHEME_INVERSIVE, options.base = 7;
-    OK(ricci_uniformize(mesh, &options, NULL, &packing));
+    OK(ricci_quotient_new(mesh, &options, NULL, &packing));
     laid p = laid_of(packing);
     CHECK(p.s.base == 7 && p.s.converged && !same(&first, &p));
     for (int i = 0; i < 5; i++) ricci_quotient_free(all[i]);
@@ -292,6 +292,51 @@ static void every_way_in_and_any_threads_give_the_same_bits(void) {
     free(curvature), arrays_free(&a);
     ricci_quotient_free(packing), ricci_report_free(report);
     ricci_metric_free(end), ricci_metric_free(metric), ricci_mesh_free(mesh);
+}
+
+/* One call: spheres on the sphere, all others as quotients, with the results of the calls for one kind. */
+static void one_call_takes_every_closed_surface(void) {
+    ricci_mesh *meshes[3] = {NULL, NULL, NULL}, *disk = NULL;
+    OK(ricci_shape_sphere(3, &meshes[0]));
+    OK(ricci_shape_torus(2, 1, 9, 7, &meshes[1]));
+    OK(ricci_shape_genus(2, 1, 1, &meshes[2]));
+    for (size_t i = 0; i < 3; i++) {
+        ricci_sphere *sphere = (ricci_sphere *)&meshes, *same_sphere = NULL;
+        ricci_quotient *quotient = (ricci_quotient *)&meshes, *same_quotient = NULL;
+        OK(ricci_uniformize(meshes[i], NULL, NULL, &sphere, &quotient));
+        CHECK((sphere != NULL) == (i == 0) && (quotient != NULL) == (i > 0));
+        if (sphere) {
+            ricci_sphere_summary s;
+            OK(ricci_sphere_new(meshes[i], NULL, NULL, &same_sphere));
+            OK(ricci_sphere_summarise(sphere, &s, sizeof s));
+            double *x = (double *)room(3 * s.n_vertices, sizeof *x),
+                   *y = (double *)room(3 * s.n_vertices, sizeof *y);
+            OK(ricci_sphere_positions(sphere, x, 3 * s.n_vertices));
+            OK(ricci_sphere_positions(same_sphere, y, 3 * s.n_vertices));
+            CHECK(s.converged && memcmp(x, y, 3 * s.n_vertices * sizeof *x) == 0);
+            free(x), free(y);
+        } else {
+            OK(ricci_quotient_new(meshes[i], NULL, NULL, &same_quotient));
+            laid l = laid_of(quotient), m = laid_of(same_quotient);
+            CHECK(l.s.genus == i && same(&l, &m));
+            laid_free(&l), laid_free(&m);
+        }
+        ricci_sphere_free(sphere), ricci_sphere_free(same_sphere);
+        ricci_quotient_free(quotient), ricci_quotient_free(same_quotient);
+    }
+    ricci_sphere *sphere = NULL;
+    ricci_quotient *quotient = NULL;
+    ricci_uniformize_options options;
+    OK(ricci_uniformize_options_init(&options, sizeof options));
+    options.scheme = RICCI_SCHEME_INVERSIVE;
+    OK(ricci_shape_disk(2, &disk));
+    FAILS(ricci_uniformize(disk, NULL, NULL, &sphere, &quotient), RICCI_LAYOUT, "closed");
+    FAILS(ricci_uniformize(meshes[0], &options, NULL, &sphere, &quotient), RICCI_ARGUMENT, "yamabe");
+    FAILS(ricci_uniformize(meshes[0], NULL, NULL, NULL, &quotient), RICCI_NULL_POINTER, "sphere");
+    FAILS(ricci_uniformize(meshes[0], NULL, NULL, &sphere, NULL), RICCI_NULL_POINTER, "quotient");
+    CHECK(sphere == NULL && quotient == NULL);
+    for (int i = 0; i < 3; i++) ricci_mesh_free(meshes[i]);
+    ricci_mesh_free(disk);
 }
 
 static void what_is_no_quotient_is_refused(void) {
@@ -307,29 +352,29 @@ static void what_is_no_quotient_is_refused(void) {
     OK(ricci_shape_sphere(2, &sphere));
     OK(ricci_shape_disk(2, &disk));
     OK(ricci_shape_bolza(1, &bolza));
-    FAILS(ricci_uniformize(sphere, NULL, NULL, &quotient), RICCI_LAYOUT, "genus 1 and more");
-    FAILS(ricci_uniformize(disk, NULL, NULL, &quotient), RICCI_LAYOUT, "closed");
-    FAILS(ricci_uniformize(NULL, NULL, NULL, &quotient), RICCI_NULL_POINTER, "mesh");
-    FAILS(ricci_uniformize(bolza, NULL, NULL, NULL), RICCI_NULL_POINTER, "quotient");
-    FAILS(ricci_uniformize_lengths(bolza, x, 3, RICCI_SPACE_E2, NULL, NULL, &quotient), RICCI_WRONG_SIZE,
+    FAILS(ricci_quotient_new(sphere, NULL, NULL, &quotient), RICCI_LAYOUT, "genus 1 and more");
+    FAILS(ricci_quotient_new(disk, NULL, NULL, &quotient), RICCI_LAYOUT, "closed");
+    FAILS(ricci_quotient_new(NULL, NULL, NULL, &quotient), RICCI_NULL_POINTER, "mesh");
+    FAILS(ricci_quotient_new(bolza, NULL, NULL, NULL), RICCI_NULL_POINTER, "quotient");
+    FAILS(ricci_quotient_from_lengths(bolza, x, 3, RICCI_SPACE_E2, NULL, NULL, &quotient), RICCI_WRONG_SIZE,
           "lengths");
     OK(ricci_metric_new(bolza, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &flat));
-    FAILS(ricci_uniformize_metric(flat, NULL, NULL, &quotient), RICCI_LAYOUT, "in h2");
+    FAILS(ricci_quotient_from_metric(flat, NULL, NULL, &quotient), RICCI_LAYOUT, "in h2");
     FAILS(ricci_uniformize_options_init(&options, 8), RICCI_STRUCT_SIZE, "size 8");
     OK(ricci_uniformize_options_init(&options, sizeof options));
     options.base = 1000000;
-    FAILS(ricci_uniformize(bolza, &options, NULL, &quotient), RICCI_ARGUMENT, "1000000");
+    FAILS(ricci_quotient_new(bolza, &options, NULL, &quotient), RICCI_ARGUMENT, "1000000");
     options.base = -2;
-    FAILS(ricci_uniformize(bolza, &options, NULL, &quotient), RICCI_ARGUMENT, "base is -2");
+    FAILS(ricci_quotient_new(bolza, &options, NULL, &quotient), RICCI_ARGUMENT, "base is -2");
     options.base = -1, options.scheme = (ricci_scheme)9;
-    FAILS(ricci_uniformize(bolza, &options, NULL, &quotient), RICCI_ARGUMENT, "scheme is 9");
+    FAILS(ricci_quotient_new(bolza, &options, NULL, &quotient), RICCI_ARGUMENT, "scheme is 9");
     options.scheme = RICCI_SCHEME_YAMABE, options.size = 3;
-    FAILS(ricci_uniformize(bolza, &options, NULL, &quotient), RICCI_STRUCT_SIZE, "size 3");
+    FAILS(ricci_quotient_new(bolza, &options, NULL, &quotient), RICCI_STRUCT_SIZE, "size 3");
     OK(ricci_control_new(&control));
     OK(ricci_control_cancel(control));
-    FAILS(ricci_uniformize(bolza, NULL, control, &quotient), RICCI_CANCELLED, "");
+    FAILS(ricci_quotient_new(bolza, NULL, control, &quotient), RICCI_CANCELLED, "");
     CHECK(quotient == NULL);
-    OK(ricci_uniformize(bolza, NULL, NULL, &sound));
+    OK(ricci_quotient_new(bolza, NULL, NULL, &sound));
     FAILS(ricci_quotient_summarise(sound, NULL, sizeof s), RICCI_NULL_POINTER, "summary");
     FAILS(ricci_quotient_points(sound, RICCI_MODEL_KLEIN, x, 2), RICCI_BUFFER_TOO_SMALL, "points");
     FAILS(ricci_quotient_points(NULL, RICCI_MODEL_KLEIN, x, 2), RICCI_NULL_POINTER, "quotient");
@@ -350,6 +395,7 @@ int main(void) {
     a_flat_torus_has_its_modulus();
     surfaces_in_space_come_back_as_layouts();
     every_way_in_and_any_threads_give_the_same_bits();
+    one_call_takes_every_closed_surface();
     what_is_no_quotient_is_refused();
     return 0;
 }
