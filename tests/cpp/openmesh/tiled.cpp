@@ -69,7 +69,7 @@ void check(const std::string &name, const Mesh &input) {
     const auto d = ricci::summary(ricci_dirichlet_summarise, domain);
     const auto polygon = ricci::values(ricci_dirichlet_corners, domain, 3 * d.n_sides);
     // A copy that meets the disk has its centre in this one.
-    const double radius = d.radius / 2, reach = radius + std::max(d.radius, q.radius);
+    const double radius = d.radius, reach = radius + std::max(d.radius, q.radius);
     const auto cover =
         ricci::make<ricci_deck>(ricci_cover_within, domain.get(), reach, std::size_t(100000), nullptr);
     const auto count = ricci::summary(ricci_deck_summarise, cover);
