@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Recompute from the files of `ricci flow` what they claim, with plain formulas and numpy only.
+"""Recompute from the files of `ricci flow`, `uniformize` and `cover` what they claim, with plain formulas and numpy only.
 
 usage: outside.py RICCI_BINARY CORPUS_FOLDER
 """
@@ -113,13 +113,146 @@ def check_uv(name, path, source, metric):
     check(name + " isometry", (off <= 0).all(), f"{off.max()}")
 
 
+def klein(z):
+    return 2 * z / (1 + (z * z).sum(1, keepdims=True))
+
+
+def check_disk(name, path, source):
+    """A layout in the Poincaré disk: orientation of the Klein images, what every layout keeps, and that seams are glued."""
+    v, vt, f, ft = read_obj(path)
+    v0, _, f0, _ = read_obj(source)
+    size = np.abs(v0).max()
+    check(name + " positions", np.abs(v[: len(v0)] - v0).max() <= 1e-6 * size, "moved")
+    if len(v) > len(v0):
+        off = on_edges(v[len(v0) :], v0, f0)
+        check(name + " crossings", off <= 1e-9 * size, f"{off} off the input's edges")
+    there, before = solid_area(v, f), solid_area(v0, f0)
+    check(name + " area", abs(there - before) <= 1e-9 * before, f"{there} of {before}")
+    check(name + " inside", ((vt * vt).sum(1) < 1).all(), "outside the disk")
+    t = klein(vt)[np.array(ft)]
+    a, b = t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]
+    area = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+    longest = np.max([((t[:, k] - t[:, k - 1]) ** 2).sum(1) for k in range(3)], axis=0)
+    # What coordinates of size 1 have been rounded to.
+    rounded = 1e-12 * longest + 4e-16 * np.sqrt(longest)
+    check(name + " orientation", (area >= -rounded).all(), f"{(area < -rounded).sum()} flipped")
+    # An edge has the same hyperbolic length in both of its faces.
+    ft, z = np.array(ft), vt[:, 0] + 1j * vt[:, 1]
+    lengths = {}
+    for face, corners in zip(f, ft):
+        for k in range(3):
+            p, q = z[corners[k]], z[corners[(k + 1) % 3]]
+            key = tuple(sorted((face[k], face[(k + 1) % 3])))
+            # Far out a coordinate resolves this much.
+            blur = 1e-15 / min(1 - abs(p) ** 2, 1 - abs(q) ** 2)
+            lengths.setdefault(key, []).append((2 * np.arctanh(abs((p - q) / (1 - p.conjugate() * q))), blur))
+    pairs = [two for two in lengths.values() if len(two) == 2]
+    off = max(abs(a - b) / (1e-8 + 8 * max(x, y)) for (a, x), (b, y) in pairs)
+    check(name + " seams", off <= 1, f"{off}")
+
+
+def check_deck(name, path, genus):
+    group = json.load(open(path))
+    matrices = {k: np.array([[complex(*z) for z in row] for row in m]) for k, m in group["generators"].items()}
+    expected = [x for i in range(1, genus + 1) for x in (f"a{i}", f"b{i}", f"a{i}^-1", f"b{i}^-1")]
+    check(name + " word", group["word"] == expected, group["word"])
+    product, largest = np.eye(2, dtype=complex), 1.0
+    for letter in group["word"]:
+        m = matrices[letter.removesuffix("^-1")]
+        product = product @ (np.linalg.inv(m) if letter.endswith("^-1") else m)
+        largest = max(largest, np.linalg.norm(product) ** 2)
+    off = min(np.linalg.norm(product - s * np.eye(2)) for s in (1, -1)) / largest
+    check(name + " relation", off <= 1e-8, f"{off}")
+    for k, m in matrices.items():
+        if genus == 1:
+            check(f"{name} {k} translation", abs(m[0, 0] - 1) <= 1e-10 and m[1, 0] == 0, m)
+        else:
+            size = abs(m).max() ** 2
+            unit = max(abs(m[1, 1] - m[0, 0].conjugate()), abs(m[1, 0] - m[0, 1].conjugate()), abs(np.linalg.det(m) - 1))
+            check(f"{name} {k} isometry of the disk", unit <= 1e-13 * max(size, 1), f"{unit}")
+            check(f"{name} {k} hyperbolic", abs(np.trace(m)) > 2, np.trace(m))
+
+
+def check_sphere(name, path, source, u_range):
+    v, _, f, _ = read_obj(path)
+    v0, _, f0, _ = read_obj(source)
+    check(name + " vertices", len(v) == len(v0) and len(f) == len(f0), f"{len(v)} of {len(v0)}")
+    check(name + " radius", np.abs((v * v).sum(1) - 1).max() <= 1e-14, "off the sphere")
+    n = np.cross(v[f[:, 1]] - v[f[:, 0]], v[f[:, 2]] - v[f[:, 0]])
+    far = {}
+    for i, face in enumerate(f):
+        for k in range(3):
+            far.setdefault(tuple(sorted((face[k], face[(k + 1) % 3]))), []).append((i, face[(k + 2) % 3]))
+    check(name + " closed", all(len(x) == 2 for x in far.values()), "an edge without two faces")
+    if u_range < 30:
+        over = max(n[i] @ (v[z] - v[f[i, 0]]) / np.linalg.norm(n[i]) for (i, _), (_, z) in far.values())
+        check(name + " convex", over <= 1e-12, f"{over}")
+    area = np.linalg.norm(np.cross(v0[f0[:, 1]] - v0[f0[:, 0]], v0[f0[:, 2]] - v0[f0[:, 0]]), axis=1) / 6
+    weight = np.zeros(len(v0))
+    np.add.at(weight, f0.ravel(), np.repeat(area, 3))
+    centre = np.linalg.norm(weight @ v) / weight.sum()
+    check(name + " centre", centre <= 1e-9, f"{centre}")
+
+
+def check_copies(name, path, generators):
+    """Every copy is the first one, moved by the matrix of its name."""
+    group = json.load(open(generators))["generators"]
+    matrices = {k: np.array([[complex(*z) for z in row] for row in m]) for k, m in group.items()}
+    copies = {}
+    for line in open(path):
+        word, *rest = line.split()
+        if word == "o":
+            copies[rest[0]] = current = []
+        elif word == "v":
+            current.append(complex(float(rest[0]), float(rest[1])))
+    first = np.array(copies["1"])
+    worst = 0.0
+    for letters, points in copies.items():
+        m = np.eye(2, dtype=complex)
+        for letter in letters.split(".") if letters != "1" else []:
+            g = matrices[letter.removesuffix("^-1")]
+            m = m @ (np.linalg.inv(g) if letter.endswith("^-1") else g)
+        moved = (m[0, 0] * first + m[0, 1]) / (m[1, 0] * first + m[1, 1])
+        worst = max(worst, (np.abs(moved - points) / np.maximum(1, np.abs(moved))).max())
+    check(name + " copies", worst <= 1e-8, f"{worst}")
+
+
+def uniformize(name, mesh, genus, *options):
+    with tempfile.TemporaryDirectory() as out:
+        path = lambda file: os.path.join(out, file)
+        files = ["--metric", path("m.json"), "--report", path("r.json"), "--generators", path("c.json")]
+        files += ["--sphere", path("s.obj")] if genus == 0 else ["--uv", path("uv.obj"), "--cover", path("all.obj")]
+        command = "uniformize" if genus == 0 else "cover"
+        depth = [] if genus == 0 else ["--depth", "1"]
+        code = subprocess.run([RICCI, command, mesh, *depth, *options, *files, "--quiet"]).returncode
+        report = json.load(open(path("r.json")))
+        check(name + " uniformizes", code == 0, f"exit {code}, {report['checks']}")
+        check_metric(name, path("m.json"), report["result"]["max_curvature_error"])
+        if genus == 0:
+            check_sphere(name, path("s.obj"), mesh, report["result"]["u_range"])
+            return
+        check_deck(name, path("c.json"), genus)
+        check_copies(name, path("all.obj"), path("c.json"))
+        if genus == 1:
+            check_uv(name, path("uv.obj"), mesh, path("m.json"))
+        else:
+            check_disk(name, path("uv.obj"), mesh)
+            # The area by l'Huilier's formula, without angles.
+            metric = json.load(open(path("m.json")))
+            a, b, c = np.array(metric["lengths"], np.longdouble).T
+            s = (a + b + c) / 2
+            root = np.sqrt(np.tanh(s / 2) * np.tanh((s - a) / 2) * np.tanh((s - b) / 2) * np.tanh((s - c) / 2))
+            area = float((4 * np.arctan(root)).sum())
+            exact = 4 * np.pi * (genus - 1)
+            check(name + " area of the metric", abs(area - exact) <= 1e-9 * exact, f"{area} of {exact}")
+
+
 def run(name, mesh, *options):
     with tempfile.TemporaryDirectory() as out:
         path = lambda file: os.path.join(out, file)
         files = ["--metric", path("m.json"), "--report", path("r.json")]
         plane = "h2" not in options
-        if plane:
-            files += ["--uv", path("uv.obj")]
+        files += ["--uv", path("uv.obj")]
         code = subprocess.run([RICCI, "flow", mesh, *options, *files, "--quiet"]).returncode
         report = json.load(open(path("r.json")))
         result, checks = report["result"], report["checks"]
@@ -129,6 +262,8 @@ def run(name, mesh, *options):
             check_metric(name, path("m.json"), result["max_curvature_error"])
             if plane:
                 check_uv(name, path("uv.obj"), mesh, path("m.json"))
+            else:
+                check_disk(name, path("uv.obj"), mesh)
         return code
 
 
@@ -147,9 +282,19 @@ with tempfile.TemporaryDirectory() as folder:
             code = run(f"{shape} {' '.join(options)}", mesh, *options)
             check(f"{shape} {options} converges", code == 0, f"exit {code}")
 
+    for shape, genus in (("sphere", 0), ("ellipsoid", 0), ("torus", 1), ("knot", 1), ("genus", 2)):
+        mesh = os.path.join(folder, shape + ".obj")
+        check(shape + " make", subprocess.run([RICCI, "make", shape, "-o", mesh, "--quiet"]).returncode == 0)
+        uniformize(shape + " uniformized", mesh, genus)
+    mesh = os.path.join(folder, "three.obj")
+    check("genus 3 make", subprocess.run([RICCI, "make", "genus", "--genus", "3", "-n", "5", "-o", mesh, "--quiet"]).returncode == 0)
+    uniformize("genus 3 uniformized", mesh, 3)
+
 names = "bunny_libigl camel_b cow_cgal face_1180 genus3 kitten_10k knot1 mushroom pipe spot_low".split()
 good = os.path.join(CORPUS, "good")
 if os.path.isdir(good):
+    for name, genus in (("spot_low", 0), ("hand_cgal", 0), ("bob", 1), ("eight_315", 2), ("pretzel", 3), ("bamboo_pen", 8)):
+        uniformize(name + " uniformized", os.path.join(good, name + ".obj"), genus)
     for name in names:
         for scheme in ("yamabe", "inversive"):
             code = run(f"{name} {scheme} flips", os.path.join(good, name + ".obj"), "--space", "e2", "--scheme", scheme)

@@ -82,8 +82,8 @@ Files
     --metric M.json            faces, lengths, eta (per face, opposite the corners: bc, ca, ab), u,
                                conformal_factor, epsilon, target, boundary; `input_geometry` is the
                                geometry that `lengths` are in, so the file can be read back as a MESH
-    --uv OUT.obj | OUT.glb     the surface with the layout as texture coordinates, scaled to its area, and
-                               the input's colours and normals; with --homogeneous (.obj) each vt is
+    --uv OUT.obj | OUT.glb     the surface with the layout as texture coordinates, in E² scaled to its area, in
+                               H² of the Poincaré disk, and the input's colours and normals; with --homogeneous (.obj) each vt is
                                `qx qy q`: linear in a face are these three, the texture is at (x, y)
     --circles C.json           vertex circles and the circles orthogonal to them, in the layout's coordinates
     --trace T.csv              step,energy,max_curvature_error,area,step_size (gradient flow)";

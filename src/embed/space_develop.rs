@@ -2,6 +2,7 @@
 
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
+use crate::geometry::motion::Real;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Metric;
@@ -24,7 +25,8 @@ pub(super) struct Faces<'a> {
     pub differences: PerFace<[f64; 3]>,
     /// `[cos, sin]` of half the angle at each corner.
     half_angles: PerFace<[[Twofold; 2]; 3]>,
-    chords: PerEdge<Twofold>,
+    /// Per edge the a and b of the translation along it ([`Motion::translation_of_chord`]).
+    steps: PerEdge<[Twofold; 2]>,
 }
 
 /// Where every face lies.
@@ -42,7 +44,9 @@ impl<'a> Faces<'a> {
         let chords = metric.half_chords(mesh)?;
         let half_angles = half_angles(metric, mesh, &chords);
         let differences = metric.differences(mesh)?;
-        Ok(Faces { mesh, space: metric.space, differences, half_angles, chords })
+        let step = |&chord: &Twofold| [Motion::translation_of_chord(chord, metric.space).a[0], chord];
+        let steps = chords.iter().map(step).collect::<Vec<_>>().into();
+        Ok(Faces { mesh, space: metric.space, differences, half_angles, steps })
     }
 
     /// Whether the lengths break the triangle inequality.
@@ -85,8 +89,8 @@ impl<'a> Faces<'a> {
                 let across = side.twin();
                 let open = cut.is_none_or(|cut| !cut.is_cut[side.edge()]);
                 if open && mesh.face(across).is_some_and(|g| !done[g]) {
-                    let apex = self.apex(&self.across(&frame, across), across);
-                    let [x, y] = apex.b.map(f64::from);
+                    // The order needs no more than doubles.
+                    let [x, y] = self.apex(&self.across(&frame.rounded(), across), across).b;
                     if !(x.is_finite() && y.is_finite()) {
                         return Err(Error::Layout(format!(
                             "edge {} lies beyond the range of doubles",
@@ -147,38 +151,36 @@ impl<'a> Faces<'a> {
     }
 
     /// The frame of `across`, the twin of the half-edge with this frame.
-    pub fn across(&self, frame: &Frame, across: HalfedgeId) -> Frame {
-        let half_turn = Motion::rotation([0.0.into(), 1.0.into()], self.space);
-        frame.compose(
-            &Motion::translation_of_chord(self.chords[across.edge()], self.space).compose(&half_turn),
-        )
+    pub fn across<T: Real + From<Twofold>>(&self, frame: &Motion<T>, across: HalfedgeId) -> Motion<T> {
+        let half_turn = [0.0, 1.0].map(T::from);
+        frame.after_translation(self.step(across)).after_rotation(half_turn)
     }
 
     /// The frame of the next half-edge of the face.
-    fn along(&self, frame: &Frame, h: HalfedgeId) -> Frame {
+    fn along<T: Real + From<Twofold>>(&self, frame: &Motion<T>, h: HalfedgeId) -> Motion<T> {
         let [cos, sin] = self.half_angle(self.mesh.next(h));
-        let turn = Motion::rotation([sin, cos], self.space); // by π − θ
-        frame.compose(&Motion::translation_of_chord(self.chords[h.edge()], self.space).compose(&turn))
+        frame.after_translation(self.step(h)).after_rotation([sin, cos]) // by π − θ
     }
 
     /// What brings the origin to the corner opposite `h`, from that end of `h` which is nearer to the origin.
-    fn apex(&self, frame: &Frame, h: HalfedgeId) -> Frame {
-        let (next, prev) = (self.mesh.next(h), self.mesh.prev(h));
+    fn apex<T: Real + From<Twofold>>(&self, frame: &Motion<T>, h: HalfedgeId) -> Motion<T> {
         let tip = self.along(frame, h);
-        let far = |m: &Frame| f64::from(m.b[0]).hypot(m.b[1].into());
-        let (from, chord) = match far(frame) <= far(&tip) {
-            true => {
-                (frame.compose(&Motion::rotation(self.half_angle(h), self.space)), self.chords[prev.edge()])
-            }
-            false => (tip, self.chords[next.edge()]),
-        };
-        from.compose(&Motion::translation_of_chord(chord, self.space))
+        let far = |m: &Motion<T>| -> f64 { m.b[0].into().hypot(m.b[1].into()) };
+        match far(frame) <= far(&tip) {
+            true => frame.after_rotation(self.half_angle(h)).after_translation(self.step(self.mesh.prev(h))),
+            false => tip.after_translation(self.step(self.mesh.next(h))),
+        }
+    }
+
+    /// The translation along an edge.
+    fn step<T: From<Twofold>>(&self, h: HalfedgeId) -> [T; 2] {
+        self.steps[h.edge()].map(T::from)
     }
 
     /// `[cos, sin]` of half the angle at the origin of `h` in its face.
-    fn half_angle(&self, h: HalfedgeId) -> [Twofold; 2] {
-        let Some(f) = self.mesh.face(h) else { return [1.0.into(), 0.0.into()] };
+    fn half_angle<T: From<Twofold>>(&self, h: HalfedgeId) -> [T; 2] {
+        let Some(f) = self.mesh.face(h) else { return [Twofold::from(1.0), 0.0.into()].map(T::from) };
         let corner = self.mesh.face_halfedges(f).iter().position(|&x| x == h).unwrap_or(0);
-        self.half_angles[f][corner]
+        self.half_angles[f][corner].map(T::from)
     }
 }

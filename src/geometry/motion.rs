@@ -94,6 +94,19 @@ impl<T: Real> Motion<T> {
         Motion { space: self.space, a, b }
     }
 
+    /// `self` after the rotation about the origin whose half angle has this `[cos, sin]`: [`Motion::rotation`], at a quarter of the price.
+    pub fn after_rotation(&self, half_angle: [T; 2]) -> Self {
+        Motion { space: self.space, a: mul(self.a, half_angle), b: mul(self.b, conj(half_angle)) }
+    }
+
+    /// `self` after the translation along the x axis with these a and b: [`Motion::translation_of_chord`], at a quarter of the price.
+    pub fn after_translation(&self, [cos, chord]: [T; 2]) -> Self {
+        let sign = self.sign();
+        let a = add(scaled(cos, self.a), scaled(-sign * chord, self.b));
+        let b = add(scaled(chord, self.a), scaled(cos, self.b));
+        Motion { space: self.space, a, b }
+    }
+
     /// The inverse.
     pub fn inverse(&self) -> Self {
         Motion { space: self.space, a: conj(self.a), b: self.b.map(|x| -x) }
@@ -324,6 +337,12 @@ mod tests {
                     }
                 }
                 assert_eq!(g.origin(), g.apply([0.0, 0.0, 1.0]));
+                let ([c, s], step) = ([0.6, 0.8], Motion::translation(0.7, space));
+                let turned = g.after_rotation([c, s]).after_translation([step.a[0], step.b[0]]);
+                let composed = g.compose(&Motion::rotation([c, s], space)).compose(&step);
+                let parts = |m: Motion| [m.a, m.b].concat();
+                let same = |(x, y): (f64, f64)| (x - y).abs() < 1e-13;
+                assert!(parts(turned).into_iter().zip(parts(composed)).all(same), "{space}");
             }
         }
     }

@@ -53,7 +53,7 @@ impl<'a> Coat<'a> {
         };
         let textured = wish.texture != Texture::None;
         let patches = wish.corner_uv.zip(wish.tiles).filter(|_| textured).map(|(uv, tiles)| patch(uv, tiles));
-        let half_width = (WIRE * wish.size as f64).max(0.35);
+        let half_width = wire_width(wish.size);
         let wire = wish.wire.then(|| triangles.iter().map(|t| Wire::new(*t, half_width)).collect());
         let field = wish.field.filter(|f| f.corners.len() == triangles.len());
         let field = field.map(|f| (f, f.scale.table(TABLE)));
@@ -80,8 +80,13 @@ impl<'a> Coat<'a> {
     }
 }
 
+/// Half the width of a wire, pixels.
+pub fn wire_width(size: usize) -> f64 {
+    (WIRE * size as f64).max(0.35)
+}
+
 /// The edges of one face on the panel.
-struct Wire {
+pub struct Wire {
     /// Heights of the triangle in pixels: a barycentric coordinate times its height is the distance from its side.
     heights: [f64; 3],
     half_width: f64,
@@ -89,7 +94,8 @@ struct Wire {
 }
 
 impl Wire {
-    fn new(p: [[f64; 2]; 3], half_width: f64) -> Wire {
+    /// A face in pixels; `half_width` of [`wire_width`].
+    pub fn new(p: [[f64; 2]; 3], half_width: f64) -> Wire {
         let area = doubled_area(p).abs();
         let side = |k: usize| {
             let (a, b) = (p[(k + 1) % 3], p[(k + 2) % 3]);
@@ -102,7 +108,7 @@ impl Wire {
     }
 
     /// Each of the two faces at an edge draws its half, whose outline is softened over half a pixel.
-    fn opacity(&self, b: [f64; 3]) -> f64 {
+    pub fn opacity(&self, b: [f64; 3]) -> f64 {
         let distance = (0..3).map(|k| b[k] * self.heights[k]).fold(f64::INFINITY, f64::min);
         self.opacity * ((self.half_width - distance) * 2.0 + 0.5).clamp(0.0, 1.0)
     }

@@ -1,7 +1,7 @@
 //! A drawing in a model of the plane or of the hyperbolic plane: cells with a pattern, lines and lettering over one another.
 
 use super::Style;
-use super::coat::{DARK, LIGHT};
+use super::coat::{DARK, LIGHT, Wire, wire_width};
 use super::color::{INK, Rgb, from_hex, mix, seam_color};
 use super::fit::Fit;
 use super::lettering::{HALO, lettering};
@@ -188,7 +188,14 @@ pub fn draw(drawing: &Drawing<'_>, style: &Style, threads: usize) -> Image {
         }
     }
     let pattern = drawing.pattern.filter(|_| style.texture != Texture::None);
-    let panel = Panel { drawing, fit, pattern, texture: style.texture, strokes };
+    let panel = Panel {
+        drawing,
+        fit,
+        pattern,
+        texture: style.texture,
+        strokes,
+        wire: style.wire.then(|| wire_width(style.size)),
+    };
     render(&shapes, fit.width, fit.height, &panel, threads)
 }
 
@@ -198,6 +205,8 @@ struct Panel<'a> {
     pattern: Option<Pattern<'a>>,
     texture: Texture,
     strokes: Vec<Rgb>,
+    /// Half the width of the edges of the mesh, where they are drawn.
+    wire: Option<f64>,
 }
 
 impl Painter for Panel<'_> {
@@ -218,15 +227,17 @@ impl Painter for Panel<'_> {
             return if inside { empty } else { [1.0; 3] };
         };
         let [light, dark] = tints(cell.tint);
+        let pixels = cell.corners.map(|p| self.fit.apply(p));
         let share = match (self.pattern, cell.face) {
             (Some(Pattern { uv, tiles }), Some(f)) => {
                 let f = f as usize;
-                let pixels = cell.corners.map(|p| self.fit.apply(p));
                 Patch::new(self.texture, uv[f], tiles, f, pixels).value(hit.local)
             }
             (Some(_), None) => 0.5,
             (None, _) => 0.25,
         };
-        mix(light, dark, share)
+        let wire = self.wire.filter(|_| cell.face.is_some());
+        let wire = wire.map_or(0.0, |half_width| Wire::new(pixels, half_width).opacity(hit.local));
+        mix(mix(light, dark, share), INK, wire)
     }
 }

@@ -5,6 +5,8 @@
 
 mod attributes;
 mod charts;
+mod complex;
+mod cover;
 mod files;
 mod flips;
 mod flow;
@@ -14,4 +16,5 @@ mod picture;
 mod repair;
 mod run;
 mod surfaces;
+mod uniformize;
 mod usage;

@@ -182,16 +182,18 @@ fn what_cannot_be_made_is_exit_2() {
 }
 
 #[test]
-fn the_demo_makes_three_surfaces_and_flattens_them() {
+fn the_demo_flattens_surfaces_and_uniformizes_them() {
     let place = Place::new();
     let ended = place.expect(0, "demo out --report r.json");
     let report = place.json("r.json");
     assert_eq!((&report["command"], &report["input"]), (&"demo".into(), &serde_json::Value::Null));
-    for (run, name) in report["result"]["runs"].as_array().unwrap().iter().zip(["torus", "genus2", "disk"]) {
+    for (run, name) in
+        report["result"]["runs"].as_array().unwrap().iter().zip(["torus", "genus2", "disk", "two", "plane"])
+    {
         assert_eq!((&run["name"], &run["result"]["converged"]), (&name.into(), &true.into()));
         assert_eq!(report["checks"][name]["holds"], true);
     }
-    for (name, genus) in [("torus", 1), ("genus2", 2), ("disk", 0)] {
+    for (name, genus) in [("torus", 1), ("genus2", 2), ("disk", 0), ("two", 2), ("plane", 1)] {
         assert!(ended.out.contains(name));
         for suffix in [".obj", ".png", "_uv.obj", "_metric.json", "_report.json"] {
             assert!(place.exists(&format!("out/{name}{suffix}")), "{name}{suffix}");

@@ -96,9 +96,9 @@ fn wishes_that_cannot_be_met_are_exit_2() {
         "flow torus.obj --picture p.png --zoom 3,0.5",
         "flow torus.obj --picture p.png --zoom 3,inf",
         "flow torus.obj --picture p.png --zoom 384,2",
-        "flow torus.obj --picture p.png --space h2 --zoom 3,2",
-        "flow torus.obj --picture p.png --space h2 --color pieces",
-        "flow torus.obj --picture p.png --space h2 --color qc",
+        "flow torus.obj --picture p.png --space s2 --zoom 3,2",
+        "flow torus.obj --picture p.png --space s2 --color pieces",
+        "flow torus.obj --picture p.png --space s2 --color qc",
         "info torus.obj --picture p.png --color qc",
         "info torus.obj --picture p.svg",
     ] {

@@ -29,7 +29,7 @@ fn requests_that_do_not_exist_are_exit_2() {
         ("flow torus.obj --target auto:97", "96 interior"),
         ("flow torus.obj --target auto:4 --pin 3", "leave one out"),
         ("flow two.obj --target auto:4 --space h2", "e2 only"),
-        ("flow two.obj --picture p.svg", "use .png"),
+        ("flow disk.obj --space h2 --picture p.svg", "layout alone"),
         ("flow torus.obj --picture p.jpg", ".png or .svg"),
         ("flow torus.obj --charts --scheme tangential --circles c.json", "leave --charts or --circles out"),
         ("flow torus.obj --margin 0.1", "--charts"),
@@ -39,8 +39,8 @@ fn requests_that_do_not_exist_are_exit_2() {
         ("flow disk.obj --target uniform", "boundary"),
         ("flow torus.obj --target single:96", "0 to 95"),
         ("flow torus.obj --picture p.png --zoom 96,2", "0 to 95"),
-        ("flow two.obj --uv o.obj", "--space e2"),
-        ("flow ball.obj --space s2 --uv o.obj", "s2"),
+        ("flow disk.obj --space h2 --uv o.obj", "--space e2"),
+        ("flow ball.obj --space s2 --uv o.obj", "ricci uniformize"),
         ("flow torus.obj --circles c.json", "yamabe has no circles"),
         ("flow torus.obj --trace t.csv", "--method gradient"),
         ("flow torus.obj --area-normalised", "--method gradient"),
@@ -166,12 +166,12 @@ fn ctrl_c_is_exit_4_and_leaves_nothing() {
 fn every_command_has_help_with_an_example_and_completions_exist() {
     let place = Place::new();
     let help = place.expect(0, "help").out;
-    for command in ["info", "repair", "flow", "make", "demo", "completions"] {
+    for command in ["info", "repair", "flow", "uniformize", "cover", "make", "demo", "completions"] {
         assert!(help.contains(&format!("\n  {command} ")), "{command}");
         let one = place.expect(0, &format!("help {command}")).out;
         assert!(one.contains("Example") && one.contains(&format!("ricci {command}")), "{command}");
     }
-    for later in ["uniformize", "cover", "harmonic", "forms", "match", "structure", "spline"] {
+    for later in ["harmonic", "forms", "match", "structure", "spline"] {
         assert!(!help.contains(&format!("\n  {later}")), "{later}");
         place.expect(2, later);
     }
