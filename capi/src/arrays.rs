@@ -1,8 +1,10 @@
 //! Arrays from and to C. Nothing here trusts alignment; counts are checked before they are multiplied.
 
 use crate::failure::{Failure, Outcome};
+use crate::guard::output;
+use crate::mesh::halfedge;
 use crate::status::ricci_status;
-use ricci::mesh::Point;
+use ricci::mesh::{HalfedgeId, Mesh, Point};
 use std::ffi::{CStr, c_char};
 use std::path::PathBuf;
 
@@ -118,6 +120,54 @@ pub fn copy_rows<T: Copy>(
     check_buffer(what, entries.len(), buffer, capacity)?;
     copy_out("starts", starts, starts_buffer, starts_capacity)?;
     copy_out(what, entries, buffer, capacity)
+}
+
+/// Copy results whose number the caller cannot know before, with that number; for no buffer of no entries the number alone.
+pub fn copy_counted<T: Copy>(
+    what: &str,
+    values: &[T],
+    buffer: *mut T,
+    capacity: usize,
+    count: *mut usize,
+) -> Outcome {
+    let count = output("the place for the number of entries", count)?;
+    if !buffer.is_null() || capacity > 0 {
+        copy_out(what, values, buffer, capacity)?;
+    }
+    count.set(values.len());
+    Ok(())
+}
+
+/// Rows of different lengths, one after the other, and where each starts and the last one ends.
+pub fn flattened<T>(rows: impl IntoIterator<Item = impl IntoIterator<Item = T>>) -> (Vec<T>, Vec<usize>) {
+    let (mut entries, mut starts) = (Vec::new(), vec![0]);
+    for row in rows {
+        entries.extend(row);
+        starts.push(entries.len());
+    }
+    (entries, starts)
+}
+
+/// Half-edges as signed edge numbers of a mesh.
+pub fn halfedges(what: &str, mesh: &Mesh, data: *const i32, n: usize) -> Outcome<Vec<HalfedgeId>> {
+    let known = |(i, &number): (usize, &i32)| {
+        halfedge(mesh, number).ok_or_else(|| {
+            let n = mesh.n_edges();
+            Failure::argument(format!(
+                "{what}[{i}] is {number}: edges are numbered 1 to {n}, -1 to -{n} against them"
+            ))
+        })
+    };
+    array(what, data, n)?.iter().enumerate().map(known).collect()
+}
+
+/// Finite points in ambient coordinates.
+pub fn ambient(what: &str, data: *const f64, n: usize) -> Outcome<Vec<[f64; 3]>> {
+    let points: Vec<[f64; 3]> = array(what, data.cast(), n)?;
+    match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        Some(i) => Err(Failure::argument(format!("{what}: row {i} is not finite"))),
+        None => Ok(points),
+    }
 }
 
 /// A file name.

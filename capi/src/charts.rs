@@ -2,11 +2,14 @@
 
 use crate::arrays::copy_out;
 use crate::control::{self, ricci_control};
+use crate::drawing;
+use crate::failure::Outcome;
 use crate::guard::{self, Handle, Poison, output};
 use crate::layout::ricci_layout;
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::embed::{ChartOptions, Charts, charts};
+use ricci::geometry::Space;
 use ricci::mesh::{Mesh, Point};
 use ricci::metric::{Refinement, SurfaceMetric};
 use std::sync::Arc;
@@ -84,9 +87,9 @@ pub unsafe extern "C" fn ricci_charts_new(
 ) -> ricci_status {
     guard::call(|door| {
         let place = output("charts", charts)?;
-        let ricci_layout { mesh, positions, layout, surface, refinement, .. } = door.shared(layout)?;
+        let ricci_layout { mesh, positions, drawing, surface, refinement, .. } = door.shared(layout)?;
         let charts =
-            self::charts(mesh, |h| layout.corner_uv(h), &ChartOptions { margin }, &control::of(control))?;
+            self::charts(mesh, |h| drawing.corner(h), &ChartOptions { margin }, &control::of(control))?;
         place.hand_over(ricci_charts {
             poison: Poison::default(),
             mesh: mesh.clone(),
@@ -192,6 +195,11 @@ pub unsafe extern "C" fn ricci_charts_corners(
 }
 
 impl ricci_charts {
+    /// The layout is one in the plane.
+    pub(crate) fn check_plane(&self) -> Outcome {
+        if self.surface.metric().space == Space::E2 { Ok(()) } else { Err(drawing::not_projective()) }
+    }
+
     pub(crate) fn corners(&self) -> Vec<[u32; 3]> {
         let index = &self.charts.corner_index;
         self.mesh.faces().map(|f| self.mesh.face_halfedges(f).map(|h| index[h])).collect()

@@ -2,6 +2,7 @@
 
 use crate::arrays::{self, copy_out};
 use crate::control::{self, ricci_control};
+use crate::drawing::Drawing;
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, Handle, Poison, output};
 use crate::mesh::signed_edge;
@@ -10,7 +11,7 @@ use crate::refined;
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::Control;
-use ricci::embed::{Layout, Quality, layout_of, layout_refined, quality, refined_cut};
+use ricci::embed::{Quality, layout_of, layout_refined, quality, refined_cut};
 use ricci::geometry::space::Space;
 use ricci::mesh::{Mesh, Point, VertexId};
 use ricci::metric::curvature::curvature;
@@ -18,19 +19,20 @@ use ricci::metric::{Refinement, SurfaceMetric};
 use ricci::topology::cut_graph;
 use std::sync::Arc;
 
-/// A flat metric unrolled into the plane along a cut.
+/// A surface unrolled into the plane along a cut: of a flat metric (ricci_layout_new), or of a uniformized surface in a model of
+/// the hyperbolic plane (ricci_quotient_layout).
 ///
 /// What is unrolled is the mesh that the metric was made from. If edges were flipped its faces are cut by the
 /// edges of the metric's triangulation: the *common refinement*, whose faces are parts of faces of both, and
 /// whose vertices are those of the mesh, with their numbers, then the crossings of edges of both.
 /// ricci_layout_mesh gives it; faces and points of a layout are its own.
 pub struct ricci_layout {
-    poison: Poison,
+    pub(crate) poison: Poison,
     /// What is unrolled.
     pub(crate) mesh: Arc<Mesh>,
     pub(crate) positions: Option<Arc<Vec<Point>>>,
-    pub(crate) layout: Layout,
-    quality: Quality,
+    pub(crate) drawing: Drawing,
+    pub(crate) quality: Quality,
     pub(crate) surface: Arc<SurfaceMetric>,
     /// If edges were flipped.
     pub(crate) refinement: Option<Arc<Refinement>>,
@@ -60,11 +62,12 @@ pub struct ricci_layout_summary {
     /// Faces that are not counterclockwise: by exact arithmetic; of a refinement, those that are clockwise by
     /// more than rounding.
     pub n_flipped: usize,
-    /// Largest disagreement of an edge vector with the placed points, relative to `diameter`.
+    /// Largest disagreement of an edge vector with the placed points, relative to `diameter`; in the hyperbolic plane the largest
+    /// distance.
     pub consistency: f64,
     /// Diagonal of the bounding box.
     pub diameter: f64,
-    /// Area; that of the input surface where its lengths are Euclidean.
+    /// Area; that of the input surface where its lengths are Euclidean; in the hyperbolic plane that of the metric.
     pub area: f64,
     /// Quasi-conformal dilatation, at least 1: mean over the input's area.
     pub qc_mean: f64,
@@ -105,7 +108,10 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
     if class.space != Space::E2 {
         return Err(Failure::new(
             ricci_status::RICCI_LAYOUT,
-            format!("layouts exist in e2, this metric lives in {}", class.space),
+            format!(
+                "this metric lives in {}: ricci_layout_new unrolls those in e2, ricci_quotient_new also closed surfaces in h2",
+                class.space
+            ),
         ));
     }
     // That of the input, where it has one in the plane.
@@ -122,7 +128,8 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
         }
         let quality = quality(mesh, given_lengths, &layout)?;
         let (mesh, positions) = (mesh.clone(), positions.clone());
-        return Ok(ricci_layout { poison, mesh, positions, layout, quality, surface, refinement: None });
+        let drawing = Drawing::from(layout);
+        return Ok(ricci_layout { poison, mesh, positions, drawing, quality, surface, refinement: None });
     }
     let refinement = surface.refinement(control)?;
     let cut = refined_cut(&refinement, mesh, class, cones, control)?;
@@ -135,9 +142,9 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
         Some(positions) => Some(Arc::new(refinement.from_input_vertices(positions)?)),
         None => None,
     };
-    let (mesh, layout) = (Arc::new(refinement.mesh.clone()), refined.layout);
+    let (mesh, drawing) = (Arc::new(refinement.mesh.clone()), Drawing::from(refined.layout));
     let refinement = Some(Arc::new(refinement));
-    Ok(ricci_layout { poison, mesh, positions, layout, quality, surface, refinement })
+    Ok(ricci_layout { poison, mesh, positions, drawing, quality, surface, refinement })
 }
 
 /// Unroll a Euclidean metric into the plane.
@@ -196,18 +203,18 @@ pub unsafe extern "C" fn ricci_layout_summarise(
     size: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let ricci_layout { mesh, layout, quality, surface, refinement, .. } = door.shared(layout)?;
+        let ricci_layout { mesh, drawing, quality, surface, refinement, .. } = door.shared(layout)?;
         let n_given_vertices = surface.given().n_vertices();
         let figures = ricci_layout_summary {
             size,
             n_faces: mesh.n_faces(),
-            n_points: layout.coordinates.len(),
-            n_seams: layout.seams.len(),
-            n_seam_edges: layout.seams.iter().map(|seam| seam.halfedges.len()).sum(),
-            n_flipped: layout.flipped.len(),
-            consistency: layout.consistency,
-            diameter: layout.diameter,
-            area: layout.area,
+            n_points: drawing.points.len(),
+            n_seams: drawing.seams.len(),
+            n_seam_edges: drawing.seams.iter().map(Vec::len).sum(),
+            n_flipped: drawing.flipped.len(),
+            consistency: drawing.consistency,
+            diameter: drawing.diameter,
+            area: drawing.area,
             qc_mean: quality.qc_mean,
             qc_max: quality.qc_max,
             area_ratio_min: quality.area_ratio_min,
@@ -237,7 +244,7 @@ pub unsafe extern "C" fn ricci_layout_points(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        copy_out("points", door.shared(layout)?.layout.coordinates.as_flattened(), points, capacity)
+        copy_out("points", door.shared(layout)?.drawing.points.as_flattened(), points, capacity)
     })
 }
 
@@ -274,15 +281,16 @@ pub unsafe extern "C" fn ricci_layout_uv(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let ricci_layout { mesh, layout, .. } = door.shared(layout)?;
-        let corners: Vec<[[f64; 2]; 3]> = mesh.faces().map(|f| layout.face_uv(mesh, f)).collect();
+        let ricci_layout { mesh, drawing, .. } = door.shared(layout)?;
+        let corner_points = |f| mesh.face_halfedges(f).map(|h| drawing.corner(h));
+        let corners: Vec<[[f64; 2]; 3]> = mesh.faces().map(corner_points).collect();
         copy_out("uv", corners.as_flattened().as_flattened(), uv, capacity)
     })
 }
 
 /// The motion of the plane that carries the left side of every seam onto its right side.
 ///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (in the hyperbolic plane).
 ///
 /// @param layout    the layout.
 /// @param seams     out: n_seams x 4: rotation (radians), translation x, y, residual relative to the
@@ -295,13 +303,12 @@ pub unsafe extern "C" fn ricci_layout_seams(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let rows: Vec<[f64; 4]> = door
-            .shared(layout)?
-            .layout
-            .seams
-            .iter()
-            .map(|seam| [seam.rotation, seam.translation[0], seam.translation[1], seam.residual])
-            .collect();
+        let drawing = &door.shared(layout)?.drawing;
+        let rows = drawing.motions.as_ref().ok_or_else(|| {
+            let message =
+                "the sides of these seams are paired by isometries of h2: ricci_quotient_sides has them";
+            Failure::new(ricci_status::RICCI_LAYOUT, message)
+        })?;
         copy_out("seams", rows.as_flattened(), seams, capacity)
     })
 }
@@ -325,12 +332,9 @@ pub unsafe extern "C" fn ricci_layout_seam_edges(
     starts_capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let seams = &door.shared(layout)?.layout.seams;
-        let (mut numbers, mut offsets) = (Vec::new(), vec![0]);
-        for seam in seams {
-            numbers.extend(seam.halfedges.iter().map(|&h| signed_edge(h)));
-            offsets.push(numbers.len());
-        }
+        let seams = &door.shared(layout)?.drawing.seams;
+        let (numbers, offsets) =
+            arrays::flattened(seams.iter().map(|seam| seam.iter().map(|&h| signed_edge(h))));
         arrays::copy_rows("edges", &numbers, edges, edges_capacity, &offsets, starts, starts_capacity)
     })
 }
@@ -349,7 +353,7 @@ pub unsafe extern "C" fn ricci_layout_flipped(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let flipped: Vec<u32> = door.shared(layout)?.layout.flipped.iter().map(|f| f.0).collect();
+        let flipped: Vec<u32> = door.shared(layout)?.drawing.flipped.iter().map(|f| f.0).collect();
         copy_out("faces", &flipped, faces, capacity)
     })
 }
@@ -388,7 +392,7 @@ pub unsafe extern "C" fn ricci_layout_area_ratio(
 
 impl ricci_layout {
     pub(crate) fn corners(&self) -> Vec<[u32; 3]> {
-        let index = &self.layout.corner_index;
+        let index = &self.drawing.corner_index;
         self.mesh.faces().map(|f| self.mesh.face_halfedges(f).map(|h| index[h])).collect()
     }
 }

@@ -29,9 +29,11 @@ pub unsafe extern "C" fn ricci_layout_write_obj(
 }
 
 /// The same with homogeneous texture coordinates, `vt qx qy q` with the q of ricci_layout_weights: the
-/// projective map of every piece is linear in these three, and divided by the third.
+/// projective map of every piece is linear in these three, and divided by the third. Of a layout in the hyperbolic plane, in the Klein
+/// disk alone.
 ///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN, RICCI_LAYOUT (a model that
+/// is not projective).
 ///
 /// @param layout  the layout.
 /// @param path    file name, NUL-terminated.
@@ -43,7 +45,8 @@ pub unsafe extern "C" fn ricci_layout_write_obj_homogeneous(
     guard::call(|door| {
         let layout = door.shared(layout)?;
         let weights = weights(&layout.surface, layout.refinement.as_ref())?;
-        File::of_layout(layout).write(path, Some(&weights))
+        let heights = layout.drawing.heights()?;
+        File { heights, ..File::of_layout(layout) }.write(path, Some(&weights))
     })
 }
 
@@ -64,7 +67,8 @@ pub unsafe extern "C" fn ricci_charts_write_obj(
 
 /// The same with homogeneous texture coordinates, `vt qx qy q`.
 ///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN, RICCI_LAYOUT (charts of a
+/// layout in the hyperbolic plane).
 ///
 /// @param charts  the charts.
 /// @param path    file name, NUL-terminated.
@@ -75,6 +79,7 @@ pub unsafe extern "C" fn ricci_charts_write_obj_homogeneous(
 ) -> ricci_status {
     guard::call(|door| {
         let charts = door.shared(charts)?;
+        charts.check_plane()?;
         let weights = weights(&charts.surface, charts.refinement.as_ref())?;
         File::of_charts(charts).write(path, Some(&weights))
     })
@@ -86,17 +91,19 @@ struct File<'a> {
     positions: Option<&'a Arc<Vec<Point>>>,
     points: &'a [[f64; 2]],
     corners: Vec<[u32; 3]>,
+    /// Factors of the homogeneous weights, one per point; empty for 1.
+    heights: Vec<f64>,
 }
 
 impl File<'_> {
     fn of_layout(layout: &ricci_layout) -> File<'_> {
-        let (positions, points) = (layout.positions.as_ref(), &layout.layout.coordinates);
-        File { mesh: &layout.mesh, positions, points, corners: layout.corners() }
+        let (positions, points) = (layout.positions.as_ref(), &layout.drawing.points);
+        File { mesh: &layout.mesh, positions, points, corners: layout.corners(), heights: Vec::new() }
     }
 
     fn of_charts(charts: &ricci_charts) -> File<'_> {
         let (positions, points) = (charts.positions.as_ref(), &charts.charts.coordinates);
-        File { mesh: &charts.mesh, positions, points, corners: charts.corners() }
+        File { mesh: &charts.mesh, positions, points, corners: charts.corners(), heights: Vec::new() }
     }
 
     /// Write OBJ; with the homogeneous weights of the vertices, if given.
@@ -111,6 +118,7 @@ impl File<'_> {
             for (f, corners) in self.mesh.faces().zip(&self.corners) {
                 (0..3).for_each(|k| of_points[corners[k] as usize] = weights[of_vertices(f)[k]]);
             }
+            of_points.iter_mut().zip(&self.heights).for_each(|(weight, height)| *weight *= height);
         }
         let faces: Vec<[u32; 3]> = self.mesh.faces().map(|f| of_vertices(f).map(|v| v.0)).collect();
         let data = io::Textured {

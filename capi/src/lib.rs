@@ -8,6 +8,7 @@
 //! | `guard` | nothing unwinds into C; handles are checked, and poisoned after a panic |
 //! | `environment` | the host's floating-point environment |
 //! | `arrays`, `sized`, `choice` | arrays, structs and enum values that come from C |
+//! | `drawing` | what layouts in the plane and in the hyperbolic plane have in common |
 //! | `failure`, `status`, `last_error` | what went wrong |
 //! | `debug` | a panic on request, for tests |
 //!
@@ -23,6 +24,7 @@
 
 mod arrays;
 mod choice;
+mod drawing;
 mod environment;
 mod failure;
 mod guard;
@@ -73,5 +75,27 @@ pub mod transfer;
 pub mod charts;
 
 pub mod layout_file;
+
+pub mod model;
+
+pub mod uniformize;
+
+pub mod sphere;
+
+pub mod stereographic;
+
+pub mod quotient;
+
+pub mod quotient_layout;
+
+pub mod homotopy;
+
+pub mod word;
+
+pub mod domain;
+
+pub mod deck;
+
+pub mod dirichlet;
 
 pub mod debug;

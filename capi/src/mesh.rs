@@ -59,6 +59,13 @@ impl ricci_mesh {
         }
     }
 
+    pub(crate) fn positions_if_any(&self) -> Option<Arc<Vec<Point>>> {
+        match &self.shape {
+            Shape::Positions(positions) => Some(positions.clone()),
+            Shape::Lengths(..) => None,
+        }
+    }
+
     pub(crate) fn lengths(&self) -> Outcome<(Arc<PerEdge<f64>>, Space)> {
         match &self.shape {
             Shape::Positions(positions) => {
@@ -389,6 +396,13 @@ pub unsafe extern "C" fn ricci_mesh_boundary(
 pub(crate) fn signed_edge(h: HalfedgeId) -> i32 {
     let number = h.edge().0 as i32 + 1;
     if h == h.edge().halfedge() { number } else { -number }
+}
+
+/// The half-edge of such a number; none if there is no such edge.
+pub(crate) fn halfedge(mesh: &Mesh, number: i32) -> Option<HalfedgeId> {
+    let e = number.unsigned_abs().checked_sub(1).filter(|&e| (e as usize) < mesh.n_edges())?;
+    let h = ricci::mesh::EdgeId(e).halfedge();
+    Some(if number > 0 { h } else { h.twin() })
 }
 
 pub(crate) fn face_vertices(mesh: &Mesh) -> Vec<[u32; 3]> {

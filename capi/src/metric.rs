@@ -4,7 +4,7 @@ use crate::arrays::{self, copy_out};
 use crate::choice::{choose, name};
 use crate::failure::Outcome;
 use crate::guard::{self, Handle, Poison, output};
-use crate::mesh::{Shape, ricci_mesh};
+use crate::mesh::ricci_mesh;
 use crate::scheme::ricci_scheme;
 use crate::sized::{self, Sized64};
 use crate::space::ricci_space;
@@ -55,11 +55,7 @@ impl ricci_metric {
                 100.0 * initial.max_length_change
             );
         }
-        let positions = match &mesh.shape {
-            Shape::Positions(positions) => Some(positions.clone()),
-            Shape::Lengths(..) => None,
-        };
-        ricci_metric::at(surface, positions)
+        ricci_metric::at(surface, mesh.positions_if_any())
     }
 
     /// A metric of a surface with these positions.

@@ -8,7 +8,6 @@ use crate::layout::ricci_layout;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::status::ricci_status;
 use ricci::Control;
-use ricci::geometry::space::Space;
 use ricci::mesh::{EdgeId, FaceId, PerEdge, PerVertex};
 use ricci::metric::refinement::Crossing;
 use ricci::metric::{Refinement, SurfaceMetric};
@@ -49,10 +48,10 @@ pub unsafe extern "C" fn ricci_layout_mesh(
                 let length = |e: EdgeId| {
                     let [h, twin] = [e.halfedge(), e.halfedge().twin()];
                     let h = if mesh.is_outside(h) { twin } else { h };
-                    let [p, q] = [h, mesh.next(h)].map(|h| layout.layout.corner_uv(h));
-                    (q[0] - p[0]).hypot(q[1] - p[1])
+                    layout.drawing.distance(h, mesh.next(h))
                 };
-                Shape::Lengths(Arc::new(PerEdge::from_fn(mesh.n_edges(), length)), Space::E2)
+                let space = layout.surface.metric().space;
+                Shape::Lengths(Arc::new(PerEdge::from_fn(mesh.n_edges(), length)), space)
             }
         };
         place.hand_over(ricci_mesh::new(mesh.clone(), shape));
@@ -156,11 +155,12 @@ pub unsafe extern "C" fn ricci_layout_pieces(
     })
 }
 
-/// The homogeneous weight q of every vertex of the layout. In a piece the map from the given mesh to the
+/// The homogeneous weight q of every vertex of a layout in the Euclidean plane. In a piece the map from the given mesh to the
 /// plane is projective, and with (x, y) the point of a corner it is (q x, q y, q) that is linear: as texture
 /// coordinates of three components.
 ///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_DOMAIN.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_DOMAIN, RICCI_LAYOUT (in the hyperbolic plane, where points of
+/// one vertex differ: ricci_layout_write_obj_homogeneous).
 ///
 /// @param layout    the layout.
 /// @param weights   out: n_vertices weights, positive; only their quotients in a piece mean anything.
@@ -174,6 +174,7 @@ pub unsafe extern "C" fn ricci_layout_weights(
     guard::call(|door| {
         let layout = door.shared(layout)?;
         check_buffer("weights", layout.mesh.n_vertices(), weights, capacity)?;
+        layout.drawing.check_plane()?;
         let values = self::weights(&layout.surface, layout.refinement.as_ref())?;
         copy_out("weights", &values, weights, capacity)
     })

@@ -13,6 +13,11 @@
  *     RICCI_BUFFER_TOO_SMALL, whose message says how many entries are needed.
  *   - Vertices keep their numbers through flows with edge flips and their layouts; new ones come behind. Edges and
  *     faces are those of the handle they are asked of: ricci_metric_mesh, ricci_layout_mesh.
+ *   - Points of the hyperbolic plane and the sphere are ambient coordinates (x, y, w), n x 3; ricci_model_* and
+ *     ricci_stereographic_* convert. An edge path is an int32_t array of 1-based edge numbers, negative against the
+ *     edge; a word one of 1-based generator numbers, negative for inverses. -1 is none where something may be absent.
+ *   - Results whose size no summary tells (words, paths, texts) come with their size in the last argument: NULL with
+ *     capacity 0 asks for it alone.
  *   - A struct crosses with its size, so that fields can be added: `f(..., &s, sizeof s)`. Its first member is
  *     the number of bytes that are filled.
  *   - Angles are radians; a curvature is the angle defect of a vertex.
@@ -226,6 +231,18 @@ typedef enum {
     RICCI_STEP_FIXED = 2,
 } ricci_step;
 
+/** Coordinates of the hyperbolic plane. */
+typedef enum {
+    /** The unit disk, conformal: (x + i y)/(1 + w). */
+    RICCI_MODEL_POINCARE = 0,
+    /** The unit disk in which geodesics are straight: (x + i y)/w. */
+    RICCI_MODEL_KLEIN = 1,
+    /** The upper half-plane, conformal: (-y + i)/(w - x); the disk's centre is i. */
+    RICCI_MODEL_HALF_PLANE = 2,
+    /** The hyperboloid x^2 + y^2 - w^2 = -1, w > 0, in three coordinates: keeps its digits however far out. */
+    RICCI_MODEL_HYPERBOLOID = 3,
+} ricci_model;
+
 /** A layout in charts that do not overlap, packed into the unit square. */
 typedef struct ricci_charts ricci_charts;
 
@@ -235,11 +252,39 @@ typedef struct ricci_charts ricci_charts;
  */
 typedef struct ricci_control ricci_control;
 
+/**
+ * Deck transformations of a quotient, each as a word in the generators and as an isometry: its generators, the pairings of a polygon's
+ * sides, the copies of a domain in the universal cover. They act from the left: M(g h) = M(g) M(h).
+ *
+ * Isometries are kept to twice the digits of doubles; ricci_deck_apply uses them.
+ */
+typedef struct ricci_deck ricci_deck;
+
 /** Every defect of a triangle list. */
 typedef struct ricci_diagnosis ricci_diagnosis;
 
 /**
- * A flat metric unrolled into the plane along a cut.
+ * The Dirichlet domain of a point in the universal cover: what is nearer to it than to its images under the deck group. A convex
+ * polygon; each side lies on the bisector of the centre and its image under the side's element, which carries the domain onto its
+ * neighbour there.
+ */
+typedef struct ricci_dirichlet ricci_dirichlet;
+
+/** A surface opened along a cut into a disk, lifted to the universal cover: a polygon whose sides are paired by deck transformations. */
+typedef struct ricci_domain ricci_domain;
+
+/**
+ * Generators of the fundamental group of a surface: loops a1, b1, ..., ag, bg, c1, ..., cb through one base vertex with the one relation
+ * a1 b1 a1^-1 b1^-1 ... ag bg ag^-1 bg^-1 c1 ... cb = 1.
+ *
+ * Generators are numbered from 1 in this order, and a word is an array of letters: k for generator k, -k for its inverse, from left to
+ * right as paths are run. b_i crosses a_i once, from right to left; c_j goes around a boundary loop with the surface on its left.
+ */
+typedef struct ricci_homotopy ricci_homotopy;
+
+/**
+ * A surface unrolled into the plane along a cut: of a flat metric (ricci_layout_new), or of a uniformized surface in a model of
+ * the hyperbolic plane (ricci_quotient_layout).
  *
  * What is unrolled is the mesh that the metric was made from. If edges were flipped its faces are cut by the
  * edges of the metric's triangulation: the *common refinement*, whose faces are parts of faces of both, and
@@ -261,6 +306,15 @@ typedef struct ricci_mesh ricci_mesh;
  */
 typedef struct ricci_metric ricci_metric;
 
+/**
+ * A closed surface of genus 1 and more with its metric of constant curvature, as the quotient of the plane (genus 1) or the hyperbolic
+ * plane by its deck group: metric, layout about a base vertex, homotopy basis, deck transformations.
+ *
+ * Faces and edges of its layout are those of ricci_quotient_mesh, on which edges may have been flipped; ricci_quotient_layout leads
+ * back to the given mesh.
+ */
+typedef struct ricci_quotient ricci_quotient;
+
 /** A repaired triangle list, with the way back to what was given. */
 typedef struct ricci_repair ricci_repair;
 
@@ -277,6 +331,9 @@ typedef struct ricci_report ricci_report;
  * which the next solve starts.
  */
 typedef struct ricci_solver ricci_solver;
+
+/** A closed surface of genus 0 as a convex polyhedron inscribed in the unit sphere, with its spherical metric of curvature 0. */
+typedef struct ricci_sphere ricci_sphere;
 
 /**
  * Receives one message. May be called from any thread, by several at once; it must not call into the
@@ -575,11 +632,14 @@ typedef struct {
      * more than rounding.
      */
     size_t n_flipped;
-    /** Largest disagreement of an edge vector with the placed points, relative to `diameter`. */
+    /**
+     * Largest disagreement of an edge vector with the placed points, relative to `diameter`; in the hyperbolic plane the largest
+     * distance.
+     */
     double consistency;
     /** Diagonal of the bounding box. */
     double diameter;
-    /** Area; that of the input surface where its lengths are Euclidean. */
+    /** Area; that of the input surface where its lengths are Euclidean; in the hyperbolic plane that of the metric. */
     double area;
     /** Quasi-conformal dilatation, at least 1: mean over the input's area. */
     double qc_mean;
@@ -635,6 +695,201 @@ typedef struct {
      */
     size_t n_degenerate;
 } ricci_charts_summary;
+
+/** How a surface is uniformized. Let ricci_uniformize_options_init fill it, then change fields. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** How lengths depend on u; default RICCI_SCHEME_YAMABE. */
+    ricci_scheme scheme;
+    /** Whether edges may be flipped; default RICCI_FLIPS_AUTO. */
+    ricci_flips flips;
+    /** The vertex at a quotient's origin, where the loops of its homotopy basis meet; default -1: one from which no vertex is far. */
+    int64_t base;
+    /**
+     * Largest |K| of a converged metric, radians, positive; default 1e-10. It is then lowered as far as twice the digits of a double
+     * allow (`angle_defect`).
+     */
+    double tolerance;
+    /** Steps before giving up; default 0: 500. */
+    size_t max_iterations;
+    /** Threads, in a pool of the call's own; default 0: one per core. The result does not depend on it. */
+    size_t threads;
+    /** Largest change of any u in one step, positive; default 3. */
+    double max_step;
+    /** Edges that are not flipped: rows of ricci_mesh_edges; default NULL. */
+    const uint32_t *fixed_edges;
+    /** Entries of `fixed_edges`; default 0. */
+    size_t n_fixed_edges;
+} ricci_uniformize_options;
+
+/** How a sphere is uniformized. Let ricci_sphere_options_init fill it, then change fields. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Largest |K| of a converged metric, radians, positive; default 1e-10. */
+    double tolerance;
+    /** Newton steps of one flow before giving up; default 0: 500. */
+    size_t max_iterations;
+    /** Threads, in a pool of the call's own; default 0: one per core. The result does not depend on it. */
+    size_t threads;
+    /** The vertex that is sent to infinity, and lies at (0, 0, -1); default -1: one from which u has a small range. */
+    int64_t puncture;
+} ricci_sphere_options;
+
+/** Figures of a sphere. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** 1 if plane and sphere have K = 0 to the tolerance, every edge is Delaunay and the plane's outline convex to 1e-9, else 0. */
+    int32_t converged;
+    /** Why the last flow stopped. */
+    ricci_stop_reason stop_reason;
+    /** V of the given mesh, and of the triangulation. */
+    size_t n_vertices;
+    /** F of the triangulation. */
+    size_t n_faces;
+    /** The vertex at infinity of the plane. */
+    size_t puncture;
+    /** Newton steps of all flows. */
+    size_t iterations;
+    /** Flows that were started. */
+    size_t n_tried;
+    /** Edge flips inside the conformal class. */
+    size_t n_flips;
+    /** Edge flips before them, which change no distance on the surface. */
+    size_t n_start_flips;
+    /** Largest |K| in the plane, at all vertices but the puncture and its neighbours, radians. */
+    double max_curvature_error;
+    /** Largest |K| of the spherical metric, radians. */
+    double spherical_curvature_error;
+    /** |sum of curvatures + area - 4 pi| of the spherical metric. */
+    double gauss_bonnet;
+    /** Largest minus smallest u in the plane. Beyond about 30 positions run out of digits, where the metric does not. */
+    double u_range;
+    /** Length of the shortest edge of the spherical metric. */
+    double smallest_edge;
+    /** By how much angles opposite an edge exceed pi in the plane at most, radians: 0 where all edges are Delaunay. */
+    double delaunay_violation;
+    /** Least turning of the plane's outline, radians: not negative where it is convex. */
+    double outline_turning;
+    /** Largest signed distance of a vertex over the plane of a neighbouring face: not positive where the polyhedron is convex. */
+    double nonconvexity;
+    /** |sum of w x| / sum of w over the vertices, w one third of the area of the given faces at x. */
+    double off_centre;
+} ricci_sphere_summary;
+
+/** Figures of a quotient. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** RICCI_SPACE_E2 for a torus, RICCI_SPACE_H2 for genus 2 and more. */
+    ricci_space space;
+    /** The base vertex, at the origin. */
+    uint32_t base;
+    /** Why the flow stopped. */
+    ricci_stop_reason stop_reason;
+    /** 1 if the curvature is within the tolerance and no triangle is broken, else 0. */
+    int32_t converged;
+    /** g. */
+    size_t genus;
+    /** Largest |K| after corrections with twice the digits of doubles, radians. */
+    double angle_defect;
+    /** F of ricci_quotient_mesh. */
+    size_t n_faces;
+    /** Number of points of the layout: vertices on the cut count once per piece of their star. */
+    size_t n_points;
+    /** Number of segments of the cut. */
+    size_t n_segments;
+    /** Number of edges of all segments. */
+    size_t n_cut_edges;
+    /** Number of sides of the layout as a fundamental domain, two per segment. */
+    size_t n_sides;
+    /** Number of generators, 2 g. */
+    size_t n_generators;
+    /** Corners of ricci_quotient_polygon, 4 g. */
+    size_t n_polygon;
+    /** Faces of the layout that are not counterclockwise, by exact arithmetic on the points. */
+    size_t n_flipped;
+    /** Faces whose lengths break the triangle inequality. */
+    size_t n_broken;
+    /** Largest distance between where a face has its corner and where the corner lies, also across the cut by the side pairings. */
+    double disagreement;
+    /** Largest distance of a point from the origin. */
+    double radius;
+    /** Area, by a formula without angles: of a torus that of the given surface, else 4 pi (g - 1). */
+    double area;
+    /** |R - I| / max |P_k|^2 of the relation's matrix R over its partial products P_k, Frobenius norms of 2 x 2 matrices. */
+    double relation_residual;
+    /** The same of each side's pairing against its word; the largest. */
+    double side_residual;
+    /** Ambient coordinates of the base lift, from which deck transformations are counted: the origin, up to a loop of the base on the cut. */
+    double base_lift[3];
+} ricci_quotient_summary;
+
+/** Figures of a homotopy basis. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** The base vertex. */
+    size_t base;
+    /** g. */
+    size_t genus;
+    /** b. */
+    size_t n_boundary_loops;
+    /** 2 g + b. */
+    size_t n_generators;
+    /** Letters of the relation, 4 g + b. */
+    size_t n_relator;
+    /** Number of edges of all loops. */
+    size_t n_loop_edges;
+} ricci_homotopy_summary;
+
+/** Figures of a fundamental domain. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Number of sides, and of corners. */
+    size_t n_sides;
+    /** Number of edges of all sides. */
+    size_t n_side_edges;
+    /** Number of letters of all sides' words. */
+    size_t n_side_letters;
+    /** Number of letters of all corners' words. */
+    size_t n_corner_letters;
+    /** A half-edge of a face of the domain that starts at the base lift, as a signed edge number. */
+    int64_t base_edge;
+} ricci_domain_summary;
+
+/** Figures of deck transformations. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** The space they act on. */
+    ricci_space space;
+    /** Most letters of a word. */
+    uint32_t longest;
+    /** Number of elements. */
+    size_t n_elements;
+    /** Number of letters of all words. */
+    size_t n_letters;
+} ricci_deck_summary;
+
+/** Figures of a Dirichlet domain. */
+typedef struct {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Where it lies. */
+    ricci_space space;
+    /** Number of sides, and of corners. */
+    uint32_t n_sides;
+    /** Area of the polygon, from its sides and the rays to its corners: that of the surface. */
+    double area;
+    /** Largest distance of a corner from the centre. */
+    double radius;
+    /** Ambient coordinates of the centre. */
+    double centre[3];
+} ricci_dirichlet_summary;
 
 #ifdef __cplusplus
 extern "C" {
@@ -2107,14 +2362,16 @@ ricci_status ricci_layout_uv(const ricci_layout *layout, double *uv, size_t capa
 /**
  * The motion of the plane that carries the left side of every seam onto its right side.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (in the hyperbolic plane).
  *
  * @param layout    the layout.
  * @param seams     out: n_seams x 4: rotation (radians), translation x, y, residual relative to the
  *                  diameter.
  * @param capacity  entries of `seams`, at least 4 n_seams.
  */
-ricci_status ricci_layout_seams(const ricci_layout *layout, double *seams, size_t capacity);
+ricci_status ricci_layout_seams(const ricci_layout *layout,
+                                double *seams,
+                                size_t capacity);
 
 /**
  * The edges of every seam, in order.
@@ -2247,11 +2504,12 @@ ricci_status ricci_layout_pieces(const ricci_layout *layout,
                                  size_t capacity);
 
 /**
- * The homogeneous weight q of every vertex of the layout. In a piece the map from the given mesh to the
+ * The homogeneous weight q of every vertex of a layout in the Euclidean plane. In a piece the map from the given mesh to the
  * plane is projective, and with (x, y) the point of a corner it is (q x, q y, q) that is linear: as texture
  * coordinates of three components.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_DOMAIN.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_DOMAIN, RICCI_LAYOUT (in the hyperbolic plane, where points of
+ * one vertex differ: ricci_layout_write_obj_homogeneous).
  *
  * @param layout    the layout.
  * @param weights   out: n_vertices weights, positive; only their quotients in a piece mean anything.
@@ -2462,9 +2720,11 @@ ricci_status ricci_layout_write_obj(const ricci_layout *layout,
 
 /**
  * The same with homogeneous texture coordinates, `vt qx qy q` with the q of ricci_layout_weights: the
- * projective map of every piece is linear in these three, and divided by the third.
+ * projective map of every piece is linear in these three, and divided by the third. Of a layout in the hyperbolic plane, in the Klein
+ * disk alone.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN, RICCI_LAYOUT (a model that
+ * is not projective).
  *
  * @param layout  the layout.
  * @param path    file name, NUL-terminated.
@@ -2487,13 +2747,1095 @@ ricci_status ricci_charts_write_obj(const ricci_charts *charts,
 /**
  * The same with homogeneous texture coordinates, `vt qx qy q`.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN, RICCI_LAYOUT (charts of a
+ * layout in the hyperbolic plane).
  *
  * @param charts  the charts.
  * @param path    file name, NUL-terminated.
  */
 ricci_status ricci_charts_write_obj_homogeneous(const ricci_charts *charts,
                                                 const char *path);
+
+/**
+ * Coordinates of points of the hyperboloid in a model.
+ *
+ * Beyond distance 36 (Poincare) or 18 (Klein) from the origin, coordinates in the disks round to the circle.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a row is not finite, or w < 1).
+ *
+ * @param model        the model.
+ * @param points       n_points x 3: x, y, w.
+ * @param n_points     number of points.
+ * @param coordinates  out: n_points x 2; n_points x 3 for RICCI_MODEL_HYPERBOLOID. May be `points`.
+ * @param capacity     entries of `coordinates`.
+ */
+ricci_status ricci_model_from_hyperboloid(ricci_model model,
+                                          const double *points,
+                                          size_t n_points,
+                                          double *coordinates,
+                                          size_t capacity);
+
+/**
+ * Points of the hyperboloid from their coordinates in a model.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a row is no point of the model).
+ *
+ * @param model        the model.
+ * @param coordinates  n_points x 2, inside the unit circle or over the real axis; n_points x 3 for RICCI_MODEL_HYPERBOLOID, of which
+ *                     x and y count.
+ * @param n_points     number of points.
+ * @param points       out: n_points x 3: x, y, w. May be `coordinates`.
+ * @param capacity     entries of `points`, at least 3 n_points.
+ */
+ricci_status ricci_model_to_hyperboloid(ricci_model model,
+                                        const double *coordinates,
+                                        size_t n_points,
+                                        double *points,
+                                        size_t capacity);
+
+/**
+ * Fill options with their defaults.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param options  out: the defaults.
+ * @param size     sizeof *options.
+ */
+ricci_status ricci_uniformize_options_init(ricci_uniformize_options *options, size_t size);
+
+/**
+ * The metric of constant curvature in the conformal class of a closed surface: on the sphere, or as a quotient of the plane or the
+ * hyperbolic plane, by its Euler characteristic.
+ *
+ * Of the options a sphere takes tolerance, steps and threads; its scheme is RICCI_SCHEME_YAMABE. Deterministic.
+ * @return as ricci_sphere_new and ricci_quotient_new; RICCI_LAYOUT for a surface with boundary.
+ *
+ * @param mesh      the mesh; lengths are measured in space, or those of an intrinsic mesh.
+ * @param options   how; NULL for the defaults.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param sphere    out: for genus 0 the new handle, to be released by ricci_sphere_free; else NULL.
+ * @param quotient  out: for genus 1 and more the new handle, to be released by ricci_quotient_free; else NULL.
+ */
+ricci_status ricci_uniformize(const ricci_mesh *mesh,
+                              const ricci_uniformize_options *options,
+                              const ricci_control *control,
+                              ricci_sphere **sphere,
+                              ricci_quotient **quotient);
+
+/**
+ * Fill options with their defaults.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param options  out: the defaults.
+ * @param size     sizeof *options.
+ */
+ricci_status ricci_sphere_options_init(ricci_sphere_options *options, size_t size);
+
+/**
+ * A closed surface of genus 0 as a convex polyhedron inscribed in the unit sphere: the one whose edges, after flips, are chords with
+ * lengths in the conformal class of the surface (vertex scaling).
+ *
+ * Vertices are moved by the Moebius transformation after which their mean is the centre, each weighed with one third of the area of the
+ * given faces at it: they are determined up to a rotation. Whether it came that far is in the summary. Deterministic.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no sphere, less than four vertices, no such vertex),
+ * RICCI_LAYOUT (a vertex has half of the area; all vertices lie on one circle), RICCI_EDGE_LENGTH, RICCI_TRIANGLE_INEQUALITY,
+ * RICCI_FACTORISATION, RICCI_CANCELLED.
+ *
+ * @param mesh     the mesh; lengths are measured in space, or those of an intrinsic mesh.
+ * @param options  how; NULL for the defaults.
+ * @param control  progress and cancellation; NULL for neither.
+ * @param sphere   out: the new handle, to be released by ricci_sphere_free.
+ */
+ricci_status ricci_sphere_new(const ricci_mesh *mesh,
+                              const ricci_sphere_options *options,
+                              const ricci_control *control,
+                              ricci_sphere **sphere);
+
+/**
+ * ricci_sphere_new with lengths of the caller's in place of the mesh's own.
+ *
+ * @return as ricci_sphere_new; RICCI_WRONG_SIZE.
+ *
+ * @param mesh      the mesh.
+ * @param lengths   n_edges lengths, finite and positive, in the order of ricci_mesh_edges.
+ * @param n_edges   number of edges of the mesh.
+ * @param geometry  the geometry in which the lengths are meant.
+ * @param options   how; NULL for the defaults.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param sphere    out: the new handle, to be released by ricci_sphere_free.
+ */
+ricci_status ricci_sphere_from_lengths(const ricci_mesh *mesh,
+                                       const double *lengths,
+                                       size_t n_edges,
+                                       ricci_space geometry,
+                                       const ricci_sphere_options *options,
+                                       const ricci_control *control,
+                                       ricci_sphere **sphere);
+
+/**
+ * Release a sphere. What it has handed out lives on.
+ *
+ * @param sphere  the handle, or NULL.
+ */
+void ricci_sphere_free(ricci_sphere *sphere);
+
+/**
+ * The figures of a sphere.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param sphere   the sphere.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+ricci_status ricci_sphere_summarise(const ricci_sphere *sphere,
+                                    ricci_sphere_summary *summary,
+                                    size_t size);
+
+/**
+ * The spherical metric.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param sphere  the sphere.
+ * @param metric  out: the new handle, to be released by ricci_metric_free.
+ */
+ricci_status ricci_sphere_metric(const ricci_sphere *sphere, ricci_metric **metric);
+
+/**
+ * The polyhedron: unit vectors as positions, the metric's triangulation as faces, counterclockwise from outside.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param sphere  the sphere.
+ * @param mesh    out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_sphere_mesh(const ricci_sphere *sphere,
+                               ricci_mesh **mesh);
+
+/**
+ * The unit vector of every vertex of the given mesh.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param sphere     the sphere.
+ * @param positions  out: n_vertices x 3.
+ * @param capacity   entries of `positions`, at least 3 n_vertices.
+ */
+ricci_status ricci_sphere_positions(const ricci_sphere *sphere, double *positions, size_t capacity);
+
+/**
+ * The plane under the sphere (ricci_stereographic_project), in which far more digits are left near (0, 0, 1) than on the sphere.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param sphere    the sphere.
+ * @param points    out: n_vertices x 2; infinite at the puncture.
+ * @param capacity  entries of `points`, at least 2 n_vertices.
+ */
+ricci_status ricci_sphere_plane(const ricci_sphere *sphere,
+                                double *points,
+                                size_t capacity);
+
+/**
+ * The common refinement of the given mesh and the polyhedron: faces that are parts of faces of both. Its vertices are those of the mesh,
+ * then the crossings of edges; both meshes have the same faces.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (the given mesh is intrinsic: pass NULL for `on_surface`), RICCI_DOMAIN,
+ * RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE, RICCI_CANCELLED.
+ *
+ * @param sphere      the sphere.
+ * @param control     progress and cancellation; NULL for neither.
+ * @param on_surface  out: it on the given surface, to be released by ricci_mesh_free; NULL if not wanted.
+ * @param on_sphere   out: it on the unit sphere, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_sphere_refined(const ricci_sphere *sphere,
+                                  const ricci_control *control,
+                                  ricci_mesh **on_surface,
+                                  ricci_mesh **on_sphere);
+
+/**
+ * Points of the unit sphere in the plane, seen from the south pole: (x + i y)/(1 + w).
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a row is not finite, or w is not between -1 and 1).
+ *
+ * @param points    n_points x 3: x, y, w.
+ * @param n_points  number of points.
+ * @param plane     out: n_points x 2; infinite for the south pole (0, 0, -1). May be `points`.
+ * @param capacity  entries of `plane`, at least 2 n_points.
+ */
+ricci_status ricci_stereographic_project(const double *points,
+                                         size_t n_points,
+                                         double *plane,
+                                         size_t capacity);
+
+/**
+ * Points of the plane on the unit sphere, the inverse of ricci_stereographic_project: 0 goes to (0, 0, 1), infinity to (0, 0, -1).
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a coordinate is NaN).
+ *
+ * @param plane     n_points x 2.
+ * @param n_points  number of points.
+ * @param points    out: n_points x 3. May be `plane`.
+ * @param capacity  entries of `points`, at least 3 n_points.
+ */
+ricci_status ricci_stereographic_lift(const double *plane,
+                                      size_t n_points,
+                                      double *points,
+                                      size_t capacity);
+
+/**
+ * The metric of constant curvature in the conformal class of a closed surface of genus 1 and more, with its layout and deck group.
+ *
+ * Genus 1: flat, with the area of the given surface; more: hyperbolic. Where the flow has not converged (`converged` of the summary) the
+ * rest is as good as the metric is. Deterministic.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT, RICCI_STRUCT_SIZE, RICCI_LAYOUT (a boundary, genus 0), RICCI_EDGE_LENGTH,
+ * RICCI_TRIANGLE_INEQUALITY, RICCI_EDGE_WEIGHT, RICCI_DOMAIN, RICCI_FACTORISATION, RICCI_CANCELLED.
+ *
+ * @param mesh      the mesh; lengths are measured in space, or those of an intrinsic mesh.
+ * @param options   how; NULL for the defaults.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param quotient  out: the new handle, to be released by ricci_quotient_free.
+ */
+ricci_status ricci_quotient_new(const ricci_mesh *mesh,
+                                const ricci_uniformize_options *options,
+                                const ricci_control *control,
+                                ricci_quotient **quotient);
+
+/**
+ * ricci_quotient_new with lengths of the caller's in place of the mesh's own.
+ *
+ * @return as ricci_quotient_new; RICCI_WRONG_SIZE.
+ *
+ * @param mesh      the mesh.
+ * @param lengths   n_edges lengths, finite and positive, in the order of ricci_mesh_edges.
+ * @param n_edges   number of edges of the mesh.
+ * @param geometry  the geometry in which the lengths are meant.
+ * @param options   how; NULL for the defaults.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param quotient  out: the new handle, to be released by ricci_quotient_free.
+ */
+ricci_status ricci_quotient_from_lengths(const ricci_mesh *mesh,
+                                         const double *lengths,
+                                         size_t n_edges,
+                                         ricci_space geometry,
+                                         const ricci_uniformize_options *options,
+                                         const ricci_control *control,
+                                         ricci_quotient **quotient);
+
+/**
+ * ricci_quotient_new from where a metric is, such as another solver's result: in the metric's scheme.
+ *
+ * @return as ricci_quotient_new; RICCI_LAYOUT also for a metric in another space than E2 (genus 1) or H2 (more).
+ *
+ * @param metric    where the flow starts.
+ * @param options   how, without `scheme`; NULL for the defaults.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param quotient  out: the new handle, to be released by ricci_quotient_free.
+ */
+ricci_status ricci_quotient_from_metric(const ricci_metric *metric,
+                                        const ricci_uniformize_options *options,
+                                        const ricci_control *control,
+                                        ricci_quotient **quotient);
+
+/**
+ * Release a quotient. What it has handed out lives on.
+ *
+ * @param quotient  the handle, or NULL.
+ */
+void ricci_quotient_free(ricci_quotient *quotient);
+
+/**
+ * The metric of constant curvature.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param quotient  the quotient.
+ * @param metric    out: the new handle, to be released by ricci_metric_free.
+ */
+ricci_status ricci_quotient_metric(const ricci_quotient *quotient, ricci_metric **metric);
+
+/**
+ * What the flow did.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param quotient  the quotient.
+ * @param report    out: the new handle, to be released by ricci_report_free.
+ */
+ricci_status ricci_quotient_report(const ricci_quotient *quotient, ricci_report **report);
+
+/**
+ * The triangulation of the metric and the layout, an intrinsic mesh with the metric's lengths: ricci_metric_mesh of its metric.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param quotient  the quotient.
+ * @param mesh      out: the new handle, to be released by ricci_mesh_free.
+ */
+ricci_status ricci_quotient_mesh(const ricci_quotient *quotient,
+                                 ricci_mesh **mesh);
+
+/**
+ * The homotopy basis whose loops generate the deck group: on the triangulation of the metric, short in it.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param quotient  the quotient.
+ * @param homotopy  out: the new handle, to be released by ricci_homotopy_free.
+ */
+ricci_status ricci_quotient_homotopy(const ricci_quotient *quotient,
+                                     ricci_homotopy **homotopy);
+
+/**
+ * The layout as a fundamental domain: its sides, in the order of ricci_quotient_sides.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param quotient  the quotient.
+ * @param domain    out: the new handle, to be released by ricci_domain_free.
+ */
+ricci_status ricci_quotient_domain(const ricci_quotient *quotient, ricci_domain **domain);
+
+/**
+ * The modulus of a torus: the quotient of two periods in the fundamental domain |Re| <= 1/2, |tau| >= 1, Im > 0 of SL(2, Z); on its
+ * border Re >= 0.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (not a torus).
+ *
+ * @param quotient  the quotient.
+ * @param tau       out: real and imaginary part.
+ * @param capacity  entries of `tau`, at least 2.
+ */
+ricci_status ricci_quotient_modulus(const ricci_quotient *quotient,
+                                    double *tau,
+                                    size_t capacity);
+
+/**
+ * The figures of a quotient.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param quotient  the quotient.
+ * @param summary   out: the figures.
+ * @param size      sizeof *summary.
+ */
+ricci_status ricci_quotient_summarise(const ricci_quotient *quotient,
+                                      ricci_quotient_summary *summary,
+                                      size_t size);
+
+/**
+ * The points of the layout in a model.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
+ *
+ * @param quotient  the quotient.
+ * @param model     coordinates of the hyperbolic plane; of a torus all two-dimensional models are the plane itself, and
+ *                  RICCI_MODEL_HYPERBOLOID is (x, y, 1).
+ * @param points    out: n_points x 2; n_points x 3 for RICCI_MODEL_HYPERBOLOID, the ambient coordinates that ricci_deck_apply takes.
+ * @param capacity  entries of `points`.
+ */
+ricci_status ricci_quotient_points(const ricci_quotient *quotient,
+                                   ricci_model model,
+                                   double *points,
+                                   size_t capacity);
+
+/**
+ * The point of every corner of every face of ricci_quotient_mesh.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param quotient  the quotient.
+ * @param corners   out: n_faces x 3 indices of points.
+ * @param capacity  entries of `corners`, at least 3 n_faces.
+ */
+ricci_status ricci_quotient_corners(const ricci_quotient *quotient,
+                                    uint32_t *corners,
+                                    size_t capacity);
+
+/**
+ * The cut along which the layout is opened: chains of edges of ricci_quotient_mesh.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param quotient         the quotient.
+ * @param edges            out: n_cut_edges edge numbers, 1-based, negative against the edge's direction; segment after segment.
+ * @param edges_capacity   entries of `edges`.
+ * @param starts           out: n_segments + 1 offsets: segment i is edges[starts[i] .. starts[i + 1]).
+ * @param starts_capacity  entries of `starts`.
+ */
+ricci_status ricci_quotient_cut(const ricci_quotient *quotient,
+                                int32_t *edges,
+                                size_t edges_capacity,
+                                size_t *starts,
+                                size_t starts_capacity);
+
+/**
+ * The lift of an edge path of ricci_quotient_mesh that starts at the base, from the base lift, in ambient coordinates: the start, then
+ * the end of each edge. That of a loop ends where the loop's element carries the base lift.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such edges, no path, or not from the base).
+ *
+ * @param quotient  the quotient.
+ * @param path      n_path edges: 1-based, negative where the path runs against the edge's direction.
+ * @param n_path    number of edges.
+ * @param points    out: (n_path + 1) x 3.
+ * @param capacity  entries of `points`.
+ */
+ricci_status ricci_quotient_lift(const ricci_quotient *quotient,
+                                 const int32_t *path,
+                                 size_t n_path,
+                                 double *points,
+                                 size_t capacity);
+
+/**
+ * The canonical polygon: geodesics from lift to lift of the base along the relation. Its sides a1, b1, a1^-1, b1^-1, ... are paired by
+ * the generators; its corners are one point of the surface, so its angles add up to 2 pi. It need not be convex.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param quotient  the quotient.
+ * @param corners   out: n_polygon x 3, ambient coordinates; corner k is where the first k letters of the relation carry the base lift.
+ * @param angles    out: n_polygon angles inside, radians, from 0 to below 2 pi.
+ * @param capacity  rows of `corners` and entries of `angles`.
+ */
+ricci_status ricci_quotient_polygon(const ricci_quotient *quotient,
+                                    double *corners,
+                                    double *angles,
+                                    size_t capacity);
+
+/**
+ * The generators of the deck group: M(g) carries the base lift to the end of the lift of g's loop, M(g h) = M(g) M(h).
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param quotient  the quotient.
+ * @param deck      out: the new handle, n_generators elements, to be released by ricci_deck_free.
+ */
+ricci_status ricci_quotient_generators(const ricci_quotient *quotient,
+                                       ricci_deck **deck);
+
+/**
+ * The sides of the layout as a fundamental domain, counterclockwise: the elements that carry it onto its neighbours.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param quotient  the quotient.
+ * @param deck      out: the new handle, n_sides elements, to be released by ricci_deck_free.
+ */
+ricci_status ricci_quotient_sides(const ricci_quotient *quotient,
+                                  ricci_deck **deck);
+
+/**
+ * The layout on the given surface: the common refinement of its mesh and of the metric's triangulation, whose vertices are those of the
+ * mesh, then the crossings. All functions on layouts take it.
+ *
+ * Its seams are the segments of ricci_quotient_cut. The dilatations are those of Poincare coordinates.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (RICCI_MODEL_HYPERBOLOID), RICCI_TRIANGLE_INEQUALITY, RICCI_DOMAIN,
+ * RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement), RICCI_CANCELLED.
+ *
+ * @param quotient  the quotient.
+ * @param model     coordinates of the points; in the Klein disk the map is projective on every piece. A torus has one model.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param layout    out: the new handle, to be released by ricci_layout_free.
+ */
+ricci_status ricci_quotient_layout(const ricci_quotient *quotient,
+                                   ricci_model model,
+                                   const ricci_control *control,
+                                   ricci_layout **layout);
+
+/**
+ * A canonical homotopy basis of a mesh, with short loops. The surface may have boundary.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex), RICCI_EDGE_LENGTH, RICCI_CANCELLED.
+ *
+ * @param mesh      the mesh; loops are short in its lengths.
+ * @param base      the base vertex; -1 for one from which the loops are short.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param homotopy  out: the new handle, to be released by ricci_homotopy_free.
+ */
+ricci_status ricci_homotopy_new(const ricci_mesh *mesh,
+                                int64_t base,
+                                const ricci_control *control,
+                                ricci_homotopy **homotopy);
+
+/**
+ * Release a homotopy basis.
+ *
+ * @param homotopy  the handle, or NULL.
+ */
+void ricci_homotopy_free(ricci_homotopy *homotopy);
+
+/**
+ * The figures of a homotopy basis.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param homotopy  the basis.
+ * @param summary   out: the figures.
+ * @param size      sizeof *summary.
+ */
+ricci_status ricci_homotopy_summarise(const ricci_homotopy *homotopy,
+                                      ricci_homotopy_summary *summary,
+                                      size_t size);
+
+/**
+ * The edges of every generator's loop, in order, from the base to the base.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param homotopy         the basis.
+ * @param edges            out: n_loop_edges edge numbers, 1-based, negative where the loop runs against the edge's direction; loop after
+ *                         loop.
+ * @param edges_capacity   entries of `edges`.
+ * @param starts           out: n_generators + 1 offsets: loop i is edges[starts[i] .. starts[i + 1]).
+ * @param starts_capacity  entries of `starts`.
+ */
+ricci_status ricci_homotopy_loops(const ricci_homotopy *homotopy,
+                                  int32_t *edges,
+                                  size_t edges_capacity,
+                                  size_t *starts,
+                                  size_t starts_capacity);
+
+/**
+ * The vertices of every generator's loop: where each of its edges starts.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param homotopy           the basis.
+ * @param vertices           out: n_loop_edges vertices, loop after loop; the first of each is the base.
+ * @param vertices_capacity  entries of `vertices`.
+ * @param starts             out: n_generators + 1 offsets: loop i is vertices[starts[i] .. starts[i + 1]).
+ * @param starts_capacity    entries of `starts`.
+ */
+ricci_status ricci_homotopy_loop_vertices(const ricci_homotopy *homotopy,
+                                          uint32_t *vertices,
+                                          size_t vertices_capacity,
+                                          size_t *starts,
+                                          size_t starts_capacity);
+
+/**
+ * The relation, a word that is the identity: 1, 2, -1, -2, 3, 4, ... and the boundary loops.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param homotopy  the basis.
+ * @param letters   out: n_relator letters.
+ * @param capacity  entries of `letters`.
+ */
+ricci_status ricci_homotopy_relator(const ricci_homotopy *homotopy,
+                                    int32_t *letters,
+                                    size_t capacity);
+
+/**
+ * The intersection numbers of the generators' loops, measured on the mesh: in row i and column j how often loop j crosses loop i from
+ * right to left, minus how often from left to right. a_i and b_i have 1, b_i and a_i -1, all others 0.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param homotopy  the basis.
+ * @param matrix    out: n_generators x n_generators.
+ * @param capacity  entries of `matrix`.
+ */
+ricci_status ricci_homotopy_intersections(const ricci_homotopy *homotopy,
+                                          int64_t *matrix,
+                                          size_t capacity);
+
+/**
+ * The tree path from the base to a vertex, along which lifts are named (ricci_homotopy_lift).
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such vertex).
+ *
+ * @param homotopy  the basis.
+ * @param vertex    where the path ends.
+ * @param edges     out: its edges, 1-based, negative against the edge's direction; NULL with capacity 0 to ask for their number.
+ * @param capacity  entries of `edges`.
+ * @param n_edges   out: number of edges.
+ */
+ricci_status ricci_homotopy_tree_path(const ricci_homotopy *homotopy,
+                                      uint32_t vertex,
+                                      int32_t *edges,
+                                      size_t capacity,
+                                      size_t *n_edges);
+
+/**
+ * The element of an edge path: of the loop along the tree to its start, along the path, and back from its end; for a loop at the base,
+ * of the loop itself. Reduced: empty if and only if the loop can be contracted.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such edges, or they do not follow each other).
+ *
+ * @param homotopy   the basis.
+ * @param path       n_path edges: 1-based, negative where the path runs against the edge's direction.
+ * @param n_path     number of edges.
+ * @param letters    out: the word; NULL with capacity 0 to ask for its length.
+ * @param capacity   entries of `letters`.
+ * @param n_letters  out: number of letters.
+ */
+ricci_status ricci_homotopy_path_word(const ricci_homotopy *homotopy,
+                                      const int32_t *path,
+                                      size_t n_path,
+                                      int32_t *letters,
+                                      size_t capacity,
+                                      size_t *n_letters);
+
+/**
+ * A shorter word of the same element, empty if and only if it is the identity.
+ *
+ * On a torus a1^p b1^q, with boundary a freely reduced word without the last c: equal elements, equal words. On closed surfaces of
+ * genus 2 and more (Dehn's algorithm) equal elements may keep different words: ricci_homotopy_equal.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such letter).
+ *
+ * @param homotopy   the basis.
+ * @param word       n_word letters: k for generator k (1-based), -k for its inverse.
+ * @param n_word     number of letters.
+ * @param letters    out: the reduced word; NULL with capacity 0 to ask for its length.
+ * @param capacity   entries of `letters`.
+ * @param n_letters  out: number of letters.
+ */
+ricci_status ricci_homotopy_reduce(const ricci_homotopy *homotopy,
+                                   const int32_t *word,
+                                   size_t n_word,
+                                   int32_t *letters,
+                                   size_t capacity,
+                                   size_t *n_letters);
+
+/**
+ * Whether two words are the same element of the surface's group.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such letter).
+ *
+ * @param homotopy  the basis.
+ * @param u         n_u letters.
+ * @param n_u       number of letters.
+ * @param v         n_v letters.
+ * @param n_v       number of letters.
+ * @param equal     out: 1 if they are, else 0.
+ */
+ricci_status ricci_homotopy_equal(const ricci_homotopy *homotopy,
+                                  const int32_t *u,
+                                  size_t n_u,
+                                  const int32_t *v,
+                                  size_t n_v,
+                                  int32_t *equal);
+
+/**
+ * The homology class of a word: the sum of each generator's exponents; with boundary the last c counts as minus the sum of the others.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such letter).
+ *
+ * @param homotopy  the basis.
+ * @param word      n_word letters.
+ * @param n_word    number of letters.
+ * @param sums      out: n_generators sums, one less with boundary.
+ * @param capacity  entries of `sums`.
+ */
+ricci_status ricci_homotopy_homology(const ricci_homotopy *homotopy,
+                                     const int32_t *word,
+                                     size_t n_word,
+                                     int64_t *sums,
+                                     size_t capacity);
+
+/**
+ * A word as text, `a1 b1 a1^-1`; the empty word is `1`. A word of one letter gives the generator's name.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such letter).
+ *
+ * @param homotopy  the basis.
+ * @param word      n_word letters; they are reduced freely.
+ * @param n_word    number of letters.
+ * @param text      out: the text, NUL-terminated; NULL with capacity 0 to ask for its length.
+ * @param capacity  bytes of `text`.
+ * @param n_bytes   out: number of bytes with the NUL.
+ */
+ricci_status ricci_homotopy_word_text(const ricci_homotopy *homotopy,
+                                      const int32_t *word,
+                                      size_t n_word,
+                                      char *text,
+                                      size_t capacity,
+                                      size_t *n_bytes);
+
+/**
+ * The word that a text like `a1 b1 a1^-1` means, freely reduced; `1` stands for the identity.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (what is no letter).
+ *
+ * @param homotopy   the basis.
+ * @param text       the text, NUL-terminated.
+ * @param letters    out: the word; NULL with capacity 0 to ask for its length.
+ * @param capacity   entries of `letters`.
+ * @param n_letters  out: number of letters.
+ */
+ricci_status ricci_homotopy_word_parse(const ricci_homotopy *homotopy,
+                                       const char *text,
+                                       int32_t *letters,
+                                       size_t capacity,
+                                       size_t *n_letters);
+
+/**
+ * The lift of an edge path to the universal cover, vertex by vertex: the start, then the end of each edge.
+ *
+ * The lift (v, w) of vertex v is where the deck transformation w carries the end of the lifted tree path to v. A loop's lift closes if
+ * and only if the loop can be contracted; that of a loop at the base, from (base, 1), ends at (base, its word). Words are reduced.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such vertex, letters or edges; the path does not
+ * start there).
+ *
+ * @param homotopy          the basis.
+ * @param vertex            the vertex where the path starts.
+ * @param element           n_element letters: the deck transformation of the lift that it starts at.
+ * @param n_element         number of letters, 0 for the identity.
+ * @param path              n_path edges: 1-based, negative where the path runs against the edge's direction.
+ * @param n_path            number of edges.
+ * @param letters           out: the words of the n_path + 1 lifts, one after the other; NULL with capacity 0 to ask for `starts`.
+ * @param letters_capacity  entries of `letters`.
+ * @param starts            out: n_path + 2 offsets: word i is letters[starts[i] .. starts[i + 1]).
+ * @param starts_capacity   entries of `starts`.
+ */
+ricci_status ricci_homotopy_lift(const ricci_homotopy *homotopy,
+                                 uint32_t vertex,
+                                 const int32_t *element,
+                                 size_t n_element,
+                                 const int32_t *path,
+                                 size_t n_path,
+                                 int32_t *letters,
+                                 size_t letters_capacity,
+                                 size_t *starts,
+                                 size_t starts_capacity);
+
+/**
+ * The fundamental domain of a cut, one of those that have a corner at the base lift.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such edge), RICCI_LAYOUT (the cut does not leave a disk).
+ *
+ * @param homotopy  names lifts and deck transformations.
+ * @param cut       n_cut edges, 0-based, that open the surface into a disk; NULL for those of the basis's own polygon.
+ * @param n_cut     number of edges.
+ * @param domain    out: the new handle, to be released by ricci_domain_free.
+ */
+ricci_status ricci_domain_new(const ricci_homotopy *homotopy,
+                              const uint32_t *cut,
+                              size_t n_cut,
+                              ricci_domain **domain);
+
+/**
+ * Release a fundamental domain.
+ *
+ * @param domain  the handle, or NULL.
+ */
+void ricci_domain_free(ricci_domain *domain);
+
+/**
+ * The figures of a fundamental domain.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param domain   the domain.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+ricci_status ricci_domain_summarise(const ricci_domain *domain,
+                                    ricci_domain_summary *summary,
+                                    size_t size);
+
+/**
+ * The edges of every side, counterclockwise: the domain lies on their left.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param domain           the domain.
+ * @param edges            out: n_side_edges edge numbers, 1-based, negative against the edge's direction; side after side.
+ * @param edges_capacity   entries of `edges`.
+ * @param starts           out: n_sides + 1 offsets: side i is edges[starts[i] .. starts[i + 1]).
+ * @param starts_capacity  entries of `starts`.
+ */
+ricci_status ricci_domain_sides(const ricci_domain *domain,
+                                int32_t *edges,
+                                size_t edges_capacity,
+                                size_t *starts,
+                                size_t starts_capacity);
+
+/**
+ * The side with the same edges, run through the other way.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param domain    the domain.
+ * @param partners  out: n_sides side numbers, 0-based; -1 on the boundary of the surface.
+ * @param capacity  entries of `partners`.
+ */
+ricci_status ricci_domain_partners(const ricci_domain *domain, int32_t *partners, size_t capacity);
+
+/**
+ * The deck transformation of every side: it carries the side's partner onto it, and the domain onto its neighbour there.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param domain            the domain.
+ * @param letters           out: n_side_letters letters, word after word; the partner's element is the inverse.
+ * @param letters_capacity  entries of `letters`.
+ * @param starts            out: n_sides + 1 offsets: the word of side i is letters[starts[i] .. starts[i + 1]).
+ * @param starts_capacity   entries of `starts`.
+ */
+ricci_status ricci_domain_elements(const ricci_domain *domain,
+                                   int32_t *letters,
+                                   size_t letters_capacity,
+                                   size_t *starts,
+                                   size_t starts_capacity);
+
+/**
+ * The lifts at which the sides start (ricci_homotopy_lift): vertices and deck transformations.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param domain             the domain.
+ * @param vertices           out: n_sides vertices.
+ * @param vertices_capacity  entries of `vertices`.
+ * @param letters            out: n_corner_letters letters, word after word.
+ * @param letters_capacity   entries of `letters`.
+ * @param starts             out: n_sides + 1 offsets: the word of corner i is letters[starts[i] .. starts[i + 1]).
+ * @param starts_capacity    entries of `starts`.
+ */
+ricci_status ricci_domain_corners(const ricci_domain *domain,
+                                  uint32_t *vertices,
+                                  size_t vertices_capacity,
+                                  int32_t *letters,
+                                  size_t letters_capacity,
+                                  size_t *starts,
+                                  size_t starts_capacity);
+
+/**
+ * The deck transformations of words.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such letter; starts that do not ascend from 0 to n_letters).
+ *
+ * @param quotient   the quotient.
+ * @param letters    n_letters letters, word after word: k for generator k (1-based), -k for its inverse.
+ * @param n_letters  number of letters of all words.
+ * @param starts     n_words + 1 offsets: word i is letters[starts[i] .. starts[i + 1]).
+ * @param n_words    number of words.
+ * @param deck       out: the new handle, n_words elements with reduced words, to be released by ricci_deck_free.
+ */
+ricci_status ricci_deck_of_words(const ricci_quotient *quotient,
+                                 const int32_t *letters,
+                                 size_t n_letters,
+                                 const size_t *starts,
+                                 size_t n_words,
+                                 ricci_deck **deck);
+
+/**
+ * All deck transformations of at most `depth` letters, each once, shortest first, the identity to begin with: the copies of a domain in
+ * a piece of the universal cover.
+ *
+ * Whether two words are the same element is decided in the group, not by coordinates.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_TOO_LARGE (more than `limit`), RICCI_CANCELLED.
+ *
+ * @param quotient  the quotient.
+ * @param depth     most letters of a word in the generators.
+ * @param limit     most elements.
+ * @param control   cancellation; NULL for none.
+ * @param deck      out: the new handle, to be released by ricci_deck_free.
+ */
+ricci_status ricci_cover_to_depth(const ricci_quotient *quotient,
+                                  size_t depth,
+                                  size_t limit,
+                                  const ricci_control *control,
+                                  ricci_deck **deck);
+
+/**
+ * Release deck transformations.
+ *
+ * @param deck  the handle, or NULL.
+ */
+void ricci_deck_free(ricci_deck *deck);
+
+/**
+ * The figures of deck transformations.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param deck     the elements.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+ricci_status ricci_deck_summarise(const ricci_deck *deck, ricci_deck_summary *summary, size_t size);
+
+/**
+ * The words of the elements, reduced.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param deck              the elements.
+ * @param letters           out: n_letters letters, word after word: k for generator k (1-based), -k for its inverse.
+ * @param letters_capacity  entries of `letters`.
+ * @param starts            out: n_elements + 1 offsets: word i is letters[starts[i] .. starts[i + 1]).
+ * @param starts_capacity   entries of `starts`.
+ */
+ricci_status ricci_deck_words(const ricci_deck *deck,
+                              int32_t *letters,
+                              size_t letters_capacity,
+                              size_t *starts,
+                              size_t starts_capacity);
+
+/**
+ * The elements as Moebius transformations z -> (a z + b)/(c z + d): in the Poincare disk matrices of SU(1, 1), up to sign; in the plane
+ * ((e^(i theta), t), (0, 1)).
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param deck      the elements.
+ * @param mobius    out: n_elements x 2 x 2 x 2: a, b, c, d, each real and imaginary part.
+ * @param capacity  entries of `mobius`, at least 8 n_elements.
+ */
+ricci_status ricci_deck_mobius(const ricci_deck *deck,
+                               double *mobius,
+                               size_t capacity);
+
+/**
+ * The elements as real matrices that act on ambient coordinates (x, y, w): of SO+(2, 1) on the hyperboloid, of SE(2) in the plane w = 1.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param deck      the elements.
+ * @param matrices  out: n_elements x 3 x 3, row by row.
+ * @param capacity  entries of `matrices`, at least 9 n_elements.
+ */
+ricci_status ricci_deck_matrices(const ricci_deck *deck,
+                                 double *matrices,
+                                 size_t capacity);
+
+/**
+ * |trace| of the elements' 2 x 2 matrices of determinant 1: 2 cosh(L/2) for a translation of length L in the hyperbolic plane.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param deck      the elements.
+ * @param traces    out: n_elements values.
+ * @param capacity  entries of `traces`.
+ */
+ricci_status ricci_deck_traces(const ricci_deck *deck,
+                               double *traces,
+                               size_t capacity);
+
+/**
+ * How far the elements move along their axes: lengths of the closed geodesics in their free homotopy classes.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param deck      the elements.
+ * @param lengths   out: n_elements lengths.
+ * @param capacity  entries of `lengths`.
+ */
+ricci_status ricci_deck_translation_lengths(const ricci_deck *deck,
+                                            double *lengths,
+                                            size_t capacity);
+
+/**
+ * Move points by an element, with twice the digits of doubles on the way: one copy of a layout in the universal cover.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such element, a row is not finite).
+ *
+ * @param deck      the elements.
+ * @param element   the number of the element, 0-based.
+ * @param points    n_points x 3, ambient coordinates: ricci_quotient_points, ricci_model_to_hyperboloid.
+ * @param n_points  number of points.
+ * @param moved     out: n_points x 3. May be `points`.
+ * @param capacity  entries of `moved`, at least 3 n_points.
+ */
+ricci_status ricci_deck_apply(const ricci_deck *deck,
+                              size_t element,
+                              const double *points,
+                              size_t n_points,
+                              double *moved,
+                              size_t capacity);
+
+/**
+ * The Dirichlet domain of a point.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (the centre is not finite), RICCI_LAYOUT (none was found: the metric has not
+ * converged, or the centre is too far out), RICCI_CANCELLED.
+ *
+ * @param quotient   the quotient.
+ * @param centre     3 entries, ambient coordinates, of which x and y count; NULL for the origin, where the base vertex is.
+ * @param control    cancellation; NULL for none.
+ * @param dirichlet  out: the new handle, to be released by ricci_dirichlet_free.
+ */
+ricci_status ricci_dirichlet_new(const ricci_quotient *quotient,
+                                 const double *centre,
+                                 const ricci_control *control,
+                                 ricci_dirichlet **dirichlet);
+
+/**
+ * Release a Dirichlet domain.
+ *
+ * @param dirichlet  the handle, or NULL.
+ */
+void ricci_dirichlet_free(ricci_dirichlet *dirichlet);
+
+/**
+ * The figures of a Dirichlet domain.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param dirichlet  the domain.
+ * @param summary    out: the figures.
+ * @param size       sizeof *summary.
+ */
+ricci_status ricci_dirichlet_summarise(const ricci_dirichlet *dirichlet,
+                                       ricci_dirichlet_summary *summary,
+                                       size_t size);
+
+/**
+ * The corners of a Dirichlet domain, counterclockwise: side k runs from corner k to the next one.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param dirichlet  the domain.
+ * @param corners    out: n_sides x 3, ambient coordinates.
+ * @param capacity   entries of `corners`, at least 3 n_sides.
+ */
+ricci_status ricci_dirichlet_corners(const ricci_dirichlet *dirichlet,
+                                     double *corners,
+                                     size_t capacity);
+
+/**
+ * The side with the inverse element, for every side.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param dirichlet  the domain.
+ * @param partners   out: n_sides side numbers, 0-based.
+ * @param capacity   entries of `partners`.
+ */
+ricci_status ricci_dirichlet_partners(const ricci_dirichlet *dirichlet,
+                                      int32_t *partners,
+                                      size_t capacity);
+
+/**
+ * The elements of the sides.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param dirichlet  the domain.
+ * @param deck       out: the new handle, n_sides elements, to be released by ricci_deck_free.
+ */
+ricci_status ricci_dirichlet_sides(const ricci_dirichlet *dirichlet, ricci_deck **deck);
+
+/**
+ * All deck transformations that move the centre of a Dirichlet domain by at most `radius`, each once, nearest first: the copies in a
+ * round piece of the universal cover.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (the radius is NaN), RICCI_TOO_LARGE (more than `limit`), RICCI_CANCELLED.
+ *
+ * @param dirichlet  the domain.
+ * @param radius     largest distance.
+ * @param limit      most elements that are looked at, a little more than those that are found.
+ * @param control    cancellation; NULL for none.
+ * @param deck       out: the new handle, to be released by ricci_deck_free.
+ */
+ricci_status ricci_cover_within(const ricci_dirichlet *dirichlet,
+                                double radius,
+                                size_t limit,
+                                const ricci_control *control,
+                                ricci_deck **deck);
 
 /**
  * For tests: an internal error inside the library, on one of its threads, while it uses this mesh.

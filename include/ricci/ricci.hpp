@@ -14,6 +14,7 @@
 
 #include <ricci/ricci.h>
 
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -42,6 +43,12 @@ struct deleter {
     void operator()(ricci_solver *p) const { ricci_solver_free(p); }
     void operator()(ricci_layout *p) const { ricci_layout_free(p); }
     void operator()(ricci_charts *p) const { ricci_charts_free(p); }
+    void operator()(ricci_sphere *p) const { ricci_sphere_free(p); }
+    void operator()(ricci_quotient *p) const { ricci_quotient_free(p); }
+    void operator()(ricci_homotopy *p) const { ricci_homotopy_free(p); }
+    void operator()(ricci_domain *p) const { ricci_domain_free(p); }
+    void operator()(ricci_deck *p) const { ricci_deck_free(p); }
+    void operator()(ricci_dirichlet *p) const { ricci_dirichlet_free(p); }
     void operator()(ricci_control *p) const { ricci_control_free(p); }
 };
 
@@ -55,6 +62,12 @@ using report = owned<ricci_report>;
 using solver = owned<ricci_solver>;
 using layout = owned<ricci_layout>;
 using charts = owned<ricci_charts>;
+using sphere = owned<ricci_sphere>;
+using quotient = owned<ricci_quotient>;
+using homotopy = owned<ricci_homotopy>;
+using domain = owned<ricci_domain>;
+using deck = owned<ricci_deck>;
+using dirichlet = owned<ricci_dirichlet>;
 using control = owned<ricci_control>;
 
 // The handle that a function of ricci.h hands out through its last parameter.
@@ -98,6 +111,43 @@ inline metric flow(const metric &start, const double *target, size_t n_vertices,
     check(ricci_flow(start.get(), target, n_vertices, &options, control, &end, done ? &what : nullptr));
     if (done) done->reset(what);
     return metric(end);
+}
+
+// Rows of different lengths, such as loops, sides and words: row i is entries[starts[i] .. starts[i + 1]).
+template <class Value> struct rows {
+    std::vector<Value> entries;
+    std::vector<size_t> starts;
+    size_t size() const { return starts.size() - 1; }
+    std::vector<Value> operator[](size_t i) const {
+        return {entries.begin() + static_cast<std::ptrdiff_t>(starts[i]),
+                entries.begin() + static_cast<std::ptrdiff_t>(starts[i + 1])};
+    }
+};
+
+// The rows that a function copies out.
+template <class Handle, class Value>
+rows<Value> values(ricci_status (*function)(const Handle *, Value *, size_t, size_t *, size_t),
+                   const owned<Handle> &handle, size_t entries, size_t n_rows) {
+    rows<Value> filled{std::vector<Value>(entries), std::vector<size_t>(n_rows + 1)};
+    check(function(handle.get(), filled.entries.data(), entries, filled.starts.data(), n_rows + 1));
+    return filled;
+}
+
+// Options with their defaults.
+inline ricci_uniformize_options uniformize_options() {
+    ricci_uniformize_options options;
+    check(ricci_uniformize_options_init(&options, sizeof options));
+    return options;
+}
+
+// ricci_uniformize: one of the two is not null.
+inline std::pair<sphere, quotient> uniformize(const mesh &surface,
+                                              const ricci_uniformize_options &options = uniformize_options(),
+                                              const ricci_control *control = nullptr) {
+    ricci_sphere *ball = nullptr;
+    ricci_quotient *plane = nullptr;
+    check(ricci_uniformize(surface.get(), &options, control, &ball, &plane));
+    return {sphere(ball), quotient(plane)};
 }
 
 } // namespace ricci

@@ -10,6 +10,6 @@ mod star;
 mod tries;
 pub mod uniformize;
 
-pub use quotient::{Quotient, QuotientOptions, uniformize_quotient};
+pub use quotient::{Quotient, QuotientOptions, quotient_of, uniformize_quotient};
 pub use sphere::{Sphere, SphereOptions, SphereReport, uniformize_sphere};
 pub use uniformize::{Uniformization, uniformize};

@@ -58,19 +58,51 @@ pub fn uniformize_quotient(
     options: &QuotientOptions,
     control: &Control,
 ) -> Result<Quotient> {
+    let space = check(mesh, options)?;
+    let (flow, scheme) = (&options.flow, options.scheme);
+    let flow = SurfaceFlow::new(mesh, lengths, geometry, scheme, space, &[], flow, control)?;
+    finish(flow, area(mesh, geometry, lengths)?, options, control)
+}
+
+/// [`uniformize_quotient`] from where a metric of the surface is, such as another solver's result: in its scheme, in E² for genus 1, in H²
+/// for more.
+///
+/// Errors: those of [`uniformize_quotient`]; [`Error::Layout`] for a metric in another space.
+pub fn quotient_of(metric: &SurfaceMetric, options: &QuotientOptions, control: &Control) -> Result<Quotient> {
+    let given = metric.given();
+    let space = check(given, options)?;
+    if metric.metric().space != space {
+        let (genus, other) = (given.genus(), metric.metric().space);
+        return Err(Error::Layout(format!(
+            "a surface of genus {genus} has its constant curvature in {space}, this metric lives in {other}"
+        )));
+    }
+    let given_area = area(given, metric.initial().input_geometry, metric.given_lengths())?;
+    let flow = SurfaceFlow::resume(metric, &[], &options.flow, control)?;
+    finish(flow, given_area, options, control)
+}
+
+/// The space of a surface that is such a quotient.
+fn check(mesh: &Mesh, options: &QuotientOptions) -> Result<Space> {
     options.base.map_or(Ok(()), |v| check_vertex(mesh, v))?;
     if !mesh.is_closed() || mesh.euler() > 0 {
         return Err(Error::Layout(
             "only closed surfaces of genus 1 and more are quotients of a plane".into(),
         ));
     }
-    let space = if mesh.euler() == 0 { Space::E2 } else { Space::H2 };
-    let mut flow =
-        SurfaceFlow::new(mesh, lengths, geometry, options.scheme, space, &[], &options.flow, control)?;
-    let report = flow.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), control)?;
+    Ok(if mesh.euler() == 0 { Space::E2 } else { Space::H2 })
+}
+
+/// Flow to curvature 0, layout, basis, deck group.
+fn finish(
+    mut flow: SurfaceFlow,
+    given_area: f64,
+    options: &QuotientOptions,
+    control: &Control,
+) -> Result<Quotient> {
+    let report = flow.solve(&PerVertex::filled(flow.given().n_vertices(), 0.0), control)?;
     let angle_defect = flow.flatten(control)?;
     let metric = flow.now();
-    let given_area = area(mesh, geometry, lengths)?;
     Pool::new(options.flow.threads)?.run(|| {
         let (mesh, lengths) = (metric.mesh().clone(), metric.metric().lengths(metric.mesh())?);
         let base = match options.base {
@@ -78,7 +110,7 @@ pub fn uniformize_quotient(
             None => central_vertex(&mesh, &lengths, control)?,
         };
         let mut layout = layout_in_space(&mesh, metric.metric(), base, None, control)?;
-        if space == Space::E2 {
+        if metric.metric().space == Space::E2 {
             layout.scale((given_area / layout.area).sqrt());
         }
         let basis = homotopy_basis(&mesh, &lengths, Some(base), control)?;

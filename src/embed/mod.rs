@@ -18,6 +18,7 @@ pub mod seam;
 mod shape;
 mod space_develop;
 pub mod space_layout;
+mod space_lift;
 pub mod space_refined;
 pub mod space_refined_develop;
 mod triangle;

@@ -46,7 +46,7 @@ pub(crate) fn check_vertex(mesh: &Mesh, v: VertexId) -> Result<()> {
 }
 
 /// The half-edges exist and each starts where the one before it ends.
-fn check_path(mesh: &Mesh, path: &[HalfedgeId]) -> Result<()> {
+pub(crate) fn check_path(mesh: &Mesh, path: &[HalfedgeId]) -> Result<()> {
     let known = |h: &HalfedgeId| h.index() < mesh.n_halfedges();
     let wrong = path.iter().find(|h| !known(h)).or_else(|| {
         let broken = path.windows(2).find(|pair| mesh.tip(pair[0]) != mesh.origin(pair[1]));

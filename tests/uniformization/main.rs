@@ -6,6 +6,7 @@ mod common;
 
 mod cover;
 mod known;
+mod lift;
 mod polygon;
 mod quotient;
 mod surfaces;

@@ -26,10 +26,39 @@ int whole_job() {
     return 0;
 }
 
+// One call for every closed surface; words and loops as rows.
+int uniformization() {
+    const ricci::mesh bolza = ricci::make<ricci_mesh>(ricci_shape_bolza, 1);
+    const ricci::mesh ball = ricci::make<ricci_mesh>(ricci_shape_sphere, 2);
+    const auto first = ricci::uniformize(ball);
+    if (!first.first || first.second || !ricci::summary(ricci_sphere_summarise, first.first).converged)
+        return 6;
+    ricci_uniformize_options options = ricci::uniformize_options();
+    options.base = 0;
+    const auto second = ricci::uniformize(bolza, options);
+    if (second.first || !second.second || ricci::summary(ricci_quotient_summarise, second.second).genus != 2)
+        return 7;
+    const auto octagon =
+        ricci::make<ricci_dirichlet>(ricci_dirichlet_new, second.second.get(), nullptr, nullptr);
+    const auto sides = ricci::make<ricci_deck>(ricci_dirichlet_sides, octagon.get());
+    const auto count = ricci::summary(ricci_deck_summarise, sides);
+    const auto words = ricci::values(ricci_deck_words, sides, count.n_letters, count.n_elements);
+    if (count.n_elements != 8 || words.size() != 8 || words[0].empty()) return 8;
+    for (double trace : ricci::values(ricci_deck_traces, sides, 8))
+        if (std::abs(trace - 2 * (1 + std::sqrt(2.0))) > 1e-9) return 9;
+    const auto basis = ricci::make<ricci_homotopy>(ricci_quotient_homotopy, second.second.get());
+    const auto figures = ricci::summary(ricci_homotopy_summarise, basis);
+    const auto loops = ricci::values(ricci_homotopy_loops, basis, figures.n_loop_edges, figures.n_generators);
+    size_t edges = 0;
+    for (size_t k = 0; k < loops.size(); k++) edges += loops[k].size();
+    return edges == figures.n_loop_edges ? 0 : 10;
+}
+
 } // namespace
 
 int main() {
     if (const int failed = whole_job()) return failed;
+    if (const int failed = uniformization()) return failed;
     try {
         ricci::make<ricci_mesh>(ricci_mesh_read, "no such file.obj");
     } catch (const ricci::error &error) {

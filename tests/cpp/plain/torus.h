@@ -11,7 +11,7 @@ typedef struct {
     uint32_t *faces;   /* n_faces x 3 */
 } torus;
 
-static torus torus_new(size_t n, size_t m) {
+static inline torus torus_new(size_t n, size_t m) {
     torus t = {n * m, 2 * n * m, NULL, NULL};
     t.positions = (double *)malloc(3 * t.n_vertices * sizeof(double));
     t.faces = (uint32_t *)malloc(3 * t.n_faces * sizeof(uint32_t));
@@ -31,13 +31,13 @@ static torus torus_new(size_t n, size_t m) {
     return t;
 }
 
-static ricci_mesh *torus_mesh(const torus *t) {
+static inline ricci_mesh *torus_mesh(const torus *t) {
     ricci_mesh *mesh = NULL;
     OK(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, t->n_faces, &mesh));
     return mesh;
 }
 
-static void torus_free(torus *t) {
+static inline void torus_free(torus *t) {
     free(t->positions);
     free(t->faces);
 }
