@@ -73,7 +73,7 @@ fn main() {
         "seconds, and in brackets the median ratio to shortest paths (Dijkstra, along the edges of the same triangulation) in the same round. All"
     );
     println!(
-        "jobs are linear in the size but for a logarithm, like that yardstick: the ratios stay the same.\n"
+        "jobs are linear in the size but for a logarithm, like that yardstick: the ratios do not grow.\n"
     );
     println!("| vertices | {} |", JOBS.join(" | "));
     println!("|---|{}", "---|".repeat(JOBS.len()));

@@ -323,7 +323,7 @@ fn refined(quotient: &ricci_quotient, model: Model, control: &Control) -> Outcom
     let (given, mesh) = (metric.given(), metric.mesh());
     let refinement = metric.refinement(control)?;
     let refined = refine_space_layout(layout, &refinement, mesh, control)?;
-    let quality = refined.quality(layout, &refinement, given, metric.given_lengths())?;
+    let quality = refined.quality(&refinement, given, metric.given_lengths())?;
     let flat = |p: &[f64; 3]| [p[0], p[1]];
     let points: Vec<[f64; 2]> = match layout.space {
         Space::E2 => refined.points.iter().map(flat).collect(),

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number of about 32 digits: the unevaluated sum of two doubles, the second at most half an ulp of the first [Dek71].
+/// A number of about 32 digits: the unevaluated sum of two doubles, the second at most half an ulp of the first \[Dek71\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Twofold {
     /// The nearest double.
