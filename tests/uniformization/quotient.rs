@@ -3,13 +3,15 @@
 use crate::common::Random;
 use crate::surfaces::{Surface, corpus, generated};
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
-use ricci::flow::Options;
+use ricci::embed::layout_refined_in_space;
+use ricci::flow::{Options, SurfaceFlow};
 use ricci::geometry::{Motion, Space, Twofold};
-use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
-use ricci::metric::Scheme;
+use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
+use ricci::metric::{Scheme, SurfaceMetric};
 use ricci::topology::word::{Letter, Word};
 use ricci::{Control, Error};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Everything that must hold of a uniformization, measured from what it returns.
 pub fn check(surface: &Surface, q: &Quotient) {
@@ -257,4 +259,74 @@ fn refinements_lie_in_the_layout() {
             }
         }
     }
+}
+
+/// A surface with geodesic boundary is laid out from its double: the given half alone, every piece the right way round, closed where it is not
+/// cut; and the boundary is straight: at each of its vertices the pieces' angles add up to π.
+#[test]
+fn the_given_half_of_a_double_is_laid_out() {
+    let torus = ricci::mesh::shapes::torus(2.0, 0.8, 24, 14).unwrap();
+    let surfaces = [
+        Surface::from_soup("torus with 2 holes", &ricci::mesh::shapes::punch(&torus, 2).unwrap()),
+        Surface::from_soup(
+            "genus 2 with 3 holes",
+            &ricci::mesh::shapes::punch(&ricci::mesh::shapes::genus(2, 3).unwrap(), 3).unwrap(),
+        ),
+    ];
+    for surface in surfaces {
+        let Surface { name, mesh, lengths, geometry } = &surface;
+        let (given, control) = (Arc::new(mesh.clone()), Control::new());
+        let lengths = Arc::new(lengths.clone());
+        let start = SurfaceMetric::delaunay(
+            given,
+            lengths,
+            *geometry,
+            Scheme::Yamabe,
+            Space::H2,
+            true,
+            &[],
+            &control,
+        );
+        let mut flow = SurfaceFlow::resume(&start.unwrap(), &[], &Options::default(), &control).unwrap();
+        let report = flow.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), &control).unwrap();
+        assert!(report.converged && flow.double().is_some(), "{name}");
+        assert!(flow.flatten(&control).unwrap() < 1e-18, "{name}");
+        let r = flow.refinement(&control).unwrap();
+        let (layout, cut) =
+            layout_refined_in_space(&r, flow.mesh(), flow.metric(), VertexId(0), None, &control).unwrap();
+        assert!(layout.flipped.is_empty() && layout.degenerate.is_empty(), "{name}");
+        assert!(layout.disagreement < 1e-12, "{name}: {:e}", layout.disagreement);
+        assert!(ricci::topology::cut::is_disk(&r.mesh, &cut.is_cut), "{name}");
+        // Half the double's area: that of a surface of this Euler characteristic.
+        let area: f64 = r.mesh.faces().map(|f| hyperbolic_area(layout.face_points(&r, f))).sum();
+        let expected = -2.0 * PI * mesh.euler() as f64;
+        assert!((area - expected).abs() < 1e-9, "{name}: {area} {expected}");
+        let mut angle = PerVertex::filled(r.mesh.n_vertices(), 0.0);
+        for f in r.mesh.faces() {
+            let points = layout.face_points(&r, f);
+            for (k, v) in r.mesh.face_vertices(f).into_iter().enumerate() {
+                angle[v] += hyperbolic_angle(points[k], points[(k + 1) % 3], points[(k + 2) % 3]);
+            }
+        }
+        for v in r.mesh.vertices() {
+            let whole = if r.mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI };
+            assert!((angle[v] - whole).abs() < 1e-7, "{name}: vertex {v}: {}", angle[v]);
+        }
+    }
+}
+
+/// tan(A/2) = det / (1 + Σ cosh).
+fn hyperbolic_area([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    let det = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+        + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    let cosh = |p: [f64; 3], q: [f64; 3]| p[2] * q[2] - p[0] * q[0] - p[1] * q[1];
+    2.0 * (det / (1.0 + cosh(a, b) + cosh(b, c) + cosh(c, a))).atan()
+}
+
+/// The angle at a, between tangents `b − cosh(ab) a` and `c − cosh(ac) a`: cosine by their product, sine by the determinant.
+fn hyperbolic_angle(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
+    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] - p[2] * q[2];
+    let det = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+        + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    det.atan2(dot(b, c) + dot(a, b) * dot(a, c))
 }
