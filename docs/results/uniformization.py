@@ -125,7 +125,7 @@ def quotients(folder, genus_one):
         rows.append(row)
     head = ["mesh", "V"] + ([] if genus_one else ["genus"]) + ["steps", "flips", "max \\|K\\|", "the same, twofold"]
     head += ["modulus", "rotation"] if genus_one else ["area off", "translation lengths"]
-    head += ["relation", "disagreement", "radius", "Dirichlet sides", "mean dilatation", "outside: \\|K\\|, relation, flipped", "s"]
+    head += ["relation", "disagreement", "radius", "Dirichlet sides", "mean dilatation", "outside: \\|K\\|, relative relation, flipped", "s"]
     return table(head, rows), bad
 
 

@@ -33,7 +33,7 @@ impl Default for QuotientOptions {
 pub struct Quotient {
     /// What the flow did. Where it has not converged the rest is as good as the metric is.
     pub report: Report,
-    /// Largest |K| after corrections with twice the digits of doubles ([`SurfaceFlow::flatten`]).
+    /// Largest |K|, with twice the digits of doubles; of a converged flow after corrections with as many ([`SurfaceFlow::flatten`]).
     pub angle_defect: f64,
     /// The metric, on the triangulation that flips have led to, with the way back.
     pub metric: SurfaceMetric,
@@ -101,7 +101,10 @@ fn finish(
     control: &Control,
 ) -> Result<Quotient> {
     let report = flow.solve(&PerVertex::filled(flow.given().n_vertices(), 0.0), control)?;
-    let angle_defect = flow.flatten(control)?;
+    let angle_defect = match report.converged {
+        true => flow.flatten(control)?,
+        false => flow.metric().angle_defects(flow.mesh())?.iter().fold(0.0, |m, k| f64::max(m, k.abs())),
+    };
     let metric = flow.now();
     Pool::new(options.flow.threads)?.run(|| {
         let (mesh, lengths) = (metric.mesh().clone(), metric.metric().lengths(metric.mesh())?);

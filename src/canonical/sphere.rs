@@ -45,7 +45,7 @@ impl Default for SphereOptions {
 pub struct SphereReport {
     /// Plane and sphere have K = 0 to the tolerance, every edge is Delaunay and the outline convex to 1e-9.
     pub converged: bool,
-    /// Why the last flow stopped.
+    /// Why the last flow stopped; `stalled` also where it came to its target and the polyhedron is not the one asked for.
     pub stop_reason: StopReason,
     /// Newton steps of all flows.
     pub iterations: usize,
@@ -117,8 +117,8 @@ fn check(given: &Mesh, options: &SphereOptions) -> Result<()> {
         let kind = if given.is_closed() { "closed" } else { "with boundary" };
         let value =
             format!("{kind}, of {} vertices and Euler characteristic {}", given.n_vertices(), given.euler());
-        let need = "one closed surface of genus 0 with at least four vertices";
-        return Err(Error::Argument { what: "surface", value, need });
+        let need = "take a closed surface of genus 0 with at least four vertices (`ricci make`, or cut each triangle into four)";
+        return Err(Error::Layout(format!("{value}: {need}")));
     }
     options.puncture.map_or(Ok(()), |v| check_vertex(given, v))
 }
@@ -164,12 +164,20 @@ fn uniformize(
     let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
     let (mut spherical, curvature) = polished(&surface.mesh, spherical, &flow, control)?;
     let delaunay_violation = surface.delaunay_violation();
+    let whole = curvature.broken.is_empty();
+    let converged = found.converged
+        && whole
+        && delaunay_violation <= DELAUNAY
+        && found.turning >= -DELAUNAY
+        && largest(&curvature.at) <= flow.tolerance;
     let report = SphereReport {
-        converged: found.converged
-            && delaunay_violation <= DELAUNAY
-            && found.turning >= -DELAUNAY
-            && largest(&curvature.at) <= flow.tolerance,
-        stop_reason: found.stop_reason,
+        converged,
+        stop_reason: match found.stop_reason {
+            // The flow came to its target, the polyhedron did not.
+            StopReason::Converged if !whole => StopReason::BrokenTriangles,
+            StopReason::Converged if !converged => StopReason::Stalled,
+            reason => reason,
+        },
         iterations: tried.iterations,
         flips: surface.flips,
         start_flips,

@@ -5,7 +5,7 @@ use super::dirichlet::{DirichletDomain, identity, to_origin};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, Space, Twofold};
 use crate::parallel;
 use crate::topology::SurfaceGroup;
 use crate::topology::word::{Letter, Word};
@@ -82,12 +82,20 @@ struct Found {
     /// By image in the abelianisation and displacement in units of [`SAME`].
     alike: HashMap<(Vec<i64>, i64), Vec<u32>>,
     limit: usize,
+    /// [`SAME`] as a length: in E² in units of the longest generator.
+    same: f64,
 }
 
 impl Found {
     fn new(deck: &DeckGroup, limit: usize) -> Found {
-        let mut found =
-            Found { group: deck.group, elements: Vec::new(), alike: HashMap::new(), limit: limit.max(1) };
+        let longest = deck.generators.iter().map(Motion::displacement).fold(0.0, f64::max);
+        let mut found = Found {
+            group: deck.group,
+            elements: Vec::new(),
+            alike: HashMap::new(),
+            limit: limit.max(1),
+            same: if deck.space == Space::E2 && longest > 0.0 { SAME * longest } else { SAME },
+        };
         let one = identity(deck.space);
         let key = found.key(&one);
         found.insert(one, key);
@@ -129,7 +137,7 @@ impl Found {
     }
 
     fn key(&self, g: &DeckElement) -> (Vec<i64>, i64) {
-        (self.group.abelianisation(&g.word), (g.motion.displacement() / SAME).floor() as i64)
+        (self.group.abelianisation(&g.word), (g.motion.displacement() / self.same).floor() as i64)
     }
 
     fn contains(&self, g: &DeckElement, key: &(Vec<i64>, i64)) -> bool {

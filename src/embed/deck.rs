@@ -41,7 +41,9 @@ pub struct DeckGroup {
     /// `‖R − I‖_F / max_k ‖P_k‖²` of the relator's matrix R over its partial products P_k (Frobenius norms of 2×2 matrices, R with the
     /// nearer sign). 0 without a relation.
     pub relation_residual: f64,
-    /// The same for each side: how far its pairing is from its word's isometry; the largest.
+    /// `‖R − I‖_F` itself: what the rounding of far products has left of the relation near the base.
+    pub relation_error: f64,
+    /// As `relation_residual`, for each side: how far its pairing is from its word's isometry; the largest.
     pub side_residual: f64,
 }
 
@@ -64,6 +66,7 @@ impl DeckGroup {
             sides: Vec::new(),
             corner: mesh.outgoing(basis.base).find(|&h| !mesh.is_outside(h)).unwrap_or(mesh.out(basis.base)),
             relation_residual: 0.0,
+            relation_error: 0.0,
             side_residual: 0.0,
         };
         if deck.group.n_generators() == 0 {
@@ -89,7 +92,9 @@ impl DeckGroup {
             deck.sides.push(DeckElement { word, motion });
         }
         let relator = deck.group.relator();
-        deck.relation_residual = deck.residual(&relator, &deck.products(relator.letters()));
+        let whole = deck.products(relator.letters());
+        deck.relation_error = whole.distance_from_identity().min(f64::MAX);
+        deck.relation_residual = deck.residual(&relator, &whole);
         Ok(deck)
     }
 
@@ -119,7 +124,9 @@ impl DeckGroup {
             product = product.compose(&self.letter(letter));
             largest = largest.max(product.norm_square());
         }
-        rest.distance_from_identity() / largest
+        let residual = rest.distance_from_identity() / largest;
+        // Products beyond the range of doubles say nothing.
+        if residual.is_nan() { f64::MAX } else { residual }
     }
 
     /// |tr| of the generators' matrices of determinant 1: 2 cosh(L/2) in H².

@@ -5,14 +5,14 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, triangle};
-use crate::topology::word::Word;
+use crate::topology::word::{Letter, Word};
 
 /// A side counts, and a corner is cut off, where that moves the border by more than the first of these for which the sides can be paired:
 /// elements are known to 1e-20 (some schemes: 1e-14) times e^distance, and corners where more than three bisectors meet to as much.
 const TOLERANCES: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
 /// Rounds of products of side elements. Each at least doubles the word length that is looked at; two or three are usual.
 const ROUNDS: usize = 12;
-/// An element that moves the centre by less is the identity: no surface in doubles has so short a loop.
+/// An element that moves the centre by less is the identity (in E² in units of the longest side pairing).
 const SAME: f64 = 1e-6;
 /// The polygon's area against the surface's, relative.
 const AREA: f64 = 1e-6;
@@ -59,11 +59,25 @@ pub fn dirichlet_domain(
     // The surface is covered by what the neighbours' centres are about: nothing nearest to the centre is farther out than all of them
     // together.
     let reach = deck.sides.iter().map(about).map(|g| g.motion.displacement()).sum();
-    let factors: Vec<_> = deck.sides.iter().map(about).collect();
+    // The generators, too: on a surface of few vertices they are shorter than the sides.
+    let generators = (0..deck.generators.len()).map(|k| {
+        let letter = Letter::generator(k);
+        DeckElement { word: Word::from_iter([letter]), motion: deck.letter(letter) }
+    });
+    let factors: Vec<_> = deck.sides.iter().cloned().chain(generators).map(|g| about(&g)).collect();
+    // Lengths of the plane are in units of the longest pairing, those of H² as they are.
+    let unit = if deck.space == Space::E2 {
+        factors.iter().map(|g| g.motion.displacement()).fold(0.0, f64::max)
+    } else {
+        1.0
+    };
     let mut nearest = None;
     for tolerance in TOLERANCES {
-        let mut polygon = Polygon::around(deck.space, reach, tolerance);
+        let mut polygon = Polygon::around(deck.space, reach, [tolerance * unit, SAME * unit]);
         polygon.close(deck, &factors, control)?;
+        if !polygon.is_bounded() {
+            break;
+        }
         match polygon.finish(centre, &home.inverse()) {
             Some(domain) if (domain.area - area).abs() <= AREA * area => return Ok(domain),
             found => nearest = found.or(nearest),
@@ -84,7 +98,12 @@ fn product(deck: &DeckGroup, g: &DeckElement, h: &DeckElement, motion: Motion<Tw
 const MOST_FACTORS: usize = 600;
 
 /// Of some elements and their products by twos, other than the identity, those that move the origin least: twice as many as were given.
-fn shortest_products(deck: &DeckGroup, all: &[DeckElement], control: &Control) -> Result<Vec<DeckElement>> {
+fn shortest_products(
+    deck: &DeckGroup,
+    all: &[DeckElement],
+    same: f64,
+    control: &Control,
+) -> Result<Vec<DeckElement>> {
     let identity = identity(deck.space);
     let mut pairs = Vec::with_capacity(all.len() * (all.len() + 1));
     for (i, g) in all.iter().enumerate() {
@@ -97,10 +116,10 @@ fn shortest_products(deck: &DeckGroup, all: &[DeckElement], control: &Control) -
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     let most = (2 * all.len()).min(MOST_FACTORS).max(all.len());
     let mut found: Vec<DeckElement> = Vec::new();
-    for (moved, i, j, motion) in pairs.into_iter().filter(|pair| pair.0 > SAME) {
+    for (moved, i, j, motion) in pairs.into_iter().filter(|pair| pair.0 > same) {
         let back = motion.inverse();
-        let is_known = |g: &&DeckElement| back.compose(&g.motion).displacement() <= SAME;
-        let near = found.iter().rev().take_while(|g| g.motion.displacement() > moved - SAME);
+        let is_known = |g: &&DeckElement| back.compose(&g.motion).displacement() <= same;
+        let near = found.iter().rev().take_while(|g| g.motion.displacement() > moved - same);
         if near.into_iter().any(|g| is_known(&g)) {
             continue;
         }
@@ -139,8 +158,9 @@ struct Polygon {
     sides: Vec<Option<DeckElement>>,
     /// Largest distance of a corner from the origin.
     radius: f64,
-    /// One of [`TOLERANCES`].
+    /// One of [`TOLERANCES`], and [`SAME`], as lengths.
     tolerance: f64,
+    same: f64,
 }
 
 /// The bisector of the origin and its image `[x, y, w]`, as the linear form `x X + y Y − h W` that is positive beyond it.
@@ -189,11 +209,11 @@ impl Bisector {
 
 impl Polygon {
     /// A square about the whole Klein disk; in the plane, one about the disk of radius `reach`.
-    fn around(space: Space, reach: f64, tolerance: f64) -> Polygon {
+    fn around(space: Space, reach: f64, [tolerance, same]: [f64; 2]) -> Polygon {
         let far = if space == Space::H2 { 2.0 } else { 2.0 * reach };
         let corners = [[far, far], [-far, far], [-far, -far], [far, -far]];
         let corners = corners.map(|[x, y]| [x, y, 1.0].map(Twofold::from)).to_vec();
-        Polygon { space, corners, sides: vec![None; 4], radius: f64::INFINITY, tolerance }
+        Polygon { space, corners, sides: vec![None; 4], radius: f64::INFINITY, tolerance, same }
     }
 
     /// Cut by the bisectors of `factors` and of their inverses, then of products of the elements of its sides, until none cuts anything off.
@@ -220,8 +240,10 @@ impl Polygon {
             match self.is_bounded() {
                 true if !changed => break,
                 true => {}
+                // Nothing new has come, and no room is left for more.
+                false if !changed && factors.len() > MOST_FACTORS => break,
                 false => {
-                    factors = shortest_products(deck, &factors, control)?;
+                    factors = shortest_products(deck, &factors, self.same, control)?;
                     factors.extend_from_slice(&given);
                 }
             }
@@ -313,10 +335,10 @@ impl Polygon {
         if !self.is_bounded() {
             return None;
         }
-        let (space, radius) = (self.space, self.radius);
+        let (space, radius, same) = (self.space, self.radius, self.same);
         let elements = self.elements();
         let is_inverse =
-            |g: &DeckElement, h: &DeckElement| g.motion.compose(&h.motion).displacement() <= SAME;
+            |g: &DeckElement, h: &DeckElement| g.motion.compose(&h.motion).displacement() <= same;
         let partner: Option<Vec<usize>> =
             elements.iter().map(|g| elements.iter().position(|h| is_inverse(g, h))).collect();
         let points: Vec<[Twofold; 3]> = self.corners.iter().map(|&p| on_hyperboloid(space, p)).collect();
@@ -327,7 +349,13 @@ impl Polygon {
             let [x, y, w] = to_corner.apply(points[(k + 1) % n]).map(f64::from);
             super::space_layout::distance_from_origin(space, [x, y, w])
         };
-        let sector = |k: usize| triangle::area(space, [side(k), ray((k + 1) % n), ray(k)]);
+        let sector = |k: usize| match space {
+            Space::H2 => triangle::area(space, [side(k), ray((k + 1) % n), ray(k)]),
+            _ => {
+                let (p, q) = (points[k], points[(k + 1) % n]);
+                f64::from((p[0] * q[1] - p[1] * q[0]) * 0.5.into())
+            }
+        };
         let area = (0..n).map(sector).sum();
         let place = |g: DeckElement| DeckElement {
             motion: back.compose(&g.motion).compose(&back.inverse()),

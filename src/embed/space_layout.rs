@@ -173,16 +173,15 @@ impl SpaceLayout {
         let mut worst = vec![0.0; mesh.n_faces()];
         parallel::fill(&mut worst, |f| {
             let off = |h: HalfedgeId| {
-                let back = faces.frame(&self.frames, h).inverse();
-                let own = self.corner(h);
-                let distance = |p: [f64; 3], g: Option<Motion<Twofold>>| {
-                    let p = precise_point(self.space, p);
-                    let p = g.map_or(p, |g| g.apply(p));
-                    distance_from_origin(self.space, back.apply(p).map(f64::from))
-                };
-                let other = (self.side[h] != 0 && !mesh.is_outside(h.twin()))
-                    .then(|| distance(self.corner(mesh.next(h.twin())), Some(self.neighbour(h))));
-                distance(own, None).max(other.unwrap_or(0.0))
+                let frame = faces.frame(&self.frames, h);
+                let home = frame.inverse();
+                let own = home.apply(precise_point(self.space, self.corner(h))).map(f64::from);
+                // The neighbour's copy of this corner, by frames: products of vectors would lose e^{2r}, those of isometries e^r.
+                let across = mesh.next(h.twin());
+                let other = (self.side[h] != 0)
+                    .then(|| home.compose(&self.neighbour(h)).compose(&faces.frame(&self.frames, across)))
+                    .map_or(0.0, |g| g.displacement());
+                distance_from_origin(self.space, own).max(other)
             };
             mesh.face_halfedges(f.into()).map(off).into_iter().fold(0.0, f64::max)
         });

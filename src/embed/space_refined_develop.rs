@@ -193,10 +193,11 @@ fn disagreement(r: &Refinement, faces: &Faces, layout: &RefinedSpaceLayout, cut:
         let far = |h: HalfedgeId| frame(h).displacement().max(frame(h.twin()).displacement());
         let Some(&nearest) = segment.iter().min_by(|&&g, &&h| far(g).total_cmp(&far(h))) else { continue };
         let pairing = neighbour(nearest);
+        // Frames of final faces, by isometries: products of vectors would lose e^{2r}, those of isometries e^r.
         for &h in segment {
-            let at = |h: HalfedgeId| precise_point(space, layout.points[layout.corner_index[h] as usize]);
-            let image = pairing.apply(at(r.mesh.next(h.twin())));
-            worst = worst.max(distance(&frame(h).inverse(), at(h), image));
+            let off =
+                frame(h).inverse().compose(&pairing).compose(&neighbour(h).inverse()).compose(&frame(h));
+            worst = worst.max(off.displacement());
         }
     }
     worst

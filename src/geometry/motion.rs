@@ -234,15 +234,22 @@ impl Motion<Twofold> {
     /// The 2×2 complex matrix of the Möbius transformation in the plane (E²: `[[e^{iθ}, t], [0, 1]]`), the Poincaré disk or the
     /// stereographic plane of the sphere: determinant 1 (E²: e^{iθ}).
     pub fn mobius(&self) -> [[[f64; 2]; 2]; 2] {
+        self.mobius_twofold().map(|row| row.map(|z| z.map(f64::from)))
+    }
+
+    /// What the doubles of [`Motion::mobius`] lose: together they have twice the digits. Far translations need them, since |a|² − |b|² = 1
+    /// is the difference of numbers of the size e^length.
+    pub fn mobius_remainder(&self) -> [[[f64; 2]; 2]; 2] {
+        self.mobius_twofold().map(|row| row.map(|z| z.map(|x| x.low)))
+    }
+
+    fn mobius_twofold(&self) -> [[Complex<Twofold>; 2]; 2] {
         let near = self.positive();
         let (a, b) = (near.a, near.b);
-        let out = |z: Complex<Twofold>| z.map(f64::from);
+        let real = |x: f64| [Twofold::from(x), Twofold::from(0.0)];
         match self.space {
-            Space::E2 => {
-                let two = Twofold::from(2.0);
-                [[out(mul(a, a)), out(scaled(two, mul(a, b)))], [[0.0, 0.0], [1.0, 0.0]]]
-            }
-            _ => [[out(a), out(b)], [out(scaled(-self.sign(), conj(b))), out(conj(a))]],
+            Space::E2 => [[mul(a, a), scaled(Twofold::from(2.0), mul(a, b))], [real(0.0), real(1.0)]],
+            _ => [[a, b], [scaled(-self.sign(), conj(b)), conj(a)]],
         }
     }
 }

@@ -39,6 +39,8 @@ pub struct UniformFigures {
     word: Vec<String>,
     relation_residual: f64,
     /// How far the isometries of the layout's sides are from those of their words.
+    /// ‖R − I‖ of the relator's matrix, not relative to anything.
+    relation_error: f64,
     side_residual: f64,
     traces: Vec<f64>,
     translation_lengths: Vec<f64>,
@@ -99,6 +101,7 @@ impl UniformFigures {
             disagreement: place.map_or(0.0, |p| p.refined.disagreement),
             word: letters(&u.deck.group, &u.deck.group.relator()),
             relation_residual: u.deck.relation_residual,
+            relation_error: u.deck.relation_error,
             side_residual: u.deck.side_residual,
             traces: u.deck.traces(),
             translation_lengths: u.deck.translation_lengths(),

@@ -18,21 +18,34 @@ pub struct GroupFile {
     basis: Vec<String>,
     word: Vec<String>,
     generators: BTreeMap<String, Mobius>,
+    /// What the doubles of `generators` lose: far translations have a determinant of 1 with these alone.
+    generators_lo: BTreeMap<String, Mobius>,
+    /// The same isometries as real matrices by rows, in SE(2) (homogeneous) or SO⁺(2,1) (of the hyperboloid and of the Klein disk).
+    matrices: BTreeMap<String, [[f64; 3]; 3]>,
 }
 
 impl GroupFile {
     /// The group of what is its own universal cover.
     pub fn trivial(space: &'static str) -> GroupFile {
-        GroupFile { space, basis: Vec::new(), word: Vec::new(), generators: BTreeMap::new() }
+        GroupFile {
+            space,
+            basis: Vec::new(),
+            word: Vec::new(),
+            generators: BTreeMap::new(),
+            generators_lo: BTreeMap::new(),
+            matrices: BTreeMap::new(),
+        }
     }
 
     pub fn new(deck: &DeckGroup) -> GroupFile {
         let basis = deck.group.names();
-        let matrices = deck.generators.iter().map(|g| g.mobius());
+        let named = || basis.iter().cloned().zip(&deck.generators);
         GroupFile {
             space: deck.space.name(),
             word: letters(&deck.group, &deck.group.relator()),
-            generators: basis.iter().cloned().zip(matrices).collect(),
+            generators: named().map(|(name, g)| (name, g.mobius())).collect(),
+            generators_lo: named().map(|(name, g)| (name, g.mobius_remainder())).collect(),
+            matrices: named().map(|(name, g)| (name, g.matrix().map(|row| row.map(f64::from)))).collect(),
             basis,
         }
     }
@@ -59,6 +72,8 @@ struct SideFile {
     /// The deck transformation that carries the domain to its neighbour across this side.
     word: Vec<String>,
     matrix: Mobius,
+    /// What the doubles of `matrix` lose.
+    matrix_lo: Mobius,
     /// The side with the inverse transformation.
     partner: usize,
 }
@@ -78,6 +93,7 @@ impl DomainFile {
         let side = |k: usize| SideFile {
             word: letters(group, &domain.sides[k].word),
             matrix: domain.sides[k].motion.mobius(),
+            matrix_lo: domain.sides[k].motion.mobius_remainder(),
             partner: domain.partner[k],
         };
         DomainFile {

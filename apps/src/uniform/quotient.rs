@@ -159,6 +159,7 @@ impl Uniformized {
             let turning = self.deck.generators.iter().map(|g| g.rotation_angle()).fold(0.0, f64::max);
             checks.add("turning", turning, TURNING);
         }
+        checks.add("without_domain", f64::from(u8::from(self.domain.is_err())), 0.0);
         if let Ok(domain) = &self.domain {
             let area = self.area();
             checks.add("domain_area", (domain.area - area).abs() / area, DOMAIN_AREA);
