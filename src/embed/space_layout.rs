@@ -87,7 +87,10 @@ pub fn layout_in_space(
         broken: mesh.faces().filter(|&f| faces.is_broken(f)).collect(),
         disagreement: 0.0,
         radius: points.iter().map(|&p| distance_from_origin(metric.space, p)).fold(0.0, f64::max),
-        area: mesh.faces().map(|f| area_from(metric.space, faces.differences[f])).sum(),
+        area: mesh
+            .faces()
+            .fold(Twofold::default(), |sum, f| sum + area_from(metric.space, faces.differences[f]).into())
+            .high,
         side: seam_sides(mesh, &cut),
         frames: grown.frames,
         corner_index,

@@ -16,6 +16,7 @@ use ricci::geometry::modulus::modulus;
 use ricci::mesh::{PerEdge, PerVertex, VertexId};
 use ricci::metric::{Curvature, SurfaceMetric};
 use ricci::topology::HomotopyBasis;
+use std::cmp::Ordering;
 use std::f64::consts::PI;
 
 /// The origin in ambient coordinates: the base point.
@@ -52,11 +53,22 @@ pub struct Uniformized {
     pub seconds: Seconds,
 }
 
+/// The base vertex that was asked for, if it is one.
+pub fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure> {
+    let n = input.mesh.n_vertices();
+    match args.base {
+        Some(v) if v as usize >= n => {
+            Err(Failure::Usage(format!("--base {v}: there is no such vertex, they are 0 to {}", n - 1)))
+        }
+        base => Ok(base.map(VertexId)),
+    }
+}
+
 /// Uniformize a closed surface of genus 1 or more.
 pub fn uniformized(input: &Input, args: &CanonicalArgs, control: &Control) -> Result<Uniformized, Failure> {
     let options = QuotientOptions {
         scheme: args.solve.scheme.into(),
-        base: args.base.map(VertexId),
+        base: base(input, args)?,
         flow: args.solve.options(args.common.threads()),
     };
     let mut total = 0.0;
@@ -153,12 +165,17 @@ impl Uniformized {
             let exact = 4.0 * PI * (self.deck.group.genus as f64 - 1.0);
             let limit = n * (self.curvature_error() + AREA_ROUNDING);
             checks.add("area", (self.area() - exact).abs(), limit);
-            let not = self.deck.traces().iter().filter(|t| t.is_nan() || **t <= 2.0).count();
-            checks.add("not_hyperbolic", not as f64, 0.0);
+            // The generators, and the elements of the sides of the layout and of the Dirichlet domain.
+            let sides = self.deck.sides.iter().chain(self.domain.iter().flat_map(|d| &d.sides));
+            let motions = self.deck.generators.iter().chain(sides.map(|g| &g.motion));
+            let not = motions
+                .filter(|g| f64::from(g.half_trace()).abs().partial_cmp(&1.0) != Some(Ordering::Greater));
+            checks.add("not_hyperbolic", not.count() as f64, 0.0);
         } else {
             let turning = self.deck.generators.iter().map(|g| g.rotation_angle()).fold(0.0, f64::max);
             checks.add("turning", turning, TURNING);
         }
+        checks.add("unconverged", f64::from(u8::from(!self.report.converged)), 0.0);
         checks.add("without_domain", f64::from(u8::from(self.domain.is_err())), 0.0);
         if let Ok(domain) = &self.domain {
             let area = self.area();

@@ -1,6 +1,7 @@
 //! A closed surface of genus 0 on the unit sphere.
 
 use super::args::CanonicalArgs;
+use super::quotient::base;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
@@ -86,7 +87,7 @@ fn punctured(
     let options = SphereOptions {
         tolerance: args.solve.tolerance,
         max_iterations: args.solve.max_iterations.map_or(0, |n| n as usize),
-        puncture: args.base.map(VertexId),
+        puncture: base(input, args)?,
         threads: args.common.threads(),
     };
     let (mesh, lengths) = (Arc::new(input.mesh.clone()), Arc::new(input.lengths.clone()));
@@ -106,7 +107,7 @@ fn flowed(
     let mut flow = SurfaceFlow::new(mesh, lengths, *geometry, scheme, Space::S2, &[], &options, control)?;
     let report = flow.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), control)?;
     let metric = flow.now();
-    let root = VertexId(args.base.unwrap_or(0));
+    let root = base(input, args)?.unwrap_or(VertexId(0));
     let layout = layout_in_space(metric.mesh(), metric.metric(), root, None, control)?;
     let mut positions = PerVertex::filled(mesh.n_vertices(), [0.0, 0.0, 1.0]);
     for h in metric.mesh().halfedges().filter(|&h| !metric.mesh().is_outside(h)) {
@@ -123,17 +124,29 @@ impl Round {
 
     /// Faces seen from inside the sphere, those too small to tell left out.
     pub fn inward(&self) -> usize {
-        let mesh = self.metric.mesh();
-        let inward = |f: &FaceId| {
-            let [a, b, c] = mesh.face_vertices(*f).map(|v| self.positions[v]);
-            let far = |p: Point, q: Point| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
-            let size = far(a, b).max(far(b, c)).max(far(c, a));
+        let is_inward = |f: &FaceId| {
+            let [a, b, c] = self.corners(*f);
             // From the differences: the determinant of nearly equal vectors would cancel.
             let [p, q] = [b, c].map(|x| [0, 1, 2].map(|k| x[k] - a[k]));
             let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
-            size >= POINT && (0..3).map(|k| n[k] * (a[k] + b[k] + c[k])).sum::<f64>() <= 0.0
+            !self.is_point(*f) && (0..3).map(|k| n[k] * (a[k] + b[k] + c[k])).sum::<f64>() <= 0.0
         };
-        mesh.faces().filter(inward).count()
+        self.metric.mesh().faces().filter(is_inward).count()
+    }
+
+    /// Faces whose positions in doubles cannot be told from a point.
+    pub fn points(&self) -> usize {
+        self.metric.mesh().faces().filter(|f| self.is_point(*f)).count()
+    }
+
+    fn is_point(&self, f: FaceId) -> bool {
+        let [a, b, c] = self.corners(f);
+        let far = |p: Point, q: Point| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
+        far(a, b).max(far(b, c)).max(far(c, a)) < POINT
+    }
+
+    fn corners(&self, f: FaceId) -> [Point; 3] {
+        self.metric.mesh().face_vertices(f).map(|v| self.positions[v])
     }
 
     /// Corners of the pieces of the common refinement on the sphere.
@@ -153,6 +166,11 @@ impl Round {
         checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET);
         checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
         checks.add("flipped_triangles", self.inward() as f64, 0.0);
+        let converged = match &self.way {
+            Way::Puncture(report) => report.converged,
+            Way::Flow(report) => report.converged,
+        };
+        checks.add("unconverged", f64::from(u8::from(!converged)), 0.0);
         if let Way::Puncture(report) = &self.way {
             checks.add("planar_curvature_error", report.max_curvature_error, self.tolerance);
             checks.add("delaunay_violation", report.delaunay_violation, DELAUNAY);

@@ -30,6 +30,8 @@ pub struct SphereFigures {
     area: f64,
     /// Length of the shortest edge.
     smallest_edge: f64,
+    /// Faces whose positions in doubles cannot be told from a point; the metric has them all the same.
+    degenerate_faces: usize,
     #[serde(flatten)]
     plane: Option<PlaneFigures>,
     word: Vec<String>,
@@ -98,6 +100,7 @@ impl SphereFigures {
             quality: SphereQuality::new(input, s),
             area: s.curvature.area,
             smallest_edge: s.lengths.iter().copied().fold(f64::INFINITY, f64::min),
+            degenerate_faces: s.points(),
             plane,
             word: Vec::new(),
             traces: Vec::new(),
@@ -199,6 +202,13 @@ pub fn text(s: &Round, copies: bool) -> String {
         text += &format!(
             "sphere   vertex {} at infinity, u over {:.2}, off the middle by {:.1e}, convex to {:.1e}\n",
             r.puncture, r.u_range, r.centring, r.nonconvexity
+        );
+    }
+    let points = s.points();
+    if points > 0 {
+        text += &format!(
+            "digits   {} too small for positions in doubles; the metric has all lengths\n",
+            say::count(points, "face is", "faces are")
         );
     }
     if copies {
