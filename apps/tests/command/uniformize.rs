@@ -190,7 +190,7 @@ fn what_cannot_be_done_is_refused_with_what_to_do() {
         (2, "uniformize two.obj --model klein", "--picture"),
         (2, "uniformize two.obj --show both --picture p.svg", "--show domain"),
         (2, "uniformize two.obj --model hyperboloid --picture p.png", "poincare"),
-        (2, "uniformize two.obj --base 100000", "existing"),
+        (2, "uniformize two.obj --base 100000", "they are 0 to 195"),
         (2, "uniformize two.obj --uv u.ply", ".obj or .glb"),
         (2, "uniformize two.obj --uv o.obj --generators o.obj", "two outputs"),
     ] {
