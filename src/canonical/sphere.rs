@@ -117,8 +117,8 @@ fn check(given: &Mesh, options: &SphereOptions) -> Result<()> {
         let kind = if given.is_closed() { "closed" } else { "with boundary" };
         let value =
             format!("{kind}, of {} vertices and Euler characteristic {}", given.n_vertices(), given.euler());
-        let need = "take a closed surface of genus 0 with at least four vertices (`ricci make`, or cut each triangle into four)";
-        return Err(Error::Layout(format!("{value}: {need}")));
+        let need = "one closed surface of genus 0 with at least four vertices (cut each triangle into four)";
+        return Err(Error::Argument { what: "surface", value, need });
     }
     options.puncture.map_or(Ok(()), |v| check_vertex(given, v))
 }

@@ -84,6 +84,11 @@ fn punctured(
     args: &CanonicalArgs,
     control: &Control,
 ) -> Result<(Way, SurfaceMetric, PerVertex<Point>), Failure> {
+    if input.mesh.n_vertices() < 4 {
+        let path = input.path.display();
+        let why = "a sphere of fewer than four vertices is no polyhedron; cut each triangle into four";
+        return Err(Failure::Input(format!("{path}: {why}")));
+    }
     let options = SphereOptions {
         tolerance: args.solve.tolerance,
         max_iterations: args.solve.max_iterations.map_or(0, |n| n as usize),
