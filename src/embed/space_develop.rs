@@ -138,13 +138,7 @@ impl<'a> Faces<'a> {
 
     /// The frame of a half-edge of a face, from that of the face's first half-edge.
     pub fn frame_in(&self, first: &Frame, h: HalfedgeId) -> Frame {
-        let Some(f) = self.mesh.face(h) else { return *first };
-        let (mut frame, mut at) = (*first, self.mesh.face_halfedge(f));
-        while at != h {
-            frame = self.along(&frame, at);
-            at = self.mesh.next(at);
-        }
-        frame
+        self.mesh.face(h).map_or(*first, |f| self.walked(first, self.mesh.face_halfedge(f), h))
     }
 
     /// Ambient coordinates of a face's corners, in its corner order, from the frame of its first half-edge.
@@ -154,9 +148,13 @@ impl<'a> Faces<'a> {
 
     /// The frame of the first half-edge of the face of `h`, from that of `h`.
     pub fn turned_to_first(&self, frame: &Frame, h: HalfedgeId) -> Frame {
-        let Some(f) = self.mesh.face(h) else { return *frame };
-        let (first, mut frame, mut at) = (self.mesh.face_halfedge(f), *frame, h);
-        while at != first {
+        self.mesh.face(h).map_or(*frame, |f| self.walked(frame, h, self.mesh.face_halfedge(f)))
+    }
+
+    /// The frame of the half-edge `to`, from that of another one of its face.
+    fn walked(&self, frame: &Frame, from: HalfedgeId, to: HalfedgeId) -> Frame {
+        let (mut frame, mut at) = (*frame, from);
+        while at != to {
             frame = self.along(&frame, at);
             at = self.mesh.next(at);
         }
