@@ -54,12 +54,11 @@ pub fn elements_within(
 ) -> Result<Vec<DeckElement>> {
     let mut found = Found::new(deck, limit);
     let home = to_origin(deck.space, domain.centre);
-    let back = home.inverse();
-    let moved = |g: &Motion<Twofold>| home.compose(g).compose(&back).displacement();
+    let moved = |g: &Motion<Twofold>| g.conjugated_by(&home).displacement();
     // As far as the centre is from γ D, γ⁻¹ of the centre is from D.
     let lines = domain.lines();
     let meets = |g: &Motion<Twofold>| {
-        let centre = home.compose(&g.inverse()).compose(&back).origin();
+        let centre = g.inverse().conjugated_by(&home).origin();
         !lines.keep_off(deck.space, centre, radius)
     };
     let mut next = 0;

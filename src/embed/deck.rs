@@ -172,7 +172,7 @@ impl DeckGroup {
     pub fn canonical_angles(&self, base: [f64; 3]) -> Vec<f64> {
         let home = to_origin(self.space, base);
         let direction = |g: Motion<Twofold>| {
-            let [x, y, _] = home.compose(&g).compose(&home.inverse()).origin().map(f64::from);
+            let [x, y, _] = g.conjugated_by(&home).origin().map(f64::from);
             y.atan2(x)
         };
         let relator = self.group.relator();

@@ -52,10 +52,7 @@ pub fn dirichlet_domain(
     }
     // Everything about the origin: the base point is carried there.
     let home = to_origin(deck.space, centre);
-    let about = |g: &DeckElement| DeckElement {
-        word: g.word.clone(),
-        motion: home.compose(&g.motion).compose(&home.inverse()),
-    };
+    let about = |g: &DeckElement| DeckElement { word: g.word.clone(), motion: g.motion.conjugated_by(&home) };
     // The surface is covered by what the neighbours' centres are about: nothing nearest to the centre is farther out than all of them
     // together.
     let reach = deck.sides.iter().map(about).map(|g| g.motion.displacement()).sum();
@@ -379,7 +376,7 @@ impl DirichletDomain {
     pub(super) fn lines(&self) -> Lines {
         let line = |side: &DeckElement| {
             let home = to_origin(side.motion.space, self.centre);
-            Bisector::new(&home.compose(&side.motion).compose(&home.inverse()))
+            Bisector::new(&side.motion.conjugated_by(&home))
         };
         Lines(self.sides.iter().map(line).collect())
     }

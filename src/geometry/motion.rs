@@ -112,6 +112,11 @@ impl<T: Real> Motion<T> {
         Motion { space: self.space, a: conj(self.a), b: self.b.map(|x| -x) }
     }
 
+    /// Its conjugate `to ∘ self ∘ to⁻¹`: what it is after `to` has moved everything.
+    pub fn conjugated_by(&self, to: &Self) -> Self {
+        to.compose(self).compose(&to.inverse())
+    }
+
     /// The image of the point with these ambient coordinates `[x, y, w]`: of the plane `w = 1`, of the hyperboloid
     /// `w² = 1 + x² + y²`, of the unit sphere.
     pub fn apply(&self, [x, y, w]: [T; 3]) -> [T; 3] {

@@ -1,7 +1,7 @@
 //! Fundamental domains: a surface opened along a cut, as a polygon whose sides are paired by deck
 //! transformations.
 
-use super::check_path;
+use super::corner_walk::{corner_walk, turn};
 use super::cut::is_disk;
 use super::homotopy::HomotopyBasis;
 use super::lift::Lift;
@@ -109,52 +109,16 @@ impl FundamentalDomain {
     ///
     /// [`Error::Argument`] for a path that is none, or does not start at that corner.
     pub fn crossings(&self, mesh: &Mesh, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<usize>> {
-        check_path(mesh, path)?;
-        let starts = |h: HalfedgeId| {
-            !mesh.is_outside(h) && path.first().is_none_or(|&p| mesh.origin(p) == mesh.origin(h))
-        };
-        if corner.index() >= mesh.n_halfedges() || !starts(corner) {
-            return Err(Error::Argument {
-                what: "corner",
-                value: format!("half-edge {corner}"),
-                need: "take a half-edge of a face at the vertex where the path starts",
-            });
-        }
-        let mut crossed = Vec::new();
         let mut at = corner;
-        for &h in path {
-            if mesh.is_outside(h) {
-                self.turn(mesh, at, mesh.next(h.twin()), &mut crossed);
-                at = h.twin();
-            } else {
-                self.turn(mesh, at, h, &mut crossed);
-                at = mesh.next(h);
-            }
+        let mut crossed = Vec::new();
+        for (turned, next) in corner_walk(mesh, corner, path)? {
+            crossed.extend(turned);
+            at = next;
         }
         if mesh.origin(at) == mesh.origin(corner) {
-            self.turn(mesh, at, corner, &mut crossed);
+            crossed.extend(turn(mesh, at, corner));
         }
-        Ok(crossed)
-    }
-
-    /// Turn around a vertex from one of its corners to another, counterclockwise unless the boundary is in
-    /// the way.
-    fn turn(&self, mesh: &Mesh, from: HalfedgeId, to: HalfedgeId, crossed: &mut Vec<usize>) {
-        let side = |h: HalfedgeId| self.side_of[h].map(|k| k as usize);
-        let (n, mut h) = (crossed.len(), from);
-        while h != to && !mesh.is_boundary_edge(mesh.prev(h).edge()) {
-            crossed.extend(side(mesh.prev(h)));
-            h = mesh.prev(h).twin();
-        }
-        if h == to {
-            return;
-        }
-        crossed.truncate(n);
-        h = from;
-        while h != to && !mesh.is_boundary_edge(h.edge()) {
-            crossed.extend(side(h));
-            h = mesh.next(h.twin());
-        }
+        Ok(crossed.into_iter().filter_map(|h| self.side_of[h]).map(|k| k as usize).collect())
     }
 }
 

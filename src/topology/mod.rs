@@ -2,6 +2,7 @@
 //! Everything is walked through half-edges, so loops and repeated edges of a Δ-complex are no special cases.
 
 mod brahana;
+mod corner_walk;
 pub mod cut;
 pub mod domain;
 pub mod farthest;
@@ -19,6 +20,7 @@ mod shorten;
 pub mod spanning;
 pub mod word;
 
+pub(crate) use corner_walk::corner_walk;
 pub use cut::{CutGraph, cut_graph};
 pub use domain::{FundamentalDomain, Side};
 pub use farthest::{central_vertex, farthest_vertices};

@@ -1,0 +1,72 @@
+//! Edge paths from corner to corner of an opened surface, and the half-edges through which they leave faces on
+//! the way.
+
+use super::check_path;
+use crate::error::{Error, Result};
+use crate::mesh::{HalfedgeId, Mesh};
+
+/// A walk along an edge path through corners (half-edges of faces, each at its origin). See [`corner_walk`].
+pub(crate) struct CornerWalk<'a> {
+    mesh: &'a Mesh,
+    at: HalfedgeId,
+    path: &'a [HalfedgeId],
+}
+
+/// Walk an edge path from the corner at the origin of `corner`, a half-edge of a face. Every step turns about
+/// the vertex to a side of the next edge, and runs along that side to its corner at the edge's end.
+///
+/// [`Error::Argument`] for a path that is none, or does not start at that corner.
+pub(crate) fn corner_walk<'a>(
+    mesh: &'a Mesh,
+    corner: HalfedgeId,
+    path: &'a [HalfedgeId],
+) -> Result<CornerWalk<'a>> {
+    check_path(mesh, path)?;
+    let starts =
+        |h: HalfedgeId| !mesh.is_outside(h) && path.first().is_none_or(|&p| mesh.origin(p) == mesh.origin(h));
+    if corner.index() >= mesh.n_halfedges() || !starts(corner) {
+        return Err(Error::Argument {
+            what: "corner",
+            value: format!("half-edge {corner}"),
+            need: "take a half-edge of a face at the vertex where the path starts",
+        });
+    }
+    Ok(CornerWalk { mesh, at: corner, path })
+}
+
+/// The half-edges one crosses, turning about a vertex from one of its corners to another: counterclockwise,
+/// unless the boundary is in the way.
+pub(crate) fn turn(mesh: &Mesh, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
+    let (mut h, mut crossed) = (from, Vec::new());
+    while h != to && !mesh.is_boundary_edge(mesh.prev(h).edge()) {
+        crossed.push(mesh.prev(h));
+        h = mesh.prev(h).twin();
+    }
+    if h == to {
+        return crossed;
+    }
+    crossed.clear();
+    h = from;
+    while h != to && !mesh.is_boundary_edge(h.edge()) {
+        crossed.push(h);
+        h = mesh.next(h.twin());
+    }
+    crossed
+}
+
+impl Iterator for CornerWalk<'_> {
+    /// The half-edges crossed in the turn, and the corner at the end of the edge.
+    type Item = (Vec<HalfedgeId>, HalfedgeId);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (&h, rest) = self.path.split_first()?;
+        // Outside the surface the way back along the twin.
+        let (from, to) = match self.mesh.is_outside(h) {
+            false => (h, self.mesh.next(h)),
+            true => (self.mesh.next(h.twin()), h.twin()),
+        };
+        let crossed = turn(self.mesh, self.at, from);
+        (self.at, self.path) = (to, rest);
+        Some((crossed, to))
+    }
+}
