@@ -4,13 +4,10 @@ use crate::input::Input;
 use crate::laid::{Laid, Placed, STEP_ROUNDING};
 use crate::report::{Seconds, timed};
 use ricci::Control;
-use ricci::embed::{
-    RefinedSpaceLayout, SpaceLayout, layout_refined_in_space, refine_space_layout, refined_lengths,
-};
+use ricci::embed::{RefinedSpaceLayout, SpaceLayout, refine_space_layout, unroll_refined_in_space};
 use ricci::geometry::Space;
 use ricci::mesh::{HalfedgeId, VertexId};
 use ricci::metric::{Refinement, SurfaceMetric};
-use ricci::topology::{central_vertex, cut_graph};
 
 /// In H² the two sides of a seam may always differ by this, a distance: what copies of the layout are to meet to.
 pub const MEETING: f64 = 1e-8;
@@ -53,13 +50,8 @@ pub fn half_in_space(
     control: &Control,
 ) -> ricci::Result<Laid> {
     let refinement = timed(&mut seconds.refine, || metric.refinement(control))?;
-    let (refined, cut) = timed(&mut seconds.layout, || {
-        let lengths = refined_lengths(&refinement, metric.mesh(), metric.metric())?;
-        let half = &refinement.mesh;
-        let cut = if cones.is_empty() { None } else { Some(cut_graph(half, &lengths, cones, control)?) };
-        let root = central_vertex(half, &lengths, control)?;
-        layout_refined_in_space(&refinement, metric.mesh(), metric.metric(), root, cut.as_ref(), control)
-    })?;
+    let lay = || unroll_refined_in_space(&refinement, metric.mesh(), metric.metric(), cones, control);
+    let (refined, cut) = timed(&mut seconds.layout, lay)?;
     let numbered =
         |(k, segment): (usize, &Vec<HalfedgeId>)| -> Vec<_> { segment.iter().map(|&h| (h, k)).collect() };
     let seams = cut.segments.iter().enumerate().flat_map(numbered).collect();

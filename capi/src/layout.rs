@@ -19,8 +19,8 @@ use ricci::metric::{Refinement, SurfaceMetric};
 use ricci::topology::cut_graph;
 use std::sync::Arc;
 
-/// A surface unrolled into the plane along a cut: of a flat metric (ricci_layout_new), or of a uniformized surface in a model of
-/// the hyperbolic plane (ricci_quotient_layout).
+/// A surface unrolled into the plane along a cut: of a flat metric (ricci_layout_new), or of a hyperbolic one in a
+/// model of the hyperbolic plane (ricci_layout_hyperbolic; ricci_quotient_layout with the sides of its fundamental domain).
 ///
 /// What is unrolled is the mesh that the metric was made from. If edges were flipped its faces are cut by the
 /// edges of the metric's triangulation: the *common refinement*, whose faces are parts of faces of both, and
@@ -109,7 +109,7 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
         return Err(Failure::new(
             ricci_status::RICCI_LAYOUT,
             format!(
-                "this metric lives in {}: ricci_layout_new unrolls those in e2, ricci_quotient_new also closed surfaces in h2",
+                "this metric lives in {}: ricci_layout_new unrolls those in e2, ricci_layout_hyperbolic those in h2",
                 class.space
             ),
         ));
@@ -147,6 +147,12 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
     Ok(ricci_layout { poison, mesh, positions, drawing, quality, surface, refinement })
 }
 
+/// Interior vertices whose target is not 0.
+pub(crate) fn cones(mesh: &Mesh, target: &[f64]) -> Vec<VertexId> {
+    let cone = |v: &VertexId| target[v.index()] != 0.0 && !mesh.is_boundary_vertex(*v);
+    mesh.vertices().filter(cone).collect()
+}
+
 /// Unroll a Euclidean metric into the plane.
 ///
 /// The surface is cut open along its homology generators and through every interior vertex whose target is
@@ -174,9 +180,7 @@ pub unsafe extern "C" fn ricci_layout_new(
         let metric = door.shared(metric)?;
         let mesh = metric.given();
         let target = arrays::array_of("target", target, n_vertices, mesh.n_vertices())?;
-        let cone = |v: &VertexId| target[v.index()] != 0.0 && !mesh.is_boundary_vertex(*v);
-        let cones: Vec<VertexId> = mesh.vertices().filter(cone).collect();
-        layout.hand_over(unroll(metric, &cones, &control::of(control))?);
+        layout.hand_over(unroll(metric, &cones(mesh, &target), &control::of(control))?);
         Ok(())
     })
 }

@@ -66,6 +66,7 @@ pub mod report;
 
 pub mod flow;
 
+pub mod hyperbolic;
 pub mod layout;
 
 pub mod refined;

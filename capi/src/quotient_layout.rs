@@ -4,9 +4,9 @@ use crate::arrays::{check_buffer, copy_out, copy_rows, flattened, halfedges};
 use crate::choice::{choose, name};
 use crate::control::{self, ricci_control};
 use crate::deck::ricci_deck;
-use crate::drawing::{Drawing, Hyperbolic};
-use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Poison, output};
+use crate::failure::Outcome;
+use crate::guard::{self, output};
+use crate::hyperbolic::in_space;
 use crate::layout::ricci_layout;
 use crate::mesh::signed_edge;
 use crate::model::{self, ricci_model};
@@ -23,7 +23,6 @@ use ricci::geometry::model::Model;
 use ricci::mesh::{HalfedgeId, Mesh};
 use ricci::metric::Refinement;
 use std::mem::MaybeUninit;
-use std::sync::Arc;
 
 /// Figures of a quotient.
 #[repr(C)]
@@ -316,53 +315,23 @@ pub unsafe extern "C" fn ricci_quotient_layout(
 }
 
 fn refined(quotient: &ricci_quotient, model: Model, control: &Control) -> Outcome<ricci_layout> {
-    if model == Model::Hyperboloid {
-        return Err(Failure::argument("a layout in the plane needs a model with two coordinates"));
-    }
     let Quotient { metric, layout, .. } = &*quotient.quotient;
-    let (given, mesh) = (metric.given(), metric.mesh());
+    let mesh = metric.mesh();
     let refinement = metric.refinement(control)?;
     let refined = refine_space_layout(layout, &refinement, mesh, control)?;
-    let quality = refined.quality(&refinement, given, metric.given_lengths())?;
-    let flat = |p: &[f64; 3]| [p[0], p[1]];
-    let points: Vec<[f64; 2]> = match layout.space {
-        Space::E2 => refined.points.iter().map(flat).collect(),
-        _ => model::plane_points(model, &refined.points),
-    };
-    let in_plane = layout.space == Space::E2;
-    let bound = |pick: fn(f64, f64) -> f64, i: usize| points.iter().map(|p| p[i]).reduce(pick).unwrap_or(0.0);
-    let span = |i| bound(f64::max, i) - bound(f64::min, i);
-    let diameter = span(0).hypot(span(1));
-    let consistency = layout.disagreement / if in_plane { diameter } else { 1.0 };
-    let motion = |g: &ricci::geometry::Motion<_>| {
-        // Pairings carry right onto left.
-        let [x, y, _] = g.inverse().origin().map(f64::from);
-        [0.0, x, y, consistency]
-    };
-    let drawing = Drawing {
-        seams: layout.cut.segments.iter().map(|chain| chain_on(&refinement, mesh, chain)).collect(),
-        motions: in_plane.then(|| layout.pairings.iter().map(motion).collect()),
-        corner_index: refined.corner_index,
-        hyperbolic: (!in_plane).then_some(Hyperbolic { points: refined.points, model }),
-        points,
-        flipped: refined.flipped,
-        consistency,
-        diameter,
-        area: layout.area,
-    };
-    let positions = match &quotient.positions {
-        Some(positions) => Some(Arc::new(refinement.from_input_vertices(positions)?)),
-        None => None,
-    };
-    Ok(ricci_layout {
-        poison: Poison::default(),
-        mesh: Arc::new(refinement.mesh.clone()),
-        positions,
-        drawing,
-        quality,
-        surface: Arc::new(metric.clone()),
-        refinement: Some(Arc::new(refinement)),
-    })
+    let seams = layout.cut.segments.iter().map(|chain| chain_on(&refinement, mesh, chain)).collect();
+    let laid = (refined, seams, layout.area);
+    let mut out = in_space(metric, refinement, &quotient.positions, laid, model)?;
+    if layout.space == Space::E2 {
+        let residual = out.drawing.consistency;
+        let motion = |g: &ricci::geometry::Motion<_>| {
+            // Pairings carry right onto left.
+            let [x, y, _] = g.inverse().origin().map(f64::from);
+            [0.0, x, y, residual]
+        };
+        out.drawing.motions = Some(layout.pairings.iter().map(motion).collect());
+    }
+    Ok(out)
 }
 
 /// A chain of half-edges of the final triangulation on its refinement.

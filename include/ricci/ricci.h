@@ -283,8 +283,8 @@ typedef struct ricci_domain ricci_domain;
 typedef struct ricci_homotopy ricci_homotopy;
 
 /**
- * A surface unrolled into the plane along a cut: of a flat metric (ricci_layout_new), or of a uniformized surface in a model of
- * the hyperbolic plane (ricci_quotient_layout).
+ * A surface unrolled into the plane along a cut: of a flat metric (ricci_layout_new), or of a hyperbolic one in a
+ * model of the hyperbolic plane (ricci_layout_hyperbolic; ricci_quotient_layout with the sides of its fundamental domain).
  *
  * What is unrolled is the mesh that the metric was made from. If edges were flipped its faces are cut by the
  * edges of the metric's triangulation: the *common refinement*, whose faces are parts of faces of both, and
@@ -2283,6 +2283,30 @@ ricci_status ricci_solver_solve(ricci_solver *solver,
                                 const ricci_control *control,
                                 ricci_metric **result,
                                 ricci_report **report);
+
+/**
+ * Unroll a hyperbolic metric, of a closed surface or one with boundary, into the hyperbolic plane about its centre.
+ *
+ * The surface is cut open as little as its topology asks for, and through every interior vertex whose target is not 0; the metric should
+ * have curvature -1 at all others, and `consistency` says how far its corners are apart, as a distance. What is unrolled is the common
+ * refinement. A closed surface with its deck group: ricci_quotient_from_metric.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (RICCI_MODEL_HYPERBOLOID), RICCI_TRIANGLE_INEQUALITY,
+ * RICCI_LAYOUT (not H2; points beyond the reach of doubles), RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement),
+ * RICCI_CANCELLED.
+ *
+ * @param metric      the metric, in H2.
+ * @param target      the n_vertices curvatures it was made for.
+ * @param n_vertices  number of vertices of the mesh that the metric was made from.
+ * @param model       coordinates of the points; in the Klein disk the map is projective on every piece.
+ * @param control     progress and cancellation; NULL for neither.
+ * @param layout      out: the new handle, to be released by ricci_layout_free.
+ */
+ricci_status ricci_layout_hyperbolic(const ricci_metric *metric,
+                                     const double *target,
+                                     size_t n_vertices,
+                                     ricci_model model,
+                                     const ricci_control *control,
+                                     ricci_layout **layout);
 
 /**
  * Unroll a Euclidean metric into the plane.

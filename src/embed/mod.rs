@@ -32,4 +32,4 @@ pub use refined::{RefinedLayout, layout_refined, refined_cut};
 pub use seam::Seam;
 pub use space_layout::{SpaceLayout, layout_in_space};
 pub use space_refined::{RefinedSpaceLayout, refine_space_layout};
-pub use space_refined_develop::{layout_refined_in_space, refined_lengths};
+pub use space_refined_develop::{layout_refined_in_space, refined_lengths, unroll_refined_in_space};

@@ -13,7 +13,7 @@ use crate::geometry::{Motion, Twofold};
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerFace, VertexId};
 use crate::metric::{Metric, Refinement};
 use crate::topology::spanning::Key;
-use crate::topology::{CutGraph, check_vertex};
+use crate::topology::{CutGraph, central_vertex, check_vertex, cut_graph};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -41,6 +41,23 @@ pub fn refined_lengths(r: &Refinement, mesh: &Mesh, metric: &Metric) -> Result<P
     let least = 1e-12 * lengths.iter().copied().fold(0.0, f64::max);
     lengths.iter_mut().for_each(|l| *l = l.max(least));
     Ok(lengths)
+}
+
+/// Lay a refinement out about its centre, opened through the vertices `cones` of it: [`layout_refined_in_space`] with a cut and a root
+/// found for it. Without cones the cut is found by the layout.
+///
+/// Errors: those of [`refined_lengths`], [`cut_graph`] and [`layout_refined_in_space`].
+pub fn unroll_refined_in_space(
+    r: &Refinement,
+    mesh: &Mesh,
+    metric: &Metric,
+    cones: &[VertexId],
+    control: &Control,
+) -> Result<(RefinedSpaceLayout, CutGraph)> {
+    let lengths = refined_lengths(r, mesh, metric)?;
+    let cut = if cones.is_empty() { None } else { Some(cut_graph(&r.mesh, &lengths, cones, control)?) };
+    let root = central_vertex(&r.mesh, &lengths, control)?;
+    layout_refined_in_space(r, mesh, metric, root, cut.as_ref(), control)
 }
 
 /// Lay a refinement out by itself, outwards from a vertex of it: where it is a part of what the metric lives on (the first half of a double).

@@ -219,7 +219,7 @@ static void pins_keep_the_boundary(const ricci_mesh *mesh) {
     arrays_free(&given);
 }
 
-/* In H2 there are flips and the triangulation, and no layout. */
+/* In H2 there are flips and the triangulation; the layout is not one in the plane. */
 static void hyperbolic_flows_flip_too(void) {
     ricci_mesh *mesh = NULL;
     ricci_metric *metric = NULL, *end = NULL;
