@@ -86,7 +86,7 @@ pub struct CoverArgs {
     #[arg(long, value_name = "N", conflicts_with = "radius", value_parser = clap::value_parser!(u16).range(0..=64))]
     pub depth: Option<u16>,
     /// Instead: copies whose base point is this far from the base point at most
-    #[arg(long, value_name = "DISTANCE", value_parser = crate::options::distance)]
+    #[arg(long, value_name = "DISTANCE", value_parser = crate::options::radius, allow_negative_numbers = true)]
     pub radius: Option<f64>,
     /// Most copies that are made
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
