@@ -4,7 +4,7 @@ use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
 use crate::figures::FlowResult;
 use crate::flow;
-use crate::output::{Outputs, check_writable};
+use crate::output::{Outputs, check_outputs};
 use crate::report::{Checks, InputSummary, Report, path_text, peak_bytes};
 use crate::uniform::{self, Shape, UniformFigures};
 use crate::{make, say};
@@ -105,7 +105,7 @@ struct Ran {
 pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
     let out = &args.out;
-    args.common.report.as_deref().map_or(Ok(()), check_writable)?;
+    check_outputs(&[], &[args.common.report.as_deref()])?;
     std::fs::create_dir_all(out)
         .map_err(|e| Failure::Usage(format!("{}: cannot be made: {e}", out.display())))?;
     let mut table = format!(

@@ -99,7 +99,7 @@ impl Wish<'_> {
             copies,
             domain,
         ];
-        check_outputs(&files)
+        check_outputs(&[Some(&args.surface.mesh)], &files)
     }
 
     /// What can be refused once the surface is known; what the picture shows.
