@@ -110,7 +110,8 @@ impl Wish<'_> {
             }
         }
         if let Some(path) = &args.generators {
-            let written = outputs.add_json(path, &GroupFile::new(&u.deck));
+            let file = GroupFile::new(u).map_err(Failure::from);
+            let written = file.and_then(|file| outputs.add_json(path, &file));
             u.failed.attempt("generators", written)?;
         }
         control.check()?;

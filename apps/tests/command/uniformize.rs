@@ -25,6 +25,11 @@ fn a_surface_of_genus_two_lies_in_the_disk_with_its_group() {
     assert_eq!(metric["space"], "h2");
     assert_eq!(group.word.join(" "), "a1 b1 a1^-1 b1^-1 a2 b2 a2^-1 b2^-1");
     assert!(group.residual() < 1e-12, "{}", group.residual());
+    // b_k crosses a_k once, from right to left; loops of different handles do not cross.
+    assert_eq!(
+        place.json("c.json")["intersections"],
+        serde_json::json!([[0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1], [0, 0, -1, 0]])
+    );
     let traces = numbers(&report["result"]["traces"]);
     for (g, told) in ["a1", "b1", "a2", "b2"].iter().zip(&traces) {
         let t = trace(&group.generators[*g]);
@@ -83,6 +88,7 @@ fn a_sphere_is_a_convex_polyhedron_about_its_centre_of_mass() {
     place.expect(0, "uniformize egg.obj --sphere s.obj --metric m.json --generators c.json --report r.json");
     assert!(curvature_error(&place.json("m.json")) < 1e-9);
     assert_eq!(place.json("c.json")["generators"], serde_json::json!({}));
+    assert_eq!(place.json("c.json")["intersections"], serde_json::json!([]));
     let text = place.text("s.obj");
     let v = parse_obj_plain(&text);
     let face = |line: &str| -> Option<[usize; 3]> {
