@@ -205,7 +205,10 @@ fn uniformized(line: String, done: uniform::Done) -> Result<Ran, Failure> {
         layout: Some((u.laid.flipped().len(), u.laid.quality.qc_mean)),
         seconds: done.seconds,
         exit_code: done.exit_code,
-        result: Figures::Uniform(Box::new(UniformFigures::new(u, u.elements.len() > 1))),
+        result: Figures::Uniform(Box::new(UniformFigures::new(
+            u,
+            u.elements.as_ref().is_ok_and(|elements| elements.len() > 1),
+        ))),
         checks: done.checks,
     })
 }

@@ -99,7 +99,7 @@ fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done, Failure> {
     } else {
         let mut u = uniformized(&input, args, control)?;
         if let Some(cover) = &wish.cover {
-            u.elements = cover.elements(&u, control)?;
+            cover.find(&mut u, control)?;
         }
         Shape::Quotient(Box::new(u))
     };

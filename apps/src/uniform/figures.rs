@@ -113,7 +113,7 @@ impl UniformFigures {
                 radius: d.radius,
             }),
             no_domain: domain.err().cloned(),
-            copies: copies.then_some(u.elements.len()),
+            copies: u.elements.as_ref().ok().filter(|_| copies).map(Vec::len),
             failed: u.failed.0.clone(),
             left_out: u.left_out.clone(),
             residuals: u.report.residuals.clone(),

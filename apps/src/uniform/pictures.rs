@@ -299,10 +299,11 @@ fn tile(domain: &DirichletDomain, at: ModelPlace) -> Prototype {
 
 /// The copies of the layout.
 fn copies(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+    let elements = u.copies()?;
     let sides = sides(u)?;
     let shape = prototype(u, &sides);
-    let mut tiling = Tiling::new(canvas.at, first_frame(u, canvas.at, &shape), canvas.style.size);
-    for g in &u.elements {
+    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);
+    for g in elements {
         tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
     }
     tiling.dots.push(canvas.at.flat(ORIGIN));
@@ -311,10 +312,10 @@ fn copies(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
 
 /// The copies of the Dirichlet domain.
 fn tiled(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
-    let domain = the_domain(u)?;
+    let (domain, elements) = (the_domain(u)?, u.copies()?);
     let shape = tile(domain, canvas.at);
-    let mut tiling = Tiling::new(canvas.at, first_frame(u, canvas.at, &shape), canvas.style.size);
-    for g in &u.elements {
+    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);
+    for g in elements {
         tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
     }
     outline(u, &mut tiling, domain, false);
@@ -323,12 +324,12 @@ fn tiled(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
 }
 
 /// What is shown of all copies: in the plane all of it.
-fn first_frame(u: &Uniformized, at: ModelPlace, shape: &Prototype) -> Frame {
+fn first_frame(elements: &[DeckElement], at: ModelPlace, shape: &Prototype) -> Frame {
     if at != ModelPlace::Plane {
         return frame(at, &shape.border);
     }
     let moved =
         |g: &DeckElement| shape.border.iter().map(|p| g.motion.rounded().apply(*p)).collect::<Vec<_>>();
-    let all: Vec<[f64; 3]> = u.elements.iter().flat_map(moved).collect();
+    let all: Vec<[f64; 3]> = elements.iter().flat_map(moved).collect();
     frame(at, &all)
 }

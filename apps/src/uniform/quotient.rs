@@ -46,8 +46,8 @@ pub struct Uniformized {
     pub deck: DeckGroup,
     /// The Dirichlet domain of the base point, or why there is none.
     pub domain: Result<DirichletDomain, String>,
-    /// The copies of a cover; the identity alone where none was asked for.
-    pub elements: Vec<DeckElement>,
+    /// The copies of a cover, the identity alone where none was asked for; or why there are none.
+    pub elements: Result<Vec<DeckElement>, String>,
     pub failed: Attempts,
     pub left_out: Vec<&'static str>,
     pub seconds: Seconds,
@@ -119,7 +119,7 @@ pub fn uniformized(input: &Input, args: &CanonicalArgs, control: &Control) -> Re
         basis,
         deck,
         domain,
-        elements: vec![one],
+        elements: Ok(vec![one]),
         failed: Attempts::default(),
         left_out: Vec::new(),
         seconds,
@@ -127,6 +127,11 @@ pub fn uniformized(input: &Input, args: &CanonicalArgs, control: &Control) -> Re
 }
 
 impl Uniformized {
+    /// The copies of a cover, if they can be made.
+    pub fn copies(&self) -> Result<&[DeckElement], Failure> {
+        self.elements.as_deref().map_err(|why| Failure::Failed(why.clone()))
+    }
+
     /// The layout in space; its own kind of [`Laid`].
     pub fn place(&self) -> Option<&InSpace> {
         match &self.laid.placed {

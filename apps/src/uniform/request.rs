@@ -38,27 +38,32 @@ pub struct Wish<'a> {
 }
 
 impl CoverWish<'_> {
-    /// The copies that are asked for.
-    pub fn elements(
-        &self,
-        u: &Uniformized,
-        control: &Control,
-    ) -> Result<Vec<ricci::embed::DeckElement>, Failure> {
+    /// What says how many copies are asked for.
+    fn option(&self) -> &'static str {
+        if self.radius.is_some() { "radius" } else { "depth" }
+    }
+
+    /// Find the copies that are asked for. Where there are too many, or no domain to find them by, files that show none are written all
+    /// the same. Errors: [`Failure::Cancelled`] alone.
+    pub fn find(&self, u: &mut Uniformized, control: &Control) -> Result<(), Failure> {
         let found = match (self.radius, &u.domain) {
             (None, _) => elements_to_depth(&u.deck, self.depth, self.limit, control),
             (Some(radius), Ok(domain)) => elements_within(&u.deck, domain, radius, self.limit, control),
-            (Some(_), Err(why)) => return Err(Failure::Failed(format!("--radius: {why}; use --depth"))),
+            (Some(_), Err(why)) => Err(ricci::Error::Layout(format!("{why}; use --depth"))),
         };
-        found.map_err(|error| match error {
-            ricci::Error::TooLarge { .. } => {
-                let option = if self.radius.is_some() { "--radius" } else { "--depth" };
-                Failure::Usage(format!(
-                    "{option}: more than {} copies; lower it or raise --limit",
-                    self.limit
-                ))
+        let option = self.option();
+        u.elements = match found {
+            Ok(elements) => Ok(elements),
+            Err(ricci::Error::Cancelled) => return Err(Failure::Cancelled),
+            Err(ricci::Error::TooLarge { .. }) => {
+                Err(format!("more than {} copies; lower --{option} or raise --limit", self.limit))
             }
-            error => error.into(),
-        })
+            Err(error) => Err(error.to_string()),
+        };
+        if let Err(why) = &u.elements {
+            u.failed.0.insert(option, why.clone());
+        }
+        Ok(())
     }
 }
 

@@ -49,8 +49,8 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
     if let Err(why) = &u.domain {
         text += &format!("domain   none: {why}\n");
     }
-    if copies {
-        let n = u.elements.len();
+    if let (true, Ok(elements)) = (copies, &u.elements) {
+        let n = elements.len();
         let triangles = n * u.laid.mesh.n_faces();
         text += &format!("cover    {}, {triangles} triangles\n", say::count(n, "copy", "copies"));
     }
