@@ -97,7 +97,7 @@ fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done, Failure> {
     let mut shape = if input.mesh.euler() > 0 {
         Shape::Sphere(Box::new(round(&input, args, control)?))
     } else {
-        let mut u = uniformized(&input, args, control)?;
+        let mut u = uniformized(&input, args, wish.needs(shown), control)?;
         if let Some(cover) = &wish.cover {
             cover.find(&mut u, control)?;
         }

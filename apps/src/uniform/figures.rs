@@ -73,7 +73,6 @@ impl UniformFigures {
         let Report { converged, stop_reason, iterations, flips, .. } = u.report;
         let quality = &u.laid.quality;
         let place = u.place();
-        let domain = u.domain.as_ref();
         let length = |path: &Vec<ricci::mesh::HalfedgeId>| path.iter().map(|h| u.lengths[h.edge()]).sum();
         UniformFigures {
             space: u.deck.space.name(),
@@ -107,12 +106,12 @@ impl UniformFigures {
             translation_lengths: u.deck.translation_lengths(),
             loop_lengths: u.basis.loops.iter().map(length).collect(),
             modulus: u.laid.modulus,
-            domain: domain.ok().map(|d| DomainFigures {
+            domain: u.domain().ok().map(|d| DomainFigures {
                 sides: d.sides.len(),
                 area: d.area,
                 radius: d.radius,
             }),
-            no_domain: domain.err().cloned(),
+            no_domain: u.domain.as_ref().and_then(|d| d.as_ref().err()).cloned(),
             copies: u.elements.as_ref().ok().filter(|_| copies).map(Vec::len),
             failed: u.failed.0.clone(),
             left_out: u.left_out.clone(),

@@ -116,10 +116,8 @@ impl Wish<'_> {
         }
         control.check()?;
         if let Some(path) = self.cover.and_then(|c| c.domain) {
-            let written = match &u.domain {
-                Ok(domain) => outputs.add_json(path, &DomainFile::new(u, domain, at)),
-                Err(why) => Err(Failure::Failed(why.clone())),
-            };
+            let file = u.domain().map(|domain| DomainFile::new(u, domain, at));
+            let written = file.and_then(|file| outputs.add_json(path, &file));
             u.failed.attempt("domain", written)?;
         }
         if let Some(path) = &args.picture.picture {

@@ -220,7 +220,7 @@ fn translation_to(space: Space, p: [f64; 3]) -> Motion<Twofold> {
 /// Copies of the layout around the origin that the group has been moved to by `home`, nearest first, as many as a picture shows.
 /// `start`: a word that leads near there.
 fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> Vec<Motion<Twofold>> {
-    let Ok(domain) = &u.domain else { return Vec::new() };
+    let Ok(domain) = u.domain() else { return Vec::new() };
     let place = |g: &Motion<Twofold>| g.origin().map(f64::from);
     let mut waiting = vec![home.compose(&u.deck.motion(start))];
     let mut known: Vec<[f64; 3]> = waiting.iter().map(place).collect();
@@ -247,7 +247,7 @@ fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> Vec<Moti
 
 /// The Dirichlet domain over its neighbours.
 fn dirichlet(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
-    let domain = the_domain(u)?;
+    let domain = u.domain()?;
     let sides = sides(u)?;
     let shape = prototype(u, &sides);
     let tile = tile(domain, canvas.at);
@@ -281,10 +281,6 @@ fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named
     }
 }
 
-fn the_domain(u: &Uniformized) -> Result<&DirichletDomain, Failure> {
-    u.domain.as_ref().map_err(|why| Failure::Failed(why.clone()))
-}
-
 /// The Dirichlet domain as what is copied: its sides sampled along geodesics.
 fn tile(domain: &DirichletDomain, at: ModelPlace) -> Prototype {
     let n = domain.corners.len();
@@ -312,7 +308,7 @@ fn copies(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
 
 /// The copies of the Dirichlet domain.
 fn tiled(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
-    let (domain, elements) = (the_domain(u)?, u.copies()?);
+    let (domain, elements) = (u.domain()?, u.copies()?);
     let shape = tile(domain, canvas.at);
     let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);
     for g in elements {

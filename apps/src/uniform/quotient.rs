@@ -1,6 +1,7 @@
 //! A closed surface of genus 1 or more in its metric of constant curvature, laid out on the surface as it was given.
 
 use super::args::CanonicalArgs;
+use super::request::Needs;
 use crate::failure::Failure;
 use crate::in_space::{InSpace, MEETING, in_space};
 use crate::input::Input;
@@ -44,8 +45,8 @@ pub struct Uniformized {
     pub laid: Laid,
     pub basis: HomotopyBasis,
     pub deck: DeckGroup,
-    /// The Dirichlet domain of the base point, or why there is none.
-    pub domain: Result<DirichletDomain, String>,
+    /// The Dirichlet domain of the base point, where an output needs it, or why there is none.
+    pub domain: Option<Result<DirichletDomain, String>>,
     /// The copies of a cover, the identity alone where none was asked for; or why there are none.
     pub elements: Result<Vec<DeckElement>, String>,
     pub failed: Attempts,
@@ -65,7 +66,12 @@ pub fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Fai
 }
 
 /// Uniformize a closed surface of genus 1 or more.
-pub fn uniformized(input: &Input, args: &CanonicalArgs, control: &Control) -> Result<Uniformized, Failure> {
+pub fn uniformized(
+    input: &Input,
+    args: &CanonicalArgs,
+    needs: Needs,
+    control: &Control,
+) -> Result<Uniformized, Failure> {
     let options = QuotientOptions {
         scheme: args.solve.scheme.into(),
         base: base(input, args)?,
@@ -103,9 +109,12 @@ pub fn uniformized(input: &Input, args: &CanonicalArgs, control: &Control) -> Re
             [x, y]
         }));
     }
-    let domain = match timed(&mut seconds.layout, || dirichlet_domain(&deck, ORIGIN, area, control)) {
-        Err(ricci::Error::Cancelled) => return Err(Failure::Cancelled),
-        domain => domain.map_err(|error| error.to_string()),
+    let domain = match needs.domain {
+        false => None,
+        true => match timed(&mut seconds.layout, || dirichlet_domain(&deck, ORIGIN, area, control)) {
+            Err(ricci::Error::Cancelled) => return Err(Failure::Cancelled),
+            domain => Some(domain.map_err(|error| error.to_string())),
+        },
     };
     let one = DeckElement { word: Default::default(), motion: ricci::geometry::Motion::identity(deck.space) };
     Ok(Uniformized {
@@ -127,6 +136,15 @@ pub fn uniformized(input: &Input, args: &CanonicalArgs, control: &Control) -> Re
 }
 
 impl Uniformized {
+    /// The Dirichlet domain, if there is one.
+    pub fn domain(&self) -> Result<&DirichletDomain, Failure> {
+        match &self.domain {
+            Some(Ok(domain)) => Ok(domain),
+            Some(Err(why)) => Err(Failure::Failed(why.clone())),
+            None => Err(Failure::Failed("nothing has asked for the Dirichlet domain".into())),
+        }
+    }
+
     /// The copies of a cover, if they can be made.
     pub fn copies(&self) -> Result<&[DeckElement], Failure> {
         self.elements.as_deref().map_err(|why| Failure::Failed(why.clone()))
@@ -171,7 +189,7 @@ impl Uniformized {
             let limit = n * (self.curvature_error() + AREA_ROUNDING);
             checks.add("area", (self.area() - exact).abs(), limit);
             // The generators, and the elements of the sides of the layout and of the Dirichlet domain.
-            let sides = self.deck.sides.iter().chain(self.domain.iter().flat_map(|d| &d.sides));
+            let sides = self.deck.sides.iter().chain(self.domain().into_iter().flat_map(|d| &d.sides));
             let motions = self.deck.generators.iter().chain(sides.map(|g| &g.motion));
             let not = motions
                 .filter(|g| f64::from(g.half_trace()).abs().partial_cmp(&1.0) != Some(Ordering::Greater));
@@ -181,8 +199,10 @@ impl Uniformized {
             checks.add("turning", turning, TURNING);
         }
         checks.add("unconverged", f64::from(u8::from(!self.report.converged)), 0.0);
-        checks.add("without_domain", f64::from(u8::from(self.domain.is_err())), 0.0);
-        if let Ok(domain) = &self.domain {
+        if let Some(domain) = &self.domain {
+            checks.add("without_domain", f64::from(u8::from(domain.is_err())), 0.0);
+        }
+        if let Ok(domain) = self.domain() {
             let area = self.area();
             checks.add("domain_area", (domain.area - area).abs() / area, DOMAIN_AREA);
         }

@@ -46,10 +46,10 @@ impl CoverWish<'_> {
     /// Find the copies that are asked for. Where there are too many, or no domain to find them by, files that show none are written all
     /// the same. Errors: [`Failure::Cancelled`] alone.
     pub fn find(&self, u: &mut Uniformized, control: &Control) -> Result<(), Failure> {
-        let found = match (self.radius, &u.domain) {
-            (None, _) => elements_to_depth(&u.deck, self.depth, self.limit, control),
-            (Some(radius), Ok(domain)) => elements_within(&u.deck, domain, radius, self.limit, control),
-            (Some(_), Err(why)) => Err(ricci::Error::Layout(format!("{why}; use --depth"))),
+        let found = match self.radius.map(|radius| (radius, u.domain())) {
+            None => elements_to_depth(&u.deck, self.depth, self.limit, control),
+            Some((radius, Ok(domain))) => elements_within(&u.deck, domain, radius, self.limit, control),
+            Some((_, Err(why))) => Err(ricci::Error::Layout(format!("{why}; use --depth"))),
         };
         let option = self.option();
         u.elements = match found {
@@ -67,7 +67,25 @@ impl CoverWish<'_> {
     }
 }
 
+/// What some outputs need beside metric, layout and group.
+#[derive(Clone, Copy)]
+pub struct Needs {
+    /// The Dirichlet domain of the base point.
+    pub domain: bool,
+}
+
 impl Wish<'_> {
+    /// What the outputs that are asked for are made from.
+    pub fn needs(&self, shown: Shown) -> Needs {
+        let (report, drawn) = (self.args.common.report.is_some(), self.args.picture.picture.is_some());
+        let of_domain = matches!(
+            shown,
+            Shown::Uniform(ShowChoice::Polygon | ShowChoice::Dirichlet) | Shown::Cover(TilesChoice::Tiles)
+        );
+        let by_domain = self.cover.is_some_and(|c| c.radius.is_some() || c.domain.is_some());
+        Needs { domain: report || by_domain || (drawn && of_domain) }
+    }
+
     /// What can be refused before anything is read.
     pub fn check_request(&self) -> Result<(), Failure> {
         let args = self.args;

@@ -39,14 +39,14 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
         relator(u),
         u.deck.relation_residual,
     );
-    if let Ok(domain) = &u.domain {
+    if let Some(Ok(domain)) = &u.domain {
         text += &format!(
             "domain   {}, radius {:.4}\n",
             say::count(domain.sides.len(), "side", "sides"),
             domain.radius
         );
     }
-    if let Err(why) = &u.domain {
+    if let Some(Err(why)) = &u.domain {
         text += &format!("domain   none: {why}\n");
     }
     if let (true, Ok(elements)) = (copies, &u.elements) {

@@ -209,3 +209,22 @@ fn what_cannot_be_done_is_refused_with_what_to_do() {
     assert_eq!(place.json("r.json")["result"]["converged"], false);
     assert!(place.exists("m.json"));
 }
+
+#[test]
+fn the_dirichlet_domain_is_formed_for_what_shows_it() {
+    let place = place();
+    for (line, formed) in [
+        ("uniformize two.obj --generators c.json", false),
+        ("uniformize two.obj --show domain --picture p.svg", false),
+        ("cover two.obj --depth 1 --cover c.obj", false),
+        ("uniformize two.obj --report r.json", true),
+        ("uniformize two.obj --show dirichlet --picture p.svg", true),
+        ("uniformize two.obj --show polygon --picture p.svg", true),
+        ("cover two.obj --depth 1 --show tiles --picture p.svg", true),
+        ("cover two.obj --depth 1 --domain d.json", true),
+        ("cover two.obj --radius 1", true),
+    ] {
+        let ended = place.expect(0, line);
+        assert_eq!(ended.out.contains("\ndomain "), formed, "{line}: {}", ended.out);
+    }
+}
