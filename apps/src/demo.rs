@@ -202,7 +202,7 @@ fn uniformized(line: String, done: uniform::Done) -> Result<Ran, Failure> {
         input: InputSummary::of(&done.input),
         steps: u.report.iterations,
         error: u.curvature_error(),
-        layout: Some((u.laid.flipped().len(), u.laid.quality.qc_mean)),
+        layout: u.laid().ok().map(|laid| (laid.flipped().len(), laid.quality.qc_mean)),
         seconds: done.seconds,
         exit_code: done.exit_code,
         result: Figures::Uniform(Box::new(UniformFigures::new(

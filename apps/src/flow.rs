@@ -70,6 +70,10 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
             ..options(args)
         },
         pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, &input.mesh)),
+        laid_out: args.charts
+            || [&args.uv, &args.circles, &args.picture.base.picture, &args.common.report]
+                .iter()
+                .any(|path| path.is_some()),
     };
     let mut outcome = job::run(&input, job, control)?;
     if args.charts {

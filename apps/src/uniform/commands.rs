@@ -94,10 +94,11 @@ fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done, Failure> {
     let progress = Progress::watch(control, args.common.quiet);
     let input = input::read(&args.surface, control)?;
     let shown = wish.check_surface(&input)?;
+    let needs = wish.needs(shown);
     let mut shape = if input.mesh.euler() > 0 {
-        Shape::Sphere(Box::new(round(&input, args, control)?))
+        Shape::Sphere(Box::new(round(&input, args, needs, control)?))
     } else {
-        let mut u = uniformized(&input, args, wish.needs(shown), control)?;
+        let mut u = uniformized(&input, args, needs, control)?;
         if let Some(cover) = &wish.cover {
             cover.find(&mut u, control)?;
         }

@@ -36,8 +36,8 @@ pub fn write(
     threads: usize,
     control: &Control,
 ) -> Result<(), Failure> {
-    let Some(place) = u.place() else { return Ok(()) };
-    let laid = &u.laid;
+    let laid = u.laid()?;
+    let Some(place) = laid.space() else { return Ok(()) };
     let copies = Copies {
         uniformized: u,
         elements: u.copies()?,

@@ -104,7 +104,7 @@ impl Wish<'_> {
             u.failed.attempt("metric", written)?;
         }
         if let Some(path) = &args.uv {
-            let written = uv::write(outputs, path, input, &u.laid, false);
+            let written = u.laid().and_then(|laid| uv::write(outputs, path, input, laid, false));
             if u.failed.attempt("uv", written)?.is_some() {
                 u.left_out = carry::left_out(input);
             }
@@ -163,13 +163,13 @@ impl Wish<'_> {
         if let Some(path) = &args.picture.picture {
             let style = args.picture.style(args.texture.unwrap_or(Texture::Checker));
             let beside = matches!(shown, Shown::Uniform(ShowChoice::Both));
-            let positions = match &input.positions {
-                Some(positions) => Some(s.refinement.from_input_vertices(positions)?),
-                None => None,
-            };
             let threads = args.common.threads();
-            let written = outputs.add(path, |out| {
-                sphere_picture::write(out, s, positions.as_deref(), &style, beside, threads)
+            let written = s.refinement().and_then(|r| {
+                let given = input.positions.as_ref();
+                let positions = given.map(|p| r.from_input_vertices(p)).transpose()?;
+                outputs.add(path, |out| {
+                    sphere_picture::write(out, s, r, positions.as_deref(), &style, beside, threads)
+                })
             });
             s.failed.attempt("picture", written)?;
         }

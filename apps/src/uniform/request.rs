@@ -70,6 +70,8 @@ impl CoverWish<'_> {
 /// What some outputs need beside metric, layout and group.
 #[derive(Clone, Copy)]
 pub struct Needs {
+    /// The common refinement of the given triangulation and the metric's.
+    pub refinement: bool,
     /// The Dirichlet domain of the base point.
     pub domain: bool,
 }
@@ -83,7 +85,11 @@ impl Wish<'_> {
             Shown::Uniform(ShowChoice::Polygon | ShowChoice::Dirichlet) | Shown::Cover(TilesChoice::Tiles)
         );
         let by_domain = self.cover.is_some_and(|c| c.radius.is_some() || c.domain.is_some());
-        Needs { domain: report || by_domain || (drawn && of_domain) }
+        let copies = self.cover.is_some_and(|c| c.cover.is_some());
+        Needs {
+            refinement: report || drawn || copies || self.args.uv.is_some(),
+            domain: report || by_domain || (drawn && of_domain),
+        }
     }
 
     /// What can be refused before anything is read.

@@ -1,7 +1,8 @@
 //! A closed surface of genus 0 on the unit sphere.
 
 use super::args::CanonicalArgs;
-use super::quotient::base;
+use super::quotient::{base, known, told};
+use super::request::Needs;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
@@ -43,14 +44,14 @@ pub struct Round {
     pub curvature: Curvature,
     pub lengths: PerEdge<f64>,
     pub target: PerVertex<f64>,
-    /// The way back to the given triangulation.
-    pub refinement: Refinement,
+    /// The way back to the given triangulation, where an output needs it, or why there is none.
+    pub refinement: Option<Result<Refinement, String>>,
     pub failed: Attempts,
     pub seconds: Seconds,
 }
 
 /// Uniformize a closed surface of genus 0.
-pub fn round(input: &Input, args: &CanonicalArgs, control: &Control) -> Result<Round, Failure> {
+pub fn round(input: &Input, args: &CanonicalArgs, needs: Needs, control: &Control) -> Result<Round, Failure> {
     let mut seconds = Seconds { read: input.seconds_read, build: input.seconds_build, ..Seconds::default() };
     let (way, metric, positions) = match args.solve.method {
         MethodChoice::Newton => timed(&mut seconds.solve, || punctured(input, args, control))?,
@@ -60,7 +61,10 @@ pub fn round(input: &Input, args: &CanonicalArgs, control: &Control) -> Result<R
         ricci::Error::Cancelled => Failure::Cancelled,
         error => Failure::Failed(error.to_string()),
     };
-    let refinement = timed(&mut seconds.refine, || metric.refinement(control)).map_err(failed)?;
+    let refinement = match needs.refinement {
+        true => Some(told(timed(&mut seconds.refine, || metric.refinement(control)))?),
+        false => None,
+    };
     let tolerance = match &way {
         Way::Puncture(_) => args.solve.tolerance,
         Way::Flow(report) => report.tolerance,
@@ -154,11 +158,15 @@ impl Round {
         self.metric.mesh().face_vertices(f).map(|v| self.positions[v])
     }
 
-    /// Corners of the pieces of the common refinement on the sphere.
-    pub fn piece(&self, f: FaceId) -> [Point; 3] {
-        let corners =
-            self.metric.mesh().face_vertices(self.refinement.final_face[f]).map(|v| self.positions[v]);
-        self.refinement.final_barycentric(f).map(|w| {
+    /// The way back to the given triangulation, if there is one.
+    pub fn refinement(&self) -> Result<&Refinement, Failure> {
+        known(&self.refinement)
+    }
+
+    /// Corners of a piece of the common refinement on the sphere.
+    pub fn piece(&self, refinement: &Refinement, f: FaceId) -> [Point; 3] {
+        let corners = self.metric.mesh().face_vertices(refinement.final_face[f]).map(|v| self.positions[v]);
+        refinement.final_barycentric(f).map(|w| {
             let p = [0, 1, 2].map(|k| (0..3).map(|i| w[i] * corners[i][k]).sum::<f64>());
             let length = p[0].hypot(p[1]).hypot(p[2]);
             p.map(|x| x / length)
@@ -186,6 +194,9 @@ impl Round {
             }
         }
         checks.add("max_curvature_error", self.curvature_error(), self.tolerance);
+        if let Some(refinement) = &self.refinement {
+            checks.add("without_refinement", f64::from(u8::from(refinement.is_err())), 0.0);
+        }
         checks
     }
 }

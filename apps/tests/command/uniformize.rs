@@ -228,3 +228,23 @@ fn the_dirichlet_domain_is_formed_for_what_shows_it() {
         assert_eq!(ended.out.contains("\ndomain "), formed, "{line}: {}", ended.out);
     }
 }
+
+#[test]
+fn the_common_refinement_is_formed_for_what_holds_it() {
+    let place = Place::new();
+    // Slanted parallelograms: each given edge crosses the Delaunay triangulation thousands of times.
+    place.expect(0, "make flat-torus --tau 5000.3 1 -n 4 -m 4 -o slanted.json --quiet");
+    for command in ["uniformize", "flow"] {
+        let plain = place.expect(0, &format!("{command} slanted.json --metric m.json"));
+        assert!(!plain.out.contains("dilatation") && plain.out.contains("all hold"), "{}", plain.out);
+        let told = place.run(&format!("{command} slanted.json --metric n.json --report r.json"));
+        assert!(told.out.contains("dilatation"), "{}", told.out);
+        assert!(place.json("r.json")["result"]["crossings"].as_u64().unwrap() > 10_000);
+        assert_eq!(place.text("m.json"), place.text("n.json"));
+    }
+    // Where it is small it is formed for the summary.
+    place.put("torus.obj", &torus(12, 8).obj());
+    for command in ["uniformize", "flow"] {
+        assert!(place.expect(0, &format!("{command} torus.obj")).out.contains("dilatation"));
+    }
+}
