@@ -1,6 +1,5 @@
 //! A closed surface of genus 1 or more in its metric of constant curvature, laid out on the surface as it was given.
 
-use super::args::CanonicalArgs;
 use super::request::Needs;
 use crate::failure::Failure;
 use crate::in_space::{InSpace, MEETING, consistency, consistency_limit, in_space, is_carried_back};
@@ -9,12 +8,12 @@ use crate::job::GAUSS_BONNET;
 use crate::laid::Laid;
 use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
-use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
+use ricci::canonical::Quotient;
 use ricci::embed::{DeckElement, DeckGroup, DirichletDomain, SpaceLayout, dirichlet_domain};
 use ricci::flow::Report;
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
-use ricci::mesh::{FaceId, PerEdge, PerVertex, VertexId};
+use ricci::mesh::{FaceId, PerEdge, PerVertex};
 use ricci::metric::{Curvature, SurfaceMetric};
 use ricci::topology::HomotopyBasis;
 use std::cmp::Ordering;
@@ -58,90 +57,6 @@ pub struct Uniformized {
     pub seconds: Seconds,
 }
 
-/// The base vertex that was asked for, if it is one.
-pub fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure> {
-    let n = input.mesh.n_vertices();
-    match args.base {
-        Some(v) if v as usize >= n => {
-            Err(Failure::Usage(format!("--base {v}: there is no such vertex, they are 0 to {}", n - 1)))
-        }
-        base => Ok(base.map(VertexId)),
-    }
-}
-
-/// Uniformize a closed surface of genus 1 or more.
-pub fn uniformized(
-    input: &Input,
-    args: &CanonicalArgs,
-    needs: Needs,
-    control: &Control,
-) -> Result<Uniformized, Failure> {
-    let options = QuotientOptions {
-        scheme: args.solve.scheme.into(),
-        base: base(input, args)?,
-        flow: args.solve.options(args.common.threads()),
-    };
-    let mut total = 0.0;
-    let quotient = timed(&mut total, || {
-        uniformize_quotient(&input.mesh, &input.lengths, input.geometry, &options, control)
-    })?;
-    let Quotient { report, angle_defect, metric, layout, basis, deck } = quotient;
-    let mut seconds = Seconds {
-        read: input.seconds_read,
-        build: input.seconds_build,
-        assemble: report.seconds.assemble,
-        analyse: report.seconds.analyse,
-        factor: report.seconds.factor,
-        solve: report.seconds.solve,
-        flip: report.seconds.flip,
-        layout: total - report.seconds.total,
-        ..Seconds::default()
-    };
-    // What goes wrong from here on is no fault of the input.
-    let failed = |error: ricci::Error| match error {
-        ricci::Error::Cancelled => Failure::Cancelled,
-        error => Failure::Failed(error.to_string()),
-    };
-    let lengths = metric.metric().lengths(metric.mesh()).map_err(failed)?;
-    let curvature = metric.curvature().map_err(failed)?;
-    let errors = curvature.at.iter().map(|k| k.abs()).sum();
-    let laid = match is_carried_back(&metric, needs.refinement) {
-        true => Some(told(in_space(input, &metric, &layout, errors, &mut seconds, control))?),
-        false => None,
-    };
-    let modulus = match (deck.generators.as_slice(), deck.space) {
-        ([a, b], Space::E2) => modulus([a, b].map(|g| {
-            let [x, y, _] = g.rounded().origin();
-            [x, y]
-        })),
-        _ => None,
-    };
-    let form = || dirichlet_domain(&deck, ORIGIN, layout.area, control);
-    let domain = match needs.domain {
-        true => Some(told(timed(&mut seconds.layout, form))?),
-        false => None,
-    };
-    let one = DeckElement { word: Default::default(), motion: ricci::geometry::Motion::identity(deck.space) };
-    Ok(Uniformized {
-        target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
-        report,
-        angle_defect,
-        metric,
-        lengths,
-        curvature,
-        layout,
-        laid,
-        modulus,
-        basis,
-        deck,
-        domain,
-        elements: Ok(vec![one]),
-        failed: Attempts::default(),
-        left_out: Vec::new(),
-        seconds,
-    })
-}
-
 /// What a step has made, or why it could not. Errors: [`Failure::Cancelled`] alone.
 pub fn told<T>(made: ricci::Result<T>) -> Result<Result<T, String>, Failure> {
     match made {
@@ -160,6 +75,72 @@ pub fn known<T>(made: &Option<Result<T, String>>) -> Result<&T, Failure> {
 }
 
 impl Uniformized {
+    /// A quotient laid out on the surface as it was given. `taken`: seconds until it was found.
+    pub fn new(
+        input: &Input,
+        quotient: Quotient,
+        taken: f64,
+        needs: Needs,
+        control: &Control,
+    ) -> Result<Uniformized, Failure> {
+        let Quotient { report, angle_defect, metric, layout, basis, deck } = quotient;
+        let mut seconds = Seconds {
+            read: input.seconds_read,
+            build: input.seconds_build,
+            assemble: report.seconds.assemble,
+            analyse: report.seconds.analyse,
+            factor: report.seconds.factor,
+            solve: report.seconds.solve,
+            flip: report.seconds.flip,
+            layout: taken - report.seconds.total,
+            ..Seconds::default()
+        };
+        // What goes wrong from here on is no fault of the input.
+        let failed = |error: ricci::Error| match error {
+            ricci::Error::Cancelled => Failure::Cancelled,
+            error => Failure::Failed(error.to_string()),
+        };
+        let lengths = metric.metric().lengths(metric.mesh()).map_err(failed)?;
+        let curvature = metric.curvature().map_err(failed)?;
+        let errors = curvature.at.iter().map(|k| k.abs()).sum();
+        let laid = match is_carried_back(&metric, needs.refinement) {
+            true => Some(told(in_space(input, &metric, &layout, errors, &mut seconds, control))?),
+            false => None,
+        };
+        let modulus = match (deck.generators.as_slice(), deck.space) {
+            ([a, b], Space::E2) => modulus([a, b].map(|g| {
+                let [x, y, _] = g.rounded().origin();
+                [x, y]
+            })),
+            _ => None,
+        };
+        let form = || dirichlet_domain(&deck, ORIGIN, layout.area, control);
+        let domain = match needs.domain {
+            true => Some(told(timed(&mut seconds.layout, form))?),
+            false => None,
+        };
+        let one =
+            DeckElement { word: Default::default(), motion: ricci::geometry::Motion::identity(deck.space) };
+        Ok(Uniformized {
+            target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
+            report,
+            angle_defect,
+            metric,
+            lengths,
+            curvature,
+            layout,
+            laid,
+            modulus,
+            basis,
+            deck,
+            domain,
+            elements: Ok(vec![one]),
+            failed: Attempts::default(),
+            left_out: Vec::new(),
+            seconds,
+        })
+    }
+
     /// The Dirichlet domain, if there is one.
     pub fn domain(&self) -> Result<&DirichletDomain, Failure> {
         known(&self.domain)

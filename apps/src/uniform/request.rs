@@ -187,6 +187,12 @@ impl Wish<'_> {
             );
         }
         if args.solve.method == MethodChoice::Newton {
+            if input.mesh.n_vertices() < 4 {
+                let path = input.path.display();
+                let why =
+                    "a sphere of fewer than four vertices is no polyhedron; cut each triangle into four";
+                return Err(Failure::Input(format!("{path}: {why}")));
+            }
             if !matches!(args.solve.scheme, SchemeChoice::Yamabe) {
                 return usage(
                     "--scheme: spheres flow by vertex scaling, yamabe; other schemes with --method gradient",
