@@ -4,7 +4,7 @@ use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
 use crate::figures::FlowResult;
 use crate::flow;
-use crate::output::{Outputs, check_writable};
+use crate::output::{Outputs, check_outputs};
 use crate::report::{Checks, InputSummary, Report, path_text, peak_bytes};
 use crate::uniform::{self, Shape, UniformFigures};
 use crate::{make, say};
@@ -105,7 +105,7 @@ struct Ran {
 pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
     let out = &args.out;
-    args.common.report.as_deref().map_or(Ok(()), check_writable)?;
+    check_outputs(&[], &[args.common.report.as_deref()])?;
     std::fs::create_dir_all(out)
         .map_err(|e| Failure::Usage(format!("{}: cannot be made: {e}", out.display())))?;
     let mut table = format!(
@@ -202,10 +202,13 @@ fn uniformized(line: String, done: uniform::Done) -> Result<Ran, Failure> {
         input: InputSummary::of(&done.input),
         steps: u.report.iterations,
         error: u.curvature_error(),
-        layout: Some((u.laid.flipped().len(), u.laid.quality.qc_mean)),
+        layout: u.laid().ok().map(|laid| (laid.flipped().len(), laid.quality.qc_mean)),
         seconds: done.seconds,
         exit_code: done.exit_code,
-        result: Figures::Uniform(Box::new(UniformFigures::new(u, u.elements.len() > 1))),
+        result: Figures::Uniform(Box::new(UniformFigures::new(
+            u,
+            u.elements.as_ref().is_ok_and(|elements| elements.len() > 1),
+        ))),
         checks: done.checks,
     })
 }

@@ -70,6 +70,10 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
             ..options(args)
         },
         pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, &input.mesh)),
+        laid_out: args.charts
+            || [&args.uv, &args.circles, &args.picture.base.picture, &args.common.report]
+                .iter()
+                .any(|path| path.is_some()),
     };
     let mut outcome = job::run(&input, job, control)?;
     if args.charts {
@@ -116,9 +120,16 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     if let Some(path) = &args.picture.base.picture {
         check_extension("--picture", path, &["png", "svg"])?;
     }
+    let table = match &args.target {
+        Some(TargetChoice::Cones(path) | TargetChoice::File(path)) => Some(path.as_path()),
+        _ => None,
+    };
     let files =
         [&args.metric, &args.uv, &args.circles, &args.picture.base.picture, &args.trace, &args.common.report];
-    output::check_outputs(&files.map(|path| path.as_deref()))
+    output::check_outputs(
+        &[Some(&args.surface.mesh), args.keep_edges.as_deref(), table],
+        &files.map(|path| path.as_deref()),
+    )
 }
 
 /// What can be refused once the surface is known.

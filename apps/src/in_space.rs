@@ -12,11 +12,17 @@ use ricci::metric::{Refinement, SurfaceMetric};
 /// In H² the two sides of a seam may always differ by this, a distance: what copies of the layout are to meet to.
 pub const MEETING: f64 = 1e-8;
 
+/// Crossings per edge up to which the common refinement is formed for the summary alone: it then costs no more than the flow.
+const FEW: usize = 16;
+
+/// Whether to carry a layout back to the given triangulation: where an output needs that, or where it costs little.
+pub fn is_carried_back(metric: &SurfaceMetric, needed: bool) -> bool {
+    needed || metric.crossings().is_ok_and(|n| n <= FEW * metric.mesh().n_edges())
+}
+
 /// A surface in the model space of its metric.
 pub struct InSpace {
-    /// The layout of the final triangulation; none where that is of the surface's double.
-    pub whole: Option<SpaceLayout>,
-    /// That of the common refinement.
+    /// The layout of the common refinement.
     pub refined: RefinedSpaceLayout,
     /// Plane coordinates of its points: of the plane, in H² of the Poincaré disk.
     pub coordinates: Vec<[f64; 2]>,
@@ -28,16 +34,16 @@ pub struct InSpace {
 pub fn in_space(
     input: &Input,
     metric: &SurfaceMetric,
-    whole: SpaceLayout,
+    whole: &SpaceLayout,
     errors: f64,
     seconds: &mut Seconds,
     control: &Control,
 ) -> ricci::Result<Laid> {
     let refinement = timed(&mut seconds.refine, || metric.refinement(control))?;
-    let lay = || refine_space_layout(&whole, &refinement, metric.mesh(), control);
+    let lay = || refine_space_layout(whole, &refinement, metric.mesh(), control);
     let refined = timed(&mut seconds.layout, lay)?;
-    let seams = seams(&whole, &refinement);
-    laid(input, metric, refinement, (Some(whole), refined, seams), errors)
+    let seams = seams(whole, &refinement);
+    laid(input, metric, refinement, (refined, seams), errors)
 }
 
 /// Lay out the given half of the double that a metric lives on. `cones`: vertices inside that the cut has to pass.
@@ -55,14 +61,14 @@ pub fn half_in_space(
     let numbered =
         |(k, segment): (usize, &Vec<HalfedgeId>)| -> Vec<_> { segment.iter().map(|&h| (h, k)).collect() };
     let seams = cut.segments.iter().enumerate().flat_map(numbered).collect();
-    laid(input, metric, refinement, (None, refined, seams), errors)
+    laid(input, metric, refinement, (refined, seams), errors)
 }
 
 fn laid(
     input: &Input,
     metric: &SurfaceMetric,
     refinement: Refinement,
-    (whole, refined, seams): (Option<SpaceLayout>, RefinedSpaceLayout, Vec<(HalfedgeId, usize)>),
+    (refined, seams): (RefinedSpaceLayout, Vec<(HalfedgeId, usize)>),
     errors: f64,
 ) -> ricci::Result<Laid> {
     let quality = refined.quality(&refinement, &input.mesh, &input.lengths)?;
@@ -70,11 +76,8 @@ fn laid(
         Some(positions) => Some(refinement.from_input_vertices(positions)?),
         None => None,
     };
-    // A vertex with curvature error δ turns what lies beyond it by δ: in H² that moves a point at distance r by sinh(r) δ.
-    let off = errors + STEP_ROUNDING * metric.mesh().n_faces() as f64;
-    let consistency_limit =
-        if refined.space == Space::H2 { MEETING.max(refined.radius.sinh() * off) } else { off };
-    let place = InSpace { coordinates: refined.coordinates(), seams, whole, refined };
+    let consistency_limit = consistency_limit(refined.space, refined.radius, errors, metric.mesh().n_faces());
+    let place = InSpace { coordinates: refined.coordinates(), seams, refined };
     Ok(Laid {
         mesh: refinement.mesh.clone(),
         weight: refinement.weight.clone(),
@@ -90,6 +93,18 @@ fn laid(
     })
 }
 
+/// What curvature errors and rounding allow [`consistency`] to be.
+pub fn consistency_limit(space: Space, radius: f64, errors: f64, n_faces: usize) -> f64 {
+    // A vertex with curvature error δ turns what lies beyond it by δ: in H² that moves a point at distance r by sinh(r) δ.
+    let off = errors + STEP_ROUNDING * n_faces as f64;
+    if space == Space::H2 { MEETING.max(radius.sinh() * off) } else { off }
+}
+
+/// The disagreement of corners: relative to the diameter in E², a distance in H².
+pub fn consistency(space: Space, disagreement: f64, radius: f64) -> f64 {
+    if space == Space::E2 { disagreement / (2.0 * radius) } else { disagreement }
+}
+
 fn seams(whole: &SpaceLayout, refinement: &Refinement) -> Vec<(HalfedgeId, usize)> {
     let number = |h: HalfedgeId| {
         let side = whole.side(refinement.final_halfedge(h)?);
@@ -99,10 +114,9 @@ fn seams(whole: &SpaceLayout, refinement: &Refinement) -> Vec<(HalfedgeId, usize
 }
 
 impl InSpace {
-    /// Largest disagreement of corners: relative to the diameter in E², a distance in H².
+    /// Largest disagreement of corners.
     pub fn consistency(&self) -> f64 {
-        let RefinedSpaceLayout { space, disagreement, radius, .. } = &self.refined;
-        if *space == Space::E2 { disagreement / (2.0 * radius) } else { *disagreement }
+        consistency(self.refined.space, self.refined.disagreement, self.refined.radius)
     }
 
     /// The diagonal of the coordinates' bounding box.

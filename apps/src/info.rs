@@ -4,7 +4,7 @@ use crate::cli::InfoArgs;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::options::SurfaceArgs;
-use crate::output::{Outputs, check_extension, check_writable, extension};
+use crate::output::{Outputs, check_extension, check_outputs, extension};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{InputSummary, Report, Seconds, path_text, peak_bytes, timed};
 use crate::say::{self, count};
@@ -75,9 +75,8 @@ struct Asked {
 /// Run the command: 0 on every file that can be read, whatever its defects.
 pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
-    for path in [&args.common.report, &args.picture.base.picture].into_iter().flatten() {
-        check_writable(path)?;
-    }
+    let files = [&args.common.report, &args.picture.base.picture];
+    check_outputs(&[Some(&args.mesh)], &files.map(|path| path.as_deref()))?;
     if let Some(path) = &args.picture.base.picture {
         check_extension("--picture", path, &["png"])?;
         if extension(&args.mesh) == "json" && args.weld.is_none() {

@@ -20,6 +20,8 @@ pub struct Job {
     pub options: flow::Options,
     /// Vertices whose conformal factor is held at 0; their curvature is free.
     pub pinned: Vec<VertexId>,
+    /// Whether an output needs the layout.
+    pub laid_out: bool,
 }
 
 /// The metric that a flow reached, with its layout where it has one.
@@ -89,7 +91,7 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
         flip: start + report.seconds.flip,
         ..Seconds::default()
     };
-    let layout = laid::lay_out(input, &flow, &curvature, &target, &mut seconds, control)?;
+    let layout = laid::lay_out(input, &flow, &curvature, &target, job.laid_out, &mut seconds, control)?;
     Ok(Outcome {
         scheme: job.scheme,
         rule,

@@ -2,7 +2,7 @@
 
 use crate::charts::Packed;
 use crate::failure::Failure;
-use crate::in_space::{InSpace, half_in_space, in_space};
+use crate::in_space::{InSpace, half_in_space, in_space, is_carried_back};
 use crate::input::Input;
 use crate::report::{Seconds, timed};
 use ricci::Control;
@@ -56,12 +56,13 @@ pub struct Laid {
     pub consistency_limit: f64,
 }
 
-/// Lay the metric of a flow out on the given surface, or say why it has no layout. `target`: per given vertex.
+/// Lay the metric of a flow out on the given surface, or say why it has no layout. `target`: per given vertex; `needed`: by an output.
 pub fn lay_out(
     input: &Input,
     flow: &SurfaceFlow,
     curvature: &Curvature,
     target: &PerVertex<f64>,
+    needed: bool,
     seconds: &mut Seconds,
     control: &Control,
 ) -> Result<Result<Laid, String>, Failure> {
@@ -75,6 +76,10 @@ pub fn lay_out(
             "{n} triangles break the triangle inequality (the first is face {})",
             curvature.broken[0]
         )));
+    }
+    if !is_carried_back(&flow.now(), needed) {
+        let why = "edge flips led far away, and no output needs the way back to the given triangulation";
+        return Ok(Err(why.into()));
     }
     control.step(Stage::Layout, 0.0)?;
     let given = &input.mesh;
@@ -95,7 +100,7 @@ pub fn lay_out(
                 let root = central_vertex(mesh, &lengths, control)?;
                 layout_in_space(mesh, metric, root, cut.as_ref(), control)
             })?;
-            return in_space(input, &flow.now(), whole, errors, seconds, control);
+            return in_space(input, &flow.now(), &whole, errors, seconds, control);
         }
         let area = area(given, input.geometry, &input.lengths)?;
         let refinement = match mesh == given {
@@ -205,6 +210,14 @@ impl Laid {
         match &self.placed {
             Placed::Plane(layout) => Some(layout),
             Placed::Space(_) => None,
+        }
+    }
+
+    /// The layout in the model space of the metric, if this is one.
+    pub fn space(&self) -> Option<&InSpace> {
+        match &self.placed {
+            Placed::Plane(_) => None,
+            Placed::Space(place) => Some(place),
         }
     }
 

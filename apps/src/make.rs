@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
 use crate::options::Common;
-use crate::output::{Outputs, check_extension, check_writable, extension};
+use crate::output::{Outputs, check_extension, check_outputs, extension};
 use crate::report::{InputSummary, Report, peak_bytes};
 use crate::say::{self, count};
 use crate::shape::{Shape, ToMesh, ToMetric};
@@ -99,12 +99,9 @@ fn raise(mut soup: Soup, height: f64) -> Soup {
 
 fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Instant) -> Result<u8, Failure> {
     check_extension("-o", &to.out, &["obj", "off", "ply", "glb", "json"])?;
-    check_writable(&to.out)?;
-    to.common.report.as_deref().map_or(Ok(()), check_writable)?;
-    if let Some(path) = &to.picture.base.picture {
-        check_extension("--picture", path, &["png"])?;
-        check_writable(path)?;
-    }
+    let (report, picture) = (to.common.report.as_deref(), to.picture.base.picture.as_deref());
+    picture.map_or(Ok(()), |path| check_extension("--picture", path, &["png"]))?;
+    check_outputs(&[], &[Some(&to.out), report, picture])?;
     let soup = to.spoil.apply(soup?)?;
     let mesh = Mesh::from_soup(&soup)?;
     let Soup { positions, faces, .. } = &soup;
@@ -136,8 +133,7 @@ fn write_metric(
             "-o {out}: this surface has no positions; write its lengths, .json"
         )));
     }
-    check_writable(&to.out)?;
-    to.common.report.as_deref().map_or(Ok(()), check_writable)?;
+    check_outputs(&[], &[Some(&to.out), to.common.report.as_deref()])?;
     let surface = surface?;
     let (mesh, lengths) = surface.build()?;
     let mut outputs = Outputs::default();

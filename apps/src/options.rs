@@ -92,7 +92,15 @@ impl SolveArgs {
 pub fn distance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x >= 0.0 && x.is_finite() => Ok(x),
-        _ => Err("must be a distance".into()),
+        _ => Err("must be a finite distance, 0 or more".into()),
+    }
+}
+
+/// A distance to which copies of a surface can be made: the one at 0 is the surface itself.
+pub fn radius(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("must be a finite distance greater than 0".into()),
     }
 }
 

@@ -96,7 +96,7 @@ impl Outputs {
 }
 
 /// A usage error if a file of this name could not be written: found before the work, not after it.
-pub fn check_writable(path: &Path) -> Result<(), Failure> {
+fn check_writable(path: &Path) -> Result<(), Failure> {
     let refuse = |why: String| Err(Failure::Usage(format!("{}: {why}", path.display())));
     if path.is_dir() {
         return refuse("is a directory".into());
@@ -111,17 +111,35 @@ pub fn check_writable(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// A usage error if two of these files are one, or one could not be written.
-pub fn check_outputs(files: &[Option<&Path>]) -> Result<(), Failure> {
-    let mut seen: Vec<&Path> = Vec::new();
-    for path in files.iter().flatten() {
-        if seen.contains(path) {
-            return Err(Failure::Usage(format!("{} is named for two outputs", path.display())));
+/// A usage error if two outputs are one file, if one would take the place of an input, or could not be written.
+pub fn check_outputs(inputs: &[Option<&Path>], outputs: &[Option<&Path>]) -> Result<(), Failure> {
+    let inputs: Vec<_> = inputs.iter().flatten().map(|path| (path, place_of(path))).collect();
+    let mut seen: Vec<(&Path, PathBuf)> = Vec::new();
+    for path in outputs.iter().flatten() {
+        let place = place_of(path);
+        if let Some((input, _)) = inputs.iter().find(|(_, input)| *input == place) {
+            let (output, input) = (path.display(), input.display());
+            let same = format!("the output {output} is the input {input}, which it would replace");
+            return Err(Failure::Usage(format!("{same}; choose another name")));
         }
-        seen.push(path);
+        if let Some((other, _)) = seen.iter().find(|(_, other)| *other == place) {
+            let [a, b] = [path, other].map(|path| path.display().to_string());
+            let also = if a == b { String::new() } else { format!(", as {b} too") };
+            return Err(Failure::Usage(format!("{a} is named for two outputs{also}")));
+        }
+        seen.push((path, place));
         check_writable(path)?;
     }
     Ok(())
+}
+
+/// Where a file is, or would be: one name per file, however it is called.
+fn place_of(path: &Path) -> PathBuf {
+    let (target, _) = destination(path);
+    match (directory_of(&target).canonicalize(), target.file_name()) {
+        (Ok(directory), Some(name)) => directory.join(name),
+        _ => target,
+    }
 }
 
 /// A usage error unless the file's extension is one of these (lower case).

@@ -3,7 +3,7 @@
 use crate::cli::RepairArgs;
 use crate::failure::Failure;
 use crate::info::{DefectCount, DefectFigures, summary_of};
-use crate::output::{Outputs, check_extension, check_writable, extension};
+use crate::output::{Outputs, check_extension, check_outputs, extension};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{Report, Seconds, path_text, peak_bytes, timed};
 use crate::say::{self, count};
@@ -76,11 +76,9 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     if let Some(path) = &args.picture.base.picture {
         check_extension("--picture", path, &["png"])?;
     }
-    for path in
-        [Some(&args.out), args.map.as_ref(), args.picture.base.picture.as_ref(), args.common.report.as_ref()]
-    {
-        path.map_or(Ok(()), |path| check_writable(path))?;
-    }
+    let files =
+        [Some(&args.out), args.map.as_ref(), args.picture.base.picture.as_ref(), args.common.report.as_ref()];
+    check_outputs(&[Some(&args.mesh)], &files.map(|path| path.map(|path| path.as_path())))?;
     let mut seconds = Seconds::default();
     control.step(Stage::Read, 0.0)?;
     let soup = timed(&mut seconds.read, || io::read(&args.mesh))?;

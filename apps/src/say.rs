@@ -143,8 +143,12 @@ pub fn layout(laid: &Laid) -> String {
             100.0 * charts.efficiency
         );
     }
-    if let Some([re, im]) = laid.modulus {
-        text += &format!(", modulus {re:.6} {} {:.6} i", if im < 0.0 { '-' } else { '+' }, im.abs());
-    }
-    text
+    text + &modulus(laid.modulus)
+}
+
+/// τ of a flat torus, after what else is said of its layout.
+pub fn modulus(tau: Option<[f64; 2]>) -> String {
+    tau.map_or_else(String::new, |[re, im]| {
+        format!(", modulus {re:.6} {} {:.6} i", if im < 0.0 { '-' } else { '+' }, im.abs())
+    })
 }

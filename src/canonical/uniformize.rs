@@ -44,8 +44,8 @@ impl Uniformization {
 /// The metric of constant curvature in the conformal class of a closed surface: on the sphere, in the plane or in the hyperbolic plane, by its
 /// Euler characteristic.
 ///
-/// `lengths`: E entries, read in `geometry`. Of the options a sphere takes tolerance, steps and threads; its scheme is
-/// [`Scheme::Yamabe`].
+/// `lengths`: E entries, read in `geometry`. Of the options a sphere takes the base as its puncture, tolerance, steps and threads; its
+/// scheme is [`Scheme::Yamabe`].
 ///
 /// Errors: [`Error::Layout`] for a surface with boundary; [`Error::Argument`] for a sphere in another scheme; those of
 /// [`uniformize_sphere`] and [`uniformize_quotient`].
@@ -68,7 +68,7 @@ pub fn uniformize(
     let sphere = SphereOptions {
         tolerance: flow.tolerance,
         max_iterations: flow.max_iterations,
-        puncture: None,
+        puncture: options.base,
         threads: flow.threads,
     };
     let (mesh, lengths) = (Arc::new(mesh.clone()), Arc::new(lengths.clone()));

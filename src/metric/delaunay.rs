@@ -187,7 +187,8 @@ pub(crate) fn flip_in_class(
 }
 
 /// Isometric flips until the triangulation is the intrinsic Delaunay one of the surface (weighted by circles of these `radii`
-/// around its vertices, 0 for none; `lengths` in `geometry`): it depends on the surface and the circles alone, up to ties.
+/// around its vertices, 0 for none; `lengths` in `geometry`): it depends on the surface and the circles alone, up to ties. An edge stays
+/// where the other diagonal would make a triangle too thin for doubles.
 ///
 /// `fixed` edges stay (indices of the mesh). Returns the number of flips. Errors: sizes; a length out of range, a face that breaks the triangle inequality;
 /// [`Error::Connectivity`] if the flips do not end; [`Error::Cancelled`]. Mesh and lengths are then as they were, whatever `record`
@@ -224,7 +225,10 @@ pub fn intrinsic_delaunay(
         }
         let [near, far] = [sides[0][1], sides[1][0]];
         let length = diagonal(geometry, near, far, at_origin);
-        (length > 0.0 && length.is_finite()).then_some(length)
+        // Needles can be thinner than the digits of the new length: what is no triangle in doubles is not made.
+        let made = [[near, far], [sides[0][0], sides[1][1]]].map(|[a, b]| [a, b, length]);
+        let fits = length > 0.0 && length.is_finite() && made.iter().all(is_triangle);
+        fits.then_some(length)
     };
     let mut queue = Queue::where_holds(mesh, fixed, |h| fails(mesh, lengths, h));
     if queue.waiting.is_empty() {
@@ -238,6 +242,11 @@ pub fn intrinsic_delaunay(
         (*mesh, *lengths) = before;
     }
     flips
+}
+
+/// Whether doubles hold these lengths apart from those of a triangle without area.
+fn is_triangle(l: &[f64; 3]) -> bool {
+    triangle::half_differences(*l).into_iter().all(|r| r > 0.0)
 }
 
 /// The sum of a face's cotangents, `(a² + b² + c²)/4A`; infinite where it is broken.

@@ -262,6 +262,16 @@ impl SurfaceMetric {
         Ok(factor.into())
     }
 
+    /// How often the given edges cross those of the metric's triangulation, and of the one that flows start from: the size of
+    /// [`SurfaceMetric::refinement`] beyond that of the surface, on a double of both halves. O(E).
+    ///
+    /// Errors: [`Error::TooLarge`] for more than can be numbered.
+    pub fn crossings(&self) -> Result<usize> {
+        let now = self.followed.first().map_or(Ok(0), |given| given.check(&self.mesh))?;
+        let start = self.start.flipped.as_ref().map_or(Ok(0), |start| start.given.check(&start.mesh))?;
+        Ok(now + start)
+    }
+
     /// The common refinement of the given triangulation and the metric's, on the given surface alone: the
     /// first half of a double.
     ///

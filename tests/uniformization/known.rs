@@ -137,3 +137,14 @@ fn one_call_serves_every_closed_surface() {
         assert!(curvature.at.iter().all(|k| k.abs() < 1e-9), "{}", surface.name);
     }
 }
+
+#[test]
+fn the_base_of_a_sphere_is_its_puncture() {
+    let surface = Surface::from_soup("ellipsoid", &shapes::ellipsoid([1.0, 1.3, 0.8], 3).unwrap());
+    for v in [5, 17] {
+        let options = QuotientOptions { base: Some(VertexId(v)), ..QuotientOptions::default() };
+        let one = uniformize(&surface.mesh, &surface.lengths, Space::E2, &options, &Control::new());
+        let Uniformization::Sphere(sphere) = one.unwrap() else { panic!("a sphere") };
+        assert_eq!(sphere.report.puncture, VertexId(v));
+    }
+}

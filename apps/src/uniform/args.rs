@@ -20,7 +20,9 @@ Files
     --uv OUT.obj | OUT.glb     the surface, opened, with its layout as texture coordinates: of the plane (scaled to the surface's
                                area), of the Poincaré disk
     --sphere S.obj | S.glb     of a sphere: the input's vertices, in order, on the unit sphere, with the faces that flips have led to
-    --generators C.json        space, basis (a1, b1, …), word, and a Möbius matrix per generator: of the plane, of the Poincaré disk";
+    --generators C.json        space, basis (a1, b1, …), word, and a Möbius matrix per generator: of the plane, of the Poincaré disk;
+                               intersections, a row per loop of the basis: how often each other one crosses it from right to left,
+                               less how often from left to right";
 
 pub const COVER_HELP: &str = "\
 Example: a piece of the hyperbolic plane, tiled by copies of a surface of genus 2
@@ -86,7 +88,7 @@ pub struct CoverArgs {
     #[arg(long, value_name = "N", conflicts_with = "radius", value_parser = clap::value_parser!(u16).range(0..=64))]
     pub depth: Option<u16>,
     /// Instead: copies whose base point is this far from the base point at most
-    #[arg(long, value_name = "DISTANCE", value_parser = crate::options::distance)]
+    #[arg(long, value_name = "DISTANCE", value_parser = crate::options::radius, allow_negative_numbers = true)]
     pub radius: Option<f64>,
     /// Most copies that are made
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]

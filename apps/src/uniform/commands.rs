@@ -1,16 +1,19 @@
 //! Both commands from beginning to end.
 
-use super::args::{CoverArgs, TilesChoice, UniformizeArgs};
+use super::args::{CanonicalArgs, CoverArgs, TilesChoice, UniformizeArgs};
 use super::pictures::Shown;
-use super::quotient::{Uniformized, uniformized};
-use super::request::{CoverWish, Wish};
-use super::sphere::{Round, round};
+use super::quotient::Uniformized;
+use super::request::{CoverWish, Needs, Wish};
+use super::sphere::{Round, flowed, punctured};
 use super::summary;
 use crate::failure::Failure;
 use crate::input::{self, Input};
+use crate::options::MethodChoice;
 use crate::progress::Progress;
-use crate::report::{Attempts, Checks};
+use crate::report::{Attempts, Checks, timed};
 use ricci::Control;
+use ricci::canonical::{self, QuotientOptions, Uniformization};
+use ricci::mesh::VertexId;
 use std::time::Instant;
 
 /// A surface in its canonical shape.
@@ -87,6 +90,38 @@ pub fn execute_cover(args: &CoverArgs, control: &Control) -> Result<Done, Failur
     )
 }
 
+/// The base vertex that was asked for, if it is one.
+fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure> {
+    let n = input.mesh.n_vertices();
+    match args.base {
+        Some(v) if v as usize >= n => {
+            Err(Failure::Usage(format!("--base {v}: there is no such vertex, they are 0 to {}", n - 1)))
+        }
+        base => Ok(base.map(VertexId)),
+    }
+}
+
+/// Uniformize a closed surface: by the library's one call, but for the paper's flow of spheres.
+fn shape(input: &Input, args: &CanonicalArgs, needs: Needs, control: &Control) -> Result<Shape, Failure> {
+    let (base, mut taken) = (base(input, args)?, 0.0);
+    if input.mesh.euler() > 0 && args.solve.method == MethodChoice::Gradient {
+        let found = timed(&mut taken, || flowed(input, args, base, control))?;
+        return Ok(Shape::Sphere(Box::new(Round::new(input, args, found, taken, needs, control)?)));
+    }
+    let flow = args.solve.options(args.common.threads());
+    let options = QuotientOptions { scheme: args.solve.scheme.into(), base, flow };
+    let Input { mesh, lengths, geometry, .. } = input;
+    Ok(match timed(&mut taken, || canonical::uniformize(mesh, lengths, *geometry, &options, control))? {
+        Uniformization::Sphere(sphere) => {
+            let found = punctured(*sphere);
+            Shape::Sphere(Box::new(Round::new(input, args, found, taken, needs, control)?))
+        }
+        Uniformization::Quotient(quotient) => {
+            Shape::Quotient(Box::new(Uniformized::new(input, *quotient, taken, needs, control)?))
+        }
+    })
+}
+
 /// The exit code is 1 if a check fails or a file that was asked for has nothing to hold.
 fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done, Failure> {
     let (start, args) = (Instant::now(), wish.args);
@@ -94,15 +129,11 @@ fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done, Failure> {
     let progress = Progress::watch(control, args.common.quiet);
     let input = input::read(&args.surface, control)?;
     let shown = wish.check_surface(&input)?;
-    let mut shape = if input.mesh.euler() > 0 {
-        Shape::Sphere(Box::new(round(&input, args, control)?))
-    } else {
-        let mut u = uniformized(&input, args, control)?;
-        if let Some(cover) = &wish.cover {
-            u.elements = cover.elements(&u, control)?;
-        }
-        Shape::Quotient(Box::new(u))
-    };
+    let needs = wish.needs(shown);
+    let mut shape = shape(&input, args, needs, control)?;
+    if let (Shape::Quotient(u), Some(cover)) = (&mut shape, &wish.cover) {
+        cover.find(u, control)?;
+    }
     let checks = shape.checks();
     let files = wish.write(&input, &mut shape, &checks, shown, control, start)?;
     drop(progress);

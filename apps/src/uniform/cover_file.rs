@@ -17,6 +17,7 @@ use std::path::Path;
 /// What all copies share, and how they are told apart.
 pub struct Copies<'a> {
     pub uniformized: &'a Uniformized,
+    pub elements: &'a [DeckElement],
     /// Ambient coordinates of the opened surface.
     pub points: &'a [[f64; 3]],
     /// Plane coordinates of the same.
@@ -35,10 +36,11 @@ pub fn write(
     threads: usize,
     control: &Control,
 ) -> Result<(), Failure> {
-    let Some(place) = u.place() else { return Ok(()) };
-    let laid = &u.laid;
+    let laid = u.laid()?;
+    let Some(place) = laid.space() else { return Ok(()) };
     let copies = Copies {
         uniformized: u,
+        elements: u.copies()?,
         points: &place.refined.points,
         texcoords: laid.coordinates(),
         faces: laid
@@ -59,18 +61,14 @@ pub fn write(
 }
 
 impl Copies<'_> {
-    pub fn elements(&self) -> &[DeckElement] {
-        &self.uniformized.elements
-    }
-
     /// The name of a copy.
     pub fn name(&self, k: usize) -> String {
-        name(&self.uniformized.deck.group, &self.elements()[k].word)
+        name(&self.uniformized.deck.group, &self.elements[k].word)
     }
 
     /// The points of a copy in the model.
     pub fn points(&self, k: usize) -> Vec<[f64; 3]> {
-        let motion = &self.elements()[k].motion;
+        let motion = &self.elements[k].motion;
         moved(self.points, motion).into_iter().map(|p| self.at.coordinates(p)).collect()
     }
 
@@ -81,7 +79,7 @@ impl Copies<'_> {
         work: impl Fn(usize) -> T + Sync,
         mut take: impl FnMut(T) -> io::Result<()>,
     ) -> io::Result<()> {
-        let n = self.elements().len();
+        let n = self.elements.len();
         let mut batch: Vec<Option<T>> = Vec::new();
         for first in (0..n).step_by(self.threads.max(1)) {
             control.check().map_err(io::Error::other)?;

@@ -33,7 +33,7 @@ pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>, control: &Co
         shared.extend_from_slice(bytes);
         shared.resize(shared.len().next_multiple_of(4), 0);
     }
-    let (n, copy) = (copies.elements().len(), 12 * copies.points.len());
+    let (n, copy) = (copies.elements.len(), 12 * copies.points.len());
     let binary = shared.len() as u64 + n as u64 * copy as u64;
     let none = vec![[[f64::MIN_POSITIVE; 3]; 2]; n];
     let mut document = Document { copies, views, offset: shared.len(), copy, binary };
@@ -118,7 +118,7 @@ impl Document<'_> {
         let mut accessors: Vec<String> = shared.iter().map(Value::to_string).collect();
         let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
         for (k, [low, high]) in bounds.iter().enumerate() {
-            let g = &self.copies.elements()[k];
+            let g = &self.copies.elements[k];
             let view = json!({
                 "buffer": 0, "byteOffset": self.offset as u64 + (k * self.copy) as u64, "byteLength": self.copy, "target": 34962
             });

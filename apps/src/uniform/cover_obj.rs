@@ -7,7 +7,7 @@ use std::io::{self, Write};
 
 /// Write the copies: numbers with 17 significant digits.
 pub fn write_obj(out: &mut impl Write, copies: &Copies<'_>, control: &Control) -> io::Result<()> {
-    writeln!(out, "# {} copies in the model {}", copies.elements().len(), copies.at.name())?;
+    writeln!(out, "# {} copies in the model {}", copies.elements.len(), copies.at.name())?;
     for [s, t] in copies.texcoords {
         writeln!(out, "vt {s:.16e} {t:.16e}")?;
     }

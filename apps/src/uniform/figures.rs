@@ -22,11 +22,11 @@ pub struct UniformFigures {
     rounding_floor: Option<f64>,
     double_double: bool,
     flipped_triangles: usize,
-    qc_mean: f64,
-    qc_max: f64,
-    area_ratio_min: f64,
-    area_ratio_max: f64,
-    degenerate_pieces: usize,
+    qc_mean: Option<f64>,
+    qc_max: Option<f64>,
+    area_ratio_min: Option<f64>,
+    area_ratio_max: Option<f64>,
+    degenerate_pieces: Option<usize>,
     crossings: Option<usize>,
     /// Of the metric: 4π(g − 1) in H², that of the surface as given in E².
     area: f64,
@@ -51,6 +51,9 @@ pub struct UniformFigures {
     domain: Option<DomainFigures>,
     #[serde(skip_serializing_if = "Option::is_none")]
     no_domain: Option<String>,
+    /// Why the layout is not carried back to the given triangulation, and figures of that are null.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_refinement: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     copies: Option<usize>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -71,9 +74,9 @@ impl UniformFigures {
     /// `copies`: whether they were asked for.
     pub fn new(u: &Uniformized, copies: bool) -> UniformFigures {
         let Report { converged, stop_reason, iterations, flips, .. } = u.report;
-        let quality = &u.laid.quality;
+        let laid = u.laid().ok();
+        let quality = laid.map(|laid| &laid.quality);
         let place = u.place();
-        let domain = u.domain.as_ref();
         let length = |path: &Vec<ricci::mesh::HalfedgeId>| path.iter().map(|h| u.lengths[h.edge()]).sum();
         UniformFigures {
             space: u.deck.space.name(),
@@ -88,17 +91,17 @@ impl UniformFigures {
             tolerance: u.report.tolerance,
             rounding_floor: u.report.rounding_floor,
             double_double: u.report.double_double,
-            flipped_triangles: u.laid.flipped().len(),
-            qc_mean: quality.qc_mean,
-            qc_max: quality.qc_max,
-            area_ratio_min: quality.area_ratio_min,
-            area_ratio_max: quality.area_ratio_max,
-            degenerate_pieces: u.laid.degenerate.len(),
-            crossings: u.laid.refinement.as_ref().map(|r| r.crossings.len()),
+            flipped_triangles: u.flipped().len(),
+            qc_mean: quality.map(|q| q.qc_mean),
+            qc_max: quality.map(|q| q.qc_max),
+            area_ratio_min: quality.map(|q| q.area_ratio_min),
+            area_ratio_max: quality.map(|q| q.area_ratio_max),
+            degenerate_pieces: laid.map(|laid| laid.degenerate.len()),
+            crossings: laid.and_then(|laid| laid.refinement.as_ref()).map(|r| r.crossings.len()),
             area: u.area(),
             base: u.basis.base.0,
-            radius: place.map_or(0.0, |p| p.refined.radius),
-            disagreement: place.map_or(0.0, |p| p.refined.disagreement),
+            radius: place.map_or(u.layout.radius, |p| p.refined.radius),
+            disagreement: place.map_or(u.layout.disagreement, |p| p.refined.disagreement),
             word: letters(&u.deck.group, &u.deck.group.relator()),
             relation_residual: u.deck.relation_residual,
             relation_error: u.deck.relation_error,
@@ -106,14 +109,15 @@ impl UniformFigures {
             traces: u.deck.traces(),
             translation_lengths: u.deck.translation_lengths(),
             loop_lengths: u.basis.loops.iter().map(length).collect(),
-            modulus: u.laid.modulus,
-            domain: domain.ok().map(|d| DomainFigures {
+            modulus: u.modulus,
+            domain: u.domain().ok().map(|d| DomainFigures {
                 sides: d.sides.len(),
                 area: d.area,
                 radius: d.radius,
             }),
-            no_domain: domain.err().cloned(),
-            copies: copies.then_some(u.elements.len()),
+            no_domain: u.domain.as_ref().and_then(|d| d.as_ref().err()).cloned(),
+            no_refinement: u.laid.as_ref().and_then(|laid| laid.as_ref().err()).cloned(),
+            copies: u.elements.as_ref().ok().filter(|_| copies).map(Vec::len),
             failed: u.failed.0.clone(),
             left_out: u.left_out.clone(),
             residuals: u.report.residuals.clone(),

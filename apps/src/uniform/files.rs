@@ -104,21 +104,20 @@ impl Wish<'_> {
             u.failed.attempt("metric", written)?;
         }
         if let Some(path) = &args.uv {
-            let written = uv::write(outputs, path, input, &u.laid, false);
+            let written = u.laid().and_then(|laid| uv::write(outputs, path, input, laid, false));
             if u.failed.attempt("uv", written)?.is_some() {
                 u.left_out = carry::left_out(input);
             }
         }
         if let Some(path) = &args.generators {
-            let written = outputs.add_json(path, &GroupFile::new(&u.deck));
+            let file = GroupFile::new(u).map_err(Failure::from);
+            let written = file.and_then(|file| outputs.add_json(path, &file));
             u.failed.attempt("generators", written)?;
         }
         control.check()?;
         if let Some(path) = self.cover.and_then(|c| c.domain) {
-            let written = match &u.domain {
-                Ok(domain) => outputs.add_json(path, &DomainFile::new(u, domain, at)),
-                Err(why) => Err(Failure::Failed(why.clone())),
-            };
+            let file = u.domain().map(|domain| DomainFile::new(u, domain, at));
+            let written = file.and_then(|file| outputs.add_json(path, &file));
             u.failed.attempt("domain", written)?;
         }
         if let Some(path) = &args.picture.picture {
@@ -164,13 +163,13 @@ impl Wish<'_> {
         if let Some(path) = &args.picture.picture {
             let style = args.picture.style(args.texture.unwrap_or(Texture::Checker));
             let beside = matches!(shown, Shown::Uniform(ShowChoice::Both));
-            let positions = match &input.positions {
-                Some(positions) => Some(s.refinement.from_input_vertices(positions)?),
-                None => None,
-            };
             let threads = args.common.threads();
-            let written = outputs.add(path, |out| {
-                sphere_picture::write(out, s, positions.as_deref(), &style, beside, threads)
+            let written = s.refinement().and_then(|r| {
+                let given = input.positions.as_ref();
+                let positions = given.map(|p| r.from_input_vertices(p)).transpose()?;
+                outputs.add(path, |out| {
+                    sphere_picture::write(out, s, r, positions.as_deref(), &style, beside, threads)
+                })
             });
             s.failed.attempt("picture", written)?;
         }

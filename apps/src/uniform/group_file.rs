@@ -2,9 +2,9 @@
 
 use super::model_place::ModelPlace;
 use super::quotient::{ORIGIN, Uniformized};
-use ricci::embed::{DeckGroup, DirichletDomain};
-use ricci::topology::SurfaceGroup;
+use ricci::embed::DirichletDomain;
 use ricci::topology::word::Word;
+use ricci::topology::{SurfaceGroup, intersection_matrix};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -17,6 +17,9 @@ pub struct GroupFile {
     space: &'static str,
     basis: Vec<String>,
     word: Vec<String>,
+    /// Row i, column j: how often loop j of the basis crosses loop i from right to left, less how often from left to right; counted on
+    /// the surface.
+    intersections: Vec<Vec<i64>>,
     generators: BTreeMap<String, Mobius>,
     /// What the doubles of `generators` lose: far translations have a determinant of 1 with these alone.
     generators_lo: BTreeMap<String, Mobius>,
@@ -31,23 +34,27 @@ impl GroupFile {
             space,
             basis: Vec::new(),
             word: Vec::new(),
+            intersections: Vec::new(),
             generators: BTreeMap::new(),
             generators_lo: BTreeMap::new(),
             matrices: BTreeMap::new(),
         }
     }
 
-    pub fn new(deck: &DeckGroup) -> GroupFile {
+    /// Errors: those of [`intersection_matrix`].
+    pub fn new(u: &Uniformized) -> ricci::Result<GroupFile> {
+        let deck = &u.deck;
         let basis = deck.group.names();
         let named = || basis.iter().cloned().zip(&deck.generators);
-        GroupFile {
+        Ok(GroupFile {
             space: deck.space.name(),
+            intersections: intersection_matrix(u.metric.mesh(), &u.basis.loops)?,
             word: letters(&deck.group, &deck.group.relator()),
             generators: named().map(|(name, g)| (name, g.mobius())).collect(),
             generators_lo: named().map(|(name, g)| (name, g.mobius_remainder())).collect(),
             matrices: named().map(|(name, g)| (name, g.matrix().map(|row| row.map(f64::from)))).collect(),
             basis,
-        }
+        })
     }
 }
 

@@ -6,6 +6,7 @@ use super::outline::{Side, loops, loops_on_surface, sides};
 use super::quotient::{ORIGIN, Uniformized};
 use super::tiling::{Prototype, Tiling, tint};
 use crate::failure::Failure;
+use crate::laid::Laid;
 use crate::picture::{
     self, Drawing, Frame, PALE, Pattern, Picture, Style, Surface, Tiles, write_drawing_svg,
 };
@@ -56,8 +57,9 @@ pub struct Ready {
 
 /// Work out what is drawn.
 pub fn prepare(u: &Uniformized, shown: Shown, canvas: &Canvas<'_>) -> Result<Ready, Failure> {
-    let (uv, tiles) = pattern(u);
-    let mesh = &u.laid.mesh;
+    let laid = u.laid()?;
+    let (uv, tiles) = pattern(u, laid);
+    let mesh = &laid.mesh;
     let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
     let tiling = match shown {
         Shown::Uniform(ShowChoice::Surface) => None,
@@ -87,7 +89,8 @@ impl Ready {
             return write_drawing_svg(out, drawing, &canvas.style);
         }
         let base = [(u.basis.base.0, 1.0)];
-        let positions = u.laid.positions.as_ref().filter(|_| self.with_surface);
+        let laid = u.laid().ok().filter(|_| self.with_surface);
+        let positions = laid.and_then(|laid| laid.positions.as_ref());
         let surface = positions.map(|positions| Surface {
             positions,
             faces: &self.faces,
@@ -102,8 +105,7 @@ impl Ready {
 }
 
 /// The pattern: checks of one size in the metric, as far as octaves reach.
-fn pattern(u: &Uniformized) -> (Vec<[[f64; 2]; 3]>, Tiles) {
-    let laid = &u.laid;
+fn pattern(u: &Uniformized, laid: &Laid) -> (Vec<[[f64; 2]; 3]>, Tiles) {
     let corners: Vec<[u32; 3]> =
         laid.mesh.faces().map(|f| laid.mesh.face_halfedges(f).map(|h| laid.corner_index()[h])).collect();
     let coordinates = laid.coordinates();
@@ -120,9 +122,8 @@ fn pattern(u: &Uniformized) -> (Vec<[[f64; 2]; 3]>, Tiles) {
 }
 
 /// The opened surface.
-fn prototype(u: &Uniformized, sides: &[Side]) -> Prototype {
-    let laid = &u.laid;
-    let points = u.place().map_or_else(Vec::new, |place| place.refined.points.clone());
+fn prototype(laid: &Laid, sides: &[Side]) -> Prototype {
+    let points = laid.space().map_or_else(Vec::new, |place| place.refined.points.clone());
     Prototype {
         points,
         triangles: laid
@@ -157,7 +158,7 @@ fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
 /// The layout, with its sides in pairs or the loops of the generators.
 fn domain(u: &Uniformized, canvas: &Canvas<'_>, named: bool) -> Result<Tiling, Failure> {
     let sides = sides(u)?;
-    let shape = prototype(u, &sides);
+    let shape = prototype(u.laid()?, &sides);
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
     tiling.copy(&shape, &Motion::identity(u.deck.space), 0, None);
     for side in sides {
@@ -176,7 +177,7 @@ fn domain(u: &Uniformized, canvas: &Canvas<'_>, named: bool) -> Result<Tiling, F
 /// The canonical polygon over copies of the layout, moved to the middle of the picture.
 fn polygon(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
     let sides = sides(u)?;
-    let shape = prototype(u, &sides);
+    let shape = prototype(u.laid()?, &sides);
     let given = u.deck.canonical_polygon(ORIGIN);
     let middle = middle(u.deck.space, &given);
     let home = translation_to(u.deck.space, middle).inverse();
@@ -220,7 +221,7 @@ fn translation_to(space: Space, p: [f64; 3]) -> Motion<Twofold> {
 /// Copies of the layout around the origin that the group has been moved to by `home`, nearest first, as many as a picture shows.
 /// `start`: a word that leads near there.
 fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> Vec<Motion<Twofold>> {
-    let Ok(domain) = &u.domain else { return Vec::new() };
+    let Ok(domain) = u.domain() else { return Vec::new() };
     let place = |g: &Motion<Twofold>| g.origin().map(f64::from);
     let mut waiting = vec![home.compose(&u.deck.motion(start))];
     let mut known: Vec<[f64; 3]> = waiting.iter().map(place).collect();
@@ -247,9 +248,9 @@ fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> Vec<Moti
 
 /// The Dirichlet domain over its neighbours.
 fn dirichlet(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
-    let domain = the_domain(u)?;
+    let domain = u.domain()?;
     let sides = sides(u)?;
-    let shape = prototype(u, &sides);
+    let shape = prototype(u.laid()?, &sides);
     let tile = tile(domain, canvas.at);
     let around: Vec<[f64; 3]> = domain.corners.iter().chain(&shape.border).copied().collect();
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &around), canvas.style.size);
@@ -281,10 +282,6 @@ fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named
     }
 }
 
-fn the_domain(u: &Uniformized) -> Result<&DirichletDomain, Failure> {
-    u.domain.as_ref().map_err(|why| Failure::Failed(why.clone()))
-}
-
 /// The Dirichlet domain as what is copied: its sides sampled along geodesics.
 fn tile(domain: &DirichletDomain, at: ModelPlace) -> Prototype {
     let n = domain.corners.len();
@@ -299,10 +296,11 @@ fn tile(domain: &DirichletDomain, at: ModelPlace) -> Prototype {
 
 /// The copies of the layout.
 fn copies(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+    let elements = u.copies()?;
     let sides = sides(u)?;
-    let shape = prototype(u, &sides);
-    let mut tiling = Tiling::new(canvas.at, first_frame(u, canvas.at, &shape), canvas.style.size);
-    for g in &u.elements {
+    let shape = prototype(u.laid()?, &sides);
+    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);
+    for g in elements {
         tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
     }
     tiling.dots.push(canvas.at.flat(ORIGIN));
@@ -311,10 +309,10 @@ fn copies(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
 
 /// The copies of the Dirichlet domain.
 fn tiled(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
-    let domain = the_domain(u)?;
+    let (domain, elements) = (u.domain()?, u.copies()?);
     let shape = tile(domain, canvas.at);
-    let mut tiling = Tiling::new(canvas.at, first_frame(u, canvas.at, &shape), canvas.style.size);
-    for g in &u.elements {
+    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);
+    for g in elements {
         tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
     }
     outline(u, &mut tiling, domain, false);
@@ -323,12 +321,12 @@ fn tiled(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
 }
 
 /// What is shown of all copies: in the plane all of it.
-fn first_frame(u: &Uniformized, at: ModelPlace, shape: &Prototype) -> Frame {
+fn first_frame(elements: &[DeckElement], at: ModelPlace, shape: &Prototype) -> Frame {
     if at != ModelPlace::Plane {
         return frame(at, &shape.border);
     }
     let moved =
         |g: &DeckElement| shape.border.iter().map(|p| g.motion.rounded().apply(*p)).collect::<Vec<_>>();
-    let all: Vec<[f64; 3]> = u.elements.iter().flat_map(moved).collect();
+    let all: Vec<[f64; 3]> = elements.iter().flat_map(moved).collect();
     frame(at, &all)
 }

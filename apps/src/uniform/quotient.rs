@@ -1,19 +1,19 @@
 //! A closed surface of genus 1 or more in its metric of constant curvature, laid out on the surface as it was given.
 
-use super::args::CanonicalArgs;
+use super::request::Needs;
 use crate::failure::Failure;
-use crate::in_space::{InSpace, MEETING, in_space};
+use crate::in_space::{InSpace, MEETING, consistency, consistency_limit, in_space, is_carried_back};
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
-use crate::laid::{Laid, Placed};
+use crate::laid::Laid;
 use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
-use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
+use ricci::canonical::Quotient;
 use ricci::embed::{DeckElement, DeckGroup, DirichletDomain, SpaceLayout, dirichlet_domain};
 use ricci::flow::Report;
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
-use ricci::mesh::{PerEdge, PerVertex, VertexId};
+use ricci::mesh::{FaceId, PerEdge, PerVertex};
 use ricci::metric::{Curvature, SurfaceMetric};
 use ricci::topology::HomotopyBasis;
 use std::cmp::Ordering;
@@ -40,104 +40,141 @@ pub struct Uniformized {
     pub curvature: Curvature,
     /// The curvature asked for: 0 everywhere.
     pub target: PerVertex<f64>,
-    /// The layout, always one in space.
-    pub laid: Laid,
+    /// The layout of the metric's triangulation.
+    pub layout: SpaceLayout,
+    /// The same on the surface as it was given: where an output needs it or it costs little, or why there is none.
+    pub laid: Option<Result<Laid, String>>,
+    /// τ of a flat torus.
+    pub modulus: Option<[f64; 2]>,
     pub basis: HomotopyBasis,
     pub deck: DeckGroup,
-    /// The Dirichlet domain of the base point, or why there is none.
-    pub domain: Result<DirichletDomain, String>,
-    /// The copies of a cover; the identity alone where none was asked for.
-    pub elements: Vec<DeckElement>,
+    /// The Dirichlet domain of the base point, where an output needs it, or why there is none.
+    pub domain: Option<Result<DirichletDomain, String>>,
+    /// The copies of a cover, the identity alone where none was asked for; or why there are none.
+    pub elements: Result<Vec<DeckElement>, String>,
     pub failed: Attempts,
     pub left_out: Vec<&'static str>,
     pub seconds: Seconds,
 }
 
-/// The base vertex that was asked for, if it is one.
-pub fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure> {
-    let n = input.mesh.n_vertices();
-    match args.base {
-        Some(v) if v as usize >= n => {
-            Err(Failure::Usage(format!("--base {v}: there is no such vertex, they are 0 to {}", n - 1)))
-        }
-        base => Ok(base.map(VertexId)),
+/// What a step has made, or why it could not. Errors: [`Failure::Cancelled`] alone.
+pub fn told<T>(made: ricci::Result<T>) -> Result<Result<T, String>, Failure> {
+    match made {
+        Err(ricci::Error::Cancelled) => Err(Failure::Cancelled),
+        made => Ok(made.map_err(|error| error.to_string())),
     }
 }
 
-/// Uniformize a closed surface of genus 1 or more.
-pub fn uniformized(input: &Input, args: &CanonicalArgs, control: &Control) -> Result<Uniformized, Failure> {
-    let options = QuotientOptions {
-        scheme: args.solve.scheme.into(),
-        base: base(input, args)?,
-        flow: args.solve.options(args.common.threads()),
-    };
-    let mut total = 0.0;
-    let quotient = timed(&mut total, || {
-        uniformize_quotient(&input.mesh, &input.lengths, input.geometry, &options, control)
-    })?;
-    let Quotient { report, angle_defect, metric, layout, basis, deck } = quotient;
-    let mut seconds = Seconds {
-        read: input.seconds_read,
-        build: input.seconds_build,
-        assemble: report.seconds.assemble,
-        analyse: report.seconds.analyse,
-        factor: report.seconds.factor,
-        solve: report.seconds.solve,
-        flip: report.seconds.flip,
-        layout: total - report.seconds.total,
-        ..Seconds::default()
-    };
-    // What goes wrong from here on is no fault of the input.
-    let failed = |error: ricci::Error| match error {
-        ricci::Error::Cancelled => Failure::Cancelled,
-        error => Failure::Failed(error.to_string()),
-    };
-    let lengths = metric.metric().lengths(metric.mesh()).map_err(failed)?;
-    let curvature = metric.curvature().map_err(failed)?;
-    let errors = curvature.at.iter().map(|k| k.abs()).sum();
-    let area = layout.area;
-    let mut laid = in_space(input, &metric, layout, errors, &mut seconds, control).map_err(failed)?;
-    if let ([a, b], Space::E2) = (deck.generators.as_slice(), deck.space) {
-        laid.modulus = modulus([a, b].map(|g| {
-            let [x, y, _] = g.rounded().origin();
-            [x, y]
-        }));
+/// What was made, if it was.
+pub fn known<T>(made: &Option<Result<T, String>>) -> Result<&T, Failure> {
+    match made {
+        Some(Ok(made)) => Ok(made),
+        Some(Err(why)) => Err(Failure::Failed(why.clone())),
+        None => Err(Failure::Failed("no output has asked for it".into())),
     }
-    let domain = match timed(&mut seconds.layout, || dirichlet_domain(&deck, ORIGIN, area, control)) {
-        Err(ricci::Error::Cancelled) => return Err(Failure::Cancelled),
-        domain => domain.map_err(|error| error.to_string()),
-    };
-    let one = DeckElement { word: Default::default(), motion: ricci::geometry::Motion::identity(deck.space) };
-    Ok(Uniformized {
-        target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
-        report,
-        angle_defect,
-        metric,
-        lengths,
-        curvature,
-        laid,
-        basis,
-        deck,
-        domain,
-        elements: vec![one],
-        failed: Attempts::default(),
-        left_out: Vec::new(),
-        seconds,
-    })
 }
 
 impl Uniformized {
-    /// The layout in space; its own kind of [`Laid`].
-    pub fn place(&self) -> Option<&InSpace> {
-        match &self.laid.placed {
-            Placed::Space(place) => Some(place),
-            Placed::Plane(_) => None,
-        }
+    /// A quotient laid out on the surface as it was given. `taken`: seconds until it was found.
+    pub fn new(
+        input: &Input,
+        quotient: Quotient,
+        taken: f64,
+        needs: Needs,
+        control: &Control,
+    ) -> Result<Uniformized, Failure> {
+        let Quotient { report, angle_defect, metric, layout, basis, deck } = quotient;
+        let mut seconds = Seconds {
+            read: input.seconds_read,
+            build: input.seconds_build,
+            assemble: report.seconds.assemble,
+            analyse: report.seconds.analyse,
+            factor: report.seconds.factor,
+            solve: report.seconds.solve,
+            flip: report.seconds.flip,
+            layout: taken - report.seconds.total,
+            ..Seconds::default()
+        };
+        // What goes wrong from here on is no fault of the input.
+        let failed = |error: ricci::Error| match error {
+            ricci::Error::Cancelled => Failure::Cancelled,
+            error => Failure::Failed(error.to_string()),
+        };
+        let lengths = metric.metric().lengths(metric.mesh()).map_err(failed)?;
+        let curvature = metric.curvature().map_err(failed)?;
+        let errors = curvature.at.iter().map(|k| k.abs()).sum();
+        let laid = match is_carried_back(&metric, needs.refinement) {
+            true => Some(told(in_space(input, &metric, &layout, errors, &mut seconds, control))?),
+            false => None,
+        };
+        let modulus = match (deck.generators.as_slice(), deck.space) {
+            ([a, b], Space::E2) => modulus([a, b].map(|g| {
+                let [x, y, _] = g.rounded().origin();
+                [x, y]
+            })),
+            _ => None,
+        };
+        let form = || dirichlet_domain(&deck, ORIGIN, layout.area, control);
+        let domain = match needs.domain {
+            true => Some(told(timed(&mut seconds.layout, form))?),
+            false => None,
+        };
+        let one =
+            DeckElement { word: Default::default(), motion: ricci::geometry::Motion::identity(deck.space) };
+        Ok(Uniformized {
+            target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
+            report,
+            angle_defect,
+            metric,
+            lengths,
+            curvature,
+            layout,
+            laid,
+            modulus,
+            basis,
+            deck,
+            domain,
+            elements: Ok(vec![one]),
+            failed: Attempts::default(),
+            left_out: Vec::new(),
+            seconds,
+        })
     }
 
-    /// The layout of the final triangulation.
-    pub fn whole(&self) -> Option<&SpaceLayout> {
-        self.place().and_then(|place| place.whole.as_ref())
+    /// The Dirichlet domain, if there is one.
+    pub fn domain(&self) -> Result<&DirichletDomain, Failure> {
+        known(&self.domain)
+    }
+
+    /// The layout on the surface as it was given, if there is one.
+    pub fn laid(&self) -> Result<&Laid, Failure> {
+        known(&self.laid)
+    }
+
+    /// The copies of a cover, if they can be made.
+    pub fn copies(&self) -> Result<&[DeckElement], Failure> {
+        self.elements.as_deref().map_err(|why| Failure::Failed(why.clone()))
+    }
+
+    /// The layout in space on the surface as it was given, if there is one.
+    pub fn place(&self) -> Option<&InSpace> {
+        self.laid().ok().and_then(Laid::space)
+    }
+
+    /// Faces of the layout, of the given surface if that is laid out, that are not counterclockwise.
+    pub fn flipped(&self) -> &[FaceId] {
+        self.laid().map_or(&self.layout.flipped, Laid::flipped)
+    }
+
+    /// How far the corners of the layout disagree, and what curvature errors and rounding allow.
+    fn consistency(&self) -> [f64; 2] {
+        if let Ok(laid) = self.laid() {
+            return [laid.consistency(), laid.consistency_limit];
+        }
+        let SpaceLayout { space, disagreement, radius, .. } = self.layout;
+        let errors = self.curvature.at.iter().map(|k| k.abs()).sum();
+        let limit = consistency_limit(space, radius, errors, self.metric.mesh().n_faces());
+        [consistency(space, disagreement, radius), limit]
     }
 
     /// max |K| of the metric.
@@ -147,7 +184,7 @@ impl Uniformized {
 
     /// The area of the layout's triangles, by formulas without angles.
     pub fn area(&self) -> f64 {
-        self.whole().map_or(self.curvature.area, |whole| whole.area)
+        self.layout.area
     }
 
     /// What the result is held against.
@@ -156,9 +193,10 @@ impl Uniformized {
         checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET);
         checks.add("max_curvature_error", self.curvature_error(), self.report.tolerance);
         checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
-        let meeting = if self.deck.space == Space::H2 { MEETING } else { self.laid.consistency_limit };
-        checks.add("layout_consistency", self.laid.consistency(), meeting);
-        checks.add("flipped_triangles", self.laid.flipped().len() as f64, 0.0);
+        let [consistency, limit] = self.consistency();
+        let meeting = if self.deck.space == Space::H2 { MEETING } else { limit };
+        checks.add("layout_consistency", consistency, meeting);
+        checks.add("flipped_triangles", self.flipped().len() as f64, 0.0);
         checks.add("relation_residual", self.deck.relation_residual.max(self.deck.side_residual), RELATION);
         let n = self.curvature.at.len() as f64;
         if self.deck.space == Space::H2 {
@@ -166,7 +204,7 @@ impl Uniformized {
             let limit = n * (self.curvature_error() + AREA_ROUNDING);
             checks.add("area", (self.area() - exact).abs(), limit);
             // The generators, and the elements of the sides of the layout and of the Dirichlet domain.
-            let sides = self.deck.sides.iter().chain(self.domain.iter().flat_map(|d| &d.sides));
+            let sides = self.deck.sides.iter().chain(self.domain().into_iter().flat_map(|d| &d.sides));
             let motions = self.deck.generators.iter().chain(sides.map(|g| &g.motion));
             let not = motions
                 .filter(|g| f64::from(g.half_trace()).abs().partial_cmp(&1.0) != Some(Ordering::Greater));
@@ -176,8 +214,13 @@ impl Uniformized {
             checks.add("turning", turning, TURNING);
         }
         checks.add("unconverged", f64::from(u8::from(!self.report.converged)), 0.0);
-        checks.add("without_domain", f64::from(u8::from(self.domain.is_err())), 0.0);
-        if let Ok(domain) = &self.domain {
+        if let Some(laid) = &self.laid {
+            checks.add("without_refinement", f64::from(u8::from(laid.is_err())), 0.0);
+        }
+        if let Some(domain) = &self.domain {
+            checks.add("without_domain", f64::from(u8::from(domain.is_err())), 0.0);
+        }
+        if let Ok(domain) = self.domain() {
             let area = self.area();
             checks.add("domain_area", (domain.area - area).abs() / area, DOMAIN_AREA);
         }

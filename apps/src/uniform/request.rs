@@ -38,31 +38,60 @@ pub struct Wish<'a> {
 }
 
 impl CoverWish<'_> {
-    /// The copies that are asked for.
-    pub fn elements(
-        &self,
-        u: &Uniformized,
-        control: &Control,
-    ) -> Result<Vec<ricci::embed::DeckElement>, Failure> {
-        let found = match (self.radius, &u.domain) {
-            (None, _) => elements_to_depth(&u.deck, self.depth, self.limit, control),
-            (Some(radius), Ok(domain)) => elements_within(&u.deck, domain, radius, self.limit, control),
-            (Some(_), Err(why)) => return Err(Failure::Failed(format!("--radius: {why}; use --depth"))),
+    /// What says how many copies are asked for.
+    fn option(&self) -> &'static str {
+        if self.radius.is_some() { "radius" } else { "depth" }
+    }
+
+    /// Find the copies that are asked for. Where there are too many, or no domain to find them by, files that show none are written all
+    /// the same. Errors: [`Failure::Cancelled`] alone.
+    pub fn find(&self, u: &mut Uniformized, control: &Control) -> Result<(), Failure> {
+        let found = match self.radius.map(|radius| (radius, u.domain())) {
+            None => elements_to_depth(&u.deck, self.depth, self.limit, control),
+            Some((radius, Ok(domain))) => elements_within(&u.deck, domain, radius, self.limit, control),
+            Some((_, Err(why))) => Err(ricci::Error::Layout(format!("{why}; use --depth"))),
         };
-        found.map_err(|error| match error {
-            ricci::Error::TooLarge { .. } => {
-                let option = if self.radius.is_some() { "--radius" } else { "--depth" };
-                Failure::Usage(format!(
-                    "{option}: more than {} copies; lower it or raise --limit",
-                    self.limit
-                ))
+        let option = self.option();
+        u.elements = match found {
+            Ok(elements) => Ok(elements),
+            Err(ricci::Error::Cancelled) => return Err(Failure::Cancelled),
+            Err(ricci::Error::TooLarge { .. }) => {
+                Err(format!("more than {} copies; lower --{option} or raise --limit", self.limit))
             }
-            error => error.into(),
-        })
+            Err(error) => Err(error.to_string()),
+        };
+        if let Err(why) = &u.elements {
+            u.failed.0.insert(option, why.clone());
+        }
+        Ok(())
     }
 }
 
+/// What some outputs need beside metric, layout and group.
+#[derive(Clone, Copy)]
+pub struct Needs {
+    /// The common refinement of the given triangulation and the metric's.
+    pub refinement: bool,
+    /// The Dirichlet domain of the base point.
+    pub domain: bool,
+}
+
 impl Wish<'_> {
+    /// What the outputs that are asked for are made from.
+    pub fn needs(&self, shown: Shown) -> Needs {
+        let (report, drawn) = (self.args.common.report.is_some(), self.args.picture.picture.is_some());
+        let of_domain = matches!(
+            shown,
+            Shown::Uniform(ShowChoice::Polygon | ShowChoice::Dirichlet) | Shown::Cover(TilesChoice::Tiles)
+        );
+        let by_domain = self.cover.is_some_and(|c| c.radius.is_some() || c.domain.is_some());
+        let copies = self.cover.is_some_and(|c| c.cover.is_some());
+        Needs {
+            refinement: report || drawn || copies || self.args.uv.is_some(),
+            domain: report || by_domain || (drawn && of_domain),
+        }
+    }
+
     /// What can be refused before anything is read.
     pub fn check_request(&self) -> Result<(), Failure> {
         let args = self.args;
@@ -99,7 +128,7 @@ impl Wish<'_> {
             copies,
             domain,
         ];
-        check_outputs(&files)
+        check_outputs(&[Some(&args.surface.mesh)], &files)
     }
 
     /// What can be refused once the surface is known; what the picture shows.
@@ -158,6 +187,12 @@ impl Wish<'_> {
             );
         }
         if args.solve.method == MethodChoice::Newton {
+            if input.mesh.n_vertices() < 4 {
+                let path = input.path.display();
+                let why =
+                    "a sphere of fewer than four vertices is no polyhedron; cut each triangle into four";
+                return Err(Failure::Input(format!("{path}: {why}")));
+            }
             if !matches!(args.solve.scheme, SchemeChoice::Yamabe) {
                 return usage(
                     "--scheme: spheres flow by vertex scaling, yamabe; other schemes with --method gradient",

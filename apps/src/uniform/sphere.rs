@@ -1,20 +1,19 @@
 //! A closed surface of genus 0 on the unit sphere.
 
 use super::args::CanonicalArgs;
-use super::quotient::base;
+use super::quotient::{known, told};
+use super::request::Needs;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
-use crate::options::MethodChoice;
 use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
-use ricci::canonical::{Sphere, SphereOptions, SphereReport, uniformize_sphere};
+use ricci::canonical::{Sphere, SphereReport};
 use ricci::embed::layout_in_space;
 use ricci::flow::{Report, SurfaceFlow};
 use ricci::geometry::Space;
 use ricci::mesh::{FaceId, PerEdge, PerVertex, Point, VertexId};
 use ricci::metric::{Curvature, Refinement, SurfaceMetric};
-use std::sync::Arc;
 
 /// Edges are Delaunay and the outline of the plane is convex to this, radians; the centre of mass is in the middle to this.
 const DELAUNAY: f64 = 1e-9;
@@ -43,76 +42,35 @@ pub struct Round {
     pub curvature: Curvature,
     pub lengths: PerEdge<f64>,
     pub target: PerVertex<f64>,
-    /// The way back to the given triangulation.
-    pub refinement: Refinement,
+    /// The way back to the given triangulation, where an output needs it, or why there is none.
+    pub refinement: Option<Result<Refinement, String>>,
     pub failed: Attempts,
     pub seconds: Seconds,
 }
 
-/// Uniformize a closed surface of genus 0.
-pub fn round(input: &Input, args: &CanonicalArgs, control: &Control) -> Result<Round, Failure> {
-    let mut seconds = Seconds { read: input.seconds_read, build: input.seconds_build, ..Seconds::default() };
-    let (way, metric, positions) = match args.solve.method {
-        MethodChoice::Newton => timed(&mut seconds.solve, || punctured(input, args, control))?,
-        MethodChoice::Gradient => timed(&mut seconds.solve, || flowed(input, args, control))?,
-    };
-    let failed = |error: ricci::Error| match error {
-        ricci::Error::Cancelled => Failure::Cancelled,
-        error => Failure::Failed(error.to_string()),
-    };
-    let refinement = timed(&mut seconds.refine, || metric.refinement(control)).map_err(failed)?;
-    let tolerance = match &way {
-        Way::Puncture(_) => args.solve.tolerance,
-        Way::Flow(report) => report.tolerance,
-    };
-    Ok(Round {
-        way,
-        tolerance,
-        curvature: metric.curvature().map_err(failed)?,
-        lengths: metric.metric().lengths(metric.mesh()).map_err(failed)?,
-        target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
-        metric,
-        positions,
-        refinement,
-        failed: Attempts::default(),
-        seconds,
-    })
+/// How a sphere was found, its metric, and where its vertices are.
+pub type Found = (Way, SurfaceMetric, PerVertex<Point>);
+
+/// What [`ricci::canonical::uniformize`] found.
+pub fn punctured(sphere: Sphere) -> Found {
+    let Sphere { metric, positions, report, .. } = sphere;
+    (Way::Puncture(Box::new(report)), metric, positions)
 }
 
-fn punctured(
+/// By the gradient flow in S², laid out from a vertex.
+pub fn flowed(
     input: &Input,
     args: &CanonicalArgs,
+    base: Option<VertexId>,
     control: &Control,
-) -> Result<(Way, SurfaceMetric, PerVertex<Point>), Failure> {
-    if input.mesh.n_vertices() < 4 {
-        let path = input.path.display();
-        let why = "a sphere of fewer than four vertices is no polyhedron; cut each triangle into four";
-        return Err(Failure::Input(format!("{path}: {why}")));
-    }
-    let options = SphereOptions {
-        tolerance: args.solve.tolerance,
-        max_iterations: args.solve.max_iterations.map_or(0, |n| n as usize),
-        puncture: base(input, args)?,
-        threads: args.common.threads(),
-    };
-    let (mesh, lengths) = (Arc::new(input.mesh.clone()), Arc::new(input.lengths.clone()));
-    let Sphere { metric, positions, report, .. } =
-        uniformize_sphere(mesh, lengths, input.geometry, &options, control)?;
-    Ok((Way::Puncture(Box::new(report)), metric, positions))
-}
-
-fn flowed(
-    input: &Input,
-    args: &CanonicalArgs,
-    control: &Control,
-) -> Result<(Way, SurfaceMetric, PerVertex<Point>), Failure> {
+) -> Result<Found, Failure> {
     let Input { mesh, lengths, geometry, .. } = input;
     let options = args.solve.options(args.common.threads());
     let scheme = args.solve.scheme.into();
     let mut flow = SurfaceFlow::new(mesh, lengths, *geometry, scheme, Space::S2, &[], &options, control)?;
     let report = flow.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), control)?;
     let metric = flow.now();
-    let root = base(input, args)?.unwrap_or(VertexId(0));
+    let root = base.unwrap_or(VertexId(0));
     let layout = layout_in_space(metric.mesh(), metric.metric(), root, None, control)?;
     let mut positions = PerVertex::filled(mesh.n_vertices(), [0.0, 0.0, 1.0]);
     for h in metric.mesh().halfedges().filter(|&h| !metric.mesh().is_outside(h)) {
@@ -122,6 +80,40 @@ fn flowed(
 }
 
 impl Round {
+    /// A sphere with what is said of it. `taken`: seconds until it was found.
+    pub fn new(
+        input: &Input,
+        args: &CanonicalArgs,
+        (way, metric, positions): Found,
+        taken: f64,
+        needs: Needs,
+        control: &Control,
+    ) -> Result<Round, Failure> {
+        let Input { seconds_read: read, seconds_build: build, .. } = *input;
+        let mut seconds = Seconds { read, build, solve: taken, ..Seconds::default() };
+        let failed = |error: ricci::Error| Failure::Failed(error.to_string());
+        let refinement = match needs.refinement {
+            true => Some(told(timed(&mut seconds.refine, || metric.refinement(control)))?),
+            false => None,
+        };
+        let tolerance = match &way {
+            Way::Puncture(_) => args.solve.tolerance,
+            Way::Flow(report) => report.tolerance,
+        };
+        Ok(Round {
+            way,
+            tolerance,
+            curvature: metric.curvature().map_err(failed)?,
+            lengths: metric.metric().lengths(metric.mesh()).map_err(failed)?,
+            target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
+            metric,
+            positions,
+            refinement,
+            failed: Attempts::default(),
+            seconds,
+        })
+    }
+
     /// max |K| of the spherical metric.
     pub fn curvature_error(&self) -> f64 {
         self.curvature.at.iter().fold(0.0, |m, k| f64::max(m, k.abs()))
@@ -154,11 +146,15 @@ impl Round {
         self.metric.mesh().face_vertices(f).map(|v| self.positions[v])
     }
 
-    /// Corners of the pieces of the common refinement on the sphere.
-    pub fn piece(&self, f: FaceId) -> [Point; 3] {
-        let corners =
-            self.metric.mesh().face_vertices(self.refinement.final_face[f]).map(|v| self.positions[v]);
-        self.refinement.final_barycentric(f).map(|w| {
+    /// The way back to the given triangulation, if there is one.
+    pub fn refinement(&self) -> Result<&Refinement, Failure> {
+        known(&self.refinement)
+    }
+
+    /// Corners of a piece of the common refinement on the sphere.
+    pub fn piece(&self, refinement: &Refinement, f: FaceId) -> [Point; 3] {
+        let corners = self.metric.mesh().face_vertices(refinement.final_face[f]).map(|v| self.positions[v]);
+        refinement.final_barycentric(f).map(|w| {
             let p = [0, 1, 2].map(|k| (0..3).map(|i| w[i] * corners[i][k]).sum::<f64>());
             let length = p[0].hypot(p[1]).hypot(p[2]);
             p.map(|x| x / length)
@@ -186,6 +182,9 @@ impl Round {
             }
         }
         checks.add("max_curvature_error", self.curvature_error(), self.tolerance);
+        if let Some(refinement) = &self.refinement {
+            checks.add("without_refinement", f64::from(u8::from(refinement.is_err())), 0.0);
+        }
         checks
     }
 }

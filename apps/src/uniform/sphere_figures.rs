@@ -4,6 +4,7 @@ use super::sphere::{Round, Way};
 use crate::input::Input;
 use crate::say;
 use ricci::mesh::FaceId;
+use ricci::metric::Refinement;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -26,7 +27,10 @@ pub struct SphereFigures {
     tolerance: f64,
     flipped_triangles: usize,
     #[serde(flatten)]
-    quality: SphereQuality,
+    quality: Option<SphereQuality>,
+    /// Why the way back to the given triangulation, and with it `qc_mean` and the like, is missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_refinement: Option<String>,
     area: f64,
     /// Length of the shortest edge.
     smallest_edge: f64,
@@ -97,7 +101,8 @@ impl SphereFigures {
             max_curvature_error: s.curvature_error(),
             tolerance: s.tolerance,
             flipped_triangles: s.inward(),
-            quality: SphereQuality::new(input, s),
+            quality: s.refinement().ok().map(|r| SphereQuality::new(input, s, r)),
+            no_refinement: s.refinement.as_ref().and_then(|r| r.as_ref().err()).cloned(),
             area: s.curvature.area,
             smallest_edge: s.lengths.iter().copied().fold(f64::INFINITY, f64::min),
             degenerate_faces: s.points(),
@@ -111,12 +116,11 @@ impl SphereFigures {
 }
 
 impl SphereQuality {
-    fn new(input: &Input, s: &Round) -> SphereQuality {
-        let r = &s.refinement;
+    fn new(input: &Input, s: &Round, r: &Refinement) -> SphereQuality {
         let mut pieces = Vec::with_capacity(r.mesh.n_faces());
         let mut degenerate_pieces = 0;
         for f in r.mesh.faces() {
-            match (flat(sides_in_input(input, s, f)), flat(sides(s.piece(f)))) {
+            match (flat(sides_in_input(input, r, f)), flat(sides(s.piece(r, f)))) {
                 (Some(from), Some(to)) if to.0 >= SMALL => pieces.push((from, to)),
                 _ => degenerate_pieces += 1,
             }
@@ -150,10 +154,10 @@ impl SphereQuality {
 }
 
 /// Lengths of a piece's sides 0 → 1, 1 → 2, 2 → 0 in the input.
-fn sides_in_input(input: &Input, s: &Round, f: FaceId) -> [f64; 3] {
-    let given = s.refinement.input_face[f];
+fn sides_in_input(input: &Input, r: &Refinement, f: FaceId) -> [f64; 3] {
+    let given = r.input_face[f];
     let [a, b, c] = input.mesh.opposite_edges(given).map(|e| input.lengths[e]);
-    let w = s.refinement.input_barycentric(f);
+    let w = r.input_barycentric(f);
     [(0, 1), (1, 2), (2, 0)].map(|(i, j)| {
         // |Σ w_k p_k|² = −Σ w_j w_k l_jk² for weights that add up to 0.
         let [x, y, z] = [0, 1, 2].map(|k| w[j][k] - w[i][k]);

@@ -2,23 +2,24 @@
 
 use super::sphere::Round;
 use crate::picture::{self, Picture, Style, Surface, Tiles};
+use ricci::metric::Refinement;
 use std::io::{self, Write};
 
 /// Write the picture as PNG; `beside`: the sphere too.
 pub fn write(
     out: &mut impl Write,
     s: &Round,
+    r: &Refinement,
     positions: Option<&[[f64; 3]]>,
     style: &Style,
     beside: bool,
     threads: usize,
 ) -> io::Result<()> {
-    let r = &s.refinement;
     let faces: Vec<[u32; 3]> = r.mesh.faces().map(|f| r.mesh.face_vertices(f).map(|v| v.0)).collect();
     let mut on_sphere = vec![[0.0, 0.0, 1.0]; r.mesh.n_vertices()];
     let (mut uv, mut scale) = (Vec::new(), Vec::new());
     for (f, face) in r.mesh.faces().zip(&faces) {
-        let piece = s.piece(f);
+        let piece = s.piece(r, f);
         (0..3).for_each(|k| on_sphere[face[k] as usize] = piece[k]);
         uv.push(hemisphere(piece));
         scale.push(area(piece));

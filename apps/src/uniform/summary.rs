@@ -30,7 +30,12 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
         u.curvature_error(),
         u.area(),
     );
-    text += &format!("layout   {}\n", say::layout(&u.laid));
+    let flipped = || say::count(u.flipped().len(), "triangle flipped", "triangles flipped");
+    let layout = u.laid().map_or_else(|_| flipped(), say::layout);
+    text += &format!("layout   {layout}{}\n", say::modulus(u.modulus));
+    if let Some(Err(why)) = &u.laid {
+        text += &format!("FAILED   to carry it back to the given triangulation: {why}\n");
+    }
     let [least, most] = [(f64::min as fn(f64, f64) -> f64, f64::INFINITY), (f64::max, 0.0)]
         .map(|(pick, start)| u.deck.translation_lengths().into_iter().fold(start, pick));
     text += &format!(
@@ -39,20 +44,20 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
         relator(u),
         u.deck.relation_residual,
     );
-    if let Ok(domain) = &u.domain {
+    if let Some(Ok(domain)) = &u.domain {
         text += &format!(
             "domain   {}, radius {:.4}\n",
             say::count(domain.sides.len(), "side", "sides"),
             domain.radius
         );
     }
-    if let Err(why) = &u.domain {
+    if let Some(Err(why)) = &u.domain {
         text += &format!("domain   none: {why}\n");
     }
-    if copies {
-        let n = u.elements.len();
-        let triangles = n * u.laid.mesh.n_faces();
-        text += &format!("cover    {}, {triangles} triangles\n", say::count(n, "copy", "copies"));
+    if let (true, Ok(elements)) = (copies, &u.elements) {
+        let n = elements.len();
+        text += &format!("cover    {}", say::count(n, "copy", "copies"));
+        text += &u.laid().map_or("\n".into(), |laid| format!(", {} triangles\n", n * laid.mesh.n_faces()));
     }
     text
 }

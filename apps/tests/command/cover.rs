@@ -208,9 +208,11 @@ fn covers_are_the_same_for_any_number_of_threads_and_end_at_their_limit() {
     }
     let before = place.files();
     for (code, line, says) in [
-        (2, "cover two.obj --depth 3 --limit 100", "raise --limit"),
-        (2, "cover two.obj --radius 8 --limit 20", "raise --limit"),
         (2, "cover two.obj --depth 2 --radius 3", "cannot be used with"),
+        (2, "cover two.obj --radius -1", "finite distance greater than 0"),
+        (2, "cover two.obj --radius 0", "finite distance greater than 0"),
+        (2, "cover two.obj --radius nan", "finite distance greater than 0"),
+        (2, "cover two.obj --radius inf", "finite distance greater than 0"),
         (2, "cover two.obj --cover c.ply", ".obj or .glb"),
         (2, "cover ball.obj --domain d.json", "own universal cover"),
         (2, "cover torus.obj --model klein --cover c.obj", "torus"),
@@ -224,6 +226,46 @@ fn covers_are_the_same_for_any_number_of_threads_and_end_at_their_limit() {
     for show in ["copies", "tiles"] {
         place.expect(0, &format!("cover torus.obj --show {show} --picture {show}.svg --quiet"));
         assert!(place.text(&format!("{show}.svg")).ends_with("</svg>\n"));
+    }
+}
+
+#[test]
+fn what_shows_no_copies_is_written_where_there_are_too_many() {
+    let place = place();
+    for (how, option) in [("--depth 3 --limit 100", "depth"), ("--radius 8 --limit 20", "radius")] {
+        let others = "--uv u.obj --metric m.json --generators g.json --domain d.json --report r.json";
+        let ended = place.expect(1, &format!("cover two.obj {how} --cover c.obj --picture p.png {others}"));
+        let report = place.json("r.json");
+        for wish in [option, "cover", "picture"] {
+            let why =
+                format!("--{wish}: more than {} copies; lower --{option}", how.split(' ').last().unwrap());
+            assert!(ended.out.contains(&why), "{}", ended.out);
+            assert!(report["result"]["failed"][wish].as_str().unwrap().contains("raise --limit"));
+        }
+        assert!(report["result"]["copies"].is_null());
+        for written in ["u.obj", "m.json", "g.json", "d.json"] {
+            assert!(place.exists(written), "{written}");
+            std::fs::remove_file(place.path(written)).unwrap();
+        }
+        assert!(!place.exists("c.obj") && !place.exists("p.png"));
+    }
+}
+
+#[test]
+fn without_a_dirichlet_domain_everything_else_is_written() {
+    let place = Place::new();
+    // So many handles in a row that the far ones run out of digits.
+    place.expect(0, "make genus --genus 25 -n 3 -o m.obj --quiet");
+    let wishes = "--cover c.obj --domain d.json --metric k.json --generators g.json --report r.json";
+    let ended = place.run(&format!("cover m.obj --radius 1 {wishes}"));
+    assert!(place.exists("k.json") && place.exists("g.json"), "{}", ended.err);
+    let result = &place.json("r.json")["result"];
+    let has_domain = !result["domain"].is_null();
+    assert_eq!([place.exists("c.obj"), place.exists("d.json")], [has_domain; 2]);
+    if !has_domain {
+        assert_eq!(ended.code, Some(1));
+        assert!(result["failed"]["radius"].as_str().unwrap().contains("use --depth"));
+        assert!(ended.out.contains("FAILED   --cover") && ended.out.contains("FAILED   --domain"));
     }
 }
 

@@ -205,3 +205,19 @@ fn the_demo_flattens_surfaces_and_uniformizes_them() {
     }
     place.put("file", "").expect(2, "demo file");
 }
+
+#[test]
+fn pants_with_thin_cuffs_are_triangles_before_and_after_flips() {
+    let place = Place::new();
+    // Triangles so thin that their heights are the last digits of their sides.
+    place.expect(0, "make pants --lengths 1e-4 1e-4 1e-4 --level 4 -o p.json --quiet");
+    place.run("flow p.json --space h2 --flips never --report r.json --quiet");
+    assert_eq!(place.json("r.json")["result"]["converged"], true);
+    // Flips among them run out of digits, which is no fault of the input: the run ends with a report that says so.
+    for space in ["h2", "e2"] {
+        let ended =
+            place.run(&format!("flow p.json --space {space} --max-iterations 20 --report f.json --quiet"));
+        assert!(matches!(ended.code, Some(0 | 1)), "{space}: {}", ended.err);
+        assert!(place.json("f.json")["result"]["stop_reason"].is_string());
+    }
+}

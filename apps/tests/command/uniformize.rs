@@ -25,6 +25,11 @@ fn a_surface_of_genus_two_lies_in_the_disk_with_its_group() {
     assert_eq!(metric["space"], "h2");
     assert_eq!(group.word.join(" "), "a1 b1 a1^-1 b1^-1 a2 b2 a2^-1 b2^-1");
     assert!(group.residual() < 1e-12, "{}", group.residual());
+    // b_k crosses a_k once, from right to left; loops of different handles do not cross.
+    assert_eq!(
+        place.json("c.json")["intersections"],
+        serde_json::json!([[0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1], [0, 0, -1, 0]])
+    );
     let traces = numbers(&report["result"]["traces"]);
     for (g, told) in ["a1", "b1", "a2", "b2"].iter().zip(&traces) {
         let t = trace(&group.generators[*g]);
@@ -83,6 +88,7 @@ fn a_sphere_is_a_convex_polyhedron_about_its_centre_of_mass() {
     place.expect(0, "uniformize egg.obj --sphere s.obj --metric m.json --generators c.json --report r.json");
     assert!(curvature_error(&place.json("m.json")) < 1e-9);
     assert_eq!(place.json("c.json")["generators"], serde_json::json!({}));
+    assert_eq!(place.json("c.json")["intersections"], serde_json::json!([]));
     let text = place.text("s.obj");
     let v = parse_obj_plain(&text);
     let face = |line: &str| -> Option<[usize; 3]> {
@@ -202,4 +208,43 @@ fn what_cannot_be_done_is_refused_with_what_to_do() {
     place.expect(1, "uniformize two.obj --max-iterations 1 --flips never --metric m.json --report r.json");
     assert_eq!(place.json("r.json")["result"]["converged"], false);
     assert!(place.exists("m.json"));
+}
+
+#[test]
+fn the_dirichlet_domain_is_formed_for_what_shows_it() {
+    let place = place();
+    for (line, formed) in [
+        ("uniformize two.obj --generators c.json", false),
+        ("uniformize two.obj --show domain --picture p.svg", false),
+        ("cover two.obj --depth 1 --cover c.obj", false),
+        ("uniformize two.obj --report r.json", true),
+        ("uniformize two.obj --show dirichlet --picture p.svg", true),
+        ("uniformize two.obj --show polygon --picture p.svg", true),
+        ("cover two.obj --depth 1 --show tiles --picture p.svg", true),
+        ("cover two.obj --depth 1 --domain d.json", true),
+        ("cover two.obj --radius 1", true),
+    ] {
+        let ended = place.expect(0, line);
+        assert_eq!(ended.out.contains("\ndomain "), formed, "{line}: {}", ended.out);
+    }
+}
+
+#[test]
+fn the_common_refinement_is_formed_for_what_holds_it() {
+    let place = Place::new();
+    // Slanted parallelograms: each given edge crosses the Delaunay triangulation thousands of times.
+    place.expect(0, "make flat-torus --tau 5000.3 1 -n 4 -m 4 -o slanted.json --quiet");
+    for command in ["uniformize", "flow"] {
+        let plain = place.expect(0, &format!("{command} slanted.json --metric m.json"));
+        assert!(!plain.out.contains("dilatation") && plain.out.contains("all hold"), "{}", plain.out);
+        let told = place.run(&format!("{command} slanted.json --metric n.json --report r.json"));
+        assert!(told.out.contains("dilatation"), "{}", told.out);
+        assert!(place.json("r.json")["result"]["crossings"].as_u64().unwrap() > 10_000);
+        assert_eq!(place.text("m.json"), place.text("n.json"));
+    }
+    // Where it is small it is formed for the summary.
+    place.put("torus.obj", &torus(12, 8).obj());
+    for command in ["uniformize", "flow"] {
+        assert!(place.expect(0, &format!("{command} torus.obj")).out.contains("dilatation"));
+    }
 }

@@ -204,3 +204,43 @@ fn a_file_that_is_replaced_keeps_its_permissions_and_its_links() {
         assert!(file.len() > 100 && file.permissions().mode() & 0o777 == 0o600, "{name}");
     }
 }
+
+#[test]
+fn no_output_takes_the_place_of_an_input_or_of_another_output() {
+    let place = surfaces();
+    place.put("soup.obj", &place.text("torus.obj")).put("cones.csv", "0,0\n").put("edges.csv", "0,1\n");
+    place.expect(0, "make bolza --level 1 -o b.json --quiet");
+    let before: Vec<_> = place.files().iter().map(|name| place.text(name)).collect();
+    for (line, says) in [
+        ("flow torus.obj --uv torus.obj", "the output torus.obj is the input torus.obj"),
+        ("flow torus.obj --uv ./torus.obj", "the output ./torus.obj is the input torus.obj"),
+        (
+            "flow torus.obj --target cones:cones.csv --method gradient --trace cones.csv",
+            "the input cones.csv",
+        ),
+        ("flow torus.obj --keep-edges edges.csv --method gradient --trace edges.csv", "the input edges.csv"),
+        ("flow b.json --metric b.json", "the input b.json"),
+        ("uniformize b.json --generators b.json", "the input b.json"),
+        ("uniformize two.obj --uv two.obj", "the input two.obj"),
+        ("cover two.obj --cover two.obj", "the input two.obj"),
+        ("repair soup.obj -o soup.obj", "the input soup.obj"),
+        ("info b.json --report b.json", "the input b.json"),
+        ("flow torus.obj --metric m.json --report ./m.json", "two outputs"),
+        ("repair soup.obj -o s.ply --map m.json --report m.json", "two outputs"),
+        ("make torus -o t.obj --report t.obj", "two outputs"),
+    ] {
+        let ended = place.expect(2, line);
+        assert!(ended.err.contains(says), "{line}: {}", ended.err);
+    }
+    let after: Vec<_> = place.files().iter().map(|name| place.text(name)).collect();
+    assert!(before == after);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_an_input_is_that_input() {
+    let place = surfaces();
+    std::os::unix::fs::symlink("torus.obj", place.path("link.obj")).unwrap();
+    let ended = place.expect(2, "flow torus.obj --uv link.obj");
+    assert!(ended.err.contains("link.obj is the input torus.obj"), "{}", ended.err);
+}
