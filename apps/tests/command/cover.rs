@@ -232,13 +232,15 @@ fn covers_are_the_same_for_any_number_of_threads_and_end_at_their_limit() {
 #[test]
 fn what_shows_no_copies_is_written_where_there_are_too_many() {
     let place = place();
-    for (how, option) in [("--depth 3 --limit 100", "depth"), ("--radius 8 --limit 20", "radius")] {
+    for (how, limit, option) in [("--depth 3", 100, "depth"), ("--radius 8", 20, "radius")] {
         let others = "--uv u.obj --metric m.json --generators g.json --domain d.json --report r.json";
-        let ended = place.expect(1, &format!("cover two.obj {how} --cover c.obj --picture p.png {others}"));
+        let ended = place.expect(
+            1,
+            &format!("cover two.obj {how} --limit {limit} --cover c.obj --picture p.png {others}"),
+        );
         let report = place.json("r.json");
         for wish in [option, "cover", "picture"] {
-            let why =
-                format!("--{wish}: more than {} copies; lower --{option}", how.split(' ').last().unwrap());
+            let why = format!("--{wish}: more than {limit} copies; lower --{option}");
             assert!(ended.out.contains(&why), "{}", ended.out);
             assert!(report["result"]["failed"][wish].as_str().unwrap().contains("raise --limit"));
         }
