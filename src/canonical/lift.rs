@@ -30,7 +30,10 @@ impl Punctured {
         let outside = |v: &VertexId| *v != self.at && plane[*v].iter().any(|x| !x.is_finite());
         match self.mesh.vertices().find(outside) {
             Some(v) => {
-                Err(Error::Layout(format!("seen from vertex {} vertex {v} lies in no triangle", self.at)))
+                let at = self.at;
+                Err(Error::Layout(format!(
+                    "seen from vertex {at} vertex {v} lies in no triangle: cut each triangle into four"
+                )))
             }
             None => Ok(plane),
         }
@@ -41,7 +44,9 @@ impl Punctured {
         let others = || self.mesh.vertices().filter(|&v| v != self.at);
         let points: Vec<[f64; 2]> = others().map(|v| plane[v]).collect();
         let masses: Vec<f64> = others().map(|v| weights[v]).collect();
+        // Half of the weight at one place.
         conformal_barycentre(&points, &masses, weights[self.at])
+            .map_err(|error| Error::Layout(error.to_string()))
     }
 
     /// The metric of the class whose chords are those of the lifted vertices, with `plane` after the similarity of that scale:
