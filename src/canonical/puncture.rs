@@ -13,6 +13,7 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::flow::{Options, Report, Solver, StopReason};
 use crate::geometry::twofold::two_sum;
+use crate::geometry::worse;
 use crate::mesh::{PerVertex, VertexId};
 
 /// Vertices are let go once |K| inside is below this: before, turning says little.
@@ -73,7 +74,7 @@ impl Punctured {
             }
             let changed = self.restore(slivers)?;
             let turning = self.turning();
-            let least = turning.iter().copied().fold(f64::INFINITY, f64::min);
+            let least = -turning.iter().map(|x| -x).fold(f64::NEG_INFINITY, worse);
             log::debug!(
                 "punctured at {}, step {steps}: max |K| = {error:.1e}, {} arcs, least turning {least:.1e}",
                 self.at,

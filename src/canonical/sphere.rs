@@ -7,7 +7,7 @@ use super::tries::{Flat, Tried, on_a_circle, said};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::{Options, Solver, StopReason};
-use crate::geometry::{Space, triangle};
+use crate::geometry::{Space, largest, triangle};
 use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Curvature, Metric, Scheme, SurfaceMetric};
@@ -206,7 +206,7 @@ fn raised((surface, plane, found): Flat, start_flips: usize, tried: &Tried) -> R
         && whole
         && delaunay_violation <= DELAUNAY
         && found.turning >= -DELAUNAY
-        && largest(&curvature.at) <= tolerance;
+        && largest(curvature.at.iter()) <= tolerance;
     let report = SphereReport {
         converged,
         stop_reason: match found.stop_reason {
@@ -221,7 +221,7 @@ fn raised((surface, plane, found): Flat, start_flips: usize, tried: &Tried) -> R
         puncture: surface.at,
         tried: tried.flows,
         max_curvature_error: found.error,
-        spherical_curvature_error: largest(&curvature.at),
+        spherical_curvature_error: largest(curvature.at.iter()),
         gauss_bonnet: curvature.gauss_bonnet,
         u_range: range(&surface.metric.u, surface.at),
         smallest_edge: metric.lengths(&surface.mesh)?.iter().copied().fold(f64::INFINITY, f64::min),
@@ -238,22 +238,20 @@ fn raised((surface, plane, found): Flat, start_flips: usize, tried: &Tried) -> R
 fn polished(mesh: &Mesh, lifted: Metric, tried: &Tried) -> Result<(Metric, Curvature, usize)> {
     let (flow, left) = (tried.options, tried.left());
     let curvature = lifted.curvature(mesh)?;
-    if largest(&curvature.at) <= flow.tolerance || left == 0 {
+    if largest(curvature.at.iter()) <= flow.tolerance || left == 0 {
         return Ok((lifted, curvature, 0));
     }
     let options = Options { max_iterations: POLISH_STEPS.min(left), ..flow.clone() };
     let mut solver = Solver::new(mesh.clone(), lifted, options)?;
     let before = solver.metric().clone();
     let report = solver.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), tried.control)?;
-    let metric =
-        if report.max_curvature_error < largest(&curvature.at) { solver.into_parts().1 } else { before };
+    let metric = if report.max_curvature_error < largest(curvature.at.iter()) {
+        solver.into_parts().1
+    } else {
+        before
+    };
     let curvature = metric.curvature(mesh)?;
     Ok((metric, curvature, report.iterations))
-}
-
-/// Maximum norm.
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
 /// A power of two of about the size of the longest edge: with η over its square nothing depends on the size of the surface, and

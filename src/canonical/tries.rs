@@ -5,6 +5,7 @@ use super::star::{FLAT_POLYHEDRON, NEARLY_FLAT, Punctured};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Options;
+use crate::geometry::worse;
 use crate::mesh::{Mesh, PerVertex, VertexId};
 use crate::topology::farthest_vertices;
 use crate::topology::spanning::shortest_paths_under;
@@ -98,7 +99,7 @@ impl<'a> Tried<'a> {
         straight: f64,
     ) -> Result<Flat> {
         let mut best = known;
-        let off = |(surface, _, found): &Flat| found.error.max(surface.violation(found));
+        let off = |(surface, _, found): &Flat| worse(found.error, surface.violation(found));
         let none =
             |why: &str| Error::Layout(format!("no plane was found from any vertex that was tried: {why}"));
         let mut failure = none("the step limit came first");
@@ -170,7 +171,7 @@ pub(super) fn on_a_circle(mesh: &Mesh) -> Error {
 impl Punctured {
     /// By how much angles at an edge exceed π, or the outline turns the wrong way, at most.
     fn violation(&self, found: &Found) -> f64 {
-        self.delaunay_violation().max(-found.turning)
+        worse(self.delaunay_violation(), -found.turning)
     }
 
     /// The vertex whose shortest edge is the longest.
