@@ -193,10 +193,11 @@ pub fn text(s: &Round, copies: bool) -> String {
         Way::Flow(r) => (r.stop_reason, r.iterations),
     };
     let mut text = format!(
-        "metric   s2 {}: {stop} after {}, max |K| = {:.1e}, area {:.6}\n",
+        "metric   s2 {}: {stop} after {}, max |K| = {:.1e}{}, area {:.6}\n",
         s.metric.scheme(),
         say::count(steps, "step", "steps"),
         s.curvature_error(),
+        say::tolerance(s.tolerance),
         s.curvature.area,
     );
     if let Way::Puncture(r) = &s.way {
