@@ -6,7 +6,7 @@ use crate::laid::{self, Laid};
 use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
 use ricci::flow::{self, SurfaceFlow};
-use ricci::geometry::Space;
+use ricci::geometry::{Space, worse};
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::target::{check_total, check_vertices, settle_total};
 use ricci::metric::{Curvature, Initial, Metric, Scheme, Target};
@@ -146,7 +146,7 @@ const MIRROR: f64 = 1e-8;
 impl Outcome {
     /// max |K − K̄| of the metric as it is written.
     pub fn curvature_error(&self) -> f64 {
-        self.curvature.at.iter().zip(&self.final_target).fold(0.0, |m, (k, t)| f64::max(m, (k - t).abs()))
+        self.curvature.at.iter().zip(&self.final_target).fold(0.0, |m, (k, t)| worse(m, (k - t).abs()))
     }
 
     /// What the result is held against.
@@ -157,7 +157,7 @@ impl Outcome {
         if let Some(mirror) = &self.mirror {
             let u = &self.metric.u;
             let differs = |(v, &image): (VertexId, &u32)| (u[v] - u[VertexId(image)]).abs();
-            let most = self.mesh.vertices().zip(mirror).map(differs).fold(0.0, f64::max);
+            let most = self.mesh.vertices().zip(mirror).map(differs).fold(0.0, worse);
             checks.add("mirror_symmetry", most, MIRROR);
         }
         checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);

@@ -9,8 +9,8 @@ use ricci::Control;
 use ricci::control::Stage;
 use ricci::embed::{Layout, Quality, layout_in_space, layout_of, layout_refined, quality, refined_cut};
 use ricci::flow::SurfaceFlow;
-use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
+use ricci::geometry::{Space, worse};
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
 use ricci::metric::curvature::area;
 use ricci::metric::{Curvature, Refinement};
@@ -252,9 +252,7 @@ impl Laid {
     /// a distance in H².
     pub fn consistency(&self) -> f64 {
         match &self.placed {
-            Placed::Plane(layout) => {
-                layout.seams.iter().map(|s| s.residual).fold(layout.consistency, f64::max)
-            }
+            Placed::Plane(layout) => layout.seams.iter().map(|s| s.residual).fold(layout.consistency, worse),
             Placed::Space(place) => place.consistency(),
         }
     }

@@ -5,7 +5,7 @@ use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
 use crate::report::{Attempts, Checks};
-use ricci::flow::StopReason;
+use ricci::flow::{Options, StopReason};
 use ricci::mesh::VertexId;
 use std::io::{self, Write};
 
@@ -25,13 +25,14 @@ pub fn flow(done: &Done) {
     let report = &outcome.report;
     let mut text = surface(&done.input);
     text += &format!(
-        "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}\n",
+        "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}{}\n",
         outcome.metric.space,
         outcome.scheme,
         outcome.rule.name(),
         report.stop_reason,
         count(report.iterations, "step", "steps"),
         report.max_curvature_error,
+        tolerance(report.tolerance),
         match report.broken_triangles {
             0 => String::new(),
             n => format!(", {}", count(n, "broken triangle", "broken triangles")),
@@ -46,6 +47,11 @@ pub fn flow(done: &Done) {
     };
     text += &ending(&outcome.left_out, &outcome.failed, &done.checks, &done.files, done.seconds);
     lines(&text);
+}
+
+/// What max |K| was held against, where it is not what goes without saying.
+pub fn tolerance(held: f64) -> String {
+    if held == Options::default().tolerance { String::new() } else { format!(", tolerance {held:.1e}") }
 }
 
 /// The first line of a summary: the surface.

@@ -5,11 +5,11 @@ use crate::control::Control;
 use crate::embed::corner::number_corners;
 use crate::embed::develop::develop;
 use crate::error::{Error, Result};
-use crate::geometry::Space;
 use crate::geometry::barycentre::conformal_barycentre;
 use crate::geometry::sphere::{SOUTH, Similarity, lift, log_density};
 use crate::geometry::twofold::two_sum;
 use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
+use crate::geometry::{Space, worse};
 use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::metric::Metric;
 
@@ -30,7 +30,10 @@ impl Punctured {
         let outside = |v: &VertexId| *v != self.at && plane[*v].iter().any(|x| !x.is_finite());
         match self.mesh.vertices().find(outside) {
             Some(v) => {
-                Err(Error::Layout(format!("seen from vertex {} vertex {v} lies in no triangle", self.at)))
+                let at = self.at;
+                Err(Error::Layout(format!(
+                    "seen from vertex {at} vertex {v} lies in no triangle: cut each triangle into four"
+                )))
             }
             None => Ok(plane),
         }
@@ -41,7 +44,9 @@ impl Punctured {
         let others = || self.mesh.vertices().filter(|&v| v != self.at);
         let points: Vec<[f64; 2]> = others().map(|v| plane[v]).collect();
         let masses: Vec<f64> = others().map(|v| weights[v]).collect();
+        // Half of the weight at one place.
         conformal_barycentre(&points, &masses, weights[self.at])
+            .map_err(|error| Error::Layout(error.to_string()))
     }
 
     /// The metric of the class whose chords are those of the lifted vertices, with `plane` after the similarity of that scale:
@@ -61,7 +66,7 @@ impl Punctured {
 
     /// By how much the angles opposite an edge of the planar part exceed π at most: 0 where every edge is Delaunay.
     pub fn delaunay_violation(&self) -> f64 {
-        self.mesh.edges().map(|e| self.excess(e)).fold(0.0, f64::max)
+        self.mesh.edges().map(|e| self.excess(e)).fold(0.0, worse)
     }
 }
 
@@ -78,13 +83,34 @@ pub(super) fn nonconvexity(mesh: &Mesh, positions: &PerVertex<Point>) -> f64 {
         let normal = cross(sub(b, a), sub(c, a));
         let size = norm(normal);
         let top = positions[mesh.origin(mesh.prev(h.twin()))];
-        if size > 0.0 { dot(normal, sub(top, a)) / size } else { f64::NEG_INFINITY }
+        if size == 0.0 { f64::NEG_INFINITY } else { dot(normal, sub(top, a)) / size }
     };
-    mesh.halfedges().map(over).fold(f64::NEG_INFINITY, f64::max)
+    mesh.halfedges().map(over).fold(f64::NEG_INFINITY, worse)
 }
 
 /// `|Σ w x| / Σ w`.
 pub(super) fn off_centre(positions: &PerVertex<Point>, weights: &PerVertex<f64>) -> f64 {
     let sum = positions.iter().zip(weights.iter()).fold([0.0; 3], |sum, (x, w)| add(sum, scale(*w, *x)));
-    norm(sum) / weights.iter().sum::<f64>()
+    worse(norm(sum) / weights.iter().sum::<f64>(), 0.0)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_measured_is_no_pass() {
+        let mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]).unwrap();
+        let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+        let mut positions: PerVertex<Point> = corners.to_vec().into();
+        let weights = PerVertex::filled(4, 1.0);
+        assert!(nonconvexity(&mesh, &positions) < -1.0 && off_centre(&positions, &weights) == 0.0);
+        for v in 0..4 {
+            let sound = std::mem::replace(&mut positions[VertexId(v)][0], f64::NAN);
+            assert_eq!(nonconvexity(&mesh, &positions), f64::INFINITY);
+            assert_eq!(off_centre(&positions, &weights), f64::INFINITY);
+            positions[VertexId(v)][0] = sound;
+        }
+    }
 }

@@ -8,11 +8,12 @@
 //! Newton's method with an active set: after each step, vertices that overstep their bound are put on it; those that
 //! are held against their gradient are let go.
 
-use super::star::Punctured;
+use super::star::{FLAT_POLYHEDRON, Punctured};
 use crate::control::Control;
 use crate::error::Result;
 use crate::flow::{Options, Report, Solver, StopReason};
 use crate::geometry::twofold::two_sum;
+use crate::geometry::worse;
 use crate::mesh::{PerVertex, VertexId};
 
 /// Vertices are let go once |K| inside is below this: before, turning says little.
@@ -32,8 +33,6 @@ pub(super) struct Found {
     /// |K| inside is within the tolerance and the outline is convex, as far as was asked for.
     pub converged: bool,
     pub stop_reason: StopReason,
-    /// Newton steps.
-    pub iterations: usize,
     /// Largest |K| inside.
     pub error: f64,
     /// Least turning of the outline.
@@ -41,7 +40,8 @@ pub(super) struct Found {
 }
 
 impl Punctured {
-    /// Flow from the present u to the plane with an outline that turns by `−straight` at least, in `most` Newton steps or little more.
+    /// Flow from the present u to the plane with an outline that turns by `−straight` at least, in `most` Newton steps at most, which are
+    /// added to `steps`; no further where all vertices lie on a line ([`Punctured::is_flat`]).
     ///
     /// `slivers`: at the end angles far below 1e-4 count. Then edges of slivers are flipped by [`Punctured::restore`], and a step that
     /// raises the error, which is one over the edge of where slivers are triangles, is made again a quarter as long.
@@ -50,16 +50,17 @@ impl Punctured {
         straight: f64,
         slivers: bool,
         most: usize,
+        steps: &mut usize,
         options: &Options,
         control: &Control,
     ) -> Result<Found> {
-        let (mut rounds, mut iterations, mut longest) = (0, 0, options.max_step);
+        let (mut rounds, mut longest) = (0, options.max_step);
         self.restore(slivers)?;
         loop {
             let before = slivers.then(|| self.clone());
             let report = self.step(longest, options, control)?;
             rounds += 1;
-            iterations += report.iterations;
+            *steps += report.iterations;
             let (error, stop_reason) = (report.max_curvature_error, report.stop_reason);
             let first = report.residuals.first().copied().unwrap_or(f64::INFINITY);
             longest = options.max_step;
@@ -73,19 +74,19 @@ impl Punctured {
             }
             let changed = self.restore(slivers)?;
             let turning = self.turning();
-            let least = turning.iter().copied().fold(f64::INFINITY, f64::min);
+            let least = -turning.iter().map(|x| -x).fold(f64::NEG_INFINITY, worse);
             log::debug!(
-                "punctured at {}, step {iterations}: max |K| = {error:.1e}, {} arcs, least turning {least:.1e}",
+                "punctured at {}, step {steps}: max |K| = {error:.1e}, {} arcs, least turning {least:.1e}",
                 self.at,
                 turning.len()
             );
             let ended = stop_reason != StopReason::IterationLimit;
             let settled = error < SETTLED || ended;
             let go_on = changed || (settled && self.release(&turning, error.max(straight))?);
-            if (!go_on && ended) || rounds >= most {
+            if (!go_on && ended) || rounds >= most || self.is_flat(FLAT_POLYHEDRON) {
                 let converged = report.converged && !go_on;
                 let stop_reason = if go_on { StopReason::IterationLimit } else { stop_reason };
-                return Ok(Found { converged, stop_reason, iterations, error, turning: least });
+                return Ok(Found { converged, stop_reason, error, turning: least });
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::control::Control;
 use crate::embed::{DeckGroup, SpaceLayout, layout_in_space};
 use crate::error::{Error, Result};
 use crate::flow::{Options, Report, SurfaceFlow};
-use crate::geometry::Space;
+use crate::geometry::{Space, largest};
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::curvature::area;
 use crate::metric::{Scheme, SurfaceMetric};
@@ -104,7 +104,7 @@ fn finish(
     let report = flow.solve(&PerVertex::filled(flow.given().n_vertices(), 0.0), control)?;
     let angle_defect = match report.converged {
         true => flow.flatten(control)?,
-        false => flow.metric().angle_defects(flow.mesh())?.iter().fold(0.0, |m, k| f64::max(m, k.abs())),
+        false => largest(flow.metric().angle_defects(flow.mesh())?.iter()),
     };
     let metric = flow.now();
     Pool::new(options.flow.threads)?.run(|| {

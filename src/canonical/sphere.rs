@@ -2,12 +2,12 @@
 
 use super::candidates::range;
 use super::lift::{lifted, nonconvexity, off_centre};
-use super::star::Punctured;
-use super::tries::Tried;
+use super::star::{NEARLY_FLAT, Punctured};
+use super::tries::{Flat, Tried, on_a_circle, said};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::{Options, Solver, StopReason};
-use crate::geometry::{Space, triangle};
+use crate::geometry::{Space, largest, triangle};
 use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Curvature, Metric, Scheme, SurfaceMetric};
@@ -26,7 +26,7 @@ const POLISH_STEPS: usize = 10;
 pub struct SphereOptions {
     /// Largest |K| inside the plane, radians. Default 1e-10.
     pub tolerance: f64,
-    /// Newton steps of one flow before giving up; 0 (default) means 500.
+    /// Newton steps of the whole call, over all vertices that are tried, before giving up; 0 (default) means 500.
     pub max_iterations: usize,
     /// The vertex to send to infinity. Default `None`: one from which u has a small range.
     pub puncture: Option<VertexId>,
@@ -47,7 +47,7 @@ pub struct SphereReport {
     pub converged: bool,
     /// Why the last flow stopped; `stalled` also where it came to its target and the polyhedron is not the one asked for.
     pub stop_reason: StopReason,
-    /// Newton steps of all flows.
+    /// Newton steps of the whole call.
     pub iterations: usize,
     /// Flips inside the class, on the way to the result.
     pub flips: usize,
@@ -96,10 +96,10 @@ pub struct Sphere {
 /// edges are, after flips inside the conformal class, chords of lengths in that class. Its vertices are moved by the Möbius transformation
 /// after which `Σ w x = 0`, w one third of the area of the given faces at a vertex; they are determined up to a rotation.
 ///
-/// A vertex is sent to infinity, the rest flows to the plane, and is lifted. Errors: a surface that is
-/// no sphere, or of fewer than four vertices; sizes, lengths and triangles as for
-/// [`SurfaceMetric::delaunay`]; a vertex with half of the area or more; [`Error::Layout`] where
-/// all vertices lie on one circle (the double of a polygon); [`Error::Cancelled`].
+/// A vertex is sent to infinity, the rest flows to the plane, and is lifted. Errors: [`Error::Argument`] for a surface that is
+/// no sphere, or of fewer than four vertices; sizes, lengths and triangles as for [`SurfaceMetric::delaunay`];
+/// [`Error::Layout`] where all vertices come to lie on one circle (the double of a polygon without inner vertices), where one has half of
+/// the area or more, and where no plane was found; [`Error::Cancelled`].
 pub fn uniformize_sphere(
     given: Arc<Mesh>,
     lengths: Arc<PerEdge<f64>>,
@@ -120,7 +120,14 @@ fn check(given: &Mesh, options: &SphereOptions) -> Result<()> {
         let need = "one closed surface of genus 0 with at least four vertices (cut each triangle into four)";
         return Err(Error::Argument { what: "surface", value, need });
     }
+    flow(options).check()?;
     options.puncture.map_or(Ok(()), |v| check_vertex(given, v))
+}
+
+/// Options of the flows.
+fn flow(options: &SphereOptions) -> Options {
+    let &SphereOptions { tolerance, max_iterations, threads, .. } = options;
+    Options { tolerance, max_iterations, threads, ..Options::default() }
 }
 
 fn uniformize(
@@ -148,28 +155,58 @@ fn uniformize(
     metric.eta.iter_mut().for_each(|eta| *eta = *eta / unit / unit);
     let weights = vertex_areas(&given, &lengths, geometry, unit);
     let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
-    let flow = Options {
-        tolerance: options.tolerance,
-        max_iterations: options.max_iterations,
-        threads: options.threads,
-        ..Options::default()
-    };
+    let flow = flow(options);
     let mut tried = Tried::new(&weights, &flow, control);
-    let (surface, plane, found) = match options.puncture {
+    let flat = match options.puncture {
         Some(v) => tried.punctured_at(&begin, v)?,
         None => tried.best(&begin)?,
     };
-    let view = surface.centre(&plane, &weights)?;
-    let plane = PerVertex::from_fn(n, |v| view.apply(plane[v]));
+    let nearly_flat = flat.0.is_flat(NEARLY_FLAT).then(|| on_a_circle(&flat.0.mesh));
+    let (stop_reason, error) = (flat.2.stop_reason, flat.2.error);
+    let raised = match (raised(flat, start_flips, &tried), nearly_flat) {
+        (Err(Error::Cancelled), _) => return Err(Error::Cancelled),
+        (Ok(raised), Some(why)) if !raised.report.converged => return Err(why),
+        (Ok(raised), _) => raised,
+        (Err(_), Some(why)) => return Err(why),
+        (Err(why), None) => {
+            let (steps, why) = (tried.iterations, said(why));
+            return Err(Error::Layout(format!(
+                "no sphere over the plane that was found (max |K| = {error:.1e} after {steps} steps: {stop_reason}): {why}"
+            )));
+        }
+    };
+    let Raised { surface, mut metric, plane, positions, report } = raised;
+    metric.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
+    metric.u.iter_mut().for_each(|u| *u -= unit.ln());
+    let Punctured { mesh, followed, flips, .. } = surface;
+    let metric = SurfaceMetric::at(start, mesh, metric, followed, start_flips + flips);
+    Ok(Sphere { metric, positions, plane, report })
+}
+
+/// The polyhedron over a plane.
+struct Raised {
+    surface: Punctured,
+    /// In S².
+    metric: Metric,
+    plane: PerVertex<[f64; 2]>,
+    positions: PerVertex<Point>,
+    report: SphereReport,
+}
+
+/// From the plane to the sphere.
+fn raised((surface, plane, found): Flat, start_flips: usize, tried: &Tried) -> Result<Raised> {
+    let tolerance = tried.options.tolerance;
+    let view = surface.centre(&plane, tried.weights)?;
+    let plane = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
     let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
-    let (mut spherical, curvature) = polished(&surface.mesh, spherical, &flow, control)?;
+    let (metric, curvature, steps) = polished(&surface.mesh, spherical, tried)?;
     let delaunay_violation = surface.delaunay_violation();
     let whole = curvature.broken.is_empty();
     let converged = found.converged
         && whole
         && delaunay_violation <= DELAUNAY
         && found.turning >= -DELAUNAY
-        && largest(&curvature.at) <= flow.tolerance;
+        && largest(curvature.at.iter()) <= tolerance;
     let report = SphereReport {
         converged,
         stop_reason: match found.stop_reason {
@@ -178,48 +215,43 @@ fn uniformize(
             StopReason::Converged if !converged => StopReason::Stalled,
             reason => reason,
         },
-        iterations: tried.iterations,
+        iterations: tried.iterations + steps,
         flips: surface.flips,
         start_flips,
         puncture: surface.at,
         tried: tried.flows,
         max_curvature_error: found.error,
-        spherical_curvature_error: largest(&curvature.at),
+        spherical_curvature_error: largest(curvature.at.iter()),
         gauss_bonnet: curvature.gauss_bonnet,
         u_range: range(&surface.metric.u, surface.at),
-        smallest_edge: spherical.lengths(&surface.mesh)?.iter().copied().fold(f64::INFINITY, f64::min),
+        smallest_edge: metric.lengths(&surface.mesh)?.iter().copied().fold(f64::INFINITY, f64::min),
         delaunay_violation,
         link_turning: found.turning,
         nonconvexity: nonconvexity(&surface.mesh, &positions),
-        centring: off_centre(&positions, &weights),
+        centring: off_centre(&positions, tried.weights),
     };
-    let Punctured { mesh, followed, flips, .. } = surface;
-    spherical.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
-    spherical.u.iter_mut().for_each(|u| *u -= unit.ln());
-    let metric = SurfaceMetric::at(start, mesh, spherical, followed, start_flips + flips);
-    Ok(Sphere { metric, positions, plane, report })
+    Ok(Raised { surface, metric, plane, positions, report })
 }
 
-/// The spherical metric with K = 0 to the tolerance, and its curvature. As lifted it has that but for what rounding of the plane does to
-/// needles, which a step or two of Newton's method on the sphere make up for.
-fn polished(mesh: &Mesh, lifted: Metric, flow: &Options, control: &Control) -> Result<(Metric, Curvature)> {
+/// The spherical metric with K = 0 to the tolerance, its curvature, and the Newton steps that took. As lifted it has that but for what
+/// rounding of the plane does to needles, which a step or two on the sphere make up for.
+fn polished(mesh: &Mesh, lifted: Metric, tried: &Tried) -> Result<(Metric, Curvature, usize)> {
+    let (flow, left) = (tried.options, tried.left());
     let curvature = lifted.curvature(mesh)?;
-    if largest(&curvature.at) <= flow.tolerance {
-        return Ok((lifted, curvature));
+    if largest(curvature.at.iter()) <= flow.tolerance || left == 0 {
+        return Ok((lifted, curvature, 0));
     }
-    let options = Options { max_iterations: POLISH_STEPS, ..flow.clone() };
+    let options = Options { max_iterations: POLISH_STEPS.min(left), ..flow.clone() };
     let mut solver = Solver::new(mesh.clone(), lifted, options)?;
     let before = solver.metric().clone();
-    let report = solver.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), control)?;
-    let metric =
-        if report.max_curvature_error < largest(&curvature.at) { solver.into_parts().1 } else { before };
+    let report = solver.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), tried.control)?;
+    let metric = if report.max_curvature_error < largest(curvature.at.iter()) {
+        solver.into_parts().1
+    } else {
+        before
+    };
     let curvature = metric.curvature(mesh)?;
-    Ok((metric, curvature))
-}
-
-/// Maximum norm.
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |m, x| m.max(x.abs()))
+    Ok((metric, curvature, report.iterations))
 }
 
 /// A power of two of about the size of the longest edge: with η over its square nothing depends on the size of the surface, and

@@ -1,11 +1,12 @@
 //! Flows from one vertex after the other, until one ends well.
 
 use super::puncture::Found;
-use super::star::Punctured;
+use super::star::{FLAT_POLYHEDRON, NEARLY_FLAT, Punctured};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Options;
-use crate::mesh::{PerVertex, VertexId};
+use crate::geometry::worse;
+use crate::mesh::{Mesh, PerVertex, VertexId};
 use crate::topology::farthest_vertices;
 use crate::topology::spanning::shortest_paths_under;
 
@@ -25,36 +26,38 @@ pub(super) type Flat = (Punctured, PerVertex<[f64; 2]>, Found);
 pub(super) struct Tried<'a> {
     /// Flows that were started.
     pub flows: usize,
-    /// Their Newton steps.
+    /// Their Newton steps, within the limit of the options for all of them.
     pub iterations: usize,
-    weights: &'a PerVertex<f64>,
-    options: &'a Options,
-    control: &'a Control,
+    /// All vertices lie on one circle.
+    flat: bool,
+    pub weights: &'a PerVertex<f64>,
+    pub options: &'a Options,
+    pub control: &'a Control,
 }
 
 impl<'a> Tried<'a> {
     /// Nothing yet; `weights` of the vertices are those of the centring.
     pub fn new(weights: &'a PerVertex<f64>, options: &'a Options, control: &'a Control) -> Tried<'a> {
-        Tried { flows: 0, iterations: 0, weights, options, control }
+        Tried { flows: 0, iterations: 0, flat: false, weights, options, control }
     }
 
     /// The plane with this vertex at infinity.
     pub fn punctured_at(&mut self, begin: &Punctured, v: VertexId) -> Result<Flat> {
-        let rough = self.guessed(begin, &[v])?;
+        let rough = self.guessed(begin, &[v], None)?;
         let again = [Ok(rough.0.clone())].into_iter();
-        self.first_good(again, Some(rough), STRAIGHT, STEPS)
+        self.first_good(again, Some(rough), STRAIGHT)
     }
 
     /// The plane with a small range of u and no narrow angles: from any plane, the one that is best seen from there.
     pub fn best(&mut self, begin: &Punctured) -> Result<Flat> {
         let first = begin.widest();
-        let rough = match self.guessed(begin, &[first]) {
+        let rough = match self.guessed(begin, &[first], None) {
             Ok(rough) if rough.2.converged => rough,
-            Err(Error::Cancelled) => return Err(Error::Cancelled),
-            _ => {
+            Err(error) if self.flat || error == Error::Cancelled => return Err(error),
+            known => {
                 let lengths = begin.metric.lengths(&begin.mesh)?;
                 let others = farthest_vertices(&begin.mesh, &lengths, first, TRIES)?;
-                self.guessed(begin, &others[1..])?
+                self.guessed(begin, &others[1..], known.ok())?
             }
         };
         let (surface, plane, _) = &rough;
@@ -70,12 +73,12 @@ impl<'a> Tried<'a> {
         };
         let candidates = surface.candidates(plane, &u);
         let moved = candidates.into_iter().take(TRIES).map(seen_from);
-        self.first_good(moved, Some(rough.clone()), STRAIGHT, STEPS)
+        self.first_good(moved, Some(rough.clone()), STRAIGHT)
     }
 
     /// A plane whose outline is nearly convex, from the first of the vertices from which the flow ends well. The guess is
     /// `u = −2 log(distance)`, the inversion of a surface that is nearly a plane.
-    fn guessed(&mut self, begin: &Punctured, vertices: &[VertexId]) -> Result<Flat> {
+    fn guessed(&mut self, begin: &Punctured, vertices: &[VertexId], known: Option<Flat>) -> Result<Flat> {
         let (lengths, control) = (begin.metric.lengths(&begin.mesh)?, self.control);
         let guess = |&v: &VertexId| {
             let distance = shortest_paths_under(&begin.mesh, &lengths, [v], control)?.distance;
@@ -84,45 +87,91 @@ impl<'a> Tried<'a> {
             surface.metric.u = PerVertex::from_fn(distance.len(), u);
             Ok(surface)
         };
-        self.first_good(vertices.iter().map(guess), None, ROUGHLY, self.options.iteration_limit())
+        self.first_good(vertices.iter().map(guess), known, ROUGHLY)
     }
 
-    /// The first flow that ends well, or the one of them and of what was `known` that is least off.
+    /// The first flow that ends well, or the one of them and of what was `known` that is least off. Errors: [`Error::Layout`] where all
+    /// vertices lie on one circle, or no flow came to a plane; [`Error::Cancelled`].
     fn first_good(
         &mut self,
         surfaces: impl Iterator<Item = Result<Punctured>>,
         known: Option<Flat>,
         straight: f64,
-        most: usize,
     ) -> Result<Flat> {
         let mut best = known;
-        let off = |(surface, _, found): &Flat| found.error.max(surface.violation(found));
-        let mut failure = Error::Layout("no plane was found from any vertex".into());
+        let off = |(surface, _, found): &Flat| worse(found.error, surface.violation(found));
+        let none =
+            |why: &str| Error::Layout(format!("no plane was found from any vertex that was tried: {why}"));
+        let mut failure = none("the step limit came first");
         for surface in surfaces {
-            match self.flow(surface?, straight, most) {
-                Ok(flat) if flat.2.converged && flat.0.violation(&flat.2) <= straight => return Ok(flat),
-                Ok(flat) if best.as_ref().is_none_or(|best| off(&flat) < off(best)) => best = Some(flat),
-                Ok(_) => {}
+            let left = self.left();
+            if left == 0 {
+                break;
+            }
+            let mut surface = surface?;
+            match self.flow(&mut surface, straight, left) {
                 Err(Error::Cancelled) => return Err(Error::Cancelled),
-                Err(error) => failure = error,
+                _ if surface.is_flat(FLAT_POLYHEDRON) => {
+                    self.flat = true;
+                    return Err(on_a_circle(&surface.mesh));
+                }
+                Ok((plane, found)) => {
+                    let flat = (surface, plane, found);
+                    if flat.2.converged && flat.0.violation(&flat.2) <= straight {
+                        return Ok(flat);
+                    }
+                    if best.as_ref().is_none_or(|best| off(&flat) < off(best)) {
+                        best = Some(flat);
+                    }
+                }
+                Err(_) if surface.is_flat(NEARLY_FLAT) => failure = on_a_circle(&surface.mesh),
+                Err(error) => failure = none(&said(error)),
             }
         }
         best.ok_or(failure)
     }
 
-    fn flow(&mut self, mut surface: Punctured, straight: f64, most: usize) -> Result<Flat> {
-        self.flows += 1;
-        let found = surface.flatten(straight, straight < ROUGHLY, most, self.options, self.control)?;
-        self.iterations += found.iterations;
-        let plane = surface.lay_out(self.control)?;
-        Ok((surface, plane, found))
+    /// Newton steps that are left of the limit for all flows.
+    pub fn left(&self) -> usize {
+        self.options.iteration_limit().saturating_sub(self.iterations)
     }
+
+    /// One flow: of a guess it takes no more than half of what is left, so that other vertices have their turn, but [`STEPS`] at least.
+    fn flow(
+        &mut self,
+        surface: &mut Punctured,
+        straight: f64,
+        left: usize,
+    ) -> Result<(PerVertex<[f64; 2]>, Found)> {
+        self.flows += 1;
+        let most = if straight < ROUGHLY { STEPS } else { STEPS.max(left / 2) }.min(left);
+        let steps = &mut self.iterations;
+        let found = surface.flatten(straight, straight < ROUGHLY, most, steps, self.options, self.control)?;
+        Ok((surface.lay_out(self.control)?, found))
+    }
+}
+
+/// An error's words inside another.
+pub(super) fn said(error: Error) -> String {
+    match error {
+        Error::Layout(why) => why,
+        error => error.to_string(),
+    }
+}
+
+/// The error of a polyhedron without inside.
+pub(super) fn on_a_circle(mesh: &Mesh) -> Error {
+    Error::Layout(format!(
+        "all {} vertices come to lie on one circle, as those of the double of a plane polygon: no polyhedron with an inside has them for \
+         corners. Put vertices inside the faces (cut each triangle into four)",
+        mesh.n_vertices()
+    ))
 }
 
 impl Punctured {
     /// By how much angles at an edge exceed π, or the outline turns the wrong way, at most.
     fn violation(&self, found: &Found) -> f64 {
-        self.delaunay_violation().max(-found.turning)
+        worse(self.delaunay_violation(), -found.turning)
     }
 
     /// The vertex whose shortest edge is the longest.

@@ -6,7 +6,7 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, Twofold, worse};
 use crate::mesh::{HalfedgeId, Mesh};
 use crate::topology::word::{Letter, Word};
 use crate::topology::{FundamentalDomain, HomotopyBasis, SurfaceGroup};
@@ -88,7 +88,7 @@ impl DeckGroup {
         for (side, motion) in domain.sides.iter().zip(pairings).filter(|(side, _)| side.partner.is_some()) {
             let word = side.element.clone();
             let spelled = deck.motion(&word).compose(&motion.inverse());
-            deck.side_residual = deck.side_residual.max(deck.residual(&word, &spelled));
+            deck.side_residual = worse(deck.side_residual, deck.residual(&word, &spelled));
             deck.sides.push(DeckElement { word, motion });
         }
         let relator = deck.group.relator();

@@ -7,7 +7,7 @@ use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::predicates::orientation;
 use crate::geometry::triangle::half_differences;
-use crate::geometry::{PlaneIsometry, Space};
+use crate::geometry::{PlaneIsometry, Space, worse};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Metric;
 use crate::topology::{CutGraph, check_lengths, cut};
@@ -89,8 +89,8 @@ fn lay_out(
     for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
         let ([ax, ay], [bx, by], l) = (at(h), at(mesh.next(h)), lengths[h.edge()]);
         let off = (bx - ax - l * direction[h][0]).hypot(by - ay - l * direction[h][1]);
-        worst = worst.max(off);
-        worst_local = worst_local.max(off / l);
+        worst = worse(worst, off);
+        worst_local = worse(worst_local, off / l);
     }
 
     let fit = |segment: &Vec<_>| Seam::fit(mesh, lengths, segment, &direction, at, diameter);

@@ -9,6 +9,7 @@ pub use super::shape::FLAT;
 use super::shape::{Shape, extent};
 use crate::control::Control;
 use crate::error::{Error, Result};
+use crate::geometry::worse;
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::{Metric, Refinement};
 use crate::topology::{CutGraph, cut_graph};
@@ -77,8 +78,8 @@ pub fn layout_refined(
             let edge = minus(at(r.mesh.next(h)), at(h));
             let off = minus(edge, vectors[h]);
             let off = off[0].hypot(off[1]);
-            worst = worst.max(off);
-            worst_local = worst_local.max(off / longest);
+            worst = worse(worst, off);
+            worst_local = worse(worst_local, off / longest);
         }
         let [_, b, c] = r.mesh.face_halfedges(f);
         area += 0.5 * cross(vectors[b], vectors[c]);

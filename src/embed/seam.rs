@@ -1,6 +1,6 @@
 //! Seams: how the two sides of a cut segment lie to each other.
 
-use crate::geometry::PlaneIsometry;
+use crate::geometry::{PlaneIsometry, worse};
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge};
 
 /// A segment of the cut and the plane isometry `z ↦ e^{iθ} z + t` that carries its left side onto its right
@@ -56,7 +56,7 @@ impl Seam {
             halfedges: segment.to_vec(),
             rotation: g.rotation,
             translation: g.translation,
-            residual: residual.fold(0.0, f64::max) / diameter,
+            residual: residual.fold(0.0, worse) / diameter,
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::geometry::motion::precise_point;
 use crate::geometry::predicates::winding;
 use crate::geometry::triangle::area_from;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, Twofold, worse};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Metric;
 use crate::parallel;
@@ -184,10 +184,10 @@ impl SpaceLayout {
                 let other = (self.side[h] != 0)
                     .then(|| home.compose(&self.neighbour(h)).compose(&faces.frame(&self.frames, across)))
                     .map_or(0.0, |g| g.displacement());
-                distance_from_origin(self.space, own).max(other)
+                worse(distance_from_origin(self.space, own), other)
             };
-            mesh.face_halfedges(f.into()).map(off).into_iter().fold(0.0, f64::max)
+            mesh.face_halfedges(f.into()).map(off).into_iter().fold(0.0, worse)
         });
-        worst.into_iter().fold(0.0, f64::max)
+        worst.into_iter().fold(0.0, worse)
     }
 }

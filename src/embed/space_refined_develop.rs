@@ -9,7 +9,7 @@ use super::space_refined::{RefinedSpaceLayout, combination, in_face};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, Twofold, worse};
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerFace, VertexId};
 use crate::metric::{Metric, Refinement};
 use crate::topology::spanning::Key;
@@ -203,7 +203,7 @@ fn disagreement(r: &Refinement, faces: &Faces, layout: &RefinedSpaceLayout, cut:
         let (home, corners) = (frame.inverse(), faces.corners(r.final_face[f], &frame));
         for (p, weights) in layout.face_points(r, f).into_iter().zip(r.final_barycentric(f)) {
             let own = in_face(space, &frame, corners, weights);
-            worst = worst.max(distance(&home, precise_point(space, p), own));
+            worst = worse(worst, distance(&home, precise_point(space, p), own));
         }
     }
     for segment in &cut.segments {
@@ -214,7 +214,7 @@ fn disagreement(r: &Refinement, faces: &Faces, layout: &RefinedSpaceLayout, cut:
         for &h in segment {
             let off =
                 frame(h).inverse().compose(&pairing).compose(&neighbour(h).inverse()).compose(&frame(h));
-            worst = worst.max(off.displacement());
+            worst = worse(worst, off.displacement());
         }
     }
     worst

@@ -7,6 +7,7 @@ use crate::geometry::Space;
 use crate::geometry::conformal::{Edge, Vertex, differences, edge, weights};
 use crate::geometry::triangle::{self, Angles};
 use crate::geometry::twofold::two_sum;
+use crate::geometry::worse;
 use crate::mesh::{EdgeId, FaceId, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_from_angles;
@@ -197,8 +198,7 @@ impl State {
         let mut worst = 0.0f64;
         for (i, out) in out.iter_mut().enumerate() {
             *out = if pinned[i] { 0.0 } else { target[i] - self.curvature[VertexId::from(i)] };
-            // NaN, which `max` would drop, must not look like a small error.
-            worst = if out.is_nan() { f64::INFINITY } else { worst.max(out.abs()) };
+            worst = worse(worst, out.abs());
         }
         worst
     }

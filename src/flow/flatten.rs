@@ -5,7 +5,7 @@ use super::solver::{Solver, center};
 use super::system::System;
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::Space;
+use crate::geometry::{Space, largest};
 use crate::mesh::PerVertex;
 use std::mem::replace;
 
@@ -84,8 +84,4 @@ impl Solver {
 /// `K̄ − K` at the vertices that are not pinned.
 fn defects(curvature: PerVertex<f64>, pinned: &[bool]) -> Vec<f64> {
     curvature.iter().zip(pinned).map(|(k, &pinned)| if pinned { 0.0 } else { -k }).collect()
-}
-
-fn largest(residual: &[f64]) -> f64 {
-    residual.iter().fold(0.0, |m, x| f64::max(m, x.abs()))
 }

@@ -6,7 +6,7 @@ use super::solver::{Run, center};
 use super::system::System;
 use crate::control::Stage;
 use crate::error::Result;
-use crate::geometry::Space;
+use crate::geometry::{Space, largest, worse};
 use crate::metric::delaunay::boundary_fails;
 
 /// Below this max |K − K̄| a smaller residual also accepts a step. Far from the solution only the slope does: mixing
@@ -99,7 +99,7 @@ impl Run<'_> {
                 // Back to the triangulation of the last metric, or one of the same.
                 self.evaluate(&mut state, report)?;
                 error = state.residual(self.target, self.pinned, &mut residual);
-                let moved = before.iter().zip(&residual).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                let moved = before.iter().zip(&residual).map(|(a, b)| (a - b).abs()).fold(0.0, worse);
                 if moved > MOVED * error && restarts < RESTARTS {
                     restarts += 1;
                     continue;
@@ -139,12 +139,12 @@ impl Run<'_> {
             timed(&mut report.seconds.assemble, || system.jacobian.assemble(self.mesh, self.class, &state));
             state.residual(self.target, self.pinned, &mut residual);
             let floor = system.jacobian.rounding_floor(self.mesh, self.class, &state);
-            let largest = floor.iter().fold(0.0f64, |m, x| m.max(*x));
-            report.rounding_floor = Some(largest);
+            let most = largest(&floor);
+            report.rounding_floor = Some(most);
             let at_floor = |(r, floor): (&f64, &f64)| r.abs() <= FLOOR_SLACK * floor;
-            if FLOOR_SLACK * largest <= MAX_FLOOR && residual.iter().zip(&floor).all(at_floor) {
+            if FLOOR_SLACK * most <= MAX_FLOOR && residual.iter().zip(&floor).all(at_floor) {
                 report.stop_reason = StopReason::RoundingFloor;
-                report.tolerance = FLOOR_SLACK * largest;
+                report.tolerance = FLOOR_SLACK * most;
             }
         }
         Ok(state)
@@ -155,7 +155,7 @@ impl Run<'_> {
     fn lopsided(&self, residual: &[f64], error: f64) -> bool {
         let Some(mirror) = self.mirror else { return false };
         let even = |(r, &image): (&f64, &u32)| 0.5 * (r + residual[image as usize]).abs();
-        residual.iter().zip(mirror).map(even).fold(0.0, f64::max) < 0.5 * error
+        residual.iter().zip(mirror).map(even).fold(0.0, worse) < 0.5 * error
     }
 
     /// The Newton direction into `step`; false when there is none.
@@ -193,7 +193,7 @@ impl Run<'_> {
                     center(step);
                 }
                 // A step that more shift does not shorten is not the loose vertices': the line search will cap it.
-                let now = norm(step);
+                let now = largest(&*step);
                 let settled = now > 0.5 * last;
                 last = now;
                 if added == 0.0 || now <= self.options.max_step || settled {
@@ -227,7 +227,7 @@ impl Run<'_> {
         let slope = |residual: &[f64]| -> f64 { step.iter().zip(residual).map(|(d, r)| d * r).sum() };
         let first = slope(residual);
         let (mut short, mut long, mut between) = (0.0, None, 0);
-        let mut t = (self.options.max_step / norm(step)).min(1.0);
+        let mut t = (self.options.max_step / largest(step)).min(1.0);
         for _ in 0..TRIALS {
             self.control.check()?;
             trial.set_step(state, t, step);
@@ -319,11 +319,6 @@ impl Run<'_> {
         }
         Ok(())
     }
-}
-
-/// Maximum norm.
-fn norm(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
 /// Largest minus smallest.

@@ -2,6 +2,7 @@
 
 use super::jacobian::Jacobian;
 use crate::error::Result;
+use crate::geometry::largest;
 use crate::linalg::Cholesky;
 use crate::linalg::cholesky::NotPositiveDefinite;
 use crate::mesh::Mesh;
@@ -85,12 +86,11 @@ impl System {
         self.jacobian.rows().for_each(|(v, row)| self.rhs[row] += residual[v]);
         self.solution.copy_from_slice(&self.rhs);
         self.cholesky.solve(&mut self.solution);
-        let norm = |x: &[f64]| x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        let (scale, mut last) = (norm(&self.rhs), f64::INFINITY);
+        let (scale, mut last) = (largest(&self.rhs), f64::INFINITY);
         for _ in 0..REFINE_STEPS {
             self.jacobian.matrix().residual(&self.solution, &self.rhs, &mut self.correction);
-            let now = norm(&self.correction);
-            // A NaN compares false and ends the refinement too.
+            let now = largest(&self.correction);
+            // What is not finite ends the refinement too.
             let worth_it = now > f64::max(REFINE_TO * scale, enough) && now < 0.5 * last;
             if !worth_it {
                 break;

@@ -6,6 +6,7 @@
 
 use crate::error::{Error, Result};
 use crate::geometry::symplectic::symplectic_basis;
+use crate::geometry::worse;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
@@ -48,10 +49,9 @@ pub fn period_matrix(branch_points: &[Complex64]) -> Result<Vec<Vec<Complex64>>>
     let a = (0..genus).map(|k| (0..genus).map(|j| period(k, &basis[j])).collect()).collect();
     let b = (0..genus).map(|k| (0..genus).map(|j| period(k, &basis[genus + j])).collect()).collect();
     let tau = solve(a, b);
-    let largest = tau.iter().flatten().map(|z| z.norm()).fold(0.0, f64::max);
+    let largest = tau.iter().flatten().map(|z| z.norm()).fold(0.0, worse);
     let pairs = (0..genus).flat_map(|i| (0..i).map(move |j| (i, j)));
-    let worst = pairs.map(|(i, j)| (tau[i][j] - tau[j][i]).norm()).fold(0.0, f64::max);
-    // A NaN compares false.
+    let worst = pairs.map(|(i, j)| (tau[i][j] - tau[j][i]).norm()).fold(0.0, worse);
     if !(largest.is_finite() && worst <= ASYMMETRY * largest) {
         return Err(lost());
     }
@@ -180,7 +180,7 @@ impl Cycle {
             nodes *= 2;
             let finer = sum(nodes);
             let size = finer.iter().map(|z| z.norm()).fold(0.0, f64::max);
-            let change = finer.iter().zip(&periods).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+            let change = finer.iter().zip(&periods).map(|(a, b)| (a - b).norm()).fold(0.0, worse);
             periods = finer;
             // Convergence is geometric: when a doubling changes little, the next changes its square.
             if change <= ACCURACY.sqrt() * 1e-2 * size || nodes >= MOST_NODES {

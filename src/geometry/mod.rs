@@ -16,9 +16,11 @@ pub mod symplectic;
 pub mod triangle;
 pub mod twofold;
 pub mod vector;
+pub mod worst;
 
 pub use isometry::PlaneIsometry;
 pub use model::Model;
 pub use motion::Motion;
 pub use space::Space;
 pub use twofold::Twofold;
+pub use worst::{largest, worse};

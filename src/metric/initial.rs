@@ -5,7 +5,7 @@ use super::lengths::{Metric, face_lengths};
 use super::scheme::Scheme;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::Vertex;
-use crate::geometry::{Space, triangle};
+use crate::geometry::{Space, triangle, worse};
 use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
 use crate::topology::check_lengths;
 use std::f64::consts::PI;
@@ -122,7 +122,7 @@ fn represent(
     if clamped_edges > 0 {
         start = metric.lengths(mesh)?;
         for e in mesh.edges() {
-            max_length_change = max_length_change.max((start[e] / lengths[e] - 1.0).abs());
+            max_length_change = worse(max_length_change, (start[e] / lengths[e] - 1.0).abs());
         }
     }
     let shift = start_shift(mesh, &start, &metric, space)?;

@@ -5,12 +5,14 @@
 mod common;
 
 mod check;
+mod flat;
 mod known;
 
 use check::{check, finger, on_sphere, rough, run, same_up_to_moebius, surface};
 use common::Random;
 use common::flips::{measure, shuffle};
-use ricci::canonical::{SphereOptions, uniformize_sphere};
+use ricci::canonical::{Sphere, SphereOptions, uniformize_sphere};
+use ricci::flow::StopReason;
 use ricci::geometry::Space;
 use ricci::geometry::vector::dot;
 use ricci::mesh::shapes::{self, Intrinsic};
@@ -218,13 +220,30 @@ fn what_is_no_sphere_is_refused_by_name() {
     assert!(matches!(run(&mesh, &lengths, &tolerance), Err(Error::Argument { what: "tolerance", .. })));
     let short = PerEdge::filled(3, 1.0);
     assert!(matches!(run(&mesh, &short, &SphereOptions::default()), Err(Error::Size { .. })));
+}
 
-    // Both sides of a square: four points on a circle, and no polyhedron.
-    let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    let mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3], [1, 0, 3], [1, 3, 2]]).unwrap();
-    let lengths = lengths_from_positions(&mesh, &points).unwrap();
-    match run(&mesh, &lengths, &SphereOptions::default()) {
-        Ok(sphere) => assert!(!sphere.report.converged, "{:?}", sphere.report),
-        Err(error) => println!("flat: {error}"),
+#[test]
+fn the_step_limit_is_that_of_the_whole_call() {
+    let (mesh, lengths) = surface(&rough(2, 0.8));
+    let needed = run(&mesh, &lengths, &SphereOptions::default()).unwrap().report;
+    assert!(needed.tried > 1 && needed.iterations > 4, "{needed:?}");
+    let mut ended = 0;
+    for most in 1..needed.iterations + 3 {
+        let options = SphereOptions { max_iterations: most, ..SphereOptions::default() };
+        match run(&mesh, &lengths, &options) {
+            Ok(Sphere { report, .. }) if most < needed.iterations => {
+                assert!(report.iterations <= most && !report.converged, "{most}: {report:?}");
+                assert_eq!(report.stop_reason, StopReason::IterationLimit, "{most}: {report:?}");
+                ended += 1;
+            }
+            // One evaluation more than steps.
+            Ok(Sphere { report, .. }) if most <= needed.iterations + 1 => assert!(report.iterations <= most),
+            Ok(Sphere { report, .. }) => assert_eq!(report, needed),
+            // So early that there is no plane yet.
+            Err(error) => {
+                assert!(most < needed.iterations && matches!(error, Error::Layout(_)), "{most}: {error}")
+            }
+        }
     }
+    assert!(ended > 0);
 }

@@ -11,8 +11,8 @@ use ricci::Control;
 use ricci::canonical::Quotient;
 use ricci::embed::{DeckElement, DeckGroup, DirichletDomain, SpaceLayout, dirichlet_domain};
 use ricci::flow::Report;
-use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
+use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex};
 use ricci::metric::{Curvature, SurfaceMetric};
 use ricci::topology::HomotopyBasis;
@@ -179,7 +179,7 @@ impl Uniformized {
 
     /// max |K| of the metric.
     pub fn curvature_error(&self) -> f64 {
-        self.curvature.at.iter().fold(0.0, |m, k| f64::max(m, k.abs()))
+        largest(self.curvature.at.iter())
     }
 
     /// The area of the layout's triangles, by formulas without angles.
@@ -197,7 +197,8 @@ impl Uniformized {
         let meeting = if self.deck.space == Space::H2 { MEETING } else { limit };
         checks.add("layout_consistency", consistency, meeting);
         checks.add("flipped_triangles", self.flipped().len() as f64, 0.0);
-        checks.add("relation_residual", self.deck.relation_residual.max(self.deck.side_residual), RELATION);
+        let residual = worse(self.deck.relation_residual, self.deck.side_residual);
+        checks.add("relation_residual", residual, RELATION);
         let n = self.curvature.at.len() as f64;
         if self.deck.space == Space::H2 {
             let exact = 4.0 * PI * (self.deck.group.genus as f64 - 1.0);
@@ -210,7 +211,7 @@ impl Uniformized {
                 .filter(|g| f64::from(g.half_trace()).abs().partial_cmp(&1.0) != Some(Ordering::Greater));
             checks.add("not_hyperbolic", not.count() as f64, 0.0);
         } else {
-            let turning = self.deck.generators.iter().map(|g| g.rotation_angle()).fold(0.0, f64::max);
+            let turning = self.deck.generators.iter().map(|g| g.rotation_angle()).fold(0.0, worse);
             checks.add("turning", turning, TURNING);
         }
         checks.add("unconverged", f64::from(u8::from(!self.report.converged)), 0.0);

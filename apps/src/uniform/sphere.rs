@@ -11,7 +11,7 @@ use ricci::Control;
 use ricci::canonical::{Sphere, SphereReport};
 use ricci::embed::layout_in_space;
 use ricci::flow::{Report, SurfaceFlow};
-use ricci::geometry::Space;
+use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex, Point, VertexId};
 use ricci::metric::{Curvature, Refinement, SurfaceMetric};
 
@@ -116,7 +116,7 @@ impl Round {
 
     /// max |K| of the spherical metric.
     pub fn curvature_error(&self) -> f64 {
-        self.curvature.at.iter().fold(0.0, |m, k| f64::max(m, k.abs()))
+        largest(self.curvature.at.iter())
     }
 
     /// Faces seen from inside the sphere, those too small to tell left out.
@@ -175,7 +175,7 @@ impl Round {
         if let Way::Puncture(report) = &self.way {
             checks.add("planar_curvature_error", report.max_curvature_error, self.tolerance);
             checks.add("delaunay_violation", report.delaunay_violation, DELAUNAY);
-            checks.add("outline_bends_inward", (-report.link_turning).max(0.0), DELAUNAY);
+            checks.add("outline_bends_inward", worse(-report.link_turning, 0.0), DELAUNAY);
             checks.add("centring", report.centring, CENTRING);
             if report.u_range < RANGE {
                 checks.add("nonconvexity", report.nonconvexity, CONVEX);

@@ -3,6 +3,7 @@
 use super::sphere::{Round, Way};
 use crate::input::Input;
 use crate::say;
+use ricci::geometry::worse;
 use ricci::mesh::FaceId;
 use ricci::metric::Refinement;
 use serde::Serialize;
@@ -142,9 +143,9 @@ impl SphereQuality {
             let ratio = area(to) / after / (area(from) / before);
             let k = dilatation(from, to);
             q.qc_mean += k * area(from) / before;
-            q.qc_max = q.qc_max.max(k);
+            q.qc_max = worse(q.qc_max, k);
             q.area_ratio_min = q.area_ratio_min.min(ratio);
-            q.area_ratio_max = q.area_ratio_max.max(ratio);
+            q.area_ratio_max = worse(q.area_ratio_max, ratio);
         }
         if pieces.is_empty() {
             (q.qc_mean, q.area_ratio_min, q.area_ratio_max) = (1.0, 1.0, 1.0);
@@ -186,7 +187,7 @@ fn dilatation(from: &[[f64; 2]; 2], to: &[[f64; 2]; 2]) -> f64 {
     let (m, n, o) = (p / a, (q - p * b / a) / c, r / c);
     let (sum, product) = (m * m + n * n + o * o, m * o);
     let root = ((sum - 2.0 * product) * (sum + 2.0 * product)).max(0.0).sqrt();
-    ((sum + root) / (2.0 * product)).max(1.0)
+    worse((sum + root) / (2.0 * product), 1.0)
 }
 
 /// The summary of a sphere.
@@ -196,10 +197,11 @@ pub fn text(s: &Round, copies: bool) -> String {
         Way::Flow(r) => (r.stop_reason, r.iterations),
     };
     let mut text = format!(
-        "metric   s2 {}: {stop} after {}, max |K| = {:.1e}, area {:.6}\n",
+        "metric   s2 {}: {stop} after {}, max |K| = {:.1e}{}, area {:.6}\n",
         s.metric.scheme(),
         say::count(steps, "step", "steps"),
         s.curvature_error(),
+        say::tolerance(s.tolerance),
         s.curvature.area,
     );
     if let Way::Puncture(r) = &s.way {

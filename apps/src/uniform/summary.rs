@@ -22,12 +22,13 @@ pub fn say(done: &Done, copies: bool) {
 
 fn quotient(u: &Uniformized, copies: bool) -> String {
     let mut text = format!(
-        "metric   {} {}: {} after {}, max |K| = {:.1e}, area {:.6}\n",
+        "metric   {} {}: {} after {}, max |K| = {:.1e}{}, area {:.6}\n",
         u.deck.space,
         u.metric.scheme(),
         u.report.stop_reason,
         say::count(u.report.iterations, "step", "steps"),
         u.curvature_error(),
+        say::tolerance(u.report.tolerance),
         u.area(),
     );
     let flipped = || say::count(u.flipped().len(), "triangle flipped", "triangles flipped");

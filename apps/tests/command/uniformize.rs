@@ -180,6 +180,25 @@ fn every_picture_is_drawn() {
 }
 
 #[test]
+fn another_tolerance_than_the_usual_is_told() {
+    let place = place();
+    for surface in ["two.obj", "torus.obj", "egg.obj", "egg.obj --method gradient"] {
+        let usual = place.expect(0, &format!("uniformize {surface} --report r.json"));
+        assert!(!usual.out.contains("tolerance"), "{}", usual.out);
+        assert_eq!(place.json("r.json")["result"]["tolerance"], 1e-10);
+        let rough = place.expect(0, &format!("uniformize {surface} --tolerance 1e-4 --report r.json"));
+        assert!(rough.out.contains("tolerance 1.0e-4"), "{}", rough.out);
+        let report = place.json("r.json");
+        for at in [&report["result"]["tolerance"], &report["options"]["tolerance"]] {
+            assert_eq!(at, 1e-4);
+        }
+        assert_eq!(report["checks"]["max_curvature_error"]["limit"], 1e-4);
+    }
+    let flow = place.expect(0, "flow torus.obj --tolerance 1e-4");
+    assert!(flow.out.contains("tolerance 1.0e-4"), "{}", flow.out);
+}
+
+#[test]
 fn what_cannot_be_done_is_refused_with_what_to_do() {
     let place = place();
     let before = place.files();
