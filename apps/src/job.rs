@@ -81,16 +81,8 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     let lengths = metric.lengths(&mesh).map_err(failed)?;
     let curvature = metric.curvature(&mesh).map_err(failed)?;
     job.pinned.iter().for_each(|&v| target[v] = curvature.at[v]);
-    let mut seconds = Seconds {
-        read: input.seconds_read,
-        build: input.seconds_build,
-        assemble: report.seconds.assemble,
-        analyse: report.seconds.analyse,
-        factor: report.seconds.factor,
-        solve: report.seconds.solve,
-        flip: start + report.seconds.flip,
-        ..Seconds::default()
-    };
+    let mut seconds = Seconds::new(input, &report.seconds);
+    seconds.flip += start;
     let layout = laid::lay_out(input, &flow, &curvature, &target, job.laid_out, &mut seconds, control)?;
     Ok(Outcome {
         scheme: job.scheme,

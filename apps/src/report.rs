@@ -144,6 +144,22 @@ pub struct Seconds {
     pub write: f64,
 }
 
+impl Seconds {
+    /// Those of reading a mesh and of a flow.
+    pub fn new(input: &Input, flow: &ricci::flow::Seconds) -> Seconds {
+        Seconds {
+            read: input.seconds_read,
+            build: input.seconds_build,
+            assemble: flow.assemble,
+            analyse: flow.analyse,
+            factor: flow.factor,
+            solve: flow.solve,
+            flip: flow.flip,
+            ..Seconds::default()
+        }
+    }
+}
+
 /// Run `work` and add its seconds to a phase.
 pub fn timed<T>(phase: &mut f64, work: impl FnOnce() -> T) -> T {
     let start = Instant::now();

@@ -29,6 +29,7 @@ pub struct ricci_uniformize_options {
     /// Whether edges may be flipped; default RICCI_FLIPS_AUTO.
     pub flips: MaybeUninit<ricci_flips>,
     /// The vertex at a quotient's origin, where the loops of its homotopy basis meet; default -1: one from which no vertex is far.
+    /// Of a sphere the vertex that is sent to infinity; default -1: one from which sizes differ least.
     pub base: i64,
     /// Largest |K| of a converged metric, radians, positive; default 1e-10. It is then lowered as far as twice the digits of a double
     /// allow (`angle_defect`).
@@ -105,7 +106,7 @@ pub unsafe extern "C" fn ricci_uniformize_options_init(
 /// The metric of constant curvature in the conformal class of a closed surface: on the sphere, or as a quotient of the plane or the
 /// hyperbolic plane, by its Euler characteristic.
 ///
-/// Of the options a sphere takes tolerance, steps and threads; its scheme is RICCI_SCHEME_YAMABE. Deterministic.
+/// Of the options a sphere takes base, tolerance, steps and threads; its scheme is RICCI_SCHEME_YAMABE. Deterministic.
 /// @return as ricci_sphere_new and ricci_quotient_new; RICCI_LAYOUT for a surface with boundary.
 ///
 /// @param mesh      the mesh; lengths are measured in space, or those of an intrinsic mesh.

@@ -704,7 +704,10 @@ typedef struct {
     ricci_scheme scheme;
     /** Whether edges may be flipped; default RICCI_FLIPS_AUTO. */
     ricci_flips flips;
-    /** The vertex at a quotient's origin, where the loops of its homotopy basis meet; default -1: one from which no vertex is far. */
+    /**
+     * The vertex at a quotient's origin, where the loops of its homotopy basis meet; default -1: one from which no vertex is far.
+     * Of a sphere the vertex that is sent to infinity; default -1: one from which sizes differ least.
+     */
     int64_t base;
     /**
      * Largest |K| of a converged metric, radians, positive; default 1e-10. It is then lowered as far as twice the digits of a double
@@ -2830,7 +2833,7 @@ ricci_status ricci_uniformize_options_init(ricci_uniformize_options *options, si
  * The metric of constant curvature in the conformal class of a closed surface: on the sphere, or as a quotient of the plane or the
  * hyperbolic plane, by its Euler characteristic.
  *
- * Of the options a sphere takes tolerance, steps and threads; its scheme is RICCI_SCHEME_YAMABE. Deterministic.
+ * Of the options a sphere takes base, tolerance, steps and threads; its scheme is RICCI_SCHEME_YAMABE. Deterministic.
  * @return as ricci_sphere_new and ricci_quotient_new; RICCI_LAYOUT for a surface with boundary.
  *
  * @param mesh      the mesh; lengths are measured in space, or those of an intrinsic mesh.

@@ -11,7 +11,7 @@
 use super::star::{FLAT_POLYHEDRON, Punctured};
 use crate::control::Control;
 use crate::error::Result;
-use crate::flow::{Options, Report, Solver, StopReason};
+use crate::flow::{Options, Report, Seconds, Solver, StopReason};
 use crate::geometry::twofold::two_sum;
 use crate::geometry::worse;
 use crate::mesh::{PerVertex, VertexId};
@@ -39,9 +39,24 @@ pub(super) struct Found {
     pub turning: f64,
 }
 
+/// What flows have cost.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Spent {
+    /// Newton steps.
+    pub iterations: usize,
+    pub seconds: Seconds,
+}
+
+impl Spent {
+    pub fn add(&mut self, report: &Report) {
+        self.iterations += report.iterations;
+        self.seconds += report.seconds;
+    }
+}
+
 impl Punctured {
     /// Flow from the present u to the plane with an outline that turns by `−straight` at least, in `most` Newton steps at most, which are
-    /// added to `steps`; no further where all vertices lie on a line ([`Punctured::is_flat`]).
+    /// added to `spent`; no further where all vertices lie on a line ([`Punctured::is_flat`]).
     ///
     /// `slivers`: at the end angles far below 1e-4 count. Then edges of slivers are flipped by [`Punctured::restore`], and a step that
     /// raises the error, which is one over the edge of where slivers are triangles, is made again a quarter as long.
@@ -50,7 +65,7 @@ impl Punctured {
         straight: f64,
         slivers: bool,
         most: usize,
-        steps: &mut usize,
+        spent: &mut Spent,
         options: &Options,
         control: &Control,
     ) -> Result<Found> {
@@ -60,7 +75,7 @@ impl Punctured {
             let before = slivers.then(|| self.clone());
             let report = self.step(longest, options, control)?;
             rounds += 1;
-            *steps += report.iterations;
+            spent.add(&report);
             let (error, stop_reason) = (report.max_curvature_error, report.stop_reason);
             let first = report.residuals.first().copied().unwrap_or(f64::INFINITY);
             longest = options.max_step;
@@ -76,8 +91,9 @@ impl Punctured {
             let turning = self.turning();
             let least = -turning.iter().map(|x| -x).fold(f64::NEG_INFINITY, worse);
             log::debug!(
-                "punctured at {}, step {steps}: max |K| = {error:.1e}, {} arcs, least turning {least:.1e}",
+                "punctured at {}, step {}: max |K| = {error:.1e}, {} arcs, least turning {least:.1e}",
                 self.at,
+                spent.iterations,
                 turning.len()
             );
             let ended = stop_reason != StopReason::IterationLimit;

@@ -6,7 +6,7 @@ use super::star::{NEARLY_FLAT, Punctured};
 use super::tries::{Flat, Tried, on_a_circle, said};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::flow::{Options, Solver, StopReason};
+use crate::flow::{Options, Seconds, Solver, StopReason};
 use crate::geometry::{Space, largest, triangle};
 use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::metric::lengths::face_lengths;
@@ -49,6 +49,8 @@ pub struct SphereReport {
     pub stop_reason: StopReason,
     /// Newton steps of the whole call.
     pub iterations: usize,
+    /// What they took; the rest of the call is neither in its phases nor in its `total`.
+    pub seconds: Seconds,
     /// Flips inside the class, on the way to the result.
     pub flips: usize,
     /// Isometric flips before them.
@@ -163,13 +165,13 @@ fn uniformize(
     };
     let nearly_flat = flat.0.is_flat(NEARLY_FLAT).then(|| on_a_circle(&flat.0.mesh));
     let (stop_reason, error) = (flat.2.stop_reason, flat.2.error);
-    let raised = match (raised(flat, start_flips, &tried), nearly_flat) {
+    let raised = match (raised(flat, start_flips, &mut tried), nearly_flat) {
         (Err(Error::Cancelled), _) => return Err(Error::Cancelled),
         (Ok(raised), Some(why)) if !raised.report.converged => return Err(why),
         (Ok(raised), _) => raised,
         (Err(_), Some(why)) => return Err(why),
         (Err(why), None) => {
-            let (steps, why) = (tried.iterations, said(why));
+            let (steps, why) = (tried.spent.iterations, said(why));
             return Err(Error::Layout(format!(
                 "no sphere over the plane that was found (max |K| = {error:.1e} after {steps} steps: {stop_reason}): {why}"
             )));
@@ -194,12 +196,12 @@ struct Raised {
 }
 
 /// From the plane to the sphere.
-fn raised((surface, plane, found): Flat, start_flips: usize, tried: &Tried) -> Result<Raised> {
+fn raised((surface, plane, found): Flat, start_flips: usize, tried: &mut Tried) -> Result<Raised> {
     let tolerance = tried.options.tolerance;
     let view = surface.centre(&plane, tried.weights)?;
     let plane = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
     let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
-    let (metric, curvature, steps) = polished(&surface.mesh, spherical, tried)?;
+    let (metric, curvature) = polished(&surface.mesh, spherical, tried)?;
     let delaunay_violation = surface.delaunay_violation();
     let whole = curvature.broken.is_empty();
     let converged = found.converged
@@ -215,7 +217,8 @@ fn raised((surface, plane, found): Flat, start_flips: usize, tried: &Tried) -> R
             StopReason::Converged if !converged => StopReason::Stalled,
             reason => reason,
         },
-        iterations: tried.iterations + steps,
+        iterations: tried.spent.iterations,
+        seconds: tried.spent.seconds,
         flips: surface.flips,
         start_flips,
         puncture: surface.at,
@@ -233,13 +236,13 @@ fn raised((surface, plane, found): Flat, start_flips: usize, tried: &Tried) -> R
     Ok(Raised { surface, metric, plane, positions, report })
 }
 
-/// The spherical metric with K = 0 to the tolerance, its curvature, and the Newton steps that took. As lifted it has that but for what
+/// The spherical metric with K = 0 to the tolerance, and its curvature. As lifted it has that but for what
 /// rounding of the plane does to needles, which a step or two on the sphere make up for.
-fn polished(mesh: &Mesh, lifted: Metric, tried: &Tried) -> Result<(Metric, Curvature, usize)> {
+fn polished(mesh: &Mesh, lifted: Metric, tried: &mut Tried) -> Result<(Metric, Curvature)> {
     let (flow, left) = (tried.options, tried.left());
     let curvature = lifted.curvature(mesh)?;
     if largest(curvature.at.iter()) <= flow.tolerance || left == 0 {
-        return Ok((lifted, curvature, 0));
+        return Ok((lifted, curvature));
     }
     let options = Options { max_iterations: POLISH_STEPS.min(left), ..flow.clone() };
     let mut solver = Solver::new(mesh.clone(), lifted, options)?;
@@ -251,7 +254,8 @@ fn polished(mesh: &Mesh, lifted: Metric, tried: &Tried) -> Result<(Metric, Curva
         before
     };
     let curvature = metric.curvature(mesh)?;
-    Ok((metric, curvature, report.iterations))
+    tried.spent.add(&report);
+    Ok((metric, curvature))
 }
 
 /// A power of two of about the size of the longest edge: with η over its square nothing depends on the size of the surface, and

@@ -1,6 +1,6 @@
 //! Flows from one vertex after the other, until one ends well.
 
-use super::puncture::Found;
+use super::puncture::{Found, Spent};
 use super::star::{FLAT_POLYHEDRON, NEARLY_FLAT, Punctured};
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -26,8 +26,8 @@ pub(super) type Flat = (Punctured, PerVertex<[f64; 2]>, Found);
 pub(super) struct Tried<'a> {
     /// Flows that were started.
     pub flows: usize,
-    /// Their Newton steps, within the limit of the options for all of them.
-    pub iterations: usize,
+    /// What they have cost; their Newton steps are within the limit of the options for all of them.
+    pub spent: Spent,
     /// All vertices lie on one circle.
     flat: bool,
     pub weights: &'a PerVertex<f64>,
@@ -38,7 +38,7 @@ pub(super) struct Tried<'a> {
 impl<'a> Tried<'a> {
     /// Nothing yet; `weights` of the vertices are those of the centring.
     pub fn new(weights: &'a PerVertex<f64>, options: &'a Options, control: &'a Control) -> Tried<'a> {
-        Tried { flows: 0, iterations: 0, flat: false, weights, options, control }
+        Tried { flows: 0, spent: Spent::default(), flat: false, weights, options, control }
     }
 
     /// The plane with this vertex at infinity.
@@ -133,7 +133,7 @@ impl<'a> Tried<'a> {
 
     /// Newton steps that are left of the limit for all flows.
     pub fn left(&self) -> usize {
-        self.options.iteration_limit().saturating_sub(self.iterations)
+        self.options.iteration_limit().saturating_sub(self.spent.iterations)
     }
 
     /// One flow: of a guess it takes no more than half of what is left, so that other vertices have their turn, but [`STEPS`] at least.
@@ -145,8 +145,8 @@ impl<'a> Tried<'a> {
     ) -> Result<(PerVertex<[f64; 2]>, Found)> {
         self.flows += 1;
         let most = if straight < ROUGHLY { STEPS } else { STEPS.max(left / 2) }.min(left);
-        let steps = &mut self.iterations;
-        let found = surface.flatten(straight, straight < ROUGHLY, most, steps, self.options, self.control)?;
+        let spent = &mut self.spent;
+        let found = surface.flatten(straight, straight < ROUGHLY, most, spent, self.options, self.control)?;
         Ok((surface.lay_out(self.control)?, found))
     }
 }

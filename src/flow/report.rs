@@ -65,6 +65,17 @@ pub struct Seconds {
     pub total: f64,
 }
 
+impl std::ops::AddAssign for Seconds {
+    fn add_assign(&mut self, rest: Seconds) {
+        self.assemble += rest.assemble;
+        self.analyse += rest.analyse;
+        self.factor += rest.factor;
+        self.solve += rest.solve;
+        self.flip += rest.flip;
+        self.total += rest.total;
+    }
+}
+
 /// Adds its lifetime to a phase.
 pub(super) fn timed<R>(phase: &mut f64, work: impl FnOnce() -> R) -> R {
     let start = Instant::now();
@@ -161,20 +172,13 @@ impl Report {
     /// This flow and the one that took it to its end.
     pub(super) fn then(mut self, rest: Report) -> Report {
         self.residuals.extend(rest.residuals.into_iter().skip(1));
-        let (a, b) = (self.seconds, rest.seconds);
+        self.seconds += rest.seconds;
         Report {
             iterations: self.iterations + rest.iterations,
             flips: self.flips + rest.flips,
             shifted: self.shifted + rest.shifted,
             residuals: self.residuals,
-            seconds: Seconds {
-                assemble: a.assemble + b.assemble,
-                analyse: a.analyse + b.analyse,
-                factor: a.factor + b.factor,
-                solve: a.solve + b.solve,
-                flip: a.flip + b.flip,
-                total: a.total + b.total,
-            },
+            seconds: self.seconds,
             ..rest
         }
     }

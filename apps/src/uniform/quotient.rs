@@ -84,17 +84,8 @@ impl Uniformized {
         control: &Control,
     ) -> Result<Uniformized, Failure> {
         let Quotient { report, angle_defect, metric, layout, basis, deck } = quotient;
-        let mut seconds = Seconds {
-            read: input.seconds_read,
-            build: input.seconds_build,
-            assemble: report.seconds.assemble,
-            analyse: report.seconds.analyse,
-            factor: report.seconds.factor,
-            solve: report.seconds.solve,
-            flip: report.seconds.flip,
-            layout: taken - report.seconds.total,
-            ..Seconds::default()
-        };
+        let mut seconds = Seconds::new(input, &report.seconds);
+        seconds.layout = taken - report.seconds.total;
         // What goes wrong from here on is no fault of the input.
         let failed = |error: ricci::Error| match error {
             ricci::Error::Cancelled => Failure::Cancelled,

@@ -89,8 +89,12 @@ impl Round {
         needs: Needs,
         control: &Control,
     ) -> Result<Round, Failure> {
-        let Input { seconds_read: read, seconds_build: build, .. } = *input;
-        let mut seconds = Seconds { read, build, solve: taken, ..Seconds::default() };
+        let flow = match &way {
+            Way::Puncture(report) => &report.seconds,
+            Way::Flow(report) => &report.seconds,
+        };
+        let mut seconds = Seconds::new(input, flow);
+        seconds.layout = taken - flow.total;
         let failed = |error: ricci::Error| Failure::Failed(error.to_string());
         let refinement = match needs.refinement {
             true => Some(told(timed(&mut seconds.refine, || metric.refinement(control)))?),
