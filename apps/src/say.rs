@@ -49,6 +49,15 @@ pub fn flow(done: &Done) {
     lines(&text);
 }
 
+/// A length or an area: with so many decimals, or, where those would be zeros or noise, with as many digits and a power of ten.
+pub fn size(x: f64, decimals: usize) -> String {
+    if x == 0.0 || (1e-3..1e9).contains(&x.abs()) {
+        format!("{x:.decimals$}")
+    } else {
+        format!("{x:.decimals$e}")
+    }
+}
+
 /// What max |K| was held against, where it is not what goes without saying.
 pub fn tolerance(held: f64) -> String {
     if held == Options::default().tolerance { String::new() } else { format!(", tolerance {held:.1e}") }

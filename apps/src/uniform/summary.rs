@@ -22,29 +22,31 @@ pub fn say(done: &Done, copies: bool) {
 
 fn quotient(u: &Uniformized, copies: bool) -> String {
     let mut text = format!(
-        "metric   {} {}: {} after {}, max |K| = {:.1e}{}, area {:.6}\n",
+        "metric   {} {}: {} after {}, max |K| = {:.1e}{}, area {}\n",
         u.deck.space,
         u.metric.scheme(),
         u.report.stop_reason,
         say::count(u.report.iterations, "step", "steps"),
         u.curvature_error(),
         say::tolerance(u.report.tolerance),
-        u.area(),
+        say::size(u.area(), 6),
     );
     text += &format!("layout   {}\n", say::layout(&u.laid));
     let [least, most] = [(f64::min as fn(f64, f64) -> f64, f64::INFINITY), (f64::max, 0.0)]
         .map(|(pick, start)| u.deck.translation_lengths().into_iter().fold(start, pick));
     text += &format!(
-        "group    {} with {}, residual {:.1e}, translation lengths {least:.4} to {most:.4}\n",
+        "group    {} with {}, residual {:.1e}, translation lengths {} to {}\n",
         say::count(u.deck.generators.len(), "generator", "generators"),
         relator(u),
         u.deck.relation_residual,
+        say::size(least, 4),
+        say::size(most, 4),
     );
     if let Ok(domain) = &u.domain {
         text += &format!(
-            "domain   {}, radius {:.4}\n",
+            "domain   {}, radius {}\n",
             say::count(domain.sides.len(), "side", "sides"),
-            domain.radius
+            say::size(domain.radius, 4)
         );
     }
     if let Err(why) = &u.domain {

@@ -174,6 +174,56 @@ fn every_picture_is_drawn() {
 }
 
 #[test]
+fn surfaces_of_any_size_are_uniformized_and_lengths_beyond_name_the_range() {
+    let place = place();
+    for surface in ["torus", "two", "egg"] {
+        let text = place.text(&format!("{surface}.obj"));
+        let scaled = |power: i32| {
+            let number = |word: &str| word.parse().map_or(word.into(), |x: f64| format!("{x}e{power}"));
+            let line = |line: &str| match line.starts_with("v ") {
+                true => line.split_whitespace().map(number).collect::<Vec<_>>().join(" "),
+                false => line.to_string(),
+            };
+            text.lines().map(line).collect::<Vec<_>>().join("\n") + "\n"
+        };
+        let shape = |name: &str| {
+            place.expect(0, &format!("uniformize {name} --report r.json --quiet"));
+            let report = place.json("r.json");
+            (report["result"]["space"].clone(), report["result"]["modulus"].clone())
+        };
+        let usual = shape(&format!("{surface}.obj"));
+        for power in [140, 90, -90, -140] {
+            place.put("scaled.obj", &scaled(power));
+            if surface == "torus" && power.abs() > 100 {
+                // Its layout has the size of the surface.
+                let refused = place.expect(1, "uniformize scaled.obj").err;
+                assert!(refused.contains("between 1e-100 and 1e100 (rescale)"), "{refused}");
+                place.expect(0, "flow scaled.obj --quiet");
+                continue;
+            }
+            let (space, modulus) = shape("scaled.obj");
+            assert_eq!(space, usual.0);
+            if surface == "torus" {
+                let far = numbers(&modulus)
+                    .iter()
+                    .zip(numbers(&usual.1))
+                    .map(|(a, b)| (a.abs() - b.abs()).abs())
+                    .sum::<f64>();
+                assert!(far < 1e-9, "{surface}, {power}: {modulus} {}", usual.1);
+            }
+            let out = place.expect(0, "uniformize scaled.obj").out;
+            assert!(!out.contains("00000000000000") && !out.contains("area 0.0"), "{out}");
+        }
+        for power in [160, 250, -160, -250] {
+            place.put("scaled.obj", &scaled(power));
+            let refused = place.expect(3, "uniformize scaled.obj").err;
+            assert!(refused.contains("between 1e-150 and 1e150") && refused.contains("rescale"), "{refused}");
+            assert!(refused.len() < 200, "{refused}");
+        }
+    }
+}
+
+#[test]
 fn another_tolerance_than_the_usual_is_told() {
     let place = place();
     for surface in ["two.obj", "torus.obj", "egg.obj", "egg.obj --method gradient"] {
