@@ -12,6 +12,7 @@ pub fn say(done: &Done, copies: bool) {
         Shape::Quotient(u) => quotient(u, copies),
         Shape::Sphere(s) => sphere_figures::text(s, copies),
     };
+    text += &say::slivers(&done.input, &done.checks);
     let left_out = match &done.shape {
         Shape::Quotient(u) => u.left_out.as_slice(),
         Shape::Sphere(_) => &[],

@@ -224,6 +224,32 @@ fn surfaces_of_any_size_are_uniformized_and_lengths_beyond_name_the_range() {
 }
 
 #[test]
+fn where_a_check_fails_the_thinnest_face_is_named() {
+    let place = place();
+    for surface in ["torus", "two", "egg"] {
+        // A vertex in face 0, nearly on one of its edges.
+        let text = place.text(&format!("{surface}.obj"));
+        let points: Vec<[f64; 3]> = parse_obj_plain(&text);
+        let line = text.lines().find(|line| line.starts_with("f ")).unwrap();
+        let face: Vec<usize> = line.split_whitespace().skip(1).map(|word| word.parse().unwrap()).collect();
+        let [a, b, c] = [0, 1, 2].map(|k| points[face[k] - 1]);
+        let p = [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]) + 1e-6 * (c[k] - a[k]));
+        let ([i, j, k], n) = ([face[0], face[1], face[2]], points.len() + 1);
+        let parts = format!("v {} {} {}\nf {i} {j} {n}\nf {j} {k} {n}\nf {k} {i} {n}", p[0], p[1], p[2]);
+        place.put("sliver.obj", &text.replacen(line, &parts, 1));
+        let failed = place.expect(1, "uniformize sliver.obj --max-iterations 2").out;
+        assert!(failed.contains("slivers  face 0 is the thinnest") && failed.contains("remesh"), "{failed}");
+        // Flips see to it.
+        let done = place.expect(0, "uniformize sliver.obj").out;
+        assert!(!done.contains("slivers"), "{done}");
+    }
+    let failed = place.expect(1, "flow sliver.obj --max-iterations 1").out;
+    assert!(failed.contains("slivers  face 0"), "{failed}");
+    let coarse = place.expect(1, "uniformize two.obj --max-iterations 1").out;
+    assert!(!coarse.contains("slivers"), "{coarse}");
+}
+
+#[test]
 fn another_tolerance_than_the_usual_is_told() {
     let place = place();
     for surface in ["two.obj", "torus.obj", "egg.obj", "egg.obj --method gradient"] {
