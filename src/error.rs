@@ -116,7 +116,8 @@ pub enum Error {
 
     /// An edge length is not positive, or out of range.
     #[error(
-        "edge {edge} has length {length}: lengths must lie between 1e-150 and 1e150 (weld its ends, or rescale)"
+        "edge {edge} has length {}: lengths must lie between 1e-150 and 1e150 (weld its ends, or rescale)",
+        number(*length)
     )]
     EdgeLength {
         /// The edge.
@@ -133,7 +134,7 @@ pub enum Error {
         excess: f64,
     },
     /// The scheme cannot represent the metric on this edge.
-    #[error("edge {edge}: weight η = {eta} is outside the scheme's range ({need})")]
+    #[error("edge {edge}: weight η = {} is outside the scheme's range ({need})", number(*eta))]
     EdgeWeight {
         /// The edge.
         edge: usize,
@@ -237,6 +238,11 @@ impl Error {
             Error::Layout(_) => 600,
         }
     }
+}
+
+/// A number, in powers of ten where it would be all zeros.
+fn number(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e9).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
 
 /// `too large by 1.5e-1`; a strict bound that is met with equality says so.

@@ -5,9 +5,13 @@ use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
 use crate::report::{Attempts, Checks};
+use crate::shape_quality::thinnest;
 use ricci::flow::{Options, StopReason};
 use ricci::mesh::VertexId;
 use std::io::{self, Write};
+
+/// Faces with a smaller angle, degrees, may be why something fails: rounding moves its cotangent by 1e-13 and more.
+const SLIVER: f64 = 0.1;
 
 /// Print lines; a reader that has gone away is no error.
 pub fn lines(text: &str) {
@@ -45,8 +49,18 @@ pub fn flow(done: &Done) {
         Ok(laid) => format!("layout   {}\n", layout(laid)),
         Err(why) => format!("layout   none: {why}\n"),
     };
+    text += &slivers(&done.input, &done.checks);
     text += &ending(&outcome.left_out, &outcome.failed, &done.checks, &done.files, done.seconds);
     lines(&text);
+}
+
+/// A length or an area: with so many decimals, or, where those would be zeros or noise, with as many digits and a power of ten.
+pub fn size(x: f64, decimals: usize) -> String {
+    if x == 0.0 || (1e-3..1e9).contains(&x.abs()) {
+        format!("{x:.decimals$}")
+    } else {
+        format!("{x:.decimals$e}")
+    }
 }
 
 /// What max |K| was held against, where it is not what goes without saying.
@@ -68,6 +82,17 @@ pub fn surface(input: &Input) -> String {
             n => count(n, "boundary loop", "boundary loops"),
         }
     )
+}
+
+/// Where a check fails: whether the surface has slivers, which cost digits.
+pub fn slivers(input: &Input, checks: &Checks) -> String {
+    let thinnest = || thinnest(&input.mesh, input.geometry, &input.lengths);
+    match (!checks.failed().is_empty()).then(thinnest).flatten() {
+        Some((face, angle)) if angle < SLIVER => format!(
+            "slivers  face {face} is the thinnest, with an angle of {angle:.1e} degrees: remesh there, or allow flips\n"
+        ),
+        _ => String::new(),
+    }
 }
 
 /// The last lines of a summary: what is not there, whether the checks hold, the files, the time.

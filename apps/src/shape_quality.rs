@@ -1,7 +1,7 @@
 //! How well shaped the triangles of a surface are.
 
 use ricci::geometry::{Space, triangle};
-use ricci::mesh::{Mesh, PerEdge, Point};
+use ricci::mesh::{FaceId, Mesh, PerEdge, Point};
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -37,6 +37,15 @@ pub fn of_surface(mesh: &Mesh, geometry: Space, lengths: &PerEdge<f64>) -> Shape
         non_delaunay_fraction: fraction(bad, interior.len()),
         ..of_sides(geometry, mesh.faces().map(sides))
     }
+}
+
+/// The face with the smallest angle, and that angle, degrees.
+pub fn thinnest(mesh: &Mesh, geometry: Space, lengths: &PerEdge<f64>) -> Option<(FaceId, f64)> {
+    let smallest = |f: FaceId| {
+        let angles = triangle::angles(geometry, mesh.opposite_edges(f).map(|e| lengths[e])).at;
+        (f, angles.into_iter().fold(f64::INFINITY, f64::min).to_degrees())
+    };
+    mesh.faces().map(smallest).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Quality of a list of triangles, whatever its connectivity; faces that name no or a non-finite vertex are left out.

@@ -10,6 +10,10 @@ use crate::metric::curvature::area;
 use crate::metric::{Scheme, SurfaceMetric};
 use crate::parallel::Pool;
 use crate::topology::{HomotopyBasis, central_vertex, check_vertex, homotopy_basis};
+use std::ops::RangeInclusive;
+
+/// How far the vertices of a torus may be from its base: doubles hold third powers of it, and 1e-33 of its square.
+const SIZES: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// What the uniformization of a surface can be asked.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +54,7 @@ pub struct Quotient {
 ///
 /// `lengths`: E entries, read in `geometry`. Deterministic for any number of threads.
 ///
-/// Errors: [`Error::Layout`] for a surface with boundary or of genus 0; those of [`SurfaceFlow::new`], [`SurfaceFlow::solve`],
+/// Errors: [`Error::Layout`] for a surface with boundary or of genus 0, and for a torus beyond 1e-100 to 1e100; those of [`SurfaceFlow::new`], [`SurfaceFlow::solve`],
 /// [`layout_in_space`], [`homotopy_basis`], [`DeckGroup::new`]; [`Error::Cancelled`].
 pub fn uniformize_quotient(
     mesh: &Mesh,
@@ -116,6 +120,15 @@ fn finish(
         let mut layout = layout_in_space(&mesh, metric.metric(), base, None, control)?;
         if metric.metric().space == Space::E2 {
             layout.scale((given_area / layout.area).sqrt());
+            if !SIZES.contains(&layout.radius) {
+                return Err(Error::Layout(format!(
+                    "a torus {:.1e} wide: cubes of its translations, and what doubles lose of them, are beyond doubles; \
+                     lengths have to lie between {:.0e} and {:.0e} (rescale)",
+                    layout.radius,
+                    SIZES.start(),
+                    SIZES.end()
+                )));
+            }
         }
         let basis = homotopy_basis(&mesh, &lengths, Some(base), control)?;
         let deck = DeckGroup::new(&mesh, &layout, &basis, control)?;

@@ -12,6 +12,7 @@ pub fn say(done: &Done, copies: bool) {
         Shape::Quotient(u) => quotient(u, copies),
         Shape::Sphere(s) => sphere_figures::text(s, copies),
     };
+    text += &say::slivers(&done.input, &done.checks);
     let left_out = match &done.shape {
         Shape::Quotient(u) => u.left_out.as_slice(),
         Shape::Sphere(_) => &[],
@@ -22,14 +23,14 @@ pub fn say(done: &Done, copies: bool) {
 
 fn quotient(u: &Uniformized, copies: bool) -> String {
     let mut text = format!(
-        "metric   {} {}: {} after {}, max |K| = {:.1e}{}, area {:.6}\n",
+        "metric   {} {}: {} after {}, max |K| = {:.1e}{}, area {}\n",
         u.deck.space,
         u.metric.scheme(),
         u.report.stop_reason,
         say::count(u.report.iterations, "step", "steps"),
         u.curvature_error(),
         say::tolerance(u.report.tolerance),
-        u.area(),
+        say::size(u.area(), 6),
     );
     let flipped = || say::count(u.flipped().len(), "triangle flipped", "triangles flipped");
     let layout = u.laid().map_or_else(|_| flipped(), say::layout);
@@ -40,16 +41,18 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
     let [least, most] = [(f64::min as fn(f64, f64) -> f64, f64::INFINITY), (f64::max, 0.0)]
         .map(|(pick, start)| u.deck.translation_lengths().into_iter().fold(start, pick));
     text += &format!(
-        "group    {} with {}, residual {:.1e}, translation lengths {least:.4} to {most:.4}\n",
+        "group    {} with {}, residual {:.1e}, translation lengths {} to {}\n",
         say::count(u.deck.generators.len(), "generator", "generators"),
         relator(u),
         u.deck.relation_residual,
+        say::size(least, 4),
+        say::size(most, 4),
     );
     if let Some(Ok(domain)) = &u.domain {
         text += &format!(
-            "domain   {}, radius {:.4}\n",
+            "domain   {}, radius {}\n",
             say::count(domain.sides.len(), "side", "sides"),
-            domain.radius
+            say::size(domain.radius, 4)
         );
     }
     if let Some(Err(why)) = &u.domain {

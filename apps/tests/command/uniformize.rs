@@ -180,6 +180,82 @@ fn every_picture_is_drawn() {
 }
 
 #[test]
+fn surfaces_of_any_size_are_uniformized_and_lengths_beyond_name_the_range() {
+    let place = place();
+    for surface in ["torus", "two", "egg"] {
+        let text = place.text(&format!("{surface}.obj"));
+        let scaled = |power: i32| {
+            let number = |word: &str| word.parse().map_or(word.into(), |x: f64| format!("{x}e{power}"));
+            let line = |line: &str| match line.starts_with("v ") {
+                true => line.split_whitespace().map(number).collect::<Vec<_>>().join(" "),
+                false => line.to_string(),
+            };
+            text.lines().map(line).collect::<Vec<_>>().join("\n") + "\n"
+        };
+        let shape = |name: &str| {
+            place.expect(0, &format!("uniformize {name} --report r.json --quiet"));
+            let report = place.json("r.json");
+            (report["result"]["space"].clone(), report["result"]["modulus"].clone())
+        };
+        let usual = shape(&format!("{surface}.obj"));
+        for power in [140, 90, -90, -140] {
+            place.put("scaled.obj", &scaled(power));
+            if surface == "torus" && power.abs() > 100 {
+                // Its layout has the size of the surface.
+                let refused = place.expect(1, "uniformize scaled.obj").err;
+                assert!(refused.contains("between 1e-100 and 1e100 (rescale)"), "{refused}");
+                place.expect(0, "flow scaled.obj --quiet");
+                continue;
+            }
+            let (space, modulus) = shape("scaled.obj");
+            assert_eq!(space, usual.0);
+            if surface == "torus" {
+                let far = numbers(&modulus)
+                    .iter()
+                    .zip(numbers(&usual.1))
+                    .map(|(a, b)| (a.abs() - b.abs()).abs())
+                    .sum::<f64>();
+                assert!(far < 1e-9, "{surface}, {power}: {modulus} {}", usual.1);
+            }
+            let out = place.expect(0, "uniformize scaled.obj").out;
+            assert!(!out.contains("00000000000000") && !out.contains("area 0.0"), "{out}");
+        }
+        for power in [160, 250, -160, -250] {
+            place.put("scaled.obj", &scaled(power));
+            let refused = place.expect(3, "uniformize scaled.obj").err;
+            assert!(refused.contains("between 1e-150 and 1e150") && refused.contains("rescale"), "{refused}");
+            assert!(refused.len() < 200, "{refused}");
+        }
+    }
+}
+
+#[test]
+fn where_a_check_fails_the_thinnest_face_is_named() {
+    let place = place();
+    for surface in ["torus", "two", "egg"] {
+        // A vertex in face 0, nearly on one of its edges.
+        let text = place.text(&format!("{surface}.obj"));
+        let points: Vec<[f64; 3]> = parse_obj_plain(&text);
+        let line = text.lines().find(|line| line.starts_with("f ")).unwrap();
+        let face: Vec<usize> = line.split_whitespace().skip(1).map(|word| word.parse().unwrap()).collect();
+        let [a, b, c] = [0, 1, 2].map(|k| points[face[k] - 1]);
+        let p = [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]) + 1e-6 * (c[k] - a[k]));
+        let ([i, j, k], n) = ([face[0], face[1], face[2]], points.len() + 1);
+        let parts = format!("v {} {} {}\nf {i} {j} {n}\nf {j} {k} {n}\nf {k} {i} {n}", p[0], p[1], p[2]);
+        place.put("sliver.obj", &text.replacen(line, &parts, 1));
+        let failed = place.expect(1, "uniformize sliver.obj --max-iterations 2").out;
+        assert!(failed.contains("slivers  face 0 is the thinnest") && failed.contains("remesh"), "{failed}");
+        // Flips see to it.
+        let done = place.expect(0, "uniformize sliver.obj").out;
+        assert!(!done.contains("slivers"), "{done}");
+    }
+    let failed = place.expect(1, "flow sliver.obj --max-iterations 1").out;
+    assert!(failed.contains("slivers  face 0"), "{failed}");
+    let coarse = place.expect(1, "uniformize two.obj --max-iterations 1").out;
+    assert!(!coarse.contains("slivers"), "{coarse}");
+}
+
+#[test]
 fn another_tolerance_than_the_usual_is_told() {
     let place = place();
     for surface in ["two.obj", "torus.obj", "egg.obj", "egg.obj --method gradient"] {
