@@ -25,8 +25,9 @@ impl Punctured {
         // Least exterior angle of the polyhedron at the edges of a vertex.
         let mut narrow = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
         let mut note = |v: VertexId, angle: f64| narrow[v] = narrow[v].min(angle);
+        let excess = self.excess();
         for e in self.mesh.edges().filter(|&e| !self.mesh.ends(e).contains(&self.at)) {
-            self.mesh.ends(e).into_iter().for_each(|v| note(v, -self.excess(e)));
+            self.mesh.ends(e).into_iter().for_each(|v| note(v, -excess[e]));
         }
         for (arc, turning) in self.star().into_iter().zip(self.turning()) {
             [self.at, self.mesh.tip(arc)].into_iter().for_each(|v| note(v, turning));

@@ -66,7 +66,7 @@ impl Punctured {
 
     /// By how much the angles opposite an edge of the planar part exceed π at most: 0 where every edge is Delaunay.
     pub fn delaunay_violation(&self) -> f64 {
-        self.mesh.edges().map(|e| self.excess(e)).fold(0.0, worse)
+        self.excess().iter().copied().fold(0.0, worse)
     }
 }
 

@@ -14,9 +14,10 @@ use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::conformal::{differences, edge};
 use crate::geometry::triangle::angles_from;
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates, PerVertex, VertexId};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::delaunay::flip_in_class;
+use crate::parallel;
 use std::f64::consts::PI;
 
 /// An arc longer than this, in units of log l², is off its bound: rounding of u and η is far below.
@@ -103,9 +104,23 @@ impl Punctured {
         angles_from(Space::E2, self.differences(f)).at[(corner + turn) % 3]
     }
 
-    /// By how much the angles opposite an edge exceed π (the star's have none at ∞); it is Delaunay where they do not.
-    pub fn excess(&self, e: EdgeId) -> f64 {
-        self.angle(e.halfedge(), 2) + self.angle(e.halfedge().twin(), 2) - PI
+    /// Per edge the angles opposite it (the star has none at ∞).
+    fn opposite(&self) -> PerEdge<[f64; 2]> {
+        let mut at = vec![[0.0; 3]; self.mesh.n_faces()];
+        parallel::fill(&mut at, |f| {
+            let [first, ..] = self.mesh.face_halfedges(FaceId::from(f));
+            if self.in_star(first) { [0.0; 3] } else { angles_from(Space::E2, self.differences(f.into())).at }
+        });
+        let angle = |h: HalfedgeId| {
+            let corner = |f: FaceId| self.mesh.face_halfedges(f).iter().position(|&side| side == h);
+            self.mesh.face(h).and_then(|f| corner(f).map(|k| at[f.index()][(k + 2) % 3])).unwrap_or(0.0)
+        };
+        PerEdge::from_fn(self.mesh.n_edges(), |e: EdgeId| [angle(e.halfedge()), angle(e.halfedge().twin())])
+    }
+
+    /// Per edge, by how much the angles opposite it exceed π; it is Delaunay where they do not.
+    pub fn excess(&self) -> PerEdge<f64> {
+        self.opposite().iter().map(|[a, b]| a + b - PI).collect::<Vec<_>>().into()
     }
 
     /// Turning of the link at the tip of each arc of the star: π − the angle inside. It adds up to 2π.
@@ -202,10 +217,16 @@ impl Punctured {
     /// Flip edges that are not Delaunay by more than rounding. Newton's own test takes the cosines of the angles, which cannot tell
     /// where one is π − φ and the other about φ, below 1e-6.
     fn flip_slivers(&mut self) {
-        for e in self.mesh.edges() {
-            let [a, b] = [e.halfedge(), e.halfedge().twin()].map(|h| self.angle(h, 2));
+        let fails = |[a, b]: [f64; 2]| {
             let phi = (PI - a.max(b)).max(f64::EPSILON);
-            if a + b - PI > FLAT + SLIVER * f64::EPSILON / phi {
+            a + b - PI > FLAT + SLIVER * f64::EPSILON / phi
+        };
+        // Mostly there are none, which is soon seen.
+        if !self.opposite().iter().any(|&angles| fails(angles)) {
+            return;
+        }
+        for e in self.mesh.edges() {
+            if fails([e.halfedge(), e.halfedge().twin()].map(|h| self.angle(h, 2))) {
                 self.flip(e);
             }
         }
