@@ -54,8 +54,8 @@ pub struct Quotient {
 ///
 /// `lengths`: E entries, read in `geometry`. Deterministic for any number of threads.
 ///
-/// Errors: [`Error::Layout`] for a surface with boundary or of genus 0, and for a torus beyond 1e-100 to 1e100; those of [`SurfaceFlow::new`], [`SurfaceFlow::solve`],
-/// [`layout_in_space`], [`homotopy_basis`], [`DeckGroup::new`]; [`Error::Cancelled`].
+/// Errors: [`Error::Layout`] for a surface with boundary or of genus 0, and for a torus beyond 1e-100 to 1e100; those of
+/// [`SurfaceFlow::new`], [`SurfaceFlow::solve`], [`layout_in_space`], [`homotopy_basis`], [`DeckGroup::new`]; [`Error::Cancelled`].
 pub fn uniformize_quotient(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,

@@ -198,6 +198,14 @@ static void what_is_no_sphere_is_refused(void) {
     FAILS(ricci_sphere_plane(sphere, NULL, 8), RICCI_NULL_POINTER, "points");
     FAILS(ricci_sphere_mesh(NULL, &one), RICCI_NULL_POINTER, "sphere");
     FAILS(ricci_sphere_summarise(sphere, &s, 4), RICCI_STRUCT_SIZE, "size 4");
+    /* Both sides of a square: four vertices on a circle. */
+    const double corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const uint32_t sides[4][3] = {{0, 1, 2}, {0, 2, 3}, {1, 0, 3}, {1, 3, 2}};
+    ricci_mesh *square = NULL;
+    OK(ricci_mesh_from_arrays(corners[0], 0, 4, sides[0], 4, &square));
+    FAILS(ricci_sphere_new(square, NULL, NULL, &none), RICCI_LAYOUT,
+          "all 4 vertices come to lie on one circle");
+    ricci_mesh_free(square);
     free(y), ricci_sphere_free(NULL), ricci_sphere_free(sphere), ricci_control_free(control);
     ricci_mesh_free(torus), ricci_mesh_free(disk), ricci_mesh_free(ball), ricci_mesh_free(three);
     ricci_mesh_free(two), ricci_mesh_free(tetrahedron);
