@@ -53,7 +53,7 @@ pub struct ricci_sphere_options {
     pub size: usize,
     /// Largest |K| of a converged metric, radians, positive; default 1e-10.
     pub tolerance: f64,
-    /// Newton steps of one flow before giving up; default 0: 500.
+    /// Newton steps of the whole call, over all vertices that are tried, before giving up; default 0: 500.
     pub max_iterations: usize,
     /// Threads, in a pool of the call's own; default 0: one per core. The result does not depend on it.
     pub threads: usize,

@@ -732,7 +732,7 @@ typedef struct {
     size_t size;
     /** Largest |K| of a converged metric, radians, positive; default 1e-10. */
     double tolerance;
-    /** Newton steps of one flow before giving up; default 0: 500. */
+    /** Newton steps of the whole call, over all vertices that are tried, before giving up; default 0: 500. */
     size_t max_iterations;
     /** Threads, in a pool of the call's own; default 0: one per core. The result does not depend on it. */
     size_t threads;
