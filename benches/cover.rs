@@ -47,7 +47,7 @@ fn round(mesh: &Mesh, given: &ricci::canonical::Quotient) -> [f64; 6] {
     done(&mut lap);
     let basis = homotopy_basis(mesh, &lengths, Some(base), &control).unwrap();
     done(&mut lap);
-    let deck = DeckGroup::new(mesh, &layout, &basis, &control).unwrap();
+    let deck = DeckGroup::new(mesh, metric.metric(), &layout, &basis, &control).unwrap();
     done(&mut lap);
     let copies = elements_to_depth(&deck, 1, 1000, &control).unwrap();
     assert_eq!(copies.len(), COPIES);

@@ -111,7 +111,8 @@ pub fn ending(
         text += &format!("FAILED   --{wish}: {why}\n");
     }
     text += &match checks.failed().as_slice() {
-        [] => "checks   all hold\n".into(),
+        [] if failed.0.is_empty() => "checks   all hold\n".into(),
+        [] => "checks   all hold of what was made\n".into(),
         failed => {
             let named = failed.iter().map(|name| {
                 let c = checks.0[name];

@@ -131,7 +131,7 @@ fn finish(
             }
         }
         let basis = homotopy_basis(&mesh, &lengths, Some(base), control)?;
-        let deck = DeckGroup::new(&mesh, &layout, &basis, control)?;
+        let deck = DeckGroup::new(&mesh, metric.metric(), &layout, &basis, control)?;
         Ok(Quotient { report, angle_defect, metric, layout, basis, deck })
     })
 }

@@ -1,6 +1,7 @@
 //! The deck group of a surface of constant curvature: its fundamental group as isometries of the model space.
 
 use super::dirichlet::to_origin;
+use super::space_develop::Faces;
 use super::space_layout::SpaceLayout;
 use crate::control::Control;
 use crate::error::Result;
@@ -8,8 +9,9 @@ use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, worse};
 use crate::mesh::{HalfedgeId, Mesh};
+use crate::metric::Metric;
 use crate::topology::word::{Letter, Word};
-use crate::topology::{FundamentalDomain, HomotopyBasis, SurfaceGroup};
+use crate::topology::{FundamentalDomain, HomotopyBasis, SurfaceGroup, crossed_halfedges};
 use std::f64::consts::TAU;
 
 /// An element of the deck group.
@@ -48,12 +50,13 @@ pub struct DeckGroup {
 }
 
 impl DeckGroup {
-    /// The deck group of a layout without cones, with the generators of a homotopy basis of the same mesh.
+    /// The deck group of a layout without cones of this metric, with the generators of a homotopy basis of the same mesh.
     ///
     /// Errors: [`crate::Error::Layout`], [`crate::Error::Size`] for a layout or basis of another mesh, or where the opened surface is no disk;
     /// [`crate::Error::Cancelled`].
     pub fn new(
         mesh: &Mesh,
+        metric: &Metric,
         layout: &SpaceLayout,
         basis: &HomotopyBasis,
         control: &Control,
@@ -79,10 +82,23 @@ impl DeckGroup {
             None => Motion::identity(layout.space),
         };
         let pairings: Vec<_> = (0..domain.sides.len()).map(pairing).collect();
+        let faces = Faces::new(mesh, metric)?;
+        let home = faces.frame(&layout.frames, deck.corner);
         for path in &basis.loops {
             control.check()?;
-            let crossed = domain.crossings(mesh, deck.corner, path)?;
-            let whole = crossed.iter().fold(Motion::identity(layout.space), |m, &k| m.compose(&pairings[k]));
+            // Products of pairings lead from one copy's middle to the next one's, in H² far from the loop, which costs e^{3 radius} of the
+            // digits; from face to face along the loop nothing leads farther than the loop. In E², where the layout has a scale
+            // of its own, they cost none.
+            let whole = match layout.space {
+                Space::H2 => {
+                    let crossed = crossed_halfedges(mesh, deck.corner, path)?;
+                    faces.transport(deck.corner, &crossed, deck.corner).conjugated_by(&home)
+                }
+                _ => {
+                    let crossed = domain.crossings(mesh, deck.corner, path)?;
+                    crossed.iter().fold(Motion::identity(layout.space), |m, &k| m.compose(&pairings[k]))
+                }
+            };
             deck.generators.push(whole.normalised());
         }
         for (side, motion) in domain.sides.iter().zip(pairings).filter(|(side, _)| side.partner.is_some()) {

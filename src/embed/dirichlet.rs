@@ -6,12 +6,15 @@ use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, triangle};
 use crate::topology::word::{Letter, Word};
+use std::f64::consts::PI;
 
 /// A side counts, and a corner is cut off, where that moves the border by more than the first of these for which the sides can be paired:
-/// elements are known to 1e-20 (some schemes: 1e-14) times e^distance, and corners where more than three bisectors meet to as much.
+/// elements are known to 1e-30 (some schemes: 1e-14) times e^distance, and corners where more than three bisectors meet to as much.
 const TOLERANCES: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
 /// Rounds of products of side elements. Each at least doubles the word length that is looked at; two or three are usual.
 const ROUNDS: usize = 12;
+/// Products that one search looks at: ten times what domains of genus 20 take. Beyond, wrong elements are making new ones.
+const MOST_PRODUCTS: usize = 5_000_000;
 /// An element that moves the centre by less is the identity (in E² in units of the longest side pairing).
 const SAME: f64 = 1e-6;
 /// The polygon's area against the surface's, relative.
@@ -35,6 +38,14 @@ pub struct DirichletDomain {
     pub radius: f64,
 }
 
+/// Side pairings that are farther from their words bound no polygon.
+const PAIRED: f64 = 1e-8;
+
+fn none(why: &str) -> Error {
+    let advice = "the surface reaches farther in its metric than its isometries have digits; take another base vertex or a finer mesh";
+    Error::Layout(format!("no Dirichlet domain: {why} ({advice})"))
+}
+
 /// The Dirichlet domain of the base point `centre` (ambient coordinates) of a closed surface with this area, in E² or H².
 ///
 /// Bisectors of the side pairings of the layout cut a first polygon; then those of products of the elements of its sides are tried, until
@@ -49,6 +60,12 @@ pub fn dirichlet_domain(
 ) -> Result<DirichletDomain> {
     if deck.sides.is_empty() || deck.space == Space::S2 {
         return Err(Error::Layout("a simply connected surface has no Dirichlet domain".into()));
+    }
+    if deck.side_residual > PAIRED {
+        let off = deck.side_residual;
+        return Err(none(&format!(
+            "the isometries of the sides are {off:.1e} away from those of their words"
+        )));
     }
     // Everything about the origin: the base point is carried there.
     let home = to_origin(deck.space, centre);
@@ -68,12 +85,20 @@ pub fn dirichlet_domain(
     } else {
         1.0
     };
-    let mut nearest = None;
+    // That of a disk of this area: no polygon of it lies in a smaller one.
+    let least = match deck.space {
+        Space::H2 => 2.0 * (area / (4.0 * PI)).sqrt().asinh(),
+        _ => (area / PI).sqrt(),
+    };
+    let (mut nearest, mut left) = (None, MOST_PRODUCTS);
     for tolerance in TOLERANCES {
         let mut polygon = Polygon::around(deck.space, reach, [tolerance * unit, SAME * unit]);
-        polygon.close(deck, &factors, control)?;
+        polygon.close(deck, &factors, least, &mut left, control)?;
         if !polygon.is_bounded() {
             break;
+        }
+        if polygon.radius < least {
+            continue;
         }
         match polygon.finish(centre, &home.inverse()) {
             Some(domain) if (domain.area - area).abs() <= AREA * area => return Ok(domain),
@@ -81,10 +106,10 @@ pub fn dirichlet_domain(
         }
     }
     let message = match nearest {
-        Some(domain) => format!("the polygon found has area {}, the surface {area}", domain.area),
-        None => "the sides of the polygon found are not paired".into(),
+        Some(domain) => format!("the polygon found has area {:.6e}, the surface {area:.6e}", domain.area),
+        None => "no polygon with paired sides and room for the surface was found".into(),
     };
-    Err(Error::Layout(format!("no Dirichlet domain: {message}")))
+    Err(none(&message))
 }
 
 fn product(deck: &DeckGroup, g: &DeckElement, h: &DeckElement, motion: Motion<Twofold>) -> DeckElement {
@@ -214,8 +239,16 @@ impl Polygon {
     }
 
     /// Cut by the bisectors of `factors` and of their inverses, then of products of the elements of its sides, until none cuts anything off.
-    /// Where the factors move the centre so far that their bisectors do not bound the polygon, short products come beside them.
-    fn close(&mut self, deck: &DeckGroup, factors: &[DeckElement], control: &Control) -> Result<()> {
+    /// Where the factors move the centre so far that their bisectors do not bound the polygon, short products come beside them. Ends where
+    /// its radius is below `least` or none of the products are `left`: elements are wrong then.
+    fn close(
+        &mut self,
+        deck: &DeckGroup,
+        factors: &[DeckElement],
+        least: f64,
+        left: &mut usize,
+        control: &Control,
+    ) -> Result<()> {
         // They generate the group, and stay.
         let given: Vec<_> = factors.iter().flat_map(|g| [g.clone(), inverse(g)]).collect();
         let mut factors = given.clone();
@@ -227,6 +260,10 @@ impl Polygon {
             let mut changed = false;
             for g in sides.iter().chain(&factors) {
                 control.check()?;
+                if self.radius < least || *left == 0 {
+                    return Ok(());
+                }
+                *left = left.saturating_sub(sides.len());
                 for h in &sides {
                     let motion = g.motion.compose(&h.motion);
                     if self.is_cut_by(&motion) || self.is_cut_by(&motion.inverse()) {
@@ -240,6 +277,7 @@ impl Polygon {
                 // Nothing new has come, and no room is left for more.
                 false if !changed && factors.len() > MOST_FACTORS => break,
                 false => {
+                    *left = left.saturating_sub(factors.len() * factors.len());
                     factors = shortest_products(deck, &factors, self.same, control)?;
                     factors.extend_from_slice(&given);
                 }
@@ -266,7 +304,7 @@ impl Polygon {
     /// Whether the bisector of `g` cuts a corner off.
     fn is_cut_by(&self, g: &Motion<Twofold>) -> bool {
         let moved = g.displacement();
-        if moved <= self.tolerance || moved > 2.0 * self.radius + self.tolerance {
+        if moved <= self.same || moved > 2.0 * self.radius + self.tolerance {
             return false;
         }
         let bisector = Bisector::new(g);
@@ -354,10 +392,7 @@ impl Polygon {
             }
         };
         let area = (0..n).map(sector).sum();
-        let place = |g: DeckElement| DeckElement {
-            motion: back.compose(&g.motion).compose(&back.inverse()),
-            word: g.word,
-        };
+        let place = |g: DeckElement| DeckElement { motion: g.motion.conjugated_by(back), word: g.word };
         Some(DirichletDomain {
             centre,
             corners: points.iter().map(|&p| back.apply(p).map(f64::from)).collect(),

@@ -161,6 +161,16 @@ impl<'a> Faces<'a> {
         frame
     }
 
+    /// What a walk from one half-edge to another does to a frame: through the half-edges `crossed`, each of the face one is in.
+    pub fn transport(&self, from: HalfedgeId, crossed: &[HalfedgeId], to: HalfedgeId) -> Frame {
+        let (mut frame, mut at) = (Motion::identity(self.space), from);
+        for &h in crossed {
+            frame = self.across(&self.walked(&frame, at, h), h.twin());
+            at = h.twin();
+        }
+        self.walked(&frame, at, to)
+    }
+
     /// The frame of `across`, the twin of the half-edge with this frame.
     pub fn across<T: Real + From<Twofold>>(&self, frame: &Motion<T>, across: HalfedgeId) -> Motion<T> {
         let half_turn = [0.0, 1.0].map(T::from);

@@ -235,7 +235,7 @@ impl SurfaceFlow {
     }
 
     /// Bring a curvature that is 0 to doubles' digits down to 0 to twice as many, on a closed surface after a flow to K̄ = 0: layouts in
-    /// H² magnify what is left by e^distance. Returns the largest |K| left ([`Metric::angle_defects`]), about 1e-20 where every ε is 0
+    /// H² magnify what is left by e^distance. Returns the largest |K| left ([`Metric::angle_defects`]), about 1e-30 where every ε is 0
     /// in E² or H².
     ///
     /// Errors: [`Error::Cancelled`].

@@ -36,7 +36,7 @@ pub(crate) fn corner_walk<'a>(
 
 /// The half-edges one crosses, turning about a vertex from one of its corners to another: counterclockwise,
 /// unless the boundary is in the way.
-pub(crate) fn turn(mesh: &Mesh, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
+fn turn(mesh: &Mesh, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
     let (mut h, mut crossed) = (from, Vec::new());
     while h != to && !mesh.is_boundary_edge(mesh.prev(h).edge()) {
         crossed.push(mesh.prev(h));
@@ -52,6 +52,25 @@ pub(crate) fn turn(mesh: &Mesh, from: HalfedgeId, to: HalfedgeId) -> Vec<Halfedg
         h = mesh.next(h.twin());
     }
     crossed
+}
+
+/// All half-edges that such a walk crosses, of a closed path also in the last turn, back to `corner`.
+///
+/// Errors: as [`corner_walk`].
+pub(crate) fn crossed_halfedges(
+    mesh: &Mesh,
+    corner: HalfedgeId,
+    path: &[HalfedgeId],
+) -> Result<Vec<HalfedgeId>> {
+    let (mut at, mut crossed) = (corner, Vec::new());
+    for (turned, next) in corner_walk(mesh, corner, path)? {
+        crossed.extend(turned);
+        at = next;
+    }
+    if mesh.origin(at) == mesh.origin(corner) {
+        crossed.extend(turn(mesh, at, corner));
+    }
+    Ok(crossed)
 }
 
 impl Iterator for CornerWalk<'_> {

@@ -1,7 +1,7 @@
 //! Fundamental domains: a surface opened along a cut, as a polygon whose sides are paired by deck
 //! transformations.
 
-use super::corner_walk::{corner_walk, turn};
+use super::corner_walk::crossed_halfedges;
 use super::cut::is_disk;
 use super::homotopy::HomotopyBasis;
 use super::lift::Lift;
@@ -109,15 +109,7 @@ impl FundamentalDomain {
     ///
     /// [`Error::Argument`] for a path that is none, or does not start at that corner.
     pub fn crossings(&self, mesh: &Mesh, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<usize>> {
-        let mut at = corner;
-        let mut crossed = Vec::new();
-        for (turned, next) in corner_walk(mesh, corner, path)? {
-            crossed.extend(turned);
-            at = next;
-        }
-        if mesh.origin(at) == mesh.origin(corner) {
-            crossed.extend(turn(mesh, at, corner));
-        }
+        let crossed = crossed_halfedges(mesh, corner, path)?;
         Ok(crossed.into_iter().filter_map(|h| self.side_of[h]).map(|k| k as usize).collect())
     }
 }

@@ -20,7 +20,7 @@ mod shorten;
 pub mod spanning;
 pub mod word;
 
-pub(crate) use corner_walk::corner_walk;
+pub(crate) use corner_walk::{corner_walk, crossed_halfedges};
 pub use cut::{CutGraph, cut_graph};
 pub use domain::{FundamentalDomain, Side};
 pub use farthest::{central_vertex, farthest_vertices};

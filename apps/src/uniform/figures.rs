@@ -38,9 +38,9 @@ pub struct UniformFigures {
     disagreement: f64,
     word: Vec<String>,
     relation_residual: f64,
-    /// How far the isometries of the layout's sides are from those of their words.
     /// ‖R − I‖ of the relator's matrix, not relative to anything.
     relation_error: f64,
+    /// How far the isometries of the layout's sides are from those of their words.
     side_residual: f64,
     traces: Vec<f64>,
     translation_lengths: Vec<f64>,

@@ -188,8 +188,8 @@ impl Uniformized {
         let meeting = if self.deck.space == Space::H2 { MEETING } else { limit };
         checks.add("layout_consistency", consistency, meeting);
         checks.add("flipped_triangles", self.flipped().len() as f64, 0.0);
-        let residual = worse(self.deck.relation_residual, self.deck.side_residual);
-        checks.add("relation_residual", residual, RELATION);
+        checks.add("relation_residual", self.deck.relation_residual, RELATION);
+        checks.add("side_residual", self.deck.side_residual, RELATION);
         let n = self.curvature.at.len() as f64;
         if self.deck.space == Space::H2 {
             let exact = 4.0 * PI * (self.deck.group.genus as f64 - 1.0);
@@ -208,9 +208,6 @@ impl Uniformized {
         checks.add("unconverged", f64::from(u8::from(!self.report.converged)), 0.0);
         if let Some(laid) = &self.laid {
             checks.add("without_refinement", f64::from(u8::from(laid.is_err())), 0.0);
-        }
-        if let Some(domain) = &self.domain {
-            checks.add("without_domain", f64::from(u8::from(domain.is_err())), 0.0);
         }
         if let Ok(domain) = self.domain() {
             let area = self.area();

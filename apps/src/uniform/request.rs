@@ -163,7 +163,9 @@ impl Wish<'_> {
         if input.positions.is_none() {
             let nothing = "an intrinsic metric has no positions in space";
             if self.args.uv.is_some() {
-                return Err(Failure::Usage(format!("--uv: {nothing}")));
+                return Err(Failure::Usage(format!(
+                    "--uv: {nothing}; `ricci cover --depth 0 --cover OUT.obj` writes the layout"
+                )));
             }
             if let Shown::Uniform(ShowChoice::Both | ShowChoice::Surface) = shown {
                 return Err(Failure::Usage(format!("--show: {nothing}; use domain")));

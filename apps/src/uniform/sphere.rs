@@ -4,6 +4,7 @@ use super::args::CanonicalArgs;
 use super::quotient::{known, told};
 use super::request::Needs;
 use crate::failure::Failure;
+use crate::in_space::consistency_limit;
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
 use crate::report::{Attempts, Checks, Seconds, timed};
@@ -14,6 +15,7 @@ use ricci::flow::{Report, SurfaceFlow};
 use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex, Point, VertexId};
 use ricci::metric::{Curvature, Refinement, SurfaceMetric};
+use std::f64::consts::PI;
 
 /// Edges are Delaunay and the outline of the plane is convex to this, radians; the centre of mass is in the middle to this.
 const DELAUNAY: f64 = 1e-9;
@@ -28,8 +30,8 @@ const POINT: f64 = 1e-12;
 pub enum Way {
     /// By a puncture, in the plane.
     Puncture(Box<SphereReport>),
-    /// By the gradient flow in S², which moves no vertex to the middle.
-    Flow(Box<Report>),
+    /// By the gradient flow in S², which moves no vertex to the middle; with the layout's disagreement.
+    Flow(Box<Report>, f64),
 }
 
 /// A surface on the unit sphere.
@@ -76,7 +78,7 @@ pub fn flowed(
     for h in metric.mesh().halfedges().filter(|&h| !metric.mesh().is_outside(h)) {
         positions[metric.mesh().origin(h)] = layout.corner(h);
     }
-    Ok((Way::Flow(Box::new(report)), metric, positions))
+    Ok((Way::Flow(Box::new(report), layout.disagreement), metric, positions))
 }
 
 impl Round {
@@ -91,7 +93,7 @@ impl Round {
     ) -> Result<Round, Failure> {
         let flow = match &way {
             Way::Puncture(report) => &report.seconds,
-            Way::Flow(report) => &report.seconds,
+            Way::Flow(report, _) => &report.seconds,
         };
         let mut seconds = Seconds::new(input, flow);
         seconds.layout = taken - flow.total;
@@ -102,7 +104,7 @@ impl Round {
         };
         let tolerance = match &way {
             Way::Puncture(_) => args.solve.tolerance,
-            Way::Flow(report) => report.tolerance,
+            Way::Flow(report, _) => report.tolerance,
         };
         Ok(Round {
             way,
@@ -173,7 +175,7 @@ impl Round {
         checks.add("flipped_triangles", self.inward() as f64, 0.0);
         let converged = match &self.way {
             Way::Puncture(report) => report.converged,
-            Way::Flow(report) => report.converged,
+            Way::Flow(report, _) => report.converged,
         };
         checks.add("unconverged", f64::from(u8::from(!converged)), 0.0);
         if let Way::Puncture(report) = &self.way {
@@ -184,6 +186,11 @@ impl Round {
             if report.u_range < RANGE {
                 checks.add("nonconvexity", report.nonconvexity, CONVEX);
             }
+        }
+        if let Way::Flow(_, disagreement) = self.way {
+            let errors = self.curvature.at.iter().map(|k| k.abs()).sum();
+            let limit = consistency_limit(Space::S2, PI, errors, self.metric.mesh().n_faces());
+            checks.add("layout_consistency", disagreement, limit);
         }
         checks.add("max_curvature_error", self.curvature_error(), self.tolerance);
         if let Some(refinement) = &self.refinement {

@@ -76,10 +76,10 @@ impl SphereFigures {
     pub fn new(input: &Input, s: &Round, copies: bool) -> SphereFigures {
         let (converged, stop_reason, iterations, flips) = match &s.way {
             Way::Puncture(r) => (r.converged, r.stop_reason, r.iterations, r.flips),
-            Way::Flow(r) => (r.converged, r.stop_reason, r.iterations, r.flips),
+            Way::Flow(r, _) => (r.converged, r.stop_reason, r.iterations, r.flips),
         };
         let plane = match &s.way {
-            Way::Flow(_) => None,
+            Way::Flow(..) => None,
             Way::Puncture(r) => Some(PlaneFigures {
                 puncture: r.puncture.0,
                 tried: r.tried,
@@ -194,7 +194,7 @@ fn dilatation(from: &[[f64; 2]; 2], to: &[[f64; 2]; 2]) -> f64 {
 pub fn text(s: &Round, copies: bool) -> String {
     let (stop, steps) = match &s.way {
         Way::Puncture(r) => (r.stop_reason, r.iterations),
-        Way::Flow(r) => (r.stop_reason, r.iterations),
+        Way::Flow(r, _) => (r.stop_reason, r.iterations),
     };
     let mut text = format!(
         "metric   s2 {}: {stop} after {}, max |K| = {:.1e}{}, area {:.6}\n",

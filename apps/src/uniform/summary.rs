@@ -41,10 +41,11 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
     let [least, most] = [(f64::min as fn(f64, f64) -> f64, f64::INFINITY), (f64::max, 0.0)]
         .map(|(pick, start)| u.deck.translation_lengths().into_iter().fold(start, pick));
     text += &format!(
-        "group    {} with {}, residual {:.1e}, translation lengths {} to {}\n",
+        "group    {} with {}, residual {:.1e}, of side pairings {:.1e}, translation lengths {} to {}\n",
         say::count(u.deck.generators.len(), "generator", "generators"),
         relator(u),
         u.deck.relation_residual,
+        u.deck.side_residual,
         say::size(least, 4),
         say::size(most, 4),
     );
