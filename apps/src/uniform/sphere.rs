@@ -53,7 +53,7 @@ pub struct Round {
 /// How a sphere was found, its metric, and where its vertices are.
 pub type Found = (Way, SurfaceMetric, PerVertex<Point>);
 
-/// What [`ricci::canonical::uniformize`] found.
+/// What [`ricci::canonical::uniformize()`] found.
 pub fn punctured(sphere: Sphere) -> Found {
     let Sphere { metric, positions, report, .. } = sphere;
     (Way::Puncture(Box::new(report)), metric, positions)
