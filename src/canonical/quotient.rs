@@ -21,7 +21,7 @@ pub struct QuotientOptions {
     /// Default [`Scheme::Yamabe`].
     pub scheme: Scheme,
     /// The base vertex, at the layout's origin, where the loops of the homotopy basis meet. Default: one from which no vertex is far.
-    /// Of a sphere the vertex that [`super::uniformize`] sends to infinity. Default: [`super::SphereOptions::puncture`]'s.
+    /// Of a sphere the vertex that [`super::uniformize()`] sends to infinity. Default: [`super::SphereOptions::puncture`]'s.
     pub base: Option<VertexId>,
     /// Of the flow.
     pub flow: Options,
