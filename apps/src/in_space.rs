@@ -95,7 +95,8 @@ fn laid(
 
 /// What curvature errors and rounding allow [`consistency`] to be.
 pub fn consistency_limit(space: Space, radius: f64, errors: f64, n_faces: usize) -> f64 {
-    // A vertex with curvature error δ turns what lies beyond it by δ: in H² that moves a point at distance r by sinh(r) δ.
+    // A vertex with curvature error δ turns what lies beyond it by δ: in E² that moves it by at most δ of the diameter, in H² a point at
+    // distance r by sinh(r) δ.
     let off = errors + STEP_ROUNDING * n_faces as f64;
     if space == Space::H2 { MEETING.max(radius.sinh() * off) } else { off }
 }

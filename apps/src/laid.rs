@@ -2,7 +2,7 @@
 
 use crate::charts::Packed;
 use crate::failure::Failure;
-use crate::in_space::{InSpace, half_in_space, in_space, is_carried_back};
+use crate::in_space::{InSpace, consistency_limit, half_in_space, in_space, is_carried_back};
 use crate::input::Input;
 use crate::report::{Seconds, timed};
 use ricci::Control;
@@ -85,10 +85,9 @@ pub fn lay_out(
     let given = &input.mesh;
     let inside = |v: &VertexId| !given.is_boundary_vertex(*v) && target[*v].abs() > CONE;
     let cones: Vec<VertexId> = given.vertices().filter(inside).collect();
-    // A vertex with curvature error δ turns what lies beyond it by δ, which moves that by at most δ · diameter.
     let wanted = flow.target(target);
     let errors: f64 = curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum();
-    let consistency_limit = errors + STEP_ROUNDING * mesh.n_faces() as f64;
+    let limit = consistency_limit(Space::E2, 0.0, errors, mesh.n_faces());
     let result = (|| {
         if metric.space == Space::H2 && flow.double().is_some() {
             return half_in_space(input, &flow.now(), &cones, errors, seconds, control);
@@ -108,8 +107,8 @@ pub fn lay_out(
             false => Some(timed(&mut seconds.refine, || flow.refinement(control))?),
         };
         timed(&mut seconds.layout, || match refinement {
-            None => plain(input, flow, &cones, area, consistency_limit, control),
-            Some(refinement) => refined(input, flow, refinement, &cones, area, consistency_limit, control),
+            None => plain(input, flow, &cones, area, limit, control),
+            Some(refinement) => refined(input, flow, refinement, &cones, area, limit, control),
         })
     })();
     match result {

@@ -1,6 +1,5 @@
 //! Layouts of hyperbolic metrics.
 
-use crate::arrays;
 use crate::choice::choose;
 use crate::control::{self, ricci_control};
 use crate::drawing::{Drawing, Hyperbolic};
@@ -46,9 +45,8 @@ pub unsafe extern "C" fn ricci_layout_hyperbolic(
     guard::call(|door| {
         let layout = output("layout", layout)?;
         let metric = door.shared(metric)?;
-        let mesh = metric.given();
-        let target = arrays::array_of("target", target, n_vertices, mesh.n_vertices())?;
-        layout.hand_over(unroll(metric, &cones(mesh, &target), choose(model)?, &control::of(control))?);
+        let cones = cones(metric.given(), target, n_vertices)?;
+        layout.hand_over(unroll(metric, &cones, choose(model)?, &control::of(control))?);
         Ok(())
     })
 }

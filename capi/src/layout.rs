@@ -147,10 +147,11 @@ fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outco
     Ok(ricci_layout { poison, mesh, positions, drawing, quality, surface, refinement })
 }
 
-/// Interior vertices whose target is not 0.
-pub(crate) fn cones(mesh: &Mesh, target: &[f64]) -> Vec<VertexId> {
+/// Interior vertices whose target, one of the n_vertices at `target`, is not 0.
+pub(crate) fn cones(mesh: &Mesh, target: *const f64, n_vertices: usize) -> Outcome<Vec<VertexId>> {
+    let target = arrays::array_of("target", target, n_vertices, mesh.n_vertices())?;
     let cone = |v: &VertexId| target[v.index()] != 0.0 && !mesh.is_boundary_vertex(*v);
-    mesh.vertices().filter(cone).collect()
+    Ok(mesh.vertices().filter(cone).collect())
 }
 
 /// Unroll a Euclidean metric into the plane.
@@ -178,9 +179,8 @@ pub unsafe extern "C" fn ricci_layout_new(
     guard::call(|door| {
         let layout = output("layout", layout)?;
         let metric = door.shared(metric)?;
-        let mesh = metric.given();
-        let target = arrays::array_of("target", target, n_vertices, mesh.n_vertices())?;
-        layout.hand_over(unroll(metric, &cones(mesh, &target), &control::of(control))?);
+        let cones = cones(metric.given(), target, n_vertices)?;
+        layout.hand_over(unroll(metric, &cones, &control::of(control))?);
         Ok(())
     })
 }

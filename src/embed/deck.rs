@@ -82,19 +82,22 @@ impl DeckGroup {
             None => Motion::identity(layout.space),
         };
         let pairings: Vec<_> = (0..domain.sides.len()).map(pairing).collect();
-        let faces = Faces::new(mesh, metric)?;
-        let home = faces.frame(&layout.frames, deck.corner);
+        let faces = match layout.space {
+            Space::H2 => Some(Faces::new(mesh, metric)?),
+            _ => None,
+        };
         for path in &basis.loops {
             control.check()?;
             // Products of pairings lead from one copy's middle to the next one's, in H² far from the loop, which costs e^{3 radius} of the
             // digits; from face to face along the loop nothing leads farther than the loop. In E², where the layout has a scale
             // of its own, they cost none.
-            let whole = match layout.space {
-                Space::H2 => {
+            let whole = match &faces {
+                Some(faces) => {
                     let crossed = crossed_halfedges(mesh, deck.corner, path)?;
+                    let home = faces.frame(&layout.frames, deck.corner);
                     faces.transport(deck.corner, &crossed, deck.corner).conjugated_by(&home)
                 }
-                _ => {
+                None => {
                     let crossed = domain.crossings(mesh, deck.corner, path)?;
                     crossed.iter().fold(Motion::identity(layout.space), |m, &k| m.compose(&pairings[k]))
                 }

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 const TOLERANCES: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
 /// Rounds of products of side elements. Each at least doubles the word length that is looked at; two or three are usual.
 const ROUNDS: usize = 12;
-/// Products that one search looks at: ten times what domains of genus 20 take. Beyond, wrong elements are making new ones.
+/// Products that one search looks at, some seconds' worth: where elements are wrong they make ever new ones.
 const MOST_PRODUCTS: usize = 5_000_000;
 /// An element that moves the centre by less is the identity (in E² in units of the longest side pairing).
 const SAME: f64 = 1e-6;

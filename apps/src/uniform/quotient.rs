@@ -11,7 +11,6 @@ use ricci::Control;
 use ricci::canonical::Quotient;
 use ricci::embed::{DeckElement, DeckGroup, DirichletDomain, SpaceLayout, dirichlet_domain};
 use ricci::flow::Report;
-use ricci::geometry::modulus::modulus;
 use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex};
 use ricci::metric::{Curvature, SurfaceMetric};
@@ -98,13 +97,6 @@ impl Uniformized {
             true => Some(told(in_space(input, &metric, &layout, errors, &mut seconds, control))?),
             false => None,
         };
-        let modulus = match (deck.generators.as_slice(), deck.space) {
-            ([a, b], Space::E2) => modulus([a, b].map(|g| {
-                let [x, y, _] = g.rounded().origin();
-                [x, y]
-            })),
-            _ => None,
-        };
         let form = || dirichlet_domain(&deck, ORIGIN, layout.area, control);
         let domain = match needs.domain {
             true => Some(told(timed(&mut seconds.layout, form))?),
@@ -121,7 +113,7 @@ impl Uniformized {
             curvature,
             layout,
             laid,
-            modulus,
+            modulus: deck.modulus(),
             basis,
             deck,
             domain,
