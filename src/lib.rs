@@ -29,6 +29,8 @@ pub mod topology;
 
 pub use control::Control;
 pub use error::{At, Error, Result};
+pub use flow::{Flow, Solution};
+pub use metric::{Class, Surface, Target};
 
 /// The README's Rust example is compiled and run with the tests.
 #[cfg(doctest)]

@@ -59,6 +59,11 @@ impl Pool {
     }
 }
 
+/// Run `work` inside a pool: the one that the caller is in, else one of `threads` threads ([`Pool::new`]) for this call alone.
+pub fn within<R: Send>(threads: usize, work: impl FnOnce() -> Result<R> + Send) -> Result<R> {
+    if rayon::current_thread_index().is_some() { work() } else { Pool::new(threads)?.run(work) }
+}
+
 impl Drop for Pool {
     fn drop(&mut self) {
         self.pool = None;

@@ -4,8 +4,8 @@ use super::evaluate::State;
 use super::newton::progress;
 use super::options::StepRule;
 use super::report::{Report, StopReason, TraceRow, timed};
-use super::solver::Run;
-use crate::control::Stage;
+use super::Flow;
+use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::Space;
 
@@ -14,20 +14,20 @@ const GROWTH: f64 = 10.0;
 /// Halvings before the flow counts as stalled.
 const HALVINGS: usize = 60;
 
-impl Run<'_> {
-    pub(super) fn gradient(&self, mut state: State, report: &mut Report) -> Result<State> {
+impl Flow {
+    pub(super) fn gradient(&self, mut state: State, report: &mut Report, control: &Control) -> Result<State> {
         let n = self.mesh.n_vertices();
         let mut direction = vec![0.0; n];
         let mut next_direction = vec![0.0; n];
-        let mut trial = State::new(self.mesh, self.start, self.start_low);
+        let mut trial = State::new(&self.mesh, &self.start, &self.start_low);
         // Pinned vertices hold their u: nothing is left to keep the area with.
-        let area = match self.class.space {
-            _ if self.pinned.contains(&true) => None,
+        let area = match self.metric.space {
+            _ if self.has_pins() => None,
             Space::S2 => Some(self.spherical_area()),
-            Space::E2 if self.options.gradient.area_normalised => Some(state.area(self.mesh, self.class)),
+            Space::E2 if self.options.gradient.area_normalised => Some(state.area(&self.mesh, &self.metric)),
             _ => None,
         };
-        let mut error = state.residual(self.target, self.pinned, &mut direction);
+        let mut error = state.residual(&self.target, &self.pinned, &mut direction);
         let (first, mut energy, mut step) = (error, 0.0, 0.0);
         report.trace.push(self.row(&state, 0, energy, error, step));
         report.residuals.push(error);
@@ -38,7 +38,7 @@ impl Run<'_> {
             if report.iterations >= self.options.iteration_limit() {
                 break StopReason::IterationLimit;
             }
-            self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
+            control.step(Stage::Flow, progress(first, error, report.tolerance))?;
             match self.options.gradient.step {
                 StepRule::Fixed(h) => step = h,
                 StepRule::BarzilaiBorwein if report.iterations > 0 => {}
@@ -47,10 +47,10 @@ impl Run<'_> {
             let mut h = step;
             let mut accepted = None;
             for _ in 0..HALVINGS {
-                self.control.check()?;
+                control.check()?;
                 trial.set_step(&state, h, &direction);
                 if timed(&mut report.seconds.assemble, || self.settle(&mut trial, area)) {
-                    let now = trial.residual(self.target, self.pinned, &mut next_direction);
+                    let now = trial.residual(&self.target, &self.pinned, &mut next_direction);
                     if now <= GROWTH * error {
                         accepted = Some(now);
                         break;
@@ -86,13 +86,13 @@ impl Run<'_> {
     }
 
     fn row(&self, state: &State, step: usize, energy: f64, error: f64, step_size: f64) -> TraceRow {
-        let area = state.area(self.mesh, self.class);
+        let area = state.area(&self.mesh, &self.metric);
         TraceRow { step, energy, max_curvature_error: error, area, step_size }
     }
 
     /// The explicit scheme is stable for h < 2/λ_max, and λ_max ≤ 2 max_i Σ |w| c(l) (Gershgorin).
     fn stable_step(&self, state: &State) -> f64 {
-        let space = self.class.space;
+        let space = self.metric.space;
         let mut row = vec![0.0; self.mesh.n_vertices()];
         for f in self.mesh.faces() {
             let weights = state.weights[f.index()];
@@ -113,16 +113,16 @@ impl Run<'_> {
 
     /// Evaluate `state.u`, after bringing it to the total area `area` (if given) by a constant.
     pub(super) fn settle(&self, state: &mut State, area: Option<f64>) -> bool {
-        if area.is_none() && self.free_scale {
+        if area.is_none() && self.free_scale() {
             state.center();
         }
-        if !state.evaluate(self.mesh, self.class) {
+        if !state.evaluate(&self.mesh, &self.metric) {
             return false;
         }
         let Some(area) = area else { return true };
         // Area grows as e^{2u} (exactly in E²): a fixed point that contracts fast on the sphere too.
         for _ in 0..RESCALINGS {
-            let now = state.area(self.mesh, self.class);
+            let now = state.area(&self.mesh, &self.metric);
             let mut shift = 0.5 * (area / now).ln();
             if !shift.is_finite() {
                 return false;
@@ -132,7 +132,7 @@ impl Run<'_> {
             }
             state.shift(shift);
             // Near the largest spherical metric of the class the area grows faster: come back half the way.
-            while !state.evaluate(self.mesh, self.class) {
+            while !state.evaluate(&self.mesh, &self.metric) {
                 shift *= 0.5;
                 if shift.abs() <= 4.0 * f64::EPSILON {
                     return false;

@@ -143,6 +143,18 @@ fn allowed_weight(epsilon: [i8; 2], edge: EdgeId, eta: f64) -> Result<f64> {
 }
 
 impl Initial {
+    /// A metric that is its own start: read in its own space.
+    pub(crate) fn of_metric(metric: Metric) -> Initial {
+        Initial {
+            input_geometry: metric.space,
+            radii: metric.radii(),
+            input_u: metric.u.clone(),
+            clamped_edges: 0,
+            max_length_change: 0.0,
+            metric,
+        }
+    }
+
     /// The conformal factor λ of [JKLLG08, Eqns 2–5] between the input and `metric`, per vertex: `u − u(0)` where
     /// ε = 0, `log(γ/γ(0))` elsewhere.
     pub fn conformal_factor(&self, metric: &Metric) -> Result<PerVertex<f64>> {

@@ -1,5 +1,6 @@
 //! Metrics in a conformal class: one formula for five schemes, mixed types and three geometries.
 
+pub mod class;
 pub mod curvature;
 pub mod delaunay;
 pub mod initial;
@@ -11,11 +12,12 @@ pub mod start;
 pub mod surface;
 pub mod target;
 
+pub use class::Class;
 pub use curvature::{Curvature, curvature};
 pub use initial::{Initial, initial_metric};
 pub use lengths::{Metric, lengths_from_positions};
 pub use refinement::Refinement;
 pub use scheme::Scheme;
 pub use start::delaunay_start;
-pub use surface::SurfaceMetric;
+pub use surface::Surface;
 pub use target::Target;
