@@ -24,18 +24,18 @@ pub struct Packed {
 
 /// The target `auto:N`.
 pub fn auto_target(n: usize, input: &Input, space: Space, control: &Control) -> Result<Target, Failure> {
-    if space != Space::E2 || input.geometry != Space::E2 {
+    if space != Space::E2 || input.surface.geometry() != Space::E2 {
         return Err(Failure::Usage("--target auto: cones are placed in e2 only".into()));
     }
-    let placed = auto_cones(&input.mesh, &input.lengths, n, control)?.target;
-    let curved = input.mesh.vertices().filter(|&v| placed[v] != 0.0);
+    let placed = auto_cones(input.mesh(), input.surface.lengths(), n, control)?.target;
+    let curved = input.mesh().vertices().filter(|&v| placed[v] != 0.0);
     Ok(Target::Cones(curved.map(|v| (v, placed[v])).collect()))
 }
 
 /// Interior vertices that a list of cones names.
 pub fn interior_cones(input: &Input, outcome: &Outcome) -> Option<Vec<(VertexId, f64)>> {
     let Target::Cones(cones) = &outcome.rule else { return None };
-    Some(cones.iter().filter(|c| !input.mesh.is_boundary_vertex(c.0)).copied().collect())
+    Some(cones.iter().filter(|c| !input.mesh().is_boundary_vertex(c.0)).copied().collect())
 }
 
 /// Cut the layout of an outcome into charts, if it has one.

@@ -112,11 +112,8 @@ impl FlowResult {
             residual: s.residual,
             edges: s.halfedges.len(),
         };
-        let given = |v: VertexId| outcome.mirror.as_ref().map_or(v.0, |mirror| v.0.min(mirror[v.index()]));
-        let worst = |&(v, curvature_error): &(VertexId, f64)| VertexFigures {
-            vertex: given(v) as usize,
-            curvature_error,
-        };
+        let worst =
+            |&(v, curvature_error): &(VertexId, f64)| VertexFigures { vertex: v.index(), curvature_error };
         let obstruction = |o: &Obstruction| ObstructionFigures {
             vertices: o.vertices.iter().map(|v| v.index()).collect(),
             target: o.curvature,
@@ -126,7 +123,7 @@ impl FlowResult {
             space: outcome.metric.space.name(),
             scheme: outcome.scheme.name(),
             target: outcome.rule.name(),
-            converged: report.converged,
+            converged: report.converged(),
             stop_reason: report.stop_reason.name(),
             iterations: report.iterations,
             flips: outcome.start_flips + report.flips,

@@ -56,7 +56,7 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     let input = input::read(&args.surface, control)?;
     // Placed cones exist in E² alone.
     let automatic = if matches!(args.target, Some(TargetChoice::Auto(_))) { Some(Space::E2) } else { None };
-    let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(&input.mesh));
+    let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
     check_outputs(args, &input, space)?;
     let job = Job {
         space,
@@ -64,12 +64,12 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
         target: args.target.as_ref().map(|t| target(t, &input, space, control)).transpose()?,
         options: Options {
             fixed_edges: match &args.keep_edges {
-                Some(path) => csv::read_edges(path, &input.mesh)?,
+                Some(path) => csv::read_edges(path, input.mesh())?,
                 None => Vec::new(),
             },
+            pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, input.mesh())),
             ..options(args)
         },
-        pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, &input.mesh)),
         laid_out: args.charts
             || [&args.uv, &args.circles, &args.picture.base.picture, &args.common.report]
                 .iter()
@@ -163,14 +163,14 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
             "--circles: scheme {scheme} has no circles; use inversive, thurston, tangential or virtual"
         )));
     }
-    if args.uv.is_some() && input.positions.is_none() {
+    if args.uv.is_some() && input.positions().is_none() {
         return Err(Failure::Usage("--uv: an intrinsic metric has no positions in space".into()));
     }
     if let Some(name) = args.picture.color().filter(|_| !laid_out).and_then(ColorChoice::of_layout) {
         return missing(&format!("--color {name}"));
     }
     if let Some(zoom) = args.picture.zoom {
-        let n = input.mesh.n_vertices();
+        let n = input.mesh().n_vertices();
         if zoom.vertex as usize >= n {
             return Err(Failure::Usage(format!(
                 "--zoom: there is no vertex {}, they are 0 to {}",
@@ -182,7 +182,7 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
     if let Some(path) = args.picture.base.picture.as_ref().filter(|_| !laid_out) {
         let nothing = if extension(path) == "svg" {
             "an SVG shows the layout alone"
-        } else if input.positions.is_none() {
+        } else if input.positions().is_none() {
             "an intrinsic metric has no positions in space"
         } else {
             return Ok(());
@@ -193,7 +193,7 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
 }
 
 fn target(choice: &TargetChoice, input: &Input, space: Space, control: &Control) -> Result<Target, Failure> {
-    let n = input.mesh.n_vertices();
+    let n = input.mesh().n_vertices();
     Ok(match choice {
         TargetChoice::Uniform => Target::Uniform,
         TargetChoice::Boundary => Target::Boundary,
@@ -314,7 +314,7 @@ impl Asked {
             keep_edges: text(&args.keep_edges),
             tolerance: args.solve.tolerance,
             max_iterations: options(args).iteration_limit(),
-            input_geometry: input.geometry.name(),
+            input_geometry: input.surface.geometry().name(),
             threads: args.common.threads(),
             metric: text(&args.metric),
             uv: text(&args.uv),

@@ -5,9 +5,10 @@ use crate::laid::{Laid, Placed, STEP_ROUNDING};
 use crate::report::{Seconds, timed};
 use ricci::Control;
 use ricci::embed::{RefinedSpaceLayout, SpaceLayout, refine_space_layout, unroll_refined_in_space};
+use ricci::flow::Solution;
 use ricci::geometry::Space;
 use ricci::mesh::{HalfedgeId, VertexId};
-use ricci::metric::{Refinement, SurfaceMetric};
+use ricci::metric::Refinement;
 
 /// In H² the two sides of a seam may always differ by this, a distance: what copies of the layout are to meet to.
 pub const MEETING: f64 = 1e-8;
@@ -16,7 +17,7 @@ pub const MEETING: f64 = 1e-8;
 const FEW: usize = 16;
 
 /// Whether to carry a layout back to the given triangulation: where an output needs that, or where it costs little.
-pub fn is_carried_back(metric: &SurfaceMetric, needed: bool) -> bool {
+pub fn is_carried_back(metric: &Solution, needed: bool) -> bool {
     needed || metric.crossings().is_ok_and(|n| n <= FEW * metric.mesh().n_edges())
 }
 
@@ -33,7 +34,7 @@ pub struct InSpace {
 /// Carry the layout of a metric's triangulation back to the given one. `errors`: the sum of |K − K̄| over the vertices.
 pub fn in_space(
     input: &Input,
-    metric: &SurfaceMetric,
+    metric: &Solution,
     whole: &SpaceLayout,
     errors: f64,
     seconds: &mut Seconds,
@@ -49,7 +50,7 @@ pub fn in_space(
 /// Lay out the given half of the double that a metric lives on. `cones`: vertices inside that the cut has to pass.
 pub fn half_in_space(
     input: &Input,
-    metric: &SurfaceMetric,
+    metric: &Solution,
     cones: &[VertexId],
     errors: f64,
     seconds: &mut Seconds,
@@ -66,13 +67,13 @@ pub fn half_in_space(
 
 fn laid(
     input: &Input,
-    metric: &SurfaceMetric,
+    metric: &Solution,
     refinement: Refinement,
     (refined, seams): (RefinedSpaceLayout, Vec<(HalfedgeId, usize)>),
     errors: f64,
 ) -> ricci::Result<Laid> {
-    let quality = refined.quality(&refinement, &input.mesh, &input.lengths)?;
-    let positions = match &input.positions {
+    let quality = refined.quality(&refinement, input.mesh(), input.surface.lengths())?;
+    let positions = match input.positions() {
         Some(positions) => Some(refinement.from_input_vertices(positions)?),
         None => None,
     };

@@ -135,9 +135,10 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
 impl Info {
     /// An intrinsic metric is a surface already; its lengths may still form no triangles.
     fn of_metric(surface: &Input) -> Self {
-        let Input { mesh, lengths, geometry, .. } = surface;
+        let surface = &surface.surface;
+        let (mesh, lengths, geometry) = (surface.mesh(), surface.lengths(), surface.geometry());
         let broken =
-            |f: &FaceId| triangle::angles(*geometry, mesh.opposite_edges(*f).map(|e| lengths[e])).broken();
+            |f: &FaceId| triangle::angles(geometry, mesh.opposite_edges(*f).map(|e| lengths[e])).broken();
         let defect = |f: FaceId| DefectFigures {
             code: "triangle_inequality",
             message: format!("face {f} breaks the triangle inequality of {geometry}"),
@@ -150,7 +151,7 @@ impl Info {
             .then_some(DefectCount { code: "triangle_inequality", count: defects.len() });
         Info {
             admissible: defects.is_empty(),
-            quality: shape_quality::of_surface(mesh, *geometry, lengths),
+            quality: shape_quality::of_surface(mesh, geometry, lengths),
             defect_counts: counted.into_iter().collect(),
             defects,
         }

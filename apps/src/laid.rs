@@ -8,7 +8,7 @@ use crate::report::{Seconds, timed};
 use ricci::Control;
 use ricci::control::Stage;
 use ricci::embed::{Layout, Quality, layout_in_space, layout_of, layout_refined, quality, refined_cut};
-use ricci::flow::SurfaceFlow;
+use ricci::flow::Solution;
 use ricci::geometry::modulus::modulus;
 use ricci::geometry::{Space, worse};
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
@@ -16,9 +16,6 @@ use ricci::metric::curvature::area;
 use ricci::metric::{Curvature, Refinement};
 use ricci::topology::{central_vertex, cut_graph};
 
-/// An interior vertex with more target curvature than this is a cone, and the cut passes it. Left inside, the vertex opens
-/// the layout by an angle of that size, which is below what the flow's tolerance leaves open anyway.
-const CONE: f64 = 1e-12;
 /// Rounding of one step of the development: a unit direction and a point are rotated and added, a few ulp each.
 pub const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -56,12 +53,11 @@ pub struct Laid {
     pub consistency_limit: f64,
 }
 
-/// Lay the metric of a flow out on the given surface, or say why it has no layout. `target`: per given vertex; `needed`: by an output.
+/// Lay the metric of a flow out on the given surface, or say why it has no layout. `needed`: by an output.
 pub fn lay_out(
     input: &Input,
-    flow: &SurfaceFlow,
+    flow: &Solution,
     curvature: &Curvature,
-    target: &PerVertex<f64>,
     needed: bool,
     seconds: &mut Seconds,
     control: &Control,
@@ -77,20 +73,21 @@ pub fn lay_out(
             curvature.broken[0]
         )));
     }
-    if !is_carried_back(&flow.now(), needed) {
+    if !is_carried_back(flow, needed) {
         let why = "edge flips led far away, and no output needs the way back to the given triangulation";
         return Ok(Err(why.into()));
     }
     control.step(Stage::Layout, 0.0)?;
-    let given = &input.mesh;
-    let inside = |v: &VertexId| !given.is_boundary_vertex(*v) && target[*v].abs() > CONE;
-    let cones: Vec<VertexId> = given.vertices().filter(inside).collect();
-    let wanted = flow.target(target);
-    let errors: f64 = curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum();
+    let given = input.mesh();
+    let cones = flow.cones().to_vec();
+    let sum = |wanted: PerVertex<f64>| -> f64 {
+        curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum()
+    };
+    let errors = flow.final_target().map_or(0.0, sum);
     let limit = consistency_limit(Space::E2, 0.0, errors, mesh.n_faces());
     let result = (|| {
         if metric.space == Space::H2 && flow.double().is_some() {
-            return half_in_space(input, &flow.now(), &cones, errors, seconds, control);
+            return half_in_space(input, flow, &cones, errors, seconds, control);
         }
         if metric.space == Space::H2 {
             let lengths = metric.lengths(mesh)?;
@@ -99,10 +96,10 @@ pub fn lay_out(
                 let root = central_vertex(mesh, &lengths, control)?;
                 layout_in_space(mesh, metric, root, cut.as_ref(), control)
             })?;
-            return in_space(input, &flow.now(), &whole, errors, seconds, control);
+            return in_space(input, flow, &whole, errors, seconds, control);
         }
-        let area = area(given, input.geometry, &input.lengths)?;
-        let refinement = match mesh == given {
+        let area = area(given, input.surface.geometry(), input.surface.lengths())?;
+        let refinement = match flow.is_unflipped() {
             true => None,
             false => Some(timed(&mut seconds.refine, || flow.refinement(control))?),
         };
@@ -121,7 +118,7 @@ pub fn lay_out(
 /// The layout of the given triangulation.
 fn plain(
     input: &Input,
-    flow: &SurfaceFlow,
+    flow: &Solution,
     cones: &[VertexId],
     area: f64,
     consistency_limit: f64,
@@ -133,12 +130,12 @@ fn plain(
     let mut layout = layout_of(mesh, metric, &cut, control)?;
     let scale = layout.scale_to_area(mesh, area)?;
     control.step(Stage::Layout, 0.8)?;
-    let quality = quality(mesh, &input.lengths, &layout)?;
+    let quality = quality(mesh, input.surface.lengths(), &layout)?;
     Ok(Laid {
-        mesh: mesh.clone(),
+        mesh: Mesh::clone(mesh),
         weight: PerVertex::from_fn(mesh.n_vertices(), |v| (flow.initial().input_u[v] - metric.u[v]).exp()),
         refinement: None,
-        positions: input.positions.clone(),
+        positions: input.positions().map(<[Point]>::to_vec),
         packed: None,
         degenerate: quality.degenerate.clone(),
         modulus: modulus_of(input, &layout, cones),
@@ -152,7 +149,7 @@ fn plain(
 /// The layout of the common refinement.
 fn refined(
     input: &Input,
-    flow: &SurfaceFlow,
+    flow: &Solution,
     refinement: Refinement,
     cones: &[VertexId],
     area: f64,
@@ -165,8 +162,8 @@ fn refined(
     let mut refined = layout_refined(&refinement, mesh, metric, &cut, control)?;
     let scale = refined.scale_to_area(&refinement, area)?;
     control.step(Stage::Layout, 0.8)?;
-    let quality = refined.quality(&refinement, &input.mesh, &input.lengths)?;
-    let positions = match &input.positions {
+    let quality = refined.quality(&refinement, input.mesh(), input.surface.lengths())?;
+    let positions = match input.positions() {
         Some(positions) => Some(refinement.from_input_vertices(positions)?),
         None => None,
     };
@@ -186,7 +183,7 @@ fn refined(
 }
 
 fn modulus_of(input: &Input, layout: &Layout, cones: &[VertexId]) -> Option<[f64; 2]> {
-    let flat_torus = input.mesh.is_closed() && input.mesh.euler() == 0 && cones.is_empty();
+    let flat_torus = input.mesh().is_closed() && input.mesh().euler() == 0 && cones.is_empty();
     match layout.seams.as_slice() {
         // Any two of the two or three side pairings of the cut torus generate its lattice.
         [a, b, ..] if flat_torus => modulus([a.translation, b.translation]),

@@ -12,13 +12,13 @@ use ricci::metric::curvature::{curvature, curvature_from_angles};
 /// The quantity of a finished flow; `None` where there is none to show: those of a layout where it has none.
 pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<Field> {
     let laid = outcome.layout.as_ref().ok();
-    let mesh = laid.map_or(&input.mesh, |laid| &laid.mesh);
+    let mesh = laid.map_or(input.mesh(), |laid| &laid.mesh);
     Some(match choice {
         ColorChoice::None => return None,
         ColorChoice::U => {
             let factor = outcome.initial.conformal_factor(&outcome.metric).ok()?;
             let all: &[f64] = &factor;
-            let given = &all[..input.mesh.n_vertices()];
+            let given = &all[..input.mesh().n_vertices()];
             let scale = Scale::of_amounts("log conformal factor u", given);
             at_vertices(mesh, &on_layout(given, laid)?, scale)
         }
@@ -89,9 +89,10 @@ fn on_layout(given: &[f64], laid: Option<&Laid>) -> Option<PerVertex<f64>> {
 
 /// Gaussian curvature of a surface: the angle defect of each vertex over a third of the area around it.
 fn density_of_input(input: &Input) -> Option<(PerVertex<f64>, Scale)> {
-    let Input { mesh, lengths, geometry, .. } = input;
-    let defect = curvature(mesh, *geometry, lengths).ok()?.at;
-    let area = |f: FaceId| triangle::area(*geometry, mesh.opposite_edges(f).map(|e| lengths[e]));
+    let surface = &input.surface;
+    let (mesh, lengths, geometry) = (surface.mesh(), surface.lengths(), surface.geometry());
+    let defect = curvature(mesh, geometry, lengths).ok()?.at;
+    let area = |f: FaceId| triangle::area(geometry, mesh.opposite_edges(f).map(|e| lengths[e]));
     Some(density(mesh, &defect, area, geometry.curvature()))
 }
 

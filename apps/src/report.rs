@@ -54,7 +54,7 @@ pub struct InputSummary {
 
 impl InputSummary {
     pub fn of(input: &Input) -> Self {
-        InputSummary::of_mesh(&input.path, &input.mesh)
+        InputSummary::of_mesh(&input.path, input.mesh())
     }
 
     pub fn of_mesh(path: &Path, mesh: &Mesh) -> Self {

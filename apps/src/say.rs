@@ -36,13 +36,13 @@ pub fn flow(done: &Done) {
         report.stop_reason,
         count(report.iterations, "step", "steps"),
         report.max_curvature_error,
-        tolerance(report.tolerance),
+        tolerance(report.allowed_error()),
         match report.broken_triangles {
             0 => String::new(),
             n => format!(", {}", count(n, "broken triangle", "broken triangles")),
         }
     );
-    if !report.converged {
+    if !report.converged() {
         text += &format!("why      {}\n", why(outcome));
     }
     text += &match &outcome.layout {
@@ -70,7 +70,7 @@ pub fn tolerance(held: f64) -> String {
 
 /// The first line of a summary: the surface.
 pub fn surface(input: &Input) -> String {
-    let mesh = &input.mesh;
+    let mesh = input.mesh();
     format!(
         "surface  {}: {}, {}, genus {}, {}\n",
         input.path.display(),
@@ -86,7 +86,7 @@ pub fn surface(input: &Input) -> String {
 
 /// Where a check fails: whether the surface has slivers, which cost digits.
 pub fn slivers(input: &Input, checks: &Checks) -> String {
-    let thinnest = || thinnest(&input.mesh, input.geometry, &input.lengths);
+    let thinnest = || thinnest(input.mesh(), input.surface.geometry(), input.surface.lengths());
     match (!checks.failed().is_empty()).then(thinnest).flatten() {
         Some((face, angle)) if angle < SLIVER => format!(
             "slivers  face {face} is the thinnest, with an angle of {angle:.1e} degrees: remesh there, or allow flips\n"

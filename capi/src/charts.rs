@@ -9,9 +9,10 @@ use crate::layout::ricci_layout;
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::embed::{ChartOptions, Charts, charts};
+use ricci::flow::Solution;
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, Point};
-use ricci::metric::{Refinement, SurfaceMetric};
+use ricci::metric::Refinement;
 use std::sync::Arc;
 
 /// A layout in charts that do not overlap, packed into the unit square.
@@ -21,7 +22,7 @@ pub struct ricci_charts {
     pub(crate) positions: Option<Arc<Vec<Point>>>,
     pub(crate) charts: Charts,
     /// Of the layout.
-    pub(crate) surface: Arc<SurfaceMetric>,
+    pub(crate) surface: Arc<Solution>,
     pub(crate) refinement: Option<Arc<Refinement>>,
 }
 

@@ -10,10 +10,10 @@ use crate::report::ricci_report;
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::Control;
-use ricci::flow::{Flips, Gradient, Method, Options, StepRule, SurfaceFlow};
-use ricci::mesh::{EdgeId, PerVertex, Point};
+use ricci::flow::{Flips, Gradient, Method, Options, StepRule};
+use ricci::mesh::{EdgeId, PerVertex};
+use ricci::{Flow, Target};
 use std::mem::MaybeUninit;
-use std::sync::Arc;
 
 /// How the flow is solved.
 #[repr(C)]
@@ -155,6 +155,7 @@ fn read_options(options: *const ricci_flow_options) -> Outcome<Options> {
     Ok(Options {
         method: choose(options.method)?,
         fixed_edges: fixed.into_iter().map(EdgeId).collect(),
+        pinned: Vec::new(),
         flips: choose(options.flips)?,
         tolerance: options.tolerance,
         max_iterations: options.max_iterations,
@@ -213,8 +214,8 @@ pub unsafe extern "C" fn ricci_flow(
         let target = metric.target(target, n_vertices)?;
         let options = read_options(options)?;
         let control = control::of(control);
-        let mut flow = SurfaceFlow::resume(&metric.surface, &[], &options, &control)?;
-        let (end, done) = advance(&mut flow, &target, &control, &metric.positions)?;
+        let mut flow = Flow::resume(&metric.surface, &options, &control)?;
+        let (end, done) = advance(&mut flow, target, &control)?;
         if let Ok(report) = output("report", report) {
             report.hand_over(done);
         }
@@ -223,16 +224,16 @@ pub unsafe extern "C" fn ricci_flow(
     })
 }
 
-type Positions = Option<Arc<Vec<Point>>>;
-
 /// Solve, and the metric that the flow has come to.
 fn advance(
-    flow: &mut SurfaceFlow,
-    target: &PerVertex<f64>,
+    flow: &mut Flow,
+    target: PerVertex<f64>,
     control: &Control,
-    positions: &Positions,
 ) -> Outcome<(ricci_metric, ricci_report)> {
-    let report = flow.solve(target, control)?;
+    let end = flow.solve(&Target::All(target), control)?;
+    let Some(report) = end.report().cloned() else {
+        return Err(Failure::argument("a solve has left no report"));
+    };
     log::info!(
         "flow: {} after {} iterations, {} flips and {:.3} s, max |K - target| = {:.1e}",
         report.stop_reason,
@@ -241,16 +242,14 @@ fn advance(
         report.seconds.total,
         report.max_curvature_error
     );
-    let end = ricci_metric::at(flow.now(), positions.clone())?;
-    Ok((end, ricci_report::new(report, flow.double())))
+    Ok((ricci_metric::at(end)?, ricci_report::new(report)))
 }
 
 /// A solver for many targets on one metric: it keeps its analysis, its threads and the last solution, from
 /// which the next solve starts.
 pub struct ricci_solver {
     poison: Poison,
-    flow: SurfaceFlow,
-    positions: Positions,
+    flow: Flow,
 }
 
 impl Handle for ricci_solver {
@@ -276,9 +275,8 @@ pub unsafe extern "C" fn ricci_solver_new(
     guard::call(|door| {
         let solver = output("solver", solver)?;
         let metric = door.shared(metric)?;
-        let flow = SurfaceFlow::resume(&metric.surface, &[], &read_options(options)?, &Control::new())?;
-        let positions = metric.positions.clone();
-        solver.hand_over(ricci_solver { poison: Poison::default(), flow, positions });
+        let flow = Flow::resume(&metric.surface, &read_options(options)?, &Control::new())?;
+        solver.hand_over(ricci_solver { poison: Poison::default(), flow });
         Ok(())
     })
 }
@@ -309,7 +307,7 @@ pub unsafe extern "C" fn ricci_solver_pin(
 ) -> ricci_status {
     guard::call(|door| {
         let solver = door.exclusive(solver)?;
-        let n = solver.flow.given().n_vertices();
+        let n = solver.flow.surface().mesh().n_vertices();
         let vertices = arrays::array("vertices", vertices, n_vertices)?;
         if let Some(v) = vertices.iter().find(|&&v| v as usize >= n) {
             return Err(Failure::argument(format!("vertex {v} does not exist: there are {n}")));
@@ -342,9 +340,9 @@ pub unsafe extern "C" fn ricci_solver_solve(
     guard::call(|door| {
         let result = output("result", result)?;
         let solver = door.exclusive(solver)?;
-        let n = solver.flow.given().n_vertices();
+        let n = solver.flow.surface().mesh().n_vertices();
         let target = PerVertex::from(arrays::array_of("target", target, n_vertices, n)?);
-        let (end, done) = advance(&mut solver.flow, &target, &control::of(control), &solver.positions)?;
+        let (end, done) = advance(&mut solver.flow, target, &control::of(control))?;
         if let Ok(report) = output("report", report) {
             report.hand_over(done);
         }

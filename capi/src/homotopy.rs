@@ -93,7 +93,8 @@ pub unsafe extern "C" fn ricci_homotopy_new(
     guard::call(|door| {
         let homotopy = output("homotopy", homotopy)?;
         let mesh = door.shared(mesh)?;
-        let (lengths, _) = mesh.lengths()?;
+        let surface = mesh.surface()?;
+        let lengths = surface.lengths();
         let base = vertex_or_none("base", base)?;
         let mesh = mesh.connectivity.clone();
         let basis = homotopy_basis(&mesh, &lengths, base, &control::of(control))?;

@@ -11,10 +11,11 @@ use crate::model::{self, ricci_model};
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::embed::{RefinedSpaceLayout, unroll_refined_in_space};
+use ricci::flow::Solution;
 use ricci::geometry::Space;
 use ricci::geometry::model::Model;
 use ricci::mesh::{HalfedgeId, Point, VertexId};
-use ricci::metric::{Refinement, SurfaceMetric};
+use ricci::metric::Refinement;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
@@ -78,7 +79,7 @@ fn unroll(
 
 /// The handle of a refinement laid out in the plane or the hyperbolic plane, with the half-edges of its seams and its area.
 pub(crate) fn in_space(
-    surface: &SurfaceMetric,
+    surface: &Solution,
     refinement: Refinement,
     positions: &Option<Arc<Vec<Point>>>,
     (refined, seams, area): (RefinedSpaceLayout, Vec<Vec<HalfedgeId>>, f64),
@@ -87,7 +88,7 @@ pub(crate) fn in_space(
     if model == Model::Hyperboloid {
         return Err(Failure::argument("a layout in the plane needs a model with two coordinates"));
     }
-    let quality = refined.quality(&refinement, surface.given(), surface.given_lengths())?;
+    let quality = refined.quality(&refinement, surface.given(), surface.surface().lengths())?;
     let in_plane = refined.space == Space::E2;
     let flat = |p: &[f64; 3]| [p[0], p[1]];
     let points: Vec<[f64; 2]> = match in_plane {

@@ -12,10 +12,11 @@ use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::embed::{Quality, layout_of, layout_refined, quality, refined_cut};
+use ricci::flow::Solution;
 use ricci::geometry::space::Space;
 use ricci::mesh::{Mesh, Point, VertexId};
+use ricci::metric::Refinement;
 use ricci::metric::curvature::curvature;
-use ricci::metric::{Refinement, SurfaceMetric};
 use ricci::topology::cut_graph;
 use std::sync::Arc;
 
@@ -33,7 +34,7 @@ pub struct ricci_layout {
     pub(crate) positions: Option<Arc<Vec<Point>>>,
     pub(crate) drawing: Drawing,
     pub(crate) quality: Quality,
-    pub(crate) surface: Arc<SurfaceMetric>,
+    pub(crate) surface: Arc<Solution>,
     /// If edges were flipped.
     pub(crate) refinement: Option<Arc<Refinement>>,
 }
@@ -103,7 +104,7 @@ unsafe impl Sized64 for ricci_layout_summary {
 
 fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outcome<ricci_layout> {
     let ricci_metric { surface, positions, .. } = metric;
-    let (given, given_lengths) = (surface.given(), surface.given_lengths());
+    let (given, given_lengths) = (surface.given(), surface.surface().lengths());
     let (mesh, class) = (surface.mesh(), surface.metric());
     if class.space != Space::E2 {
         return Err(Failure::new(

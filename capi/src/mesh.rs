@@ -7,10 +7,10 @@ use crate::guard::{self, Handle, Poison, output};
 use crate::sized::{self, Sized64};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
+use ricci::Surface;
 use ricci::geometry::space::Space;
 use ricci::mesh::io::{Attributes, Soup};
 use ricci::mesh::{HalfedgeId, Mesh, PerEdge, Point};
-use ricci::metric::lengths::lengths_from_positions;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
@@ -59,20 +59,22 @@ impl ricci_mesh {
         }
     }
 
-    pub(crate) fn positions_if_any(&self) -> Option<Arc<Vec<Point>>> {
-        match &self.shape {
-            Shape::Positions(positions) => Some(positions.clone()),
-            Shape::Lengths(..) => None,
-        }
+    /// The surface with the lengths that are measured in space, or those of an intrinsic mesh.
+    pub(crate) fn surface(&self) -> Outcome<Surface> {
+        let connectivity = self.connectivity.clone();
+        Ok(match &self.shape {
+            Shape::Positions(positions) => Surface::in_space(connectivity, positions.clone())?,
+            Shape::Lengths(lengths, space) => Surface::intrinsic(connectivity, lengths.clone(), *space)?,
+        })
     }
 
-    pub(crate) fn lengths(&self) -> Outcome<(Arc<PerEdge<f64>>, Space)> {
-        match &self.shape {
-            Shape::Positions(positions) => {
-                Ok((Arc::new(lengths_from_positions(&self.connectivity, positions)?), Space::E2))
-            }
-            Shape::Lengths(lengths, space) => Ok((lengths.clone(), *space)),
-        }
+    /// The surface with lengths of the caller's, and the mesh's own positions if it has any.
+    pub(crate) fn surface_with(&self, lengths: Vec<f64>, geometry: Space) -> Outcome<Surface> {
+        let surface = Surface::intrinsic(self.connectivity.clone(), PerEdge::from(lengths), geometry)?;
+        Ok(match &self.shape {
+            Shape::Positions(positions) => surface.with_positions(positions.clone())?,
+            Shape::Lengths(..) => surface,
+        })
     }
 }
 
@@ -358,7 +360,8 @@ pub unsafe extern "C" fn ricci_mesh_lengths(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let (values, _) = door.shared(mesh)?.lengths()?;
+        let surface = door.shared(mesh)?.surface()?;
+        let values = surface.lengths();
         copy_out("lengths", &values, lengths, capacity)
     })
 }

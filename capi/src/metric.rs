@@ -9,10 +9,9 @@ use crate::scheme::ricci_scheme;
 use crate::sized::{self, Sized64};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
-use ricci::geometry::space::Space;
+use ricci::flow::Solution;
 use ricci::mesh::{Mesh, PerEdge, Point};
-use ricci::metric::SurfaceMetric;
-use ricci::metric::scheme::Scheme;
+use ricci::{Class, Surface};
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
@@ -24,7 +23,7 @@ use std::sync::Arc;
 /// (ricci_metric_mesh), and of a surface with boundary to one of its double; ricci_layout_new leads back.
 pub struct ricci_metric {
     poison: Poison,
-    pub(crate) surface: SurfaceMetric,
+    pub(crate) surface: Solution,
     /// Of the edges of its triangulation.
     pub(crate) lengths: Arc<PerEdge<f64>>,
     /// Of the given vertices.
@@ -39,28 +38,24 @@ impl Handle for ricci_metric {
 }
 
 impl ricci_metric {
-    fn start(
-        mesh: &ricci_mesh,
-        lengths: Arc<PerEdge<f64>>,
-        geometry: Space,
-        scheme: Scheme,
-        space: Space,
-    ) -> Outcome<ricci_metric> {
-        let surface = SurfaceMetric::new(mesh.connectivity.clone(), lengths, geometry, scheme, space)?;
-        let initial = surface.initial();
+    fn start(surface: Surface, class: Class) -> Outcome<ricci_metric> {
+        let metric = Solution::initial_of(surface, class)?;
+        let initial = metric.initial();
         if initial.clamped_edges > 0 {
             log::info!(
-                "metric: {scheme} keeps {} edge weights at a bound, lengths change by up to {:.2} %",
+                "metric: {} keeps {} edge weights at a bound, lengths change by up to {:.2} %",
+                class.scheme,
                 initial.clamped_edges,
                 100.0 * initial.max_length_change
             );
         }
-        ricci_metric::at(surface, mesh.positions_if_any())
+        ricci_metric::at(metric)
     }
 
-    /// A metric of a surface with these positions.
-    pub(crate) fn at(surface: SurfaceMetric, positions: Option<Arc<Vec<Point>>>) -> Outcome<ricci_metric> {
+    /// A metric of a surface.
+    pub(crate) fn at(surface: Solution) -> Outcome<ricci_metric> {
         let lengths = Arc::new(surface.metric().lengths(surface.mesh())?);
+        let positions = surface.surface().positions().cloned();
         Ok(ricci_metric { poison: Poison::default(), surface, lengths, positions })
     }
 
@@ -141,9 +136,8 @@ pub unsafe extern "C" fn ricci_metric_new(
 ) -> ricci_status {
     guard::call(|door| {
         let metric = output("metric", metric)?;
-        let (mesh, scheme, space) = (door.shared(mesh)?, choose(scheme)?, choose(space)?);
-        let (lengths, geometry) = mesh.lengths()?;
-        metric.hand_over(ricci_metric::start(mesh, lengths, geometry, scheme, space)?);
+        let (mesh, class) = (door.shared(mesh)?, Class::new(choose(scheme)?, choose(space)?));
+        metric.hand_over(ricci_metric::start(mesh.surface()?, class)?);
         Ok(())
     })
 }
@@ -173,9 +167,8 @@ pub unsafe extern "C" fn ricci_metric_from_lengths(
         let metric = output("metric", metric)?;
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
-        let (geometry, scheme, space) = (choose(geometry)?, choose(scheme)?, choose(space)?);
-        let lengths = Arc::new(lengths.into());
-        metric.hand_over(ricci_metric::start(mesh, lengths, geometry, scheme, space)?);
+        let class = Class::new(choose(scheme)?, choose(space)?);
+        metric.hand_over(ricci_metric::start(mesh.surface_with(lengths, choose(geometry)?)?, class)?);
         Ok(())
     })
 }
@@ -208,7 +201,7 @@ pub unsafe extern "C" fn ricci_metric_summarise(
             size,
             space: name(surface.metric().space)?,
             input_geometry: name(initial.input_geometry)?,
-            scheme: name(surface.scheme())?,
+            scheme: name(surface.scheme()?)?,
             doubled: surface.double().is_some().into(),
             n_vertices: surface.given().n_vertices(),
             n_edges: mesh.n_edges(),

@@ -13,10 +13,10 @@ use crate::report::ricci_report;
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use crate::uniformize::{read_options, ricci_uniformize_options};
+use ricci::Surface;
 use ricci::canonical::{Quotient, quotient_of, uniformize_quotient};
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
-use ricci::mesh::{PerEdge, Point};
 use ricci::topology::FundamentalDomain;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
@@ -29,7 +29,6 @@ use std::sync::Arc;
 pub struct ricci_quotient {
     poison: Poison,
     pub(crate) quotient: Arc<Quotient>,
-    pub(crate) positions: Option<Arc<Vec<Point>>>,
 }
 
 impl Handle for ricci_quotient {
@@ -40,7 +39,7 @@ impl Handle for ricci_quotient {
 }
 
 impl ricci_quotient {
-    pub(crate) fn new(quotient: Quotient, positions: Option<Arc<Vec<Point>>>) -> ricci_quotient {
+    pub(crate) fn new(quotient: Quotient) -> ricci_quotient {
         log::info!(
             "uniformize: {} after {} iterations, max |K| = {:.1e}, side pairings within {:.1e}, relation {:.1e}",
             quotient.report.stop_reason,
@@ -49,7 +48,7 @@ impl ricci_quotient {
             quotient.deck.side_residual,
             quotient.deck.relation_residual
         );
-        ricci_quotient { poison: Poison::default(), quotient: Arc::new(quotient), positions }
+        ricci_quotient { poison: Poison::default(), quotient: Arc::new(quotient) }
     }
 }
 
@@ -74,8 +73,7 @@ pub unsafe extern "C" fn ricci_quotient_new(
     guard::call(|door| {
         let place = output("quotient", quotient)?;
         let mesh = door.shared(mesh)?;
-        let (lengths, geometry) = mesh.lengths()?;
-        place.hand_over(uniformize(mesh, &lengths, geometry, options, control)?);
+        place.hand_over(uniformize(mesh.surface()?, options, control)?);
         Ok(())
     })
 }
@@ -105,21 +103,19 @@ pub unsafe extern "C" fn ricci_quotient_from_lengths(
         let place = output("quotient", quotient)?;
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
-        place.hand_over(uniformize(mesh, &lengths.into(), choose(geometry)?, options, control)?);
+        let surface = mesh.surface_with(lengths, choose(geometry)?)?;
+        place.hand_over(uniformize(surface, options, control)?);
         Ok(())
     })
 }
 
 fn uniformize(
-    mesh: &ricci_mesh,
-    lengths: &PerEdge<f64>,
-    geometry: Space,
+    surface: Surface,
     options: *const ricci_uniformize_options,
     control: *const ricci_control,
 ) -> Outcome<ricci_quotient> {
     let (options, control) = (read_options(options)?, control::of(control));
-    let quotient = uniformize_quotient(&mesh.connectivity, lengths, geometry, &options, &control)?;
-    Ok(ricci_quotient::new(quotient, mesh.positions_if_any()))
+    Ok(ricci_quotient::new(uniformize_quotient(&surface, &options, &control)?))
 }
 
 /// ricci_quotient_new from where a metric is, such as another solver's result: in the metric's scheme.
@@ -141,7 +137,7 @@ pub unsafe extern "C" fn ricci_quotient_from_metric(
         let place = output("quotient", quotient)?;
         let metric = door.shared(metric)?;
         let found = quotient_of(&metric.surface, &read_options(options)?, &control::of(control))?;
-        place.hand_over(ricci_quotient::new(found, metric.positions.clone()));
+        place.hand_over(ricci_quotient::new(found));
         Ok(())
     })
 }
@@ -167,8 +163,7 @@ pub unsafe extern "C" fn ricci_quotient_metric(
 ) -> ricci_status {
     guard::call(|door| {
         let metric = output("metric", metric)?;
-        let ricci_quotient { quotient, positions, .. } = door.shared(quotient)?;
-        metric.hand_over(ricci_metric::at(quotient.metric.clone(), positions.clone())?);
+        metric.hand_over(ricci_metric::at(door.shared(quotient)?.quotient.metric.clone())?);
         Ok(())
     })
 }
@@ -186,7 +181,7 @@ pub unsafe extern "C" fn ricci_quotient_report(
 ) -> ricci_status {
     guard::call(|door| {
         let report = output("report", report)?;
-        report.hand_over(ricci_report::new(door.shared(quotient)?.quotient.report.clone(), None));
+        report.hand_over(ricci_report::new(door.shared(quotient)?.quotient.report.clone()));
         Ok(())
     })
 }

@@ -103,7 +103,7 @@ pub unsafe extern "C" fn ricci_quotient_summarise(
             space: name(layout.space)?,
             base: basis.base.0,
             stop_reason: report.stop_reason.into(),
-            converged: report.converged.into(),
+            converged: report.converged().into(),
             genus: basis.group.genus,
             angle_defect: *angle_defect,
             n_faces: metric.mesh().n_faces(),
@@ -321,7 +321,8 @@ fn refined(quotient: &ricci_quotient, model: Model, control: &Control) -> Outcom
     let refined = refine_space_layout(layout, &refinement, mesh, control)?;
     let seams = layout.cut.segments.iter().map(|chain| chain_on(&refinement, mesh, chain)).collect();
     let laid = (refined, seams, layout.area);
-    let mut out = in_space(metric, refinement, &quotient.positions, laid, model)?;
+    let mut out =
+        in_space(metric, refinement, &quotient.quotient.metric.surface().positions().cloned(), laid, model)?;
     if layout.space == Space::E2 {
         let residual = out.drawing.consistency;
         let motion = |g: &ricci::geometry::Motion<_>| {

@@ -8,9 +8,10 @@ use crate::layout::ricci_layout;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::status::ricci_status;
 use ricci::Control;
+use ricci::flow::Solution;
 use ricci::mesh::{EdgeId, FaceId, PerEdge, PerVertex};
+use ricci::metric::Refinement;
 use ricci::metric::refinement::Crossing;
-use ricci::metric::{Refinement, SurfaceMetric};
 use std::sync::Arc;
 
 /// Which of the two triangulations a function asks about.
@@ -218,10 +219,7 @@ pub unsafe extern "C" fn ricci_layout_final_crossings(
 }
 
 /// Homogeneous weight of every vertex of what a layout unrolls.
-pub(crate) fn weights(
-    surface: &SurfaceMetric,
-    refinement: Option<&Arc<Refinement>>,
-) -> Outcome<PerVertex<f64>> {
+pub(crate) fn weights(surface: &Solution, refinement: Option<&Arc<Refinement>>) -> Outcome<PerVertex<f64>> {
     Ok(match refinement {
         Some(refinement) => refinement.weight.clone(),
         None => surface.refinement(&Control::new())?.weight,

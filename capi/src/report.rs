@@ -5,8 +5,6 @@ use crate::guard::{self, Handle, Poison};
 use crate::sized::{self, Sized64};
 use crate::status::ricci_status;
 use ricci::flow::{Report, StopReason};
-use ricci::mesh::{Double, VertexId};
-use std::collections::BTreeSet;
 use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
 
@@ -27,19 +25,7 @@ impl Handle for ricci_report {
 }
 
 impl ricci_report {
-    /// The report of a flow on a surface, or on its double: vertices are those of the surface.
-    pub(crate) fn new(mut report: Report, double: Option<&Double>) -> ricci_report {
-        if let Some(double) = double {
-            let on_surface = |v: VertexId| v.min(double.mirror(v));
-            let mut seen = BTreeSet::new();
-            report.worst.iter_mut().for_each(|(v, _)| *v = on_surface(*v));
-            report.worst.retain(|(v, _)| seen.insert(*v));
-            if let Some(obstruction) = &mut report.obstruction {
-                obstruction.vertices.iter_mut().for_each(|v| *v = on_surface(*v));
-                obstruction.vertices.sort_unstable();
-                obstruction.vertices.dedup();
-            }
-        }
+    pub(crate) fn new(report: Report) -> ricci_report {
         ricci_report { poison: Poison::default(), report }
     }
 }
@@ -82,7 +68,7 @@ impl From<StopReason> for ricci_stop_reason {
     fn from(reason: StopReason) -> ricci_stop_reason {
         match reason {
             StopReason::Converged => RICCI_STOP_CONVERGED,
-            StopReason::RoundingFloor => RICCI_STOP_ROUNDING_FLOOR,
+            StopReason::RoundingFloor { .. } => RICCI_STOP_ROUNDING_FLOOR,
             StopReason::BrokenTriangles => RICCI_STOP_BROKEN_TRIANGLES,
             StopReason::Diverged => RICCI_STOP_DIVERGED,
             StopReason::Stalled => RICCI_STOP_STALLED,
@@ -195,7 +181,7 @@ pub unsafe extern "C" fn ricci_report_summarise(
         let seconds = &report.seconds;
         let figures = ricci_report_summary {
             size,
-            converged: report.converged.into(),
+            converged: report.converged().into(),
             stop_reason: report.stop_reason.into(),
             iterations: report.iterations,
             flips: report.flips,

@@ -12,9 +12,8 @@ use crate::report::ricci_stop_reason;
 use crate::sized::{self, Sized64};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
+use ricci::Surface;
 use ricci::canonical::{Sphere, SphereOptions, uniformize_sphere};
-use ricci::geometry::Space;
-use ricci::mesh::{PerEdge, Point};
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
@@ -22,8 +21,6 @@ use std::sync::Arc;
 pub struct ricci_sphere {
     poison: Poison,
     sphere: Sphere,
-    /// Of the given surface.
-    positions: Option<Arc<Vec<Point>>>,
 }
 
 impl Handle for ricci_sphere {
@@ -34,14 +31,14 @@ impl Handle for ricci_sphere {
 }
 
 impl ricci_sphere {
-    pub(crate) fn new(sphere: Sphere, positions: Option<Arc<Vec<Point>>>) -> ricci_sphere {
+    pub(crate) fn new(sphere: Sphere) -> ricci_sphere {
         log::info!(
             "uniformize: sphere {} after {} iterations, max |K| = {:.1e}",
             sphere.report.stop_reason,
             sphere.report.iterations,
             sphere.report.spherical_curvature_error
         );
-        ricci_sphere { poison: Poison::default(), sphere, positions }
+        ricci_sphere { poison: Poison::default(), sphere }
     }
 }
 
@@ -164,8 +161,7 @@ pub unsafe extern "C" fn ricci_sphere_new(
     guard::call(|door| {
         let place = output("sphere", sphere)?;
         let mesh = door.shared(mesh)?;
-        let (lengths, geometry) = mesh.lengths()?;
-        place.hand_over(uniformize(mesh, lengths, geometry, options, control)?);
+        place.hand_over(uniformize(mesh.surface()?, options, control)?);
         Ok(())
     })
 }
@@ -195,15 +191,14 @@ pub unsafe extern "C" fn ricci_sphere_from_lengths(
         let place = output("sphere", sphere)?;
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
-        place.hand_over(uniformize(mesh, Arc::new(lengths.into()), choose(geometry)?, options, control)?);
+        let surface = mesh.surface_with(lengths, choose(geometry)?)?;
+        place.hand_over(uniformize(surface, options, control)?);
         Ok(())
     })
 }
 
 fn uniformize(
-    mesh: &ricci_mesh,
-    lengths: Arc<PerEdge<f64>>,
-    geometry: Space,
+    surface: Surface,
     options: *const ricci_sphere_options,
     control: *const ricci_control,
 ) -> Outcome<ricci_sphere> {
@@ -211,9 +206,7 @@ fn uniformize(
         sized::read(defaults(), options)?;
     let puncture = vertex_or_none("puncture", puncture)?;
     let options = SphereOptions { tolerance, max_iterations, threads, puncture };
-    let given = mesh.connectivity.clone();
-    let sphere = uniformize_sphere(given, lengths, geometry, &options, &control::of(control))?;
-    Ok(ricci_sphere::new(sphere, mesh.positions_if_any()))
+    Ok(ricci_sphere::new(uniformize_sphere(&surface, &options, &control::of(control))?))
 }
 
 /// Release a sphere. What it has handed out lives on.
@@ -277,8 +270,7 @@ pub unsafe extern "C" fn ricci_sphere_metric(
 ) -> ricci_status {
     guard::call(|door| {
         let metric = output("metric", metric)?;
-        let ricci_sphere { sphere, positions, .. } = door.shared(sphere)?;
-        metric.hand_over(ricci_metric::at(sphere.metric.clone(), positions.clone())?);
+        metric.hand_over(ricci_metric::at(door.shared(sphere)?.sphere.metric.clone())?);
         Ok(())
     })
 }
@@ -356,7 +348,8 @@ pub unsafe extern "C" fn ricci_sphere_refined(
 ) -> ricci_status {
     guard::call(|door| {
         let image = output("on_sphere", on_sphere)?;
-        let ricci_sphere { sphere, positions, .. } = door.shared(sphere)?;
+        let sphere = &door.shared(sphere)?.sphere;
+        let positions = sphere.metric.surface().positions();
         let given = match (output("on_surface", on_surface), positions) {
             (Err(_), _) => None,
             (Ok(place), Some(positions)) => Some((place, positions)),

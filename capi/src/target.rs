@@ -6,6 +6,7 @@ use crate::failure::{Failure, Outcome};
 use crate::guard;
 use crate::metric::ricci_metric;
 use crate::status::ricci_status;
+use ricci::Class;
 use ricci::flow::auto_cones;
 use ricci::geometry::space::Space;
 use ricci::mesh::{PerVertex, VertexId};
@@ -27,8 +28,8 @@ impl ricci_metric {
 
     fn resolve(&self, target: &Target) -> Outcome<PerVertex<f64>> {
         let surface = &self.surface;
-        let (space, scheme) = (surface.metric().space, surface.scheme());
-        Ok(target.resolve(surface.given(), surface.given_lengths(), space, scheme)?)
+        let class = Class::new(surface.scheme()?, surface.metric().space);
+        Ok(target.resolve(surface.surface(), class)?)
     }
 
     /// An admissible target from a caller's array.
@@ -55,7 +56,7 @@ pub unsafe extern "C" fn ricci_target_default(
     guard::call(|door| {
         let metric = door.shared(metric)?;
         let surface = &metric.surface;
-        let choice = Target::default_for(surface.given(), surface.given_lengths(), surface.metric().space)?;
+        let choice = Target::default_for(surface.surface(), surface.metric().space)?;
         copy_out("target", &metric.resolve(&choice)?, target, capacity)
     })
 }
@@ -177,7 +178,8 @@ pub unsafe extern "C" fn ricci_target_auto(
             let message = "cones are placed in e2, by Euclidean lengths".to_string();
             return Err(Failure::new(ricci_status::RICCI_TARGET_KIND, message));
         }
-        let placed = auto_cones(surface.given(), surface.given_lengths(), n_cones, &control::of(control))?;
+        let placed =
+            auto_cones(surface.given(), surface.surface().lengths(), n_cones, &control::of(control))?;
         copy_out("target", &placed.target, target, capacity)
     })
 }

@@ -125,15 +125,14 @@ pub unsafe extern "C" fn ricci_uniformize(
     guard::call(|door| {
         let (sphere, quotient) = (output("sphere", sphere)?, output("quotient", quotient)?);
         let mesh = door.shared(mesh)?;
-        let (lengths, geometry) = mesh.lengths()?;
         let (options, control) = (read_options(options)?, control::of(control));
-        match uniformize(&mesh.connectivity, &lengths, geometry, &options, &control)? {
+        match uniformize(&mesh.surface()?, &options, &control)? {
             Uniformization::Sphere(found) => {
-                sphere.hand_over(ricci_sphere::new(*found, mesh.positions_if_any()));
+                sphere.hand_over(ricci_sphere::new(*found));
                 quotient.set(std::ptr::null_mut());
             }
             Uniformization::Quotient(found) => {
-                quotient.hand_over(ricci_quotient::new(*found, mesh.positions_if_any()));
+                quotient.hand_over(ricci_quotient::new(*found));
                 sphere.set(std::ptr::null_mut());
             }
         }

@@ -1,7 +1,8 @@
 //! What a flow did.
 
 use super::obstruction::Obstruction;
-use crate::mesh::VertexId;
+use crate::mesh::{Double, VertexId};
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// Why a flow stopped.
@@ -187,6 +188,20 @@ impl Report {
         match self.stop_reason {
             StopReason::RoundingFloor { size } => size.max(self.tolerance),
             _ => self.tolerance,
+        }
+    }
+
+    /// The report of a flow on a double, with the vertices of the surface in place of their mirror images. Errors at boundary
+    /// vertices count both copies: they are twice those of the surface.
+    pub(super) fn on_surface(&mut self, double: &Double) {
+        let on_surface = |v: VertexId| v.min(double.mirror(v));
+        let mut seen = BTreeSet::new();
+        self.worst.iter_mut().for_each(|(v, _)| *v = on_surface(*v));
+        self.worst.retain(|(v, _)| seen.insert(*v));
+        if let Some(obstruction) = &mut self.obstruction {
+            obstruction.vertices.iter_mut().for_each(|v| *v = on_surface(*v));
+            obstruction.vertices.sort_unstable();
+            obstruction.vertices.dedup();
         }
     }
 

@@ -3,11 +3,11 @@
 use super::origin::Origin;
 use super::report::Report;
 use crate::control::Control;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::mesh::{Double, Mesh, NormalCoordinates, PerVertex, VertexId};
 use crate::metric::delaunay::boundary_fails;
-use crate::metric::{Class, Curvature, Initial, Metric, Refinement, Surface};
+use crate::metric::{Class, Curvature, Initial, Metric, Refinement, Scheme, Surface};
 use crate::parallel::within;
 use std::sync::Arc;
 
@@ -98,6 +98,18 @@ impl Solution {
     /// The class of the metric; none for a flow that began at a metric of mixed types ([`super::Flow::from_metric`]).
     pub fn class(&self) -> Option<Class> {
         self.origin.class
+    }
+
+    /// The scheme of the class.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] where there is no class.
+    pub fn scheme(&self) -> Result<Scheme> {
+        let none = || {
+            let value = "vertices of any type".into();
+            Error::Argument { what: "class of the metric", value, need: "one scheme for all vertices" }
+        };
+        self.class().map(|class| class.scheme).ok_or_else(none)
     }
 
     /// The triangulation that the metric lives on.
@@ -203,9 +215,7 @@ impl Solution {
     /// # Errors
     /// Those of [`Refinement::new`].
     pub fn refinement(&self, control: &Control) -> Result<Refinement> {
-        within(self.threads, || {
-            self.origin.refinement(&self.mesh, &self.metric, &self.followed, control)
-        })
+        within(self.threads, || self.origin.refinement(&self.mesh, &self.metric, &self.followed, control))
     }
 
     /// Whether the metric is 0 curvature off the cones in H² or E², so that a layout exists; never in S².

@@ -92,7 +92,7 @@ pub fn execute_cover(args: &CoverArgs, control: &Control) -> Result<Done, Failur
 
 /// The base vertex that was asked for, if it is one.
 fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure> {
-    let n = input.mesh.n_vertices();
+    let n = input.mesh().n_vertices();
     match args.base {
         Some(v) if v as usize >= n => {
             Err(Failure::Usage(format!("--base {v}: there is no such vertex, they are 0 to {}", n - 1)))
@@ -104,14 +104,13 @@ fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure
 /// Uniformize a closed surface: by the library's one call, but for the paper's flow of spheres.
 fn shape(input: &Input, args: &CanonicalArgs, needs: Needs, control: &Control) -> Result<Shape, Failure> {
     let (base, mut taken) = (base(input, args)?, 0.0);
-    if input.mesh.euler() > 0 && args.solve.method == MethodChoice::Gradient {
+    if input.mesh().euler() > 0 && args.solve.method == MethodChoice::Gradient {
         let found = timed(&mut taken, || flowed(input, args, base, control))?;
         return Ok(Shape::Sphere(Box::new(Round::new(input, args, found, taken, needs, control)?)));
     }
     let flow = args.solve.options(args.common.threads());
     let options = QuotientOptions { scheme: args.solve.scheme.into(), base, flow };
-    let Input { mesh, lengths, geometry, .. } = input;
-    Ok(match timed(&mut taken, || canonical::uniformize(mesh, lengths, *geometry, &options, control))? {
+    Ok(match timed(&mut taken, || canonical::uniformize(&input.surface, &options, control))? {
         Uniformization::Sphere(sphere) => {
             let found = punctured(*sphere);
             Shape::Sphere(Box::new(Round::new(input, args, found, taken, needs, control)?))

@@ -73,15 +73,15 @@ struct DomainFigures {
 impl UniformFigures {
     /// `copies`: whether they were asked for.
     pub fn new(u: &Uniformized, copies: bool) -> UniformFigures {
-        let Report { converged, stop_reason, iterations, flips, .. } = u.report;
+        let Report { stop_reason, iterations, flips, .. } = u.report;
         let laid = u.laid().ok();
         let quality = laid.map(|laid| &laid.quality);
         let place = u.place();
         let length = |path: &Vec<ricci::mesh::HalfedgeId>| path.iter().map(|h| u.lengths[h.edge()]).sum();
         UniformFigures {
             space: u.deck.space.name(),
-            scheme: u.metric.scheme().name(),
-            converged,
+            scheme: u.scheme.name(),
+            converged: u.report.converged(),
             stop_reason: stop_reason.name(),
             iterations,
             flips: u.metric.start_flips() + flips,

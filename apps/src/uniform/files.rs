@@ -20,9 +20,9 @@ use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes
 use crate::uv;
 use ricci::Control;
 use ricci::control::Stage;
+use ricci::flow::Solution;
 use ricci::mesh::io::{self, Textured};
 use ricci::mesh::{PerEdge, PerVertex};
-use ricci::metric::SurfaceMetric;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
@@ -165,7 +165,7 @@ impl Wish<'_> {
             let beside = matches!(shown, Shown::Uniform(ShowChoice::Both));
             let threads = args.common.threads();
             let written = s.refinement().and_then(|r| {
-                let given = input.positions.as_ref();
+                let given = input.positions();
                 let positions = given.map(|p| r.from_input_vertices(p)).transpose()?;
                 outputs.add(path, |out| {
                     sphere_picture::write(out, s, r, positions.as_deref(), &style, beside, threads)
@@ -180,14 +180,14 @@ impl Wish<'_> {
 fn write_metric(
     outputs: &mut Outputs,
     path: &Path,
-    surface: &SurfaceMetric,
+    surface: &Solution,
     lengths: &PerEdge<f64>,
     target: &PerVertex<f64>,
 ) -> Result<(), Failure> {
     let (mesh, metric) = (surface.mesh(), surface.metric());
     let lost = metric.length_remainders(mesh)?;
     let factor = surface.conformal_factor()?;
-    let file = MetricFile::new(mesh, surface.scheme(), metric, [lengths, &lost], &factor, target, None);
+    let file = MetricFile::new(mesh, surface.scheme()?, metric, [lengths, &lost], &factor, target, None);
     outputs.add_json(path, &file)
 }
 

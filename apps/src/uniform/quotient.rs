@@ -11,9 +11,10 @@ use ricci::Control;
 use ricci::canonical::Quotient;
 use ricci::embed::{DeckElement, DeckGroup, DirichletDomain, SpaceLayout, dirichlet_domain};
 use ricci::flow::Report;
+use ricci::flow::Solution;
 use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex};
-use ricci::metric::{Curvature, SurfaceMetric};
+use ricci::metric::{Curvature, Scheme};
 use ricci::topology::HomotopyBasis;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -34,7 +35,8 @@ pub struct Uniformized {
     pub report: Report,
     /// max |K| to twice the digits of doubles.
     pub angle_defect: f64,
-    pub metric: SurfaceMetric,
+    pub metric: Solution,
+    pub scheme: Scheme,
     pub lengths: PerEdge<f64>,
     pub curvature: Curvature,
     /// The curvature asked for: 0 everywhere.
@@ -105,12 +107,13 @@ impl Uniformized {
         let one =
             DeckElement { word: Default::default(), motion: ricci::geometry::Motion::identity(deck.space) };
         Ok(Uniformized {
-            target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
+            target: PerVertex::filled(input.mesh().n_vertices(), 0.0),
             report,
             angle_defect,
-            metric,
             lengths,
             curvature,
+            scheme: metric.scheme()?,
+            metric,
             layout,
             laid,
             modulus: deck.modulus(),
@@ -174,7 +177,7 @@ impl Uniformized {
     pub fn checks(&self) -> Checks {
         let mut checks = Checks::default();
         checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET);
-        checks.add("max_curvature_error", self.curvature_error(), self.report.tolerance);
+        checks.add("max_curvature_error", self.curvature_error(), self.report.allowed_error());
         checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
         let [consistency, limit] = self.consistency();
         let meeting = if self.deck.space == Space::H2 { MEETING } else { limit };
@@ -197,7 +200,7 @@ impl Uniformized {
             let turning = self.deck.generators.iter().map(|g| g.rotation_angle()).fold(0.0, worse);
             checks.add("turning", turning, TURNING);
         }
-        checks.add("unconverged", f64::from(u8::from(!self.report.converged)), 0.0);
+        checks.add("unconverged", f64::from(u8::from(!self.report.converged())), 0.0);
         if let Some(laid) = &self.laid {
             checks.add("without_refinement", f64::from(u8::from(laid.is_err())), 0.0);
         }

@@ -133,7 +133,7 @@ impl Wish<'_> {
 
     /// What can be refused once the surface is known; what the picture shows.
     pub fn check_surface(&self, input: &Input) -> Result<Shown, Failure> {
-        let mesh = &input.mesh;
+        let mesh = input.mesh();
         let refuse = |why: &str| Err(Failure::Input(format!("{}: {why}", input.path.display())));
         if !mesh.is_closed() {
             return refuse(
@@ -155,12 +155,12 @@ impl Wish<'_> {
                 "--model: a torus lies in the plane, which has no other model".into(),
             ));
         }
-        let usual = match (&input.positions, &self.args.picture.picture) {
+        let usual = match (input.positions(), &self.args.picture.picture) {
             (Some(_), Some(path)) if !is_svg(path) => ShowChoice::Both,
             _ => ShowChoice::Domain,
         };
         let shown = self.shown.unwrap_or(Shown::Uniform(usual));
-        if input.positions.is_none() {
+        if input.positions().is_none() {
             let nothing = "an intrinsic metric has no positions in space";
             if self.args.uv.is_some() {
                 return Err(Failure::Usage(format!(
@@ -189,7 +189,7 @@ impl Wish<'_> {
             );
         }
         if args.solve.method == MethodChoice::Newton {
-            if input.mesh.n_vertices() < 4 {
+            if input.mesh().n_vertices() < 4 {
                 let path = input.path.display();
                 let why =
                     "a sphere of fewer than four vertices is no polyhedron; cut each triangle into four";
@@ -210,7 +210,7 @@ impl Wish<'_> {
         match self.shown {
             None | Some(Shown::Cover(_)) => Ok(Shown::Uniform(ShowChoice::Both)),
             Some(shown @ Shown::Uniform(ShowChoice::Both)) => Ok(shown),
-            Some(shown @ Shown::Uniform(ShowChoice::Surface)) if input.positions.is_some() => Ok(shown),
+            Some(shown @ Shown::Uniform(ShowChoice::Surface)) if input.positions().is_some() => Ok(shown),
             Some(_) => usage("--show: a sphere has no fundamental domain; use both"),
         }
     }
@@ -225,11 +225,11 @@ impl Wish<'_> {
         let args = self.args;
         let text = |path: &Option<PathBuf>| path.as_deref().map(path_text);
         let options = args.solve.options(args.common.threads());
-        let space = if input.mesh.euler() < 0 { Space::H2 } else { Space::E2 };
+        let space = if input.mesh().euler() < 0 { Space::H2 } else { Space::E2 };
         let drawn = args.picture.picture.is_some();
         Asked {
             weld: args.surface.weld,
-            input_geometry: input.geometry.name(),
+            input_geometry: input.surface.geometry().name(),
             scheme: args.solve.scheme,
             method: args.solve.method,
             flips: args.solve.flips,

@@ -11,10 +11,12 @@ use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
 use ricci::canonical::{Sphere, SphereReport};
 use ricci::embed::layout_in_space;
-use ricci::flow::{Report, SurfaceFlow};
+use ricci::flow::Solution;
+use ricci::flow::{Report, flow};
 use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex, Point, VertexId};
-use ricci::metric::{Curvature, Refinement, SurfaceMetric};
+use ricci::metric::{Curvature, Refinement, Scheme};
+use ricci::{Class, Target};
 use std::f64::consts::PI;
 
 /// Edges are Delaunay and the outline of the plane is convex to this, radians; the centre of mass is in the middle to this.
@@ -39,7 +41,8 @@ pub struct Round {
     pub way: Way,
     /// What max |K| is held against.
     pub tolerance: f64,
-    pub metric: SurfaceMetric,
+    pub metric: Solution,
+    pub scheme: Scheme,
     pub positions: PerVertex<Point>,
     pub curvature: Curvature,
     pub lengths: PerEdge<f64>,
@@ -51,7 +54,7 @@ pub struct Round {
 }
 
 /// How a sphere was found, its metric, and where its vertices are.
-pub type Found = (Way, SurfaceMetric, PerVertex<Point>);
+pub type Found = (Way, Solution, PerVertex<Point>);
 
 /// What [`ricci::canonical::uniformize()`] found.
 pub fn punctured(sphere: Sphere) -> Found {
@@ -66,15 +69,15 @@ pub fn flowed(
     base: Option<VertexId>,
     control: &Control,
 ) -> Result<Found, Failure> {
-    let Input { mesh, lengths, geometry, .. } = input;
     let options = args.solve.options(args.common.threads());
-    let scheme = args.solve.scheme.into();
-    let mut flow = SurfaceFlow::new(mesh, lengths, *geometry, scheme, Space::S2, &[], &options, control)?;
-    let report = flow.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), control)?;
-    let metric = flow.now();
+    let class = Class::new(args.solve.scheme.into(), Space::S2);
+    let metric = flow(input.surface.clone(), class, &Target::Uniform, &options, control)?;
+    let Some(report) = metric.report().cloned() else {
+        return Err(Failure::Failed("the flow has left no report".into()));
+    };
     let root = base.unwrap_or(VertexId(0));
     let layout = layout_in_space(metric.mesh(), metric.metric(), root, None, control)?;
-    let mut positions = PerVertex::filled(mesh.n_vertices(), [0.0, 0.0, 1.0]);
+    let mut positions = PerVertex::filled(input.mesh().n_vertices(), [0.0, 0.0, 1.0]);
     for h in metric.mesh().halfedges().filter(|&h| !metric.mesh().is_outside(h)) {
         positions[metric.mesh().origin(h)] = layout.corner(h);
     }
@@ -104,14 +107,15 @@ impl Round {
         };
         let tolerance = match &way {
             Way::Puncture(_) => args.solve.tolerance,
-            Way::Flow(report, _) => report.tolerance,
+            Way::Flow(report, _) => report.allowed_error(),
         };
         Ok(Round {
             way,
             tolerance,
             curvature: metric.curvature().map_err(failed)?,
             lengths: metric.metric().lengths(metric.mesh()).map_err(failed)?,
-            target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
+            target: PerVertex::filled(input.mesh().n_vertices(), 0.0),
+            scheme: metric.scheme()?,
             metric,
             positions,
             refinement,
@@ -175,7 +179,7 @@ impl Round {
         checks.add("flipped_triangles", self.inward() as f64, 0.0);
         let converged = match &self.way {
             Way::Puncture(report) => report.converged,
-            Way::Flow(report, _) => report.converged,
+            Way::Flow(report, _) => report.converged(),
         };
         checks.add("unconverged", f64::from(u8::from(!converged)), 0.0);
         if let Way::Puncture(report) = &self.way {

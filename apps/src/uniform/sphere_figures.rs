@@ -76,7 +76,7 @@ impl SphereFigures {
     pub fn new(input: &Input, s: &Round, copies: bool) -> SphereFigures {
         let (converged, stop_reason, iterations, flips) = match &s.way {
             Way::Puncture(r) => (r.converged, r.stop_reason, r.iterations, r.flips),
-            Way::Flow(r, _) => (r.converged, r.stop_reason, r.iterations, r.flips),
+            Way::Flow(r, _) => (r.converged(), r.stop_reason, r.iterations, r.flips),
         };
         let plane = match &s.way {
             Way::Flow(..) => None,
@@ -93,7 +93,7 @@ impl SphereFigures {
         };
         SphereFigures {
             space: "s2",
-            scheme: s.metric.scheme().name(),
+            scheme: s.scheme.name(),
             converged,
             stop_reason: stop_reason.name(),
             iterations,
@@ -157,7 +157,7 @@ impl SphereQuality {
 /// Lengths of a piece's sides 0 → 1, 1 → 2, 2 → 0 in the input.
 fn sides_in_input(input: &Input, r: &Refinement, f: FaceId) -> [f64; 3] {
     let given = r.input_face[f];
-    let [a, b, c] = input.mesh.opposite_edges(given).map(|e| input.lengths[e]);
+    let [a, b, c] = input.mesh().opposite_edges(given).map(|e| input.surface.lengths()[e]);
     let w = r.input_barycentric(f);
     [(0, 1), (1, 2), (2, 0)].map(|(i, j)| {
         // |Σ w_k p_k|² = −Σ w_j w_k l_jk² for weights that add up to 0.
@@ -198,7 +198,7 @@ pub fn text(s: &Round, copies: bool) -> String {
     };
     let mut text = format!(
         "metric   s2 {}: {stop} after {}, max |K| = {:.1e}{}, area {:.6}\n",
-        s.metric.scheme(),
+        s.scheme,
         say::count(steps, "step", "steps"),
         s.curvature_error(),
         say::tolerance(s.tolerance),

@@ -25,11 +25,11 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
     let mut text = format!(
         "metric   {} {}: {} after {}, max |K| = {:.1e}{}, area {}\n",
         u.deck.space,
-        u.metric.scheme(),
+        u.scheme,
         u.report.stop_reason,
         say::count(u.report.iterations, "step", "steps"),
         u.curvature_error(),
-        say::tolerance(u.report.tolerance),
+        say::tolerance(u.report.allowed_error()),
         say::size(u.area(), 6),
     );
     let flipped = || say::count(u.flipped().len(), "triangle flipped", "triangles flipped");
