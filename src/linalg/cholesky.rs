@@ -32,9 +32,12 @@ impl Cholesky {
         Cholesky::with_order(pattern, SymmetricOrdering::Amd)
     }
 
-    /// Analyse a pattern of the same size in this one's order: good where few entries differ, and the order is most of the work.
-    pub fn analyse_again(&self, pattern: &Pattern) -> Result<Cholesky> {
-        match self.symbolic.perm() {
+    /// Analyse another pattern of the same size in this one's order: good where few entries differ, and the order is most of the work.
+    /// The factor of this pattern is released first.
+    pub fn analyse_again(self, pattern: &Pattern) -> Result<Cholesky> {
+        let Cholesky { symbolic, factor, scratch } = self;
+        drop((factor, scratch));
+        match symbolic.perm() {
             Some(order) if order.len() == pattern.size() => {
                 Cholesky::with_order(pattern, SymmetricOrdering::Custom(order))
             }
