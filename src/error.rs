@@ -83,13 +83,13 @@ pub enum Error {
         /// What is wrong.
         message: String,
     },
-    /// No reader or writer for this file name.
-    #[error("{path}: unknown format; known are {known}")]
+    /// This build has no reader or no writer for this file name.
+    #[error("{path}: {message}")]
     UnknownFormat {
         /// The file.
         path: String,
-        /// The extensions that can be handled.
-        known: &'static str,
+        /// Which extensions it knows, or which cargo feature it lacks.
+        message: String,
     },
 
     /// The faces do not form the surface that is needed; the diagnosis lists every defect.
