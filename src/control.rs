@@ -1,4 +1,16 @@
 //! Progress and cancellation of one long call, shared across threads.
+//!
+//! ```
+//! use ricci::control::Stage;
+//! use ricci::{Control, Error};
+//! let control = Control::new();
+//! let other = control.clone(); // for another thread
+//! control.step(Stage::Flow, 0.5)?;
+//! assert_eq!(other.progress(), (Stage::Flow, 0.5));
+//! other.cancel();
+//! assert_eq!(control.step(Stage::Flow, 0.6), Err(Error::Cancelled));
+//! # Ok::<(), Error>(())
+//! ```
 
 use crate::error::{Error, Result};
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};

@@ -1,6 +1,12 @@
 //! One error type for the whole library, with stable codes that the C face repeats.
 //!
 //! Codes come in blocks per family; a retired number is never given out again.
+//!
+//! ```
+//! use ricci::{Error, mesh::shapes};
+//! let error = shapes::torus(1.0, 2.0, 8, 8).unwrap_err();
+//! assert!(matches!(error, Error::Argument { .. }) && error.code() == 2);
+//! ```
 
 use crate::mesh::check::Diagnosis;
 

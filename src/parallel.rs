@@ -3,6 +3,14 @@
 //! The library never touches rayon's global pool: each solver owns its own, and everything parallel runs
 //! inside [`Pool::run`]. A loop writes each element from one fixed computation, so results are bit-identical
 //! for any thread count.
+//!
+//! ```
+//! use ricci::parallel::{Pool, fill};
+//! let mut squares = vec![0; 5000];
+//! Pool::new(2)?.run(|| fill(&mut squares, |i| i * i));
+//! assert_eq!(squares[4000], 16_000_000);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::error::{Error, Result};
 use rayon::prelude::*;

@@ -2,6 +2,13 @@
 //!
 //! A vertex circle has centre p, radius γ > 0 and type ε: a real circle (ε = 1), a point (ε = 0) or a circle of
 //! imaginary radius (ε = −1). The power of a point x with respect to it is `|x − p|² − ε γ²`.
+//!
+//! ```
+//! use ricci::geometry::circle::power_circle;
+//! let triangle = [[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]];
+//! let circumcircle = power_circle(triangle, [0; 3], [0.0; 3]).unwrap();
+//! assert_eq!((circumcircle.center, circumcircle.power.sqrt()), ([1.5, 2.0], 2.5));
+//! ```
 
 use super::complex::{add, cross, norm2, sub};
 

@@ -1,9 +1,16 @@
 //! The modulus of a flat torus: the shape of its lattice, independent of the basis and of the scale.
+//!
+//! ```
+//! use ricci::geometry::modulus::modulus;
+//! // Another basis of the square lattice of side 2.
+//! assert_eq!(modulus([[2.0, 0.0], [6.0, 2.0]]), Some([0.0, 1.0]));
+//! ```
 
 use super::complex::{cross, dot, norm2, scale, sub};
 
-/// Rounding of periods, relative: below this sine of their angle they count as parallel, and within this of the border of
-/// the fundamental domain a modulus lies on it. Periods developed over thousands of triangles are good to about this.
+/// Relative error of the periods that is allowed for: periods with an angle of a smaller sine count as parallel, and a modulus
+/// within this distance of the border of the fundamental domain counts as on it. Periods that were developed over thousands
+/// of triangles have about this error.
 const ROUNDING: f64 = 1e-12;
 
 /// The modulus `τ = ω₂/ω₁` `[Re τ, Im τ]` of the lattice spanned by two periods, reduced under SL(2, ℤ).
@@ -28,7 +35,7 @@ pub fn modulus(periods: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     if sine.is_nan() || sine <= ROUNDING {
         return None;
     }
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         if norm2(a) > norm2(b) {
             (a, b) = (b, a);
         }
@@ -53,8 +60,9 @@ pub fn modulus(periods: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     Some([if on_border { re.abs() } else { re }, im])
 }
 
-/// More rounds than doubles with their exponents can need (squared lengths halve each time).
-const ROUNDS: usize = 4096;
+/// Most rounds of the reduction. Squared lengths halve each time and span at most 2²⁰⁹⁸ in doubles, so that no lattice needs
+/// as many.
+const MAX_ROUNDS: usize = 4096;
 
 #[cfg(test)]
 mod tests {

@@ -1,4 +1,11 @@
 //! Exact geometric predicates (Shewchuk's adaptive arithmetic, crate `robust`).
+//!
+//! ```
+//! use ricci::geometry::predicates::orientation;
+//! use std::cmp::Ordering;
+//! // One rounding off the diagonal.
+//! assert_eq!(orientation([0.5, 0.5], [12.0, 12.0], [24.0, 24f64.next_up()]), Ordering::Greater);
+//! ```
 
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;

@@ -1,4 +1,11 @@
 //! The three background geometries.
+//!
+//! ```
+//! use ricci::geometry::Space;
+//! let space: Space = "h2".parse()?;
+//! assert_eq!((space, space.curvature()), (Space::H2, -1.0));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::error::Error;
 

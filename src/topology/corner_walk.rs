@@ -15,6 +15,8 @@ pub(crate) struct CornerWalk<'a> {
 /// Walk an edge path from the corner at the origin of `corner`, a half-edge of a face. Every step turns about
 /// the vertex to a side of the next edge, and runs along that side to its corner at the edge's end.
 ///
+/// # Errors
+///
 /// [`Error::Argument`] for a path that is none, or does not start at that corner.
 pub(crate) fn corner_walk<'a>(
     mesh: &'a Mesh,
@@ -56,7 +58,9 @@ fn turn(mesh: &Mesh, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
 
 /// All half-edges that such a walk crosses, of a closed path also in the last turn, back to `corner`.
 ///
-/// Errors: as [`corner_walk`].
+/// # Errors
+///
+/// As [`corner_walk`].
 pub(crate) fn crossed_halfedges(
     mesh: &Mesh,
     corner: HalfedgeId,

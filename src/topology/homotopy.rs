@@ -63,7 +63,9 @@ const WORK_PER_EDGE: usize = 8;
 /// commutator) and pulled straight across triangles, as long as they become shorter. O(E log E) for a fixed
 /// genus; O(g³) at worst for the words.
 ///
-/// Errors: [`Error::EdgeLength`], [`Error::Size`]; [`Error::Argument`] for a base that is no vertex;
+/// # Errors
+///
+/// [`Error::EdgeLength`], [`Error::Size`]; [`Error::Argument`] for a base that is no vertex;
 /// [`Error::Layout`] for an empty surface or one of several components; [`Error::Cancelled`].
 pub fn homotopy_basis(
     mesh: &Mesh,
@@ -168,6 +170,8 @@ impl HomotopyBasis {
 
     /// The tree path from the base to `v`; its lift from p̃ ends at ṽ.
     ///
+    /// # Errors
+    ///
     /// [`Error::Argument`] for what is no vertex.
     pub fn tree_path(&self, mesh: &Mesh, v: VertexId) -> Result<Vec<HalfedgeId>> {
         self.check_fits(mesh)?;
@@ -204,6 +208,8 @@ impl HomotopyBasis {
     /// The element of an edge path from u to v: of the loop along the tree to u, along the path, and back
     /// along the tree; for a loop at the base, of the loop itself. Reduced in the group
     /// ([`SurfaceGroup::reduce`]). The lift of the path that starts at ũ ends at `γ ṽ`.
+    ///
+    /// # Errors
     ///
     /// [`Error::Argument`] for half-edges that do not follow each other.
     pub fn path_word(&self, mesh: &Mesh, path: &[HalfedgeId]) -> Result<Word> {

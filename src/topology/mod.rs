@@ -1,5 +1,19 @@
 //! Spanning trees, homology generators, cut graphs, homotopy bases and lifts to the universal cover.
 //! Everything is walked through half-edges, so loops and repeated edges of a Δ-complex are no special cases.
+//!
+//! ```
+//! use ricci::mesh::shapes;
+//! use ricci::topology::{cut_graph, homotopy_basis, intersection_matrix};
+//! use ricci::{Control, topology::cut::is_disk};
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let control = Control::new();
+//! let basis = homotopy_basis(&mesh, &lengths, None, &control)?;
+//! assert_eq!(basis.group.names(), ["a1", "b1"]);
+//! assert_eq!(intersection_matrix(&mesh, &basis.loops)?, [[0, 1], [-1, 0]]);
+//! let cut = cut_graph(&mesh, &lengths, &[], &control)?;
+//! assert!(is_disk(&mesh, &cut.is_cut));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 mod brahana;
 mod corner_walk;

@@ -1,4 +1,11 @@
 //! Mesh files: triangles and positions, as the file numbers them.
+//!
+//! ```
+//! use ricci::mesh::io::parse_obj;
+//! let soup = parse_obj(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "square.obj")?;
+//! assert_eq!(soup.faces, [[0, 1, 2], [0, 2, 3]]);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 mod atomic;
 #[cfg(any(feature = "gltf", feature = "gifti"))]
@@ -231,7 +238,9 @@ pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Res
 /// positions read back as they are; GLB has 24 bits, see [`write_glb`]. Returned is what was left out because the format has no
 /// place for it, by name: normals and texture coordinates with more than one value at a vertex, in PLY and OFF.
 ///
-/// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range;
+/// # Errors
+///
+/// With the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range;
 /// [`Error::Size`] for attributes of another size; [`Error::Io`].
 pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<Vec<&'static str>> {
     match format {

@@ -2,7 +2,7 @@
 
 use super::Point;
 use super::budget::Budget;
-use super::scan::Place;
+use super::scan::Location;
 use crate::error::Result;
 use crate::geometry::predicates::orientation;
 use std::cmp::Ordering;
@@ -41,7 +41,7 @@ impl Polygons {
         &self,
         positions: &[Point],
         budget: &mut Budget,
-        place: Place<'_>,
+        place: Location<'_>,
     ) -> Result<Vec<[usize; 3]>> {
         let starts = std::iter::once(&0).chain(&self.ends);
         let count = starts.zip(&self.ends).map(|(start, end)| (end - start).saturating_sub(2)).sum();
@@ -157,7 +157,7 @@ mod tests {
     use super::*;
 
     fn triangles(polygons: &Polygons, positions: &[Point]) -> Vec<[usize; 3]> {
-        polygons.triangles(positions, &mut Budget::of(&[]), Place::whole("t")).unwrap()
+        polygons.triangles(positions, &mut Budget::of(&[]), Location::whole("t")).unwrap()
     }
 
     fn area(p: [[f64; 2]; 3]) -> f64 {

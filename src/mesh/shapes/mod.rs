@@ -1,4 +1,11 @@
 //! Sample surfaces of every topology, at any resolution.
+//!
+//! ```
+//! use ricci::mesh::{Mesh, shapes};
+//! let mesh = Mesh::from_soup(&shapes::genus(3, 2)?)?;
+//! assert_eq!((mesh.genus(), mesh.is_closed()), (3, true));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 mod genus;
 mod grading;
