@@ -256,7 +256,11 @@ fn amount(how: &str, by: f64) -> String {
     if by == 0.0 { "equality is not enough".into() } else { format!("{how} by {:.4e}", by.abs()) }
 }
 
-/// Error for an array of the wrong size, unless the sizes agree.
+/// Compare the size of an array with the size that a call needs.
+///
+/// # Errors
+///
+/// [`Error::Size`] where they differ.
 pub fn check_size(what: &'static str, got: usize, expected: usize) -> Result<()> {
     if got == expected { Ok(()) } else { Err(Error::Size { what, expected, got }) }
 }

@@ -1,7 +1,7 @@
 //! Edge paths from corner to corner of an opened surface, and the half-edges through which they leave faces on
 //! the way.
 
-use super::check_path;
+use super::{check_path, corners_along};
 use crate::error::{Error, Result};
 use crate::mesh::{HalfedgeId, Mesh};
 
@@ -83,11 +83,7 @@ impl Iterator for CornerWalk<'_> {
 
     fn next(&mut self) -> Option<Self::Item> {
         let (&h, rest) = self.path.split_first()?;
-        // Outside the surface the way back along the twin.
-        let (from, to) = match self.mesh.is_outside(h) {
-            false => (h, self.mesh.next(h)),
-            true => (self.mesh.next(h.twin()), h.twin()),
-        };
+        let [from, to] = corners_along(self.mesh, h);
         let crossed = turn(self.mesh, self.at, from);
         (self.at, self.path) = (to, rest);
         Some((crossed, to))

@@ -1,8 +1,8 @@
 //! Cut graphs: edges along which a surface opens into a disk.
 
-use super::check_lengths;
 use super::shorten::{LEAST_SAVING, MOVES_PER_FACE, fan};
 use super::spanning::{leftover, shortest_paths_under};
+use super::{check_connected, check_lengths};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
@@ -292,11 +292,7 @@ fn fixed_vertices(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Re
             need: "it must be below the number of vertices",
         });
     }
-    if !is_connected(mesh, |_| false) {
-        return Err(Error::Layout(
-            "the surface is empty or has several components: lay out each alone".into(),
-        ));
-    }
+    check_connected(mesh, "lay out")?;
     let mut fixed = PerVertex::from_fn(mesh.n_vertices(), |v| mesh.is_boundary_vertex(v));
     for &v in cones {
         fixed[v] = true;

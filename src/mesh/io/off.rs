@@ -186,7 +186,7 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
 /// The attributes of the vertices read so far.
 pub(super) struct Extras {
     has: Columns,
-    /// What some vertex has.
+    /// The columns that some vertex really has.
     any: Columns,
     normals: Vec<Point>,
     colors: Vec<[f64; 4]>,

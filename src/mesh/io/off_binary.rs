@@ -17,9 +17,9 @@ struct Dialect {
     color: usize,
 }
 
-/// The format's definition.
+/// As Geomview's manual defines the format.
 const GEOMVIEW: Dialect = Dialect { big_endian: true, face_colors: true, color: 4 };
-/// Of programs that copy their memory.
+/// As programs write it that copy their memory to the file.
 const COPIED: Dialect = Dialect { big_endian: false, face_colors: false, color: 4 };
 
 /// Parse the data that begin at `start`: three `i32` counts, `columns` `f32` per vertex of which the first

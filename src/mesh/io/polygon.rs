@@ -15,7 +15,8 @@ pub(super) struct Polygons {
     ends: Vec<usize>,
 }
 
-/// Polygons of more corners are cut into fans: looking for ears takes time in proportion to their square.
+/// Most corners of a polygon that is cut ear by ear. A larger one becomes a fan: the time to find its ears grows with the square of
+/// the number of corners.
 const MOST_CORNERS: usize = 1000;
 
 impl Polygons {
@@ -28,7 +29,7 @@ impl Polygons {
         self.ends.is_empty()
     }
 
-    /// The corners pushed onto `corners` since the last polygon are one.
+    /// End a polygon: its corners are those pushed onto `corners` since the last one ended.
     pub fn end(&mut self) {
         self.ends.push(self.corners.len());
     }
@@ -69,7 +70,7 @@ impl Polygons {
 /// What is known of a corner of a polygon while ears are cut off it.
 #[derive(Clone, Copy)]
 enum Corner {
-    /// Nothing: one of its neighbours was cut off.
+    /// Nothing, since one of its neighbours was cut off.
     New,
     /// It turns inwards.
     Reflex,

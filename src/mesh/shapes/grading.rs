@@ -170,7 +170,7 @@ fn check_room(soup: &Soup, new_faces: usize) -> Result<()> {
     if count > u32::MAX as usize / 3 { Err(Error::TooLarge { what: "faces", count }) } else { Ok(()) }
 }
 
-/// Attributes belong to the elements that were there.
+/// Drop the attributes: those of new vertices and faces are not known.
 fn forget_attributes(soup: &mut Soup) {
     soup.attributes = Default::default();
 }

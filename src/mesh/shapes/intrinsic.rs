@@ -1,7 +1,8 @@
 //! Surfaces given by glued triangles and edge lengths alone.
 
-use super::{SIZES, THIN, check_count};
+use super::{THIN, check_count};
 use crate::error::{Error, Result};
+use crate::geometry::space::USABLE_LENGTHS;
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Mesh, PerEdge};
 use std::f64::consts::PI;
@@ -81,7 +82,9 @@ impl Intrinsic {
 
     /// Every length usable, every face a triangle of the geometry.
     pub(super) fn check_triangles(&self) -> Result<()> {
-        if let Some((edge, &length)) = self.lengths.iter().enumerate().find(|(_, l)| !SIZES.contains(*l)) {
+        if let Some((edge, &length)) =
+            self.lengths.iter().enumerate().find(|(_, l)| !USABLE_LENGTHS.contains(*l))
+        {
             return Err(Error::EdgeLength { edge, length });
         }
         if let Some(l) =

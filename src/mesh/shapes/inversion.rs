@@ -53,7 +53,7 @@ const CLEARANCE: f64 = 1.2;
 pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
     let mut soup = genus(handles, n)?;
     let refuse = |need| Err(Error::Argument { what: "ratio of the handles", value: ratio.to_string(), need });
-    if !(1.0..=SIZE).contains(&ratio) {
+    if !(1.0..=MOST_RATIO).contains(&ratio) {
         return refuse("between 1 and 1000");
     }
     if ratio == 1.0 {
@@ -84,4 +84,4 @@ pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
 }
 
 /// Largest ratio of the handles' sizes.
-const SIZE: f64 = 1000.0;
+const MOST_RATIO: f64 = 1000.0;

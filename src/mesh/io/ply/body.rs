@@ -6,7 +6,8 @@ use super::header::{Element, Encoding, Header};
 use crate::error::Result;
 use std::iter::Peekable;
 
-/// What is left of the body. A row of text is a line, on which further numbers may follow; blank lines are none.
+/// The part of the body that has not been read yet. In text each row is a line: further numbers on it are skipped, and so are blank
+/// lines.
 pub(super) struct Body<'a> {
     path: &'a str,
     bytes: &'a [u8],
