@@ -14,6 +14,9 @@
 //! | [`flow`] | Newton and gradient flow, cones |
 //! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |
 //! | [`canonical`] | closed surfaces in their canonical shape |
+//!
+//! Two cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf,
+//! `gifti` reads .gii.
 
 pub mod canonical;
 pub mod control;

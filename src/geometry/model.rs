@@ -7,6 +7,13 @@
 //!
 //! Points of the hyperboloid keep their digits however far out; of a disk the border is 2e^{−d} (Poincaré) or 2e^{−2d} (Klein) away at
 //! distance d from the origin.
+//!
+//! ```
+//! use ricci::geometry::model::{distance, from_poincare, half_plane};
+//! let origin = from_poincare([0.0, 0.0]);
+//! assert_eq!(half_plane(origin), [0.0, 1.0]);
+//! assert!((distance(origin, from_poincare([0.5, 0.0])) - 3f64.ln()).abs() < 1e-15);
+//! ```
 
 use crate::error::Error;
 

@@ -1,4 +1,12 @@
 //! Fundamental groups of oriented surfaces: one relator, names of the generators, the word problem.
+//!
+//! ```
+//! use ricci::topology::SurfaceGroup;
+//! let group = SurfaceGroup { genus: 2, boundaries: 0 };
+//! let word = group.parse("a1 b1 a1^-1 b1^-1 a2 b2 a2^-1")?;
+//! assert_eq!(group.text(&group.reduce(&word)), "b2");
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::reduction::Reduction;
 use super::word::{Letter, Word};
@@ -119,8 +127,9 @@ impl SurfaceGroup {
                 *sum += if letter.is_inverse() { -1 } else { 1 };
             }
         }
-        if self.boundaries > 0 {
-            let last = sums.pop().unwrap_or(0);
+        if self.boundaries > 0
+            && let Some(last) = sums.pop()
+        {
             sums[2 * self.genus..].iter_mut().for_each(|sum| *sum -= last);
         }
         sums

@@ -4,7 +4,7 @@
 use super::budget::Budget;
 use super::off_binary::parse_off_binary;
 use super::polygon::Polygons;
-use super::scan::{Place, Quoted, tokens};
+use super::scan::{Location, Quoted, tokens};
 use super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, write_atomically};
 use crate::error::Result;
 use std::io::Write;
@@ -19,14 +19,14 @@ pub fn parse_off(bytes: &[u8], path: &str) -> Result<Soup> {
 }
 
 /// What each vertex has, where the data begin and the place of the header, if that says `BINARY`.
-fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Place<'a>)>> {
+fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Location<'a>)>> {
     let mut end = 0;
     for (i, line) in bytes.split_inclusive(|&b| b == b'\n').enumerate() {
         end += line.len();
         let line = line.split(|&b| b == b'#').next().unwrap_or_default();
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         if let Some(first) = words.next() {
-            let place = Place::line(path, i + 1);
+            let place = Location::line(path, i + 1);
             let header = String::from_utf8_lossy(first);
             return match split_header(&header) {
                 Some((prefix, "")) if words.next().is_some_and(|w| w.eq_ignore_ascii_case(b"BINARY")) => {
@@ -55,7 +55,7 @@ pub(super) struct Columns {
 }
 
 /// What the letters before `OFF` name, in any order.
-fn columns(prefix: &str, place: Place<'_>) -> Result<Columns> {
+fn columns(prefix: &str, place: Location<'_>) -> Result<Columns> {
     let prefix = prefix.trim_start_matches('\u{feff}');
     let mut rest = prefix;
     let mut columns = Columns::default();
@@ -175,7 +175,7 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
         polygons.push(corners.iter().copied());
     }
     match tokens.next() {
-        None => extras.soup(positions, &polygons, Budget::of(text.as_bytes()), Place::whole(path)),
+        None => extras.soup(positions, &polygons, Budget::of(text.as_bytes()), Location::whole(path)),
         Some(token) => tokens.place().error(format!(
             "{} comes after the last face: the header promises {n_vertices} vertices and {n_faces} faces, each on a line of its own",
             Quoted(token)
@@ -186,7 +186,7 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
 /// The attributes of the vertices read so far.
 pub(super) struct Extras {
     has: Columns,
-    /// What some vertex has.
+    /// The columns that some vertex really has.
     any: Columns,
     normals: Vec<Point>,
     colors: Vec<[f64; 4]>,
@@ -230,7 +230,7 @@ impl Extras {
         positions: Vec<Point>,
         polygons: &Polygons,
         mut budget: Budget,
-        place: Place<'_>,
+        place: Location<'_>,
     ) -> Result<Soup> {
         let triangles = polygons.triangles(&positions, &mut budget, place)?;
         // Components are from 0 to 1, or from 0 to 255 as soon as one is larger.
@@ -251,7 +251,9 @@ impl Extras {
 /// are any, and texture coordinates where each vertex has a single pair; atomically. Returned is what was left out, by name: normals
 /// and texture coordinates that differ between the corners of a vertex.
 ///
-/// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
+/// # Errors
+///
+/// With the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`crate::Error::Size`] for attributes of another size, [`crate::Error::Io`].
 pub fn write_off(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     soup.check_writable()?;

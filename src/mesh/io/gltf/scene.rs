@@ -12,7 +12,7 @@ use crate::mesh::weld::place_key;
 const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
 const FAN: u32 = 6;
-/// Bytes that reading a primitive costs at least: an empty one that is shown often takes its time too.
+/// Bytes of the budget that each primitive takes, an empty one too: nodes may show it often, and each time takes a while.
 const PRIMITIVE: usize = 64;
 
 /// All meshes below the roots of the scene: the default one, else the first, else every mesh where it stands.
@@ -78,7 +78,7 @@ struct Collected<'a> {
     first: Vec<u32>,
 }
 
-/// Of vertices that other programs wrote.
+/// Stands for the number of a vertex that another program wrote.
 const NO_NUMBER: u32 = u32::MAX;
 
 impl Collected<'_> {

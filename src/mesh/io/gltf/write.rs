@@ -57,7 +57,9 @@ const PLAIN: std::ops::RangeInclusive<f64> = 1e-25..=1e30;
 /// the places of the vertices do not tell which of them are one, the file says so in an attribute of ours, `_RICCI_VERTEX`: the
 /// number as two of 16 bits, the lower one first.
 ///
-/// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
+/// # Errors
+///
+/// With the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`Error::Size`], [`Error::TooLarge`] for more than the 4 GB that glTF can count, [`Error::Io`].
 pub fn write_glb(path: &Path, data: &Textured<'_>, texture: Option<Texture<'_>>) -> Result<Vec<u32>> {
     data.check()?;
