@@ -1,15 +1,15 @@
 //! `ricci info`.
 
-use crate::cli::InfoArgs;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::options::SurfaceArgs;
+use crate::options::{Common, SurfaceArgs, distance};
 use crate::output::{Outputs, check_extension, check_outputs, extension};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{InputSummary, Report, Seconds, path_text, peak_bytes, timed};
 use crate::say::{self, count};
 use crate::shape_quality::{self, ShapeQuality};
 use crate::show;
+use clap::Args;
 use ricci::Control;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::check::{Defect, Diagnosis, diagnose};
@@ -17,7 +17,25 @@ use ricci::mesh::io::Soup;
 use ricci::mesh::{FaceId, Mesh};
 use ricci::metric::lengths_from_positions;
 use serde::Serialize;
+use std::path::PathBuf;
 use std::time::Instant;
+
+pub const HELP: &str = "\
+Example: every defect of a scan, machine-readable
+    ricci info scan.obj --report scan.json";
+
+#[derive(Args, Debug)]
+pub struct InfoArgs {
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json)
+    pub mesh: PathBuf,
+    /// STL: corners within this distance are one vertex; 0: those in exactly the same place
+    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
+    pub weld: Option<f64>,
+    #[command(flatten)]
+    pub picture: SurfacePictureArgs,
+    #[command(flatten)]
+    pub common: Common,
+}
 
 /// What a surface is.
 #[derive(Serialize)]

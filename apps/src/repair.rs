@@ -1,20 +1,59 @@
 //! `ricci repair`.
 
-use crate::cli::RepairArgs;
 use crate::failure::Failure;
 use crate::info::{DefectCount, DefectFigures, summary_of};
+use crate::options::{Common, distance};
 use crate::output::{Outputs, check_extension, check_outputs, extension};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{Report, Seconds, path_text, peak_bytes, timed};
 use crate::say::{self, count};
 use crate::show;
+use clap::Args;
 use ricci::Control;
 use ricci::control::Stage;
 use ricci::mesh::check::diagnose;
 use ricci::mesh::io::{self, Format};
 use ricci::mesh::repair::{Repair, Repaired, Steps, repair};
 use serde::Serialize;
+use std::path::PathBuf;
 use std::time::Instant;
+
+pub const HELP: &str = "\
+Example: the largest piece of a scan, welded within 1e-6, and where its vertices and faces came from
+    ricci repair scan.stl -o clean.ply --weld 1e-6 --component 0 --map origin.json
+
+Always: weld vertices in the same place (but not in edges in which more than two faces would meet: these are told), drop faces
+that use a vertex twice or repeat a face, give every fan of faces a vertex of its own, turn faces until neighbours agree, drop
+isolated vertices.
+The exit code is 1 if a defect is left that needs a guess; the file is written all the same.";
+
+#[derive(Args, Debug)]
+pub struct RepairArgs {
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii)
+    pub mesh: PathBuf,
+    /// Repaired mesh (.obj, .off, .ply, .glb)
+    #[arg(short = 'o', long = "out", value_name = "OUT")]
+    pub out: PathBuf,
+    /// Weld vertices within this distance; 0 welds those in exactly the same place
+    #[arg(long, value_name = "DISTANCE", default_value_t = 0.0, value_parser = distance)]
+    pub weld: f64,
+    /// Weld nothing
+    #[arg(long, conflicts_with = "weld")]
+    pub no_weld: bool,
+    /// Cut the surface open along edges in which more than two faces meet
+    #[arg(long)]
+    pub cut_edges: bool,
+    /// Keep one connected piece: 0 is that with the most faces
+    #[arg(long, value_name = "K")]
+    pub component: Option<usize>,
+    /// Write the input's vertex of each vertex and the input's face of each face
+    #[arg(long, value_name = "MAP.json")]
+    pub map: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: SurfacePictureArgs,
+    #[command(flatten)]
+    pub common: Common,
+}
 
 /// What was done, what the result is, and what is left.
 #[derive(Serialize)]
@@ -109,7 +148,7 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
         say::lines(&text(args, &done.steps, &result));
     }
     if let Some(path) = &args.common.report {
-        let text = |path: &Option<std::path::PathBuf>| path.as_deref().map(path_text);
+        let text = |path: &Option<PathBuf>| path.as_deref().map(path_text);
         let asked = Asked {
             out: path_text(&args.out),
             weld,

@@ -2,11 +2,11 @@
 
 use crate::failure::Failure;
 use crate::input::Input;
+pub use crate::timing::{Seconds, timed};
 use ricci::mesh::Mesh;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::time::Instant;
 
 /// What every command's report has in common.
 #[derive(Serialize)]
@@ -104,6 +104,18 @@ impl Checks {
     }
 }
 
+/// A finished run of a command.
+pub struct Done<T> {
+    pub input: Input,
+    /// What the command is for: the metric of a flow, a surface in its canonical shape.
+    pub result: T,
+    pub checks: Checks,
+    /// Files written.
+    pub files: Vec<String>,
+    pub seconds: f64,
+    pub exit_code: u8,
+}
+
 /// Wishes that could not be fulfilled, by option, with the reason.
 #[derive(Serialize, Default)]
 #[serde(transparent)]
@@ -128,22 +140,6 @@ impl Attempts {
     }
 }
 
-/// Wall-clock seconds by phase; `write` ends before the report itself is written.
-#[derive(Serialize, Default, Clone, Copy)]
-pub struct Seconds {
-    pub total: f64,
-    pub read: f64,
-    pub build: f64,
-    pub assemble: f64,
-    pub analyse: f64,
-    pub factor: f64,
-    pub solve: f64,
-    pub flip: f64,
-    pub refine: f64,
-    pub layout: f64,
-    pub write: f64,
-}
-
 impl Seconds {
     /// Those of reading a mesh and of a flow.
     pub fn new(input: &Input, flow: &ricci::flow::Seconds) -> Seconds {
@@ -158,14 +154,6 @@ impl Seconds {
             ..Seconds::default()
         }
     }
-}
-
-/// Run `work` and add its seconds to a phase.
-pub fn timed<T>(phase: &mut f64, work: impl FnOnce() -> T) -> T {
-    let start = Instant::now();
-    let result = work();
-    *phase += start.elapsed().as_secs_f64();
-    result
 }
 
 /// The largest memory this process has held; known on Linux.

@@ -2,9 +2,8 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::guard::output;
-use crate::mesh::halfedge;
 use crate::status::ricci_status;
-use ricci::mesh::{HalfedgeId, Mesh, Point};
+use ricci::mesh::Point;
 use std::ffi::{CStr, c_char};
 use std::path::PathBuf;
 
@@ -107,19 +106,22 @@ pub fn copy_out<T: Copy>(what: &str, values: &[T], buffer: *mut T, capacity: usi
     Ok(())
 }
 
-/// Copy rows of different lengths: their entries one after the other, and where each row starts.
+/// Copy rows of different lengths: their entries one after the other, and where each row starts and the last one ends.
+/// A buffer is given with its capacity in entries.
 pub fn copy_rows<T: Copy>(
     what: &str,
-    entries: &[T],
-    buffer: *mut T,
-    capacity: usize,
-    starts: &[usize],
-    starts_buffer: *mut usize,
-    starts_capacity: usize,
+    rows: impl IntoIterator<Item = impl IntoIterator<Item = T>>,
+    buffer: (*mut T, usize),
+    starts_buffer: (*mut usize, usize),
 ) -> Outcome {
-    check_buffer(what, entries.len(), buffer, capacity)?;
-    copy_out("starts", starts, starts_buffer, starts_capacity)?;
-    copy_out(what, entries, buffer, capacity)
+    let (mut entries, mut starts) = (Vec::new(), vec![0]);
+    for row in rows {
+        entries.extend(row);
+        starts.push(entries.len());
+    }
+    check_buffer(what, entries.len(), buffer.0, buffer.1)?;
+    copy_out("starts", &starts, starts_buffer.0, starts_buffer.1)?;
+    copy_out(what, &entries, buffer.0, buffer.1)
 }
 
 /// Copy results whose number the caller cannot know before, with that number; for no buffer of no entries the number alone.
@@ -136,29 +138,6 @@ pub fn copy_counted<T: Copy>(
     }
     count.set(values.len());
     Ok(())
-}
-
-/// Rows of different lengths, one after the other, and where each starts and the last one ends.
-pub fn flattened<T>(rows: impl IntoIterator<Item = impl IntoIterator<Item = T>>) -> (Vec<T>, Vec<usize>) {
-    let (mut entries, mut starts) = (Vec::new(), vec![0]);
-    for row in rows {
-        entries.extend(row);
-        starts.push(entries.len());
-    }
-    (entries, starts)
-}
-
-/// Half-edges as signed edge numbers of a mesh.
-pub fn halfedges(what: &str, mesh: &Mesh, data: *const i32, n: usize) -> Outcome<Vec<HalfedgeId>> {
-    let known = |(i, &number): (usize, &i32)| {
-        halfedge(mesh, number).ok_or_else(|| {
-            let n = mesh.n_edges();
-            Failure::argument(format!(
-                "{what}[{i}] is {number}: edges are numbered 1 to {n}, -1 to -{n} against them"
-            ))
-        })
-    };
-    array(what, data, n)?.iter().enumerate().map(known).collect()
 }
 
 /// Finite points in ambient coordinates.

@@ -4,9 +4,9 @@ use crate::arrays::copy_out;
 use crate::control::{self, ricci_control};
 use crate::drawing;
 use crate::failure::Outcome;
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle, output};
 use crate::layout::ricci_layout;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::embed::{ChartOptions, Charts, charts};
 use ricci::geometry::Space;
@@ -25,12 +25,7 @@ pub struct ricci_charts {
     pub(crate) refinement: Option<Arc<Refinement>>,
 }
 
-impl Handle for ricci_charts {
-    const NAME: &'static str = "charts";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_charts, "charts");
 
 /// Figures of charts.
 #[repr(C)]
@@ -60,12 +55,7 @@ pub struct ricci_charts_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_charts_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_charts_summary, "summary");
 
 /// Cut a layout into charts and pack them into the unit square.
 ///

@@ -1,15 +1,15 @@
 //! Deck transformations: words with their isometries.
 
-use crate::arrays::{ambient, array, copy_out, copy_rows, flattened};
+use crate::arrays::{ambient, array, copy_out, copy_rows};
 use crate::choice::name;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle, output};
+use crate::letters;
 use crate::quotient::ricci_quotient;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
-use crate::word;
 use ricci::embed::cover::{elements_to_depth, moved};
 use ricci::embed::{DeckElement, DeckGroup};
 use ricci::geometry::{Motion, Space, Twofold};
@@ -24,12 +24,7 @@ pub struct ricci_deck {
     elements: Vec<DeckElement>,
 }
 
-impl Handle for ricci_deck {
-    const NAME: &'static str = "deck";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_deck, "deck");
 
 impl ricci_deck {
     pub(crate) fn new(group: &DeckGroup, elements: Vec<DeckElement>) -> ricci_deck {
@@ -66,12 +61,7 @@ pub struct ricci_deck_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_deck_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_deck_summary, "summary");
 
 /// The deck transformations of words.
 ///
@@ -103,7 +93,7 @@ pub unsafe extern "C" fn ricci_deck_of_words(
         let letters = array("letters", letters, n_letters)?;
         let element = |row: &[usize]| {
             let letters = &letters[row[0]..row[1]];
-            let word = group.group.reduce(&word::word_of(&group.group, "letters", letters, row[0])?);
+            let word = group.group.reduce(&letters::word_of(&group.group, "letters", letters, row[0])?);
             Ok(DeckElement { motion: group.motion(&word), word })
         };
         let elements: Outcome<Vec<_>> = starts.windows(2).map(element).collect();
@@ -194,8 +184,8 @@ pub unsafe extern "C" fn ricci_deck_words(
 ) -> ricci_status {
     guard::call(|door| {
         let elements = &door.shared(deck)?.elements;
-        let (all, offsets) = flattened(elements.iter().map(|g| word::letters(&g.word)));
-        copy_rows("letters", &all, letters, letters_capacity, &offsets, starts, starts_capacity)
+        let rows = elements.iter().map(|g| letters::letters(&g.word));
+        copy_rows("letters", rows, (letters, letters_capacity), (starts, starts_capacity))
     })
 }
 

@@ -5,9 +5,9 @@ use crate::choice::name;
 use crate::control::{self, ricci_control};
 use crate::deck::ricci_deck;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle, output};
 use crate::quotient::ricci_quotient;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::canonical::Quotient;
@@ -25,12 +25,7 @@ pub struct ricci_dirichlet {
     domain: DirichletDomain,
 }
 
-impl Handle for ricci_dirichlet {
-    const NAME: &'static str = "dirichlet domain";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_dirichlet, "dirichlet domain");
 
 /// Figures of a Dirichlet domain.
 #[repr(C)]
@@ -51,12 +46,7 @@ pub struct ricci_dirichlet_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_dirichlet_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_dirichlet_summary, "summary");
 
 /// A point of the space, from x and y.
 fn centre_point(space: Space, centre: *const f64) -> Outcome<[f64; 3]> {

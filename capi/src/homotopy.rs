@@ -1,13 +1,14 @@
 //! Canonical homotopy bases.
 
-use crate::arrays::{copy_counted, copy_out, copy_rows, flattened};
+use crate::arrays::{copy_counted, copy_out, copy_rows};
 use crate::control::{self, ricci_control};
+use crate::edges::{copy_paths, signed_edge};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
-use crate::mesh::{ricci_mesh, signed_edge};
-use crate::sized::{self, Sized64};
+use crate::guard::{self, Poison, handle, output};
+use crate::letters;
+use crate::mesh::ricci_mesh;
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
-use crate::word;
 use ricci::mesh::{Mesh, VertexId};
 use ricci::topology::{HomotopyBasis, homotopy_basis, intersection_matrix};
 use std::sync::Arc;
@@ -23,12 +24,7 @@ pub struct ricci_homotopy {
     pub(crate) basis: HomotopyBasis,
 }
 
-impl Handle for ricci_homotopy {
-    const NAME: &'static str = "homotopy";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_homotopy, "homotopy");
 
 impl ricci_homotopy {
     pub(crate) fn new(mesh: Arc<Mesh>, basis: HomotopyBasis) -> ricci_homotopy {
@@ -57,12 +53,7 @@ pub struct ricci_homotopy_summary {
 }
 
 // SAFETY: integers of 8 bytes, size first.
-unsafe impl Sized64 for ricci_homotopy_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_homotopy_summary, "summary");
 
 /// A vertex that may be left to the library: -1.
 pub(crate) fn vertex_or_none(what: &str, vertex: i64) -> Outcome<Option<VertexId>> {
@@ -158,8 +149,7 @@ pub unsafe extern "C" fn ricci_homotopy_loops(
 ) -> ricci_status {
     guard::call(|door| {
         let loops = &door.shared(homotopy)?.basis.loops;
-        let (numbers, offsets) = flattened(loops.iter().map(|path| path.iter().map(|&h| signed_edge(h))));
-        copy_rows("edges", &numbers, edges, edges_capacity, &offsets, starts, starts_capacity)
+        copy_paths(loops, (edges, edges_capacity), (starts, starts_capacity))
     })
 }
 
@@ -182,9 +172,8 @@ pub unsafe extern "C" fn ricci_homotopy_loop_vertices(
 ) -> ricci_status {
     guard::call(|door| {
         let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
-        let (names, offsets) =
-            flattened(basis.loops.iter().map(|path| path.iter().map(|&h| mesh.origin(h).0)));
-        copy_rows("vertices", &names, vertices, vertices_capacity, &offsets, starts, starts_capacity)
+        let rows = basis.loops.iter().map(|path| path.iter().map(|&h| mesh.origin(h).0));
+        copy_rows("vertices", rows, (vertices, vertices_capacity), (starts, starts_capacity))
     })
 }
 
@@ -202,7 +191,7 @@ pub unsafe extern "C" fn ricci_homotopy_relator(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let relator: Vec<i32> = word::letters(&door.shared(homotopy)?.basis.group.relator()).collect();
+        let relator: Vec<i32> = letters::letters(&door.shared(homotopy)?.basis.group.relator()).collect();
         copy_out("letters", &relator, letters, capacity)
     })
 }

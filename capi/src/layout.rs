@@ -3,12 +3,11 @@
 use crate::arrays::{self, copy_out};
 use crate::control::{self, ricci_control};
 use crate::drawing::Drawing;
+use crate::edges::copy_paths;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
-use crate::mesh::signed_edge;
+use crate::guard::{self, Poison, handle, output};
 use crate::metric::ricci_metric;
-use crate::refined;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::embed::{Quality, layout_of, layout_refined, quality, refined_cut};
@@ -38,12 +37,7 @@ pub struct ricci_layout {
     pub(crate) refinement: Option<Arc<Refinement>>,
 }
 
-impl Handle for ricci_layout {
-    const NAME: &'static str = "layout";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_layout, "layout");
 
 /// Figures of a layout.
 #[repr(C)]
@@ -94,12 +88,7 @@ pub struct ricci_layout_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_layout_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_layout_summary, "summary");
 
 fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outcome<ricci_layout> {
     let ricci_metric { surface, positions, .. } = metric;
@@ -193,6 +182,11 @@ pub unsafe extern "C" fn ricci_layout_free(layout: *mut ricci_layout) {
     guard::free(layout);
 }
 
+/// The number of pieces into which the given and the final triangulation cut each other.
+fn n_pieces(refinement: &Refinement) -> usize {
+    refinement.piece.last().map_or(0, |&last| last as usize + 1)
+}
+
 /// The figures of a layout.
 ///
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
@@ -227,7 +221,7 @@ pub unsafe extern "C" fn ricci_layout_summarise(
             n_edges: mesh.n_edges(),
             n_given_vertices,
             n_crossings: mesh.n_vertices() - n_given_vertices,
-            n_pieces: refinement.as_deref().map_or(mesh.n_faces(), refined::n_pieces),
+            n_pieces: refinement.as_deref().map_or(mesh.n_faces(), n_pieces),
             n_degenerate: quality.degenerate.len(),
         };
         sized::write(figures, summary, size)
@@ -337,9 +331,7 @@ pub unsafe extern "C" fn ricci_layout_seam_edges(
 ) -> ricci_status {
     guard::call(|door| {
         let seams = &door.shared(layout)?.drawing.seams;
-        let (numbers, offsets) =
-            arrays::flattened(seams.iter().map(|seam| seam.iter().map(|&h| signed_edge(h))));
-        arrays::copy_rows("edges", &numbers, edges, edges_capacity, &offsets, starts, starts_capacity)
+        copy_paths(seams, (edges, edges_capacity), (starts, starts_capacity))
     })
 }
 

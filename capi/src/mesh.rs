@@ -2,14 +2,15 @@
 
 use crate::arrays::{self, copy_out, copy_rows};
 use crate::choice::choose;
+use crate::edges::signed_edge;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
-use crate::sized::{self, Sized64};
+use crate::guard::{self, Poison, handle, output};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::geometry::space::Space;
 use ricci::mesh::io::{Attributes, Soup};
-use ricci::mesh::{HalfedgeId, Mesh, PerEdge, Point};
+use ricci::mesh::{Mesh, PerEdge, Point};
 use ricci::metric::lengths::lengths_from_positions;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
@@ -32,12 +33,7 @@ pub(crate) enum Shape {
     Lengths(Arc<PerEdge<f64>>, Space),
 }
 
-impl Handle for ricci_mesh {
-    const NAME: &'static str = "mesh";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_mesh, "mesh");
 
 impl ricci_mesh {
     pub(crate) fn new(connectivity: Arc<Mesh>, shape: Shape) -> ricci_mesh {
@@ -107,12 +103,7 @@ pub struct ricci_mesh_summary {
 }
 
 // SAFETY: integers of 8 bytes, size first.
-unsafe impl Sized64 for ricci_mesh_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_mesh_summary, "summary");
 
 /// A mesh from positions and faces.
 ///
@@ -383,26 +374,10 @@ pub unsafe extern "C" fn ricci_mesh_boundary(
 ) -> ricci_status {
     guard::call(|door| {
         let mesh = &door.shared(mesh)?.connectivity;
-        let (mut order, mut offsets) = (Vec::new(), vec![0]);
-        for walk in mesh.boundary_loops() {
-            order.extend(walk.iter().rev().map(|&h| mesh.origin(h).0));
-            offsets.push(order.len());
-        }
-        copy_rows("vertices", &order, vertices, vertices_capacity, &offsets, starts, starts_capacity)
+        let loops = mesh.boundary_loops();
+        let rows = loops.iter().map(|walk| walk.iter().rev().map(|&h| mesh.origin(h).0));
+        copy_rows("vertices", rows, (vertices, vertices_capacity), (starts, starts_capacity))
     })
-}
-
-/// The 1-based number of an edge, negative against its direction.
-pub(crate) fn signed_edge(h: HalfedgeId) -> i32 {
-    let number = h.edge().0 as i32 + 1;
-    if h == h.edge().halfedge() { number } else { -number }
-}
-
-/// The half-edge of such a number; none if there is no such edge.
-pub(crate) fn halfedge(mesh: &Mesh, number: i32) -> Option<HalfedgeId> {
-    let e = number.unsigned_abs().checked_sub(1).filter(|&e| (e as usize) < mesh.n_edges())?;
-    let h = ricci::mesh::EdgeId(e).halfedge();
-    Some(if number > 0 { h } else { h.twin() })
 }
 
 pub(crate) fn face_vertices(mesh: &Mesh) -> Vec<[u32; 3]> {

@@ -1,11 +1,11 @@
 //! Meshes from and to files, with their attributes.
 
 use crate::arrays::{self, copy_out};
-use crate::choice::{Choice, choose};
+use crate::choice::{choice, choose};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, output};
 use crate::mesh::{face_vertices, ricci_mesh};
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::mesh::io::{self, Attributes, Format, Soup, Texture, Wrap};
 use std::ffi::c_char;
@@ -29,12 +29,7 @@ pub struct ricci_mesh_attributes {
 }
 
 // SAFETY: pointers of 8 bytes that are only read through `arrays`, size first.
-unsafe impl Sized64 for ricci_mesh_attributes {
-    const NAME: &'static str = "attributes";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_mesh_attributes, "attributes");
 
 impl ricci_mesh_attributes {
     fn none() -> Self {
@@ -259,20 +254,11 @@ pub enum ricci_wrap {
     RICCI_WRAP_CLAMP = 2,
 }
 
-use ricci_wrap::*;
-
-impl Choice for ricci_wrap {
-    const NAME: &'static str = "wrap";
-    type Value = Wrap;
-    const ALL: &'static [(Self, Wrap)] = &[
-        (RICCI_WRAP_REPEAT, Wrap::Repeat),
-        (RICCI_WRAP_MIRROR, Wrap::Mirror),
-        (RICCI_WRAP_CLAMP, Wrap::Clamp),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_wrap, "wrap", Wrap, [
+    RICCI_WRAP_REPEAT => Repeat,
+    RICCI_WRAP_MIRROR => Mirror,
+    RICCI_WRAP_CLAMP => Clamp,
+]);
 
 /// Write a mesh as binary glTF with a texture, whatever the file's name.
 ///

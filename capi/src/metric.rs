@@ -3,10 +3,10 @@
 use crate::arrays::{self, copy_out};
 use crate::choice::{choose, name};
 use crate::failure::Outcome;
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle, output};
 use crate::mesh::ricci_mesh;
 use crate::scheme::ricci_scheme;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::geometry::space::Space;
@@ -31,12 +31,7 @@ pub struct ricci_metric {
     pub(crate) positions: Option<Arc<Vec<Point>>>,
 }
 
-impl Handle for ricci_metric {
-    const NAME: &'static str = "metric";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_metric, "metric");
 
 impl ricci_metric {
     fn start(
@@ -116,12 +111,7 @@ pub struct ricci_metric_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_metric_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_metric_summary, "summary");
 
 /// The initial metric of a mesh in the conformal class of its lengths.
 ///

@@ -1,7 +1,7 @@
 //! Models of the hyperbolic plane.
 
 use crate::arrays::{ambient, array, copy_out};
-use crate::choice::{Choice, choose};
+use crate::choice::{choice, choose};
 use crate::failure::{Failure, Outcome};
 use crate::guard;
 use crate::status::ricci_status;
@@ -23,21 +23,12 @@ pub enum ricci_model {
     RICCI_MODEL_HYPERBOLOID = 3,
 }
 
-use ricci_model::*;
-
-impl Choice for ricci_model {
-    const NAME: &'static str = "model";
-    type Value = Model;
-    const ALL: &'static [(Self, Model)] = &[
-        (RICCI_MODEL_POINCARE, Model::Poincare),
-        (RICCI_MODEL_KLEIN, Model::Klein),
-        (RICCI_MODEL_HALF_PLANE, Model::HalfPlane),
-        (RICCI_MODEL_HYPERBOLOID, Model::Hyperboloid),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_model, "model", Model, [
+    RICCI_MODEL_POINCARE => Poincare,
+    RICCI_MODEL_KLEIN => Klein,
+    RICCI_MODEL_HALF_PLANE => HalfPlane,
+    RICCI_MODEL_HYPERBOLOID => Hyperboloid,
+]);
 
 /// Points of the plane (w = 1), which has one model, or of the hyperboloid, row by row: two coordinates, three for
 /// ambient ones.

@@ -5,14 +5,14 @@ use crate::choice::choose;
 use crate::control::{self, ricci_control};
 use crate::domain::ricci_domain;
 use crate::failure::Outcome;
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle, output};
 use crate::homotopy::ricci_homotopy;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::metric::ricci_metric;
 use crate::report::ricci_report;
 use crate::space::ricci_space;
 use crate::status::ricci_status;
-use crate::uniformize::{read_options, ricci_uniformize_options};
+use crate::uniformize_options::{read_options, ricci_uniformize_options};
 use ricci::canonical::{Quotient, quotient_of, uniformize_quotient};
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
@@ -32,12 +32,7 @@ pub struct ricci_quotient {
     pub(crate) positions: Option<Arc<Vec<Point>>>,
 }
 
-impl Handle for ricci_quotient {
-    const NAME: &'static str = "quotient";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_quotient, "quotient");
 
 impl ricci_quotient {
     pub(crate) fn new(quotient: Quotient, positions: Option<Arc<Vec<Point>>>) -> ricci_quotient {

@@ -1,18 +1,18 @@
 //! The layout of a quotient, on the metric's triangulation and on the given surface.
 
-use crate::arrays::{check_buffer, copy_out, copy_rows, flattened, halfedges};
+use crate::arrays::{check_buffer, copy_out};
 use crate::choice::{choose, name};
 use crate::control::{self, ricci_control};
 use crate::deck::ricci_deck;
+use crate::edges::{copy_paths, halfedges};
 use crate::failure::Outcome;
 use crate::guard::{self, output};
 use crate::hyperbolic::in_space;
 use crate::layout::ricci_layout;
-use crate::mesh::signed_edge;
 use crate::model::{self, ricci_model};
 use crate::quotient::ricci_quotient;
 use crate::report::ricci_stop_reason;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::Control;
@@ -75,12 +75,7 @@ pub struct ricci_quotient_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_quotient_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_quotient_summary, "summary");
 
 /// The figures of a quotient.
 ///
@@ -194,9 +189,7 @@ pub unsafe extern "C" fn ricci_quotient_cut(
 ) -> ricci_status {
     guard::call(|door| {
         let segments = &door.shared(quotient)?.quotient.layout.cut.segments;
-        let (numbers, offsets) =
-            flattened(segments.iter().map(|chain| chain.iter().map(|&h| signed_edge(h))));
-        copy_rows("edges", &numbers, edges, edges_capacity, &offsets, starts, starts_capacity)
+        copy_paths(segments, (edges, edges_capacity), (starts, starts_capacity))
     })
 }
 

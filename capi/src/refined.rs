@@ -20,10 +20,6 @@ enum Side {
     Final,
 }
 
-pub(crate) fn n_pieces(refinement: &Refinement) -> usize {
-    refinement.piece.last().map_or(0, |&last| last as usize + 1)
-}
-
 /// What a layout unrolls as a mesh: the mesh that the metric was made from, or the common refinement.
 ///
 /// The given vertices come first, where they were bit for bit; crossings lie on the edges of the given mesh.

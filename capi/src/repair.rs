@@ -3,9 +3,9 @@
 use crate::arrays::{self, copy_out, copy_rows};
 use crate::diagnosis::ricci_diagnosis;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle, output};
 use crate::mesh_file::present;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::mesh::io::{self, Soup};
 use ricci::mesh::repair::{Repair, Repaired, repair};
@@ -17,12 +17,7 @@ pub struct ricci_repair {
     done: Repaired,
 }
 
-impl Handle for ricci_repair {
-    const NAME: &'static str = "repair";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_repair, "repair");
 
 /// What a repair may do beyond what is always done: dropping faces that use a vertex twice or repeat a face, giving each fan of
 /// faces a vertex of its own, turning faces until neighbours agree, dropping isolated vertices. Let
@@ -45,12 +40,7 @@ pub struct ricci_repair_options {
 }
 
 // SAFETY: numbers; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_repair_options {
-    const NAME: &'static str = "options";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_repair_options, "options");
 
 impl ricci_repair_options {
     fn standard() -> Self {
@@ -106,12 +96,7 @@ pub struct ricci_repair_summary {
 }
 
 // SAFETY: integers of 8 bytes, size first.
-unsafe impl Sized64 for ricci_repair_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_repair_summary, "summary");
 
 fn mended(soup: &Soup, options: *const ricci_repair_options) -> Outcome<ricci_repair> {
     let done = repair(soup, &ricci_repair_options::read(options)?)?;
@@ -301,14 +286,9 @@ pub unsafe extern "C" fn ricci_repair_refused(
     guard::call(|door| {
         let refused = &door.shared(repair)?.done.weld_refused;
         let ends: Vec<u32> = refused.iter().flat_map(|edge| edge.vertices).collect();
-        let entries: Vec<u32> = refused.iter().flat_map(|edge| edge.faces.iter().copied()).collect();
-        let mut rows = vec![0];
-        rows.extend(refused.iter().scan(0, |end, edge| {
-            *end += edge.faces.len();
-            Some(*end)
-        }));
         arrays::check_buffer("vertices", ends.len(), vertices, vertices_capacity)?;
-        copy_rows("faces", &entries, faces, faces_capacity, &rows, starts, starts_capacity)?;
+        let rows = refused.iter().map(|edge| edge.faces.iter().copied());
+        copy_rows("faces", rows, (faces, faces_capacity), (starts, starts_capacity))?;
         copy_out("vertices", &ends, vertices, vertices_capacity)
     })
 }

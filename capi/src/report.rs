@@ -1,8 +1,9 @@
 //! What a flow did.
 
 use crate::arrays::{check_buffer, copy_out};
-use crate::guard::{self, Handle, Poison};
-use crate::sized::{self, Sized64};
+use crate::guard::{self, Poison, handle};
+use crate::integer::raw;
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::flow::{Report, StopReason};
 use ricci::mesh::{Double, VertexId};
@@ -19,12 +20,7 @@ pub struct ricci_report {
     report: Report,
 }
 
-impl Handle for ricci_report {
-    const NAME: &'static str = "report";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_report, "report");
 
 impl ricci_report {
     /// The report of a flow on a surface, or on its double: vertices are those of the surface.
@@ -149,12 +145,7 @@ pub struct ricci_report_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_report_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_report_summary, "summary");
 
 /// The name of a stop reason as reports spell it, such as "rounding_floor".
 ///
@@ -164,7 +155,7 @@ unsafe impl Sized64 for ricci_report_summary {
 /// @param reason  the reason.
 #[unsafe(no_mangle)]
 pub extern "C" fn ricci_stop_reason_text(reason: MaybeUninit<ricci_stop_reason>) -> *const c_char {
-    let number = guard::raw(reason);
+    let number = raw(reason);
     let name = NAMES.iter().find(|(known, _)| *known as i32 == number);
     name.map_or(c"unknown", |(_, name)| name).as_ptr()
 }

@@ -4,12 +4,12 @@ use crate::arrays::{self, copy_out};
 use crate::choice::choose;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle, output};
 use crate::homotopy::vertex_or_none;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::metric::ricci_metric;
 use crate::report::ricci_stop_reason;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::canonical::{Sphere, SphereOptions, uniformize_sphere};
@@ -26,12 +26,7 @@ pub struct ricci_sphere {
     positions: Option<Arc<Vec<Point>>>,
 }
 
-impl Handle for ricci_sphere {
-    const NAME: &'static str = "sphere";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_sphere, "sphere");
 
 impl ricci_sphere {
     pub(crate) fn new(sphere: Sphere, positions: Option<Arc<Vec<Point>>>) -> ricci_sphere {
@@ -62,12 +57,7 @@ pub struct ricci_sphere_options {
 }
 
 // SAFETY: numbers: any bytes are valid; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_sphere_options {
-    const NAME: &'static str = "options";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_sphere_options, "options");
 
 fn defaults() -> ricci_sphere_options {
     let SphereOptions { tolerance, max_iterations, threads, .. } = SphereOptions::default();
@@ -120,12 +110,7 @@ pub struct ricci_sphere_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_sphere_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_sphere_summary, "summary");
 
 /// Fill options with their defaults.
 ///

@@ -133,6 +133,13 @@ pub enum TilesChoice {
     Tiles,
 }
 
+/// What a picture shows.
+#[derive(Clone, Copy)]
+pub enum Shown {
+    Uniform(ShowChoice),
+    Cover(TilesChoice),
+}
+
 /// A model of the hyperbolic plane.
 #[derive(ValueEnum, Debug, Clone, Copy, PartialEq)]
 pub enum ModelChoice {

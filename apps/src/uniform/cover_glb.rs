@@ -1,7 +1,7 @@
 //! Copies of the opened surface as binary glTF: a node each, named by its word; faces, texture coordinates and the checkerboard once, for
 //! all, and a tint of its own for each of a few classes of copies.
 
-use super::cover_file::Copies;
+use super::copies::Copies;
 use super::tiling::tint;
 use crate::checkerboard;
 use crate::picture::{TINTS, tint_color};

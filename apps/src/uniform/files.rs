@@ -1,15 +1,16 @@
 //! The files of both commands.
 
-use super::commands::Shape;
+use super::args::{ShowChoice, Shown};
 use super::cover_file;
 use super::figures::UniformFigures;
 use super::group_file::{DomainFile, GroupFile};
-use super::pictures::{self, Canvas, Shown};
+use super::pictures::{self, Canvas};
 use super::quotient::Uniformized;
 use super::request::Wish;
+use super::shape::Shape;
 use super::sphere::Round;
 use super::sphere_figures::SphereFigures;
-use super::{args::ShowChoice, sphere_picture};
+use super::sphere_picture;
 use crate::carry;
 use crate::failure::Failure;
 use crate::input::Input;

@@ -1,6 +1,6 @@
 //! What pictures of uniformized surfaces and their covers show.
 
-use super::args::{ShowChoice, TilesChoice};
+use super::args::{ShowChoice, Shown, TilesChoice};
 use super::model_place::ModelPlace;
 use super::outline::{Side, loops, loops_on_surface, sides};
 use super::quotient::{ORIGIN, Uniformized};
@@ -29,13 +29,6 @@ const SEAM: f64 = 1.25;
 const BOLD: f64 = 1.8;
 /// How much higher than its domain the shown part of the half-plane is.
 const HEADROOM: f64 = 1.12;
-
-/// What a picture shows.
-#[derive(Clone, Copy)]
-pub enum Shown {
-    Uniform(ShowChoice),
-    Cover(TilesChoice),
-}
 
 /// Where and how to draw.
 pub struct Canvas<'a> {

@@ -1,11 +1,11 @@
 //! A closed surface of genus 1 or more in its metric of constant curvature, laid out on the surface as it was given.
 
-use super::request::Needs;
+use super::needs::{Needs, known, told};
 use crate::failure::Failure;
-use crate::in_space::{InSpace, MEETING, consistency, consistency_limit, in_space, is_carried_back};
+use crate::in_space::{InSpace, MEETING, consistency, consistency_limit, is_carried_back};
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
-use crate::laid::Laid;
+use crate::laid::{Laid, in_space};
 use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
 use ricci::canonical::Quotient;
@@ -54,23 +54,6 @@ pub struct Uniformized {
     pub failed: Attempts,
     pub left_out: Vec<&'static str>,
     pub seconds: Seconds,
-}
-
-/// What a step has made, or why it could not. Errors: [`Failure::Cancelled`] alone.
-pub fn told<T>(made: ricci::Result<T>) -> Result<Result<T, String>, Failure> {
-    match made {
-        Err(ricci::Error::Cancelled) => Err(Failure::Cancelled),
-        made => Ok(made.map_err(|error| error.to_string())),
-    }
-}
-
-/// What was made, if it was.
-pub fn known<T>(made: &Option<Result<T, String>>) -> Result<&T, Failure> {
-    match made {
-        Some(Ok(made)) => Ok(made),
-        Some(Err(why)) => Err(Failure::Failed(why.clone())),
-        None => Err(Failure::Failed("no output has asked for it".into())),
-    }
 }
 
 impl Uniformized {

@@ -1,8 +1,8 @@
 //! What is asked of the commands, and what they refuse.
 
-use super::args::{CanonicalArgs, ModelChoice, ShowChoice, TilesChoice};
+use super::args::{CanonicalArgs, ModelChoice, ShowChoice, Shown, TilesChoice};
 use super::model_place::ModelPlace;
-use super::pictures::Shown;
+use super::needs::Needs;
 use super::quotient::Uniformized;
 use crate::failure::Failure;
 use crate::input::Input;
@@ -65,15 +65,6 @@ impl CoverWish<'_> {
         }
         Ok(())
     }
-}
-
-/// What some outputs need beside metric, layout and group.
-#[derive(Clone, Copy)]
-pub struct Needs {
-    /// The common refinement of the given triangulation and the metric's.
-    pub refinement: bool,
-    /// The Dirichlet domain of the base point.
-    pub domain: bool,
 }
 
 impl Wish<'_> {

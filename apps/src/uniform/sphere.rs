@@ -1,8 +1,7 @@
 //! A closed surface of genus 0 on the unit sphere.
 
 use super::args::CanonicalArgs;
-use super::quotient::{known, told};
-use super::request::Needs;
+use super::needs::{Needs, known, told};
 use crate::failure::Failure;
 use crate::in_space::consistency_limit;
 use crate::input::Input;
