@@ -33,6 +33,12 @@ const IN_CIRCLES: &[&str] = &[
     "flow::evaluate",
     "flow::obstruction",
     "flow::report",
+    "metric::refinement",
+    "metric::refinement::chords",
+    "metric::refinement::geodesic",
+    "metric::refinement::intrinsic",
+    "metric::refinement::pieces",
+    "metric::refinement::strip",
 ];
 /// Longest file that may still hold one idea.
 const MOST_LINES: usize = 450;

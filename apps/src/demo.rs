@@ -6,7 +6,7 @@ use crate::figures::FlowResult;
 use crate::flow;
 use crate::job::Outcome;
 use crate::output::{Outputs, check_outputs};
-use crate::report::{Checks, Done, InputSummary, Report, path_text, peak_bytes};
+use crate::report::{Checks, Done, InputSummary, Report, Seconds, path_text};
 use crate::uniform::{self, Shape, UniformFigures};
 use crate::{make, say};
 use clap::Parser;
@@ -135,10 +135,8 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
     }
     if let Some(path) = &args.common.report {
         let asked = Asked { out: path_text(out), threads: args.common.threads() };
-        let mut report = Report::new("demo", None, asked, Runs { runs });
-        report.checks = checks;
-        report.seconds.total = start.elapsed().as_secs_f64();
-        report.peak_bytes = peak_bytes();
+        let seconds = Seconds { total: start.elapsed().as_secs_f64(), ..Seconds::default() };
+        let report = Report::new("demo", None, asked, Runs { runs }).finished(checks, seconds);
         let mut outputs = Outputs::default();
         outputs.add_report(path, &report)?;
         outputs.commit()?;

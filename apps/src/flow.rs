@@ -15,7 +15,7 @@ use crate::options::{FlipsChoice, MethodChoice, SchemeChoice};
 use crate::output::{self, Outputs, check_extension, extension};
 use crate::picture::{ColorChoice, FlowPictureArgs};
 use crate::progress::Progress;
-use crate::report::{Done, InputSummary, Report, Seconds, path_text, peak_bytes};
+use crate::report::{Done, InputSummary, Report, Seconds, path_text};
 use crate::show;
 use crate::uv;
 use ricci::Control;
@@ -103,12 +103,9 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     if args.area_normalised && args.solve.method != MethodChoice::Gradient {
         return usage("--area-normalised is a variant of the gradient flow; add --method gradient");
     }
-    if let Some(path) = &args.uv {
-        check_extension("--uv", path, if args.homogeneous { &["obj"] } else { &["obj", "glb"] })?;
-    }
-    if let Some(path) = &args.picture.base.picture {
-        check_extension("--picture", path, &["png", "svg"])?;
-    }
+    let written: &[&str] = if args.homogeneous { &["obj"] } else { &["obj", "glb"] };
+    check_extension("--uv", args.uv.as_deref(), written)?;
+    check_extension("--picture", args.picture.base.picture.as_deref(), &["png", "svg"])?;
     let table = match &args.target {
         Some(TargetChoice::Cones(path) | TargetChoice::File(path)) => Some(path.as_path()),
         _ => None,
@@ -335,9 +332,6 @@ pub fn report<O: Serialize>(
     asked: O,
     seconds: Seconds,
 ) -> Report<O, FlowResult> {
-    let mut report = Report::new("flow", InputSummary::of(input), asked, FlowResult::new(input, outcome));
-    report.checks = outcome.checks();
-    report.seconds = seconds;
-    report.peak_bytes = peak_bytes();
-    report
+    Report::new("flow", InputSummary::of(input), asked, FlowResult::new(input, outcome))
+        .finished(outcome.checks(), seconds)
 }

@@ -5,7 +5,7 @@ use crate::info::{DefectCount, DefectFigures, summary_of};
 use crate::options::{Common, distance};
 use crate::output::{Outputs, check_extension, check_outputs, extension};
 use crate::picture::SurfacePictureArgs;
-use crate::report::{Report, Seconds, path_text, peak_bytes, timed};
+use crate::report::{Checks, Report, Seconds, path_text, timed};
 use crate::say::{self, count};
 use crate::show;
 use clap::Args;
@@ -111,10 +111,8 @@ struct MapFile<'a> {
 /// Run the command: 0 if the result is a surface that the other commands accept, 1 if a defect is left.
 pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
-    check_extension("-o", &args.out, &["obj", "off", "ply", "glb"])?;
-    if let Some(path) = &args.picture.base.picture {
-        check_extension("--picture", path, &["png"])?;
-    }
+    check_extension("-o", Some(&args.out), &["obj", "off", "ply", "glb"])?;
+    check_extension("--picture", args.picture.base.picture.as_deref(), &["png"])?;
     let files =
         [Some(&args.out), args.map.as_ref(), args.picture.base.picture.as_ref(), args.common.report.as_ref()];
     check_outputs(&[Some(&args.mesh)], &files.map(|path| path.map(|path| path.as_path())))?;
@@ -127,49 +125,53 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     let done = timed(&mut seconds.build, || repair(&soup, &options))?;
     control.step(Stage::Write, 0.0)?;
     let mut outputs = Outputs::default();
-    let left_out = timed(&mut seconds.write, || -> Result<_, Failure> {
-        let format = Format::of(&args.out)?;
-        let left_out = outputs.add_named(&args.out, |path| io::write_as(path, format, &done.soup))?;
-        if let Some(path) = &args.map {
-            let map = MapFile { vertex_origin: &done.vertex_origin, face_origin: &done.face_origin };
-            outputs.add_json(path, &map)?;
-        }
-        if let Some(path) = &args.picture.base.picture {
-            let (threads, soup) = (args.common.threads(), &done.soup);
-            outputs.add(path, |out| {
-                show::draw_surface(out, &soup.positions, &soup.faces, &args.picture, threads)
-            })?;
-        }
-        Ok(left_out)
-    })?;
+    let left_out = timed(&mut seconds.write, || write(args, &done, &mut outputs))?;
     let result = RepairResult::new(&done, left_out);
     let exit_code = u8::from(!result.admissible);
     if !args.common.quiet {
         say::lines(&text(args, &done.steps, &result));
     }
     if let Some(path) = &args.common.report {
-        let text = |path: &Option<PathBuf>| path.as_deref().map(path_text);
-        let asked = Asked {
-            out: path_text(&args.out),
-            weld,
-            cut_edges: args.cut_edges,
-            component: args.component,
-            map: text(&args.map),
-            picture: args.picture.clone(),
-            threads: args.common.threads(),
-        };
         let input = summary_of(&diagnose(&soup.positions, &soup.faces), path_text(&args.mesh));
-        let left = result.defects.len() as f64;
-        let mut report = Report::new("repair", input, asked, result);
-        report.checks.add("defects", left, 0.0);
+        let mut checks = Checks::default();
+        checks.add("defects", result.defects.len() as f64, 0.0);
         seconds.total = start.elapsed().as_secs_f64();
-        report.seconds = seconds;
-        report.peak_bytes = peak_bytes();
+        let report = Report::new("repair", input, Asked::new(args, weld), result).finished(checks, seconds);
         outputs.add_report(path, &report)?;
     }
     control.check()?;
     outputs.commit()?;
     Ok(exit_code)
+}
+
+/// Write the surface, the map back and the picture; returns what the surface's format leaves out.
+fn write(args: &RepairArgs, done: &Repaired, outputs: &mut Outputs) -> Result<Vec<&'static str>, Failure> {
+    let (format, soup) = (Format::of(&args.out)?, &done.soup);
+    let left_out = outputs.add_named(&args.out, |path| io::write_as(path, format, soup))?;
+    if let Some(path) = &args.map {
+        let map = MapFile { vertex_origin: &done.vertex_origin, face_origin: &done.face_origin };
+        outputs.add_json(path, &map)?;
+    }
+    if let Some(path) = &args.picture.base.picture {
+        let threads = args.common.threads();
+        outputs
+            .add(path, |out| show::draw_surface(out, &soup.positions, &soup.faces, &args.picture, threads))?;
+    }
+    Ok(left_out)
+}
+
+impl Asked {
+    fn new(args: &RepairArgs, weld: Option<f64>) -> Asked {
+        Asked {
+            out: path_text(&args.out),
+            weld,
+            cut_edges: args.cut_edges,
+            component: args.component,
+            map: args.map.as_deref().map(path_text),
+            picture: args.picture.clone(),
+            threads: args.common.threads(),
+        }
+    }
 }
 
 impl RepairResult {

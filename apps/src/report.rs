@@ -37,6 +37,11 @@ impl<O, R> Report<O, R> {
             peak_bytes: None,
         }
     }
+
+    /// The report of a run that is over.
+    pub fn finished(self, checks: Checks, seconds: Seconds) -> Self {
+        Report { checks, seconds, peak_bytes: peak_bytes(), ..self }
+    }
 }
 
 /// The surface that a command worked on. What a defective list of triangles does not have is null.
@@ -122,6 +127,18 @@ pub struct Done<T> {
 pub struct Attempts(pub BTreeMap<&'static str, String>);
 
 impl Attempts {
+    /// Each reason once, with the options that failed for it.
+    pub fn by_cause(&self) -> Vec<(Vec<&'static str>, &str)> {
+        let mut causes: Vec<(Vec<&'static str>, &str)> = Vec::new();
+        for (&wish, why) in &self.0 {
+            match causes.iter_mut().find(|(_, known)| known == why) {
+                Some((wishes, _)) => wishes.push(wish),
+                None => causes.push((vec![wish], why)),
+            }
+        }
+        causes
+    }
+
     /// Go on where a wish could not be fulfilled, and remember it: what else was asked for is still delivered. Errors:
     /// [`Failure::Cancelled`] alone.
     pub fn attempt<T>(
@@ -157,7 +174,7 @@ impl Seconds {
 }
 
 /// The largest memory this process has held; known on Linux.
-pub fn peak_bytes() -> Option<u64> {
+fn peak_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
     let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;

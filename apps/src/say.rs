@@ -72,8 +72,8 @@ pub fn ending(
     for what in left_out {
         text += &format!("left out {what}\n");
     }
-    for (wish, why) in &failed.0 {
-        text += &format!("FAILED   --{wish}: {why}\n");
+    for (wishes, why) in failed.by_cause() {
+        text += &format!("FAILED   --{}: {why}\n", wishes.join(", --"));
     }
     text += &match checks.failed().as_slice() {
         [] if failed.0.is_empty() => "checks   all hold\n".into(),

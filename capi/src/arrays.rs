@@ -95,8 +95,34 @@ pub fn check_buffer<T>(what: &str, needed: usize, buffer: *mut T, capacity: usiz
     if buffer.is_null() && needed > 0 { Err(Failure::null(what)) } else { Ok(()) }
 }
 
+/// What results consist of: numbers, or rows of them, which are copied one after the other.
+pub trait Row: Copy {
+    type Entry: Copy;
+    fn entries(rows: &[Self]) -> &[Self::Entry];
+}
+
+macro_rules! entries {
+    ($($number:ty)+) => {$(
+        impl Row for $number {
+            type Entry = $number;
+            fn entries(rows: &[$number]) -> &[$number] {
+                rows
+            }
+        }
+    )+};
+}
+entries!(f64 i8 u8 i32 u32 i64 usize);
+
+impl<T: Row, const N: usize> Row for [T; N] {
+    type Entry = T::Entry;
+    fn entries(rows: &[[T; N]]) -> &[T::Entry] {
+        T::entries(rows.as_flattened())
+    }
+}
+
 /// Copy results into the caller's buffer of `capacity` entries.
-pub fn copy_out<T: Copy>(what: &str, values: &[T], buffer: *mut T, capacity: usize) -> Outcome {
+pub fn copy_out<T: Row>(what: &str, values: &[T], buffer: *mut T::Entry, capacity: usize) -> Outcome {
+    let values = T::entries(values);
     check_buffer(what, values.len(), buffer, capacity)?;
     if !values.is_empty() {
         let bytes = size_of_val(values);
@@ -108,7 +134,7 @@ pub fn copy_out<T: Copy>(what: &str, values: &[T], buffer: *mut T, capacity: usi
 
 /// Copy rows of different lengths: their entries one after the other, and where each row starts and the last one ends.
 /// A buffer is given with its capacity in entries.
-pub fn copy_rows<T: Copy>(
+pub fn copy_rows<T: Row<Entry = T>>(
     what: &str,
     rows: impl IntoIterator<Item = impl IntoIterator<Item = T>>,
     buffer: (*mut T, usize),
@@ -125,7 +151,7 @@ pub fn copy_rows<T: Copy>(
 }
 
 /// Copy results whose number the caller cannot know before, with that number; for no buffer of no entries the number alone.
-pub fn copy_counted<T: Copy>(
+pub fn copy_counted<T: Row<Entry = T>>(
     what: &str,
     values: &[T],
     buffer: *mut T,

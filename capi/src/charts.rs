@@ -4,7 +4,7 @@ use crate::arrays::copy_out;
 use crate::control::{self, ricci_control};
 use crate::drawing;
 use crate::failure::Outcome;
-use crate::guard::{self, Poison, handle, output};
+use crate::guard::{self, Poison, handle};
 use crate::layout::ricci_layout;
 use crate::sized::{self, sized};
 use crate::status::ricci_status;
@@ -75,20 +75,18 @@ pub unsafe extern "C" fn ricci_charts_new(
     control: *const ricci_control,
     charts: *mut *mut ricci_charts,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("charts", charts)?;
+    guard::make("charts", charts, |door| {
         let ricci_layout { mesh, positions, drawing, surface, refinement, .. } = door.shared(layout)?;
         let charts =
             self::charts(mesh, |h| drawing.corner(h), &ChartOptions { margin }, &control::of(control))?;
-        place.hand_over(ricci_charts {
+        Ok(ricci_charts {
             poison: Poison::default(),
             mesh: mesh.clone(),
             positions: positions.clone(),
             charts,
             surface: surface.clone(),
             refinement: refinement.clone(),
-        });
-        Ok(())
+        })
     })
 }
 
@@ -113,8 +111,7 @@ pub unsafe extern "C" fn ricci_charts_summarise(
     summary: *mut ricci_charts_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_charts { mesh, charts, .. } = door.shared(charts)?;
+    guard::with(charts, |ricci_charts { mesh, charts, .. }| {
         let figures = ricci_charts_summary {
             size,
             n_charts: charts.count(),
@@ -144,7 +141,7 @@ pub unsafe extern "C" fn ricci_charts_faces(
     chart: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("chart", &door.shared(charts)?.charts.chart, chart, capacity))
+    guard::with(charts, |charts| copy_out("chart", &charts.charts.chart, chart, capacity))
 }
 
 /// The points of the charts, in the unit square.
@@ -160,9 +157,7 @@ pub unsafe extern "C" fn ricci_charts_points(
     points: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("points", door.shared(charts)?.charts.coordinates.as_flattened(), points, capacity)
-    })
+    guard::with(charts, |charts| copy_out("points", &charts.charts.coordinates, points, capacity))
 }
 
 /// The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
@@ -178,10 +173,7 @@ pub unsafe extern "C" fn ricci_charts_corners(
     corners: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let charts = door.shared(charts)?;
-        copy_out("corners", charts.corners().as_flattened(), corners, capacity)
-    })
+    guard::with(charts, |charts| copy_out("corners", &charts.corners(), corners, capacity))
 }
 
 impl ricci_charts {

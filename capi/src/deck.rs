@@ -4,7 +4,7 @@ use crate::arrays::{ambient, array, copy_out, copy_rows};
 use crate::choice::name;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Poison, handle, output};
+use crate::guard::{self, Poison, handle};
 use crate::letters;
 use crate::quotient::ricci_quotient;
 use crate::sized::{self, sized};
@@ -82,8 +82,7 @@ pub unsafe extern "C" fn ricci_deck_of_words(
     n_words: usize,
     deck: *mut *mut ricci_deck,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("deck", deck)?;
+    guard::make("deck", deck, |door| {
         let group = &door.shared(quotient)?.quotient.deck;
         let starts = array("starts", starts, n_words.saturating_add(1))?;
         let ascending = starts.windows(2).all(|pair| pair[0] <= pair[1]);
@@ -97,8 +96,7 @@ pub unsafe extern "C" fn ricci_deck_of_words(
             Ok(DeckElement { motion: group.motion(&word), word })
         };
         let elements: Outcome<Vec<_>> = starts.windows(2).map(element).collect();
-        place.hand_over(ricci_deck::new(group, elements?));
-        Ok(())
+        Ok(ricci_deck::new(group, elements?))
     })
 }
 
@@ -121,12 +119,10 @@ pub unsafe extern "C" fn ricci_cover_to_depth(
     control: *const ricci_control,
     deck: *mut *mut ricci_deck,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("deck", deck)?;
+    guard::make("deck", deck, |door| {
         let group = &door.shared(quotient)?.quotient.deck;
         let elements = elements_to_depth(group, depth, limit, &control::of(control))?;
-        place.hand_over(ricci_deck::new(group, elements));
-        Ok(())
+        Ok(ricci_deck::new(group, elements))
     })
 }
 
@@ -151,8 +147,7 @@ pub unsafe extern "C" fn ricci_deck_summarise(
     summary: *mut ricci_deck_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let deck = door.shared(deck)?;
+    guard::with(deck, |deck| {
         let lengths = || deck.elements.iter().map(|g| g.word.len());
         let figures = ricci_deck_summary {
             size,
@@ -205,7 +200,7 @@ pub unsafe extern "C" fn ricci_deck_mobius(
 ) -> ricci_status {
     guard::call(|door| {
         let rows: Vec<_> = door.shared(deck)?.elements.iter().map(|g| g.motion.mobius()).collect();
-        copy_out("mobius", rows.as_flattened().as_flattened().as_flattened(), mobius, capacity)
+        copy_out("mobius", &rows, mobius, capacity)
     })
 }
 
@@ -225,7 +220,7 @@ pub unsafe extern "C" fn ricci_deck_matrices(
     guard::call(|door| {
         let elements = &door.shared(deck)?.elements;
         let rows: Vec<_> = elements.iter().map(|g| g.motion.matrix().map(|row| row.map(f64::from))).collect();
-        copy_out("matrices", rows.as_flattened().as_flattened(), matrices, capacity)
+        copy_out("matrices", &rows, matrices, capacity)
     })
 }
 
@@ -261,8 +256,8 @@ pub unsafe extern "C" fn ricci_deck_translation_lengths(
     lengths: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("lengths", &door.shared(deck)?.per_element(Motion::translation_length), lengths, capacity)
+    guard::with(deck, |deck| {
+        copy_out("lengths", &deck.per_element(Motion::translation_length), lengths, capacity)
     })
 }
 
@@ -291,6 +286,6 @@ pub unsafe extern "C" fn ricci_deck_apply(
             Failure::argument(format!("element {element} does not exist: there are {}", elements.len()))
         })?;
         let points = ambient("points", points, n_points)?;
-        copy_out("moved", self::moved(&points, &g.motion).as_flattened(), moved, capacity)
+        copy_out("moved", &self::moved(&points, &g.motion), moved, capacity)
     })
 }

@@ -2,7 +2,7 @@
 
 use crate::arrays;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Poison, handle, output};
+use crate::guard::{self, Poison, handle};
 use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::mesh::check::{self, Diagnosis};
@@ -121,11 +121,9 @@ pub unsafe extern "C" fn ricci_diagnose_arrays(
     n_faces: usize,
     diagnosis: *mut *mut ricci_diagnosis,
 ) -> ricci_status {
-    guard::call(|_| {
-        let diagnosis = output("diagnosis", diagnosis)?;
+    guard::make("diagnosis", diagnosis, |_| {
         let positions = arrays::points(positions, stride, n_vertices)?;
-        diagnosis.hand_over(diagnose(&positions, &arrays::faces(faces, n_faces)?));
-        Ok(())
+        Ok(diagnose(&positions, &arrays::faces(faces, n_faces)?))
     })
 }
 
@@ -140,11 +138,9 @@ pub unsafe extern "C" fn ricci_diagnose_file(
     path: *const c_char,
     diagnosis: *mut *mut ricci_diagnosis,
 ) -> ricci_status {
-    guard::call(|_| {
-        let diagnosis = output("diagnosis", diagnosis)?;
+    guard::make("diagnosis", diagnosis, |_| {
         let soup = io::read(&arrays::path("path", path)?)?;
-        diagnosis.hand_over(diagnose(&soup.positions, &soup.faces));
-        Ok(())
+        Ok(diagnose(&soup.positions, &soup.faces))
     })
 }
 

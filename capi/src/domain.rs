@@ -3,7 +3,7 @@
 use crate::arrays::{array, copy_out, copy_rows};
 use crate::edges::{copy_paths, signed_edge};
 use crate::failure::Failure;
-use crate::guard::{self, Poison, handle, output};
+use crate::guard::{self, Poison, handle};
 use crate::homotopy::ricci_homotopy;
 use crate::letters;
 use crate::sized::{self, sized};
@@ -61,8 +61,7 @@ pub unsafe extern "C" fn ricci_domain_new(
     n_cut: usize,
     domain: *mut *mut ricci_domain,
 ) -> ricci_status {
-    guard::call(|door| {
-        let domain = output("domain", domain)?;
+    guard::make("domain", domain, |door| {
         let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
         let is_cut = if cut.is_null() && n_cut == 0 {
             basis.cut(mesh)
@@ -77,8 +76,7 @@ pub unsafe extern "C" fn ricci_domain_new(
             }
             is_cut
         };
-        domain.hand_over(ricci_domain::new(FundamentalDomain::new(mesh, &is_cut, basis)?));
-        Ok(())
+        Ok(ricci_domain::new(FundamentalDomain::new(mesh, &is_cut, basis)?))
     })
 }
 

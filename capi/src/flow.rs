@@ -244,13 +244,11 @@ pub unsafe extern "C" fn ricci_solver_new(
     options: *const ricci_flow_options,
     solver: *mut *mut ricci_solver,
 ) -> ricci_status {
-    guard::call(|door| {
-        let solver = output("solver", solver)?;
+    guard::make("solver", solver, |door| {
         let metric = door.shared(metric)?;
         let flow = SurfaceFlow::resume(&metric.surface, &[], &read_options(options)?, &Control::new())?;
         let positions = metric.positions.clone();
-        solver.hand_over(ricci_solver { poison: Poison::default(), flow, positions });
-        Ok(())
+        Ok(ricci_solver { poison: Poison::default(), flow, positions })
     })
 }
 

@@ -125,6 +125,19 @@ pub fn with<H: Handle>(handle: *const H, body: impl FnOnce(&H) -> Outcome) -> ri
     call(|door| body(door.shared(handle)?))
 }
 
+/// Run the body of an entry point that makes a handle, whose place is checked before any work is done.
+pub fn make<H: Handle>(
+    what: &str,
+    place: *mut *mut H,
+    body: impl FnOnce(&Door) -> Outcome<H>,
+) -> ricci_status {
+    call(|door| {
+        let place = output(what, place)?;
+        place.hand_over(body(door)?);
+        Ok(())
+    })
+}
+
 /// Release a handle; NULL is fine, and so is a poisoned one.
 pub fn free<H>(handle: *mut H) {
     if handle.is_null() {

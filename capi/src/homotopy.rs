@@ -4,7 +4,7 @@ use crate::arrays::{copy_counted, copy_out, copy_rows};
 use crate::control::{self, ricci_control};
 use crate::edges::{copy_paths, signed_edge};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Poison, handle, output};
+use crate::guard::{self, Poison, handle};
 use crate::letters;
 use crate::mesh::ricci_mesh;
 use crate::sized::{self, sized};
@@ -81,15 +81,13 @@ pub unsafe extern "C" fn ricci_homotopy_new(
     control: *const ricci_control,
     homotopy: *mut *mut ricci_homotopy,
 ) -> ricci_status {
-    guard::call(|door| {
-        let homotopy = output("homotopy", homotopy)?;
+    guard::make("homotopy", homotopy, |door| {
         let mesh = door.shared(mesh)?;
         let (lengths, _) = mesh.lengths()?;
         let base = vertex_or_none("base", base)?;
         let mesh = mesh.connectivity.clone();
         let basis = homotopy_basis(&mesh, &lengths, base, &control::of(control))?;
-        homotopy.hand_over(ricci_homotopy::new(mesh, basis));
-        Ok(())
+        Ok(ricci_homotopy::new(mesh, basis))
     })
 }
 
@@ -170,8 +168,7 @@ pub unsafe extern "C" fn ricci_homotopy_loop_vertices(
     starts: *mut usize,
     starts_capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
+    guard::with(homotopy, |ricci_homotopy { mesh, basis, .. }| {
         let rows = basis.loops.iter().map(|path| path.iter().map(|&h| mesh.origin(h).0));
         copy_rows("vertices", rows, (vertices, vertices_capacity), (starts, starts_capacity))
     })
@@ -210,8 +207,7 @@ pub unsafe extern "C" fn ricci_homotopy_intersections(
     matrix: *mut i64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
+    guard::with(homotopy, |ricci_homotopy { mesh, basis, .. }| {
         copy_out("matrix", &intersection_matrix(mesh, &basis.loops)?.concat(), matrix, capacity)
     })
 }
@@ -233,8 +229,7 @@ pub unsafe extern "C" fn ricci_homotopy_tree_path(
     capacity: usize,
     n_edges: *mut usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
+    guard::with(homotopy, |ricci_homotopy { mesh, basis, .. }| {
         let path = basis.tree_path(mesh, VertexId(vertex))?;
         let numbers: Vec<i32> = path.into_iter().map(signed_edge).collect();
         copy_counted("edges", &numbers, edges, capacity, n_edges)

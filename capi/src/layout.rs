@@ -5,7 +5,7 @@ use crate::control::{self, ricci_control};
 use crate::drawing::Drawing;
 use crate::edges::copy_paths;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Poison, handle, output};
+use crate::guard::{self, Poison, handle};
 use crate::metric::ricci_metric;
 use crate::sized::{self, sized};
 use crate::status::ricci_status;
@@ -165,12 +165,10 @@ pub unsafe extern "C" fn ricci_layout_new(
     control: *const ricci_control,
     layout: *mut *mut ricci_layout,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = output("layout", layout)?;
+    guard::make("layout", layout, |door| {
         let metric = door.shared(metric)?;
         let cones = cones(metric.given(), target, n_vertices)?;
-        layout.hand_over(unroll(metric, &cones, &control::of(control))?);
-        Ok(())
+        unroll(metric, &cones, &control::of(control))
     })
 }
 
@@ -200,8 +198,7 @@ pub unsafe extern "C" fn ricci_layout_summarise(
     summary: *mut ricci_layout_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_layout { mesh, drawing, quality, surface, refinement, .. } = door.shared(layout)?;
+    guard::with(layout, |ricci_layout { mesh, drawing, quality, surface, refinement, .. }| {
         let n_given_vertices = surface.given().n_vertices();
         let figures = ricci_layout_summary {
             size,
@@ -241,9 +238,7 @@ pub unsafe extern "C" fn ricci_layout_points(
     points: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("points", door.shared(layout)?.drawing.points.as_flattened(), points, capacity)
-    })
+    guard::with(layout, |layout| copy_out("points", &layout.drawing.points, points, capacity))
 }
 
 /// The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
@@ -259,10 +254,7 @@ pub unsafe extern "C" fn ricci_layout_corners(
     corners: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
-        copy_out("corners", layout.corners().as_flattened(), corners, capacity)
-    })
+    guard::with(layout, |layout| copy_out("corners", &layout.corners(), corners, capacity))
 }
 
 /// The coordinates of every corner of every face.
@@ -278,11 +270,10 @@ pub unsafe extern "C" fn ricci_layout_uv(
     uv: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_layout { mesh, drawing, .. } = door.shared(layout)?;
+    guard::with(layout, |ricci_layout { mesh, drawing, .. }| {
         let corner_points = |f| mesh.face_halfedges(f).map(|h| drawing.corner(h));
         let corners: Vec<[[f64; 2]; 3]> = mesh.faces().map(corner_points).collect();
-        copy_out("uv", corners.as_flattened().as_flattened(), uv, capacity)
+        copy_out("uv", &corners, uv, capacity)
     })
 }
 
@@ -307,7 +298,7 @@ pub unsafe extern "C" fn ricci_layout_seams(
                 "the sides of these seams are paired by isometries of h2: ricci_quotient_sides has them";
             Failure::new(ricci_status::RICCI_LAYOUT, message)
         })?;
-        copy_out("seams", rows.as_flattened(), seams, capacity)
+        copy_out("seams", &rows, seams, capacity)
     })
 }
 
@@ -367,7 +358,7 @@ pub unsafe extern "C" fn ricci_layout_qc(
     qc: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("qc", &door.shared(layout)?.quality.qc, qc, capacity))
+    guard::with(layout, |layout| copy_out("qc", &layout.quality.qc, qc, capacity))
 }
 
 /// The area distortion of every face: its share of the layout's area over its share of the input's.
@@ -383,7 +374,7 @@ pub unsafe extern "C" fn ricci_layout_area_ratio(
     ratio: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("ratio", &door.shared(layout)?.quality.area_ratio, ratio, capacity))
+    guard::with(layout, |layout| copy_out("ratio", &layout.quality.area_ratio, ratio, capacity))
 }
 
 impl ricci_layout {

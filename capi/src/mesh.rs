@@ -4,7 +4,7 @@ use crate::arrays::{self, copy_out, copy_rows};
 use crate::choice::choose;
 use crate::edges::signed_edge;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Poison, handle, output};
+use crate::guard::{self, Poison, handle};
 use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
@@ -126,12 +126,10 @@ pub unsafe extern "C" fn ricci_mesh_from_arrays(
     n_faces: usize,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |_| {
         let positions = arrays::points(positions, stride, n_vertices)?;
         let faces = arrays::faces(faces, n_faces)?;
-        mesh.hand_over(ricci_mesh::from_soup(Soup::new(positions, faces))?);
-        Ok(())
+        ricci_mesh::from_soup(Soup::new(positions, faces))
     })
 }
 
@@ -154,12 +152,10 @@ pub unsafe extern "C" fn ricci_mesh_from_arrays_i32(
     n_faces: usize,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |_| {
         let positions = arrays::points(positions, stride, n_vertices)?;
         let faces = arrays::faces_i32(faces, n_faces)?;
-        mesh.hand_over(ricci_mesh::from_soup(Soup::new(positions, faces))?);
-        Ok(())
+        ricci_mesh::from_soup(Soup::new(positions, faces))
     })
 }
 
@@ -190,8 +186,7 @@ pub unsafe extern "C" fn ricci_mesh_from_gluing(
     geometry: MaybeUninit<ricci_space>,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |_| {
         let geometry = choose(geometry)?;
         let faces = arrays::faces(faces, n_faces)?;
         let face_edges: Vec<[i32; 3]> = arrays::array("face_edges", face_edges.cast(), n_faces)?;
@@ -203,8 +198,7 @@ pub unsafe extern "C" fn ricci_mesh_from_gluing(
             }
         }
         let shape = Shape::Lengths(Arc::new(lengths.into()), geometry);
-        mesh.hand_over(ricci_mesh::new(Arc::new(connectivity), shape));
-        Ok(())
+        Ok(ricci_mesh::new(Arc::new(connectivity), shape))
     })
 }
 
@@ -229,8 +223,7 @@ pub unsafe extern "C" fn ricci_mesh_summarise(
     summary: *mut ricci_mesh_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_mesh { connectivity: mesh, attributes, .. } = door.shared(mesh)?;
+    guard::with(mesh, |ricci_mesh { connectivity: mesh, attributes, .. }| {
         let counts = ricci_mesh_summary {
             size,
             n_vertices: mesh.n_vertices(),
@@ -262,10 +255,7 @@ pub unsafe extern "C" fn ricci_mesh_positions(
     positions: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
-        copy_out("positions", mesh.positions()?.as_flattened(), positions, capacity)
-    })
+    guard::with(mesh, |mesh| copy_out("positions", mesh.positions()?, positions, capacity))
 }
 
 /// The vertices of every face, in corner order.
@@ -281,10 +271,7 @@ pub unsafe extern "C" fn ricci_mesh_faces(
     faces: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
-        copy_out("faces", face_vertices(&mesh.connectivity).as_flattened(), faces, capacity)
-    })
+    guard::with(mesh, |mesh| copy_out("faces", &face_vertices(&mesh.connectivity), faces, capacity))
 }
 
 /// The edges opposite the corners of every face: how the triangles are glued, and where in a per-edge array a
@@ -311,7 +298,7 @@ pub unsafe extern "C" fn ricci_mesh_face_edges(
                 [bc, ca, ab]
             })
             .collect();
-        copy_out("face_edges", signed.as_flattened(), face_edges, capacity)
+        copy_out("face_edges", &signed, face_edges, capacity)
     })
 }
 
@@ -331,7 +318,7 @@ pub unsafe extern "C" fn ricci_mesh_edges(
     guard::call(|door| {
         let mesh = &door.shared(mesh)?.connectivity;
         let ends: Vec<[u32; 2]> = mesh.edges().map(|e| mesh.ends(e).map(|v| v.0)).collect();
-        copy_out("edges", ends.as_flattened(), edges, capacity)
+        copy_out("edges", &ends, edges, capacity)
     })
 }
 

@@ -3,7 +3,7 @@
 use crate::arrays::{self, copy_out};
 use crate::choice::{choice, choose};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, output};
+use crate::guard;
 use crate::mesh::{face_vertices, ricci_mesh};
 use crate::sized::{self, sized};
 use crate::status::ricci_status;
@@ -71,11 +71,7 @@ impl ricci_mesh_attributes {
 /// @param mesh  out: the new handle, to be released by ricci_mesh_free.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_read(path: *const c_char, mesh: *mut *mut ricci_mesh) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
-        mesh.hand_over(ricci_mesh::from_soup(io::read(&arrays::path("path", path)?)?)?);
-        Ok(())
-    })
+    guard::make("mesh", mesh, |_| ricci_mesh::from_soup(io::read(&arrays::path("path", path)?)?))
 }
 
 /// A mesh from an STL file whose corners within a distance of each other are one vertex.
@@ -92,11 +88,7 @@ pub unsafe extern "C" fn ricci_mesh_read_stl(
     weld: f64,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
-        mesh.hand_over(ricci_mesh::from_soup(io::read_stl(&arrays::path("path", path)?, weld)?)?);
-        Ok(())
-    })
+    guard::make("mesh", mesh, |_| ricci_mesh::from_soup(io::read_stl(&arrays::path("path", path)?, weld)?))
 }
 
 /// Fill attributes with none.
@@ -130,8 +122,7 @@ pub unsafe extern "C" fn ricci_mesh_write(
     attributes: *const ricci_mesh_attributes,
     path: *const c_char,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
+    guard::with(mesh, |mesh| {
         let path = arrays::path("path", path)?;
         let mut soup = whole(mesh)?;
         if !attributes.is_null() {
@@ -154,8 +145,7 @@ pub unsafe extern "C" fn ricci_mesh_write(
 /// @param path  file name, NUL-terminated.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_write_obj(mesh: *const ricci_mesh, path: *const c_char) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
+    guard::with(mesh, |mesh| {
         io::write_as(&arrays::path("path", path)?, Format::Obj, &whole(mesh)?)?;
         Ok(())
     })
@@ -174,9 +164,8 @@ pub unsafe extern "C" fn ricci_mesh_normals(
     normals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("normals", &door.shared(mesh)?.attributes.normals)?;
-        copy_out("normals", list.as_flattened(), normals, capacity)
+    guard::with(mesh, |mesh| {
+        copy_out("normals", present("normals", &mesh.attributes.normals)?, normals, capacity)
     })
 }
 
@@ -193,9 +182,8 @@ pub unsafe extern "C" fn ricci_mesh_colors(
     colors: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("colors", &door.shared(mesh)?.attributes.colors)?;
-        copy_out("colors", list.as_flattened(), colors, capacity)
+    guard::with(mesh, |mesh| {
+        copy_out("colors", present("colors", &mesh.attributes.colors)?, colors, capacity)
     })
 }
 
@@ -212,10 +200,7 @@ pub unsafe extern "C" fn ricci_mesh_uv(
     uv: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("uv", &door.shared(mesh)?.attributes.uv)?;
-        copy_out("uv", list.as_flattened().as_flattened(), uv, capacity)
-    })
+    guard::with(mesh, |mesh| copy_out("uv", present("uv", &mesh.attributes.uv)?, uv, capacity))
 }
 
 /// The normals of corners that the mesh was read with: of one whose vertices have several, as at hard edges.
@@ -231,9 +216,13 @@ pub unsafe extern "C" fn ricci_mesh_corner_normals(
     corner_normals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("corner normals", &door.shared(mesh)?.attributes.corner_normals)?;
-        copy_out("corner_normals", list.as_flattened().as_flattened(), corner_normals, capacity)
+    guard::with(mesh, |mesh| {
+        copy_out(
+            "corner_normals",
+            present("corner normals", &mesh.attributes.corner_normals)?,
+            corner_normals,
+            capacity,
+        )
     })
 }
 
@@ -283,8 +272,7 @@ pub unsafe extern "C" fn ricci_mesh_write_textured(
     wrap: MaybeUninit<ricci_wrap>,
     path: *const c_char,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
+    guard::with(mesh, |mesh| {
         let path = arrays::path("path", path)?;
         let wrap = choose(wrap)?;
         let png: Vec<u8> = arrays::array("png", png, png_size)?;

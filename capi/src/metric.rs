@@ -3,7 +3,7 @@
 use crate::arrays::{self, copy_out};
 use crate::choice::{choose, name};
 use crate::failure::Outcome;
-use crate::guard::{self, Poison, handle, output};
+use crate::guard::{self, Poison, handle};
 use crate::mesh::ricci_mesh;
 use crate::scheme::ricci_scheme;
 use crate::sized::{self, sized};
@@ -129,12 +129,10 @@ pub unsafe extern "C" fn ricci_metric_new(
     space: MaybeUninit<ricci_space>,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
+    guard::make("metric", metric, |door| {
         let (mesh, scheme, space) = (door.shared(mesh)?, choose(scheme)?, choose(space)?);
         let (lengths, geometry) = mesh.lengths()?;
-        metric.hand_over(ricci_metric::start(mesh, lengths, geometry, scheme, space)?);
-        Ok(())
+        ricci_metric::start(mesh, lengths, geometry, scheme, space)
     })
 }
 
@@ -159,14 +157,12 @@ pub unsafe extern "C" fn ricci_metric_from_lengths(
     space: MaybeUninit<ricci_space>,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
+    guard::make("metric", metric, |door| {
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
         let (geometry, scheme, space) = (choose(geometry)?, choose(scheme)?, choose(space)?);
         let lengths = Arc::new(lengths.into());
-        metric.hand_over(ricci_metric::start(mesh, lengths, geometry, scheme, space)?);
-        Ok(())
+        ricci_metric::start(mesh, lengths, geometry, scheme, space)
     })
 }
 
@@ -229,9 +225,7 @@ pub unsafe extern "C" fn ricci_metric_curvature(
     curvature: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("curvature", &door.shared(metric)?.surface.curvature()?.at, curvature, capacity)
-    })
+    guard::with(metric, |metric| copy_out("curvature", &metric.surface.curvature()?.at, curvature, capacity))
 }
 
 /// The variable u of every vertex.
@@ -247,10 +241,7 @@ pub unsafe extern "C" fn ricci_metric_u(
     u: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
-        copy_out("u", metric.given_part(&metric.surface.metric().u), u, capacity)
-    })
+    guard::with(metric, |metric| copy_out("u", metric.given_part(&metric.surface.metric().u), u, capacity))
 }
 
 /// The type epsilon of every vertex: 1 circle, 0 vertex scaling, -1 imaginary circle.
@@ -266,8 +257,7 @@ pub unsafe extern "C" fn ricci_metric_epsilon(
     epsilon: *mut i8,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
+    guard::with(metric, |metric| {
         copy_out("epsilon", metric.given_part(&metric.surface.metric().epsilon), epsilon, capacity)
     })
 }

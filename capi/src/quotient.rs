@@ -5,7 +5,7 @@ use crate::choice::choose;
 use crate::control::{self, ricci_control};
 use crate::domain::ricci_domain;
 use crate::failure::Outcome;
-use crate::guard::{self, Poison, handle, output};
+use crate::guard::{self, Poison, handle};
 use crate::homotopy::ricci_homotopy;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::metric::ricci_metric;
@@ -66,12 +66,10 @@ pub unsafe extern "C" fn ricci_quotient_new(
     control: *const ricci_control,
     quotient: *mut *mut ricci_quotient,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("quotient", quotient)?;
+    guard::make("quotient", quotient, |door| {
         let mesh = door.shared(mesh)?;
         let (lengths, geometry) = mesh.lengths()?;
-        place.hand_over(uniformize(mesh, &lengths, geometry, options, control)?);
-        Ok(())
+        uniformize(mesh, &lengths, geometry, options, control)
     })
 }
 
@@ -96,12 +94,10 @@ pub unsafe extern "C" fn ricci_quotient_from_lengths(
     control: *const ricci_control,
     quotient: *mut *mut ricci_quotient,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("quotient", quotient)?;
+    guard::make("quotient", quotient, |door| {
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
-        place.hand_over(uniformize(mesh, &lengths.into(), choose(geometry)?, options, control)?);
-        Ok(())
+        uniformize(mesh, &lengths.into(), choose(geometry)?, options, control)
     })
 }
 
@@ -132,12 +128,10 @@ pub unsafe extern "C" fn ricci_quotient_from_metric(
     control: *const ricci_control,
     quotient: *mut *mut ricci_quotient,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("quotient", quotient)?;
+    guard::make("quotient", quotient, |door| {
         let metric = door.shared(metric)?;
         let found = quotient_of(&metric.surface, &read_options(options)?, &control::of(control))?;
-        place.hand_over(ricci_quotient::new(found, metric.positions.clone()));
-        Ok(())
+        Ok(ricci_quotient::new(found, metric.positions.clone()))
     })
 }
 
@@ -160,11 +154,9 @@ pub unsafe extern "C" fn ricci_quotient_metric(
     quotient: *const ricci_quotient,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
+    guard::make("metric", metric, |door| {
         let ricci_quotient { quotient, positions, .. } = door.shared(quotient)?;
-        metric.hand_over(ricci_metric::at(quotient.metric.clone(), positions.clone())?);
-        Ok(())
+        ricci_metric::at(quotient.metric.clone(), positions.clone())
     })
 }
 
@@ -179,10 +171,8 @@ pub unsafe extern "C" fn ricci_quotient_report(
     quotient: *const ricci_quotient,
     report: *mut *mut ricci_report,
 ) -> ricci_status {
-    guard::call(|door| {
-        let report = output("report", report)?;
-        report.hand_over(ricci_report::new(door.shared(quotient)?.quotient.report.clone(), None));
-        Ok(())
+    guard::make("report", report, |door| {
+        Ok(ricci_report::new(door.shared(quotient)?.quotient.report.clone(), None))
     })
 }
 
@@ -197,15 +187,10 @@ pub unsafe extern "C" fn ricci_quotient_mesh(
     quotient: *const ricci_quotient,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |door| {
         let metric = &door.shared(quotient)?.quotient.metric;
         let lengths = Arc::new(metric.metric().lengths(metric.mesh())?);
-        mesh.hand_over(ricci_mesh::new(
-            metric.mesh().clone(),
-            Shape::Lengths(lengths, metric.metric().space),
-        ));
-        Ok(())
+        Ok(ricci_mesh::new(metric.mesh().clone(), Shape::Lengths(lengths, metric.metric().space)))
     })
 }
 
@@ -220,11 +205,9 @@ pub unsafe extern "C" fn ricci_quotient_homotopy(
     quotient: *const ricci_quotient,
     homotopy: *mut *mut ricci_homotopy,
 ) -> ricci_status {
-    guard::call(|door| {
-        let homotopy = output("homotopy", homotopy)?;
+    guard::make("homotopy", homotopy, |door| {
         let quotient = &door.shared(quotient)?.quotient;
-        homotopy.hand_over(ricci_homotopy::new(quotient.metric.mesh().clone(), quotient.basis.clone()));
-        Ok(())
+        Ok(ricci_homotopy::new(quotient.metric.mesh().clone(), quotient.basis.clone()))
     })
 }
 
@@ -239,15 +222,9 @@ pub unsafe extern "C" fn ricci_quotient_domain(
     quotient: *const ricci_quotient,
     domain: *mut *mut ricci_domain,
 ) -> ricci_status {
-    guard::call(|door| {
-        let domain = output("domain", domain)?;
+    guard::make("domain", domain, |door| {
         let Quotient { metric, layout, basis, .. } = &*door.shared(quotient)?.quotient;
-        domain.hand_over(ricci_domain::new(FundamentalDomain::new(
-            metric.mesh(),
-            &layout.cut.is_cut,
-            basis,
-        )?));
-        Ok(())
+        Ok(ricci_domain::new(FundamentalDomain::new(metric.mesh(), &layout.cut.is_cut, basis)?))
     })
 }
 

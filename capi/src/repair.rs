@@ -3,7 +3,7 @@
 use crate::arrays::{self, copy_out, copy_rows};
 use crate::diagnosis::ricci_diagnosis;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Poison, handle, output};
+use crate::guard::{self, Poison, handle};
 use crate::mesh_file::present;
 use crate::sized::{self, sized};
 use crate::status::ricci_status;
@@ -140,11 +140,9 @@ pub unsafe extern "C" fn ricci_repair_arrays(
     options: *const ricci_repair_options,
     repair: *mut *mut ricci_repair,
 ) -> ricci_status {
-    guard::call(|_| {
-        let place = output("repair", repair)?;
+    guard::make("repair", repair, |_| {
         let soup = Soup::new(arrays::points(positions, stride, n_vertices)?, arrays::faces(faces, n_faces)?);
-        place.hand_over(mended(&soup, options)?);
-        Ok(())
+        mended(&soup, options)
     })
 }
 
@@ -161,11 +159,9 @@ pub unsafe extern "C" fn ricci_repair_file(
     options: *const ricci_repair_options,
     repair: *mut *mut ricci_repair,
 ) -> ricci_status {
-    guard::call(|_| {
-        let place = output("repair", repair)?;
+    guard::make("repair", repair, |_| {
         let soup = io::read(&arrays::path("path", path)?)?;
-        place.hand_over(mended(&soup, options)?);
-        Ok(())
+        mended(&soup, options)
     })
 }
 
@@ -232,8 +228,8 @@ pub unsafe extern "C" fn ricci_repair_result(
     guard::call(|door| {
         let soup = &door.shared(repair)?.done.soup;
         arrays::check_buffer("faces", 3 * soup.faces.len(), faces, faces_capacity)?;
-        copy_out("positions", soup.positions.as_flattened(), positions, positions_capacity)?;
-        copy_out("faces", soup.faces.as_flattened(), faces, faces_capacity)
+        copy_out("positions", &soup.positions, positions, positions_capacity)?;
+        copy_out("faces", &soup.faces, faces, faces_capacity)
     })
 }
 
@@ -306,9 +302,8 @@ pub unsafe extern "C" fn ricci_repair_normals(
     normals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("normals", &door.shared(repair)?.done.soup.attributes.normals)?;
-        copy_out("normals", list.as_flattened(), normals, capacity)
+    guard::with(repair, |repair| {
+        copy_out("normals", present("normals", &repair.done.soup.attributes.normals)?, normals, capacity)
     })
 }
 
@@ -325,9 +320,8 @@ pub unsafe extern "C" fn ricci_repair_colors(
     colors: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("colors", &door.shared(repair)?.done.soup.attributes.colors)?;
-        copy_out("colors", list.as_flattened(), colors, capacity)
+    guard::with(repair, |repair| {
+        copy_out("colors", present("colors", &repair.done.soup.attributes.colors)?, colors, capacity)
     })
 }
 
@@ -344,9 +338,8 @@ pub unsafe extern "C" fn ricci_repair_uv(
     uv: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("uv", &door.shared(repair)?.done.soup.attributes.uv)?;
-        copy_out("uv", list.as_flattened().as_flattened(), uv, capacity)
+    guard::with(repair, |repair| {
+        copy_out("uv", present("uv", &repair.done.soup.attributes.uv)?, uv, capacity)
     })
 }
 
@@ -363,9 +356,13 @@ pub unsafe extern "C" fn ricci_repair_corner_normals(
     corner_normals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("corner normals", &door.shared(repair)?.done.soup.attributes.corner_normals)?;
-        copy_out("corner_normals", list.as_flattened().as_flattened(), corner_normals, capacity)
+    guard::with(repair, |repair| {
+        copy_out(
+            "corner_normals",
+            present("corner normals", &repair.done.soup.attributes.corner_normals)?,
+            corner_normals,
+            capacity,
+        )
     })
 }
 
@@ -404,9 +401,7 @@ pub unsafe extern "C" fn ricci_repair_diagnosis(
     repair: *const ricci_repair,
     diagnosis: *mut *mut ricci_diagnosis,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("diagnosis", diagnosis)?;
-        place.hand_over(ricci_diagnosis::from(door.shared(repair)?.done.diagnosis.clone()));
-        Ok(())
+    guard::make("diagnosis", diagnosis, |door| {
+        Ok(ricci_diagnosis::from(door.shared(repair)?.done.diagnosis.clone()))
     })
 }

@@ -226,7 +226,7 @@ pub unsafe extern "C" fn ricci_report_residuals(
     residuals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("residuals", &door.shared(report)?.report.residuals, residuals, capacity))
+    guard::with(report, |report| copy_out("residuals", &report.report.residuals, residuals, capacity))
 }
 
 /// The trace of a gradient flow.
@@ -250,7 +250,7 @@ pub unsafe extern "C" fn ricci_report_trace(
             .iter()
             .map(|row| [row.step as f64, row.energy, row.max_curvature_error, row.area, row.step_size])
             .collect();
-        copy_out("trace", rows.as_flattened(), trace, capacity)
+        copy_out("trace", &rows, trace, capacity)
     })
 }
 

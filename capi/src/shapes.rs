@@ -165,13 +165,11 @@ fn changed(
     result: *mut *mut ricci_mesh,
     change: impl FnOnce(&mut Soup) -> Outcome,
 ) -> ricci_status {
-    guard::call(|door| {
-        let result = output("result", result)?;
+    guard::make("result", result, |door| {
         let mesh = door.shared(mesh)?;
         let mut soup = Soup::new(mesh.positions()?.to_vec(), face_vertices(&mesh.connectivity));
         change(&mut soup)?;
-        result.hand_over(ricci_mesh::from_soup(soup)?);
-        Ok(())
+        ricci_mesh::from_soup(soup)
     })
 }
 

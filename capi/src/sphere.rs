@@ -146,12 +146,10 @@ pub unsafe extern "C" fn ricci_sphere_new(
     control: *const ricci_control,
     sphere: *mut *mut ricci_sphere,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("sphere", sphere)?;
+    guard::make("sphere", sphere, |door| {
         let mesh = door.shared(mesh)?;
         let (lengths, geometry) = mesh.lengths()?;
-        place.hand_over(uniformize(mesh, lengths, geometry, options, control)?);
-        Ok(())
+        uniformize(mesh, lengths, geometry, options, control)
     })
 }
 
@@ -176,12 +174,10 @@ pub unsafe extern "C" fn ricci_sphere_from_lengths(
     control: *const ricci_control,
     sphere: *mut *mut ricci_sphere,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("sphere", sphere)?;
+    guard::make("sphere", sphere, |door| {
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
-        place.hand_over(uniformize(mesh, Arc::new(lengths.into()), choose(geometry)?, options, control)?);
-        Ok(())
+        uniformize(mesh, Arc::new(lengths.into()), choose(geometry)?, options, control)
     })
 }
 
@@ -260,11 +256,9 @@ pub unsafe extern "C" fn ricci_sphere_metric(
     sphere: *const ricci_sphere,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
+    guard::make("metric", metric, |door| {
         let ricci_sphere { sphere, positions, .. } = door.shared(sphere)?;
-        metric.hand_over(ricci_metric::at(sphere.metric.clone(), positions.clone())?);
-        Ok(())
+        ricci_metric::at(sphere.metric.clone(), positions.clone())
     })
 }
 
@@ -279,12 +273,10 @@ pub unsafe extern "C" fn ricci_sphere_mesh(
     sphere: *const ricci_sphere,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |door| {
         let Sphere { metric, positions, .. } = &door.shared(sphere)?.sphere;
         let shape = Shape::Positions(Arc::new(positions.to_vec()));
-        mesh.hand_over(ricci_mesh::new(metric.mesh().clone(), shape));
-        Ok(())
+        Ok(ricci_mesh::new(metric.mesh().clone(), shape))
     })
 }
 
@@ -301,9 +293,7 @@ pub unsafe extern "C" fn ricci_sphere_positions(
     positions: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("positions", door.shared(sphere)?.sphere.positions.as_flattened(), positions, capacity)
-    })
+    guard::with(sphere, |sphere| copy_out("positions", &sphere.sphere.positions, positions, capacity))
 }
 
 /// The plane under the sphere (ricci_stereographic_project), in which far more digits are left near (0, 0, 1) than on the sphere.
@@ -319,7 +309,7 @@ pub unsafe extern "C" fn ricci_sphere_plane(
     points: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("points", door.shared(sphere)?.sphere.plane.as_flattened(), points, capacity))
+    guard::with(sphere, |sphere| copy_out("points", &sphere.sphere.plane, points, capacity))
 }
 
 /// The common refinement of the given mesh and the polyhedron: faces that are parts of faces of both. Its vertices are those of the mesh,

@@ -31,8 +31,7 @@ pub unsafe extern "C" fn ricci_homotopy_path_word(
     capacity: usize,
     n_letters: *mut usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
+    guard::with(homotopy, |ricci_homotopy { mesh, basis, .. }| {
         let word = basis.path_word(mesh, &halfedges("path", mesh, path, n_path)?)?;
         copy_word(&word, letters, capacity, n_letters)
     })
@@ -201,8 +200,7 @@ pub unsafe extern "C" fn ricci_homotopy_lift(
     starts: *mut usize,
     starts_capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
+    guard::with(homotopy, |ricci_homotopy { mesh, basis, .. }| {
         let element = read(&basis.group, "element", element, n_element)?;
         let start = Lift { vertex: VertexId(vertex), element };
         let path = halfedges("path", mesh, path, n_path)?;

@@ -6,11 +6,16 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A module as the names that lead to it from the crate's root.
 type Path = Vec<String>;
 
+/// How a module gives on what another one holds.
+const GIVING_ON: &[&str] = &["pub use ", "pub(crate) use ", "pub(super) use "];
+
 /// The modules of one crate.
 pub struct Modules {
     /// Source of each module without comments, strings of `use` in order, and without unit tests.
     code: BTreeMap<Path, String>,
-    /// What a module gives on under another module's name: its `pub use` items, as (name, path).
+    /// What a module has from others by `use`, as (name, path): whoever names it there means those.
+    used: BTreeMap<Path, Vec<(String, Path)>>,
+    /// The part of this that it gives on by `pub use`.
     given_on: BTreeMap<Path, Vec<(String, Path)>>,
 }
 
@@ -59,20 +64,20 @@ impl Modules {
 
     fn of(sources: impl Iterator<Item = (Path, String)>) -> Modules {
         let code: BTreeMap<Path, String> = sources.map(|(module, text)| (module, code_of(&text))).collect();
-        let mut modules = Modules { code, given_on: BTreeMap::new() };
-        for (module, code) in &modules.code {
-            let mut items = Vec::new();
-            for statement in statements(code, &["pub use ", "pub(crate) use ", "pub(super) use "]) {
+        let items = |words: &[&str]| -> BTreeMap<Path, Vec<(String, Path)>> {
+            let named = |statement| {
                 let mut found = BTreeSet::new();
                 open(statement, "", &mut found);
-                items.extend(found.iter().map(|item| {
+                found.into_iter().map(|item| {
                     let item = path(item.trim_end_matches("::self"));
                     (item.last().cloned().unwrap_or_default(), item)
-                }));
-            }
-            modules.given_on.insert(module.clone(), items);
-        }
-        modules
+                })
+            };
+            let of = |code| statements(code, words).into_iter().flat_map(named).collect();
+            code.iter().map(|(module, code)| (module.clone(), of(code))).collect()
+        };
+        let used = items(&["use ", "pub use ", "pub(crate) use ", "pub(super) use "]);
+        Modules { used, given_on: items(GIVING_ON), code }
     }
 
     /// The module that holds what `names` leads to as written in the module `from`; nothing if it is not of this crate.
@@ -94,8 +99,8 @@ impl Modules {
                 (at, names) = (inside, rest);
                 continue;
             }
-            let given_on = self.given_on[&at].iter().find(|(item, _)| item == name);
-            return match given_on.and_then(|(_, item)| self.holder(&at, item)) {
+            let used = self.used[&at].iter().find(|(item, path)| item == name && *path != names);
+            return match used.and_then(|(_, item)| self.holder(&at, item)) {
                 Some(holder) if !rest.is_empty() && self.code.contains_key(&below(&holder, name)) => {
                     self.holder(&below(&holder, name), &[&["self".to_string()], rest].concat())
                 }
@@ -112,7 +117,7 @@ impl Modules {
         let mut arrows = BTreeMap::new();
         for (module, code) in &self.code {
             let mut code = code.clone();
-            for words in ["pub use ", "pub(crate) use ", "pub(super) use "] {
+            for words in GIVING_ON {
                 for statement in statements(&code.clone(), &[words]) {
                     code = code.replace(&format!("{words}{statement};"), "");
                 }

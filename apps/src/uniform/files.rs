@@ -17,7 +17,7 @@ use crate::input::Input;
 use crate::metric_file::MetricFile;
 use crate::output::{Outputs, extension};
 use crate::picture::Texture;
-use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes};
+use crate::report::{Checks, InputSummary, Report, Seconds, path_text};
 use crate::uv;
 use ricci::Control;
 use ricci::control::Stage;
@@ -83,11 +83,7 @@ impl Wish<'_> {
         checks: &Checks,
         seconds: Seconds,
     ) -> Report<O, R> {
-        let mut report = Report::new(self.command, InputSummary::of(input), asked, figures);
-        report.checks = checks.clone();
-        report.seconds = seconds;
-        report.peak_bytes = peak_bytes();
-        report
+        Report::new(self.command, InputSummary::of(input), asked, figures).finished(checks.clone(), seconds)
     }
 
     fn write_quotient(
@@ -123,7 +119,8 @@ impl Wish<'_> {
         }
         if let Some(path) = &args.picture.picture {
             let texture = args.texture.unwrap_or(Texture::Checker);
-            let canvas = Canvas { path, at, style: args.picture.style(texture), threads };
+            let (at, style) = (self.drawn_place(u.deck.space), args.picture.style(texture));
+            let canvas = Canvas { path, at, style, threads };
             let ready = pictures::prepare(u, shown, &canvas);
             let written = ready.and_then(|ready| outputs.add(path, |out| ready.write(out, u, &canvas)));
             u.failed.attempt("picture", written)?;

@@ -11,6 +11,7 @@ use ricci::Control;
 use ricci::canonical::{Sphere, SphereReport};
 use ricci::embed::layout_in_space;
 use ricci::flow::{Report, SurfaceFlow};
+use ricci::geometry::vector::{add, distance, dot, triangle_normal};
 use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex, Point, VertexId};
 use ricci::metric::{Curvature, Refinement, SurfaceMetric};
@@ -129,9 +130,7 @@ impl Round {
         let is_inward = |f: &FaceId| {
             let [a, b, c] = self.corners(*f);
             // From the differences: the determinant of nearly equal vectors would cancel.
-            let [p, q] = [b, c].map(|x| [0, 1, 2].map(|k| x[k] - a[k]));
-            let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
-            !self.is_point(*f) && (0..3).map(|k| n[k] * (a[k] + b[k] + c[k])).sum::<f64>() <= 0.0
+            !self.is_point(*f) && dot(triangle_normal([a, b, c]), add(add(a, b), c)) <= 0.0
         };
         self.metric.mesh().faces().filter(is_inward).count()
     }
@@ -143,8 +142,7 @@ impl Round {
 
     fn is_point(&self, f: FaceId) -> bool {
         let [a, b, c] = self.corners(f);
-        let far = |p: Point, q: Point| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
-        far(a, b).max(far(b, c)).max(far(c, a)) < POINT
+        distance(a, b).max(distance(b, c)).max(distance(c, a)) < POINT
     }
 
     fn corners(&self, f: FaceId) -> [Point; 3] {

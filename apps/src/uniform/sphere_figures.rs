@@ -1,8 +1,10 @@
 //! The figures of a sphere, as the report has them, and what is said of it.
 
 use super::sphere::{Round, Way};
+use crate::figures::Course;
 use crate::input::Input;
 use crate::say;
+use ricci::geometry::vector::distance;
 use ricci::geometry::worse;
 use ricci::mesh::FaceId;
 use ricci::metric::Refinement;
@@ -18,11 +20,8 @@ const FLAT: f64 = 1e-12;
 pub struct SphereFigures {
     space: &'static str,
     scheme: &'static str,
-    converged: bool,
-    stop_reason: &'static str,
-    iterations: usize,
-    flips: usize,
-    start_flips: usize,
+    #[serde(flatten)]
+    course: Course,
     /// max |K| of the spherical metric.
     max_curvature_error: f64,
     tolerance: f64,
@@ -74,9 +73,14 @@ struct SphereQuality {
 impl SphereFigures {
     /// `copies`: whether a cover was asked for.
     pub fn new(input: &Input, s: &Round, copies: bool) -> SphereFigures {
-        let (converged, stop_reason, iterations, flips) = match &s.way {
-            Way::Puncture(r) => (r.converged, r.stop_reason, r.iterations, r.flips),
-            Way::Flow(r, _) => (r.converged, r.stop_reason, r.iterations, r.flips),
+        let start_flips = s.metric.start_flips();
+        let course = match &s.way {
+            Way::Flow(r, _) => Course::new(r, start_flips),
+            Way::Puncture(r) => {
+                let (stop_reason, flips) = (r.stop_reason.name(), start_flips + r.flips);
+                let (converged, iterations) = (r.converged, r.iterations);
+                Course { converged, stop_reason, iterations, flips, start_flips }
+            }
         };
         let plane = match &s.way {
             Way::Flow(..) => None,
@@ -94,11 +98,7 @@ impl SphereFigures {
         SphereFigures {
             space: "s2",
             scheme: s.metric.scheme().name(),
-            converged,
-            stop_reason: stop_reason.name(),
-            iterations,
-            flips: s.metric.start_flips() + flips,
-            start_flips: s.metric.start_flips(),
+            course,
             max_curvature_error: s.curvature_error(),
             tolerance: s.tolerance,
             flipped_triangles: s.inward(),
@@ -166,9 +166,8 @@ fn sides_in_input(input: &Input, r: &Refinement, f: FaceId) -> [f64; 3] {
     })
 }
 
-fn sides(p: [[f64; 3]; 3]) -> [f64; 3] {
-    let far = |i: usize, j: usize| (0..3).map(|k| (p[i][k] - p[j][k]).powi(2)).sum::<f64>().sqrt();
-    [far(0, 1), far(1, 2), far(2, 0)]
+fn sides([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+    [distance(a, b), distance(b, c), distance(c, a)]
 }
 
 /// A triangle with these sides in the plane: its longest side, and the vectors from corner 0 to the others, the first along x; none for one
