@@ -94,7 +94,7 @@ pub struct Check {
 pub struct Checks(pub BTreeMap<&'static str, Check>);
 
 impl Checks {
-    /// Hold `value ≤ limit`; NaN does not.
+    /// Add the check that `value` is at most `limit`; NaN is not.
     pub fn add(&mut self, name: &'static str, value: f64, limit: f64) {
         self.0.insert(name, Check { value, limit, holds: value <= limit });
     }
@@ -139,7 +139,10 @@ impl Attempts {
         causes
     }
 
-    /// Go on where a wish could not be fulfilled, and remember it: what else was asked for is still delivered. Errors:
+    /// The value of `result`; where there is none the reason is remembered under the option `wish`, so that everything else that was
+    /// asked for is still delivered.
+    ///
+    /// # Errors
     /// [`Failure::Cancelled`] alone.
     pub fn attempt<T>(
         &mut self,

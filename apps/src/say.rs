@@ -6,7 +6,8 @@ use crate::shape_quality::thinnest;
 use ricci::flow::Options;
 use std::io::{self, Write};
 
-/// Faces with a smaller angle, degrees, may be why something fails: rounding moves its cotangent by 1e-13 and more.
+/// Angle in degrees below which the thinnest face is named where a check fails: rounding moves the cotangent of such an angle by
+/// 1e-13 and more.
 const SLIVER: f64 = 0.1;
 
 /// Print lines; a reader that has gone away is no error.

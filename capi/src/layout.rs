@@ -298,7 +298,7 @@ pub unsafe extern "C" fn ricci_layout_seams(
                 "the sides of these seams are paired by isometries of h2: ricci_quotient_sides has them";
             Failure::new(ricci_status::RICCI_LAYOUT, message)
         })?;
-        copy_out("seams", &rows, seams, capacity)
+        copy_out("seams", rows, seams, capacity)
     })
 }
 

@@ -118,7 +118,7 @@ impl File<'_> {
             }
             of_points.iter_mut().zip(&self.heights).for_each(|(weight, height)| *weight *= height);
         }
-        let faces: Vec<[u32; 3]> = self.mesh.faces().map(|f| of_vertices(f).map(|v| v.0)).collect();
+        let faces = self.mesh.triangles();
         let data = io::Textured {
             positions,
             faces: &faces,

@@ -271,7 +271,7 @@ pub unsafe extern "C" fn ricci_mesh_faces(
     faces: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(mesh, |mesh| copy_out("faces", &face_vertices(&mesh.connectivity), faces, capacity))
+    guard::with(mesh, |mesh| copy_out("faces", &mesh.connectivity.triangles(), faces, capacity))
 }
 
 /// The edges opposite the corners of every face: how the triangles are glued, and where in a per-edge array a
@@ -365,8 +365,4 @@ pub unsafe extern "C" fn ricci_mesh_boundary(
         let rows = loops.iter().map(|walk| walk.iter().rev().map(|&h| mesh.origin(h).0));
         copy_rows("vertices", rows, (vertices, vertices_capacity), (starts, starts_capacity))
     })
-}
-
-pub(crate) fn face_vertices(mesh: &Mesh) -> Vec<[u32; 3]> {
-    mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect()
 }

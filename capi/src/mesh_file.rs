@@ -4,7 +4,7 @@ use crate::arrays::{self, copy_out};
 use crate::choice::{choice, choose};
 use crate::failure::{Failure, Outcome};
 use crate::guard;
-use crate::mesh::{face_vertices, ricci_mesh};
+use crate::mesh::ricci_mesh;
 use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::mesh::io::{self, Attributes, Format, Soup, Texture, Wrap};
@@ -293,6 +293,6 @@ pub unsafe extern "C" fn ricci_mesh_write_textured(
 /// The triangle list that the mesh is, with what it was read with.
 fn whole(mesh: &ricci_mesh) -> Outcome<Soup> {
     let positions = mesh.positions()?.to_vec();
-    let faces = face_vertices(&mesh.connectivity);
+    let faces = mesh.connectivity.triangles();
     Ok(Soup { positions, faces, attributes: mesh.attributes.clone() })
 }

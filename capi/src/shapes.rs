@@ -4,7 +4,7 @@ use crate::arrays;
 use crate::choice::{choice, choose};
 use crate::failure::Outcome;
 use crate::guard::{self, output};
-use crate::mesh::{face_vertices, ricci_mesh};
+use crate::mesh::ricci_mesh;
 use crate::status::ricci_status;
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, Sliver, TorusKnot};
@@ -167,7 +167,7 @@ fn changed(
 ) -> ricci_status {
     guard::make("result", result, |door| {
         let mesh = door.shared(mesh)?;
-        let mut soup = Soup::new(mesh.positions()?.to_vec(), face_vertices(&mesh.connectivity));
+        let mut soup = Soup::new(mesh.positions()?.to_vec(), mesh.connectivity.triangles());
         change(&mut soup)?;
         ricci_mesh::from_soup(soup)
     })

@@ -9,9 +9,10 @@ use ricci::Control;
 use serde_json::{Value, json};
 use std::io::{self, Seek, SeekFrom, Write};
 
-/// Bounds of positions are written when these are known; so much room is left for each.
+/// Characters of each bound of the positions: the bounds are filled in once the positions are written, and the longest double has
+/// 24 characters.
 const BOUND: usize = 26;
-/// Most bytes of the file: what glTF can count.
+/// Most bytes of the file: glTF counts them in 32 bits.
 const MOST: u64 = u32::MAX as u64;
 
 /// Write the copies; coordinates are single precision, as glTF has them.

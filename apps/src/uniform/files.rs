@@ -192,7 +192,7 @@ fn write_metric(
 /// The final triangulation on the unit sphere, with the input's colours.
 fn write_on_sphere(outputs: &mut Outputs, path: &Path, input: &Input, s: &Round) -> Result<(), Failure> {
     let mesh = s.metric.mesh();
-    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let faces = mesh.triangles();
     let data = Textured {
         positions: &s.positions,
         colors: input.attributes.colors.as_deref().unwrap_or_default(),

@@ -3,8 +3,9 @@
 use ricci::geometry::Space;
 use ricci::geometry::model::{Model, between, distance};
 
-/// Points of a geodesic per unit of length, and at most.
+/// Straight pieces per unit of hyperbolic length by which a geodesic is drawn.
 const STEPS_PER_LENGTH: f64 = 14.0;
+/// Most straight pieces by which one geodesic is drawn.
 const MOST_STEPS: f64 = 96.0;
 
 /// Where points are written or drawn.

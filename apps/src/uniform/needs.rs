@@ -11,7 +11,10 @@ pub struct Needs {
     pub domain: bool,
 }
 
-/// What a step has made, or why it could not. Errors: [`Failure::Cancelled`] alone.
+/// What a step has made, or the text of its error.
+///
+/// # Errors
+/// [`Failure::Cancelled`] alone.
 pub fn told<T>(made: ricci::Result<T>) -> Result<Result<T, String>, Failure> {
     match made {
         Err(ricci::Error::Cancelled) => Err(Failure::Cancelled),
@@ -19,7 +22,10 @@ pub fn told<T>(made: ricci::Result<T>) -> Result<Result<T, String>, Failure> {
     }
 }
 
-/// What was made, if it was.
+/// What was made.
+///
+/// # Errors
+/// [`Failure::Failed`] with the reason why it was not, also where no output asked for it.
 pub fn known<T>(made: &Option<Result<T, String>>) -> Result<&T, Failure> {
     match made {
         Some(Ok(made)) => Ok(made),

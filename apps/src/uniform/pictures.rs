@@ -52,7 +52,6 @@ pub struct Ready {
 pub fn prepare(u: &Uniformized, shown: Shown, canvas: &Canvas<'_>) -> Result<Ready, Failure> {
     let laid = u.laid()?;
     let (uv, tiles) = pattern(u, laid);
-    let mesh = &laid.mesh;
     let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
     let tiling = match shown {
         Shown::Uniform(ShowChoice::Surface) => None,
@@ -67,7 +66,7 @@ pub fn prepare(u: &Uniformized, shown: Shown, canvas: &Canvas<'_>) -> Result<Rea
         tiling,
         uv,
         tiles,
-        faces: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect(),
+        faces: laid.mesh.triangles(),
         loops: if with_surface { loops_on_surface(u) } else { Vec::new() },
         with_surface,
     })

@@ -20,13 +20,14 @@ use std::f64::consts::PI;
 
 /// The origin in ambient coordinates: the base point.
 pub const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
-/// A relation residual beyond this is no relation.
+/// Largest residual of the group's relation and of the layout's side pairings, relative to the largest matrix on the way: half of
+/// the digits of a double.
 const RELATION: f64 = 1e-8;
-/// Rounding of the area, per vertex.
+/// What rounding may do to the area per vertex, beside the curvature that the flow has left.
 const AREA_ROUNDING: f64 = 1e-12;
-/// Deck transformations of a torus turn by this at most, radians.
+/// Largest rotation of a deck transformation of a torus, radians: the default tolerance of a flow.
 const TURNING: f64 = 1e-10;
-/// The Dirichlet domain has the surface's area to this, relative: corners are known to 1e-8 of its size.
+/// Largest difference of the areas of Dirichlet domain and surface, relative: corners are known to 1e-8 of the domain's size.
 const DOMAIN_AREA: f64 = 1e-7;
 
 /// A uniformized surface.

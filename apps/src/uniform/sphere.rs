@@ -17,13 +17,17 @@ use ricci::mesh::{FaceId, PerEdge, PerVertex, Point, VertexId};
 use ricci::metric::{Curvature, Refinement, SurfaceMetric};
 use std::f64::consts::PI;
 
-/// Edges are Delaunay and the outline of the plane is convex to this, radians; the centre of mass is in the middle to this.
+/// Most that an angle may miss the Delaunay condition of an edge, or convexity of the plane's outline, radians: ten times the
+/// default tolerance of the flow whose curvature errors it consists of.
 const DELAUNAY: f64 = 1e-9;
+/// Largest distance of the centre of mass from the centre of the unit sphere.
 const CENTRING: f64 = 1e-9;
-/// Positions with a range of u below this are convex to [`CONVEX`]: beyond it they run out of digits.
-const RANGE: f64 = 30.0;
+/// Range of u up to which the polyhedron is checked for convexity: e^30 leaves positions three of their sixteen digits.
+const CHECKED_RANGE: f64 = 30.0;
+/// Most that a vertex may lie over the plane of the face next to one of its faces, in radii of the sphere.
 const CONVEX: f64 = 1e-12;
-/// Faces with a longest edge below this are a point to their positions.
+/// Length below which the longest edge of a face on the unit sphere counts as a point: rounding of positions, 1e-16, is then 1e-4
+/// of it.
 const POINT: f64 = 1e-12;
 
 /// How the sphere was found.
@@ -180,7 +184,7 @@ impl Round {
             checks.add("delaunay_violation", report.delaunay_violation, DELAUNAY);
             checks.add("outline_bends_inward", worse(-report.link_turning, 0.0), DELAUNAY);
             checks.add("centring", report.centring, CENTRING);
-            if report.u_range < RANGE {
+            if report.u_range < CHECKED_RANGE {
                 checks.add("nonconvexity", report.nonconvexity, CONVEX);
             }
         }

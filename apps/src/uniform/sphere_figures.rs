@@ -11,10 +11,11 @@ use ricci::metric::Refinement;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Pieces whose image has a shorter longest edge are too small for the digits of positions to show their shape.
-const SMALL: f64 = 1e-7;
-/// Pieces with less area, relative to the square of their longest edge, have no shape.
-const FLAT: f64 = 1e-12;
+/// Least length of the longest edge of a piece on the unit sphere whose distortion is measured: coordinates of 1e-16 then give the
+/// shape to 1e-9.
+const MEASURED_EDGE: f64 = 1e-7;
+/// Least area over the square of the longest edge of a piece whose distortion is measured: flatter ones count as degenerate.
+const MEASURED_SHARE: f64 = 1e-12;
 
 #[derive(Serialize)]
 pub struct SphereFigures {
@@ -122,7 +123,7 @@ impl SphereQuality {
         let mut degenerate_pieces = 0;
         for f in r.mesh.faces() {
             match (flat(sides_in_input(input, r, f)), flat(sides(s.piece(r, f)))) {
-                (Some(from), Some(to)) if to.0 >= SMALL => pieces.push((from, to)),
+                (Some(from), Some(to)) if to.0 >= MEASURED_EDGE => pieces.push((from, to)),
                 _ => degenerate_pieces += 1,
             }
         }
@@ -176,7 +177,8 @@ fn flat([l01, l12, l20]: [f64; 3]) -> Option<(f64, [[f64; 2]; 2])> {
     let longest = l01.max(l12).max(l20);
     let x = (l01 * l01 + l20 * l20 - l12 * l12) / (2.0 * l01);
     let y = (l20 * l20 - x * x).max(0.0).sqrt();
-    (0.5 * l01 * y > FLAT * longest * longest && x.is_finite()).then_some((longest, [[l01, 0.0], [x, y]]))
+    (0.5 * l01 * y > MEASURED_SHARE * longest * longest && x.is_finite())
+        .then_some((longest, [[l01, 0.0], [x, y]]))
 }
 
 /// The quotient of the singular values of the linear map from one triangle to another.

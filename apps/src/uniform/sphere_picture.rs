@@ -16,7 +16,7 @@ pub fn write(
     beside: bool,
     threads: usize,
 ) -> io::Result<()> {
-    let faces: Vec<[u32; 3]> = r.mesh.faces().map(|f| r.mesh.face_vertices(f).map(|v| v.0)).collect();
+    let faces = r.mesh.triangles();
     let mut on_sphere = vec![[0.0, 0.0, 1.0]; r.mesh.n_vertices()];
     let (mut uv, mut scale) = (Vec::new(), Vec::new());
     for (f, face) in r.mesh.faces().zip(&faces) {
