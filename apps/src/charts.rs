@@ -3,24 +3,16 @@
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::Outcome;
-use crate::laid::{Laid, Placed};
+use crate::laid::{Laid, Packed, Placed};
 use crate::report::timed;
 use ricci::Control;
+use ricci::embed::ChartOptions;
 use ricci::embed::overlap::{Triangle, overlapping};
-use ricci::embed::{ChartOptions, Charts};
 use ricci::flow::auto_cones;
 use ricci::geometry::Space;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, VertexId};
 use ricci::metric::Target;
 use std::collections::BTreeMap;
-
-/// The charts of a layout, packed.
-pub struct Packed {
-    pub charts: Charts,
-    /// Faces that overlap another one in the unit square, looked for anew in what is written; those that are degenerate there are
-    /// left out.
-    pub overlapping: usize,
-}
 
 /// The target `auto:N`.
 pub fn auto_target(n: usize, input: &Input, space: Space, control: &Control) -> Result<Target, Failure> {

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::metric_file::{self, Intrinsic};
 use crate::options::SurfaceArgs;
 use crate::output::extension;
-use crate::report::timed;
+use crate::timing::timed;
 use ricci::Control;
 use ricci::Surface;
 use ricci::control::Stage;

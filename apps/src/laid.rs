@@ -1,13 +1,15 @@
 //! The layout of a flow's metric with what is said about it.
 
-use crate::charts::Packed;
 use crate::failure::Failure;
-use crate::in_space::{InSpace, consistency_limit, half_in_space, in_space, is_carried_back};
+use crate::in_space::{InSpace, consistency_limit, is_carried_back, seams};
 use crate::input::Input;
 use crate::report::{Seconds, timed};
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::embed::{Layout, Quality, layout_in_space, layout_of, layout_refined, quality, refined_cut};
+use ricci::embed::{
+    Charts, Layout, Quality, RefinedSpaceLayout, SpaceLayout, layout_in_space, layout_of, layout_refined,
+    quality, refine_space_layout, refined_cut, unroll_refined_in_space,
+};
 use ricci::flow::Solution;
 use ricci::geometry::modulus::modulus;
 use ricci::geometry::{Space, worse};
@@ -16,15 +18,20 @@ use ricci::metric::curvature::area;
 use ricci::metric::{Curvature, Refinement};
 use ricci::topology::{central_vertex, cut_graph};
 
-/// Rounding of one step of the development: a unit direction and a point are rotated and added, a few ulp each.
-pub const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
-
 /// Where a surface lies.
 pub enum Placed {
     /// In the plane, opened along a cut through the cones of its metric.
     Plane(Layout),
     /// In the model space of its metric, around a vertex.
     Space(Box<InSpace>),
+}
+
+/// The charts of a layout, packed.
+pub struct Packed {
+    pub charts: Charts,
+    /// Faces that overlap another one in the unit square, looked for anew in what is written; those that are degenerate there are
+    /// left out.
+    pub overlapping: usize,
 }
 
 /// A layout; in E² it is scaled to the area of the input.
@@ -178,6 +185,69 @@ fn refined(
         placed: Placed::Plane(refined.layout),
         quality,
         scale,
+        consistency_limit,
+    })
+}
+
+/// Carry the layout of a metric's triangulation back to the given one. `errors`: the sum of |K − K̄| over the vertices.
+pub fn in_space(
+    input: &Input,
+    metric: &Solution,
+    whole: &SpaceLayout,
+    errors: f64,
+    seconds: &mut Seconds,
+    control: &Control,
+) -> ricci::Result<Laid> {
+    let refinement = timed(&mut seconds.refine, || metric.refinement(control))?;
+    let lay = || refine_space_layout(whole, &refinement, metric.mesh(), control);
+    let refined = timed(&mut seconds.layout, lay)?;
+    let seams = seams(whole, &refinement);
+    laid(input, metric, refinement, (refined, seams), errors)
+}
+
+/// Lay out the given half of the double that a metric lives on. `cones`: vertices inside that the cut has to pass.
+pub fn half_in_space(
+    input: &Input,
+    metric: &Solution,
+    cones: &[VertexId],
+    errors: f64,
+    seconds: &mut Seconds,
+    control: &Control,
+) -> ricci::Result<Laid> {
+    let refinement = timed(&mut seconds.refine, || metric.refinement(control))?;
+    let lay = || unroll_refined_in_space(&refinement, metric.mesh(), metric.metric(), cones, control);
+    let (refined, cut) = timed(&mut seconds.layout, lay)?;
+    let numbered =
+        |(k, segment): (usize, &Vec<HalfedgeId>)| -> Vec<_> { segment.iter().map(|&h| (h, k)).collect() };
+    let seams = cut.segments.iter().enumerate().flat_map(numbered).collect();
+    laid(input, metric, refinement, (refined, seams), errors)
+}
+
+fn laid(
+    input: &Input,
+    metric: &Solution,
+    refinement: Refinement,
+    (refined, seams): (RefinedSpaceLayout, Vec<(HalfedgeId, usize)>),
+    errors: f64,
+) -> ricci::Result<Laid> {
+    let quality = refined.quality(&refinement, input.mesh(), input.surface.lengths())?;
+    let positions = match input.positions() {
+        Some(positions) => Some(refinement.from_input_vertices(positions)?),
+        None => None,
+    };
+    let consistency_limit = consistency_limit(refined.space, refined.radius, errors, metric.mesh().n_faces());
+    let place = InSpace { coordinates: refined.coordinates(), seams, refined };
+    Ok(Laid {
+        mesh: refinement.mesh.clone(),
+        weight: refinement.weight.clone(),
+        refinement: Some(refinement),
+        positions,
+        packed: None,
+        degenerate: place.refined.degenerate.clone(),
+        modulus: None,
+        placed: Placed::Space(Box::new(place)),
+        quality,
+        scale: 1.0,
         consistency_limit,
     })
 }

@@ -5,6 +5,7 @@ use crate::job::Outcome;
 use crate::laid::Laid;
 use crate::picture::{CLASSES, ColorChoice, Field, Scale};
 use ricci::geometry::triangle;
+use ricci::geometry::vector::{cross, dot, norm, sub, triangle_normal};
 use ricci::mesh::{FaceId, Mesh, PerFace, PerVertex, Point};
 use ricci::metric::Refinement;
 use ricci::metric::curvature::{curvature, curvature_from_angles};
@@ -146,22 +147,15 @@ fn at_faces(values: &[f64], scale: Scale) -> Field {
 }
 
 fn angles(p: [Point; 3]) -> [f64; 3] {
-    let side = |i: usize, j: usize| [0, 1, 2].map(|k| p[j][k] - p[i][k]);
     let angle = |k: usize| {
-        let (a, b) = (side(k, (k + 1) % 3), side(k, (k + 2) % 3));
-        f64::atan2(doubled_area(a, b), a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+        let [a, b] = [1, 2].map(|i| sub(p[(k + i) % 3], p[k]));
+        f64::atan2(norm(cross(a, b)), dot(a, b))
     };
     [0, 1, 2].map(angle)
 }
 
 fn area(p: [Point; 3]) -> f64 {
-    let side = |j: usize| [0, 1, 2].map(|k| p[j][k] - p[0][k]);
-    0.5 * doubled_area(side(1), side(2))
-}
-
-fn doubled_area(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    n.iter().map(|x| x * x).sum::<f64>().sqrt()
+    0.5 * norm(triangle_normal(p))
 }
 
 #[cfg(test)]

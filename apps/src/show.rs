@@ -39,7 +39,7 @@ pub fn draw(
     }
     let (mesh, positions) =
         laid.map_or((input.mesh(), input.positions()), |laid| (&laid.mesh, laid.positions.as_deref()));
-    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let faces = mesh.triangles();
     let cones = cones(input.mesh(), &outcome.target);
     let surface = positions.as_ref().map(|positions| Surface {
         positions,

@@ -23,7 +23,7 @@ pub fn write(
     let mesh = &laid.mesh;
     let corners: Vec<[u32; 3]> =
         mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| laid.corner_index()[h])).collect();
-    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let faces = mesh.triangles();
     let weights = if homogeneous { laid.weights() } else { Vec::new() };
     let carried = carry(input, laid)?;
     let data = Textured {

@@ -4,9 +4,9 @@ use crate::arrays::copy_out;
 use crate::control::{self, ricci_control};
 use crate::drawing;
 use crate::failure::Outcome;
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle};
 use crate::layout::ricci_layout;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::embed::{ChartOptions, Charts, charts};
 use ricci::flow::Solution;
@@ -26,12 +26,7 @@ pub struct ricci_charts {
     pub(crate) refinement: Option<Arc<Refinement>>,
 }
 
-impl Handle for ricci_charts {
-    const NAME: &'static str = "charts";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_charts, "charts");
 
 /// Figures of charts.
 #[repr(C)]
@@ -61,12 +56,7 @@ pub struct ricci_charts_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_charts_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_charts_summary, "summary");
 
 /// Cut a layout into charts and pack them into the unit square.
 ///
@@ -86,20 +76,18 @@ pub unsafe extern "C" fn ricci_charts_new(
     control: *const ricci_control,
     charts: *mut *mut ricci_charts,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("charts", charts)?;
+    guard::make("charts", charts, |door| {
         let ricci_layout { mesh, positions, drawing, surface, refinement, .. } = door.shared(layout)?;
         let charts =
             self::charts(mesh, |h| drawing.corner(h), &ChartOptions { margin }, &control::of(control))?;
-        place.hand_over(ricci_charts {
+        Ok(ricci_charts {
             poison: Poison::default(),
             mesh: mesh.clone(),
             positions: positions.clone(),
             charts,
             surface: surface.clone(),
             refinement: refinement.clone(),
-        });
-        Ok(())
+        })
     })
 }
 
@@ -124,8 +112,7 @@ pub unsafe extern "C" fn ricci_charts_summarise(
     summary: *mut ricci_charts_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_charts { mesh, charts, .. } = door.shared(charts)?;
+    guard::with(charts, |ricci_charts { mesh, charts, .. }| {
         let figures = ricci_charts_summary {
             size,
             n_charts: charts.count(),
@@ -155,7 +142,7 @@ pub unsafe extern "C" fn ricci_charts_faces(
     chart: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("chart", &door.shared(charts)?.charts.chart, chart, capacity))
+    guard::with(charts, |charts| copy_out("chart", &charts.charts.chart, chart, capacity))
 }
 
 /// The points of the charts, in the unit square.
@@ -171,9 +158,7 @@ pub unsafe extern "C" fn ricci_charts_points(
     points: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("points", door.shared(charts)?.charts.coordinates.as_flattened(), points, capacity)
-    })
+    guard::with(charts, |charts| copy_out("points", &charts.charts.coordinates, points, capacity))
 }
 
 /// The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
@@ -189,10 +174,7 @@ pub unsafe extern "C" fn ricci_charts_corners(
     corners: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let charts = door.shared(charts)?;
-        copy_out("corners", charts.corners().as_flattened(), corners, capacity)
-    })
+    guard::with(charts, |charts| copy_out("corners", &charts.corners(), corners, capacity))
 }
 
 impl ricci_charts {

@@ -1,13 +1,13 @@
 //! The flow, once or repeatedly.
 
 use crate::arrays;
-use crate::choice::{Choice, choose, name};
+use crate::choice::{choice, choose, name};
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle, output};
 use crate::metric::ricci_metric;
 use crate::report::ricci_report;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::flow::{Flips, Gradient, Method, Options, StepRule};
@@ -25,17 +25,10 @@ pub enum ricci_method {
     RICCI_METHOD_GRADIENT = 1,
 }
 
-impl Choice for ricci_method {
-    const NAME: &'static str = "method";
-    type Value = Method;
-    const ALL: &'static [(Self, Method)] = &[
-        (ricci_method::RICCI_METHOD_NEWTON, Method::Newton),
-        (ricci_method::RICCI_METHOD_GRADIENT, Method::Gradient),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_method, "method", Method, [
+    RICCI_METHOD_NEWTON => Newton,
+    RICCI_METHOD_GRADIENT => Gradient,
+]);
 
 /// Whether edges may be flipped while the metric flows.
 #[repr(C)]
@@ -50,15 +43,10 @@ pub enum ricci_flips {
     RICCI_FLIPS_NEVER = 1,
 }
 
-impl Choice for ricci_flips {
-    const NAME: &'static str = "flips";
-    type Value = Flips;
-    const ALL: &'static [(Self, Flips)] =
-        &[(ricci_flips::RICCI_FLIPS_AUTO, Flips::Auto), (ricci_flips::RICCI_FLIPS_NEVER, Flips::Never)];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_flips, "flips", Flips, [
+    RICCI_FLIPS_AUTO => Auto,
+    RICCI_FLIPS_NEVER => Never,
+]);
 
 /// Step size of the gradient flow.
 #[repr(C)]
@@ -72,18 +60,11 @@ pub enum ricci_step {
     RICCI_STEP_FIXED = 2,
 }
 
-impl Choice for ricci_step {
-    const NAME: &'static str = "step";
-    type Value = ricci_step;
-    const ALL: &'static [(Self, ricci_step)] = &[
-        (ricci_step::RICCI_STEP_BARZILAI_BORWEIN, ricci_step::RICCI_STEP_BARZILAI_BORWEIN),
-        (ricci_step::RICCI_STEP_STABLE, ricci_step::RICCI_STEP_STABLE),
-        (ricci_step::RICCI_STEP_FIXED, ricci_step::RICCI_STEP_FIXED),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_step, "step", ricci_step, [
+    RICCI_STEP_BARZILAI_BORWEIN => RICCI_STEP_BARZILAI_BORWEIN,
+    RICCI_STEP_STABLE => RICCI_STEP_STABLE,
+    RICCI_STEP_FIXED => RICCI_STEP_FIXED,
+]);
 
 /// How a flow is done. Let ricci_flow_options_init fill it, then change fields.
 #[repr(C)]
@@ -118,12 +99,7 @@ pub struct ricci_flow_options {
 }
 
 // SAFETY: numbers, a raw pointer and `MaybeUninit` enums: any bytes are valid; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_flow_options {
-    const NAME: &'static str = "options";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_flow_options, "options");
 
 fn defaults() -> Outcome<ricci_flow_options> {
     let options = Options::default();
@@ -252,12 +228,7 @@ pub struct ricci_solver {
     flow: Flow,
 }
 
-impl Handle for ricci_solver {
-    const NAME: &'static str = "solver";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_solver, "solver");
 
 /// A solver for many targets.
 ///
@@ -272,12 +243,10 @@ pub unsafe extern "C" fn ricci_solver_new(
     options: *const ricci_flow_options,
     solver: *mut *mut ricci_solver,
 ) -> ricci_status {
-    guard::call(|door| {
-        let solver = output("solver", solver)?;
+    guard::make("solver", solver, |door| {
         let metric = door.shared(metric)?;
         let flow = Flow::resume(&metric.surface, &read_options(options)?, &Control::new())?;
-        solver.hand_over(ricci_solver { poison: Poison::default(), flow });
-        Ok(())
+        Ok(ricci_solver { poison: Poison::default(), flow })
     })
 }
 

@@ -4,7 +4,7 @@ use crate::choice::choose;
 use crate::control::{self, ricci_control};
 use crate::drawing::{Drawing, Hyperbolic};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Poison, output};
+use crate::guard::{self, Poison};
 use crate::layout::{cones, ricci_layout};
 use crate::metric::ricci_metric;
 use crate::model::{self, ricci_model};
@@ -43,12 +43,10 @@ pub unsafe extern "C" fn ricci_layout_hyperbolic(
     control: *const ricci_control,
     layout: *mut *mut ricci_layout,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = output("layout", layout)?;
+    guard::make("layout", layout, |door| {
         let metric = door.shared(metric)?;
         let cones = cones(metric.given(), target, n_vertices)?;
-        layout.hand_over(unroll(metric, &cones, choose(model)?, &control::of(control))?);
-        Ok(())
+        unroll(metric, &cones, choose(model)?, &control::of(control))
     })
 }
 

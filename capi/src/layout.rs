@@ -3,12 +3,11 @@
 use crate::arrays::{self, copy_out};
 use crate::control::{self, ricci_control};
 use crate::drawing::Drawing;
+use crate::edges::copy_paths;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
-use crate::mesh::signed_edge;
+use crate::guard::{self, Poison, handle};
 use crate::metric::ricci_metric;
-use crate::refined;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::embed::{Quality, layout_of, layout_refined, quality, refined_cut};
@@ -39,12 +38,7 @@ pub struct ricci_layout {
     pub(crate) refinement: Option<Arc<Refinement>>,
 }
 
-impl Handle for ricci_layout {
-    const NAME: &'static str = "layout";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_layout, "layout");
 
 /// Figures of a layout.
 #[repr(C)]
@@ -95,12 +89,7 @@ pub struct ricci_layout_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_layout_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_layout_summary, "summary");
 
 fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outcome<ricci_layout> {
     let ricci_metric { surface, positions, .. } = metric;
@@ -177,12 +166,10 @@ pub unsafe extern "C" fn ricci_layout_new(
     control: *const ricci_control,
     layout: *mut *mut ricci_layout,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = output("layout", layout)?;
+    guard::make("layout", layout, |door| {
         let metric = door.shared(metric)?;
         let cones = cones(metric.given(), target, n_vertices)?;
-        layout.hand_over(unroll(metric, &cones, &control::of(control))?);
-        Ok(())
+        unroll(metric, &cones, &control::of(control))
     })
 }
 
@@ -192,6 +179,11 @@ pub unsafe extern "C" fn ricci_layout_new(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_layout_free(layout: *mut ricci_layout) {
     guard::free(layout);
+}
+
+/// The number of pieces into which the given and the final triangulation cut each other.
+fn n_pieces(refinement: &Refinement) -> usize {
+    refinement.piece.last().map_or(0, |&last| last as usize + 1)
 }
 
 /// The figures of a layout.
@@ -207,8 +199,7 @@ pub unsafe extern "C" fn ricci_layout_summarise(
     summary: *mut ricci_layout_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_layout { mesh, drawing, quality, surface, refinement, .. } = door.shared(layout)?;
+    guard::with(layout, |ricci_layout { mesh, drawing, quality, surface, refinement, .. }| {
         let n_given_vertices = surface.given().n_vertices();
         let figures = ricci_layout_summary {
             size,
@@ -228,7 +219,7 @@ pub unsafe extern "C" fn ricci_layout_summarise(
             n_edges: mesh.n_edges(),
             n_given_vertices,
             n_crossings: mesh.n_vertices() - n_given_vertices,
-            n_pieces: refinement.as_deref().map_or(mesh.n_faces(), refined::n_pieces),
+            n_pieces: refinement.as_deref().map_or(mesh.n_faces(), n_pieces),
             n_degenerate: quality.degenerate.len(),
         };
         sized::write(figures, summary, size)
@@ -248,9 +239,7 @@ pub unsafe extern "C" fn ricci_layout_points(
     points: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("points", door.shared(layout)?.drawing.points.as_flattened(), points, capacity)
-    })
+    guard::with(layout, |layout| copy_out("points", &layout.drawing.points, points, capacity))
 }
 
 /// The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
@@ -266,10 +255,7 @@ pub unsafe extern "C" fn ricci_layout_corners(
     corners: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
-        copy_out("corners", layout.corners().as_flattened(), corners, capacity)
-    })
+    guard::with(layout, |layout| copy_out("corners", &layout.corners(), corners, capacity))
 }
 
 /// The coordinates of every corner of every face.
@@ -285,11 +271,10 @@ pub unsafe extern "C" fn ricci_layout_uv(
     uv: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_layout { mesh, drawing, .. } = door.shared(layout)?;
+    guard::with(layout, |ricci_layout { mesh, drawing, .. }| {
         let corner_points = |f| mesh.face_halfedges(f).map(|h| drawing.corner(h));
         let corners: Vec<[[f64; 2]; 3]> = mesh.faces().map(corner_points).collect();
-        copy_out("uv", corners.as_flattened().as_flattened(), uv, capacity)
+        copy_out("uv", &corners, uv, capacity)
     })
 }
 
@@ -314,7 +299,7 @@ pub unsafe extern "C" fn ricci_layout_seams(
                 "the sides of these seams are paired by isometries of h2: ricci_quotient_sides has them";
             Failure::new(ricci_status::RICCI_LAYOUT, message)
         })?;
-        copy_out("seams", rows.as_flattened(), seams, capacity)
+        copy_out("seams", rows, seams, capacity)
     })
 }
 
@@ -338,9 +323,7 @@ pub unsafe extern "C" fn ricci_layout_seam_edges(
 ) -> ricci_status {
     guard::call(|door| {
         let seams = &door.shared(layout)?.drawing.seams;
-        let (numbers, offsets) =
-            arrays::flattened(seams.iter().map(|seam| seam.iter().map(|&h| signed_edge(h))));
-        arrays::copy_rows("edges", &numbers, edges, edges_capacity, &offsets, starts, starts_capacity)
+        copy_paths(seams, (edges, edges_capacity), (starts, starts_capacity))
     })
 }
 
@@ -376,7 +359,7 @@ pub unsafe extern "C" fn ricci_layout_qc(
     qc: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("qc", &door.shared(layout)?.quality.qc, qc, capacity))
+    guard::with(layout, |layout| copy_out("qc", &layout.quality.qc, qc, capacity))
 }
 
 /// The area distortion of every face: its share of the layout's area over its share of the input's.
@@ -392,7 +375,7 @@ pub unsafe extern "C" fn ricci_layout_area_ratio(
     ratio: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("ratio", &door.shared(layout)?.quality.area_ratio, ratio, capacity))
+    guard::with(layout, |layout| copy_out("ratio", &layout.quality.area_ratio, ratio, capacity))
 }
 
 impl ricci_layout {

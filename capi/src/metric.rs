@@ -3,10 +3,10 @@
 use crate::arrays::{self, copy_out};
 use crate::choice::{choose, name};
 use crate::failure::Outcome;
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle};
 use crate::mesh::ricci_mesh;
 use crate::scheme::ricci_scheme;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::flow::Solution;
@@ -30,12 +30,7 @@ pub struct ricci_metric {
     pub(crate) positions: Option<Arc<Vec<Point>>>,
 }
 
-impl Handle for ricci_metric {
-    const NAME: &'static str = "metric";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_metric, "metric");
 
 impl ricci_metric {
     fn start(surface: Surface, class: Class) -> Outcome<ricci_metric> {
@@ -111,12 +106,7 @@ pub struct ricci_metric_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_metric_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_metric_summary, "summary");
 
 /// The initial metric of a mesh in the conformal class of its lengths.
 ///
@@ -134,11 +124,9 @@ pub unsafe extern "C" fn ricci_metric_new(
     space: MaybeUninit<ricci_space>,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
-        let (mesh, class) = (door.shared(mesh)?, Class::new(choose(scheme)?, choose(space)?));
-        metric.hand_over(ricci_metric::start(mesh.surface()?, class)?);
-        Ok(())
+    guard::make("metric", metric, |door| {
+        let class = Class::new(choose(scheme)?, choose(space)?);
+        ricci_metric::start(door.shared(mesh)?.surface()?, class)
     })
 }
 
@@ -163,13 +151,11 @@ pub unsafe extern "C" fn ricci_metric_from_lengths(
     space: MaybeUninit<ricci_space>,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
+    guard::make("metric", metric, |door| {
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
         let class = Class::new(choose(scheme)?, choose(space)?);
-        metric.hand_over(ricci_metric::start(mesh.surface_with(lengths, choose(geometry)?)?, class)?);
-        Ok(())
+        ricci_metric::start(mesh.surface_with(lengths, choose(geometry)?)?, class)
     })
 }
 
@@ -232,9 +218,7 @@ pub unsafe extern "C" fn ricci_metric_curvature(
     curvature: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("curvature", &door.shared(metric)?.surface.curvature()?.at, curvature, capacity)
-    })
+    guard::with(metric, |metric| copy_out("curvature", &metric.surface.curvature()?.at, curvature, capacity))
 }
 
 /// The variable u of every vertex.
@@ -250,10 +234,7 @@ pub unsafe extern "C" fn ricci_metric_u(
     u: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
-        copy_out("u", metric.given_part(&metric.surface.metric().u), u, capacity)
-    })
+    guard::with(metric, |metric| copy_out("u", metric.given_part(&metric.surface.metric().u), u, capacity))
 }
 
 /// The type epsilon of every vertex: 1 circle, 0 vertex scaling, -1 imaginary circle.
@@ -269,8 +250,7 @@ pub unsafe extern "C" fn ricci_metric_epsilon(
     epsilon: *mut i8,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
+    guard::with(metric, |metric| {
         copy_out("epsilon", metric.given_part(&metric.surface.metric().epsilon), epsilon, capacity)
     })
 }

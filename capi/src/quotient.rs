@@ -5,14 +5,14 @@ use crate::choice::choose;
 use crate::control::{self, ricci_control};
 use crate::domain::ricci_domain;
 use crate::failure::Outcome;
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle};
 use crate::homotopy::ricci_homotopy;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::metric::ricci_metric;
 use crate::report::ricci_report;
 use crate::space::ricci_space;
 use crate::status::ricci_status;
-use crate::uniformize::{read_options, ricci_uniformize_options};
+use crate::uniformize_options::{read_options, ricci_uniformize_options};
 use ricci::Surface;
 use ricci::canonical::{Quotient, quotient_of, uniformize_quotient};
 use ricci::geometry::Space;
@@ -31,12 +31,7 @@ pub struct ricci_quotient {
     pub(crate) quotient: Arc<Quotient>,
 }
 
-impl Handle for ricci_quotient {
-    const NAME: &'static str = "quotient";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_quotient, "quotient");
 
 impl ricci_quotient {
     pub(crate) fn new(quotient: Quotient) -> ricci_quotient {
@@ -70,11 +65,9 @@ pub unsafe extern "C" fn ricci_quotient_new(
     control: *const ricci_control,
     quotient: *mut *mut ricci_quotient,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("quotient", quotient)?;
+    guard::make("quotient", quotient, |door| {
         let mesh = door.shared(mesh)?;
-        place.hand_over(uniformize(mesh.surface()?, options, control)?);
-        Ok(())
+        uniformize(mesh.surface()?, options, control)
     })
 }
 
@@ -99,13 +92,11 @@ pub unsafe extern "C" fn ricci_quotient_from_lengths(
     control: *const ricci_control,
     quotient: *mut *mut ricci_quotient,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("quotient", quotient)?;
+    guard::make("quotient", quotient, |door| {
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
         let surface = mesh.surface_with(lengths, choose(geometry)?)?;
-        place.hand_over(uniformize(surface, options, control)?);
-        Ok(())
+        uniformize(surface, options, control)
     })
 }
 
@@ -133,12 +124,10 @@ pub unsafe extern "C" fn ricci_quotient_from_metric(
     control: *const ricci_control,
     quotient: *mut *mut ricci_quotient,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("quotient", quotient)?;
+    guard::make("quotient", quotient, |door| {
         let metric = door.shared(metric)?;
         let found = quotient_of(&metric.surface, &read_options(options)?, &control::of(control))?;
-        place.hand_over(ricci_quotient::new(found));
-        Ok(())
+        Ok(ricci_quotient::new(found))
     })
 }
 
@@ -161,11 +150,7 @@ pub unsafe extern "C" fn ricci_quotient_metric(
     quotient: *const ricci_quotient,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
-        metric.hand_over(ricci_metric::at(door.shared(quotient)?.quotient.metric.clone())?);
-        Ok(())
-    })
+    guard::make("metric", metric, |door| ricci_metric::at(door.shared(quotient)?.quotient.metric.clone()))
 }
 
 /// What the flow did.
@@ -179,10 +164,8 @@ pub unsafe extern "C" fn ricci_quotient_report(
     quotient: *const ricci_quotient,
     report: *mut *mut ricci_report,
 ) -> ricci_status {
-    guard::call(|door| {
-        let report = output("report", report)?;
-        report.hand_over(ricci_report::new(door.shared(quotient)?.quotient.report.clone()));
-        Ok(())
+    guard::make("report", report, |door| {
+        Ok(ricci_report::new(door.shared(quotient)?.quotient.report.clone()))
     })
 }
 
@@ -197,15 +180,10 @@ pub unsafe extern "C" fn ricci_quotient_mesh(
     quotient: *const ricci_quotient,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |door| {
         let metric = &door.shared(quotient)?.quotient.metric;
         let lengths = Arc::new(metric.metric().lengths(metric.mesh())?);
-        mesh.hand_over(ricci_mesh::new(
-            metric.mesh().clone(),
-            Shape::Lengths(lengths, metric.metric().space),
-        ));
-        Ok(())
+        Ok(ricci_mesh::new(metric.mesh().clone(), Shape::Lengths(lengths, metric.metric().space)))
     })
 }
 
@@ -220,11 +198,9 @@ pub unsafe extern "C" fn ricci_quotient_homotopy(
     quotient: *const ricci_quotient,
     homotopy: *mut *mut ricci_homotopy,
 ) -> ricci_status {
-    guard::call(|door| {
-        let homotopy = output("homotopy", homotopy)?;
+    guard::make("homotopy", homotopy, |door| {
         let quotient = &door.shared(quotient)?.quotient;
-        homotopy.hand_over(ricci_homotopy::new(quotient.metric.mesh().clone(), quotient.basis.clone()));
-        Ok(())
+        Ok(ricci_homotopy::new(quotient.metric.mesh().clone(), quotient.basis.clone()))
     })
 }
 
@@ -239,15 +215,9 @@ pub unsafe extern "C" fn ricci_quotient_domain(
     quotient: *const ricci_quotient,
     domain: *mut *mut ricci_domain,
 ) -> ricci_status {
-    guard::call(|door| {
-        let domain = output("domain", domain)?;
+    guard::make("domain", domain, |door| {
         let Quotient { metric, layout, basis, .. } = &*door.shared(quotient)?.quotient;
-        domain.hand_over(ricci_domain::new(FundamentalDomain::new(
-            metric.mesh(),
-            &layout.cut.is_cut,
-            basis,
-        )?));
-        Ok(())
+        Ok(ricci_domain::new(FundamentalDomain::new(metric.mesh(), &layout.cut.is_cut, basis)?))
     })
 }
 

@@ -1,8 +1,9 @@
 //! What a flow did.
 
 use crate::arrays::{check_buffer, copy_out};
-use crate::guard::{self, Handle, Poison};
-use crate::sized::{self, Sized64};
+use crate::guard::{self, Poison, handle};
+use crate::integer::raw;
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::flow::{Report, StopReason};
 use std::ffi::{CStr, c_char};
@@ -17,12 +18,7 @@ pub struct ricci_report {
     report: Report,
 }
 
-impl Handle for ricci_report {
-    const NAME: &'static str = "report";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_report, "report");
 
 impl ricci_report {
     pub(crate) fn new(report: Report) -> ricci_report {
@@ -135,12 +131,7 @@ pub struct ricci_report_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_report_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_report_summary, "summary");
 
 /// The name of a stop reason as reports spell it, such as "rounding_floor".
 ///
@@ -150,7 +141,7 @@ unsafe impl Sized64 for ricci_report_summary {
 /// @param reason  the reason.
 #[unsafe(no_mangle)]
 pub extern "C" fn ricci_stop_reason_text(reason: MaybeUninit<ricci_stop_reason>) -> *const c_char {
-    let number = guard::raw(reason);
+    let number = raw(reason);
     let name = NAMES.iter().find(|(known, _)| *known as i32 == number);
     name.map_or(c"unknown", |(_, name)| name).as_ptr()
 }
@@ -221,7 +212,7 @@ pub unsafe extern "C" fn ricci_report_residuals(
     residuals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("residuals", &door.shared(report)?.report.residuals, residuals, capacity))
+    guard::with(report, |report| copy_out("residuals", &report.report.residuals, residuals, capacity))
 }
 
 /// The trace of a gradient flow.
@@ -245,7 +236,7 @@ pub unsafe extern "C" fn ricci_report_trace(
             .iter()
             .map(|row| [row.step as f64, row.energy, row.max_curvature_error, row.area, row.step_size])
             .collect();
-        copy_out("trace", rows.as_flattened(), trace, capacity)
+        copy_out("trace", &rows, trace, capacity)
     })
 }
 

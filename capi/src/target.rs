@@ -53,8 +53,7 @@ pub unsafe extern "C" fn ricci_target_default(
     target: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
+    guard::with(metric, |metric| {
         let surface = &metric.surface;
         let choice = Target::default_for(surface.surface(), surface.metric().space)?;
         copy_out("target", &metric.resolve(&choice)?, target, capacity)
@@ -75,7 +74,7 @@ pub unsafe extern "C" fn ricci_target_uniform(
     target: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("target", &door.shared(metric)?.resolve(&Target::Uniform)?, target, capacity))
+    guard::with(metric, |metric| copy_out("target", &metric.resolve(&Target::Uniform)?, target, capacity))
 }
 
 /// 0 inside, 2 pi chi shared over the boundary in proportion to adjacent boundary length. E2 only.
@@ -92,9 +91,7 @@ pub unsafe extern "C" fn ricci_target_boundary(
     target: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("target", &door.shared(metric)?.resolve(&Target::Boundary)?, target, capacity)
-    })
+    guard::with(metric, |metric| copy_out("target", &metric.resolve(&Target::Boundary)?, target, capacity))
 }
 
 /// All curvature, 2 pi chi, at one vertex. E2 only.
@@ -113,8 +110,7 @@ pub unsafe extern "C" fn ricci_target_single(
     target: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
+    guard::with(metric, |metric| {
         let choice = Target::Single(metric.vertex(vertex)?);
         copy_out("target", &metric.resolve(&choice)?, target, capacity)
     })
@@ -140,8 +136,7 @@ pub unsafe extern "C" fn ricci_target_cones(
     target: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
+    guard::with(metric, |metric| {
         let vertices = metric.vertices("vertices", vertices, n_cones)?;
         let curvatures = arrays::array("curvatures", curvatures, n_cones)?;
         let choice = Target::Cones(vertices.into_iter().zip(curvatures).collect());

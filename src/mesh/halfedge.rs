@@ -152,6 +152,10 @@ impl Mesh {
     pub fn face_vertices(&self, f: FaceId) -> [VertexId; 3] {
         self.face_halfedges(f).map(|h| self.origin(h))
     }
+    /// The vertices of every face in corner order: the mesh as a triangle list.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        self.faces().map(|f| self.face_vertices(f).map(|v| v.0)).collect()
+    }
     /// The edges opposite the face's corners: `[bc, ca, ab]` for the face `(a, b, c)`.
     #[inline]
     pub fn opposite_edges(&self, f: FaceId) -> [EdgeId; 3] {

@@ -8,7 +8,6 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::reduction::Reduction;
 use super::word::{Letter, Word};
 use crate::error::{Error, Result};
 
@@ -94,28 +93,6 @@ impl SurfaceGroup {
         };
         let ends = (2 * self.genus..self.n_generators()).map(Letter::generator);
         (0..self.genus).flat_map(handle).chain(ends).collect()
-    }
-
-    /// A word of the same element, never longer than the word on a closed surface; empty exactly for the
-    /// identity.
-    ///
-    /// Closed surfaces of genus ≥ 2: Dehn's algorithm \[Deh12\]; what is left need not be the only such word.
-    /// Genus 1: `a1^p b1^q`. With boundary: freely reduced without `cb`, which the relator expresses by the
-    /// others. These two are normal forms: equal elements, equal words. O(g · length).
-    pub fn reduce(&self, word: &Word) -> Word {
-        let mut reduction = Reduction::new(*self);
-        reduction.extend(word.letters().iter().copied());
-        reduction.word()
-    }
-
-    /// Whether a word is the identity of the group.
-    pub fn is_trivial(&self, word: &Word) -> bool {
-        self.reduce(word).is_empty()
-    }
-
-    /// Whether two words are the same element of the group.
-    pub fn equal(&self, u: &Word, v: &Word) -> bool {
-        self.is_trivial(&u.inverse().times(v))
     }
 
     /// The image in the first homology ℤ^{2g + max(b − 1, 0)}: the sum of each generator's exponents, where

@@ -1,11 +1,11 @@
 //! A closed surface of genus 1 or more in its metric of constant curvature, laid out on the surface as it was given.
 
-use super::request::Needs;
+use super::needs::{Needs, known, told};
 use crate::failure::Failure;
-use crate::in_space::{InSpace, MEETING, consistency, consistency_limit, in_space, is_carried_back};
+use crate::in_space::{InSpace, MEETING, consistency, consistency_limit, is_carried_back};
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
-use crate::laid::Laid;
+use crate::laid::{Laid, in_space};
 use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
 use ricci::canonical::Quotient;
@@ -21,13 +21,14 @@ use std::f64::consts::PI;
 
 /// The origin in ambient coordinates: the base point.
 pub const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
-/// A relation residual beyond this is no relation.
+/// Largest residual of the group's relation and of the layout's side pairings, relative to the largest matrix on the way: half of
+/// the digits of a double.
 const RELATION: f64 = 1e-8;
-/// Rounding of the area, per vertex.
+/// What rounding may do to the area per vertex, beside the curvature that the flow has left.
 const AREA_ROUNDING: f64 = 1e-12;
-/// Deck transformations of a torus turn by this at most, radians.
+/// Largest rotation of a deck transformation of a torus, radians: the default tolerance of a flow.
 const TURNING: f64 = 1e-10;
-/// The Dirichlet domain has the surface's area to this, relative: corners are known to 1e-8 of its size.
+/// Largest difference of the areas of Dirichlet domain and surface, relative: corners are known to 1e-8 of the domain's size.
 const DOMAIN_AREA: f64 = 1e-7;
 
 /// A uniformized surface.
@@ -56,23 +57,6 @@ pub struct Uniformized {
     pub failed: Attempts,
     pub left_out: Vec<&'static str>,
     pub seconds: Seconds,
-}
-
-/// What a step has made, or why it could not. Errors: [`Failure::Cancelled`] alone.
-pub fn told<T>(made: ricci::Result<T>) -> Result<Result<T, String>, Failure> {
-    match made {
-        Err(ricci::Error::Cancelled) => Err(Failure::Cancelled),
-        made => Ok(made.map_err(|error| error.to_string())),
-    }
-}
-
-/// What was made, if it was.
-pub fn known<T>(made: &Option<Result<T, String>>) -> Result<&T, Failure> {
-    match made {
-        Some(Ok(made)) => Ok(made),
-        Some(Err(why)) => Err(Failure::Failed(why.clone())),
-        None => Err(Failure::Failed("no output has asked for it".into())),
-    }
 }
 
 impl Uniformized {

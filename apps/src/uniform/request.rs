@@ -1,8 +1,8 @@
 //! What is asked of the commands, and what they refuse.
 
-use super::args::{CanonicalArgs, ModelChoice, ShowChoice, TilesChoice};
+use super::args::{CanonicalArgs, ModelChoice, ShowChoice, Shown, TilesChoice};
 use super::model_place::ModelPlace;
-use super::pictures::Shown;
+use super::needs::Needs;
 use super::quotient::Uniformized;
 use crate::failure::Failure;
 use crate::input::Input;
@@ -67,15 +67,6 @@ impl CoverWish<'_> {
     }
 }
 
-/// What some outputs need beside metric, layout and group.
-#[derive(Clone, Copy)]
-pub struct Needs {
-    /// The common refinement of the given triangulation and the metric's.
-    pub refinement: bool,
-    /// The Dirichlet domain of the base point.
-    pub domain: bool,
-}
-
 impl Wish<'_> {
     /// What the outputs that are asked for are made from.
     pub fn needs(&self, shown: Shown) -> Needs {
@@ -100,30 +91,22 @@ impl Wish<'_> {
         let meshes =
             [("--uv", args.uv.as_deref()), ("--sphere", args.sphere.as_deref()), ("--cover", copies)];
         for (option, path) in meshes {
-            path.map_or(Ok(()), |path| check_extension(option, path, &["obj", "glb"]))?;
+            check_extension(option, path, &["obj", "glb"])?;
         }
-        if let Some(path) = &args.picture.picture {
-            check_extension("--picture", path, &["png", "svg"])?;
-            if is_svg(path)
-                && matches!(self.shown, Some(Shown::Uniform(ShowChoice::Both | ShowChoice::Surface)))
-            {
-                return Err(Failure::Usage(
-                    "--picture: an SVG shows no surface in space; use .png, or --show domain".into(),
-                ));
-            }
-            if self.model == Some(ModelChoice::Hyperboloid) {
-                return Err(Failure::Usage(
-                    "--picture: the hyperboloid is no plane; use --model poincare, klein or half-plane"
-                        .into(),
-                ));
-            }
+        let picture = args.picture.picture.as_deref();
+        check_extension("--picture", picture, &["png", "svg"])?;
+        let in_space = matches!(self.shown, Some(Shown::Uniform(ShowChoice::Both | ShowChoice::Surface)));
+        if in_space && picture.is_some_and(is_svg) {
+            return Err(Failure::Usage(
+                "--picture: an SVG shows no surface in space; use .png, or --show domain".into(),
+            ));
         }
         let files = [
             args.metric.as_deref(),
             args.uv.as_deref(),
             args.sphere.as_deref(),
             args.generators.as_deref(),
-            args.picture.picture.as_deref(),
+            picture,
             args.common.report.as_deref(),
             copies,
             domain,
@@ -215,9 +198,15 @@ impl Wish<'_> {
         }
     }
 
-    /// Where pictures and copies lie.
+    /// Where copies lie.
     pub fn place(&self, space: Space) -> ModelPlace {
         ModelPlace::new(space, self.model.map_or(Model::Poincare, Model::from))
+    }
+
+    /// Where pictures lie: the hyperboloid is drawn as the Poincaré disk, which is its projection.
+    pub fn drawn_place(&self, space: Space) -> ModelPlace {
+        let drawn = self.model.filter(|model| *model != ModelChoice::Hyperboloid);
+        ModelPlace::new(space, drawn.map_or(Model::Poincare, Model::from))
     }
 
     /// What was asked, defaults put in: a run with these options is this run.

@@ -1,8 +1,7 @@
 //! A closed surface of genus 0 on the unit sphere.
 
 use super::args::CanonicalArgs;
-use super::quotient::{known, told};
-use super::request::Needs;
+use super::needs::{Needs, known, told};
 use crate::failure::Failure;
 use crate::in_space::consistency_limit;
 use crate::input::Input;
@@ -11,21 +10,25 @@ use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
 use ricci::canonical::{Sphere, SphereReport};
 use ricci::embed::layout_in_space;
-use ricci::flow::Solution;
-use ricci::flow::{Report, flow};
+use ricci::flow::{Report, Solution, flow};
+use ricci::geometry::vector::{add, distance, dot, triangle_normal};
 use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex, Point, VertexId};
 use ricci::metric::{Curvature, Refinement, Scheme};
 use ricci::{Class, Target};
 use std::f64::consts::PI;
 
-/// Edges are Delaunay and the outline of the plane is convex to this, radians; the centre of mass is in the middle to this.
+/// Most that an angle may miss the Delaunay condition of an edge, or convexity of the plane's outline, radians: ten times the
+/// default tolerance of the flow whose curvature errors it consists of.
 const DELAUNAY: f64 = 1e-9;
+/// Largest distance of the centre of mass from the centre of the unit sphere.
 const CENTRING: f64 = 1e-9;
-/// Positions with a range of u below this are convex to [`CONVEX`]: beyond it they run out of digits.
-const RANGE: f64 = 30.0;
+/// Range of u up to which the polyhedron is checked for convexity: e^30 leaves positions three of their sixteen digits.
+const CHECKED_RANGE: f64 = 30.0;
+/// Most that a vertex may lie over the plane of the face next to one of its faces, in radii of the sphere.
 const CONVEX: f64 = 1e-12;
-/// Faces with a longest edge below this are a point to their positions.
+/// Length below which the longest edge of a face on the unit sphere counts as a point: rounding of positions, 1e-16, is then 1e-4
+/// of it.
 const POINT: f64 = 1e-12;
 
 /// How the sphere was found.
@@ -134,9 +137,7 @@ impl Round {
         let is_inward = |f: &FaceId| {
             let [a, b, c] = self.corners(*f);
             // From the differences: the determinant of nearly equal vectors would cancel.
-            let [p, q] = [b, c].map(|x| [0, 1, 2].map(|k| x[k] - a[k]));
-            let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
-            !self.is_point(*f) && (0..3).map(|k| n[k] * (a[k] + b[k] + c[k])).sum::<f64>() <= 0.0
+            !self.is_point(*f) && dot(triangle_normal([a, b, c]), add(add(a, b), c)) <= 0.0
         };
         self.metric.mesh().faces().filter(is_inward).count()
     }
@@ -148,8 +149,7 @@ impl Round {
 
     fn is_point(&self, f: FaceId) -> bool {
         let [a, b, c] = self.corners(f);
-        let far = |p: Point, q: Point| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
-        far(a, b).max(far(b, c)).max(far(c, a)) < POINT
+        distance(a, b).max(distance(b, c)).max(distance(c, a)) < POINT
     }
 
     fn corners(&self, f: FaceId) -> [Point; 3] {
@@ -187,7 +187,7 @@ impl Round {
             checks.add("delaunay_violation", report.delaunay_violation, DELAUNAY);
             checks.add("outline_bends_inward", worse(-report.link_turning, 0.0), DELAUNAY);
             checks.add("centring", report.centring, CENTRING);
-            if report.u_range < RANGE {
+            if report.u_range < CHECKED_RANGE {
                 checks.add("nonconvexity", report.nonconvexity, CONVEX);
             }
         }

@@ -4,8 +4,9 @@
 use super::budget::Budget;
 use super::gifti_data::{Header, Table};
 use super::scan::Location;
-use super::{Attributes, Point, Soup};
+use super::{Attributes, Soup};
 use crate::error::Result;
+use crate::mesh::Point;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 

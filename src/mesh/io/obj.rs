@@ -4,8 +4,10 @@
 use super::budget::Budget;
 use super::polygon::Polygons;
 use super::scan::{Location, Quoted};
-use super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, Textured, WHITE, write_atomically};
+use super::soup::{NO_NORMAL, NO_TEXCOORD, WHITE};
+use super::{Attributes, Soup, Textured, write_atomically};
 use crate::error::Result;
+use crate::mesh::Point;
 use std::io::Write;
 use std::path::Path;
 

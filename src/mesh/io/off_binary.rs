@@ -1,11 +1,12 @@
 //! Binary OFF: what Geomview reads and writes, and what other programs write under the same header.
 
 use super::budget::Budget;
-use super::off::{Columns, Extras};
+use super::off_extras::{Columns, Extras};
 use super::polygon::Polygons;
 use super::scan::Location;
-use super::{Point, Soup, in_range};
+use super::soup::{Soup, in_range};
 use crate::error::Result;
+use crate::mesh::Point;
 
 /// How the data behind `OFF BINARY` are laid out. The file does not say which it is.
 #[derive(Clone, Copy, PartialEq)]

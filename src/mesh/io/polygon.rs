@@ -1,10 +1,10 @@
 //! Polygons of a file, and their triangles.
 
-use super::Point;
 use super::budget::Budget;
 use super::scan::Location;
 use crate::error::Result;
 use crate::geometry::predicates::orientation;
+use crate::mesh::Point;
 use std::cmp::Ordering;
 
 /// The polygons of a file in its order, as flat lists: corner k of the file is `corners[k]`.

@@ -1,11 +1,12 @@
 //! STL, ascii and binary. Our own reader: what says `solid` may be binary, counts in headers may be wrong, and errors name
 //! the line or the byte.
 
+use super::Soup;
 use super::budget::Budget;
 use super::polygon::Polygons;
 use super::scan::{Location, Quoted, tokens};
-use super::{Point, Soup};
 use crate::error::Result;
+use crate::mesh::Point;
 use crate::mesh::weld::{check_tolerance, coincident, place_key};
 use std::collections::HashMap;
 

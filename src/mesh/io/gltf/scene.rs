@@ -1,11 +1,12 @@
 //! The meshes of a scene, in space.
 
 use super::super::budget::Budget;
-use super::super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, WHITE};
 use super::accessor::File;
 use super::document::{Affine, Primitive, Shape};
 use super::seams::first_alike;
 use crate::error::{Error, Result};
+use crate::mesh::Point;
+use crate::mesh::io::soup::{Attributes, NO_NORMAL, NO_TEXCOORD, Soup, WHITE};
 use crate::mesh::weld::place_key;
 
 /// Modes of a primitive with faces.

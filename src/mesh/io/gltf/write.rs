@@ -1,8 +1,9 @@
 //! Binary glTF 2.0 from a triangle list, with texture.
 
-use super::super::{Point, Textured, write_atomically};
 use super::seams::first_alike;
 use crate::error::{Error, Result};
+use crate::mesh::Point;
+use crate::mesh::io::{Textured, write_atomically};
 use crate::mesh::weld::place_key;
 use serde_json::{Value, json};
 use std::collections::HashMap;

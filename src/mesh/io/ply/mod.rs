@@ -12,8 +12,9 @@ use super::budget::Budget;
 use super::kind::Kind;
 use super::polygon::Polygons;
 use super::scan::Location;
-use super::{Attributes, Point, Soup};
+use super::{Attributes, Soup};
 use crate::error::Result;
+use crate::mesh::Point;
 use body::{Body, Row};
 use header::{Element, header};
 

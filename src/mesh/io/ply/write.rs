@@ -1,7 +1,7 @@
 //! Binary PLY from a triangle list.
 
-use super::super::{Attributes, Soup, write_atomically};
 use crate::error::Result;
+use crate::mesh::io::{Attributes, Soup, write_atomically};
 use std::io::Write;
 use std::path::Path;
 
