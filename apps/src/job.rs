@@ -87,7 +87,7 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     Ok(Outcome {
         scheme: job.scheme,
         rule,
-        final_target: flow.target(&target),
+        final_target: flow.target(&target).map_err(failed)?,
         target,
         pinned: job.pinned,
         initial: flow.initial().clone(),

@@ -7,6 +7,7 @@ use super::system::System;
 use crate::control::Stage;
 use crate::error::Result;
 use crate::geometry::{Space, largest, worse};
+use crate::mesh::{Flip, Mesh};
 use crate::metric::delaunay::boundary_fails;
 
 /// Below this max |K − K̄| a smaller residual also accepts a step. Far from the solution only the slope does: mixing
@@ -64,7 +65,7 @@ impl Run<'_> {
         let (mut flipped, mut restarts) = (report.flips, 0);
         report.stop_reason = loop {
             let at_limit = report.iterations >= self.options.iteration_limit();
-            let fixed = &self.options.fixed_edges;
+            let fixed = self.fixed;
             if self.one_copy && !at_limit && boundary_fails(self.mesh, self.class, &state.u, fixed) {
                 self.left = true;
                 report.max_curvature_error = error;
@@ -257,11 +258,12 @@ impl Run<'_> {
             return Ok(timed(&mut report.seconds.assemble, || state.evaluate(self.mesh, self.class)));
         }
         let (mesh, class) = (&mut *self.mesh, &mut *self.class);
-        let mut record = |mesh: &_, e| self.followed.iter_mut().for_each(|normal| normal.record(mesh, e));
+        let mut record =
+            |mesh: &Mesh, flip: Flip| self.followed.iter_mut().for_each(|normal| normal.record(mesh, flip.edge));
         let (real, flips) = state.evaluate_delaunay(
             mesh,
             class,
-            &self.options.fixed_edges,
+            self.fixed,
             &mut record,
             &mut report.seconds,
             self.control,

@@ -9,7 +9,7 @@ use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::geometry::conformal::is_precise;
-use crate::mesh::{Mesh, NormalCoordinates, PerVertex, VertexId};
+use crate::mesh::{FixedEdges, Mesh, NormalCoordinates, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::gauss_bonnet;
 use crate::metric::target::settle_total;
@@ -26,6 +26,7 @@ pub struct Solver {
     start: PerVertex<f64>,
     start_low: PerVertex<f64>,
     pub(super) options: Options,
+    fixed: FixedEdges,
     pub(super) pinned: Vec<bool>,
     pub(super) mirror: Option<Vec<u32>>,
     followed: Vec<NormalCoordinates>,
@@ -41,6 +42,8 @@ pub(super) struct Run<'a> {
     pub start: &'a PerVertex<f64>,
     pub start_low: &'a PerVertex<f64>,
     pub options: &'a Options,
+    /// Edges that are not flipped.
+    pub fixed: &'a FixedEdges,
     pub target: &'a [f64],
     pub pinned: &'a [bool],
     /// Per vertex its mirror image, where the metric is to stay symmetric.
@@ -59,10 +62,7 @@ impl Solver {
     /// A solver for `metric` on `mesh`. Errors: wrong sizes, variables outside the metric's domain, bad options.
     pub fn new(mesh: Mesh, metric: Metric, options: Options) -> Result<Solver> {
         options.check()?;
-        if let Some(e) = options.fixed_edges.iter().find(|e| e.index() >= mesh.n_edges()) {
-            let value = e.to_string();
-            return Err(Error::Argument { what: "fixed edge", value, need: "an existing edge" });
-        }
+        let fixed = FixedEdges::new(&mesh, &options.fixed_edges)?;
         let pool = Pool::new(options.threads)?;
         pool.run(|| metric.lengths(&mesh).map(|_| ()))?;
         let pinned = vec![false; mesh.n_vertices()];
@@ -73,6 +73,7 @@ impl Solver {
             start,
             start_low,
             options,
+            fixed,
             pinned,
             mirror: None,
             followed: Vec::new(),
@@ -202,6 +203,7 @@ impl Solver {
             start: &self.start,
             start_low: &self.start_low,
             options: &self.options,
+            fixed: &self.fixed,
             target: &target,
             pinned: &self.pinned,
             mirror: self.mirror.as_deref(),

@@ -7,8 +7,8 @@ use super::solver::Solver;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::mesh::{Double, Mesh, PerEdge, PerVertex, VertexId};
-use crate::metric::surface::{Start, check_fixed};
+use crate::mesh::{Double, FixedEdges, Mesh, PerEdge, PerVertex, VertexId};
+use crate::metric::surface::Start;
 use crate::metric::{Initial, Metric, Refinement, Scheme, SurfaceMetric};
 use crate::parallel::Pool;
 use std::sync::Arc;
@@ -103,7 +103,7 @@ impl SurfaceFlow {
         let mut flow = SurfaceFlow::go_on(self.solver.run(double)?, &[], &self.options)?;
         if let Some(double) = &flow.start.double {
             // Edges between imaginary circles may have no length there before they are flipped: then it begins from its own start.
-            let _ = flow.solver.set_u(double.spread_vertices(&self.metric().u).into());
+            let _ = flow.solver.set_u(double.spread_vertices(&self.metric().u)?.into());
         }
         Ok(flow)
     }
@@ -133,12 +133,12 @@ impl SurfaceFlow {
 
     fn go_on(from: SurfaceMetric, pinned: &[VertexId], options: &Options) -> Result<SurfaceFlow> {
         let (start, mesh, mut metric, followed, flips) = from.into_parts();
-        check_fixed(&start.given, &options.fixed_edges)?;
+        FixedEdges::new(&start.given, &options.fixed_edges)?;
         let fixed = &options.fixed_edges;
         let rigid = is_rigid(start.initial.input_geometry, start.scheme, metric.space, options);
         let inner = Options {
             flips: if rigid { Flips::Never } else { Flips::Auto },
-            fixed_edges: start.double.as_ref().map_or_else(|| fixed.clone(), |d| d.with_images(fixed)),
+            fixed_edges: start.double.as_ref().map_or_else(|| Ok(fixed.clone()), |d| d.with_images(fixed))?,
             ..options.clone()
         };
         if let Some(double) = &start.double {
@@ -195,7 +195,7 @@ impl SurfaceFlow {
     pub fn solve(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<Report> {
         crate::error::check_size("target", target.len(), self.start.given.n_vertices())?;
         if !self.one_copy {
-            let report = self.solver.solve(&self.target(target), control)?;
+            let report = self.solver.solve(&self.target(target)?, control)?;
             self.flips += report.flips;
             return Ok(report);
         }
@@ -220,8 +220,8 @@ impl SurfaceFlow {
         match rest {
             Ok((rest, mut doubled)) => {
                 if let (false, Some(double)) = (rest.converged, &doubled.start.double) {
-                    let spread = |x: &[f64]| double.spread_vertices(x).into();
-                    doubled.solver.start_from(spread(&start), spread(&low));
+                    let spread = |x: &[f64]| double.spread_vertices(x).map(PerVertex::from);
+                    doubled.solver.start_from(spread(&start)?, spread(&low)?);
                 }
                 *self = doubled;
                 Ok(report.then(rest))
@@ -244,8 +244,8 @@ impl SurfaceFlow {
     }
 
     /// A target on the given surface as one on [`SurfaceFlow::mesh`]: curvature on both sides of the boundary
-    /// adds up.
-    pub fn target(&self, target: &PerVertex<f64>) -> PerVertex<f64> {
+    /// adds up. Errors: [`Error::Size`] unless it has an entry per vertex of the given surface.
+    pub fn target(&self, target: &PerVertex<f64>) -> Result<PerVertex<f64>> {
         self.start.target(target)
     }
 

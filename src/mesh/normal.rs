@@ -39,6 +39,14 @@ pub struct NormalCoordinates {
     overflow: Option<EdgeId>,
 }
 
+/// What one flip changes of [`NormalCoordinates`], to undo it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EdgeCoordinates {
+    crossings: i64,
+    first: [u32; 2],
+    overflow: Option<EdgeId>,
+}
+
 /// How curves run through a triangle with these crossings of the sides k → k + 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Strands {
@@ -116,6 +124,24 @@ impl NormalCoordinates {
         let (cd, dc_first) = (at_c % degree(ca), at_d % degree(db));
         self.crossings[e.index()] = dc.min(MOST);
         (self.first[h.index()], self.first[t.index()]) = (dc_first as u32, cd as u32);
+    }
+
+    /// All that a flip of this edge will change.
+    pub(super) fn coordinates(&self, e: EdgeId) -> EdgeCoordinates {
+        let h = e.halfedge();
+        EdgeCoordinates {
+            crossings: self.crossings[e.index()],
+            first: [h, h.twin()].map(|h| self.first[h.index()]),
+            overflow: self.overflow,
+        }
+    }
+
+    /// Undo the last flip recorded, which was one of this edge, from the coordinates before it.
+    pub(super) fn restore(&mut self, e: EdgeId, before: EdgeCoordinates) {
+        let h = e.halfedge();
+        self.crossings[e.index()] = before.crossings;
+        [self.first[h.index()], self.first[h.twin().index()]] = before.first;
+        self.overflow = before.overflow;
     }
 
     /// n of an edge: how many curves cross it, −1 if it is a curve itself. Never 0: inside a triangle of the given triangulation

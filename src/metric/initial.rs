@@ -55,80 +55,98 @@ pub fn initial_metric(
         Scheme::Tangential => Range::Clamp(1.0, 1.0),
         _ => Range::Refuse,
     };
-    represent(mesh, lengths, input_geometry, epsilon, radii, space, range)
+    let circles = MixedClass { epsilon, radii, space };
+    Represented { mesh, lengths, input_geometry, circles, range }.initial()
 }
 
-/// Like [`initial_metric`] with given types ε (V entries) and radii γ (V entries, positive; unused where ε = 0):
-/// the input lengths are represented exactly.
+/// A conformal class of vertices of several types, with the radii that a metric is to be represented with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MixedClass {
+    /// Types ε ∈ {−1, 0, 1} (V entries).
+    pub epsilon: PerVertex<i8>,
+    /// Radii γ in the geometry of the input (V entries, positive; unused where ε = 0).
+    pub radii: PerVertex<f64>,
+    /// The space of the class.
+    pub space: Space,
+}
+
+/// Like [`initial_metric`] with given types and radii: the input lengths are represented exactly.
 ///
-/// Errors: [`Error::EdgeWeight`] where two circles of ε = 1 would need η ≤ −1, or two of ε = −1 η ≤ 1.
+/// # Errors
+/// Those of [`initial_metric`]; [`Error::Size`]; [`Error::EdgeWeight`] where two circles of ε = 1 would need η ≤ −1, or two of
+/// ε = −1 η ≤ 1; [`Error::Domain`] for a radius that is not positive.
 pub fn initial_mixed(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     input_geometry: Space,
-    epsilon: PerVertex<i8>,
-    radii: PerVertex<f64>,
-    space: Space,
+    circles: MixedClass,
 ) -> Result<Initial> {
     check_triangles(mesh, lengths, input_geometry)?;
-    check_size("epsilon", epsilon.len(), mesh.n_vertices())?;
-    check_size("radii", radii.len(), mesh.n_vertices())?;
-    represent(mesh, lengths, input_geometry, epsilon, radii, space, Range::Refuse)
+    check_size("epsilon", circles.epsilon.len(), mesh.n_vertices())?;
+    check_size("radii", circles.radii.len(), mesh.n_vertices())?;
+    Represented { mesh, lengths, input_geometry, circles, range: Range::Refuse }.initial()
 }
 
 /// What happens to an η that the scheme does not allow.
 #[derive(Clone, Copy)]
 enum Range {
+    /// It is an error.
     Refuse,
+    /// It is moved to the nearest end of this interval, which changes the length.
     Clamp(f64, f64),
 }
 
-fn represent(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
+/// A surface that is to be represented in a class.
+struct Represented<'a> {
+    mesh: &'a Mesh,
+    lengths: &'a PerEdge<f64>,
     input_geometry: Space,
-    epsilon: PerVertex<i8>,
-    radii: PerVertex<f64>,
-    space: Space,
+    circles: MixedClass,
     range: Range,
-) -> Result<Initial> {
-    let n = mesh.n_vertices();
-    let log = |v| if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) };
-    let input_u = PerVertex::from_fn(n, log);
-    if let Some(v) = mesh.vertices().find(|&v| !input_u[v].is_finite()) {
-        return Err(Error::Domain { vertex: v.index(), u: input_u[v], need: "a positive radius" });
-    }
-    let mut metric = Metric {
-        space: input_geometry,
-        epsilon,
-        eta: PerEdge::filled(mesh.n_edges(), 0.0),
-        u: input_u.clone(),
-        u_low: PerVertex::filled(n, 0.0),
-    };
-    let radii = metric.radii();
-    let mut clamped_edges = 0;
-    for e in mesh.edges() {
-        let [i, j] = mesh.ends(e);
-        let epsilon = [metric.epsilon[i], metric.epsilon[j]];
-        let eta = weight_of_length(input_geometry, lengths[e], epsilon, [input_u[i], input_u[j]]);
-        metric.eta[e] = match range {
-            Range::Clamp(low, high) => eta.clamp(low, high),
-            Range::Refuse => allowed_weight(epsilon, e, eta)?,
-        };
-        clamped_edges += usize::from(metric.eta[e] != eta);
-    }
-    let mut max_length_change = 0.0f64;
-    let mut start = lengths.clone();
-    if clamped_edges > 0 {
-        start = metric.lengths(mesh)?;
-        for e in mesh.edges() {
-            max_length_change = worse(max_length_change, (start[e] / lengths[e] - 1.0).abs());
+}
+
+impl Represented<'_> {
+    fn initial(self) -> Result<Initial> {
+        let Represented { mesh, lengths, input_geometry, circles: MixedClass { epsilon, radii, space }, range } =
+            self;
+        let n = mesh.n_vertices();
+        let log = |v| if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) };
+        let input_u = PerVertex::from_fn(n, log);
+        if let Some(v) = mesh.vertices().find(|&v| !input_u[v].is_finite()) {
+            return Err(Error::Domain { vertex: v.index(), u: input_u[v], need: "a positive radius" });
         }
+        let mut metric = Metric {
+            space: input_geometry,
+            epsilon,
+            eta: PerEdge::filled(mesh.n_edges(), 0.0),
+            u: input_u.clone(),
+            u_low: PerVertex::filled(n, 0.0),
+        };
+        let radii = metric.radii();
+        let mut clamped_edges = 0;
+        for e in mesh.edges() {
+            let [i, j] = mesh.ends(e);
+            let epsilon = [metric.epsilon[i], metric.epsilon[j]];
+            let eta = weight_of_length(input_geometry, lengths[e], epsilon, [input_u[i], input_u[j]]);
+            metric.eta[e] = match range {
+                Range::Clamp(low, high) => eta.clamp(low, high),
+                Range::Refuse => allowed_weight(epsilon, e, eta)?,
+            };
+            clamped_edges += usize::from(metric.eta[e] != eta);
+        }
+        let mut max_length_change = 0.0f64;
+        let mut start = lengths.clone();
+        if clamped_edges > 0 {
+            start = metric.lengths(mesh)?;
+            for e in mesh.edges() {
+                max_length_change = worse(max_length_change, (start[e] / lengths[e] - 1.0).abs());
+            }
+        }
+        let shift = start_shift(mesh, &start, &metric, space)?;
+        metric.space = space;
+        metric.u.iter_mut().for_each(|u| *u += shift);
+        Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
     }
-    let shift = start_shift(mesh, &start, &metric, space)?;
-    metric.space = space;
-    metric.u.iter_mut().for_each(|u| *u += shift);
-    Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
 }
 
 /// η, if two vertices of these types can have it.

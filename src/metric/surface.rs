@@ -1,17 +1,19 @@
 //! A metric of a surface on a triangulation of its own, with all that leads back to the surface as it was
 //! given.
 
+use super::class::Class;
 use super::curvature::Curvature;
 use super::delaunay::boundary_fails;
 use super::initial::{Initial, initial_metric};
+use super::isometric::Triangulated;
 use super::lengths::Metric;
-use super::refinement::{Final, Input, Intrinsic, Refinement};
+use super::refinement::{Final, Input, Intrinsic, Refinement, Triangulations};
 use super::scheme::Scheme;
-use super::start::delaunay_start;
+use super::start::{StartOptions, delaunay_start};
 use crate::control::Control;
-use crate::error::{Error, Result};
+use crate::error::{Result, check_size};
 use crate::geometry::Space;
-use crate::mesh::{Double, EdgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
+use crate::mesh::{Double, EdgeId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use std::sync::Arc;
 
 /// What all metrics that flow from one start share.
@@ -27,8 +29,8 @@ pub(crate) struct Start {
     pub flips: usize,
     /// The latter, if that is another one.
     pub flipped: Option<Flipped>,
-    /// Given edges that are not flipped, ascending.
-    pub fixed: Vec<EdgeId>,
+    /// Given edges that are not flipped.
+    pub fixed: FixedEdges,
     /// Whether the start, of one copy, is half of what its double's is: there no boundary edge would be flipped.
     pub is_half: bool,
 }
@@ -45,8 +47,12 @@ pub(crate) struct Flipped {
 
 impl Start {
     /// A target on the given surface as one on its double, if that is what flows.
-    pub fn target(&self, target: &PerVertex<f64>) -> PerVertex<f64> {
-        self.double.as_ref().map_or_else(|| target.clone(), |double| double.target(target).into())
+    pub fn target(&self, target: &PerVertex<f64>) -> Result<PerVertex<f64>> {
+        check_size("target", target.len(), self.given.n_vertices())?;
+        match &self.double {
+            Some(double) => Ok(double.target(target)?.into()),
+            None => Ok(target.clone()),
+        }
     }
 
     /// The common refinement of the given triangulation with that of a metric.
@@ -72,7 +78,8 @@ impl Start {
         let given = self.double.as_ref().map_or(&*self.given, |double| &double.mesh);
         let input = Input { mesh: given, geometry: self.initial.input_geometry, u: &self.initial.input_u };
         let keep = |f| self.double.as_ref().is_none_or(|double| double.is_original(f));
-        Refinement::new(input, intrinsic, Final { mesh, metric, normal }, &keep, control)
+        let result = Final { mesh, metric, normal };
+        Refinement::new(Triangulations { input, intrinsic, result }, &keep, control)
     }
 }
 
@@ -111,7 +118,7 @@ impl SurfaceMetric {
             initial,
             flips: 0,
             flipped: None,
-            fixed: Vec::new(),
+            fixed: FixedEdges::none(),
             is_half: false,
         };
         Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, followed: Vec::new(), flips: 0 })
@@ -129,37 +136,31 @@ impl SurfaceMetric {
         fixed: &[EdgeId],
         control: &Control,
     ) -> Result<SurfaceMetric> {
-        check_fixed(&given, fixed)?;
         let double = if doubled { Some(Double::new(&given)?) } else { None };
-        let (mut mesh, mut all, all_fixed) = match &double {
-            Some(d) => (d.mesh.clone(), d.spread_edges(&lengths).into(), d.with_images(fixed)),
+        let (mesh, all, all_fixed) = match &double {
+            Some(d) => (d.mesh.clone(), d.spread_edges(&lengths)?.into(), d.with_images(fixed)?),
             None => (Mesh::clone(&given), PerEdge::clone(&lengths), fixed.to_vec()),
         };
+        let all_fixed = FixedEdges::new(&mesh, &all_fixed)?;
         let mut normal = NormalCoordinates::new(&mesh);
         let mut flips = 0;
-        let mut record = |mesh: &Mesh, e| {
-            normal.record(mesh, e);
+        let mut record = |mesh: &Mesh, flip: Flip| {
+            normal.record(mesh, flip.edge);
             flips += 1;
         };
-        let initial = delaunay_start(
-            &mut mesh,
-            &mut all,
-            geometry,
-            scheme,
-            space,
-            double.as_ref(),
-            &all_fixed,
-            &mut record,
-            control,
-        )?;
+        let mut surface = Triangulated { mesh, lengths: all, geometry };
+        let options =
+            StartOptions { class: Class::new(scheme, space), double: double.as_ref(), fixed: &all_fixed };
+        let initial = delaunay_start(&mut surface, options, &mut record, control)?;
+        let Triangulated { mesh, lengths: all, .. } = surface;
         let (mesh, metric) = (Arc::new(mesh), initial.metric.clone());
         let mut followed = vec![normal];
         let flipped = (flips > 0).then(|| {
             followed.push(NormalCoordinates::new(&mesh));
             Flipped { mesh: mesh.clone(), lengths: all, given: followed[0].clone() }
         });
-        let is_half = double.is_none() && !boundary_fails(&mesh, &metric, &metric.u, fixed);
-        let fixed = ascending(fixed);
+        let is_half = double.is_none() && !boundary_fails(&mesh, &metric, &metric.u, &all_fixed);
+        let fixed = FixedEdges::new(&given, fixed)?;
         let start = Start { given, lengths, scheme, double, initial, flips, flipped, fixed, is_half };
         Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, followed, flips })
     }
@@ -227,7 +228,8 @@ impl SurfaceMetric {
 
     /// Whether flips were allowed on the way here, and these given edges kept from them.
     pub(crate) fn was_flipped_without(&self, fixed: &[EdgeId]) -> bool {
-        !self.followed.is_empty() && self.start.fixed == ascending(fixed)
+        let is_same = |fixed| self.start.fixed == fixed;
+        !self.followed.is_empty() && FixedEdges::new(self.given(), fixed).is_ok_and(is_same)
     }
 
     /// Whether it lives on the surface's double, or on one copy that it could be reflected from: Delaunay along the boundary too, and
@@ -265,7 +267,7 @@ impl SurfaceMetric {
     /// How often the given edges cross those of the metric's triangulation, and of the one that flows start from: the size of
     /// [`SurfaceMetric::refinement`] beyond that of the surface, on a double of both halves. O(E).
     ///
-    /// Errors: [`Error::TooLarge`] for more than can be numbered.
+    /// Errors: [`crate::Error::TooLarge`] for more than can be numbered.
     pub fn crossings(&self) -> Result<usize> {
         let now = self.followed.first().map_or(Ok(0), |given| given.check(&self.mesh))?;
         let start = self.start.flipped.as_ref().map_or(Ok(0), |start| start.given.check(&start.mesh))?;
@@ -279,19 +281,4 @@ impl SurfaceMetric {
     pub fn refinement(&self, control: &Control) -> Result<Refinement> {
         self.start.refinement(&self.mesh, &self.metric, &self.followed, control)
     }
-}
-
-/// Every edge exists.
-pub(crate) fn check_fixed(given: &Mesh, fixed: &[EdgeId]) -> Result<()> {
-    let missing = fixed.iter().find(|e| e.index() >= given.n_edges());
-    missing.map_or(Ok(()), |e| {
-        Err(Error::Argument { what: "fixed edge", value: e.to_string(), need: "an existing edge" })
-    })
-}
-
-fn ascending(edges: &[EdgeId]) -> Vec<EdgeId> {
-    let mut edges = edges.to_vec();
-    edges.sort_unstable();
-    edges.dedup();
-    edges
 }

@@ -7,11 +7,11 @@ use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, Mesh};
 
 /// Weights of the origin and of the tip.
-pub(super) type Place = [f64; 2];
+pub(super) type OnEdge = [f64; 2];
 
 /// The ends themselves.
-pub(super) const ORIGIN: Place = [1.0, 0.0];
-pub(super) const TIP: Place = [0.0, 1.0];
+pub(super) const ORIGIN: OnEdge = [1.0, 0.0];
+pub(super) const TIP: OnEdge = [0.0, 1.0];
 
 /// Share of the way to its neighbours over which places are spread that rounding has swapped or merged.
 /// Small, since the true places are nearer to each other than rounding; large against it, so that the spread
@@ -19,12 +19,12 @@ pub(super) const TIP: Place = [0.0, 1.0];
 const SPREAD: f64 = 1.0 / (1 << 20) as f64;
 
 /// Whether a lies nearer to the origin than b, and neither weight says otherwise.
-pub(super) fn before(a: Place, b: Place) -> bool {
+pub(super) fn before(a: OnEdge, b: OnEdge) -> bool {
     a[1] <= b[1] && a[0] >= b[0] && a != b
 }
 
 /// `(1 − t) a + t b`.
-pub(super) fn between(a: Place, b: Place, t: f64) -> Place {
+pub(super) fn between(a: OnEdge, b: OnEdge, t: f64) -> OnEdge {
     [0, 1].map(|k| (1.0 - t) * a[k] + t * b[k])
 }
 
@@ -34,11 +34,11 @@ pub(super) fn between(a: Place, b: Place, t: f64) -> Place {
 /// order (in the mean square) puts them into one place. Around it they are then spread evenly over [`SPREAD`]
 /// of the way to the next on both sides. Places in order stay as they are, bit for bit. What doubles cannot
 /// tell apart still coincides, but is not swapped: afterwards neither weight runs back anywhere.
-pub(super) fn restore_order(places: &mut [Place]) {
+pub(super) fn restore_order(places: &mut [OnEdge]) {
     if places.windows(2).all(|pair| before(pair[0], pair[1])) {
         return;
     }
-    let mut pools: Vec<(Place, usize)> = Vec::with_capacity(places.len());
+    let mut pools: Vec<(OnEdge, usize)> = Vec::with_capacity(places.len());
     for &place in places.iter() {
         let (mut mean, mut n) = (place, 1);
         while let Some(&(last, m)) = pools.last().filter(|(last, _)| !before(*last, mean)) {
@@ -67,7 +67,7 @@ pub(super) fn restore_order(places: &mut [Place]) {
 
 /// The same for the crossings of all `curves` with the edges of a triangulation, in the order of the curves:
 /// places along the half-edges 2e.
-pub(super) fn restore_order_across(mesh: &Mesh, curves: &Curves, places: &mut [Place]) {
+pub(super) fn restore_order_across(mesh: &Mesh, curves: &Curves, places: &mut [OnEdge]) {
     let crossings = || mesh.edges().flat_map(|e| curves.crossings(e));
     let mut start = vec![0; mesh.n_edges() + 1];
     crossings().for_each(|at| start[at.halfedge.edge().index() + 1] += 1);
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
     use crate::mesh::shapes::SplitMix64;
 
-    fn at(t: f64) -> Place {
+    fn at(t: f64) -> OnEdge {
         [1.0 - t, t]
     }
 

@@ -56,13 +56,21 @@ pub struct Origin {
     pub result: Option<EdgeId>,
 }
 
+/// Two triangulations of a surface, one drawn on the other.
+#[derive(Clone, Copy)]
+pub(super) struct Overlay<'a> {
+    pub input: &'a Mesh,
+    pub result: &'a Final<'a>,
+    /// The input's edges on the final triangulation.
+    pub curves: &'a Curves,
+    /// Per crossing, or empty: whether it is off the class's straight line, so that the map of a piece at it is projective in each
+    /// triangle only.
+    pub moved: &'a [bool],
+}
+
 /// The pieces as triangles, half-edges not yet numbered without gaps.
 pub(super) struct Pieces<'a> {
-    input: &'a Mesh,
-    result: &'a Final<'a>,
-    curves: &'a Curves,
-    /// Per crossing, if any: whether the pieces at it are one projective map in each triangle only.
-    moved: &'a [bool],
+    pub overlay: Overlay<'a>,
     /// Per final edge: its first slot; slots hold the crossings in order along half-edge 2e.
     slot_start: Vec<u32>,
     slots: Vec<u32>,
@@ -82,22 +90,17 @@ pub(super) struct Pieces<'a> {
 
 impl<'a> Pieces<'a> {
     /// Cut all final triangles, O(output); keep the pieces of those faces of the input that `keep` names. A piece with a crossing that
-    /// is `moved` (an entry for each, or none at all) is taken apart into its triangles.
+    /// was moved is taken apart into its triangles.
     pub fn cut(
-        input: &'a Mesh,
-        result: &'a Final<'a>,
-        curves: &'a Curves,
-        moved: &'a [bool],
+        overlay: Overlay<'a>,
         keep: &dyn Fn(FaceId) -> bool,
         control: &Control,
     ) -> Result<Pieces<'a>> {
+        let Overlay { input, result, curves, .. } = overlay;
         let mesh = result.mesh;
         let n = |e: EdgeId| result.normal.crossings(e).max(0) as u32;
         let mut pieces = Pieces {
-            input,
-            result,
-            curves,
-            moved,
+            overlay,
             slot_start: running_sum(mesh.edges().map(n)),
             slots: vec![NONE; curves.n_crossings()],
             crossed_by: vec![0; curves.n_crossings()],
@@ -138,14 +141,14 @@ impl<'a> Pieces<'a> {
 
     fn slot(&self, side: HalfedgeId, position: i64) -> usize {
         let e = side.edge();
-        let n = self.result.normal.crossings(e);
+        let n = self.overlay.result.normal.crossings(e);
         let along = if side.0 & 1 == 0 { position } else { n - 1 - position };
         self.slot_start[e.index()] as usize + along as usize
     }
 
     fn cut_face(&mut self, f: FaceId, keep: &dyn Fn(FaceId) -> bool) -> Result<()> {
-        let h = self.result.mesh.face_halfedges(f);
-        let n = h.map(|h| self.result.normal.crossings(h.edge()).max(0));
+        let h = self.overlay.result.mesh.face_halfedges(f);
+        let n = h.map(|h| self.overlay.result.normal.crossings(h.edge()).max(0));
         let Strands { arc, fan } = Strands::new(n);
         let next = |k: usize| (k + 1) % 3;
         let mut polygon: Vec<(Spot, Way)> = Vec::with_capacity(6);
@@ -225,18 +228,18 @@ impl<'a> Pieces<'a> {
         for (i, &(spot, _)) in polygon.iter().enumerate() {
             let input = match spot {
                 Spot::Corner(k, turn) => {
-                    let coincident = i64::from(self.result.normal.crossings(h[k].edge()) < 0);
-                    self.result.normal.leaving(self.result.mesh, h[k], coincident + turn - 1)
+                    let coincident = i64::from(self.overlay.result.normal.crossings(h[k].edge()) < 0);
+                    self.overlay.result.normal.leaving(self.overlay.result.mesh, h[k], coincident + turn - 1)
                 }
                 Spot::Side(..) => curves[i].or(curves[(i + size - 1) % size]).ok_or_else(torn)?,
             };
             let (vertex, result) = match spot {
-                Spot::Corner(k, _) => (self.result.mesh.origin(h[k]).0, h[k]),
+                Spot::Corner(k, _) => (self.overlay.result.mesh.origin(h[k]).0, h[k]),
                 Spot::Side(k, at) => {
-                    (self.result.mesh.n_vertices() as u32 + self.slots[self.slot(h[k], at)], h[k])
+                    (self.overlay.result.mesh.n_vertices() as u32 + self.slots[self.slot(h[k], at)], h[k])
                 }
             };
-            let lies_in = self.input.face(input).ok_or_else(torn)?;
+            let lies_in = self.overlay.input.face(input).ok_or_else(torn)?;
             if *face.get_or_insert(lies_in) != lies_in {
                 return Err(torn());
             }
@@ -246,9 +249,9 @@ impl<'a> Pieces<'a> {
             return Ok(());
         }
         // Numbers of crossings follow those of the vertices.
-        let n = self.result.mesh.n_vertices();
+        let n = self.overlay.result.mesh.n_vertices();
         let is_moved =
-            |c: &Corner| self.moved.get((c.vertex as usize).wrapping_sub(n)).is_some_and(|&moved| moved);
+            |c: &Corner| self.overlay.moved.get((c.vertex as usize).wrapping_sub(n)).is_some_and(|&moved| moved);
         let apart = corners.iter().any(is_moved);
         // A fan of triangles, each cut off by a new edge.
         let mut left = sides[0];
@@ -281,9 +284,9 @@ impl<'a> Pieces<'a> {
         let crossing = |k: usize, at: i64| {
             let c = self.slots[self.slot(h[k], at)] as usize;
             let e = EdgeId(self.crossed_by[c]);
-            let number = c - self.curves.numbers(e).start;
+            let number = c - self.overlay.curves.numbers(e).start;
             // Whether the curve leaves the face here.
-            (e, number as u32, self.curves.crossings(e)[number].halfedge == h[k])
+            (e, number as u32, self.overlay.curves.crossings(e)[number].halfedge == h[k])
         };
         let (e, part, forward) = match (from, to) {
             (Spot::Side(k, at), _) => {
