@@ -85,7 +85,7 @@ pub fn lay_out(
     let given = &input.mesh;
     let inside = |v: &VertexId| !given.is_boundary_vertex(*v) && target[*v].abs() > CONE;
     let cones: Vec<VertexId> = given.vertices().filter(inside).collect();
-    let wanted = flow.target(target);
+    let wanted = flow.target(target).map_err(|error| Failure::Failed(error.to_string()))?;
     let errors: f64 = curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum();
     let limit = consistency_limit(Space::E2, 0.0, errors, mesh.n_faces());
     let result = (|| {

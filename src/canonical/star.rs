@@ -181,7 +181,8 @@ impl Punctured {
         let followed = &mut self.followed;
         let mut record =
             |mesh: &Mesh, flip: Flip| followed.iter_mut().for_each(|normal| normal.record(mesh, flip.edge));
-        let flipped = ClassFlips { mesh: &mut self.mesh, metric: &mut self.metric, record: &mut record }.flip(e);
+        let flipped =
+            ClassFlips { mesh: &mut self.mesh, metric: &mut self.metric, record: &mut record }.flip(e);
         self.flips += usize::from(flipped);
         flipped
     }

@@ -99,7 +99,8 @@ impl<'a> Tried<'a> {
         straight: f64,
     ) -> Result<Flat> {
         let mut best = known;
-        let off = |(surface, _, found): &Flat| -> Result<f64> { Ok(worse(found.error, surface.violation(found)?)) };
+        let off =
+            |(surface, _, found): &Flat| -> Result<f64> { Ok(worse(found.error, surface.violation(found)?)) };
         let none =
             |why: &str| Error::Layout(format!("no plane was found from any vertex that was tried: {why}"));
         let mut failure = none("the step limit came first");

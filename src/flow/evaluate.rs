@@ -71,7 +71,8 @@ impl State {
                 touched.push(flip.edge);
                 record(mesh, flip);
             };
-            ClassFlips { mesh, metric: class, record: &mut record }.restore_delaunay(&self.u, &mut queue, control)
+            ClassFlips { mesh, metric: class, record: &mut record }
+                .restore_delaunay(&self.u, &mut queue, control)
         })?;
         let real = timed(&mut seconds.assemble, || {
             let real = match flips {

@@ -258,8 +258,9 @@ impl Run<'_> {
             return Ok(timed(&mut report.seconds.assemble, || state.evaluate(self.mesh, self.class)));
         }
         let (mesh, class) = (&mut *self.mesh, &mut *self.class);
-        let mut record =
-            |mesh: &Mesh, flip: Flip| self.followed.iter_mut().for_each(|normal| normal.record(mesh, flip.edge));
+        let mut record = |mesh: &Mesh, flip: Flip| {
+            self.followed.iter_mut().for_each(|normal| normal.record(mesh, flip.edge))
+        };
         let (real, flips) = state.evaluate_delaunay(
             mesh,
             class,

@@ -106,7 +106,13 @@ impl Mesh {
         let sides = [e.halfedge(), e.halfedge().twin()];
         let first = sides.map(|h| {
             let is_first = |h: HalfedgeId| self.face(h).is_some_and(|f| self.face_halfedge(f) == h);
-            if is_first(h) { 0 } else if is_first(self.next(h)) { 1 } else { 2 }
+            if is_first(h) {
+                0
+            } else if is_first(self.next(h)) {
+                1
+            } else {
+                2
+            }
         });
         Unflip { first, is_out: sides.map(|h| self.out(self.origin(h)) == h) }
     }
@@ -120,7 +126,8 @@ impl Mesh {
         let (ca, ad) = (self.next(h), self.prev(h));
         let (db, bc) = (self.next(t), self.prev(t));
         let [a, b] = [ad, bc].map(|x| self.origin(x));
-        for (face, mut sides, first) in [(f, [h, bc, ca], before.first[0]), (g, [t, ad, db], before.first[1])] {
+        for (face, mut sides, first) in [(f, [h, bc, ca], before.first[0]), (g, [t, ad, db], before.first[1])]
+        {
             sides.rotate_left(usize::from(first));
             self.set_triangle(face, sides);
         }

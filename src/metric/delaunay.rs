@@ -30,11 +30,7 @@ fn hinge(
     w: &PerVertex<f64>,
 ) -> Hinge {
     let (vertices, sides) = hinge_of(mesh, h);
-    Hinge::new(
-        vertices.map(|v| f64::from(epsilon[v])),
-        vertices.map(|v| w[v]),
-        sides.map(|h| eta[h.edge()]),
-    )
+    Hinge::new(vertices.map(|v| f64::from(epsilon[v])), vertices.map(|v| w[v]), sides.map(|h| eta[h.edge()]))
 }
 
 /// A metric whose edges are flipped inside its conformal class: η changes on the edges flipped.
@@ -76,7 +72,8 @@ impl ClassFlips<'_> {
             hinge.flipped().map(|product| product / scale).filter(|eta| eta.is_finite())
         };
         let most = allowance(mesh.n_edges());
-        let flips = queue.flip_until_empty(most, &mut Flippable { mesh, values: eta, decide, record }, control)?;
+        let flips =
+            queue.flip_until_empty(most, &mut Flippable { mesh, values: eta, decide, record }, control)?;
         if queue.is_empty() {
             return Ok(flips);
         }

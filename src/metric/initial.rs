@@ -107,8 +107,13 @@ struct Represented<'a> {
 
 impl Represented<'_> {
     fn initial(self) -> Result<Initial> {
-        let Represented { mesh, lengths, input_geometry, circles: MixedClass { epsilon, radii, space }, range } =
-            self;
+        let Represented {
+            mesh,
+            lengths,
+            input_geometry,
+            circles: MixedClass { epsilon, radii, space },
+            range,
+        } = self;
         let n = mesh.n_vertices();
         let log = |v| if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) };
         let input_u = PerVertex::from_fn(n, log);

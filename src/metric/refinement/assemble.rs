@@ -56,7 +56,10 @@ pub(super) fn assemble(pieces: Pieces, crossings: Vec<Crossing>, weight: Vec<f64
 }
 
 /// Per triangle where its corners lie, and its faces, in the input and in the final triangulation.
-fn faces_of(all: &[[Corner; 3]], meshes: [&Mesh; 2]) -> Result<(Vec<[[OnFace; 2]; 3]>, [PerFace<FaceId>; 2])> {
+fn faces_of(
+    all: &[[Corner; 3]],
+    meshes: [&Mesh; 2],
+) -> Result<(Vec<[[OnFace; 2]; 3]>, [PerFace<FaceId>; 2])> {
     let lies_on = |mesh: &Mesh, h: HalfedgeId| {
         let (face, corner) = mesh.corner(h).ok_or_else(torn)?;
         Ok((face, OnFace { corner: corner as u8, backward: h.0 & 1 == 1 }))

@@ -63,7 +63,8 @@ impl Drawn {
         let mut placed = lines.crossings(input, curves)?;
         control.check()?;
         let mut moved = Vec::new();
-        let placement = all.intrinsic.map(|intrinsic| Placement::new(intrinsic, lines, control)).transpose()?;
+        let placement =
+            all.intrinsic.map(|intrinsic| Placement::new(intrinsic, lines, control)).transpose()?;
         if let Some(placement) = &placement {
             for e in input.edges() {
                 let strip = curves.crossings(e);

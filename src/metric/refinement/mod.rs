@@ -167,11 +167,7 @@ impl Refinement {
     /// - [`Error::EdgeWeight`] where imaginary circles leave no straight line.
     /// - [`Error::Domain`] at a vertex whose weights leave the range of doubles.
     /// - [`Error::Cancelled`].
-    pub fn new(
-        all: Triangulations,
-        keep: &dyn Fn(FaceId) -> bool,
-        control: &Control,
-    ) -> Result<Refinement> {
+    pub fn new(all: Triangulations, keep: &dyn Fn(FaceId) -> bool, control: &Control) -> Result<Refinement> {
         all.check()?;
         let Triangulations { input, result, .. } = all;
         control.step(Stage::Layout, 0.0)?;

@@ -91,11 +91,7 @@ pub(super) struct Pieces<'a> {
 impl<'a> Pieces<'a> {
     /// Cut all final triangles, O(output); keep the pieces of those faces of the input that `keep` names. A piece with a crossing that
     /// was moved is taken apart into its triangles.
-    pub fn cut(
-        overlay: Overlay<'a>,
-        keep: &dyn Fn(FaceId) -> bool,
-        control: &Control,
-    ) -> Result<Pieces<'a>> {
+    pub fn cut(overlay: Overlay<'a>, keep: &dyn Fn(FaceId) -> bool, control: &Control) -> Result<Pieces<'a>> {
         let Overlay { input, result, curves, .. } = overlay;
         let mesh = result.mesh;
         let n = |e: EdgeId| result.normal.crossings(e).max(0) as u32;
@@ -250,8 +246,9 @@ impl<'a> Pieces<'a> {
         }
         // Numbers of crossings follow those of the vertices.
         let n = self.overlay.result.mesh.n_vertices();
-        let is_moved =
-            |c: &Corner| self.overlay.moved.get((c.vertex as usize).wrapping_sub(n)).is_some_and(|&moved| moved);
+        let is_moved = |c: &Corner| {
+            self.overlay.moved.get((c.vertex as usize).wrapping_sub(n)).is_some_and(|&moved| moved)
+        };
         let apart = corners.iter().any(is_moved);
         // A fan of triangles, each cut off by a new edge.
         let mut left = sides[0];
