@@ -13,15 +13,16 @@
 //! ```
 //!
 //! *Roundabouts* tell the curves apart: per half-edge h the first curve, counterclockwise from h (h included), that leaves its
-//! origin, as a number in the given triangulation's order around that vertex. Curves leave a vertex in the same order for ever.
+//! origin, as a number in the given triangulation's order around that vertex. No flip changes the order in which curves leave a vertex.
 //!
-//! A flip changes one coordinate and two roundabouts. All of it is integers: nothing is rounded, and nothing can go wrong.
+//! A flip changes one coordinate and two roundabouts. All of these are integers, so nothing is rounded.
 
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, HalfedgeId};
 use crate::error::{Error, Result, check_size};
 
-/// Coordinates beyond this are given up: no curve that long could be traced.
+/// Largest coordinate that is kept; beyond it the coordinates are marked as out of range. A curve with so many crossings could not be
+/// traced, and sums of up to 16 coordinates stay in the range of i64.
 const MOST: i64 = i64::MAX / 16;
 
 /// The given triangulation as curves on the current one.

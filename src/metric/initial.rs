@@ -29,13 +29,16 @@ pub struct Initial {
 
 /// The initial metric of `scheme` for input `lengths` (E entries, read in `input_geometry`), carried into `space`.
 ///
-/// η is computed once, in the geometry of the input. Radii from the corners' tangent lengths
-/// `γ_i^{jk} = (l_ij + l_ki − l_jk)/2` [JKLLG08, §4.1]: their mean for Thurston's and tangential packings, their
+/// η is computed once, in the geometry of the input. Radii come from the corners' tangent lengths
+/// `γ_i^{jk} = (l_ij + l_ki − l_jk)/2` \[JKLLG08, §4.1\]: their mean for Thurston's and tangential packings, their
 /// minimum for inversive distance and virtual radius (then η ≥ 1 and nothing is clamped). When the
 /// target space differs from the input geometry, u is shifted by one constant that brings the area near the one
 /// Gauss–Bonnet asks for; a shift stays in the class.
 ///
-/// Errors: a length that is not positive, a face that breaks the triangle inequality of the input geometry.
+/// # Errors
+/// - [`Error::Size`]: lengths are not one per edge.
+/// - [`Error::EdgeLength`]: a length out of range.
+/// - [`Error::TriangleInequality`]: a face that is no triangle of the input geometry.
 pub fn initial_metric(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -227,13 +230,14 @@ pub(super) fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> CornerRadii {
     CornerRadii { mean, min }
 }
 
-/// Largest edge allowed by the start in a curved target space, so that the flow starts from a moderate metric.
+/// Largest half chord, of the longest edge, that a flow starts with in a curved space, so that it starts from a moderate metric (in S²
+/// half chords end at 1).
 const MAX_START_HALF_CHORD: f64 = 0.5;
-/// Largest start variable of an ε = 1 vertex in H² (the domain is u < 0).
+/// Largest u that a vertex of ε = 1 starts with in H². The domain is u < 0, and the radius log coth(−u/2) is 3 here.
 const MAX_START_U: f64 = -0.1;
 
-/// The common shift of u that carries a metric (with edge `lengths`) from the input geometry to a good start in
-/// `space`.
+/// The constant by which u is shifted to carry a metric (with edge `lengths`) from the input geometry to `space`: the area comes near
+/// the one that Gauss–Bonnet asks for, and no edge becomes longer than [`MAX_START_HALF_CHORD`].
 fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, input: &Metric, space: Space) -> Result<f64> {
     if input.space == space || space == Space::E2 {
         return Ok(0.0);

@@ -21,7 +21,8 @@ use crate::geometry::{Space, triangle};
 use crate::mesh::{Curves, EdgeId, HalfedgeId, PerEdge, PerHalfedge};
 use crate::parallel;
 
-/// Weight of an end that rounding has put on the wrong side of it.
+/// Smallest weight of an end. A crossing lies strictly between the ends of its edge; where rounding has put it on an end or beyond,
+/// this weight, the rounding of a weight near 1, moves it back inside.
 const LEAST: f64 = f64::EPSILON;
 
 /// A crossing of an edge of the input with an intrinsic half-edge, from its left to its right. Weights are
@@ -163,8 +164,9 @@ fn back([sine, cosine]: [f64; 2]) -> [f64; 2] {
     [-sine, cosine]
 }
 
-/// Weights in this proportion. Of two that must be positive one may be rounded to less than that: it becomes
-/// [`LEAST`].
+/// The point with weights in this proportion. Both weights are positive without rounding; one that is not becomes [`LEAST`]. Where
+/// neither is a positive number, the point is unknown to doubles; the middle of the edge then stands for it, which the order along the
+/// edge corrects ([`super::order::restore_order`]).
 pub(super) fn place(weights: [f64; 2]) -> OnEdge {
     let [x, y] = weights.map(|w| if w > 0.0 && w < f64::INFINITY { w } else { 0.0 });
     match x + y {

@@ -1,21 +1,22 @@
-//! Places along an edge, and their order.
+//! Points on an edge, and their order.
 //!
-//! A place is the pair of weights of an edge's ends, which add up to 1: near either end the smaller one tells
-//! how near, to the relative accuracy of doubles.
+//! A point is the pair of weights of the edge's ends, which add up to 1: near either end the smaller weight says how near, to the
+//! relative accuracy of doubles.
 
 use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, Mesh};
 
-/// Weights of the origin and of the tip.
+/// A point on an edge: weights of the origin and of the tip.
 pub(super) type OnEdge = [f64; 2];
 
-/// The ends themselves.
+/// The origin itself.
 pub(super) const ORIGIN: OnEdge = [1.0, 0.0];
+/// The tip itself.
 pub(super) const TIP: OnEdge = [0.0, 1.0];
 
-/// Share of the way to its neighbours over which places are spread that rounding has swapped or merged.
-/// Small, since the true places are nearer to each other than rounding; large against it, so that the spread
-/// places differ.
+/// Share of the way to its neighbours over which points are spread that rounding has swapped or merged. The true points are nearer
+/// to each other than rounding, so the share must be small; 1e-6 is still far above the 1e-16 of rounding, so that the points
+/// differ afterwards.
 const SPREAD: f64 = 1.0 / (1 << 20) as f64;
 
 /// Whether a lies nearer to the origin than b, and neither weight says otherwise.
@@ -28,12 +29,12 @@ pub(super) fn between(a: OnEdge, b: OnEdge, t: f64) -> OnEdge {
     [0, 1].map(|k| (1.0 - t) * a[k] + t * b[k])
 }
 
-/// Bring places into strict order that should be so already, but for rounding.
+/// Bring points into strict order that would be in order without rounding.
 ///
-/// Places out of order, or equal to their neighbour, are pooled: the least change that leaves none out of
-/// order (in the mean square) puts them into one place. Around it they are then spread evenly over [`SPREAD`]
-/// of the way to the next on both sides. Places in order stay as they are, bit for bit. What doubles cannot
-/// tell apart still coincides, but is not swapped: afterwards neither weight runs back anywhere.
+/// Points out of order, or equal to their neighbour, are pooled: the least change (in the mean square) that leaves none out of order
+/// moves them to one point. They are then spread evenly around it, over [`SPREAD`] of the way to the next point on both sides.
+/// Points in order stay as they are, bit for bit. Points between which there is no double still coincide, but are not swapped:
+/// afterwards neither weight runs back anywhere.
 pub(super) fn restore_order(places: &mut [OnEdge]) {
     if places.windows(2).all(|pair| before(pair[0], pair[1])) {
         return;

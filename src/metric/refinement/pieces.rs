@@ -15,9 +15,9 @@ use crate::error::{Error, Result};
 use crate::mesh::normal::Strands;
 use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh};
 
-/// "No edge of the output yet".
+/// Marks a slot whose crossing is not known yet.
 const NONE: u32 = u32::MAX;
-/// Faces between two looks at the control.
+/// Faces that are cut between two looks at the control: less than a millisecond.
 const FACES_PER_STEP: usize = 1024;
 
 /// A corner of a piece within its final triangle.
@@ -197,7 +197,7 @@ impl<'a> Pieces<'a> {
         self.emit(h, &polygon, keep)
     }
 
-    /// Triangulate one piece.
+    /// Triangulate one piece, if it lies in a face of the input that is kept.
     fn emit(
         &mut self,
         h: [HalfedgeId; 3],
@@ -205,7 +205,6 @@ impl<'a> Pieces<'a> {
         keep: &dyn Fn(FaceId) -> bool,
     ) -> Result<()> {
         let size = polygon.len();
-        let mut corners = Vec::with_capacity(size);
         let mut sides = Vec::with_capacity(size);
         // The half-edge of the input that a curve is part of, per side of the piece.
         let mut curves = Vec::with_capacity(size);
@@ -221,36 +220,46 @@ impl<'a> Pieces<'a> {
             curves.push(curve);
         }
         let mut face = None;
+        let mut corners = Vec::with_capacity(size);
         for (i, &(spot, _)) in polygon.iter().enumerate() {
-            let input = match spot {
-                Spot::Corner(k, turn) => {
-                    let coincident = i64::from(self.overlay.result.normal.crossings(h[k].edge()) < 0);
-                    self.overlay.result.normal.leaving(self.overlay.result.mesh, h[k], coincident + turn - 1)
-                }
-                Spot::Side(..) => curves[i].or(curves[(i + size - 1) % size]).ok_or_else(torn)?,
-            };
-            let (vertex, result) = match spot {
-                Spot::Corner(k, _) => (self.overlay.result.mesh.origin(h[k]).0, h[k]),
-                Spot::Side(k, at) => {
-                    (self.overlay.result.mesh.n_vertices() as u32 + self.slots[self.slot(h[k], at)], h[k])
-                }
-            };
-            let lies_in = self.overlay.input.face(input).ok_or_else(torn)?;
+            let corner = self.piece_corner(h, spot, curves[i].or(curves[(i + size - 1) % size]))?;
+            let lies_in = self.overlay.input.face(corner.input).ok_or_else(torn)?;
             if *face.get_or_insert(lies_in) != lies_in {
                 return Err(torn());
             }
-            corners.push(Corner { vertex, input, result });
+            corners.push(corner);
         }
-        if !face.is_some_and(keep) {
-            return Ok(());
+        if face.is_some_and(keep) {
+            self.triangulate(&sides, &corners);
         }
+        Ok(())
+    }
+
+    /// A corner of a piece; `curve` is the half-edge of the input that a side of the piece at it is part of.
+    fn piece_corner(&self, h: [HalfedgeId; 3], spot: Spot, curve: Option<HalfedgeId>) -> Result<Corner> {
+        let Final { mesh, normal, .. } = self.overlay.result;
+        match spot {
+            Spot::Corner(k, turn) => {
+                let coincident = i64::from(normal.crossings(h[k].edge()) < 0);
+                let input = normal.leaving(mesh, h[k], coincident + turn - 1);
+                Ok(Corner { vertex: mesh.origin(h[k]).0, input, result: h[k] })
+            }
+            Spot::Side(k, at) => {
+                let vertex = mesh.n_vertices() as u32 + self.slots[self.slot(h[k], at)];
+                Ok(Corner { vertex, input: curve.ok_or_else(torn)?, result: h[k] })
+            }
+        }
+    }
+
+    /// Append the triangles of a piece with these sides, side i following corner i: a fan around corner 0, whose triangles are cut off
+    /// by new edges.
+    fn triangulate(&mut self, sides: &[u32], corners: &[Corner]) {
+        let (size, n) = (sides.len(), self.overlay.result.mesh.n_vertices());
         // Numbers of crossings follow those of the vertices.
-        let n = self.overlay.result.mesh.n_vertices();
-        let is_moved = |c: &Corner| {
-            self.overlay.moved.get((c.vertex as usize).wrapping_sub(n)).is_some_and(|&moved| moved)
-        };
+        let crossing = |c: &Corner| (c.vertex as usize).checked_sub(n);
+        let is_moved =
+            |c: &Corner| crossing(c).and_then(|c| self.overlay.moved.get(c)).is_some_and(|&moved| moved);
         let apart = corners.iter().any(is_moved);
-        // A fan of triangles, each cut off by a new edge.
         let mut left = sides[0];
         for i in 1..size - 1 {
             let closing = if i + 2 == size {
@@ -265,7 +274,6 @@ impl<'a> Pieces<'a> {
             left = closing ^ 1;
             self.n_pieces += u32::from(apart || i + 2 == size);
         }
-        Ok(())
     }
 
     /// The half-edge of a part of a final half-edge.
