@@ -94,26 +94,31 @@ fn diagonals_of_any_length_keep_their_digits() {
     }
 }
 
-/// Tori so sheared that doubles cannot hold their shape: the flips end, or an error says that they do not.
+/// Tori as sheared as doubles can hold them, plain and with large circles, for which an end is not certain: the flips end within
+/// seconds, or an error says that they do not.
 #[test]
 fn isometric_flips_end() {
-    for geometry in [Space::E2, Space::H2] {
-        for (k, size) in [1e5, 1e6, 1e7, 1e8, 1e10, 1e12].into_iter().flat_map(|k| [(k, 1e-20), (k, 1.0)]) {
-            let torus = shapes::flat_torus([k + 0.3, 0.9], 1, 1).unwrap();
-            let (mesh, lengths) = torus.build().unwrap();
-            let lengths = PerEdge::from_fn(3, |e: EdgeId| size * lengths[e]);
-            let mut surface = Triangulated { mesh, lengths, geometry };
+    let mut random = Random::new(9);
+    for (geometry, k) in [(Space::E2, 1e5), (Space::H2, 1e4), (Space::E2, 3e4), (Space::E2, 3e3)] {
+        let (mesh, lengths) = shapes::flat_torus([k + 0.3, 0.9], 2, 1).unwrap().build().unwrap();
+        let size = if geometry == Space::E2 { 1.0 } else { 1e-9 };
+        let lengths = PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| size * lengths[e]);
+        for round in 0..4 {
+            let scale = size * f64::from(round);
+            let radii = PerVertex::from_fn(mesh.n_vertices(), |_| scale * random.unit());
+            let circles = if round == 0 { None } else { Some(&radii) };
+            let options = IntrinsicOptions { circles, ..IntrinsicOptions::default() };
+            let mut surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry };
             let (before, time, mut flips) = (surface.clone(), std::time::Instant::now(), 0u64);
-            let made = intrinsic_delaunay(
-                &mut surface,
-                IntrinsicOptions::default(),
-                &mut |_, _| flips += 1,
-                &Control::new(),
-            );
+            let made = intrinsic_delaunay(&mut surface, options, &mut |_, _| flips += 1, &Control::new());
             let seconds = time.elapsed().as_secs_f64();
-            println!("{geometry} {size:e} sheared {k:e} times: {made:?} after {flips} flips, {seconds:.2} s");
-            assert!(made.is_ok() || surface == before);
-            assert!(seconds < 60.0);
+            println!(
+                "{geometry} sheared {k:e} times, circles {scale:e}: {made:?}, {flips} flips, {seconds:.2} s"
+            );
+            let named =
+                matches!(&made, Err(Error::Connectivity { message, .. }) if message.contains("do not end"));
+            assert!(made.is_ok() || (named && surface == before), "{made:?}");
+            assert!(flips < 10_000_000, "{flips}");
         }
     }
 }

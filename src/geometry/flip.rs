@@ -218,13 +218,14 @@ pub fn diagonal(space: Space, a: f64, b: f64, angle: f64) -> f64 {
     }
 }
 
-/// [`diagonal`] in H² for long sides, with `sinh x = e^x (1 − e^{−2x})/2`: `2 q = e^{(a + b)/2} √x`, where e^{(a + b)/2} may be beyond
-/// doubles.
+/// [`diagonal`] in H² for long sides, by the logarithms of the two parts of `2 q`, which may be beyond doubles themselves
+/// (`2 sinh x = e^x (1 − e^{−2x})`).
 fn far_diagonal(a: f64, b: f64, sine: f64) -> f64 {
-    let (sum, difference) = (a + b, (a - b).abs());
-    let x = (difference - sum).exp() * (-difference).exp_m1().powi(2)
-        + (-2.0 * a).exp_m1() * (-2.0 * b).exp_m1() * sine * sine;
-    let log = 0.5 * (sum + x.ln());
+    let difference = (a - b).abs();
+    let apart = 0.5 * difference + (-(-difference).exp_m1()).ln();
+    let turned = 0.5 * (a + b + ((-2.0 * a).exp_m1() * (-2.0 * b).exp_m1()).ln()) + sine.ln();
+    let (less, more) = (apart.min(turned), apart.max(turned));
+    let log = more + 0.5 * (2.0 * (less - more)).exp().ln_1p();
     // 2 asinh q = 2 log(2 q) to doubles from q = 1e8 on.
     if log > 20.0 { 2.0 * log } else { 2.0 * (0.5 * log.exp()).asinh() }
 }
