@@ -118,8 +118,8 @@ pub(super) struct Flippable<'a, D> {
 /// Flips that may be made without progress: 100 per edge and a million.
 ///
 /// Surfaces that are not built for it need less than one isometric flip per edge, and single cones on the corpus at most ten inside
-/// the class (200,000 flips on 20,000 edges). A million takes about a second, and is 30 times what the most sheared torus needs that
-/// doubles can hold.
+/// the class (200,000 flips on 20,000 edges). A million takes one or two seconds, and is more than it takes to unwind a torus of two
+/// vertices that is sheared 100,000 times (400,000 flips), the thinnest that is accepted.
 pub(super) fn allowance(n_edges: usize) -> usize {
     100 * n_edges + 1_000_000
 }
