@@ -73,7 +73,7 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     let lengths = metric.lengths(mesh).map_err(failed)?;
     let curvature = metric.curvature(mesh).map_err(failed)?;
     let (Some(report), Some(target), Some(final_target)) =
-        (solution.report().cloned(), solution.target().cloned(), solution.final_target())
+        (solution.report().cloned(), solution.target().cloned(), solution.final_target()?)
     else {
         return Err(Failure::Failed("the flow has left no report".into()));
     };

@@ -90,7 +90,7 @@ pub fn lay_out(
     let sum = |wanted: PerVertex<f64>| -> f64 {
         curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum()
     };
-    let errors = flow.final_target().map_or(0.0, sum);
+    let errors = flow.final_target()?.map_or(0.0, sum);
     let limit = consistency_limit(Space::E2, 0.0, errors, mesh.n_faces());
     let result = (|| {
         if metric.space == Space::H2 && flow.double().is_some() {

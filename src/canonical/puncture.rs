@@ -88,7 +88,7 @@ impl Punctured {
                 }
             }
             let changed = self.restore(slivers)?;
-            let turning = self.turning();
+            let turning = self.turning()?;
             let least = -turning.iter().map(|x| -x).fold(f64::NEG_INFINITY, worse);
             log::debug!(
                 "punctured at {}, step {}: max |K| = {error:.1e}, {} arcs, least turning {least:.1e}",
@@ -99,7 +99,7 @@ impl Punctured {
             let ended = stop_reason != StopReason::IterationLimit;
             let settled = error < SETTLED || ended;
             let go_on = changed || (settled && self.release(&turning, error.max(straight))?);
-            if (!go_on && ended) || rounds >= most || self.is_flat(FLAT_POLYHEDRON) {
+            if (!go_on && ended) || rounds >= most || self.is_flat(FLAT_POLYHEDRON)? {
                 let converged = report.converged() && !go_on;
                 let stop_reason = if go_on { StopReason::IterationLimit } else { stop_reason };
                 return Ok(Found { converged, stop_reason, error, turning: least });
@@ -147,7 +147,7 @@ impl Punctured {
                 WIDEST
             } else if self.flip(arc.edge()) {
                 let angle = if -turning < NARROW { -turning } else { (-0.5 * turning).min(WIDEST) };
-                angle * angle * (a / (a + b)) * (b / (a + b)) - 4.0 * self.slack(arc) / (a + b)
+                angle * angle * (a / (a + b)) * (b / (a + b)) - 4.0 * self.slack(arc)? / (a + b)
             } else {
                 continue;
             };

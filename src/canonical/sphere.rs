@@ -142,7 +142,7 @@ fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> 
         Some(v) => tried.punctured_at(&begin, v)?,
         None => tried.best(&begin)?,
     };
-    let nearly_flat = flat.0.is_flat(NEARLY_FLAT).then(|| on_a_circle(&flat.0.mesh));
+    let nearly_flat = flat.0.is_flat(NEARLY_FLAT)?.then(|| on_a_circle(&flat.0.mesh));
     let (stop_reason, error) = (flat.2.stop_reason, flat.2.error);
     let raised = match (raised(flat, start_flips, &mut tried), nearly_flat) {
         (Err(Error::Cancelled), _) => return Err(Error::Cancelled),
@@ -181,7 +181,7 @@ fn raised((surface, plane, found): Flat, start_flips: usize, tried: &mut Tried) 
     let plane = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
     let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
     let (metric, curvature) = polished(&surface.mesh, spherical, tried)?;
-    let delaunay_violation = surface.delaunay_violation();
+    let delaunay_violation = surface.delaunay_violation()?;
     let whole = curvature.broken.is_empty();
     let converged = found.converged
         && whole

@@ -38,7 +38,7 @@ pub use solution::Solution;
 
 use crate::control::Control;
 use crate::error::Result;
-use crate::mesh::{EdgeId, Mesh, NormalCoordinates, PerVertex};
+use crate::mesh::{FixedEdges, FlipLog, Mesh, NormalCoordinates, PerVertex};
 use crate::metric::{Class, Metric, Surface, Target};
 use crate::parallel::Pool;
 use origin::Origin;
@@ -69,12 +69,14 @@ pub struct Flow {
     /// Whether edges may be flipped, by the options and the class.
     flips_allowed: bool,
     /// Edges of `mesh` that are not flipped: those of the options, and their images on a double.
-    fixed: Vec<EdgeId>,
+    fixed: FixedEdges,
     pinned: Vec<bool>,
     /// Per vertex its mirror image on a double, where the metric is kept symmetric.
     mirror: Option<Vec<u32>>,
     /// Told every flip.
     followed: Vec<NormalCoordinates>,
+    /// The flips of the present solve, by which it is undone.
+    log: FlipLog,
     /// All flips since the given triangulation.
     flips: usize,
     /// What the last solve was asked and did.

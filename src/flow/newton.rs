@@ -73,8 +73,8 @@ impl Flow {
         let mut factored_at = None;
         report.stop_reason = loop {
             let at_limit = report.iterations >= self.options.iteration_limit();
-            let fixed = &self.options.fixed_edges;
-            if self.one_copy && !at_limit && boundary_fails(&self.mesh, &self.metric, &at.state.u, fixed) {
+            let leaves = || boundary_fails(&self.mesh, &self.metric, &at.state.u, &self.fixed);
+            if self.one_copy && !at_limit && leaves() {
                 report.max_curvature_error = at.error;
                 return Ok(End::AtBoundary(at.state));
             }

@@ -1,11 +1,11 @@
 //! What all metrics that flow from one start share: the surface, its triangulation at the start, and the initial metric there.
 
 use crate::control::Control;
-use crate::error::{Error, Result};
-use crate::mesh::{Double, EdgeId, Mesh, NormalCoordinates, PerEdge, PerVertex};
-use crate::metric::delaunay::boundary_fails;
-use crate::metric::refinement::{Final, Input, Intrinsic};
-use crate::metric::{Class, Initial, Metric, Refinement, Surface, delaunay_start};
+use crate::error::{Result, check_size};
+use crate::mesh::{Double, EdgeId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex};
+use crate::metric::delaunay::{Triangulated, boundary_fails};
+use crate::metric::refinement::{Final, Input, Intrinsic, Triangulations};
+use crate::metric::{Class, Initial, Metric, Refinement, StartOptions, Surface, delaunay_start};
 use std::sync::Arc;
 
 /// Where flows on a surface start.
@@ -21,8 +21,8 @@ pub(super) struct Origin {
     pub flips: usize,
     /// The latter, if that is another one.
     pub flipped: Option<Flipped>,
-    /// Given edges that are not flipped, ascending.
-    pub fixed: Vec<EdgeId>,
+    /// Given edges that are not flipped.
+    pub fixed: FixedEdges,
     /// Whether edges may be flipped from here on.
     pub follows: bool,
     /// Whether this start, of one copy, is half of what its double's is: there no boundary edge would be flipped.
@@ -50,7 +50,7 @@ impl Origin {
             initial,
             flips: 0,
             flipped: None,
-            fixed: Vec::new(),
+            fixed: FixedEdges::none(),
             follows: false,
             is_half: false,
         })
@@ -68,7 +68,7 @@ impl Origin {
             initial,
             flips: 0,
             flipped: None,
-            fixed: Vec::new(),
+            fixed: FixedEdges::none(),
             follows,
             is_half: false,
         })
@@ -83,34 +83,28 @@ impl Origin {
         fixed: &[EdgeId],
         control: &Control,
     ) -> Result<Origin> {
-        check_fixed(surface.mesh(), fixed)?;
         let given = surface.mesh();
         let double = if doubled { Some(Double::new(given)?) } else { None };
-        let (mut mesh, mut lengths, all_fixed) = match &double {
-            Some(d) => (d.mesh.clone(), d.spread_edges(surface.lengths()).into(), d.with_images(fixed)),
+        let (mesh, lengths, all_fixed) = match &double {
+            Some(d) => (d.mesh.clone(), d.spread_edges(surface.lengths())?.into(), d.with_images(fixed)?),
             None => (Mesh::clone(given), PerEdge::clone(surface.lengths()), fixed.to_vec()),
         };
+        let all_fixed = FixedEdges::new(&mesh, &all_fixed)?;
         let mut normal = NormalCoordinates::new(&mesh);
         let mut flips = 0;
-        let mut record = |mesh: &Mesh, e| {
-            normal.record(mesh, e);
+        let mut record = |mesh: &Mesh, flip: Flip| {
+            normal.record(mesh, flip.edge);
             flips += 1;
         };
-        let initial = delaunay_start(
-            &mut mesh,
-            &mut lengths,
-            surface.geometry(),
-            class.scheme,
-            class.space,
-            double.as_ref(),
-            &all_fixed,
-            &mut record,
-            control,
-        )?;
+        let mut triangulated = Triangulated { mesh, lengths, geometry: surface.geometry() };
+        let options = StartOptions { class, double: double.as_ref(), fixed: &all_fixed };
+        let initial = delaunay_start(&mut triangulated, options, &mut record, control)?;
+        let Triangulated { mesh, lengths, .. } = triangulated;
         let metric = &initial.metric;
-        let is_half = double.is_none() && !boundary_fails(&mesh, metric, &metric.u, fixed);
+        let is_half = double.is_none() && !boundary_fails(&mesh, metric, &metric.u, &all_fixed);
+        let fixed = FixedEdges::new(given, fixed)?;
         let flipped = (flips > 0).then(|| Flipped { mesh: Arc::new(mesh), lengths, given: normal });
-        let (class, fixed) = (Some(class), ascending(fixed));
+        let class = Some(class);
         Ok(Origin { surface, class, double, initial, flips, flipped, fixed, follows: true, is_half })
     }
 
@@ -135,8 +129,12 @@ impl Origin {
     }
 
     /// A target on the given surface as one on what flows: on a double, curvature on both sides of the boundary adds up.
-    pub fn spread_target(&self, target: &PerVertex<f64>) -> PerVertex<f64> {
-        self.double.as_ref().map_or_else(|| target.clone(), |double| double.target(target).into())
+    pub fn spread_target(&self, target: &PerVertex<f64>) -> Result<PerVertex<f64>> {
+        check_size("target", target.len(), self.surface.mesh().n_vertices())?;
+        match &self.double {
+            Some(double) => Ok(double.target(target)?.into()),
+            None => Ok(target.clone()),
+        }
     }
 
     /// The common refinement of the given triangulation with that of a metric.
@@ -162,21 +160,7 @@ impl Origin {
         let given = self.double.as_ref().map_or(&**self.surface.mesh(), |double| &double.mesh);
         let input = Input { mesh: given, geometry: self.initial.input_geometry, u: &self.initial.input_u };
         let keep = |f| self.double.as_ref().is_none_or(|double| double.is_original(f));
-        Refinement::new(input, intrinsic, Final { mesh, metric, normal }, &keep, control)
+        let result = Final { mesh, metric, normal };
+        Refinement::new(Triangulations { input, intrinsic, result }, &keep, control)
     }
-}
-
-/// Every edge exists.
-pub(super) fn check_fixed(given: &Mesh, fixed: &[EdgeId]) -> Result<()> {
-    let missing = fixed.iter().find(|e| e.index() >= given.n_edges());
-    missing.map_or(Ok(()), |e| {
-        Err(Error::Argument { what: "fixed edge", value: e.to_string(), need: "an existing edge" })
-    })
-}
-
-pub(super) fn ascending(edges: &[EdgeId]) -> Vec<EdgeId> {
-    let mut edges = edges.to_vec();
-    edges.sort_unstable();
-    edges.dedup();
-    edges
 }

@@ -148,8 +148,11 @@ impl Solution {
     }
 
     /// The target per vertex of [`Solution::mesh`]: on a double, curvature on both sides of the boundary adds up.
-    pub fn final_target(&self) -> Option<PerVertex<f64>> {
-        self.target().map(|target| self.origin.spread_target(target))
+    ///
+    /// # Errors
+    /// None that a solution can have; those of [`crate::mesh::Double::target`].
+    pub fn final_target(&self) -> Result<Option<PerVertex<f64>>> {
+        self.target().map(|target| self.origin.spread_target(target)).transpose()
     }
 
     /// The cones: interior vertices of the given surface that the caller named as cones, or whose curvature is to be off 0 by more

@@ -3,7 +3,7 @@
 use super::Flow;
 use super::evaluate::State;
 use super::obstruction::{obstruction, obstruction_at_a_vertex};
-use super::options::{Flips, Method};
+use super::options::Method;
 use super::report::{Report, StopReason, WORST, timed};
 use super::solution::{Reached, Solution};
 use super::system::System;
@@ -122,8 +122,8 @@ impl Flow {
         match rest {
             Ok((rest, mut doubled)) => {
                 if let (false, Some(double)) = (rest.is_reached(), &doubled.origin.double) {
-                    let spread = |x: &[f64]| double.spread_vertices(x).into();
-                    (doubled.start, doubled.start_low) = (spread(&start), spread(&low));
+                    let spread = |x: &[f64]| double.spread_vertices(x).map(PerVertex::from);
+                    (doubled.start, doubled.start_low) = (spread(&start)?, spread(&low)?);
                 }
                 *self = doubled;
                 Ok(report.then(rest))
@@ -138,7 +138,7 @@ impl Flow {
 
     /// One solve on the present copy or double; whether it was left because the double would flip a boundary edge.
     fn run(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<(Report, bool)> {
-        self.target = self.origin.spread_target(target);
+        self.target = self.origin.spread_target(target)?;
         if !self.has_pins() {
             settle_total(&self.mesh, self.metric.space, &mut self.target);
         }
@@ -146,22 +146,23 @@ impl Flow {
         let precise = self.metric.epsilon.iter().all(|&e| is_precise(self.metric.space, e));
         report.double_double = precise && self.options.method == Method::Newton;
         let mut seconds = 0.0;
-        let before = (self.options.flips == Flips::Auto)
-            .then(|| (self.mesh.clone(), self.metric.eta.clone(), self.followed.clone()));
+        self.log.clear();
         let mirror = self.mirror.clone();
         let pool = self.pool.clone();
         let end = timed(&mut seconds, || pool.run(|| self.flow(&mut report, control)));
         if self.mirror.is_some() != mirror.is_some() {
             (self.mirror, self.system) = (mirror, None);
         }
-        let end = match (end, before) {
-            (Err(error), Some((mesh, eta, followed))) => {
-                // Nothing happened: the old triangulation, whose system is to be made anew.
-                (self.mesh, self.metric.eta, self.followed, self.system) = (mesh, eta, followed, None);
+        let end = match end {
+            Ok(end) => end,
+            Err(error) => {
+                // The triangulation from before, whose system is to be made anew.
+                self.log.undo(&mut self.mesh, &mut self.metric.eta, &mut self.followed)?;
+                self.system = None;
                 return Err(error);
             }
-            (end, _) => end?,
         };
+        self.log.clear();
         report.seconds.total = seconds;
         self.flips += report.flips;
         let (mut state, left) = match end {
@@ -281,7 +282,8 @@ impl Flow {
         if !self.flips_allowed {
             return Ok(timed(&mut report.seconds.assemble, || state.evaluate(&self.mesh, &self.metric)));
         }
-        let mut record = |mesh: &_, e| self.followed.iter_mut().for_each(|normal| normal.record(mesh, e));
+        let (log, followed) = (&mut self.log, &mut self.followed);
+        let mut record = |mesh: &Mesh, flip| log.record(mesh, flip, followed);
         let (real, flips) = state.evaluate_delaunay(
             &mut self.mesh,
             &mut self.metric,

@@ -2,12 +2,12 @@
 
 use super::Flow;
 use super::options::{Flips, Method, Options};
-use super::origin::{Origin, check_fixed};
+use super::origin::Origin;
 use super::solution::Solution;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::mesh::{Double, EdgeId, Mesh, NormalCoordinates, PerVertex, VertexId};
+use crate::mesh::{Double, FixedEdges, FlipLog, Mesh, NormalCoordinates, PerVertex, VertexId};
 use crate::metric::{Class, Initial, Metric, Scheme, Surface};
 use crate::parallel::Pool;
 use std::sync::Arc;
@@ -48,7 +48,7 @@ impl Flow {
         control.check()?;
         let given = from.given();
         let doubled = !given.is_closed() && options.pinned.is_empty();
-        let fixed = ascending(&options.fixed_edges);
+        let fixed = FixedEdges::new(given, &options.fixed_edges)?;
         let fits = !from.followed.is_empty() && from.origin.fixed == fixed && suits(from, doubled);
         match from.class() {
             Some(class) if !fits && !is_rigid(from.surface().geometry(), class, options) => {
@@ -84,15 +84,12 @@ impl Flow {
         options.check()?;
         let Solution { origin, mesh, mut metric, followed, flips, reached, .. } = from;
         let mesh = Arc::unwrap_or_clone(mesh);
-        check_fixed(origin.surface.mesh(), &options.fixed_edges)?;
         let rigid = origin.class.map_or(!may_flip(options, metric.space), |class| {
             is_rigid(origin.surface.geometry(), class, options)
         });
-        let fixed = origin
-            .double
-            .as_ref()
-            .map_or_else(|| options.fixed_edges.clone(), |double| double.with_images(&options.fixed_edges));
+        let mut fixed = FixedEdges::new(origin.surface.mesh(), &options.fixed_edges)?;
         if let Some(double) = &origin.double {
+            fixed = FixedEdges::new(&mesh, &double.with_images(&options.fixed_edges)?)?;
             // Rounding has told mirror images apart: they must be the same to begin with.
             for v in mesh.vertices().skip(double.n_half_vertices()) {
                 let image = double.mirror(v);
@@ -119,6 +116,7 @@ impl Flow {
             fixed,
             mirror,
             followed,
+            log: FlipLog::default(),
             flips,
             reached,
             one_copy: false,
@@ -202,7 +200,7 @@ impl Flow {
         let mut flow = Flow::go_on(Solution::start(self.pool.run(double)?), &self.options)?;
         if let Some(double) = &flow.origin.double {
             // Edges between imaginary circles may have no length there before they are flipped: then it begins from its own start.
-            let _ = flow.set_u(double.spread_vertices(&self.metric.u).into());
+            let _ = flow.set_u(double.spread_vertices(&self.metric.u)?.into());
         }
         Ok(flow)
     }
@@ -253,16 +251,12 @@ impl Flow {
     }
 
     /// A target on the given surface as one on [`Flow::mesh`]: on a double, curvature on both sides of the boundary adds up.
-    pub fn spread_target(&self, target: &PerVertex<f64>) -> PerVertex<f64> {
+    ///
+    /// # Errors
+    /// [`Error::Size`] unless the target has an entry per vertex of the given surface.
+    pub fn spread_target(&self, target: &PerVertex<f64>) -> Result<PerVertex<f64>> {
         self.origin.spread_target(target)
     }
-}
-
-fn ascending(edges: &[EdgeId]) -> Vec<EdgeId> {
-    let mut edges = edges.to_vec();
-    edges.sort_unstable();
-    edges.dedup();
-    edges
 }
 
 /// Whether a flow can go on from a metric with its symmetry: `doubled`, or with a boundary that is an end.

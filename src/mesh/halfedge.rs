@@ -147,6 +147,13 @@ impl Mesh {
         let h = self.face_halfedge(f);
         [h, self.next(h), self.prev(h)]
     }
+    /// The face of a half-edge, and which of the face's corners is at its origin; `None` outside the surface.
+    #[inline]
+    pub fn corner(&self, h: HalfedgeId) -> Option<(FaceId, usize)> {
+        let f = self.face(h)?;
+        let corner = self.face_halfedges(f).iter().position(|&side| side == h)?;
+        Some((f, corner))
+    }
     /// The face's vertices in corner order.
     #[inline]
     pub fn face_vertices(&self, f: FaceId) -> [VertexId; 3] {

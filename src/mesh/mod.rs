@@ -13,7 +13,8 @@ pub mod attribute;
 pub mod build;
 pub mod check;
 pub mod double;
-mod flip;
+pub mod flip;
+pub mod flip_log;
 pub mod halfedge;
 pub mod ids;
 mod incidence;
@@ -28,6 +29,8 @@ mod weld;
 
 pub use attribute::{PerEdge, PerFace, PerHalfedge, PerVertex};
 pub use double::Double;
+pub use flip::{FixedEdges, Flip};
+pub use flip_log::FlipLog;
 pub use halfedge::Mesh;
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use normal::NormalCoordinates;
