@@ -48,11 +48,7 @@ impl Uniformization {
 ///
 /// Errors: [`Error::Layout`] for a surface with boundary; [`Error::Argument`] for a sphere in another scheme; those of
 /// [`uniformize_sphere`] and [`uniformize_quotient`].
-pub fn uniformize(
-    surface: &Surface,
-    options: &QuotientOptions,
-    control: &Control,
-) -> Result<Uniformization> {
+pub fn uniformize(surface: &Surface, options: &QuotientOptions, control: &Control) -> Result<Uniformization> {
     let mesh = surface.mesh();
     if !mesh.is_closed() || mesh.euler() <= 0 {
         let quotient = uniformize_quotient(surface, options, control)?;

@@ -1,7 +1,7 @@
 //! Flat vertices to twice the digits of doubles.
 
-use super::evaluate::State;
 use super::Flow;
+use super::evaluate::State;
 use super::solve::center;
 use super::system::System;
 use crate::control::Control;

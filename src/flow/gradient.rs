@@ -1,10 +1,10 @@
 //! The flow `du/dt = K̄ − K` itself, explicit in time [JKLLG08, Eqn 16].
 
+use super::Flow;
 use super::evaluate::State;
 use super::newton::progress;
 use super::options::StepRule;
 use super::report::{Report, StopReason, TraceRow, timed};
-use super::Flow;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::Space;

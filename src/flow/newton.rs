@@ -1,11 +1,11 @@
 //! Newton's method on the convex energy (E², H²): full steps with a line search on the slope.
 
+use super::Flow;
 use super::evaluate::State;
 use super::line_search::LineSearch;
 use super::report::{Report, StopReason, timed};
 use super::solve::{End, center};
 use super::system::System;
-use super::Flow;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::{Space, largest, worse};
@@ -244,9 +244,8 @@ impl Flow {
 
     /// `at.step` from `at.residual` with the last factor; false where it is not finite.
     fn solve_step(&self, system: &mut System, at: &mut Iterate, report: &mut Report) -> bool {
-        let solved = timed(&mut report.seconds.solve, || {
-            system.solve(&at.residual, self.enough(), &mut at.step)
-        });
+        let solved =
+            timed(&mut report.seconds.solve, || system.solve(&at.residual, self.enough(), &mut at.step));
         if solved && self.free_scale() {
             center(&mut at.step);
         }

@@ -203,9 +203,7 @@ impl Solution {
     /// # Errors
     /// Those of [`Refinement::new`].
     pub fn refinement(&self, control: &Control) -> Result<Refinement> {
-        within(self.threads, || {
-            self.origin.refinement(&self.mesh, &self.metric, &self.followed, control)
-        })
+        within(self.threads, || self.origin.refinement(&self.mesh, &self.metric, &self.followed, control))
     }
 
     /// Whether the metric is 0 curvature off the cones in H² or E², so that a layout exists; never in S².

@@ -1,11 +1,11 @@
 //! One solve: from a target to a solution, by the method of the options, and back to where it was if it fails.
 
+use super::Flow;
 use super::evaluate::State;
 use super::obstruction::{obstruction, obstruction_at_a_vertex};
 use super::options::{Flips, Method};
 use super::report::{Report, StopReason, WORST, timed};
 use super::solution::{Reached, Solution};
-use super::Flow;
 use super::system::System;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};

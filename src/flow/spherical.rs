@@ -4,10 +4,10 @@
 //! on the rest. Constants are taken out by keeping the total area at `2πχ − Σ K̄`; the rest is solved with
 //! `∂K/∂u + μ·area`, which is positive definite for μ > 2 near the solution.
 
+use super::Flow;
 use super::evaluate::State;
 use super::newton::progress;
 use super::report::{Report, StopReason, timed};
-use super::Flow;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use std::f64::consts::PI;

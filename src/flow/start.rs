@@ -1,9 +1,9 @@
 //! Making a flow: on a surface, from a solution, from a bare metric; going to the double, and pins.
 
+use super::Flow;
 use super::options::{Flips, Method, Options};
 use super::origin::{Origin, check_fixed};
 use super::solution::Solution;
-use super::Flow;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
@@ -88,10 +88,10 @@ impl Flow {
         let rigid = origin.class.map_or(!may_flip(options, metric.space), |class| {
             is_rigid(origin.surface.geometry(), class, options)
         });
-        let fixed = origin.double.as_ref().map_or_else(
-            || options.fixed_edges.clone(),
-            |double| double.with_images(&options.fixed_edges),
-        );
+        let fixed = origin
+            .double
+            .as_ref()
+            .map_or_else(|| options.fixed_edges.clone(), |double| double.with_images(&options.fixed_edges));
         if let Some(double) = &origin.double {
             // Rounding has told mirror images apart: they must be the same to begin with.
             for v in mesh.vertices().skip(double.n_half_vertices()) {
@@ -191,7 +191,11 @@ impl Flow {
     pub(super) fn doubled(&self, control: &Control) -> Result<Flow> {
         let Origin { surface, class: Some(class), .. } = &*self.origin else {
             let value = "a metric without a surface".into();
-            return Err(Error::Argument { what: "flow", value, need: "one on a surface, which can be doubled" });
+            return Err(Error::Argument {
+                what: "flow",
+                value,
+                need: "one on a surface, which can be doubled",
+            });
         };
         let fixed = &self.options.fixed_edges;
         let double = || Origin::delaunay(surface.clone(), *class, true, fixed, control);

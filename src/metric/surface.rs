@@ -51,10 +51,7 @@ impl Surface {
     ///
     /// # Errors
     /// Those of [`lengths_from_positions`].
-    pub fn in_space(
-        mesh: impl Into<Arc<Mesh>>,
-        positions: impl Into<Arc<Vec<Point>>>,
-    ) -> Result<Surface> {
+    pub fn in_space(mesh: impl Into<Arc<Mesh>>, positions: impl Into<Arc<Vec<Point>>>) -> Result<Surface> {
         let (mesh, positions) = (mesh.into(), positions.into());
         let lengths = Arc::new(lengths_from_positions(&mesh, &positions)?);
         Ok(Surface { mesh, lengths, geometry: Space::E2, positions: Some(positions) })
