@@ -395,7 +395,9 @@ fn layouts_with_a_single_cone_come_apart_into_few_charts() {
         let given = Surface::from_soup(&soup).unwrap();
         let target = Target::Single(VertexId(0));
         let flat = flow(given, Class::yamabe(Space::E2), &target, &options, &control).unwrap();
-        assert!(flat.report().unwrap().is_reached() && flat.cones() == [VertexId(0)]);
+        assert!(flat.report().unwrap().is_reached(), "{file}: {:?}", flat.report());
+        let inside = !flat.given().is_boundary_vertex(VertexId(0));
+        assert_eq!(flat.cones(), &[VertexId(0)][..usize::from(inside)], "{file}");
         let r = flat.refinement(&control).unwrap();
         let cut = refined_cut(&r, flat.mesh(), flat.metric(), flat.cones(), &control).unwrap();
         let layout = layout_refined(&r, flat.mesh(), flat.metric(), &cut, &control).unwrap().layout;
