@@ -5,15 +5,13 @@
 //! genus 3; a round is one of each job, one after the other, so that what else the machine does hits all alike; medians of five rounds.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
-use ricci::Control;
 use ricci::canonical::{QuotientOptions, uniformize_quotient};
 use ricci::embed::cover::{elements_to_depth, moved};
 use ricci::embed::{DeckGroup, layout_in_space, refine_space_layout};
-use ricci::geometry::Space;
 use ricci::mesh::{Mesh, shapes};
-use ricci::metric::lengths_from_positions;
 use ricci::parallel::Pool;
 use ricci::topology::{homotopy_basis, shortest_paths};
+use ricci::{Control, Surface};
 use std::time::Instant;
 
 const ROUNDS: usize = 5;
@@ -79,11 +77,8 @@ fn main() {
     println!("|---|{}", "---|".repeat(JOBS.len()));
     for vertices in sizes {
         let n = ((vertices as f64 / 128.0).sqrt().round() as usize).max(1);
-        let soup = shapes::genus(3, n).unwrap();
-        let mesh = Mesh::from_soup(&soup).unwrap();
-        let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-        let options = QuotientOptions::default();
-        let given = uniformize_quotient(&mesh, &lengths, Space::E2, &options, &Control::new()).unwrap();
+        let surface = Surface::from_soup(&shapes::genus(3, n).unwrap()).unwrap();
+        let given = uniformize_quotient(&surface, &QuotientOptions::default(), &Control::new()).unwrap();
         let final_mesh = given.metric.mesh().clone();
         let pool = Pool::new(0).unwrap();
         let rounds: Vec<[f64; 6]> = (0..ROUNDS).map(|_| pool.run(|| round(&final_mesh, &given))).collect();
@@ -93,6 +88,6 @@ fn main() {
             if job == 0 { format!("{seconds:.4}") } else { format!("{seconds:.4} ({ratio:.1})") }
         };
         let cells: Vec<String> = (0..JOBS.len()).map(cell).collect();
-        println!("| {} | {} |", mesh.n_vertices(), cells.join(" | "));
+        println!("| {} | {} |", surface.mesh().n_vertices(), cells.join(" | "));
     }
 }

@@ -4,17 +4,17 @@
 mod common;
 
 use common::Random;
-use common::flow::surface;
+use common::flow::{euclidean, surface};
 use ricci::embed::overlap::overlapping;
 use ricci::embed::pack::pack;
 use ricci::embed::{ChartOptions, charts, layout_of, layout_refined, refined_cut};
-use ricci::flow::{Options, SurfaceFlow, auto_cones};
+use ricci::flow::{Options, auto_cones};
 use ricci::geometry::Space;
 use ricci::mesh::{Curves, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, intrinsic_delaunay};
-use ricci::metric::{Class, Scheme, Target, Triangulated, delaunay_start, initial_metric};
+use ricci::metric::{Scheme, Triangulated, delaunay_start, initial_metric};
 use ricci::topology::cut_graph;
-use ricci::{Control, Error, Result};
+use ricci::{Class, Control, Error, Flow, Result, Target};
 use std::time::Duration;
 
 /// A torus whose triangulation is far from Delaunay.
@@ -32,18 +32,8 @@ fn cancelled() -> Control {
     control
 }
 
-fn flow(surface: &(Mesh, PerEdge<f64>), control: &Control) -> Result<SurfaceFlow> {
-    let (mesh, lengths) = surface;
-    SurfaceFlow::new(
-        mesh,
-        lengths,
-        Space::E2,
-        Scheme::Inversive,
-        Space::E2,
-        &[],
-        &Options::default(),
-        control,
-    )
+fn flow((mesh, lengths): &(Mesh, PerEdge<f64>), control: &Control) -> Result<Flow> {
+    Flow::new(euclidean(mesh, lengths), Class::inversive(Space::E2), &Options::default(), control)
 }
 
 fn is_cancelled<T>(what: &str, result: Result<T>) {
@@ -55,16 +45,15 @@ fn a_cancelled_control_stops_every_stage() {
     let given = skewed(40);
     let (mesh, lengths) = &given;
     let (free, stop) = (Control::new(), cancelled());
-    is_cancelled("SurfaceFlow::new", flow(&given, &stop));
+    is_cancelled("Flow::new", flow(&given, &stop));
     let target = Target::Cones(vec![(VertexId(3), 3.0), (VertexId(700), -3.0)]);
-    let target = target.values(mesh, lengths, Space::E2).unwrap();
     let mut made = flow(&given, &free).unwrap();
     let before = (made.mesh().clone(), made.metric().clone());
     is_cancelled("solve", made.solve(&target, &stop));
-    is_cancelled("resume", SurfaceFlow::resume(&made.now(), &[], &Options::default(), &stop));
+    is_cancelled("resume", Flow::resume(&made.solution(), &Options::default(), &stop));
     assert!(before == (made.mesh().clone(), made.metric().clone()));
-    assert!(made.solve(&target, &free).unwrap().converged);
-    let now = made.now();
+    let now = made.solve(&target, &free).unwrap();
+    assert!(now.converged());
     is_cancelled("refinement", now.refinement(&stop));
     let normal = NormalCoordinates::new(mesh);
     is_cancelled("Curves::trace", Curves::trace(mesh, &normal, &stop));
@@ -162,7 +151,7 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
     let (mesh, lengths) = &given;
     let free = Control::new();
     let surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
-    interrupt("SurfaceFlow::new", |c| flow(&given, c).map(drop));
+    interrupt("Flow::new", |c| flow(&given, c).map(drop));
     interrupt("intrinsic_delaunay", |c| {
         let mut m = surface.clone();
         let flips = intrinsic_delaunay(&mut m, IntrinsicOptions::default(), &mut |_, _| {}, c);
@@ -177,10 +166,9 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
     interrupt("Curves::trace", |c| Curves::trace(&flat.mesh, &normal, c).map(drop));
     interrupt("cut_graph", |c| cut_graph(mesh, lengths, &[], c).map(drop));
     interrupt("auto_cones", |c| auto_cones(mesh, lengths, 6, c).map(drop));
-    let mut made =
-        SurfaceFlow::new(mesh, lengths, start.0, start.1, start.2, &[], &Options::default(), &free).unwrap();
+    let class = Class::yamabe(Space::E2);
+    let mut made = Flow::new(euclidean(mesh, lengths), class, &Options::default(), &free).unwrap();
     let before = (made.mesh().clone(), made.metric().clone());
-    let target = Target::Uniform.values(mesh, lengths, Space::E2).unwrap();
     for delay in [5, 50, 200] {
         let control = Control::new();
         let other = control.clone();
@@ -188,13 +176,13 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
             std::thread::sleep(Duration::from_millis(delay));
             other.cancel();
         });
-        if made.solve(&target, &control).is_ok() {
+        if made.solve(&Target::Uniform, &control).is_ok() {
             break;
         }
         println!("solve: cancelled {:?} later", control.since_cancel());
         assert!(before == (made.mesh().clone(), made.metric().clone()));
     }
-    made.solve(&target, &free).unwrap();
+    made.solve(&Target::Uniform, &free).unwrap();
     let cut = cut_graph(made.mesh(), &made.metric().lengths(made.mesh()).unwrap(), &[], &free).unwrap();
     let layout = layout_of(made.mesh(), made.metric(), &cut, &free).unwrap();
     let uv = |h| layout.corner_uv(h);

@@ -4,8 +4,7 @@
 mod common;
 
 use common::Random;
-use common::flow::{converged, distance, rigid, solve, surface};
-use ricci::Control;
+use common::flow::{converged, distance, euclidean, rigid, solve, surface};
 use ricci::embed::layout;
 use ricci::flow::{Gradient, Method, Options, Report, StepRule, StopReason};
 use ricci::geometry::Space;
@@ -13,8 +12,9 @@ use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::geometry::modulus::modulus;
 use ricci::mesh::shapes;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use ricci::metric::{Initial, Metric, Scheme, Target, curvature, initial_metric};
+use ricci::metric::{Initial, Metric, Scheme, curvature, initial_metric};
 use ricci::topology::cut_graph;
+use ricci::{Class, Control, Surface, Target};
 use std::f64::consts::PI;
 
 const EXACT: [Scheme; 3] = [Scheme::Yamabe, Scheme::Inversive, Scheme::Virtual];
@@ -28,9 +28,11 @@ fn run(
     space: Space,
     target: Option<Target>,
 ) -> (Initial, Metric, Report) {
-    let initial = initial_metric(mesh, lengths, geometry, scheme, space).unwrap();
-    let target = target.unwrap_or_else(|| Target::default_for(mesh, lengths, space).unwrap());
-    let target = target.resolve(mesh, lengths, space, scheme).unwrap();
+    let (surface, class) =
+        (Surface::intrinsic(mesh.clone(), lengths.clone(), geometry).unwrap(), Class::new(scheme, space));
+    let initial = surface.initial(class).unwrap();
+    let target = target.unwrap_or_else(|| Target::default_for(&surface, space).unwrap());
+    let target = target.resolve(&surface, class).unwrap();
     let (metric, report) = solve(mesh, &initial.metric, &target, &rigid());
     (initial, metric, report)
 }
@@ -75,7 +77,8 @@ fn spherical_flow_rounds_an_ellipsoid_by_newton_and_by_gradient() {
     let (mesh, lengths) = surface(&shapes::ellipsoid([1.0, 1.2, 0.9], 5).unwrap());
     for scheme in [Scheme::Yamabe, Scheme::Inversive, Scheme::Thurston] {
         let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::S2).unwrap();
-        let target = Target::Uniform.resolve(&mesh, &lengths, Space::S2, scheme).unwrap();
+        let target =
+            Target::Uniform.resolve(&euclidean(&mesh, &lengths), Class::new(scheme, Space::S2)).unwrap();
         let (metric, report) = solve(&mesh, &initial.metric, &target, &rigid());
         converged(&report);
         let k = curvature(&mesh, Space::S2, &metric.lengths(&mesh).unwrap()).unwrap();
@@ -206,10 +209,11 @@ fn gradient_flow_and_newton_agree() {
     {
         for scheme in Scheme::ALL {
             let initial = initial_metric(mesh, lengths, Space::E2, scheme, space).unwrap();
-            let target = Target::default_for(mesh, lengths, space).unwrap();
-            let target = target.resolve(mesh, lengths, space, scheme).unwrap();
+            let given = euclidean(mesh, lengths);
+            let target = Target::default_for(&given, space).unwrap();
+            let target = target.resolve(&given, Class::new(scheme, space)).unwrap();
             let (newton, report) = solve(mesh, &initial.metric, &target, &rigid());
-            if !report.converged {
+            if !report.is_reached() {
                 // Virtual radii do not reach every target on a fixed triangulation.
                 assert_eq!((scheme, report.stop_reason), (Scheme::Virtual, StopReason::BrokenTriangles));
                 unreached += 1;
@@ -230,7 +234,9 @@ fn energy_decreases_along_the_stable_gradient_flow() {
     let (mesh, lengths) = surface(&shapes::torus(2.0, 0.7, 12, 8).unwrap());
     for area_normalised in [false, true] {
         let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Thurston, Space::E2).unwrap();
-        let target = Target::Uniform.resolve(&mesh, &lengths, Space::E2, Scheme::Thurston).unwrap();
+        let target = Target::Uniform
+            .resolve(&euclidean(&mesh, &lengths), Class::new(Scheme::Thurston, Space::E2))
+            .unwrap();
         let gradient = Gradient { step: StepRule::Stable, area_normalised };
         let options = Options { method: Method::Gradient, gradient, ..rigid() };
         let (_, report) = solve(&mesh, &initial.metric, &target, &options);
@@ -251,9 +257,10 @@ fn newton_converges_quadratically() {
     for (name, (mesh, lengths), space) in [("genus 2", &genus2, Space::H2), ("torus", &torus, Space::E2)] {
         for scheme in Scheme::ALL {
             let initial = initial_metric(mesh, lengths, Space::E2, scheme, space).unwrap();
-            let target = Target::Uniform.resolve(mesh, lengths, space, scheme).unwrap();
+            let target =
+                Target::Uniform.resolve(&euclidean(mesh, lengths), Class::new(scheme, space)).unwrap();
             let (_, report) = solve(mesh, &initial.metric, &target, &rigid());
-            if !report.converged {
+            if !report.is_reached() {
                 // Virtual radii do not reach every target on a fixed triangulation.
                 assert_eq!((scheme, report.stop_reason), (Scheme::Virtual, StopReason::BrokenTriangles));
                 continue;
