@@ -12,7 +12,8 @@
 
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::geometry::conformal::{differences, edge};
+use crate::geometry::conformal::{differences, edge, in_one_unit};
+use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::angles_from;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::Metric;
@@ -90,11 +91,13 @@ impl Punctured {
 
     /// Half-perimeter differences of a face, from u to twice the digits.
     fn differences(&self, f: FaceId) -> [f64; 3] {
-        let corners = self.mesh.face_vertices(f).map(|v| self.metric.vertex(v));
+        let mut corners = self.mesh.face_vertices(f).map(|v| self.metric.vertex(v));
         let sides = self.mesh.opposite_edges(f);
         let side =
             |k: usize| edge(Space::E2, corners[(k + 1) % 3], corners[(k + 2) % 3], self.metric.eta[sides[k]]);
-        differences(corners, [0, 1, 2].map(|k| side(k).unwrap_or_default()))
+        let mut sides = [0, 1, 2].map(|k| side(k).unwrap_or_default());
+        let unit = in_one_unit(&mut corners, &mut sides);
+        differences(corners, sides).map(|r| scaled(r, unit))
     }
 
     /// Angle of the planar part in the corner that is `turn` half-edges after `h` in its face; 0 in the star.

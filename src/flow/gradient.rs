@@ -119,7 +119,7 @@ impl Run<'_> {
         if !state.evaluate(self.mesh, self.class) {
             return false;
         }
-        let Some(area) = area else { return true };
+        let Some(area) = area else { return state.area(self.mesh, self.class).is_finite() };
         // Area grows as e^{2u} (exactly in E²): a fixed point that contracts fast on the sphere too.
         for _ in 0..RESCALINGS {
             let now = state.area(self.mesh, self.class);

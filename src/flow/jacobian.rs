@@ -132,7 +132,7 @@ pub fn curvature_derivative(mesh: &Mesh, metric: &Metric) -> Result<Vec<(VertexI
     let mut state = State::new(mesh, &metric.u, &metric.u_low);
     if !state.evaluate(mesh, metric) {
         // The first edge without a length is named by this call.
-        metric.lengths(mesh)?;
+        metric.check_domain(mesh)?;
         return Err(Error::Argument { what: "metric", value: "u".into(), need: "inside its domain" });
     }
     let mut jacobian = Jacobian::new(mesh, &vec![false; mesh.n_vertices()], None)?;

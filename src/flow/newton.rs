@@ -39,9 +39,6 @@ const MAX_FLOOR: f64 = 1e-7;
 /// converges quadratically there, and what does not is rounding. (Farther out the maximum norm proves nothing.)
 const PATIENCE: usize = 8;
 const AT_THE_END: f64 = 1e-8;
-/// Lengths within one metric that differ by more than e^MAX_RANGE mean that there is no solution to run to: solutions
-/// of the test corpus stay below e^350, and doubles end at e^700.
-const MAX_RANGE: f64 = 500.0;
 /// Once converged, the last factor is reused to bring the error down to this, each step at least halving it; in H², whose layouts magnify
 /// errors by e^distance, as far as it goes.
 const POLISH_TO: f64 = 1e-13;
@@ -72,9 +69,6 @@ impl Run<'_> {
             }
             if error <= report.tolerance {
                 break StopReason::Converged;
-            }
-            if range(&state.u) > MAX_RANGE {
-                break StopReason::Diverged;
             }
             if at_limit {
                 break StopReason::IterationLimit;
@@ -319,12 +313,6 @@ impl Run<'_> {
         }
         Ok(())
     }
-}
-
-/// Largest minus smallest.
-fn range(x: &[f64]) -> f64 {
-    let (low, high) = x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
-    high - low
 }
 
 /// Fraction of the way from `first` to `goal` on a logarithmic scale.

@@ -64,7 +64,7 @@ impl Solver {
             return Err(Error::Argument { what: "fixed edge", value, need: "an existing edge" });
         }
         let pool = Pool::new(options.threads)?;
-        pool.run(|| metric.lengths(&mesh).map(|_| ()))?;
+        pool.run(|| metric.check_domain(&mesh))?;
         let pinned = vec![false; mesh.n_vertices()];
         let (start, start_low) = (metric.u.clone(), metric.u_low.clone());
         Ok(Solver {
@@ -148,7 +148,7 @@ impl Solver {
     pub fn set_u(&mut self, u: PerVertex<f64>) -> Result<()> {
         let u_low = PerVertex::filled(u.len(), 0.0);
         let metric = Metric { u, u_low, ..self.metric.clone() };
-        self.pool.run(|| metric.lengths(&self.mesh).map(|_| ()))?;
+        self.pool.run(|| metric.check_domain(&self.mesh))?;
         (self.start, self.start_low) = (metric.u.clone(), metric.u_low.clone());
         self.metric = metric;
         Ok(())

@@ -11,6 +11,7 @@ pub mod modulus;
 pub mod motion;
 pub mod predicates;
 pub mod space;
+pub(crate) mod scaled;
 pub mod sphere;
 pub mod symplectic;
 pub mod triangle;

@@ -8,7 +8,7 @@ use super::lengths::Metric;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::Vertex;
-use crate::geometry::flip::{Hinge, TOLERANCE, diagonal, weight};
+use crate::geometry::flip::{Hinge, TOLERANCE, Weight, diagonal, weight};
 use crate::geometry::{Space, triangle};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use crate::parallel;
@@ -117,17 +117,17 @@ fn between(mesh: &Mesh, h: HalfedgeId) -> bool {
     f.is_some() && g.is_some() && f != g
 }
 
-/// The Delaunay hinge of half-edge h, `w` per vertex: vertices origin, tip, left, right.
+/// The Delaunay hinge of half-edge h, `w` per vertex: vertices origin, tip, left, right. Beside it `w w` of left and right in its unit.
 fn hinge(
     mesh: &Mesh,
     h: HalfedgeId,
     epsilon: &PerVertex<i8>,
     eta: &PerEdge<f64>,
-    w: &PerVertex<f64>,
-) -> Hinge {
+    w: &PerVertex<Weight>,
+) -> (Hinge, f64) {
     let [jk, ki, il, lj] = mesh.quadrilateral(h);
     let vertices = [h, h.twin(), ki, lj].map(|h| mesh.origin(h));
-    Hinge::new(
+    Hinge::of_weights(
         vertices.map(|v| f64::from(epsilon[v])),
         vertices.map(|v| w[v]),
         [h, ki, jk, il, lj].map(|h| eta[h.edge()]),
@@ -150,12 +150,10 @@ pub fn restore_delaunay(
     let w = weights(metric, u);
     let epsilon = &metric.epsilon;
     let decide = |mesh: &Mesh, eta: &PerEdge<f64>, h: HalfedgeId| {
-        let hinge = hinge(mesh, h, epsilon, eta, &w);
+        let (hinge, scale) = hinge(mesh, h, epsilon, eta, &w);
         if !hinge.wants_flip() {
             return None;
         }
-        let [k, l] = [h, h.twin()].map(|h| mesh.origin(mesh.prev(h)));
-        let scale = w[k] * w[l];
         hinge.flipped().map(|product| product / scale).filter(|eta| eta.is_finite())
     };
     queue.run(MOST_FLIPS * mesh.n_edges(), mesh, &mut metric.eta, decide, record, control)
@@ -179,7 +177,8 @@ pub(crate) fn flip_in_class(
     let w = vertices.map(w);
     let epsilon = vertices.map(|v| f64::from(metric.epsilon[v]));
     let eta = [h, ki, jk, il, lj].map(|h| metric.eta[h.edge()]);
-    let flipped = Hinge::new(epsilon, w, eta).flipped().map(|product| product / (w[2] * w[3]));
+    let (hinge, scale) = Hinge::of_weights(epsilon, w, eta);
+    let flipped = hinge.flipped().map(|product| product / scale);
     let Some(eta) = flipped.filter(|eta| eta.is_finite()) else { return false };
     record(mesh, e);
     metric.eta[e] = eta;
@@ -316,7 +315,7 @@ fn endless() -> Error {
 /// The edges that fail the weighted Delaunay condition at variables `u` and can be flipped, ascending.
 pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> {
     let w = weights(metric, u);
-    let fails = |h| hinge(mesh, h, &metric.epsilon, &metric.eta, &w).wants_flip();
+    let fails = |h| hinge(mesh, h, &metric.epsilon, &metric.eta, &w).0.wants_flip();
     Queue::where_holds(mesh, &[], fails).waiting.into()
 }
 
@@ -328,13 +327,13 @@ pub fn boundary_fails(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>, fixed: &
         let corners = [i, j, k, k];
         let w = corners.map(|v| weight(metric.space, Vertex::new(metric.space, metric.epsilon[v], u[v])));
         let eta = [h, ki, jk, ki, jk].map(|h| metric.eta[h.edge()]);
-        Hinge::new(corners.map(|v| f64::from(metric.epsilon[v])), w, eta).wants_flip()
+        Hinge::of_weights(corners.map(|v| f64::from(metric.epsilon[v])), w, eta).0.wants_flip()
     };
     let mut along = mesh.edges().flat_map(|e| [e.halfedge(), e.halfedge().twin()]);
     along.any(|h| mesh.is_outside(h.twin()) && fails(h) && !fixed.contains(&h.edge()))
 }
 
 /// `w` of every vertex at variables `u`.
-fn weights(metric: &Metric, u: &PerVertex<f64>) -> PerVertex<f64> {
+fn weights(metric: &Metric, u: &PerVertex<f64>) -> PerVertex<Weight> {
     PerVertex::from_fn(u.len(), |v| weight(metric.space, Vertex::new(metric.space, metric.epsilon[v], u[v])))
 }
