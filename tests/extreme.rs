@@ -5,15 +5,15 @@
 mod common;
 
 use common::Random;
-use common::flips::{SCHEMES, honest};
+use common::flips::{SCHEMES, exp, honest, measure, reach, scaled_sides, started};
 use common::flow::surface;
 use ricci::flow::{Options, Report, StopReason, SurfaceFlow};
-use ricci::geometry::Space;
+use ricci::geometry::{Space, Twofold};
 use ricci::mesh::shapes::{self, Sliver};
 use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::delaunay::intrinsic_delaunay;
 use ricci::metric::target::check_admissible;
-use ricci::metric::{Scheme, Target};
+use ricci::metric::{Scheme, Target, initial_metric};
 use ricci::{Control, Error};
 use std::f64::consts::PI;
 
@@ -129,22 +129,35 @@ fn a_sphere_a_million_times_as_long_as_wide() {
         let kind = (Space::E2, scheme);
         flow(&stretched, Space::E2, kind, &balanced(&stretched.0, &ends), "cones at the ends").unwrap();
         let target = balanced(&stretched.0, &middle);
-        let (mesh, lengths) = &stretched;
-        let made = SurfaceFlow::new(
-            mesh,
-            lengths,
-            Space::E2,
-            scheme,
-            Space::E2,
-            &[],
-            &Options::default(),
-            &Control::new(),
+        for max_step in [3.0, 10.0, 100.0, 1000.0] {
+            let options = Options { max_step, max_iterations: 3000, ..Options::default() };
+            let mut flow = started(&stretched, kind, &options);
+            let report = flow.solve(&target, &Control::new()).unwrap();
+            let metric = flow.metric();
+            let (low, high) = metric.u.iter().fold((f64::MAX, f64::MIN), |(a, b), &u| (a.min(u), b.max(u)));
+            let tail: Vec<String> = report.residuals.iter().rev().take(6).map(|r| format!("{r:.1e}")).collect();
+            println!("PROBE {scheme} {max_step}: {} {} steps {} shifted {} flips u {low:.0}..{high:.0} {tail:?}", report.stop_reason, report.iterations, report.shifted, report.flips);
+        }
+        let mut flow = started(&stretched, kind, &Options::default());
+        let report = reach(&mut flow, &target, "cones in the middle");
+        let (mesh, metric) = (flow.mesh(), flow.metric());
+        let (low, high) = metric.u.iter().fold((f64::MAX, f64::MIN), |(a, b), &u| (a.min(u), b.max(u)));
+        println!("cones in the middle, {scheme}: {} steps, u from {low:.0} to {high:.0}", report.iterations);
+        assert!(high - low > 800.0, "{scheme}: within the range of doubles");
+        // Curvature has no limit; lengths do, and the edge without one in doubles is named.
+        let curvature = metric.curvature(mesh).unwrap();
+        assert!(
+            curvature.area.is_finite() && mesh.vertices().all(|v| (curvature.at[v] - target[v]).abs() < 1e-9)
         );
-        let mut flow = made.unwrap();
-        let report = flow.solve(&target, &Control::new()).unwrap();
-        println!("cones in the middle, {scheme}: {} after {}", report.stop_reason, report.iterations);
-        assert!(!honest(&flow, &report, &target, "cones in the middle"));
-        assert_eq!(report.stop_reason, StopReason::Diverged, "lengths of a range that doubles do not have");
+        assert!(metric.angle_defects(mesh).unwrap().iter().all(|k| k.is_finite()));
+        for refused in [metric.lengths(mesh).map(drop), metric.differences(mesh).map(drop)] {
+            let edge = match refused {
+                Err(Error::EdgeWeight { edge, .. }) => EdgeId::from(edge),
+                other => panic!("{scheme}: {other:?}"),
+            };
+            let [a, b] = mesh.ends(edge).map(|v| metric.u[v]);
+            assert!(a.min(b) < -600.0 || a.max(b) > 600.0, "{scheme}: edge {edge} is not out of range");
+        }
     }
 }
 
@@ -326,6 +339,73 @@ fn what_cannot_be_is_refused_by_name() {
         );
         let Err(error) = made else { panic!("edge {edge} of length {length} passed") };
         println!("refused: {error}");
+    }
+}
+
+/// Lengths and half-perimeter differences keep what u has beyond its doubles, for vertex types and weights of every kind: touching
+/// circles (η = 1), and triangles of circles that are about to break, too.
+#[test]
+fn lengths_keep_both_halves_of_u() {
+    let (mesh, lengths) = surface(&shapes::icosphere(2).unwrap());
+    let mut random = Random::new(21);
+    let mut worst = [0.0f64; 2];
+    for scheme in Scheme::ALL {
+        for (size, shift) in [(1e-3, 0.0), (0.3, 0.0), (0.3, -400.0), (0.3, 300.0)] {
+            let mut metric = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::E2).unwrap().metric;
+            for v in mesh.vertices() {
+                metric.u[v] += shift + size * random.symmetric();
+                metric.u_low[v] = 0.4 * random.symmetric() * f64::EPSILON * metric.u[v].abs();
+            }
+            // Lengths of this size are no doubles; the angles say what the differences are.
+            let [found, low, r] = if shift == 0.0 {
+                let r = metric.differences(&mesh).unwrap();
+                [
+                    metric.lengths(&mesh).unwrap().into_vec(),
+                    metric.length_remainders(&mesh).unwrap().into_vec(),
+                    r.iter().flatten().copied().collect(),
+                ]
+            } else {
+                let curvature =
+                    metric.curvature(&mesh).unwrap_or_else(|error| panic!("{scheme} {shift}: {error}")).at;
+                let plain = measure(&mesh, &metric).curvature;
+                assert!(
+                    mesh.vertices().all(|v| (curvature[v] - plain[v.index()]).abs() < 1e-13),
+                    "{scheme} {shift}"
+                );
+                continue;
+            };
+            for f in mesh.faces() {
+                let (sides, top) = scaled_sides(&mesh, &metric, f);
+                let own = exp(top.into());
+                let exact = sides.map(|(high, low)| (Twofold::from(high) + low.into()) * own);
+                for (k, e) in mesh.opposite_edges(f).into_iter().enumerate() {
+                    let ours = Twofold::from(found[e.index()]) + low[e.index()].into();
+                    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                    let half = (exact[i] + exact[j] - exact[k]) * 0.5.into();
+                    let miss = (Twofold::from(r[3 * f.index() + k]) - half).high.abs();
+                    worst[0] = worst[0].max(((ours - exact[k]) / exact[k]).high.abs());
+                    worst[1] = worst[1].max((miss - 1e-20 * exact[k].high) / half.high.abs());
+                }
+            }
+        }
+    }
+    println!("lengths to {:.1e}, differences to {:.1e}", worst[0], worst[1]);
+    assert!(worst[0] < 1e-20 && worst[1] < 4.0 * f64::EPSILON, "{worst:?}");
+}
+
+#[test]
+fn what_u_loses_is_less_than_an_ulp() {
+    let (mesh, lengths) = surface(&shapes::icosphere(1).unwrap());
+    let metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap().metric;
+    metric.check(&mesh).unwrap();
+    let v = VertexId(5);
+    for (low, sound) in [(0.4, true), (2.0, false), (f64::NAN, false), (f64::INFINITY, false)] {
+        let mut metric = metric.clone();
+        metric.u_low[v] = low * f64::EPSILON * metric.u[v].abs();
+        let result = metric.check(&mesh);
+        assert_eq!(result.is_ok(), sound, "{low}");
+        assert!(sound || matches!(result, Err(Error::Argument { what: "u_low", .. })), "{result:?}");
+        assert_eq!(metric.lengths(&mesh).is_ok(), sound, "{low}");
     }
 }
 

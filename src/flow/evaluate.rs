@@ -41,7 +41,7 @@ impl State {
         }
     }
 
-    /// Compute everything from `self.u`; false when some edge has no real length there (outside the domain).
+    /// Compute everything from `self.u` and `self.low`; false when some edge has no real length there (outside the domain).
     pub fn evaluate(&mut self, mesh: &Mesh, class: &Metric) -> bool {
         if !self.measure(mesh, class) {
             return false;
@@ -182,6 +182,7 @@ impl State {
         scaled(triangle::area_from(space, differences(corners, edges)), 2 * unit)
     }
 
+    /// Number of faces that break the triangle inequality.
     pub fn broken(&self) -> usize {
         self.angles.iter().filter(|a| a.broken()).count()
     }
@@ -208,11 +209,13 @@ fn add(u: f64, low: f64, x: f64) -> (f64, f64) {
     two_sum(sum, lost + low)
 }
 
+/// An edge; without a real length, the default, whose `q2` is 0.
 fn measured_edge(mesh: &Mesh, class: &Metric, vertices: &[Vertex], e: EdgeId) -> Edge {
     let [i, j] = mesh.ends(e);
     edge(class.space, vertices[i.index()], vertices[j.index()], class.eta[e]).unwrap_or_default()
 }
 
+/// Angles and derivative weights of a face.
 fn measured_face(
     mesh: &Mesh,
     class: &Metric,

@@ -6,6 +6,7 @@ use super::solver::{Run, center};
 use super::system::System;
 use crate::control::Stage;
 use crate::error::Result;
+use crate::geometry::twofold::MAX_EXPONENT;
 use crate::geometry::{Space, largest, worse};
 use crate::metric::delaunay::boundary_fails;
 
@@ -69,6 +70,10 @@ impl Run<'_> {
             }
             if error <= report.tolerance {
                 break StopReason::Converged;
+            }
+            if self.class.space == Space::E2 && largest(state.u.iter()) > MAX_EXPONENT - self.options.max_step
+            {
+                break StopReason::Diverged;
             }
             if at_limit {
                 break StopReason::IterationLimit;

@@ -36,9 +36,11 @@ pub struct Vertex {
     pub epsilon: f64,
     /// e^u, in units of 2^`exponent`.
     pub scale: f64,
-    /// What `scale` misses of e^u, relative to it: where [`is_precise`]; there the part of u that its double loses is kept apart.
+    /// What `scale` misses of e^u, relative to it, where the vertex [`is_precise`]; else 0, and `scale`, `d` and `radius` are those of u
+    /// with the part that its double loses.
     pub low: f64,
-    /// d = 1 + λ ε e^{2u}; NaN outside the metric's domain (d ≤ 0; in E² |u| > 5e5).
+    /// d = 1 + λ ε e^{2u}; NaN outside the metric's domain: where d ≤ 0; where |u| > 5e5 in E²; where e^u is no normal number in H² with
+    /// ε = 0.
     pub d: f64,
     /// γ where ε = 1, else 0; in units of 2^`exponent`.
     pub radius: f64,
@@ -69,7 +71,7 @@ pub const MIN_HYPERBOLIC_CHORD: f64 = 1e-280;
 const MAX_PLAIN_U: f64 = 177.0;
 /// Binary exponents of squared lengths that need no unit of their own: what they lose, and products of two of them, are normal numbers.
 const PLAIN_SQUARES: std::ops::RangeInclusive<i32> = -500..=500;
-/// Above this u, e^u is so near 1 that `2 artanh e^u = −log tanh(−u/2)` needs its second form.
+/// Above this u, e^u is so near 1 that `2 artanh e^u` cancels, and its second form `−log tanh(−u/2)` is used.
 const NEAR_HOROCYCLE: f64 = -1.0;
 
 /// Radius γ of a vertex of type ε with variable u: `u = log γ` in E²; where λε = −1 (circles in H², imaginary ones in S²)
@@ -98,7 +100,11 @@ impl Vertex {
         let rounded = Vertex::new(space, epsilon, u);
         if is_precise(space, epsilon) {
             let (scale, lost) = twofold::exp(u);
-            return Vertex { scale, low: lost + low, ..rounded };
+            // A subnormal e^u has not the digits that this promises.
+            return match scale.is_normal() {
+                true => Vertex { scale, low: lost + low, ..rounded },
+                false => Vertex { scale: f64::NAN, d: f64::NAN, ..rounded },
+            };
         }
         let lambda = space.curvature() * f64::from(epsilon);
         // dγ/du = γ, sinh γ, sin γ
@@ -151,12 +157,7 @@ impl Vertex {
     /// The same vertex in units of 2^`unit`.
     fn in_unit(self, unit: i32) -> Vertex {
         let by = self.exponent - unit;
-        Vertex {
-            scale: scaled(self.scale, by),
-            radius: scaled(self.radius, by),
-            exponent: unit,
-            ..self
-        }
+        Vertex { scale: scaled(self.scale, by), radius: scaled(self.radius, by), exponent: unit, ..self }
     }
 }
 
@@ -177,7 +178,11 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
         return plane_edge(a, b, eta);
     }
     let q2 = squared_chord(a, b, eta) / (a.d * b.d);
-    let range = if space == Space::H2 { MIN_HYPERBOLIC_CHORD..=MAX_HYPERBOLIC_CHORD } else { f64::MIN_POSITIVE..=f64::MAX };
+    let range = if space == Space::H2 {
+        MIN_HYPERBOLIC_CHORD..=MAX_HYPERBOLIC_CHORD
+    } else {
+        f64::MIN_POSITIVE..=f64::MAX
+    };
     if !range.contains(&q2) {
         return None;
     }
@@ -412,6 +417,6 @@ pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], et
         scale * sum / (delta * chord)
     };
     let w = [weight(0), weight(1), weight(2)];
-    // Of a triangle so thin that its area underflows doubles cannot say how it would move.
+    // Where a triangle is so thin that its area underflows, the quotients are no numbers: it is treated as a broken one.
     if w.iter().all(|w| w.is_finite()) { w } else { [0.0; 3] }
 }

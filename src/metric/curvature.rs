@@ -47,7 +47,11 @@ impl Metric {
 }
 
 /// Curvature from the half-perimeter differences of the faces and the exponents of their units.
-fn curvature_of(mesh: &Mesh, space: Space, differences: impl Fn(FaceId) -> ([f64; 3], i32) + Sync) -> Curvature {
+fn curvature_of(
+    mesh: &Mesh,
+    space: Space,
+    differences: impl Fn(FaceId) -> ([f64; 3], i32) + Sync,
+) -> Curvature {
     let mut angles = vec![Angles { at: [0.0; 3] }; mesh.n_faces()];
     parallel::fill(&mut angles, |f| angles_from(space, differences(f.into()).0));
     let at = curvature_from_angles(mesh, angles.iter().map(|a| a.at));

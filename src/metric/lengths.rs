@@ -43,7 +43,11 @@ impl Metric {
         let is_ulp = |v: VertexId| self.u_low[v].abs() <= f64::EPSILON * self.u[v].abs();
         if let Some(v) = mesh.vertices().find(|&v| !is_ulp(v)) {
             let value = format!("{} at vertex {v}, where u is {}", self.u_low[v], self.u[v]);
-            return Err(Error::Argument { what: "u_low", value, need: "what the double u loses, at most an ulp of it" });
+            return Err(Error::Argument {
+                what: "u_low",
+                value,
+                need: "what the double u loses, at most an ulp of it",
+            });
         }
         match mesh.edges().find(|&e| !self.eta[e].is_finite()) {
             Some(e) => Err(Error::EdgeWeight { edge: e.index(), eta: self.eta[e], need: "finite" }),
@@ -112,7 +116,7 @@ impl Metric {
         self.check(mesh)?;
         let vertices: PerVertex<Vertex> = PerVertex::from_fn(mesh.n_vertices(), |v| self.vertex(v));
         if let Some(v) = mesh.vertices().find(|&v| vertices[v].d.is_nan()) {
-            let need = "u < 0 where ε has the sign of −λ, and in E² between −5e5 and 5e5";
+            let need = "u < 0 where ε has the sign of −λ, in E² between −5e5 and 5e5, in H² above −708";
             return Err(Error::Domain { vertex: v.index(), u: self.u[v], need });
         }
         let mut edges = vec![Edge::default(); mesh.n_edges()];
@@ -123,8 +127,7 @@ impl Metric {
         });
         match edges.iter().position(|e| e.q2 == 0.0) {
             Some(e) => {
-                let need =
-                    "one that gives the edge a real length at this u (in S² below π, in H² between 2e-140 and 300)";
+                let need = "one that gives the edge a real length at this u (in S² below π, in H² between 2e-140 and 300)";
                 Err(Error::EdgeWeight { edge: e, eta: self.eta[EdgeId::from(e)], need })
             }
             None => Ok((vertices, edges.into())),

@@ -2,10 +2,10 @@
 
 use super::lengths::Metric;
 use crate::error::Result;
-use crate::geometry::{Space, Twofold};
-use crate::geometry::scaled::exponent;
 use crate::geometry::conformal::half_chord;
+use crate::geometry::scaled::exponent;
 use crate::geometry::triangle::half_angles_of_chords;
+use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex};
 use crate::parallel;
 
@@ -62,7 +62,8 @@ pub(crate) fn half_angles(
         let sides = mesh.opposite_edges(FaceId::from(f)).map(|e| chords[e]);
         // In E² the longest side is about 1; in H² and S² lengths have no other unit than 1.
         let size = |(q, unit): (Twofold, i32)| unit + exponent(q.high);
-        let unit = if metric.space == Space::E2 { sides.map(size).into_iter().fold(i32::MIN, i32::max) } else { 0 };
+        let unit =
+            if metric.space == Space::E2 { sides.map(size).into_iter().fold(i32::MIN, i32::max) } else { 0 };
         half_angles_of_chords(metric.space, sides.map(|(q, own)| q.scaled(own - unit)))
     });
     angles.into()
