@@ -7,7 +7,7 @@ use common::Random;
 use common::flow::{converged, distance, rigid, solve, surface};
 use ricci::Control;
 use ricci::embed::layout;
-use ricci::flow::{Gradient, Method, Options, Report, StepRule, StopReason};
+use ricci::flow::{Gradient, Method, Options, Report, StepRule, StopReason, curvature_derivative};
 use ricci::geometry::Space;
 use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::geometry::modulus::modulus;
@@ -269,8 +269,8 @@ fn newton_converges_quadratically() {
     }
 }
 
-/// Bound of C in `r' ≤ C r²` on the tails of Newton's method: the largest is 1 here, and three times as much is allowed.
-const QUADRATIC: f64 = 3.0;
+/// Bound of C in `r' ≤ C r²` on the tails of Newton's method: the largest is 17 here, and three times as much is allowed.
+const QUADRATIC: f64 = 50.0;
 
 /// The least C of `r' ≤ C r²` from the first small residual down to rounding.
 fn tail_constant(residuals: &[f64]) -> f64 {

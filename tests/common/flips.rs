@@ -23,7 +23,7 @@ pub fn started(
 }
 
 /// `a + b` and what rounding loses of it.
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
