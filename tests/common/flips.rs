@@ -5,7 +5,7 @@ use super::Random;
 use ricci::Control;
 use ricci::flow::{Options, Report, StopReason, SurfaceFlow};
 use ricci::geometry::{Space, Twofold};
-use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerVertex};
+use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::delaunay::failing;
 use ricci::metric::{Metric, Scheme};
 use std::f64::consts::PI;
@@ -191,6 +191,29 @@ pub fn shuffle(mesh: &mut Mesh, lengths: &mut PerEdge<f64>, tries: usize, random
     let mut edge = || EdgeId::from(random.below(mesh.n_edges()));
     let edges: Vec<EdgeId> = (0..tries).map(|_| edge()).collect();
     edges.into_iter().filter(|&e| isometric_flip(mesh, lengths, e)).count()
+}
+
+/// Curvatures at some vertices; what is left of 2πχ is shared by the others.
+pub fn balanced(mesh: &Mesh, cones: &[(VertexId, f64)]) -> PerVertex<f64> {
+    let left = 2.0 * PI * mesh.euler() as f64 - cones.iter().map(|(_, k)| k).sum::<f64>();
+    let mut target = PerVertex::filled(mesh.n_vertices(), left / (mesh.n_vertices() - cones.len()) as f64);
+    cones.iter().for_each(|&(v, k)| target[v] = k);
+    target
+}
+
+/// A sphere drawn out along an axis, and its vertices by height.
+pub fn stretched(frequency: usize, times: f64) -> ((Mesh, PerEdge<f64>), Vec<VertexId>) {
+    let mut soup = shapes::icosphere(frequency).unwrap();
+    soup.positions.iter_mut().for_each(|p| p[2] *= times);
+    let mut by_height: Vec<usize> = (0..soup.positions.len()).collect();
+    by_height.sort_by(|&a, &b| soup.positions[a][2].total_cmp(&soup.positions[b][2]));
+    (super::flow::surface(&soup), by_height.into_iter().map(VertexId::from).collect())
+}
+
+/// Four cones about the middle: the ends become discs that are smaller by the exponential of the length over the width.
+pub fn in_the_middle(mesh: &Mesh, by_height: &[VertexId]) -> PerVertex<f64> {
+    let cones: Vec<_> = by_height[by_height.len() / 2 - 2..][..4].iter().map(|&v| (v, PI)).collect();
+    balanced(mesh, &cones)
 }
 
 /// The target drawn towards its mean, as far as `most` asks for at its largest entry.
