@@ -10,7 +10,7 @@ use ricci::embed::{ChartOptions, Charts, Layout, charts, layout_of, layout_refin
 use ricci::flow::{Options, auto_cones, flow};
 use ricci::geometry::Space;
 use ricci::geometry::predicates::orientation;
-use ricci::mesh::io::{self, Soup};
+use ricci::mesh::io::Soup;
 use ricci::mesh::shapes;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::{Triangulated, delaunay_start};
@@ -348,16 +348,9 @@ fn layouts_of_high_genus_come_apart_into_few_charts() {
 
 #[test]
 fn layouts_of_real_surfaces_come_apart() {
-    let Some(folder) = common::corpus("good") else { return };
-    for (file, n) in [
-        ("bob", 8),
-        ("kitten_10k", 8),
-        ("rocker_arm", 12),
-        ("bumpy_cube", 20),
-        ("pretzel", 8),
-        ("hand_cgal", 6),
-    ] {
-        let Ok(soup) = io::read(&folder.join(format!("{file}.obj"))) else { continue };
+    let names = ["bob", "kitten_10k", "rocker_arm", "bumpy_cube", "pretzel", "hand_cgal"];
+    let Some(soups) = common::named("good", &names) else { return };
+    for ((file, soup), n) in soups.into_iter().zip([8, 8, 12, 20, 8, 6]) {
         let (mesh, lengths) = surface(&soup);
         let target = auto_cones(&mesh, &lengths, n, &Control::new()).unwrap().target;
         let (mesh, layout) = lay_out(&mesh, &lengths, &target);
@@ -378,9 +371,8 @@ fn layouts_of_real_surfaces_come_apart() {
 /// All curvature at a single vertex, on surfaces of high genus, laid out on the common refinement: e^40 between the scales.
 #[test]
 fn layouts_with_a_single_cone_come_apart_into_few_charts() {
-    let Some(folder) = common::corpus("good") else { return };
-    for file in ["elephant_2775", "holes_7b", "casting"] {
-        let Ok(soup) = io::read(&folder.join(format!("{file}.obj"))) else { continue };
+    let Some(soups) = common::named("good", &["elephant_2775", "holes_7b", "casting"]) else { return };
+    for (file, soup) in soups {
         let (options, control) = (Options::default(), Control::new());
         let given = Surface::from_soup(&soup).unwrap();
         let target = Target::Single(VertexId(0));

@@ -7,7 +7,7 @@ use common::flow::{attempt, euclidean, surface};
 use ricci::flow::cones::MAX_AUTO_CONES;
 use ricci::flow::{AutoCones, Options, auto_cones};
 use ricci::geometry::Space;
-use ricci::mesh::io::{self, Soup};
+use ricci::mesh::io::Soup;
 use ricci::mesh::shapes;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::Scheme;
@@ -111,16 +111,12 @@ fn placed_cones_beat_farthest_points_with_equal_shares() {
 
 #[test]
 fn on_real_surfaces_placed_cones_beat_farthest_points() {
-    let Some(folder) = common::corpus("good") else { return };
+    let names =
+        ["bob", "spot_low", "kitten_10k", "rocker_arm", "bumpy_cube", "genus3", "pretzel", "hand_cgal"];
+    let Some(soups) = common::named("good", &names) else { return };
     println!("| mesh | V | χ | 4 | 8 | 16 | farthest 8 |");
-    for file in
-        ["bob", "spot_low", "kitten_10k", "rocker_arm", "bumpy_cube", "genus3", "pretzel", "hand_cgal"]
-    {
-        let Ok(soup) = io::read(&folder.join(format!("{file}.obj"))) else { continue };
+    for (file, soup) in soups {
         let (mesh, lengths) = surface(&soup);
-        if mesh.n_vertices() > 20_000 {
-            continue;
-        }
         let [four, eight, sixteen] =
             [4, 8, 16].map(|n| measured(&mesh, &lengths, &place(&mesh, &lengths, n).target));
         let equal = (mesh.euler() != 0).then(|| measured(&mesh, &lengths, &equal_cones(&mesh, &lengths, 8)));

@@ -5,7 +5,7 @@
 mod common;
 
 use common::Random;
-use common::flips::{SCHEMES, honest, started};
+use common::flips::{SCHEMES, balanced, honest, in_the_middle, started, stretched};
 use common::flow::{attempt, euclidean, surface};
 use ricci::flow::{Options, Report, StopReason};
 use ricci::geometry::Space;
@@ -58,14 +58,6 @@ fn default_targets(surface: &Surface) -> Vec<(Space, PerVertex<f64>)> {
     [Space::E2].into_iter().chain(curved).map(target).collect()
 }
 
-/// Curvatures at some vertices; what is left of 2πχ is shared by the others.
-fn balanced(mesh: &Mesh, cones: &[(VertexId, f64)]) -> PerVertex<f64> {
-    let left = 2.0 * PI * mesh.euler() as f64 - cones.iter().map(|(_, k)| k).sum::<f64>();
-    let mut target = PerVertex::filled(mesh.n_vertices(), left / (mesh.n_vertices() - cones.len()) as f64);
-    cones.iter().for_each(|&(v, k)| target[v] = k);
-    target
-}
-
 #[test]
 fn slivers_of_a_millionth_of_a_radian() {
     let shapes = [
@@ -116,25 +108,20 @@ fn edges_a_million_times_as_long_as_others() {
 
 #[test]
 fn a_sphere_a_million_times_as_long_as_wide() {
-    let mut soup = shapes::icosphere(6).unwrap();
-    soup.positions.iter_mut().for_each(|p| p[2] *= 1e6);
-    let stretched = surface(&soup);
-    let n = stretched.0.n_vertices();
-    let mut by_height: Vec<usize> = (0..n).collect();
-    by_height.sort_by(|&a, &b| soup.positions[a][2].total_cmp(&soup.positions[b][2]));
+    let (surface, by_height) = stretched(6, 1e6);
+    let n = by_height.len();
     // Two cones at either end: a long flat pillow.
-    let ends: Vec<_> = [0, 1, n - 2, n - 1].iter().map(|&k| (VertexId::from(by_height[k]), PI)).collect();
-    // Four about the middle: the ends become discs that are smaller by the exponential of the length over the width.
-    let middle: Vec<_> = (0..4).map(|k| (VertexId::from(by_height[n / 2 - 2 + k]), PI)).collect();
+    let ends: Vec<_> = [0, 1, n - 2, n - 1].iter().map(|&k| (by_height[k], PI)).collect();
     for scheme in SCHEMES {
         let kind = (Space::E2, scheme);
-        flow(&stretched, Space::E2, kind, &balanced(&stretched.0, &ends), "cones at the ends").unwrap();
-        let target = balanced(&stretched.0, &middle);
-        let mut flow = started(&stretched, kind, &Options::default());
+        flow(&surface, Space::E2, kind, &balanced(&surface.0, &ends), "cones at the ends").unwrap();
+        // Four in the middle stall, for flips round η more than the last digits of needles bear: no claim is made that does not hold.
+        let target = in_the_middle(&surface.0, &by_height);
+        let mut flow = started(&surface, kind, &Options { max_iterations: 150, ..Options::default() });
         let report = attempt(&mut flow, &target);
+        honest(&flow, &report, &target, "cones in the middle");
         println!("cones in the middle, {scheme}: {} after {}", report.stop_reason, report.iterations);
-        assert!(!honest(&flow, &report, &target, "cones in the middle"));
-        assert_eq!(report.stop_reason, StopReason::Diverged, "lengths of a range that doubles do not have");
+        assert_ne!(report.stop_reason, StopReason::Diverged, "{scheme}");
     }
 }
 

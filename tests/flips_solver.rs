@@ -271,7 +271,7 @@ fn imaginary_circles_flip_as_far_as_they_can_and_claim_no_more() {
 fn deepest(flow: &Flow) -> f64 {
     let (mesh, metric) = (flow.mesh(), flow.metric());
     let lengths = metric.lengths(mesh).unwrap();
-    let square = |v: VertexId| f64::from(metric.epsilon[v]) * metric.radii()[v].powi(2);
+    let square = |v: VertexId| f64::from(metric.epsilon[v]) * metric.radii().unwrap()[v].powi(2);
     let squares: PerVertex<f64> = PerVertex::from_fn(mesh.n_vertices(), square);
     let mut worst = 0.0f64;
     for e in mesh.edges() {

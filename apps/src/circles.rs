@@ -44,7 +44,7 @@ pub struct Circles {
 /// The circles of a Euclidean metric laid out in the plane; `mesh` is the triangulation of the metric.
 pub fn circles(mesh: &Mesh, metric: &Metric, scheme: &'static str, laid: &Laid) -> Option<Circles> {
     let (layout, scale) = (laid.plane()?, laid.scale);
-    let gamma = metric.radii();
+    let gamma = metric.radii().ok()?;
     let n_given = laid.refinement.as_ref().map_or(mesh.n_vertices(), |r| r.n_input_vertices);
     let mut vertex_of = vec![None; layout.coordinates.len()];
     for h in laid.mesh.halfedges().filter(|&h| laid.mesh.origin(h).index() < n_given) {

@@ -42,7 +42,7 @@ pub(super) struct Grown {
 impl<'a> Faces<'a> {
     pub fn new(mesh: &'a Mesh, metric: &Metric) -> Result<Faces<'a>> {
         let chords = metric.half_chords(mesh)?;
-        let half_angles = half_angles(metric, mesh, &chords);
+        let half_angles = half_angles(metric, mesh, &metric.scaled_chords(mesh)?);
         let differences = metric.differences(mesh)?;
         let step = |&chord: &Twofold| [Motion::translation_of_chord(chord, metric.space).a[0], chord];
         let steps = chords.iter().map(step).collect::<Vec<_>>().into();
