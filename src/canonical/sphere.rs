@@ -2,6 +2,7 @@
 
 use super::candidates::range;
 use super::lift::{lifted, nonconvexity, off_centre};
+use super::puncture::Solver;
 use super::star::{NEARLY_FLAT, Punctured};
 use super::tries::{Flat, Tried, on_a_circle, said};
 use crate::control::Control;
@@ -137,20 +138,20 @@ fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> 
     let weights = vertex_areas(surface, unit);
     let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
     let flow = flow(options);
-    let mut tried = Tried::new(&weights, &flow, control);
+    let mut tried = Tried::new(&weights, Solver::new(&begin, &flow, control)?);
     let flat = match options.puncture {
         Some(v) => tried.punctured_at(&begin, v)?,
         None => tried.best(&begin)?,
     };
-    let nearly_flat = flat.0.is_flat(NEARLY_FLAT).then(|| on_a_circle(&flat.0.mesh));
-    let (stop_reason, error) = (flat.2.stop_reason, flat.2.error);
+    let nearly_flat = flat.surface.is_flat(NEARLY_FLAT).then(|| on_a_circle(&flat.surface.mesh));
+    let (stop_reason, error) = (flat.found.stop_reason, flat.found.error);
     let raised = match (raised(flat, start_flips, &mut tried), nearly_flat) {
         (Err(Error::Cancelled), _) => return Err(Error::Cancelled),
         (Ok(raised), Some(why)) if !raised.report.converged => return Err(why),
         (Ok(raised), _) => raised,
         (Err(_), Some(why)) => return Err(why),
         (Err(why), None) => {
-            let (steps, why) = (tried.spent.iterations, said(why));
+            let (steps, why) = (tried.solver.iterations, said(why));
             return Err(Error::Layout(format!(
                 "no sphere over the plane that was found (max |K| = {error:.1e} after {steps} steps: {stop_reason}): {why}"
             )));
@@ -175,12 +176,12 @@ struct Raised {
 }
 
 /// From the plane to the sphere.
-fn raised((surface, plane, found): Flat, start_flips: usize, tried: &mut Tried) -> Result<Raised> {
-    let tolerance = tried.options.tolerance;
+fn raised(Flat { surface, plane, found }: Flat, start_flips: usize, tried: &mut Tried) -> Result<Raised> {
+    let tolerance = tried.solver.options.tolerance;
     let view = surface.centre(&plane, tried.weights)?;
     let plane = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
     let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
-    let (metric, curvature) = polished(&surface.mesh, spherical, tried)?;
+    let (metric, curvature) = polished(&surface.mesh, spherical, &mut tried.solver)?;
     let delaunay_violation = surface.delaunay_violation();
     let whole = curvature.broken.is_empty();
     let converged = found.converged
@@ -196,8 +197,8 @@ fn raised((surface, plane, found): Flat, start_flips: usize, tried: &mut Tried) 
             StopReason::Converged if !converged => StopReason::Stalled,
             reason => reason,
         },
-        iterations: tried.spent.iterations,
-        seconds: tried.spent.seconds,
+        iterations: tried.solver.iterations,
+        seconds: tried.solver.seconds,
         flips: surface.flips,
         start_flips,
         puncture: surface.at,
@@ -217,19 +218,19 @@ fn raised((surface, plane, found): Flat, start_flips: usize, tried: &mut Tried) 
 
 /// The spherical metric with K = 0 to the tolerance, and its curvature. As lifted it has that but for what
 /// rounding of the plane does to needles, which a step or two on the sphere make up for.
-fn polished(mesh: &Mesh, lifted: Metric, tried: &mut Tried) -> Result<(Metric, Curvature)> {
-    let (flow, left) = (tried.options, tried.left());
+fn polished(mesh: &Mesh, lifted: Metric, solver: &mut Solver) -> Result<(Metric, Curvature)> {
+    let (flow, left) = (solver.options, solver.left());
     let curvature = lifted.curvature(mesh)?;
     if largest(curvature.at.iter()) <= flow.tolerance || left == 0 {
         return Ok((lifted, curvature));
     }
     let options = Options { max_iterations: POLISH_STEPS.min(left), ..flow.clone() };
     let mut flow = Flow::from_metric(mesh.clone(), lifted.clone(), &options)?;
-    let report = flow.reach(&PerVertex::filled(mesh.n_vertices(), 0.0), tried.control)?.clone();
+    let report = flow.reach(&PerVertex::filled(mesh.n_vertices(), 0.0), solver.control)?.clone();
     let better = report.max_curvature_error < largest(curvature.at.iter());
-    let metric = if better { flow.into_parts().1 } else { lifted };
+    let metric = if better { flow.metric().clone() } else { lifted };
     let curvature = metric.curvature(mesh)?;
-    tried.spent.add(&report);
+    solver.add(&report);
     Ok((metric, curvature))
 }
 
