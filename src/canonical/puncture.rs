@@ -112,7 +112,10 @@ impl Punctured {
             let ended = stop_reason != StopReason::IterationLimit;
             let settled = error < SETTLED || ended;
             let go_on = entered || (settled && self.leave(&turning, error.max(goal.straight))?);
-            if (!go_on && ended) || steps >= most || self.is_flat(FLAT_POLYHEDRON) {
+            // Where triangles are broken at the lowest point flatness is only as sharp as the outline that was asked for.
+            let is_broken = stop_reason == StopReason::BrokenTriangles;
+            let within = if is_broken { FLAT_POLYHEDRON.max(goal.straight) } else { FLAT_POLYHEDRON };
+            if (!go_on && ended) || steps >= most || self.is_flat(within) {
                 let converged = report.converged() && !go_on;
                 let stop_reason = if go_on { StopReason::IterationLimit } else { stop_reason };
                 return Ok(Found { converged, stop_reason, error, turning: least });

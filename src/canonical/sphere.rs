@@ -15,10 +15,10 @@ use crate::metric::{Class, Curvature, Metric, Surface};
 use crate::parallel::Pool;
 use crate::topology::check_vertex;
 
-/// Edges of a result are Delaunay, and its outline convex, to this (radians).
+/// Radians. The angles opposite an edge of a result may exceed π, and its outline turn the wrong way, by this: far above rounding, and
+/// far below what a wrong edge does.
 const DELAUNAY: f64 = 1e-9;
-
-/// Newton steps on the sphere after the lift.
+/// Newton steps on the sphere after the lift, at most: one or two make up for rounding.
 const POLISH_STEPS: usize = 10;
 
 /// Options of [`uniformize_sphere`].
@@ -129,7 +129,6 @@ fn flow(options: &SphereOptions) -> Options {
 
 fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> Result<Sphere> {
     let from = Solution::delaunay(surface.clone(), Class::yamabe(Space::S2), control)?;
-    let start_flips = from.start_flips();
     let (mesh, metric, followed) = from.parts();
     let n = mesh.n_vertices();
     let mut metric = Metric { space: Space::E2, u: PerVertex::filled(n, 0.0), ..metric };
@@ -145,66 +144,48 @@ fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> 
     };
     let nearly_flat = flat.surface.is_flat(NEARLY_FLAT).then(|| on_a_circle(&flat.surface.mesh));
     let (stop_reason, error) = (flat.found.stop_reason, flat.found.error);
-    let raised = match (raised(flat, start_flips, &mut tried), nearly_flat) {
-        (Err(Error::Cancelled), _) => return Err(Error::Cancelled),
-        (Ok(raised), Some(why)) if !raised.report.converged => return Err(why),
-        (Ok(raised), _) => raised,
-        (Err(_), Some(why)) => return Err(why),
-        (Err(why), None) => {
+    match (raised(flat, from, unit, &mut tried), nearly_flat) {
+        (Err(Error::Cancelled), _) => Err(Error::Cancelled),
+        (Ok(sphere), why) if why.is_none() || sphere.report.converged => Ok(sphere),
+        (_, Some(why)) => Err(why),
+        (end, None) => end.map_err(|why| {
             let (steps, why) = (tried.solver.iterations, said(why));
-            return Err(Error::Layout(format!(
+            Error::Layout(format!(
                 "no sphere over the plane that was found (max |K| = {error:.1e} after {steps} steps: {stop_reason}): {why}"
-            )));
-        }
-    };
-    let Raised { surface, mut metric, plane, positions, report } = raised;
-    metric.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
-    metric.u.iter_mut().for_each(|u| *u -= unit.ln());
-    let Punctured { mesh, followed, flips, .. } = surface;
-    let metric = from.at(mesh, metric, followed, flips);
-    Ok(Sphere { metric, positions, plane, report })
+            ))
+        }),
+    }
 }
 
-/// The polyhedron over a plane.
-struct Raised {
-    surface: Punctured,
-    /// In S².
-    metric: Metric,
-    plane: PerVertex<[f64; 2]>,
-    positions: PerVertex<Point>,
-    report: SphereReport,
-}
-
-/// From the plane to the sphere.
-fn raised(Flat { surface, plane, found }: Flat, start_flips: usize, tried: &mut Tried) -> Result<Raised> {
+/// From the plane to the sphere: the polyhedron over the plane, and its metric as one of the surface that flows went out `from`, whose
+/// lengths are `unit` times those of the plane's class.
+fn raised(flat: Flat, from: Solution, unit: f64, tried: &mut Tried) -> Result<Sphere> {
+    let Flat { surface, plane, found } = flat;
     let tolerance = tried.solver.options.tolerance;
     let view = surface.centre(&plane, tried.weights)?;
     let plane = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
     let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
-    let (metric, curvature) = polished(&surface.mesh, spherical, &mut tried.solver)?;
-    let delaunay_violation = surface.delaunay_violation();
-    let whole = curvature.broken.is_empty();
-    let converged = found.converged
-        && whole
-        && delaunay_violation <= DELAUNAY
-        && found.turning >= -DELAUNAY
-        && largest(curvature.at.iter()) <= tolerance;
+    let (mut metric, curvature) = polished(&surface.mesh, spherical, &mut tried.solver)?;
+    let (delaunay_violation, error) = (surface.delaunay_violation(), largest(curvature.at.iter()));
+    let is_whole = curvature.broken.is_empty();
+    let is_convex = delaunay_violation <= DELAUNAY && found.turning >= -DELAUNAY;
+    let converged = found.converged && is_whole && is_convex && error <= tolerance;
     let report = SphereReport {
         converged,
         stop_reason: match found.stop_reason {
             // The flow came to its target, the polyhedron did not.
-            StopReason::Converged if !whole => StopReason::BrokenTriangles,
+            StopReason::Converged if !is_whole => StopReason::BrokenTriangles,
             StopReason::Converged if !converged => StopReason::Stalled,
             reason => reason,
         },
         iterations: tried.solver.iterations,
         seconds: tried.solver.seconds,
         flips: surface.flips,
-        start_flips,
+        start_flips: from.start_flips(),
         puncture: surface.at,
         tried: tried.flows,
         max_curvature_error: found.error,
-        spherical_curvature_error: largest(curvature.at.iter()),
+        spherical_curvature_error: error,
         gauss_bonnet: curvature.gauss_bonnet,
         u_range: range(&surface.metric.u, surface.at),
         smallest_edge: metric.lengths(&surface.mesh)?.iter().copied().fold(f64::INFINITY, f64::min),
@@ -213,11 +194,14 @@ fn raised(Flat { surface, plane, found }: Flat, start_flips: usize, tried: &mut 
         nonconvexity: nonconvexity(&surface.mesh, &positions),
         centring: off_centre(&positions, tried.weights),
     };
-    Ok(Raised { surface, metric, plane, positions, report })
+    metric.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
+    metric.u.iter_mut().for_each(|u| *u -= unit.ln());
+    let Punctured { mesh, followed, flips, .. } = surface;
+    Ok(Sphere { metric: from.at(mesh, metric, followed, flips), positions, plane, report })
 }
 
-/// The spherical metric with K = 0 to the tolerance, and its curvature. As lifted it has that but for what
-/// rounding of the plane does to needles, which a step or two on the sphere make up for.
+/// The spherical metric with K = 0 to the tolerance, and its curvature. The lifted metric has that, but for what rounding of the plane
+/// does to needles: Newton steps on the sphere make up for it.
 fn polished(mesh: &Mesh, lifted: Metric, solver: &mut Solver) -> Result<(Metric, Curvature)> {
     let (flow, left) = (solver.options, solver.left());
     let curvature = lifted.curvature(mesh)?;

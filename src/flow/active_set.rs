@@ -90,3 +90,39 @@ impl Flow {
         Ok(report)
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::geometry::Space;
+    use crate::mesh::{PerVertex, shapes};
+    use crate::metric::{Class, Surface};
+
+    #[test]
+    fn held_vertices_are_pinned_ones_and_need_no_analysis_of_their_own() {
+        let surface = Surface::from_soup(&shapes::icosphere(6).unwrap()).unwrap();
+        let start = surface.initial(Class::yamabe(Space::E2)).unwrap().metric;
+        let (mesh, control) = (Mesh::clone(surface.mesh()), Control::new());
+        let mut bounded = Flow::within_bounds(mesh.clone(), start.clone(), &Options::default()).unwrap();
+        for held in [vec![0, 5, 9], vec![7], vec![0, 1, 2, 3, 4, 30]] {
+            let held: Vec<VertexId> = held.into_iter().map(VertexId).collect();
+            let options = Options { pinned: held.clone(), max_iterations: 1, ..Options::default() };
+            let mut pinned = Flow::from_metric(mesh.clone(), start.clone(), &options).unwrap();
+            let expected =
+                pinned.reach(&PerVertex::filled(mesh.n_vertices(), 0.0), &control).unwrap().clone();
+            let (mut moved_mesh, mut metric, mut followed) = (mesh.clone(), start.clone(), Vec::new());
+            let lent = Lent { mesh: &mut moved_mesh, metric: &mut metric, followed: &mut followed };
+            let active = ActiveSet { held: held.clone(), fixed_edges: Vec::new() };
+            let report = bounded.step_within(lent, &active, 3.0, &control).unwrap();
+            assert_eq!((report.iterations, report.flips), (expected.iterations, expected.flips));
+            assert!((report.max_curvature_error - expected.max_curvature_error).abs() < 1e-11);
+            assert_eq!(&moved_mesh, pinned.mesh());
+            for v in mesh.vertices() {
+                assert!((metric.u[v] - pinned.metric().u[v]).abs() < 1e-11, "{v}");
+            }
+            assert!(held.iter().all(|&v| metric.u[v] == start.u[v]));
+            println!("{} {} {}", report.flips, report.seconds.analyse, report.max_curvature_error);
+        }
+    }
+}

@@ -95,10 +95,11 @@ impl Jacobian {
     /// How many edges of a mesh have their entry elsewhere than here.
     pub fn changed_edges(&self, mesh: &Mesh) -> usize {
         let is_changed = |e: &EdgeId| {
-            let [i, j] = mesh.ends(*e).map(|v| self.unknown[v.index()]);
-            let has_entry = i != NONE && j != NONE && i != j;
-            let position = if has_entry { self.pattern.position(i as usize, j as usize) } else { None };
-            position.map_or(has_entry || self.entry[e.index()] != NONE, |p| p as u32 != self.entry[e.index()])
+            let ([i, j], entry) = (mesh.ends(*e).map(|v| self.unknown[v.index()]), self.entry[e.index()]);
+            match i == j || i == NONE || j == NONE {
+                true => entry != NONE,
+                false => self.pattern.position(i as usize, j as usize) != Some(entry as usize),
+            }
         };
         mesh.edges().filter(is_changed).count()
     }
