@@ -154,10 +154,7 @@ impl Punctured {
             if (turning >= -most && !has_several) || around.iter().any(|&v| is_near[v]) {
                 continue;
             }
-            let rise = match has_several {
-                true => Some(WIDEST_OPENING),
-                false => self.opened(arc, -turning),
-            };
+            let rise = if has_several { Some(WIDEST_OPENING) } else { self.opened(arc, -turning) };
             let Some(rise) = rise else { continue };
             (self.metric.u[j], self.metric.u_low[j]) = two_sum(self.metric.u[j], rise);
             around.iter().for_each(|&v| is_near[v] = true);
