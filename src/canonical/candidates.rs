@@ -12,11 +12,11 @@ use super::star::Punctured;
 use crate::error::Result;
 use crate::mesh::{PerVertex, VertexId};
 
-/// Depths looked at, in steps of 1 of u.
+/// Depths, in steps of 1 of u, at each of which the best vertex is looked at: u of surfaces in doubles has a smaller range.
 const DEPTHS: usize = 64;
-/// And so many vertices at any depth.
-const ANYWHERE: usize = 8;
-/// Angles below this are the same.
+/// So many of the best vertices are looked at, whatever their depth.
+const BEST_ANYWHERE: usize = 8;
+/// Radians. Angles below this are all rounding, so one is as bad as the other.
 const LEAST_ANGLE: f64 = 1e-12;
 
 impl Punctured {
@@ -34,15 +34,15 @@ impl Punctured {
             [self.at, self.mesh.tip(arc)].into_iter().for_each(|v| note(v, turning));
         }
         let lost = |v: VertexId| -narrow[v].max(LEAST_ANGLE).ln();
-        let near = |v| self.mesh.outgoing(v).map(|arc| self.bound(arc)).fold(f64::NEG_INFINITY, f64::max);
         let top = u.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let depth = |v: VertexId| ((top - u[v]) as usize).min(DEPTHS - 1);
-        let mut all: Vec<(f64, VertexId)> = self.mesh.vertices().map(|v| (near(v) + lost(v), v)).collect();
+        let mut all: Vec<(f64, VertexId)> =
+            self.mesh.vertices().map(|v| (self.height(v) + lost(v), v)).collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut seen = [false; DEPTHS];
         let mut chosen: Vec<VertexId> = Vec::new();
         for (rank, &(_, v)) in all.iter().enumerate() {
-            if !std::mem::replace(&mut seen[depth(v)], true) || rank < ANYWHERE {
+            if !std::mem::replace(&mut seen[depth(v)], true) || rank < BEST_ANYWHERE {
                 chosen.push(v);
             }
         }
@@ -50,6 +50,18 @@ impl Punctured {
         let mut ranked: Vec<(f64, VertexId)> = chosen.into_iter().map(cost).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         Ok(ranked.into_iter().map(|(_, v)| v).collect())
+    }
+
+    /// The vertex whose shortest edge is the longest.
+    pub fn widest(&self) -> VertexId {
+        let better =
+            |(best, least), v| if self.height(v) < least { (v, self.height(v)) } else { (best, least) };
+        self.mesh.vertices().fold((VertexId(0), f64::INFINITY), better).0
+    }
+
+    /// The largest bound of a neighbour of v, if v is the puncture: that at its shortest edge.
+    fn height(&self, v: VertexId) -> f64 {
+        self.mesh.outgoing(v).map(|arc| self.bound(arc)).fold(f64::NEG_INFINITY, f64::max)
     }
 }
 

@@ -1,31 +1,41 @@
 //! The flat metric of a punctured sphere: the plane.
 //!
 //! Among the metrics that keep their bounds ([`super::star`]) the convex energy `∫ Σ K_j du_j` of the planar part has one lowest point
-//! [Spr20]. There K = 0 inside; at the vertices that are held by their bound, the link of ∞, the gradient K_j is the turning of
-//! the outline and is not negative. So the planar part is a convex polygon with a Delaunay triangulation, or, in the upper
-//! half-space, an ideal convex polyhedron with one vertex at infinity.
+//! [Spr20]. There K = 0 inside; at the link of ∞, whose vertices are on their bounds, the gradient K_j is the turning of the outline
+//! and is not negative. So the planar part is a convex polygon with a Delaunay triangulation, or, in the upper half-space, an ideal
+//! convex polyhedron with one vertex at infinity.
 //!
-//! Newton's method with an active set: after each step, vertices that overstep their bound are put on it; those that
-//! are held against their gradient are let go.
+//! It is found by an active-set method ([`ActiveSet`]): Newton steps with the link held; after each step vertices that violate their
+//! bound enter the link, and those at which the outline turns the wrong way leave it.
 
 use super::star::{FLAT_POLYHEDRON, Punctured};
 use crate::control::Control;
 use crate::error::Result;
-use crate::flow::{Flow, Options, Report, Seconds, StopReason};
+use crate::flow::{ActiveSet, Flow, Lent, Options, Report, Seconds, StopReason};
 use crate::geometry::twofold::two_sum;
 use crate::geometry::worse;
-use crate::mesh::{PerVertex, VertexId};
+use crate::mesh::{HalfedgeId, PerVertex};
 
-/// Vertices are let go once |K| inside is below this: before, turning says little.
+/// Vertices leave the link once the largest |K| inside, in radians, is below this: before, the outline is still far from its shape.
 const SETTLED: f64 = 0.5;
-/// Most of its reflex angle that a vertex is let go by at once.
-const WIDEST: f64 = 0.5;
-/// Below this |K| a good step lowers it.
-const NEAR: f64 = 1e-3;
-/// Steps of u are not made shorter than this: squares of angles that are rounding.
-const LEAST_STEP: f64 = 1e-24;
-/// Angles of slivers below this change nothing around them: lengths move by their squares.
+/// The widest angle, in radians, that a vertex which leaves the link is opened by at once: the surface around it is only known nearby.
+const WIDEST_OPENING: f64 = 0.5;
+/// Radians. Below this largest |K| Newton converges quadratically: a step that raises the error was too long.
+const QUADRATIC: f64 = 1e-3;
+/// Steps of u are not shortened below this: it is the square of an angle that is all rounding, and lengths move by squares of angles.
+const SHORTEST_STEP: f64 = 1e-24;
+/// Radians. A triangle that opens by less than this moves nothing around it, since lengths move by the square of the angle.
 const NARROW: f64 = 1e-3;
+
+/// What a plane is asked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Goal {
+    /// The outline turns by minus this at least, radians.
+    pub straight: f64,
+    /// Whether angles far below 1e-4 count at the end. Then edges of slivers are flipped too, and near the end a step that
+    /// raises the error, because a sliver breaks on its way, is made again a quarter as long.
+    pub slivers: bool,
+}
 
 /// How a flat metric was found.
 #[derive(Debug, Clone, Copy)]
@@ -39,15 +49,29 @@ pub(super) struct Found {
     pub turning: f64,
 }
 
-/// What flows have cost.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Spent {
-    /// Newton steps.
+/// The one solver of a call, and what its steps have cost.
+pub(super) struct Solver<'a> {
+    flow: Flow,
+    pub options: &'a Options,
+    pub control: &'a Control,
+    /// Newton steps so far.
     pub iterations: usize,
     pub seconds: Seconds,
 }
 
-impl Spent {
+impl<'a> Solver<'a> {
+    /// For punctures of this surface.
+    pub fn new(begin: &Punctured, options: &'a Options, control: &'a Control) -> Result<Solver<'a>> {
+        let flow = Flow::within_bounds(begin.mesh.clone(), begin.metric.clone(), options)?;
+        Ok(Solver { flow, options, control, iterations: 0, seconds: Seconds::default() })
+    }
+
+    /// Newton steps that are left of the limit of the options.
+    pub fn left(&self) -> usize {
+        self.options.iteration_limit().saturating_sub(self.iterations)
+    }
+
+    /// Count what a flow has cost.
     pub fn add(&mut self, report: &Report) {
         self.iterations += report.iterations;
         self.seconds += report.seconds;
@@ -55,51 +79,43 @@ impl Spent {
 }
 
 impl Punctured {
-    /// Flow from the present u to the plane with an outline that turns by `−straight` at least, in `most` Newton steps at most, which are
-    /// added to `spent`; no further where all vertices lie on a line ([`Punctured::is_flat`]).
-    ///
-    /// `slivers`: at the end angles far below 1e-4 count. Then edges of slivers are flipped by [`Punctured::restore`], and a step that
-    /// raises the error, which is one over the edge of where slivers are triangles, is made again a quarter as long.
-    pub fn flatten(
-        &mut self,
-        straight: f64,
-        slivers: bool,
-        most: usize,
-        spent: &mut Spent,
-        options: &Options,
-        control: &Control,
-    ) -> Result<Found> {
-        let (mut rounds, mut longest) = (0, options.max_step);
-        self.restore(slivers)?;
+    /// Flow from the present u to the plane in `most` Newton steps at most; no further where all vertices lie on a line
+    /// ([`Punctured::is_flat`]).
+    pub fn flatten(&mut self, goal: Goal, most: usize, solver: &mut Solver) -> Result<Found> {
+        let (mut steps, mut longest) = (0, solver.options.max_step);
+        self.enter(goal.slivers)?;
         loop {
-            let before = slivers.then(|| self.clone());
-            let report = self.step(longest, options, control)?;
-            rounds += 1;
-            spent.add(&report);
+            let before = goal.slivers.then(|| (self.metric.u.clone(), self.metric.u_low.clone()));
+            let report = self.step(longest, solver)?;
+            steps += 1;
             let (error, stop_reason) = (report.max_curvature_error, report.stop_reason);
-            let first = report.residuals.first().copied().unwrap_or(f64::INFINITY);
-            longest = options.max_step;
-            if let Some(before) = before.filter(|_| first < NEAR && first < error && rounds < most) {
-                let moved = |v: VertexId| (self.metric.u[v] - before.metric.u[v]).abs();
-                let moved = self.mesh.vertices().map(moved).fold(0.0, f64::max);
-                if moved > LEAST_STEP {
-                    (*self, longest) = (before, 0.25 * moved);
+            let was_near = report.residuals.first().is_some_and(|&first| first < QUADRATIC && first < error);
+            longest = solver.options.max_step;
+            if let Some((u, u_low)) = before.filter(|_| was_near && steps < most) {
+                let moved = self.metric.u.iter().zip(u.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, worse);
+                if moved > SHORTEST_STEP {
+                    (self.metric.u, self.metric.u_low) = (u, u_low);
+                    self.enter(true)?;
+                    longest = 0.25 * moved;
                     continue;
                 }
             }
-            let changed = self.restore(slivers)?;
+            let entered = self.enter(goal.slivers)?;
             let turning = self.turning()?;
             let least = -turning.iter().map(|x| -x).fold(f64::NEG_INFINITY, worse);
             log::debug!(
                 "punctured at {}, step {}: max |K| = {error:.1e}, {} arcs, least turning {least:.1e}",
                 self.at,
-                spent.iterations,
+                solver.iterations,
                 turning.len()
             );
             let ended = stop_reason != StopReason::IterationLimit;
             let settled = error < SETTLED || ended;
-            let go_on = changed || (settled && self.release(&turning, error.max(straight))?);
-            if (!go_on && ended) || rounds >= most || self.is_flat(FLAT_POLYHEDRON)? {
+            let go_on = entered || (settled && self.leave(&turning, error.max(goal.straight))?);
+            // Where triangles are broken at the lowest point flatness is only as sharp as the outline that was asked for.
+            let is_broken = stop_reason == StopReason::BrokenTriangles;
+            let within = if is_broken { FLAT_POLYHEDRON.max(goal.straight) } else { FLAT_POLYHEDRON };
+            if (!go_on && ended) || steps >= most || self.is_flat(within)? {
                 let converged = report.converged() && !go_on;
                 let stop_reason = if go_on { StopReason::IterationLimit } else { stop_reason };
                 return Ok(Found { converged, stop_reason, error, turning: least });
@@ -107,57 +123,65 @@ impl Punctured {
         }
     }
 
-    /// One Newton step with the star held.
-    fn step(&mut self, max_step: f64, options: &Options, control: &Control) -> Result<Report> {
-        let mut held: Vec<VertexId> = self.star().iter().map(|&arc| self.mesh.tip(arc)).collect();
-        held.push(self.at);
-        let options =
-            Options { fixed_edges: self.rim(), max_iterations: 1, max_step, pinned: held, ..options.clone() };
-        let followed = std::mem::take(&mut self.followed);
-        let mut flow = Flow::from_metric(self.mesh.clone(), self.closed(), &options)?.following(followed);
-        let report = flow.reach(&PerVertex::filled(self.mesh.n_vertices(), 0.0), control)?.clone();
-        (self.mesh, self.metric, self.followed) = flow.into_parts();
+    /// One Newton step with the puncture and its link held.
+    fn step(&mut self, max_step: f64, solver: &mut Solver) -> Result<Report> {
+        let link = self.star().into_iter().map(|arc| self.mesh.tip(arc));
+        let active = ActiveSet { held: link.chain([self.at]).collect(), fixed_edges: self.rim() };
+        // The solver looks at the faces of the star as well: they must be triangles.
+        self.metric.u[self.at] = self.closing_u();
+        let lent = Lent { mesh: &mut self.mesh, metric: &mut self.metric, followed: &mut self.followed };
+        let report = solver.flow.step_within(lent, &active, max_step, solver.control);
         self.metric.u[self.at] = 0.0;
+        let report = report?;
         self.flips += report.flips;
+        solver.add(&report);
         Ok(report)
     }
 
-    /// Let go of link vertices that turn by less than `−most`, no two next to each other; returns whether there were any.
-    ///
-    /// Flipped out, j lies on the side c of a triangle (a, b, c = a + b). Raising u_j by x makes a + b − c larger by x (a + b)/2, which
-    /// is `φ² a b/(2 (a + b))` where the angle at j is `π − φ`. A narrow φ is all of what the outline turns in excess, as nothing else
-    /// moves then; a wide one half of it. c is rounded: the difference is taken as it came out.
-    ///
-    /// A vertex j with m arcs has `K_j = Σ κ − 2π (m − 1) < 0`, since κ ≤ π: it is let go of all.
-    fn release(&mut self, turning: &[f64], most: f64) -> Result<bool> {
-        let mut near = PerVertex::filled(self.mesh.n_vertices(), false);
+    /// Vertices at which the outline turns by less than `−most` leave the link, no two next to each other; returns whether there
+    /// were any. A vertex j with m > 1 arcs leaves all of them: angles inside are at most π, so `K_j = Σ κ − 2π (m − 1) < 0`.
+    fn leave(&mut self, turning: &[f64], most: f64) -> Result<bool> {
+        let mut is_near = PerVertex::filled(self.mesh.n_vertices(), false);
         let mut arcs = PerVertex::filled(self.mesh.n_vertices(), 0);
         let star = self.star();
         star.iter().for_each(|&arc| arcs[self.mesh.tip(arc)] += 1);
         let mut any = false;
-        for (arc, turning) in star.into_iter().zip(turning) {
-            let ([left, right], j) = ([self.link(arc), self.mesh.prev(arc.twin())], self.mesh.tip(arc));
-            let ends = [j, self.mesh.tip(left), self.mesh.origin(right)];
-            let [a, b] = [left, right].map(|h| self.length(h));
-            let several = arcs[j] > 1;
-            if (*turning >= -most && !several) || ends.iter().any(|&v| near[v]) {
+        for (arc, &turning) in star.into_iter().zip(turning) {
+            let [left, right] = self.link_at(arc);
+            let j = self.mesh.tip(arc);
+            let around = [j, self.mesh.tip(left), self.mesh.origin(right)];
+            let has_several = arcs[j] > 1;
+            if (turning >= -most && !has_several) || around.iter().any(|&v| is_near[v]) {
                 continue;
             }
-            let rise = if several {
-                WIDEST
-            } else if self.flip(arc.edge()) {
-                let angle = if -turning < NARROW { -turning } else { (-0.5 * turning).min(WIDEST) };
-                angle * angle * (a / (a + b)) * (b / (a + b)) - 4.0 * self.slack(arc)? / (a + b)
-            } else {
-                continue;
-            };
+            let rise = if has_several { Some(WIDEST_OPENING) } else { self.opened(arc, -turning)? };
+            let Some(rise) = rise else { continue };
             (self.metric.u[j], self.metric.u_low[j]) = two_sum(self.metric.u[j], rise);
-            ends.iter().for_each(|&v| near[v] = true);
+            around.iter().for_each(|&v| is_near[v] = true);
             any = true;
         }
         if any {
-            self.restore(false)?;
+            self.enter(false)?;
         }
         Ok(any)
+    }
+
+    /// Flip an arc to j out of the star, and return the rise of u_j after which the new triangle at j has the angle `π − φ`; none where
+    /// the arc cannot be flipped. A narrow `excess` of the angle over π is φ, as nothing else moves; half of a wide one is.
+    ///
+    /// The new triangle has the sides a, b and c = a + b. Raising u_j by x makes a + b − c larger by x (a + b)/2, which is to be
+    /// `φ² a b/(2 (a + b))`. c is rounded: the present a + b − c is taken as it came out.
+    fn opened(&mut self, arc: HalfedgeId, excess: f64) -> Result<Option<f64>> {
+        let [a, b] = self.link_at(arc).map(|h| self.length(h));
+        if !self.flip(arc.edge()) {
+            return Ok(None);
+        }
+        let phi = if excess < NARROW { excess } else { (0.5 * excess).min(WIDEST_OPENING) };
+        Ok(Some(phi * phi * (a / (a + b)) * (b / (a + b)) - 4.0 * self.slack(arc)? / (a + b)))
+    }
+
+    /// The edges of the link at the tip of an arc: from there, and to there.
+    fn link_at(&self, arc: HalfedgeId) -> [HalfedgeId; 2] {
+        [self.link(arc), self.mesh.prev(arc.twin())]
     }
 }

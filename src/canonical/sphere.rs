@@ -2,6 +2,7 @@
 
 use super::candidates::range;
 use super::lift::{lifted, nonconvexity, off_centre};
+use super::puncture::Solver;
 use super::star::{NEARLY_FLAT, Punctured};
 use super::tries::{Flat, Tried, on_a_circle, said};
 use crate::control::Control;
@@ -14,10 +15,10 @@ use crate::metric::{Class, Curvature, Metric, Surface};
 use crate::parallel::Pool;
 use crate::topology::check_vertex;
 
-/// Edges of a result are Delaunay, and its outline convex, to this (radians).
+/// Radians. The angles opposite an edge of a result may exceed π, and its outline turn the wrong way, by this: far above rounding, and
+/// far below what a wrong edge does.
 const DELAUNAY: f64 = 1e-9;
-
-/// Newton steps on the sphere after the lift.
+/// Newton steps on the sphere after the lift, at most: one or two make up for rounding.
 const POLISH_STEPS: usize = 10;
 
 /// Options of [`uniformize_sphere`].
@@ -128,7 +129,6 @@ fn flow(options: &SphereOptions) -> Options {
 
 fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> Result<Sphere> {
     let from = Solution::delaunay(surface.clone(), Class::yamabe(Space::S2), control)?;
-    let start_flips = from.start_flips();
     let (mesh, metric, followed) = from.parts();
     let n = mesh.n_vertices();
     let mut metric = Metric { space: Space::E2, u: PerVertex::filled(n, 0.0), ..metric };
@@ -137,73 +137,55 @@ fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> 
     let weights = vertex_areas(surface, unit);
     let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
     let flow = flow(options);
-    let mut tried = Tried::new(&weights, &flow, control);
+    let mut tried = Tried::new(&weights, Solver::new(&begin, &flow, control)?);
     let flat = match options.puncture {
         Some(v) => tried.punctured_at(&begin, v)?,
         None => tried.best(&begin)?,
     };
-    let nearly_flat = flat.0.is_flat(NEARLY_FLAT)?.then(|| on_a_circle(&flat.0.mesh));
-    let (stop_reason, error) = (flat.2.stop_reason, flat.2.error);
-    let raised = match (raised(flat, start_flips, &mut tried), nearly_flat) {
-        (Err(Error::Cancelled), _) => return Err(Error::Cancelled),
-        (Ok(raised), Some(why)) if !raised.report.converged => return Err(why),
-        (Ok(raised), _) => raised,
-        (Err(_), Some(why)) => return Err(why),
-        (Err(why), None) => {
-            let (steps, why) = (tried.spent.iterations, said(why));
-            return Err(Error::Layout(format!(
+    let nearly_flat = flat.surface.is_flat(NEARLY_FLAT)?.then(|| on_a_circle(&flat.surface.mesh));
+    let (stop_reason, error) = (flat.found.stop_reason, flat.found.error);
+    match (raised(flat, from, unit, &mut tried), nearly_flat) {
+        (Err(Error::Cancelled), _) => Err(Error::Cancelled),
+        (Ok(sphere), why) if why.is_none() || sphere.report.converged => Ok(sphere),
+        (_, Some(why)) => Err(why),
+        (end, None) => end.map_err(|why| {
+            let (steps, why) = (tried.solver.iterations, said(why));
+            Error::Layout(format!(
                 "no sphere over the plane that was found (max |K| = {error:.1e} after {steps} steps: {stop_reason}): {why}"
-            )));
-        }
-    };
-    let Raised { surface, mut metric, plane, positions, report } = raised;
-    metric.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
-    metric.u.iter_mut().for_each(|u| *u -= unit.ln());
-    let Punctured { mesh, followed, flips, .. } = surface;
-    let metric = from.at(mesh, metric, followed, flips);
-    Ok(Sphere { metric, positions, plane, report })
+            ))
+        }),
+    }
 }
 
-/// The polyhedron over a plane.
-struct Raised {
-    surface: Punctured,
-    /// In S².
-    metric: Metric,
-    plane: PerVertex<[f64; 2]>,
-    positions: PerVertex<Point>,
-    report: SphereReport,
-}
-
-/// From the plane to the sphere.
-fn raised((surface, plane, found): Flat, start_flips: usize, tried: &mut Tried) -> Result<Raised> {
-    let tolerance = tried.options.tolerance;
+/// From the plane to the sphere: the polyhedron over the plane, and its metric as one of the surface that flows went out `from`, whose
+/// lengths are `unit` times those of the plane's class.
+fn raised(flat: Flat, from: Solution, unit: f64, tried: &mut Tried) -> Result<Sphere> {
+    let Flat { surface, plane, found } = flat;
+    let tolerance = tried.solver.options.tolerance;
     let view = surface.centre(&plane, tried.weights)?;
     let plane = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
     let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
-    let (metric, curvature) = polished(&surface.mesh, spherical, tried)?;
-    let delaunay_violation = surface.delaunay_violation()?;
-    let whole = curvature.broken.is_empty();
-    let converged = found.converged
-        && whole
-        && delaunay_violation <= DELAUNAY
-        && found.turning >= -DELAUNAY
-        && largest(curvature.at.iter()) <= tolerance;
+    let (mut metric, curvature) = polished(&surface.mesh, spherical, &mut tried.solver)?;
+    let (delaunay_violation, error) = (surface.delaunay_violation()?, largest(curvature.at.iter()));
+    let is_whole = curvature.broken.is_empty();
+    let is_convex = delaunay_violation <= DELAUNAY && found.turning >= -DELAUNAY;
+    let converged = found.converged && is_whole && is_convex && error <= tolerance;
     let report = SphereReport {
         converged,
         stop_reason: match found.stop_reason {
             // The flow came to its target, the polyhedron did not.
-            StopReason::Converged if !whole => StopReason::BrokenTriangles,
+            StopReason::Converged if !is_whole => StopReason::BrokenTriangles,
             StopReason::Converged if !converged => StopReason::Stalled,
             reason => reason,
         },
-        iterations: tried.spent.iterations,
-        seconds: tried.spent.seconds,
+        iterations: tried.solver.iterations,
+        seconds: tried.solver.seconds,
         flips: surface.flips,
-        start_flips,
+        start_flips: from.start_flips(),
         puncture: surface.at,
         tried: tried.flows,
         max_curvature_error: found.error,
-        spherical_curvature_error: largest(curvature.at.iter()),
+        spherical_curvature_error: error,
         gauss_bonnet: curvature.gauss_bonnet,
         u_range: range(&surface.metric.u, surface.at),
         smallest_edge: metric.lengths(&surface.mesh)?.iter().copied().fold(f64::INFINITY, f64::min),
@@ -212,24 +194,27 @@ fn raised((surface, plane, found): Flat, start_flips: usize, tried: &mut Tried) 
         nonconvexity: nonconvexity(&surface.mesh, &positions),
         centring: off_centre(&positions, tried.weights),
     };
-    Ok(Raised { surface, metric, plane, positions, report })
+    metric.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
+    metric.u.iter_mut().for_each(|u| *u -= unit.ln());
+    let Punctured { mesh, followed, flips, .. } = surface;
+    Ok(Sphere { metric: from.at(mesh, metric, followed, flips), positions, plane, report })
 }
 
-/// The spherical metric with K = 0 to the tolerance, and its curvature. As lifted it has that but for what
-/// rounding of the plane does to needles, which a step or two on the sphere make up for.
-fn polished(mesh: &Mesh, lifted: Metric, tried: &mut Tried) -> Result<(Metric, Curvature)> {
-    let (flow, left) = (tried.options, tried.left());
+/// The spherical metric with K = 0 to the tolerance, and its curvature. The lifted metric has that, but for what rounding of the plane
+/// does to needles: Newton steps on the sphere make up for it.
+fn polished(mesh: &Mesh, lifted: Metric, solver: &mut Solver) -> Result<(Metric, Curvature)> {
+    let (flow, left) = (solver.options, solver.left());
     let curvature = lifted.curvature(mesh)?;
     if largest(curvature.at.iter()) <= flow.tolerance || left == 0 {
         return Ok((lifted, curvature));
     }
     let options = Options { max_iterations: POLISH_STEPS.min(left), ..flow.clone() };
     let mut flow = Flow::from_metric(mesh.clone(), lifted.clone(), &options)?;
-    let report = flow.reach(&PerVertex::filled(mesh.n_vertices(), 0.0), tried.control)?.clone();
+    let report = flow.reach(&PerVertex::filled(mesh.n_vertices(), 0.0), solver.control)?.clone();
     let better = report.max_curvature_error < largest(curvature.at.iter());
-    let metric = if better { flow.into_parts().1 } else { lifted };
+    let metric = if better { flow.metric().clone() } else { lifted };
     let curvature = metric.curvature(mesh)?;
-    tried.spent.add(&report);
+    solver.add(&report);
     Ok((metric, curvature))
 }
 

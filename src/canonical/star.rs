@@ -21,19 +21,19 @@ use crate::metric::delaunay::ClassFlips;
 use crate::parallel;
 use std::f64::consts::PI;
 
-/// How far above its bound u must be (in u, that is in log l² of the arc) for its arc to be flipped out of the star. Rounding of u and
-/// η moves the bound by about 1e-15.
-const ABOVE_BOUND: f64 = 1e-12;
-/// Flips per edge after which the star is given up: each round flips only edges at the star, so this is far more than they need.
-const MOST_FLIPS: usize = 100;
-/// Rounding of η moves an angle π − φ by a few ε/φ. Edges whose angles exceed π by less than this multiple of ε/φ are not flipped.
-const SLIVER_ROUNDING: f64 = 32.0;
-/// Radians by which the two angles opposite an edge must exceed π, beyond [`SLIVER_ROUNDING`], for the edge to be flipped.
-const ANGLE_ROUNDING: f64 = 1e-12;
-/// Radians: a polyhedron whose planar angles are all this close to 0 or π counts as flat. Where they are within δ, rounding leaves
-/// the spherical metric |K| up to 6e-15/δ (measured), which here is above the tolerance of 1e-10.
+/// A u this far above its bound is off it: rounding of u and η is far below.
+const OFF_BOUND: f64 = 1e-12;
+/// Flips per edge before a star is given up: surfaces need less than one, and rounding could make one go in circles.
+const MOST_FLIPS_PER_EDGE: usize = 100;
+/// Rounding of η moves an angle π − φ by a few ε/φ: an edge is not flipped where the angles opposite it exceed π by less than this
+/// multiple of ε/φ.
+const ANGLE_ROUNDINGS: f64 = 32.0;
+/// Radians. Nor is it flipped where they exceed π by less than this, which is rounding whatever φ is.
+const LEAST_EXCESS: f64 = 1e-12;
+/// Radians. A polyhedron whose dihedral angles are all this close to 0 and π is flat: where they are within δ, rounding leaves the
+/// spherical metric |K| up to 6e-15/δ (measured), which is above the default tolerance of 1e-10 here.
 pub(super) const FLAT_POLYHEDRON: f64 = 5e-5;
-/// Radians: where a flow does not converge and all planar angles are this close to 0 or π, flatness is named as the reason.
+/// Radians. Where a polyhedron this close to a flat one is not found, its flatness is given as the reason.
 pub(super) const NEARLY_FLAT: f64 = 1e-2;
 
 /// A punctured surface: vertex scaling in E².
@@ -77,11 +77,16 @@ impl Punctured {
         (2.0 * self.metric.eta[h.edge()]).sqrt() * (0.5 * (a + b)).exp()
     }
 
-    /// The metric with arcs so long that the star's faces are triangles too.
+    /// A u of the puncture with which arcs are so long that the star's faces are triangles too.
+    pub fn closing_u(&self) -> f64 {
+        let longest = self.star().iter().map(|&arc| self.length(self.link(arc))).fold(1.0, f64::max);
+        2.0 * (2.0 * longest).ln()
+    }
+
+    /// The metric with that u.
     pub fn closed(&self) -> Metric {
         let mut metric = self.metric.clone();
-        let longest = self.star().iter().map(|&arc| self.length(self.link(arc))).fold(1.0, f64::max);
-        metric.u[self.at] = 2.0 * (2.0 * longest).ln();
+        metric.u[self.at] = self.closing_u();
         metric
     }
 
@@ -190,16 +195,17 @@ impl Punctured {
         flipped
     }
 
-    /// Flips until the star is that of u, whose vertices are put on their bounds. `slivers`: edges of slivers are flipped too. Returns
-    /// whether anything changed. Errors: flips that do not end.
-    pub fn restore(&mut self, slivers: bool) -> Result<bool> {
+    /// Flips until the star is that of u: vertices above their bound leave the link, those that violate it enter, and the link is
+    /// put on its bounds. `slivers`: edges of slivers are flipped too. Returns whether anything was flipped. Errors: flips that do
+    /// not end.
+    pub fn enter(&mut self, slivers: bool) -> Result<bool> {
         let before = self.flips;
         loop {
             let last = self.flips;
             for arc in self.star() {
                 let j = self.mesh.tip(arc);
                 if self.mesh.origin(arc) == self.at
-                    && (j == self.at || self.metric.u[j] > self.bound(arc) + ABOVE_BOUND)
+                    && (j == self.at || self.metric.u[j] > self.bound(arc) + OFF_BOUND)
                 {
                     self.flip(arc.edge());
                 }
@@ -219,7 +225,7 @@ impl Punctured {
             if self.flips == last {
                 break;
             }
-            if self.flips - before > MOST_FLIPS * self.mesh.n_edges() {
+            if self.flips - before > MOST_FLIPS_PER_EDGE * self.mesh.n_edges() {
                 let message = "flips around a puncture do not end";
                 return Err(Error::Connectivity { element: "vertex", index: self.at.index(), message });
             }
@@ -242,7 +248,7 @@ impl Punctured {
     fn flip_slivers(&mut self) -> Result<()> {
         let fails = |[a, b]: [f64; 2]| {
             let phi = (PI - a.max(b)).max(f64::EPSILON);
-            a + b - PI > ANGLE_ROUNDING + SLIVER_ROUNDING * f64::EPSILON / phi
+            a + b - PI > LEAST_EXCESS + ANGLE_ROUNDINGS * f64::EPSILON / phi
         };
         // Usually no edge fails, and one parallel look at all of them is enough.
         if !self.opposite()?.iter().any(|&angles| fails(angles)) {

@@ -12,7 +12,7 @@ use super::evaluate::State;
 use crate::error::{Error, Result};
 use crate::geometry::conformal::is_precise;
 use crate::linalg::{Pattern, Symmetric};
-use crate::mesh::{Mesh, VertexId};
+use crate::mesh::{EdgeId, Mesh, VertexId};
 use crate::metric::Metric;
 
 /// No unknown, no entry.
@@ -78,6 +78,30 @@ impl Jacobian {
                 }
             }
         }
+    }
+
+    /// Make the rows and columns of vertices that are `held` those of the identity.
+    pub fn hold(&mut self, mesh: &Mesh, held: &[bool]) {
+        for e in mesh.edges().filter(|&e| mesh.ends(e).iter().any(|v| held[v.index()])) {
+            if let Some(value) = self.values.get_mut(self.entry[e.index()] as usize) {
+                *value = 0.0;
+            }
+        }
+        for (_, &row) in self.unknown.iter().enumerate().filter(|&(v, &row)| held[v] && row != NONE) {
+            self.values[self.pattern.diagonal(row as usize)] = 1.0;
+        }
+    }
+
+    /// How many edges of a mesh have their entry elsewhere than here.
+    pub fn changed_edges(&self, mesh: &Mesh) -> usize {
+        let is_changed = |e: &EdgeId| {
+            let ([i, j], entry) = (mesh.ends(*e).map(|v| self.unknown[v.index()]), self.entry[e.index()]);
+            match i == j || i == NONE || j == NONE {
+                true => entry != NONE,
+                false => self.pattern.position(i as usize, j as usize) != Some(entry as usize),
+            }
+        };
+        mesh.edges().filter(is_changed).count()
     }
 
     /// Add `mass[v]` to the diagonal.

@@ -11,6 +11,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+mod active_set;
 mod cone_angles;
 pub mod cones;
 mod evaluate;
@@ -29,6 +30,7 @@ mod spherical;
 mod start;
 mod system;
 
+pub(crate) use active_set::{ActiveSet, Lent};
 pub use cones::{AutoCones, auto_cones};
 pub use jacobian::curvature_derivative;
 pub use obstruction::Obstruction;
@@ -71,6 +73,8 @@ pub struct Flow {
     /// Edges of `mesh` that are not flipped: those of the options, and their images on a double.
     fixed: FixedEdges,
     pinned: Vec<bool>,
+    /// Whether `pinned` is an active set, which changes between steps: then it stays in the matrix ([`active_set`]).
+    is_bounded: bool,
     /// Per vertex its mirror image on a double, where the metric is kept symmetric.
     mirror: Option<Vec<u32>>,
     /// Told every flip.

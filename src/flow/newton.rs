@@ -93,9 +93,7 @@ impl Flow {
             }
             let mut system = self.take_system(report)?;
             let flips = report.flips;
-            timed(&mut report.seconds.assemble, || {
-                system.jacobian.assemble(&self.mesh, &self.metric, &at.state);
-            });
+            self.assemble(&mut system, &at.state, report);
             control.check()?;
             let factored = self.direction(&mut system, &mut at, report, control)?;
             self.system = Some(system);
@@ -174,9 +172,7 @@ impl Flow {
             return Ok(StopReason::Converged);
         }
         let mut system = self.take_system(report)?;
-        timed(&mut report.seconds.assemble, || {
-            system.jacobian.assemble(&self.mesh, &self.metric, &at.state);
-        });
+        self.assemble(&mut system, &at.state, report);
         at.state.residual(&self.target, &self.pinned, &mut at.residual);
         let floor = system.jacobian.rounding_floor(&self.mesh, &self.metric, &at.state);
         self.system = Some(system);

@@ -30,6 +30,12 @@ impl End {
             End::Stopped(state) | End::AtBoundary(state) => state,
         }
     }
+
+    pub fn into_state(self) -> State {
+        match self {
+            End::Stopped(state) | End::AtBoundary(state) => state,
+        }
+    }
 }
 
 impl Flow {
@@ -186,7 +192,7 @@ impl Flow {
     }
 
     /// The flow by its method, from the start to the end that the report tells.
-    fn flow(&mut self, report: &mut Report, control: &Control) -> Result<End> {
+    pub(super) fn flow(&mut self, report: &mut Report, control: &Control) -> Result<End> {
         let mut state = State::new(&self.mesh, &self.start, &self.start_low);
         let keeps_area = self.options.method == Method::Gradient && self.options.gradient.area_normalised;
         if self.free_scale() && !keeps_area {
@@ -302,7 +308,8 @@ impl Flow {
         let flips = std::mem::take(&mut self.unseen_flips);
         let kept = self.system.take();
         let fixed = || {
-            let mut fixed = self.pinned.clone();
+            let mut fixed =
+                if self.is_bounded { vec![false; self.pinned.len()] } else { self.pinned.clone() };
             fixed[0] |= self.free_scale();
             fixed
         };
@@ -318,6 +325,16 @@ impl Flow {
         report.unknowns = system.unknowns();
         report.factor_entries = system.factor_entries();
         Ok(system)
+    }
+
+    /// Fill the matrix at a state.
+    pub(super) fn assemble(&self, system: &mut System, state: &State, report: &mut Report) {
+        timed(&mut report.seconds.assemble, || {
+            system.jacobian.assemble(&self.mesh, &self.metric, state);
+            if self.is_bounded {
+                system.jacobian.hold(&self.mesh, &self.pinned);
+            }
+        });
     }
 }
 

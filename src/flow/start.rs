@@ -7,7 +7,7 @@ use super::solution::Solution;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::mesh::{Double, FixedEdges, FlipLog, Mesh, NormalCoordinates, PerVertex, VertexId};
+use crate::mesh::{Double, FixedEdges, FlipLog, Mesh, PerVertex, VertexId};
 use crate::metric::{Class, Initial, Metric, Scheme, Surface};
 use crate::parallel::Pool;
 use std::sync::Arc;
@@ -70,16 +70,6 @@ impl Flow {
         Flow::go_on(Solution::start(Origin::of_metric(mesh, &metric, follows)?), options)
     }
 
-    /// The same flow, whose flips these are told: triangulations as curves on [`Flow::mesh`].
-    pub(crate) fn following(self, followed: Vec<NormalCoordinates>) -> Flow {
-        Flow { followed, ..self }
-    }
-
-    /// The triangulation, the metric, and what was told of flips.
-    pub(crate) fn into_parts(self) -> (Mesh, Metric, Vec<NormalCoordinates>) {
-        (self.mesh, self.metric, self.followed)
-    }
-
     fn go_on(from: Solution, options: &Options) -> Result<Flow> {
         options.check()?;
         let Solution { origin, mesh, mut metric, followed, flips, reached, .. } = from;
@@ -105,6 +95,7 @@ impl Flow {
         let (start, start_low) = (metric.u.clone(), metric.u_low.clone());
         let mut flow = Flow {
             pinned: vec![false; mesh.n_vertices()],
+            is_bounded: false,
             target: PerVertex::filled(mesh.n_vertices(), 0.0),
             origin,
             mesh,
