@@ -173,7 +173,6 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
         flips
     });
     let mut flat = surface.clone();
-    let start = (Space::E2, Scheme::Yamabe, Space::E2);
     let mut normal = NormalCoordinates::new(mesh);
     let mut record = |mesh: &Mesh, flip: Flip| normal.record(mesh, flip.edge);
     delaunay_start(&mut flat, Class::yamabe(Space::E2).into(), &mut record, &free).unwrap();

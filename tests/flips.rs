@@ -19,7 +19,7 @@ const MOST_VERTICES: usize = 3000;
 /// Converged, and the metric, measured anew, has the curvature, whole triangles and a Delaunay triangulation.
 fn check(flow: &Flow, report: &Report, target: &PerVertex<f64>, what: &str) {
     assert!(report.is_reached(), "{what}: {} after {} steps", report.stop_reason, report.iterations);
-    let (mesh, metric, target) = (flow.mesh(), flow.metric(), flow.spread_target(target));
+    let (mesh, metric, target) = (flow.mesh(), flow.metric(), flow.spread_target(target).unwrap());
     mesh.validate().unwrap();
     let k = curvature(mesh, metric.space, &metric.lengths(mesh).unwrap()).unwrap();
     assert!(k.broken.is_empty(), "{what}");
