@@ -8,7 +8,7 @@
 //! Held vertices keep their rows and columns in the Newton matrix, as those of the identity. The pattern of the matrix is then that of
 //! the triangulation, whatever is held, so that its analysis lasts from step to step, also from one surface to another.
 
-use super::report::timed;
+use super::seconds::timed;
 use super::{Flow, Options, Report};
 use crate::control::Control;
 use crate::error::{Error, Result};

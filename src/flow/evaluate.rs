@@ -1,6 +1,6 @@
 //! Lengths, angles and curvature at given variables: the right-hand side of the flow.
 
-use super::report::{Seconds, timed};
+use super::seconds::{Seconds, timed};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::Space;

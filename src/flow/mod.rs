@@ -24,6 +24,7 @@ mod obstruction;
 pub mod options;
 mod origin;
 pub mod report;
+mod seconds;
 mod solution;
 mod solve;
 mod spherical;
@@ -35,7 +36,8 @@ pub use cones::{AutoCones, auto_cones};
 pub use jacobian::curvature_derivative;
 pub use obstruction::Obstruction;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
-pub use report::{Report, Seconds, StopReason, TraceRow};
+pub use report::{Report, StopReason, TraceRow};
+pub use seconds::Seconds;
 pub use solution::Solution;
 
 use crate::control::Control;

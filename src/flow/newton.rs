@@ -3,7 +3,8 @@
 use super::Flow;
 use super::evaluate::State;
 use super::line_search::LineSearch;
-use super::report::{Report, StopReason, timed};
+use super::report::{Report, StopReason};
+use super::seconds::timed;
 use super::solve::{End, center};
 use super::system::System;
 use crate::control::{Control, Stage};
@@ -50,6 +51,17 @@ struct Iterate {
     error: f64,
     /// What the last matrix was shifted by.
     shift: f64,
+    /// Least error so far, but for the last tenth, and the steps since.
+    best: f64,
+    since_best: usize,
+}
+
+/// What a solve does next.
+enum Next {
+    Step,
+    Stop(StopReason),
+    /// Leave the one copy of a surface with boundary, whose double would flip a boundary edge.
+    Leave,
 }
 
 impl Iterate {
@@ -57,7 +69,16 @@ impl Iterate {
         let [mut residual, step] = [(); 2].map(|()| vec![0.0; flow.mesh.n_vertices()]);
         let error = state.residual(&flow.target, &flow.pinned, &mut residual);
         let trial = State::new(&flow.mesh, &flow.start, &flow.start_low);
-        Iterate { state, trial, residual, step, error, shift: 0.0 }
+        Iterate { state, trial, residual, step, error, shift: 0.0, best: error, since_best: 0 }
+    }
+
+    /// Count the step that has led here: whether there have been too many without a better residual.
+    fn is_out_of_patience(&mut self) -> bool {
+        self.since_best += 1;
+        if self.error < 0.9 * self.best {
+            (self.best, self.since_best) = (self.error, 0);
+        }
+        self.since_best >= PATIENCE && self.error < QUADRATIC
     }
 }
 
@@ -66,66 +87,42 @@ impl Flow {
         let mut at = Iterate::new(self, state);
         report.residuals.push(at.error);
         control.step(Stage::Flow, 0.0)?;
-        let (first, mut best, mut since_best, mut restarts) = (at.error, at.error, 0, 0);
+        let (first, mut restarts) = (at.error, 0);
         // Flips when the last matrix was factored; none yet.
         let mut factored_at = None;
         report.stop_reason = loop {
-            let at_limit = report.iterations >= self.options.iteration_limit();
-            let leaves = || boundary_fails(&self.mesh, &self.metric, &at.state.u, &self.fixed);
-            if self.one_copy && !at_limit && leaves() {
-                report.max_curvature_error = at.error;
-                return Ok(End::AtBoundary(at.state));
+            match self.next(&at, report) {
+                Next::Step => control.step(Stage::Flow, progress(first, at.error, report.tolerance))?,
+                Next::Stop(reason) => break reason,
+                Next::Leave => {
+                    report.max_curvature_error = at.error;
+                    return Ok(End::AtBoundary(at.state));
+                }
             }
-            if at.error <= report.tolerance {
-                break StopReason::Converged;
-            }
-            if self.metric.space == Space::E2
-                && largest(at.state.u.iter()) > MAX_EXPONENT - self.options.max_step
-            {
-                break StopReason::Diverged;
-            }
-            if at_limit {
-                break StopReason::IterationLimit;
-            }
-            control.step(Stage::Flow, progress(first, at.error, report.tolerance))?;
             if self.is_lopsided(&at) {
                 (self.mirror, self.system) = (None, None);
             }
             let mut system = self.take_system(report)?;
-            let flips = report.flips;
             self.assemble(&mut system, &at.state, report);
             control.check()?;
             let factored = self.direction(&mut system, &mut at, report, control)?;
             self.system = Some(system);
-            factored_at = factored.then_some(flips);
+            factored_at = factored.then_some(report.flips);
             if !factored {
                 break StopReason::Stalled;
             }
             report.iterations += 1;
             if !self.step(&mut at, report, control)? {
-                // Back to the triangulation of the last metric, or one of the same.
-                let before = at.residual.clone();
-                self.evaluate(&mut at.state, report, control)?;
-                at.error = at.state.residual(&self.target, &self.pinned, &mut at.residual);
-                let moved = before.iter().zip(&at.residual).map(|(a, b)| (a - b).abs()).fold(0.0, worse);
-                if moved > MOVED_BY_FLIPS * at.error && restarts < RESTARTS {
+                if self.is_moved_by_flips(&mut at, report, control)? && restarts < RESTARTS {
                     restarts += 1;
                     continue;
                 }
                 break StopReason::Stalled;
             }
             report.residuals.push(at.error);
-            log::debug!(
-                "Newton step {}: max |K − K̄| = {:.3e}, {} flips",
-                report.iterations,
-                at.error,
-                report.flips
-            );
-            since_best += 1;
-            if at.error < 0.9 * best {
-                (best, since_best) = (at.error, 0);
-            }
-            if since_best >= PATIENCE && at.error < QUADRATIC {
+            let (steps, flips) = (report.iterations, report.flips);
+            log::debug!("Newton step {steps}: max |K − K̄| = {:.3e}, {flips} flips", at.error);
+            if at.is_out_of_patience() {
                 break StopReason::Stalled;
             }
         };
@@ -144,6 +141,39 @@ impl Flow {
             report.stop_reason = self.stalled(&mut at, report)?;
         }
         Ok(End::Stopped(at.state))
+    }
+
+    /// Whether there is another step to take.
+    fn next(&self, at: &Iterate, report: &Report) -> Next {
+        let at_limit = report.iterations >= self.options.iteration_limit();
+        let leaves = || boundary_fails(&self.mesh, &self.metric, &at.state.u, &self.fixed);
+        let most = MAX_EXPONENT - self.options.max_step;
+        if self.one_copy && !at_limit && leaves() {
+            Next::Leave
+        } else if at.error <= report.tolerance {
+            Next::Stop(StopReason::Converged)
+        } else if self.metric.space == Space::E2 && largest(at.state.u.iter()) > most {
+            Next::Stop(StopReason::Diverged)
+        } else if at_limit {
+            Next::Stop(StopReason::IterationLimit)
+        } else {
+            Next::Step
+        }
+    }
+
+    /// Go back to the triangulation of the last metric, or one of the same, after a search that found nothing: whether the residual
+    /// there has changed so much that the search is worth repeating.
+    fn is_moved_by_flips(
+        &mut self,
+        at: &mut Iterate,
+        report: &mut Report,
+        control: &Control,
+    ) -> Result<bool> {
+        let before = at.residual.clone();
+        self.evaluate(&mut at.state, report, control)?;
+        at.error = at.state.residual(&self.target, &self.pinned, &mut at.residual);
+        let moved = before.iter().zip(&at.residual).map(|(a, b)| (a - b).abs()).fold(0.0, worse);
+        Ok(moved > MOVED_BY_FLIPS * at.error)
     }
 
     /// Take the step of `at` as far as the line search goes; false, and `at.residual` as it was, where it finds nothing.

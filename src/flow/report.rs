@@ -1,9 +1,9 @@
 //! What a flow did.
 
 use super::obstruction::Obstruction;
+use super::seconds::Seconds;
 use crate::mesh::{Double, VertexId};
 use std::collections::BTreeSet;
-use std::time::{Duration, Instant};
 
 /// Why a flow stopped.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,42 +50,6 @@ impl std::fmt::Display for StopReason {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name())
     }
-}
-
-/// Seconds by phase.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Seconds {
-    /// Lengths, angles, curvature, derivative.
-    pub assemble: f64,
-    /// Ordering and symbolic analysis.
-    pub analyse: f64,
-    /// Numeric factorisations.
-    pub factor: f64,
-    /// Triangular solves.
-    pub solve: f64,
-    /// Edge flips.
-    pub flip: f64,
-    /// The whole call.
-    pub total: f64,
-}
-
-impl std::ops::AddAssign for Seconds {
-    fn add_assign(&mut self, rest: Seconds) {
-        self.assemble += rest.assemble;
-        self.analyse += rest.analyse;
-        self.factor += rest.factor;
-        self.solve += rest.solve;
-        self.flip += rest.flip;
-        self.total += rest.total;
-    }
-}
-
-/// Adds its lifetime to a phase.
-pub(super) fn timed<R>(phase: &mut f64, work: impl FnOnce() -> R) -> R {
-    let start = Instant::now();
-    let result = work();
-    *phase += start.elapsed().max(Duration::ZERO).as_secs_f64();
-    result
 }
 
 /// One step of the gradient flow.

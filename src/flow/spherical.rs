@@ -7,7 +7,8 @@
 use super::Flow;
 use super::evaluate::State;
 use super::newton::progress;
-use super::report::{Report, StopReason, timed};
+use super::report::{Report, StopReason};
+use super::seconds::timed;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use std::f64::consts::PI;
@@ -34,11 +35,7 @@ impl Flow {
         let mut trial = State::new(&self.mesh, &self.start, &self.start_low);
         let area = (!self.has_pins()).then(|| self.spherical_area());
         if !self.settle(&mut state, area) {
-            report.stop_reason = StopReason::Stalled;
-            state = State::new(&self.mesh, &self.start, &self.start_low);
-            state.evaluate(&self.mesh, &self.metric);
-            report.max_curvature_error = state.residual(&self.target, &self.pinned, &mut residual);
-            return Ok(state);
+            return Ok(self.without_a_start(report));
         }
         let mut error = state.residual(&self.target, &self.pinned, &mut residual);
         let (first, mut damping) = (error, MIN_DAMPING);
@@ -82,6 +79,16 @@ impl Flow {
         self.system = Some(system);
         report.max_curvature_error = error;
         Ok(state)
+    }
+
+    /// The start as it is, where no shift of it has the area of the target.
+    fn without_a_start(&self, report: &mut Report) -> State {
+        let mut state = State::new(&self.mesh, &self.start, &self.start_low);
+        state.evaluate(&self.mesh, &self.metric);
+        let mut residual = vec![0.0; self.mesh.n_vertices()];
+        report.stop_reason = StopReason::Stalled;
+        report.max_curvature_error = state.residual(&self.target, &self.pinned, &mut residual);
+        state
     }
 
     /// A third of the area of the faces at each vertex.

@@ -1,0 +1,39 @@
+//! Where the time of a flow goes.
+
+use std::time::{Duration, Instant};
+
+/// Seconds by phase.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Seconds {
+    /// Lengths, angles, curvature, derivative.
+    pub assemble: f64,
+    /// Ordering and symbolic analysis.
+    pub analyse: f64,
+    /// Numeric factorisations.
+    pub factor: f64,
+    /// Triangular solves.
+    pub solve: f64,
+    /// Edge flips.
+    pub flip: f64,
+    /// The whole call.
+    pub total: f64,
+}
+
+impl std::ops::AddAssign for Seconds {
+    fn add_assign(&mut self, rest: Seconds) {
+        self.assemble += rest.assemble;
+        self.analyse += rest.analyse;
+        self.factor += rest.factor;
+        self.solve += rest.solve;
+        self.flip += rest.flip;
+        self.total += rest.total;
+    }
+}
+
+/// Do some work, and add the seconds it takes to a phase.
+pub(super) fn timed<R>(phase: &mut f64, work: impl FnOnce() -> R) -> R {
+    let start = Instant::now();
+    let result = work();
+    *phase += start.elapsed().max(Duration::ZERO).as_secs_f64();
+    result
+}
