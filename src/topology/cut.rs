@@ -1,8 +1,8 @@
 //! Cut graphs: edges along which a surface opens into a disk.
 
+use super::check_lengths;
 use super::shorten::{LEAST_SAVING, MOVES_PER_FACE, fan};
 use super::spanning::{leftover, shortest_paths_under};
-use super::{check_connected, check_lengths};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
@@ -107,6 +107,14 @@ pub fn is_disk(mesh: &Mesh, is_cut: &PerEdge<bool>) -> bool {
         .sum();
     let euler = sectors as i64 - (mesh.n_edges() + n_cut) as i64 + mesh.n_faces() as i64;
     euler == 1 && is_connected(mesh, |e| is_cut[e])
+}
+
+/// The surface is connected and not empty; `advice` says what to do with one that is not.
+pub(super) fn check_connected(mesh: &Mesh, advice: &str) -> Result<()> {
+    if is_connected(mesh, |_| false) {
+        return Ok(());
+    }
+    Err(Error::Layout(format!("the surface is empty or has several components: {advice} each alone")))
 }
 
 /// Whether all faces hang together through interior edges that are not walls.
