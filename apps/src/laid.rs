@@ -2,57 +2,45 @@
 
 use crate::charts::Packed;
 use crate::failure::Failure;
-use crate::in_space::{InSpace, consistency_limit, half_in_space, in_space, is_carried_back};
 use crate::input::Input;
 use crate::report::{Seconds, timed};
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::embed::{Layout, Quality, layout_in_space, layout_of, layout_refined, quality, refined_cut};
+use ricci::embed::unroll::CONE_TOLERANCE;
+use ricci::embed::{Layout, OnInput, Quality, UnrollOptions, cones_of, unroll};
 use ricci::flow::SurfaceFlow;
-use ricci::geometry::modulus::modulus;
-use ricci::geometry::{Space, worse};
+use ricci::geometry::Space;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
-use ricci::metric::curvature::area;
-use ricci::metric::{Curvature, Refinement};
-use ricci::topology::{central_vertex, cut_graph};
+use ricci::metric::{Curvature, Refinement, SurfaceMetric};
+use std::sync::Arc;
 
-/// An interior vertex with more target curvature than this is a cone, and the cut passes it. Left inside, the vertex opens
-/// the layout by an angle of that size, which is below what the flow's tolerance leaves open anyway.
-const CONE: f64 = 1e-12;
-/// Rounding of one step of the development: a unit direction and a point are rotated and added, a few ulp each.
-pub const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Crossings per edge up to which the common refinement is formed for the summary alone: it then costs no more than the flow.
+const FEW_CROSSINGS: usize = 16;
 
-/// Where a surface lies.
-pub enum Placed {
-    /// In the plane, opened along a cut through the cones of its metric.
-    Plane(Layout),
-    /// In the model space of its metric, around a vertex.
-    Space(Box<InSpace>),
+/// Whether to carry a layout back to the given triangulation: where an output needs that, or where it costs little.
+pub fn is_carried_back(metric: &SurfaceMetric, needed: bool) -> bool {
+    needed || metric.crossings().is_ok_and(|n| n <= FEW_CROSSINGS * metric.mesh().n_edges())
 }
 
-/// A layout; in E² it is scaled to the area of the input.
+/// A layout on the surface as it was given; in E² it is scaled to the area of the input.
 pub struct Laid {
-    /// What is laid out: the given triangulation, or its common refinement with the final one.
-    pub mesh: Mesh,
-    /// The way back, where edges were flipped.
-    pub refinement: Option<Refinement>,
-    /// Homogeneous weight of each vertex of `mesh`: (q x, q y, q) is linear on its faces, (x, y) the layout \[SSP08, §3.4\].
+    pub layout: Layout,
+    /// Homogeneous weight of each vertex of the layout's mesh: (q x, q y, q) is linear on its faces, (x, y) the layout in E²
+    /// \[SSP08, §3.4\].
     pub weight: PerVertex<f64>,
-    /// Positions of the vertices of `mesh`.
+    /// Positions of the vertices of the layout's mesh.
     pub positions: Option<Vec<Point>>,
-    pub placed: Placed,
+    /// The layout on the input's own faces, where its cut runs along their edges.
+    pub on_input: Option<OnInput>,
     /// The layout in charts, where that was asked for.
     pub packed: Option<Packed>,
     pub quality: Quality,
     /// Pieces of the refinement whose image has no area to speak of, faces without area in the input or the layout; in charts also
     /// what is too small for the coordinates of the unit square.
     pub degenerate: Vec<FaceId>,
-    /// Lengths in the layout over lengths in the metric.
-    pub scale: f64,
     /// τ of a flat torus.
     pub modulus: Option<[f64; 2]>,
-    /// What the curvature errors and rounding allow the development to be off: relative to the layout's diameter in E², a distance in
-    /// H².
+    /// What [`Layout::consistency`] may be.
     pub consistency_limit: f64,
 }
 
@@ -66,193 +54,100 @@ pub fn lay_out(
     seconds: &mut Seconds,
     control: &Control,
 ) -> Result<Result<Laid, String>, Failure> {
-    let (mesh, metric) = (flow.mesh(), flow.metric());
-    if metric.space == Space::S2 {
+    let result = flow.now();
+    if result.metric().space == Space::S2 {
         return Ok(Err("ricci uniformize lays spheres out".into()));
     }
-    if !curvature.broken.is_empty() {
+    if let Some(first) = curvature.broken.first() {
         let n = curvature.broken.len();
-        return Ok(Err(format!(
-            "{n} triangles break the triangle inequality (the first is face {})",
-            curvature.broken[0]
-        )));
+        return Ok(Err(format!("{n} triangles break the triangle inequality (the first is face {first})")));
     }
-    if !is_carried_back(&flow.now(), needed) {
+    if !is_carried_back(&result, needed) {
         let why = "edge flips led far away, and no output needs the way back to the given triangulation";
         return Ok(Err(why.into()));
     }
     control.step(Stage::Layout, 0.0)?;
-    let given = &input.mesh;
-    let inside = |v: &VertexId| !given.is_boundary_vertex(*v) && target[*v].abs() > CONE;
-    let cones: Vec<VertexId> = given.vertices().filter(inside).collect();
     let wanted = flow.target(target);
     let errors: f64 = curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum();
-    let limit = consistency_limit(Space::E2, 0.0, errors, mesh.n_faces());
-    let result = (|| {
-        if metric.space == Space::H2 && flow.double().is_some() {
-            return half_in_space(input, &flow.now(), &cones, errors, seconds, control);
-        }
-        if metric.space == Space::H2 {
-            let lengths = metric.lengths(mesh)?;
-            let cut = if cones.is_empty() { None } else { Some(cut_graph(mesh, &lengths, &cones, control)?) };
-            let whole = timed(&mut seconds.layout, || {
-                let root = central_vertex(mesh, &lengths, control)?;
-                layout_in_space(mesh, metric, root, cut.as_ref(), control)
-            })?;
-            return in_space(input, &flow.now(), &whole, errors, seconds, control);
-        }
-        let area = area(given, input.geometry, &input.lengths)?;
-        let refinement = match mesh == given {
+    let mut unrolled = || -> ricci::Result<Laid> {
+        let refinement = match result.is_unflipped() {
             true => None,
-            false => Some(timed(&mut seconds.refine, || flow.refinement(control))?),
+            false => Some(Arc::new(timed(&mut seconds.refine, || result.refinement(control))?)),
         };
-        timed(&mut seconds.layout, || match refinement {
-            None => plain(input, flow, &cones, area, limit, control),
-            Some(refinement) => refined(input, flow, refinement, &cones, area, limit, control),
+        timed(&mut seconds.layout, || {
+            let cones = Some(cones_of(&input.mesh, target, CONE_TOLERANCE)?);
+            let options = UnrollOptions { cones, refinement, ..UnrollOptions::default() };
+            Laid::new(input, &result, unroll(&result, &options, control)?, errors)
         })
-    })();
-    match result {
+    };
+    match unrolled() {
         Ok(laid) => Ok(Ok(laid)),
         Err(ricci::Error::Cancelled) => Err(Failure::Cancelled),
         Err(error) => Ok(Err(error.to_string())),
     }
 }
 
-/// The layout of the given triangulation.
-fn plain(
-    input: &Input,
-    flow: &SurfaceFlow,
-    cones: &[VertexId],
-    area: f64,
-    consistency_limit: f64,
-    control: &Control,
-) -> ricci::Result<Laid> {
-    let (mesh, metric) = (flow.mesh(), flow.metric());
-    let cut = cut_graph(mesh, &metric.lengths(mesh)?, cones, control)?;
-    control.step(Stage::Layout, 0.3)?;
-    let mut layout = layout_of(mesh, metric, &cut, control)?;
-    let scale = layout.scale_to_area(mesh, area)?;
-    control.step(Stage::Layout, 0.8)?;
-    let quality = quality(mesh, &input.lengths, &layout)?;
-    Ok(Laid {
-        mesh: mesh.clone(),
-        weight: PerVertex::from_fn(mesh.n_vertices(), |v| (flow.initial().input_u[v] - metric.u[v]).exp()),
-        refinement: None,
-        positions: input.positions.clone(),
-        packed: None,
-        degenerate: quality.degenerate.clone(),
-        modulus: modulus_of(input, &layout, cones),
-        placed: Placed::Plane(layout),
-        quality,
-        scale,
-        consistency_limit,
-    })
-}
-
-/// The layout of the common refinement.
-fn refined(
-    input: &Input,
-    flow: &SurfaceFlow,
-    refinement: Refinement,
-    cones: &[VertexId],
-    area: f64,
-    consistency_limit: f64,
-    control: &Control,
-) -> ricci::Result<Laid> {
-    let (mesh, metric) = (flow.mesh(), flow.metric());
-    let cut = refined_cut(&refinement, mesh, metric, cones, control)?;
-    control.step(Stage::Layout, 0.3)?;
-    let mut refined = layout_refined(&refinement, mesh, metric, &cut, control)?;
-    let scale = refined.scale_to_area(&refinement, area)?;
-    control.step(Stage::Layout, 0.8)?;
-    let quality = refined.quality(&refinement, &input.mesh, &input.lengths)?;
-    let positions = match &input.positions {
-        Some(positions) => Some(refinement.from_input_vertices(positions)?),
-        None => None,
-    };
-    Ok(Laid {
-        mesh: refinement.mesh.clone(),
-        weight: refinement.weight.clone(),
-        refinement: Some(refinement),
-        positions,
-        packed: None,
-        degenerate: refined.degenerate,
-        modulus: modulus_of(input, &refined.layout, cones),
-        placed: Placed::Plane(refined.layout),
-        quality,
-        scale,
-        consistency_limit,
-    })
-}
-
-fn modulus_of(input: &Input, layout: &Layout, cones: &[VertexId]) -> Option<[f64; 2]> {
-    let flat_torus = input.mesh.is_closed() && input.mesh.euler() == 0 && cones.is_empty();
-    match layout.seams.as_slice() {
-        // Any two of the two or three side pairings of the cut torus generate its lattice.
-        [a, b, ..] if flat_torus => modulus([a.translation, b.translation]),
-        _ => None,
-    }
-}
-
 impl Laid {
+    /// A layout of a metric of the input. `errors`: the sum of |K − K̄| over the vertices.
+    pub fn new(input: &Input, result: &SurfaceMetric, layout: Layout, errors: f64) -> ricci::Result<Laid> {
+        let quality = layout.quality(&input.mesh, &input.lengths)?;
+        let (weight, positions, degenerate) = match (layout.refinement(), &input.positions) {
+            (Some(r), positions) => {
+                let positions = positions.as_ref().map(|p| r.from_input_vertices(p)).transpose()?;
+                (r.weight.clone(), positions, layout.degenerate.clone())
+            }
+            (None, positions) => {
+                let (before, after) = (&result.initial().input_u, &result.metric().u);
+                let weight = PerVertex::from_fn(after.len(), |v: VertexId| (before[v] - after[v]).exp());
+                (weight, positions.clone(), quality.degenerate.clone())
+            }
+        };
+        Ok(Laid {
+            weight,
+            positions,
+            on_input: layout.on_input(),
+            packed: None,
+            degenerate,
+            modulus: layout.modulus(),
+            consistency_limit: layout.consistency_limit(errors),
+            quality,
+            layout,
+        })
+    }
+
+    /// What is laid out: the given triangulation, or its common refinement with the final one.
+    pub fn mesh(&self) -> &Mesh {
+        self.layout.mesh()
+    }
+
+    /// The way back, where edges were flipped.
+    pub fn refinement(&self) -> Option<&Refinement> {
+        self.layout.refinement().map(|r| &**r)
+    }
+
     /// Homogeneous weights of the coordinates.
     pub fn weights(&self) -> Vec<f64> {
         let mut weights = vec![1.0; self.coordinates().len()];
-        for h in self.mesh.halfedges() {
-            weights[self.corner_index()[h] as usize] = self.weight[self.mesh.origin(h)];
+        for h in self.mesh().halfedges() {
+            weights[self.corner_index()[h] as usize] = self.weight[self.mesh().origin(h)];
         }
         weights
     }
 
-    /// The layout of a cone metric in the plane, if this is one.
-    pub fn plane(&self) -> Option<&Layout> {
-        match &self.placed {
-            Placed::Plane(layout) => Some(layout),
-            Placed::Space(_) => None,
-        }
-    }
-
-    /// The layout in the model space of the metric, if this is one.
-    pub fn space(&self) -> Option<&InSpace> {
-        match &self.placed {
-            Placed::Plane(_) => None,
-            Placed::Space(place) => Some(place),
-        }
-    }
-
     /// Triangles that are not counterclockwise.
     pub fn flipped(&self) -> &[FaceId] {
-        match &self.placed {
-            Placed::Plane(layout) => &layout.flipped,
-            Placed::Space(place) => &place.refined.flipped,
-        }
+        &self.layout.flipped
     }
 
     /// Half-edges on the left side of the cut, with the number of their seam.
     pub fn seams(&self) -> Vec<(HalfedgeId, usize)> {
-        match &self.placed {
-            Placed::Plane(layout) => {
-                let seams = layout.seams.iter().enumerate();
-                seams.flat_map(|(k, seam)| seam.halfedges.iter().map(move |&h| (h, k))).collect()
-            }
-            Placed::Space(place) => place.seams.clone(),
-        }
-    }
-
-    /// The extent of the coordinates.
-    pub fn diameter(&self) -> f64 {
-        match &self.placed {
-            Placed::Plane(layout) => layout.diameter,
-            Placed::Space(place) => place.extent(),
-        }
+        let segments = self.layout.cut.segments.iter().enumerate();
+        segments.flat_map(|(k, segment)| segment.iter().map(move |&h| (h, k))).collect()
     }
 
     /// Largest disagreement between the layout and the metric or between the two sides of a seam: relative to the layout's diameter in E²,
     /// a distance in H².
     pub fn consistency(&self) -> f64 {
-        match &self.placed {
-            Placed::Plane(layout) => layout.seams.iter().map(|s| s.residual).fold(layout.consistency, worse),
-            Placed::Space(place) => place.consistency(),
-        }
+        self.layout.consistency()
     }
 }

@@ -11,7 +11,6 @@ mod failure;
 mod figures;
 mod flow;
 mod gallery;
-mod in_space;
 mod info;
 mod input;
 mod job;

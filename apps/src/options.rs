@@ -164,3 +164,14 @@ pub enum FlipsChoice {
     Auto,
     Never,
 }
+
+/// The faces of `--uv`.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq, Default)]
+#[serde(rename_all = "lowercase")]
+pub enum OnChoice {
+    /// Those of the common refinement with the final triangulation: the map as it is
+    #[default]
+    Refined,
+    /// The input's own: the map made linear on each
+    Input,
+}

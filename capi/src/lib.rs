@@ -24,7 +24,6 @@
 
 mod arrays;
 mod choice;
-mod drawing;
 mod environment;
 mod failure;
 mod guard;
@@ -66,7 +65,6 @@ pub mod report;
 
 pub mod flow;
 
-pub mod hyperbolic;
 pub mod layout;
 
 pub mod refined;

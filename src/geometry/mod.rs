@@ -2,6 +2,7 @@
 
 pub mod barycentre;
 pub mod circle;
+pub mod complex;
 pub mod conformal;
 pub mod flip;
 pub mod hyperelliptic;

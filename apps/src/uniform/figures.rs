@@ -22,6 +22,9 @@ pub struct UniformFigures {
     rounding_floor: Option<f64>,
     double_double: bool,
     flipped_triangles: usize,
+    /// With --on input: faces of the input that fold where the map is made linear on them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flipped_input_faces: Option<usize>,
     qc_mean: Option<f64>,
     qc_max: Option<f64>,
     area_ratio_min: Option<f64>,
@@ -76,7 +79,7 @@ impl UniformFigures {
         let Report { converged, stop_reason, iterations, flips, .. } = u.report;
         let laid = u.laid().ok();
         let quality = laid.map(|laid| &laid.quality);
-        let place = u.place();
+        let layout = laid.map_or(&u.layout, |laid| &laid.layout);
         let length = |path: &Vec<ricci::mesh::HalfedgeId>| path.iter().map(|h| u.lengths[h.edge()]).sum();
         UniformFigures {
             space: u.deck.space.name(),
@@ -92,16 +95,17 @@ impl UniformFigures {
             rounding_floor: u.report.rounding_floor,
             double_double: u.report.double_double,
             flipped_triangles: u.flipped().len(),
+            flipped_input_faces: laid.and_then(|l| l.on_input.as_ref()).map(|o| o.flipped.len()),
             qc_mean: quality.map(|q| q.qc_mean),
             qc_max: quality.map(|q| q.qc_max),
             area_ratio_min: quality.map(|q| q.area_ratio_min),
             area_ratio_max: quality.map(|q| q.area_ratio_max),
             degenerate_pieces: laid.map(|laid| laid.degenerate.len()),
-            crossings: laid.and_then(|laid| laid.refinement.as_ref()).map(|r| r.crossings.len()),
+            crossings: laid.and_then(|laid| laid.refinement()).map(|r| r.crossings.len()),
             area: u.area(),
             base: u.basis.base.0,
-            radius: place.map_or(u.layout.radius, |p| p.refined.radius),
-            disagreement: place.map_or(u.layout.disagreement, |p| p.refined.disagreement),
+            radius: layout.radius,
+            disagreement: layout.disagreement,
             word: letters(&u.deck.group, &u.deck.group.relator()),
             relation_residual: u.deck.relation_residual,
             relation_error: u.deck.relation_error,

@@ -6,7 +6,7 @@ use super::pictures::Shown;
 use super::quotient::Uniformized;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::options::{FlipsChoice, MethodChoice, SchemeChoice};
+use crate::options::{FlipsChoice, MethodChoice, OnChoice, SchemeChoice};
 use crate::output::{check_extension, check_outputs};
 use crate::picture::{PictureArgs, Texture};
 use crate::report::path_text;
@@ -72,6 +72,8 @@ impl CoverWish<'_> {
 pub struct Needs {
     /// The common refinement of the given triangulation and the metric's.
     pub refinement: bool,
+    /// The layout on the input's own faces.
+    pub on_input: bool,
     /// The Dirichlet domain of the base point.
     pub domain: bool,
 }
@@ -88,6 +90,7 @@ impl Wish<'_> {
         let copies = self.cover.is_some_and(|c| c.cover.is_some());
         Needs {
             refinement: report || drawn || copies || self.args.uv.is_some(),
+            on_input: self.args.on == OnChoice::Input && self.args.uv.is_some(),
             domain: report || by_domain || (drawn && of_domain),
         }
     }
@@ -240,6 +243,7 @@ impl Wish<'_> {
             model: (space == Space::H2).then(|| self.place(space).name()),
             metric: text(&args.metric),
             uv: text(&args.uv),
+            on: args.on,
             sphere: text(&args.sphere),
             generators: text(&args.generators),
             picture: args.picture.clone(),
@@ -275,6 +279,7 @@ pub struct Asked {
     model: Option<&'static str>,
     metric: Option<String>,
     uv: Option<String>,
+    on: OnChoice,
     sphere: Option<String>,
     generators: Option<String>,
     #[serde(flatten)]
