@@ -12,7 +12,6 @@ use ricci::mesh::io::Soup;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::curvature::area;
 use ricci::metric::{Scheme, SurfaceMetric, Target};
-use ricci::parallel::Pool;
 use ricci::topology::cut::is_disk;
 use ricci::topology::cut_graph;
 use ricci::{Control, Error};
@@ -232,8 +231,7 @@ fn layouts_do_not_depend_on_the_number_of_threads() {
     let curved = flow_to(&surface, Space::H2, &PerVertex::filled(mesh.n_vertices(), 0.0), Flips::Auto);
     for (result, cones) in [(flat, vec![cone]), (curved, Vec::new())] {
         let on = |threads: usize| {
-            let lay = || unroll(&result, &with_cones(&cones), &Control::new()).unwrap();
-            Pool::new(threads).unwrap().run(lay)
+            unroll(&result, &UnrollOptions { threads, ..with_cones(&cones) }, &Control::new()).unwrap()
         };
         let (one, three) = (on(1), on(3));
         assert_eq!(one, three);

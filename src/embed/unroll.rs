@@ -11,7 +11,7 @@ use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::curvature::area;
 use crate::metric::{Metric, Refinement, SurfaceMetric};
-use crate::parallel;
+use crate::parallel::{self, Pool};
 use crate::topology::{CutGraph, central_vertex, check_vertex, cut_graph};
 use std::sync::Arc;
 
@@ -44,6 +44,8 @@ pub struct UnrollOptions {
     pub cut: Option<CutGraph>,
     /// [`SurfaceMetric::refinement`] of the result, where it has been formed before.
     pub refinement: Option<Arc<Refinement>>,
+    /// Threads, in a pool of the call's own; default 0: one per core. The result does not depend on it.
+    pub threads: usize,
 }
 
 /// The cones of a curvature, or of a target of one: vertices inside the surface (V entries) where it is more than `tolerance` off flat.
@@ -80,6 +82,10 @@ pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<Ve
 /// ```
 pub fn unroll(result: &SurfaceMetric, options: &UnrollOptions, control: &Control) -> Result<Layout> {
     control.check()?;
+    Pool::new(options.threads)?.run(|| unroll_in_pool(result, options, control))
+}
+
+fn unroll_in_pool(result: &SurfaceMetric, options: &UnrollOptions, control: &Control) -> Result<Layout> {
     let given = result.given();
     let refinement = match &options.refinement {
         Some(refinement) => Some(refinement.clone()),
