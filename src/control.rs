@@ -1,4 +1,16 @@
 //! Progress and cancellation of one long call, shared across threads.
+//!
+//! ```
+//! use ricci::control::Stage;
+//! use ricci::{Control, Error};
+//! let control = Control::new();
+//! let other = control.clone(); // for another thread
+//! control.step(Stage::Flow, 0.5)?;
+//! assert_eq!(other.progress(), (Stage::Flow, 0.5));
+//! other.cancel();
+//! assert_eq!(control.step(Stage::Flow, 0.6), Err(Error::Cancelled));
+//! # Ok::<(), Error>(())
+//! ```
 
 use crate::error::{Error, Result};
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
@@ -73,13 +85,21 @@ impl Control {
         (stage, f64::from_bits(self.0.fraction.load(Ordering::Relaxed)))
     }
 
-    /// Called by long work: say where it is, and stop here if it was cancelled.
+    /// Report the stage and its fraction that is done. Long calls do this again and again, and end where it fails.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Cancelled`] if the call was cancelled.
     pub fn step(&self, stage: Stage, fraction: f64) -> Result<()> {
         self.0.stage.store(stage as u8, Ordering::Relaxed);
         self.0.fraction.store(fraction.clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
         self.check()
     }
 
+    /// As [`Control::step`] without a report.
+    ///
+    /// # Errors
+    ///
     /// [`Error::Cancelled`] if the call was cancelled.
     pub fn check(&self) -> Result<()> {
         if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }

@@ -1,6 +1,12 @@
 //! One error type for the whole library, with stable codes that the C face repeats.
 //!
 //! Codes come in blocks per family; a retired number is never given out again.
+//!
+//! ```
+//! use ricci::{Error, mesh::shapes};
+//! let error = shapes::torus(1.0, 2.0, 8, 8).unwrap_err();
+//! assert!(matches!(error, Error::Argument { .. }) && error.code() == 2);
+//! ```
 
 use crate::mesh::check::Diagnosis;
 
@@ -83,13 +89,13 @@ pub enum Error {
         /// What is wrong.
         message: String,
     },
-    /// No reader or writer for this file name.
-    #[error("{path}: unknown format; known are {known}")]
+    /// This build has no reader or no writer for this file name.
+    #[error("{path}: {message}")]
     UnknownFormat {
         /// The file.
         path: String,
-        /// The extensions that can be handled.
-        known: &'static str,
+        /// Which extensions it knows, or which cargo feature it lacks.
+        message: String,
     },
 
     /// The faces do not form the surface that is needed; the diagnosis lists every defect.
@@ -250,7 +256,11 @@ fn amount(how: &str, by: f64) -> String {
     if by == 0.0 { "equality is not enough".into() } else { format!("{how} by {:.4e}", by.abs()) }
 }
 
-/// Error for an array of the wrong size, unless the sizes agree.
+/// Compare the size of an array with the size that a call needs.
+///
+/// # Errors
+///
+/// [`Error::Size`] where they differ.
 pub fn check_size(what: &'static str, got: usize, expected: usize) -> Result<()> {
     if got == expected { Ok(()) } else { Err(Error::Size { what, expected, got }) }
 }

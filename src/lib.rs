@@ -14,6 +14,9 @@
 //! | [`flow`] | Newton and gradient flow, cones |
 //! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |
 //! | [`canonical`] | closed surfaces in their canonical shape |
+//!
+//! Two cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf,
+//! `gifti` reads .gii.
 
 pub mod canonical;
 pub mod control;
@@ -29,6 +32,8 @@ pub mod topology;
 
 pub use control::Control;
 pub use error::{At, Error, Result};
+pub use flow::{Flow, Solution};
+pub use metric::{Class, Surface, Target};
 
 /// The README's Rust example is compiled and run with the tests.
 #[cfg(doctest)]

@@ -3,15 +3,24 @@
 //! The library never touches rayon's global pool: each solver owns its own, and everything parallel runs
 //! inside [`Pool::run`]. A loop writes each element from one fixed computation, so results are bit-identical
 //! for any thread count.
+//!
+//! ```
+//! use ricci::parallel::{Pool, fill};
+//! let mut squares = vec![0; 5000];
+//! Pool::new(2)?.run(|| fill(&mut squares, |i| i * i));
+//! assert_eq!(squares[4000], 16_000_000);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::error::{Error, Result};
 use rayon::prelude::*;
 use std::thread::JoinHandle;
 
-/// Elements handed to a thread at a time; fixed, so that it never depends on the number of threads.
+/// Elements handed to a thread at a time: enough that handing them over costs little. It is fixed, so that the division does not
+/// depend on the number of threads.
 const CHUNK: usize = 1024;
 
-/// More threads than this help nobody.
+/// Most threads of a pool. No step of the library is divided finely enough for more to be of use.
 pub const MAX_THREADS: usize = 256;
 
 /// Thread pool of one solver or call. Its threads have ended when it is dropped: a host that unloads the
@@ -25,6 +34,10 @@ pub struct Pool {
 
 impl Pool {
     /// A pool of `threads` threads; 0 means one per available core, more than [`MAX_THREADS`] means that many.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Argument`] if the system cannot start that many threads.
     pub fn new(threads: usize) -> Result<Pool> {
         let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
         let threads = if threads == 0 { cores } else { threads.min(MAX_THREADS) };
@@ -59,11 +72,16 @@ impl Pool {
     }
 }
 
+/// Run `work` inside a pool: the one that the caller is in, else one of `threads` threads ([`Pool::new`]) for this call alone.
+pub fn within<R: Send>(threads: usize, work: impl FnOnce() -> Result<R> + Send) -> Result<R> {
+    if rayon::current_thread_index().is_some() { work() } else { Pool::new(threads)?.run(work) }
+}
+
 impl Drop for Pool {
     fn drop(&mut self) {
         self.pool = None;
         for worker in self.workers.drain(..) {
-            // A worker that panicked has told so to the call it worked for.
+            // A panic in a worker has already been passed on to the caller of `run`.
             let _ = worker.join();
         }
     }

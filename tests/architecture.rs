@@ -1,6 +1,9 @@
 //! The rules of ARCHITECTURE.md, read off the tree.
 #![allow(clippy::unwrap_used)]
 
+#[path = "architecture/modules.rs"]
+mod modules;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -21,6 +24,22 @@ const FLOORS: &[&[&str]] = &[
 ];
 /// The one arrow that points up: the error type carries a mesh's diagnosis.
 const EXCEPTION: (&str, &str) = ("error", "mesh::check::Diagnosis");
+/// Modules of src that still import one another.
+const IN_CIRCLES: &[&str] = &[
+    "embed::deck",
+    "embed::dirichlet",
+    "embed::quality",
+    "embed::shape",
+    "flow::evaluate",
+    "flow::obstruction",
+    "flow::report",
+    "metric::refinement",
+    "metric::refinement::chords",
+    "metric::refinement::geodesic",
+    "metric::refinement::intrinsic",
+    "metric::refinement::pieces",
+    "metric::refinement::strip",
+];
 /// Longest file that may still hold one idea.
 const MOST_LINES: usize = 450;
 
@@ -152,6 +171,16 @@ fn an_arrow_that_points_up_is_seen() {
     assert!(up("topology", "// use crate::embed;\nuse super::flow;\nuse not_ricci::flow;").is_empty());
     assert!(up("error", "use crate::mesh::check::Diagnosis;").is_empty());
     assert_eq!(up("error", "use crate::mesh::{Mesh, check::Diagnosis};"), ["mesh::Mesh"]);
+}
+
+#[test]
+fn modules_import_in_one_direction() {
+    let found = ["src", "capi/src", "apps/src"].map(|folder| {
+        let mut circles = modules::Modules::read(folder, EXCEPTION).circles();
+        circles.retain(|circle| !circle.split(", ").all(|module| IN_CIRCLES.contains(&module)));
+        (folder, circles)
+    });
+    assert!(found.iter().all(|(_, circles)| circles.is_empty()), "modules import one another: {found:#?}");
 }
 
 #[test]

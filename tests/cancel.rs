@@ -10,9 +10,9 @@ use ricci::embed::pack::pack;
 use ricci::embed::{ChartOptions, UnrollOptions, charts, layout_of, unroll};
 use ricci::flow::{Options, SurfaceFlow, auto_cones};
 use ricci::geometry::Space;
-use ricci::mesh::{Curves, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
-use ricci::metric::delaunay::{Queue, intrinsic_delaunay, restore_delaunay};
-use ricci::metric::{Scheme, Target, delaunay_start, initial_metric};
+use ricci::mesh::{Curves, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
+use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, intrinsic_delaunay};
+use ricci::metric::{Class, Scheme, Target, Triangulated, delaunay_start, initial_metric};
 use ricci::topology::cut_graph;
 use ricci::{Control, Error, Result};
 use std::sync::Arc;
@@ -85,8 +85,9 @@ fn a_cancelled_control_stops_every_stage() {
 #[test]
 fn flips_that_are_cancelled_on_their_way_leave_the_surface() {
     let (mesh, lengths) = skewed(120);
+    let given = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
     for stop_at in [1, 1000] {
-        let (mut m, mut l) = (mesh.clone(), lengths.clone());
+        let mut m = given.clone();
         let (control, mut flips) = (Control::new(), 0);
         let mut record = |_: &Mesh, _| {
             flips += 1;
@@ -96,22 +97,18 @@ fn flips_that_are_cancelled_on_their_way_leave_the_surface() {
         };
         is_cancelled(
             "intrinsic_delaunay",
-            intrinsic_delaunay(&mut m, &mut l, None, Space::E2, &[], &mut record, &control),
+            intrinsic_delaunay(&mut m, IntrinsicOptions::default(), &mut record, &control),
         );
-        assert!(m == mesh && l == lengths);
+        assert!(m == given);
         // It looks every 4096 edges, each of which is one flip at most.
         assert!((stop_at..stop_at + 4097).contains(&flips), "{flips}");
     }
     // In the second round of flips, to the weighted triangulation, the surface is the same on another triangulation.
-    let count = |mesh: &mut Mesh, lengths: &mut PerEdge<f64>| {
-        let mut n = 0;
-        let record = &mut |_: &Mesh, _| n += 1;
-        intrinsic_delaunay(mesh, lengths, None, Space::E2, &[], record, &Control::new()).unwrap();
-        n
-    };
-    let (mut flipped, mut its_lengths) = (mesh.clone(), lengths.clone());
-    let first_round = count(&mut flipped, &mut its_lengths);
-    let (mut m, mut l) = (mesh.clone(), lengths.clone());
+    let mut flipped = given.clone();
+    let mut first_round = 0;
+    let mut record = |_: &Mesh, _| first_round += 1;
+    intrinsic_delaunay(&mut flipped, IntrinsicOptions::default(), &mut record, &Control::new()).unwrap();
+    let mut m = given.clone();
     let (control, mut flips) = (Control::new(), 0);
     let mut record = |_: &Mesh, _| {
         flips += 1;
@@ -119,20 +116,21 @@ fn flips_that_are_cancelled_on_their_way_leave_the_surface() {
             control.cancel();
         }
     };
-    let kind = (Space::E2, Scheme::Inversive, Space::E2);
-    let start = delaunay_start(&mut m, &mut l, kind.0, kind.1, kind.2, None, &[], &mut record, &control);
+    let class = Class::new(Scheme::Inversive, Space::E2);
+    let start = delaunay_start(&mut m, class.into(), &mut record, &control);
     assert!(flips > first_round);
     // The end may come before the next look.
     assert!(matches!(start, Ok(_) | Err(Error::Cancelled)));
-    assert!(start.is_ok() || (m == flipped && l == its_lengths));
+    assert!(start.is_ok() || m == flipped);
 
     let mut metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap().metric;
     let u = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| (v.index() as f64).sin());
-    let (mut m, mut queue, control) = (mesh.clone(), Queue::all(&mesh, &[]), Control::new());
+    let (mut m, mut queue, control) = (mesh.clone(), Queue::all(&mesh, &FixedEdges::none()), Control::new());
     let mut record = |_: &Mesh, _| control.cancel();
     is_cancelled(
         "restore_delaunay",
-        restore_delaunay(&mut m, &mut metric, &u, &mut queue, &mut record, &control),
+        ClassFlips { mesh: &mut m, metric: &mut metric, record: &mut record }
+            .restore_delaunay(&u, &mut queue, &control),
     );
 }
 
@@ -163,20 +161,20 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
     let given = skewed(200);
     let (mesh, lengths) = &given;
     let free = Control::new();
+    let surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
     interrupt("SurfaceFlow::new", |c| flow(&given, c).map(drop));
     interrupt("intrinsic_delaunay", |c| {
-        let (mut m, mut l) = given.clone();
-        let flips = intrinsic_delaunay(&mut m, &mut l, None, Space::E2, &[], &mut |_, _| {}, c);
-        assert!(flips.is_ok() || (m == *mesh && l == *lengths));
+        let mut m = surface.clone();
+        let flips = intrinsic_delaunay(&mut m, IntrinsicOptions::default(), &mut |_, _| {}, c);
+        assert!(flips.is_ok() || m == surface);
         flips
     });
-    let (mut flat, mut its_lengths) = given.clone();
+    let mut flat = surface.clone();
     let start = (Space::E2, Scheme::Yamabe, Space::E2);
     let mut normal = NormalCoordinates::new(mesh);
-    let mut record = |mesh: &Mesh, e| normal.record(mesh, e);
-    delaunay_start(&mut flat, &mut its_lengths, start.0, start.1, start.2, None, &[], &mut record, &free)
-        .unwrap();
-    interrupt("Curves::trace", |c| Curves::trace(&flat, &normal, c).map(drop));
+    let mut record = |mesh: &Mesh, flip: Flip| normal.record(mesh, flip.edge);
+    delaunay_start(&mut flat, Class::yamabe(Space::E2).into(), &mut record, &free).unwrap();
+    interrupt("Curves::trace", |c| Curves::trace(&flat.mesh, &normal, c).map(drop));
     interrupt("cut_graph", |c| cut_graph(mesh, lengths, &[], c).map(drop));
     interrupt("auto_cones", |c| auto_cones(mesh, lengths, 6, c).map(drop));
     let mut made =

@@ -13,7 +13,7 @@ use ricci::geometry::predicates::orientation;
 use ricci::mesh::io::{self, Soup};
 use ricci::mesh::shapes;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
-use ricci::metric::{Scheme, Target, delaunay_start};
+use ricci::metric::{Class, Scheme, Target, Triangulated, delaunay_start};
 use ricci::topology::cut_graph;
 use ricci::{Control, Error};
 use std::cmp::Ordering;
@@ -306,19 +306,10 @@ fn bad_input_is_refused_by_name() {
 
 /// The flat metric with these curvatures, laid out.
 fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> (Mesh, Layout) {
-    let (mut mesh, mut lengths) = (mesh.clone(), lengths.clone());
-    let start = delaunay_start(
-        &mut mesh,
-        &mut lengths,
-        Space::E2,
-        Scheme::Yamabe,
-        Space::E2,
-        None,
-        &[],
-        &mut |_, _| {},
-        &Control::new(),
-    )
-    .unwrap();
+    let mut surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
+    let class = Class::yamabe(Space::E2).into();
+    let start = delaunay_start(&mut surface, class, &mut |_, _| {}, &Control::new()).unwrap();
+    let mesh = surface.mesh;
     let mut solver =
         Solver::new(mesh, start.metric, Options { flips: Flips::Auto, ..Options::default() }).unwrap();
     assert!(solver.solve(target, &Control::new()).unwrap().converged);

@@ -11,8 +11,9 @@ use ricci::mesh::io::{self, Soup};
 use ricci::mesh::shapes;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::curvature::curvature;
+use ricci::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use ricci::metric::target::{check_total, check_vertices};
-use ricci::metric::{Scheme, delaunay_start};
+use ricci::metric::{Class, Scheme, delaunay_start};
 use ricci::topology::farthest_vertices;
 use ricci::{Control, Error};
 use std::f64::consts::PI;
@@ -39,19 +40,10 @@ fn measured(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> f64
         let area = (s * (s - a) * (s - b) * (s - c)).max(0.0).sqrt();
         mesh.face_vertices(f).into_iter().for_each(|v| mass[v] += area / 3.0);
     }
-    let (mut mesh, mut lengths) = (mesh.clone(), lengths.clone());
-    let start = delaunay_start(
-        &mut mesh,
-        &mut lengths,
-        Space::E2,
-        Scheme::Yamabe,
-        Space::E2,
-        None,
-        &[],
-        &mut |_, _| {},
-        &Control::new(),
-    )
-    .unwrap();
+    let mut surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
+    let class = Class::yamabe(Space::E2).into();
+    let start = delaunay_start(&mut surface, class, &mut |_, _| {}, &Control::new()).unwrap();
+    let mesh = surface.mesh;
     let options = Options { flips: Flips::Auto, ..Options::default() };
     let mut solver = Solver::new(mesh, start.metric, options).unwrap();
     let report = solver.solve(target, &Control::new()).unwrap();
@@ -214,19 +206,13 @@ fn tetrahedron(n: usize) -> (Mesh, PerEdge<f64>, Vec<VertexId>) {
 
 #[test]
 fn the_triangulation_does_not_matter() {
-    let (mut mesh, mut lengths) = surface(&noisy(shapes::genus(2, 6).unwrap(), 0.003));
+    let (mesh, lengths) = surface(&noisy(shapes::genus(2, 6).unwrap(), 0.003));
     let before = place(&mesh, &lengths, 6);
     let mut flips = 0;
-    ricci::metric::delaunay::intrinsic_delaunay(
-        &mut mesh,
-        &mut lengths,
-        None,
-        Space::E2,
-        &[],
-        &mut |_, _| flips += 1,
-        &Control::new(),
-    )
-    .unwrap();
+    let mut surface = Triangulated { mesh, lengths, geometry: Space::E2 };
+    let (options, mut count) = (IntrinsicOptions::default(), |_: &Mesh, _| flips += 1);
+    intrinsic_delaunay(&mut surface, options, &mut count, &Control::new()).unwrap();
+    let Triangulated { mesh, lengths, .. } = surface;
     assert!(flips > 0);
     let after = place(&mesh, &lengths, 6);
     for (a, b) in before.cones.iter().zip(&after.cones) {

@@ -10,7 +10,7 @@ use num_dual::{Dual64, DualNum};
 use ricci::flow::curvature_derivative;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::{FaceId, Mesh, PerEdge, PerVertex};
-use ricci::metric::initial::initial_mixed;
+use ricci::metric::initial::{MixedClass, initial_mixed};
 use ricci::metric::{Metric, Scheme, curvature, initial_metric};
 
 const SPACES: [Space; 3] = [Space::E2, Space::H2, Space::S2];
@@ -37,7 +37,7 @@ fn random_metric(mesh: &Mesh, space: Space, scheme: Option<Scheme>, random: &mut
         None => {
             let epsilon = PerVertex::from_fn(mesh.n_vertices(), |_| (3.0 * random.unit()) as i8 - 1);
             let radii = PerVertex::from_fn(mesh.n_vertices(), |_| size * (0.2 + 0.2 * random.unit()));
-            initial_mixed(mesh, &lengths, space, epsilon, radii, space).unwrap().metric
+            initial_mixed(mesh, &lengths, space, MixedClass { epsilon, radii, space }).unwrap().metric
         }
     };
     metric.u.iter_mut().for_each(|u| *u += 0.05 * random.symmetric());

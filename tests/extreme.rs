@@ -11,7 +11,7 @@ use ricci::flow::{Options, Report, StopReason, SurfaceFlow};
 use ricci::geometry::Space;
 use ricci::mesh::shapes::{self, Sliver};
 use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, VertexId};
-use ricci::metric::delaunay::intrinsic_delaunay;
+use ricci::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use ricci::metric::target::check_admissible;
 use ricci::metric::{Scheme, Target};
 use ricci::{Control, Error};
@@ -330,8 +330,8 @@ fn what_cannot_be_is_refused_by_name() {
 }
 
 /// Isometric flips to the plain Delaunay triangulation, and their number.
-fn to_delaunay(mesh: &mut Mesh, lengths: &mut PerEdge<f64>) -> usize {
-    intrinsic_delaunay(mesh, lengths, None, Space::E2, &[], &mut |_, _| (), &Control::new()).unwrap()
+fn to_delaunay(surface: &mut Triangulated) -> usize {
+    intrinsic_delaunay(surface, IntrinsicOptions::default(), &mut |_, _| (), &Control::new()).unwrap()
 }
 
 /// The flat torus with periods 1 and k + τ is that with periods 1 and τ, sheared k times: it takes k flips to see it.
@@ -342,9 +342,10 @@ fn sheared_tori_are_unwound() {
     reduced.sort_by(f64::total_cmp);
     for k in [10.0f64, 1e3, 5e3] {
         let torus = shapes::flat_torus([k + tau[0], tau[1]], 1, 1).unwrap();
-        let (mut mesh, mut lengths) = torus.build().unwrap();
-        let flips = to_delaunay(&mut mesh, &mut lengths);
-        let mut found = [0, 1, 2].map(|e| lengths[EdgeId(e)]);
+        let (mesh, lengths) = torus.build().unwrap();
+        let mut surface = Triangulated { mesh, lengths, geometry: Space::E2 };
+        let flips = to_delaunay(&mut surface);
+        let mut found = [0, 1, 2].map(|e| surface.lengths[EdgeId(e)]);
         found.sort_by(f64::total_cmp);
         let worst = (0..3).map(|i| (found[i] - reduced[i]).abs()).fold(0.0, f64::max);
         println!("sheared {k:.0} times: {flips} flips, lengths off by {worst:.1e}");
@@ -362,7 +363,7 @@ fn needles_beside_caps_are_told_from_delaunay_edges() {
     for (cap, needle, flips) in
         [(1e-7, 1e-6, 1), (1e-6, 1e-7, 0), (1e-6, 2e-6, 1), (1e-4, 2e-4, 1), (2e-4, 1e-4, 0)]
     {
-        let (mut mesh, mut lengths) = surface(&soup);
+        let (mesh, mut lengths) = surface(&soup);
         let inner = mesh
             .edges()
             .find(|&e| !mesh.is_outside(e.halfedge()) && !mesh.is_outside(e.halfedge().twin()))
@@ -375,7 +376,7 @@ fn needles_beside_caps_are_told_from_delaunay_edges() {
                 lengths[next.edge()] = side;
             }
         }
-        let made = to_delaunay(&mut mesh, &mut lengths);
+        let made = to_delaunay(&mut Triangulated { mesh, lengths, geometry: Space::E2 });
         assert_eq!(made, flips, "π − {cap:e} and {needle:e}");
     }
 }

@@ -8,8 +8,8 @@ use ricci::Control;
 use ricci::flow::{Options, Report, Solver};
 use ricci::geometry::Space;
 use ricci::mesh::{Double, Mesh, PerEdge, PerVertex, VertexId, io};
-use ricci::metric::delaunay::{failing, intrinsic_delaunay};
-use ricci::metric::{Scheme, Target, curvature, delaunay_start, lengths_from_positions};
+use ricci::metric::delaunay::{IntrinsicOptions, Triangulated, failing, intrinsic_delaunay};
+use ricci::metric::{Class, Scheme, StartOptions, Target, curvature, delaunay_start, lengths_from_positions};
 use std::f64::consts::PI;
 
 /// Largest mesh that the optimised tests of a debug build take.
@@ -17,26 +17,18 @@ const MOST_VERTICES: usize = 3000;
 
 /// Make the triangulation intrinsic Delaunay, and flow.
 fn solve(
-    mut mesh: Mesh,
-    mut lengths: PerEdge<f64>,
+    mesh: Mesh,
+    lengths: PerEdge<f64>,
     geometry: Space,
     (space, scheme): (Space, Scheme),
     target: &PerVertex<f64>,
     double: Option<&Double>,
 ) -> (Solver, Report) {
-    let start = delaunay_start(
-        &mut mesh,
-        &mut lengths,
-        geometry,
-        scheme,
-        space,
-        double,
-        &[],
-        &mut |_, _| {},
-        &Control::new(),
-    );
+    let mut surface = Triangulated { mesh, lengths, geometry };
+    let options = StartOptions { double, ..Class::new(scheme, space).into() };
+    let start = delaunay_start(&mut surface, options, &mut |_, _| {}, &Control::new());
     let start = start.unwrap().metric;
-    let mut solver = Solver::new(mesh, start, Options::default()).unwrap();
+    let mut solver = Solver::new(surface.mesh, start, Options::default()).unwrap();
     if let Some(double) = double {
         let mirror: Vec<VertexId> = solver.mesh().vertices().map(|v| double.mirror(v)).collect();
         solver.keep_symmetric(&mirror).unwrap();
@@ -109,12 +101,12 @@ fn every_closed_mesh_reaches_its_uniform_metric() {
 fn every_open_mesh_becomes_flat_through_its_double() {
     for (name, half, lengths) in corpus().into_iter().filter(|(_, mesh, _)| !mesh.is_closed()) {
         let double = Double::new(&half).unwrap();
-        let lengths_of_double: PerEdge<f64> = double.spread_edges(&lengths).into();
+        let lengths_of_double: PerEdge<f64> = double.spread_edges(&lengths).unwrap().into();
         for scheme in SCHEMES {
             let target = Target::Boundary.resolve(&half, &lengths, Space::E2, scheme);
             // A packing's own limit at a vertex of one triangle is that of the input triangulation: flips lift it.
             let Ok(target) = target else { continue };
-            let target: PerVertex<f64> = double.target(&target).into();
+            let target: PerVertex<f64> = double.target(&target).unwrap().into();
             let kind = (Space::E2, scheme);
             let (solver, report) = solve(
                 double.mesh.clone(),
@@ -152,26 +144,20 @@ fn rounding_that_differs_between_mirror_images_does_not_hold_the_error() {
 
 #[test]
 fn intrinsic_delaunay_keeps_the_surface() {
-    for (name, mut mesh, mut lengths) in corpus() {
+    let flipped = |surface: &mut Triangulated| {
+        intrinsic_delaunay(surface, IntrinsicOptions::default(), &mut |_, _| {}, &Control::new()).unwrap()
+    };
+    for (name, mesh, lengths) in corpus() {
         let before = curvature(&mesh, Space::E2, &lengths).unwrap();
-        intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| {}, &Control::new())
-            .unwrap();
-        let after = curvature(&mesh, Space::E2, &lengths).unwrap();
+        let mut surface = Triangulated { mesh, lengths, geometry: Space::E2 };
+        flipped(&mut surface);
+        let Triangulated { mesh, lengths, .. } = &surface;
+        let after = curvature(mesh, Space::E2, lengths).unwrap();
         assert!(after.broken.is_empty(), "{name}");
         assert!((after.area / before.area - 1.0).abs() < 1e-9, "{name}: {} {}", before.area, after.area);
         let worst = mesh.vertices().map(|v| (before.at[v] - after.at[v]).abs()).fold(0.0, f64::max);
         // Needles of the input leave their rounding.
         assert!(worst < 1e-5, "{name}: {worst}");
-        let again = intrinsic_delaunay(
-            &mut mesh,
-            &mut lengths,
-            None,
-            Space::E2,
-            &[],
-            &mut |_, _| {},
-            &Control::new(),
-        )
-        .unwrap();
-        assert_eq!(again, 0, "{name}");
+        assert_eq!(flipped(&mut surface), 0, "{name}");
     }
 }

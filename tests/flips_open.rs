@@ -23,8 +23,8 @@ fn factor(flow: &SurfaceFlow, n: usize) -> Vec<f64> {
 /// Flow on the double given as a closed surface of its own.
 fn on_the_double(given: &(Mesh, PerEdge<f64>), target: &PerVertex<f64>, scheme: Scheme) -> SurfaceFlow {
     let double = Double::new(&given.0).unwrap();
-    let lengths = double.spread_edges(&given.1).into();
-    let target = double.target(target).into();
+    let lengths = double.spread_edges(&given.1).unwrap().into();
+    let target = double.target(target).unwrap().into();
     let mut flow = started(&(double.mesh, lengths), (Space::E2, scheme), &Options::default());
     reach(&mut flow, &target, "double");
     flow

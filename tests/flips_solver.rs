@@ -254,7 +254,7 @@ fn imaginary_circles_flip_as_far_as_they_can_and_claim_no_more() {
                     report.stop_reason, report.iterations, report.flips
                 );
                 // Whatever came of it, the report says what the metric is.
-                let (found, wanted) = (measure(flow.mesh(), flow.metric()), flow.target(&target));
+                let (found, wanted) = (measure(flow.mesh(), flow.metric()), flow.target(&target).unwrap());
                 assert_eq!(found.broken, report.broken_triangles, "{what}");
                 let off = |v: VertexId| (found.curvature[v.index()] - wanted[v]).abs();
                 let error = flow.mesh().vertices().map(off).fold(0.0, f64::max);

@@ -7,6 +7,7 @@ use proptest::prelude::*;
 use ricci::mesh::Mesh;
 use ricci::mesh::check::{Defect, diagnose};
 use ricci::mesh::io::{self, Soup, Textured};
+use ricci::mesh::shapes;
 use ricci::{At, Error, Result};
 use std::collections::HashMap;
 use std::io::Write;
@@ -212,6 +213,32 @@ fn texture_coordinates_are_written_per_corner() {
     assert_eq!(texcoords, [[0.5, -0.25], [0.0, 1.0]]);
     assert_eq!(text.lines().last(), Some("f 3/2 1/1 2/2"));
     assert_eq!(io::read(&path).unwrap().faces, data.faces);
+}
+
+/// tobj numbers vertices anew, so what the corners of the faces have is compared.
+#[test]
+fn another_reader_of_obj_finds_what_was_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.obj");
+    let mut soup = shapes::torus(2.0, 0.7, 9, 5).unwrap();
+    let corner = |f: usize, k: usize| (f as f64).mul_add(0.1, k as f64 / 3.0);
+    let n = soup.faces.len();
+    soup.attributes.uv = Some((0..n).map(|f| [0, 1, 2].map(|k| [corner(f, k), -corner(k, f)])).collect());
+    soup.attributes.corner_normals =
+        Some((0..n).map(|f| [0, 1, 2].map(|k| [corner(f, k), 1.0, corner(k, 1)])).collect());
+    io::write(&path, &soup).unwrap();
+    let mut text = std::io::BufReader::new(std::fs::File::open(&path).unwrap());
+    let no_materials = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
+    let (models, _) = tobj::load_obj_buf(&mut text, &tobj::LoadOptions::default(), no_materials).unwrap();
+    let [tobj::Model { mesh, .. }] = &models[..] else { panic!("{} objects", models.len()) };
+    fn rows<const N: usize>(list: &[f64], indices: &[u32]) -> Vec<[f64; N]> {
+        indices.iter().map(|&i| std::array::from_fn(|k| list[N * i as usize + k])).collect()
+    }
+    let corners = soup.faces.as_flattened().iter().map(|&v| soup.positions[v as usize]);
+    assert_eq!(rows(&mesh.positions, &mesh.indices), corners.collect::<Vec<_>>());
+    assert_eq!(rows(&mesh.texcoords, &mesh.texcoord_indices), soup.attributes.uv.unwrap().as_flattened());
+    let normals = soup.attributes.corner_normals.unwrap();
+    assert_eq!(rows(&mesh.normals, &mesh.normal_indices), normals.as_flattened());
 }
 
 fn read_obj(text: &str) -> Result<Soup> {

@@ -10,7 +10,7 @@ use ricci::geometry::Space;
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes;
 use ricci::mesh::{PerEdge, PerVertex, VertexId};
-use ricci::metric::initial::initial_mixed;
+use ricci::metric::initial::{MixedClass, initial_mixed};
 use ricci::metric::{Scheme, Target, initial_metric};
 use ricci::{Control, Error};
 use std::f64::consts::PI;
@@ -174,7 +174,8 @@ fn imaginary_circles_have_a_radius_for_every_u() {
     for space in [Space::E2, Space::H2] {
         let n = mesh.n_vertices();
         let (epsilon, radii) = (PerVertex::filled(n, -1), PerVertex::filled(n, 0.3));
-        let initial = initial_mixed(&mesh, &lengths, Space::E2, epsilon, radii, space).unwrap();
+        let initial =
+            initial_mixed(&mesh, &lengths, Space::E2, MixedClass { epsilon, radii, space }).unwrap();
         for shift in [-3.0, 0.0, 0.1, 2.0] {
             let mut metric = initial.metric.clone();
             metric.u.iter_mut().for_each(|u| *u = shift);

@@ -3,39 +3,31 @@
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::Outcome;
-use crate::laid::Laid;
+use crate::laid::{Laid, Packed};
 use crate::report::timed;
 use ricci::Control;
+use ricci::embed::ChartOptions;
 use ricci::embed::overlap::{Triangle, overlapping};
-use ricci::embed::{ChartOptions, Charts};
 use ricci::flow::auto_cones;
 use ricci::geometry::Space;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, VertexId};
 use ricci::metric::Target;
 use std::collections::BTreeMap;
 
-/// The charts of a layout, packed.
-pub struct Packed {
-    pub charts: Charts,
-    /// Faces that overlap another one in the unit square, looked for anew in what is written; those that are degenerate there are
-    /// left out.
-    pub overlapping: usize,
-}
-
 /// The target `auto:N`.
 pub fn auto_target(n: usize, input: &Input, space: Space, control: &Control) -> Result<Target, Failure> {
-    if space != Space::E2 || input.geometry != Space::E2 {
+    if space != Space::E2 || input.surface.geometry() != Space::E2 {
         return Err(Failure::Usage("--target auto: cones are placed in e2 only".into()));
     }
-    let placed = auto_cones(&input.mesh, &input.lengths, n, control)?.target;
-    let curved = input.mesh.vertices().filter(|&v| placed[v] != 0.0);
+    let placed = auto_cones(input.mesh(), input.surface.lengths(), n, control)?.target;
+    let curved = input.mesh().vertices().filter(|&v| placed[v] != 0.0);
     Ok(Target::Cones(curved.map(|v| (v, placed[v])).collect()))
 }
 
 /// Interior vertices that a list of cones names.
 pub fn interior_cones(input: &Input, outcome: &Outcome) -> Option<Vec<(VertexId, f64)>> {
     let Target::Cones(cones) = &outcome.rule else { return None };
-    Some(cones.iter().filter(|c| !input.mesh.is_boundary_vertex(c.0)).copied().collect())
+    Some(cones.iter().filter(|c| !input.mesh().is_boundary_vertex(c.0)).copied().collect())
 }
 
 /// Cut the layout of an outcome into charts, if it has one.

@@ -1,13 +1,12 @@
 //! The command line.
 
-use crate::options::{Common, OnChoice, SolveArgs, SurfaceArgs, distance};
-use crate::picture::{FlowPictureArgs, SurfacePictureArgs};
+use crate::flow_args::FlowArgs;
+use crate::info::InfoArgs;
+use crate::options::Common;
+use crate::repair::RepairArgs;
 use crate::uniform::{CoverArgs, UniformizeArgs};
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use ricci::geometry::Space;
-use serde::{Serialize, Serializer};
+use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
-use std::str::FromStr;
 
 /// Conformal metrics of prescribed curvature on triangle meshes, by discrete surface Ricci flow.
 #[derive(Parser, Debug)]
@@ -26,13 +25,13 @@ written, the report says what failed); 2 usage; 3 bad input; 4 cancelled.
 #[derive(Subcommand, Debug)]
 pub enum Command {
     /// What a mesh is: counts, topology, quality; each defect with its elements and its remedy
-    #[command(after_help = INFO_EXAMPLE)]
+    #[command(after_help = crate::info::HELP)]
     Info(InfoArgs),
     /// Mend what can be mended without a guess, with a map back to the input
-    #[command(after_help = REPAIR_EXAMPLE)]
+    #[command(after_help = crate::repair::HELP)]
     Repair(RepairArgs),
     /// The conformal metric with a prescribed curvature, and its layout
-    #[command(after_help = FLOW_EXAMPLE)]
+    #[command(after_help = crate::flow_args::HELP)]
     Flow(FlowArgs),
     /// The metric of constant curvature of a closed surface, in the sphere, the plane or the hyperbolic plane
     #[command(after_help = crate::uniform::UNIFORMIZE_HELP)]
@@ -57,38 +56,6 @@ pub enum Command {
     },
 }
 
-const INFO_EXAMPLE: &str = "\
-Example: every defect of a scan, machine-readable
-    ricci info scan.obj --report scan.json";
-
-const REPAIR_EXAMPLE: &str = "\
-Example: the largest piece of a scan, welded within 1e-6, and where its vertices and faces came from
-    ricci repair scan.stl -o clean.ply --weld 1e-6 --component 0 --map origin.json
-
-Always: weld vertices in the same place (but not in edges in which more than two faces would meet: these are told), drop faces
-that use a vertex twice or repeat a face, give every fan of faces a vertex of its own, turn faces until neighbours agree, drop
-isolated vertices.
-The exit code is 1 if a defect is left that needs a guess; the file is written all the same.";
-
-const FLOW_EXAMPLE: &str = "\
-Example: a flat torus, its layout as texture coordinates and a picture of both
-    ricci make torus -o torus.obj
-    ricci flow torus.obj --uv flat.obj --picture flat.png --report flat.json
-Example: eight cones, and charts in the unit square
-    ricci flow torus.obj --target auto:8 --charts --uv atlas.obj --picture atlas.svg
-
-Files
-    --target cones:FILE.csv    rows `vertex,curvature` in radians; 0 at every vertex that is not named
-    --metric M.json            faces, lengths, eta (per face, opposite the corners: bc, ca, ab), u,
-                               conformal_factor, epsilon, target, boundary; `input_geometry` is the
-                               geometry that `lengths` are in, so the file can be read back as a MESH
-    --uv OUT.obj | OUT.glb     the surface with the layout as texture coordinates, in E² scaled to its area, in
-                               H² of the Poincaré disk, and the input's colours and normals; with --homogeneous (.obj) each vt is
-                               `qx qy q`: linear in a face are these three, the texture is at (x, y); with --on input the input's
-                               own vertices and faces, in order, the map made linear on each
-    --circles C.json           vertex circles and the circles orthogonal to them, in the layout's coordinates
-    --trace T.csv              step,energy,max_curvature_error,area,step_size (gradient flow)";
-
 const DEMO_EXAMPLE: &str = "\
 Example
     ricci demo out && ls out";
@@ -100,109 +67,6 @@ Example
 const COMPLETIONS_EXAMPLE: &str = "\
 Example
     ricci completions bash > ~/.local/share/bash-completion/completions/ricci";
-
-#[derive(Args, Debug)]
-pub struct InfoArgs {
-    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json)
-    pub mesh: PathBuf,
-    /// STL: corners within this distance are one vertex; 0: those in exactly the same place
-    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
-    pub weld: Option<f64>,
-    #[command(flatten)]
-    pub picture: SurfacePictureArgs,
-    #[command(flatten)]
-    pub common: Common,
-}
-
-#[derive(Args, Debug)]
-pub struct RepairArgs {
-    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii)
-    pub mesh: PathBuf,
-    /// Repaired mesh (.obj, .off, .ply, .glb)
-    #[arg(short = 'o', long = "out", value_name = "OUT")]
-    pub out: PathBuf,
-    /// Weld vertices within this distance; 0 welds those in exactly the same place
-    #[arg(long, value_name = "DISTANCE", default_value_t = 0.0, value_parser = distance)]
-    pub weld: f64,
-    /// Weld nothing
-    #[arg(long, conflicts_with = "weld")]
-    pub no_weld: bool,
-    /// Cut the surface open along edges in which more than two faces meet
-    #[arg(long)]
-    pub cut_edges: bool,
-    /// Keep one connected piece: 0 is that with the most faces
-    #[arg(long, value_name = "K")]
-    pub component: Option<usize>,
-    /// Write the input's vertex of each vertex and the input's face of each face
-    #[arg(long, value_name = "MAP.json")]
-    pub map: Option<PathBuf>,
-    #[command(flatten)]
-    pub picture: SurfacePictureArgs,
-    #[command(flatten)]
-    pub common: Common,
-}
-
-#[derive(Args, Debug)]
-pub struct FlowArgs {
-    #[command(flatten)]
-    pub surface: SurfaceArgs,
-    /// Background geometry; auto is h2 on closed surfaces of genus ≥ 2 and e2 elsewhere
-    #[arg(long, value_enum, default_value_t = SpaceChoice::Auto)]
-    pub space: SpaceChoice,
-    /// Curvature: uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
-    #[arg(long, value_name = "TARGET", long_help = TARGET_HELP)]
-    pub target: Option<TargetChoice>,
-    #[command(flatten)]
-    pub solve: SolveArgs,
-    /// Keep the total area during the gradient flow (E²)
-    #[arg(long)]
-    pub area_normalised: bool,
-    /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,…
-    #[arg(long, value_name = "VERTICES")]
-    pub pin: Option<PinChoice>,
-    /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex
-    #[arg(long, value_name = "E.csv")]
-    pub keep_edges: Option<PathBuf>,
-    /// Write the metric
-    #[arg(long, value_name = "M.json")]
-    pub metric: Option<PathBuf>,
-    /// Write the surface with its layout as texture coordinates (E²; H² of closed surfaces), .obj or .glb
-    #[arg(long, value_name = "OUT.obj")]
-    pub uv: Option<PathBuf>,
-    /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
-    #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
-    pub on: OnChoice,
-    /// Write homogeneous texture coordinates to --uv, `vt qx qy q`: the projective map of each piece is linear in them
-    #[arg(long, requires = "uv")]
-    pub homogeneous: bool,
-    /// Write the vertex circles and dual circles of the layout (circle schemes, E²)
-    #[arg(long, value_name = "C.json")]
-    pub circles: Option<PathBuf>,
-    #[command(flatten)]
-    pub picture: FlowPictureArgs,
-    /// Write the steps of the gradient flow
-    #[arg(long, value_name = "T.csv")]
-    pub trace: Option<PathBuf>,
-    /// Cut a layout that overlaps itself into charts that do not, packed into the unit square (--uv, --picture)
-    #[arg(long)]
-    pub charts: bool,
-    /// Least distance of two charts, in sides of the unit square
-    #[arg(long, value_name = "DISTANCE", default_value_t = 1.0 / 256.0, value_parser = distance, requires = "charts")]
-    pub margin: f64,
-    #[command(flatten)]
-    pub common: Common,
-}
-
-const TARGET_HELP: &str = "\
-Prescribed curvature in radians:
-  uniform         2πχ/V at every vertex of a closed surface in E²; 0 everywhere in H² and S²
-  boundary        0 inside, 2πχ shared over the boundary in proportion to its length (E², open surfaces)
-  single:V        all of 2πχ at vertex V, 0 elsewhere (E²)
-  auto:N          N cones where they lower the distortion of area most, 0 elsewhere inside (E²)
-  cones:FILE.csv  the curvatures of the file's rows `vertex,curvature`, 0 elsewhere
-  file:FILE.csv   the curvature of every vertex
-[default: boundary on open surfaces in E²; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
-with --pin 0 at every vertex that is not pinned]";
 
 #[derive(Args, Debug)]
 pub struct DemoArgs {
@@ -222,96 +86,6 @@ pub struct GalleryArgs {
     pub common: Common,
 }
 
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
-#[serde(rename_all = "lowercase")]
-pub enum SpaceChoice {
-    Auto,
-    E2,
-    H2,
-    S2,
-}
-
-impl SpaceChoice {
-    /// The space asked for; `None` is auto.
-    pub fn space(self) -> Option<Space> {
-        match self {
-            SpaceChoice::Auto => None,
-            SpaceChoice::E2 => Some(Space::E2),
-            SpaceChoice::H2 => Some(Space::H2),
-            SpaceChoice::S2 => Some(Space::S2),
-        }
-    }
-}
-
-/// A target as it is asked for.
-#[derive(Debug, Clone, PartialEq)]
-pub enum TargetChoice {
-    Uniform,
-    Boundary,
-    Single(u32),
-    Auto(usize),
-    Cones(PathBuf),
-    File(PathBuf),
-}
-
-impl FromStr for TargetChoice {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text.split_once(':') {
-            None if text == "uniform" => Ok(TargetChoice::Uniform),
-            None if text == "boundary" => Ok(TargetChoice::Boundary),
-            Some(("single", v)) => {
-                v.parse().map(TargetChoice::Single).map_err(|_| format!("`{v}` is not a vertex number"))
-            }
-            Some(("cones", file)) if !file.is_empty() => Ok(TargetChoice::Cones(file.into())),
-            Some(("file", file)) if !file.is_empty() => Ok(TargetChoice::File(file.into())),
-            Some(("auto", n)) => {
-                n.parse().map(TargetChoice::Auto).map_err(|_| format!("`{n}` is not a number of cones"))
-            }
-            _ => Err("must be uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv".into()),
-        }
-    }
-}
-
-impl std::fmt::Display for TargetChoice {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            TargetChoice::Uniform => f.write_str("uniform"),
-            TargetChoice::Boundary => f.write_str("boundary"),
-            TargetChoice::Single(v) => write!(f, "single:{v}"),
-            TargetChoice::Auto(n) => write!(f, "auto:{n}"),
-            TargetChoice::Cones(file) => write!(f, "cones:{}", file.display()),
-            TargetChoice::File(file) => write!(f, "file:{}", file.display()),
-        }
-    }
-}
-
-/// Vertices whose conformal factor is held.
-#[derive(Debug, Clone, PartialEq)]
-pub enum PinChoice {
-    Boundary,
-    Vertices(Vec<u32>),
-}
-
-impl FromStr for PinChoice {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "boundary" {
-            return Ok(PinChoice::Boundary);
-        }
-        let vertex = |v: &str| v.trim().parse().map_err(|_| format!("`{v}` is not a vertex number"));
-        text.split(',').map(vertex).collect::<Result<_, _>>().map(PinChoice::Vertices)
-    }
-}
-
-impl Serialize for TargetChoice {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -320,15 +94,5 @@ mod tests {
     #[test]
     fn the_command_line_is_well_formed() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn targets_read_back_as_written() {
-        for text in ["uniform", "boundary", "single:7", "auto:4", "cones:a:b.csv", "file:/x/y.csv"] {
-            assert_eq!(text.parse::<TargetChoice>().unwrap().to_string(), text);
-        }
-        for text in ["", "single", "single:-1", "cones:", "auto:", "auto:-1", "Uniform"] {
-            assert!(text.parse::<TargetChoice>().is_err(), "{text}");
-        }
     }
 }

@@ -4,8 +4,9 @@ use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
 use crate::figures::FlowResult;
 use crate::flow;
+use crate::job::Outcome;
 use crate::output::{Outputs, check_outputs};
-use crate::report::{Checks, InputSummary, Report, path_text, peak_bytes};
+use crate::report::{Checks, Done, InputSummary, Report, Seconds, path_text};
 use crate::uniform::{self, Shape, UniformFigures};
 use crate::{make, say};
 use clap::Parser;
@@ -134,10 +135,8 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
     }
     if let Some(path) = &args.common.report {
         let asked = Asked { out: path_text(out), threads: args.common.threads() };
-        let mut report = Report::new("demo", None, asked, Runs { runs });
-        report.checks = checks;
-        report.seconds.total = start.elapsed().as_secs_f64();
-        report.peak_bytes = peak_bytes();
+        let seconds = Seconds { total: start.elapsed().as_secs_f64(), ..Seconds::default() };
+        let report = Report::new("demo", None, asked, Runs { runs }).finished(checks, seconds);
         let mut outputs = Outputs::default();
         outputs.add_report(path, &report)?;
         outputs.commit()?;
@@ -178,23 +177,23 @@ fn run_example(example: &Example, args: &DemoArgs, control: &Control) -> Result<
     }
 }
 
-fn flowed(line: String, done: flow::Done) -> Ran {
-    let laid = done.outcome.layout.as_ref().ok();
+fn flowed(line: String, done: Done<Outcome>) -> Ran {
+    let laid = done.result.layout.as_ref().ok();
     Ran {
         line,
         input: InputSummary::of(&done.input),
-        steps: done.outcome.report.iterations,
-        error: done.outcome.report.max_curvature_error,
+        steps: done.result.report.iterations,
+        error: done.result.report.max_curvature_error,
         layout: laid.map(|l| (l.flipped().len(), l.quality.qc_mean)),
         seconds: done.seconds,
         exit_code: done.exit_code,
-        result: Figures::Flow(Box::new(FlowResult::new(&done.input, &done.outcome))),
+        result: Figures::Flow(Box::new(FlowResult::new(&done.input, &done.result))),
         checks: done.checks,
     }
 }
 
-fn uniformized(line: String, done: uniform::Done) -> Result<Ran, Failure> {
-    let Shape::Quotient(u) = &done.shape else {
+fn uniformized(line: String, done: Done<Shape>) -> Result<Ran, Failure> {
+    let Shape::Quotient(u) = &done.result else {
         return Err(Failure::Failed("a sphere is no example".into()));
     };
     Ok(Ran {

@@ -3,12 +3,62 @@
 use crate::charts;
 use crate::input::Input;
 use crate::job::Outcome;
+use crate::laid::Laid;
 use ricci::embed::{Layout, Seam};
-use ricci::flow::Obstruction;
+use ricci::flow::{Obstruction, Report};
 use ricci::geometry::{PlaneIsometry, Space};
 use ricci::mesh::{HalfedgeId, VertexId};
 use serde::Serialize;
 use std::collections::BTreeMap;
+
+/// How a flow went.
+#[derive(Serialize)]
+pub struct Course {
+    pub converged: bool,
+    pub stop_reason: &'static str,
+    pub iterations: usize,
+    /// Edge flips, `start_flips` included.
+    pub flips: usize,
+    /// Isometric flips to the Delaunay triangulation before the flow.
+    pub start_flips: usize,
+}
+
+impl Course {
+    pub fn new(report: &Report, start_flips: usize) -> Course {
+        let Report { stop_reason, iterations, flips, .. } = *report;
+        let converged = report.converged();
+        let (stop_reason, flips) = (stop_reason.name(), start_flips + flips);
+        Course { converged, stop_reason, iterations, flips, start_flips }
+    }
+}
+
+/// How a layout distorts the surface; null where there is none.
+#[derive(Serialize)]
+pub struct Distortion {
+    qc_mean: Option<f64>,
+    qc_max: Option<f64>,
+    area_ratio_min: Option<f64>,
+    area_ratio_max: Option<f64>,
+    /// Faces without area in the input or the layout; the qc figures leave them out. With charts also those that are smaller than
+    /// the coordinates of the unit square resolve, which the check for overlaps leaves out.
+    degenerate_pieces: Option<usize>,
+    /// Vertices of the common refinement that are none of the input's; null where the layout is of the given triangulation.
+    crossings: Option<usize>,
+}
+
+impl Distortion {
+    pub fn of(laid: Option<&Laid>) -> Distortion {
+        let quality = laid.map(|laid| &laid.quality);
+        Distortion {
+            qc_mean: quality.map(|q| q.qc_mean),
+            qc_max: quality.map(|q| q.qc_max),
+            area_ratio_min: quality.map(|q| q.area_ratio_min),
+            area_ratio_max: quality.map(|q| q.area_ratio_max),
+            degenerate_pieces: laid.map(|laid| laid.degenerate.len()),
+            crossings: laid.and_then(Laid::refinement).map(|r| r.crossings.len()),
+        }
+    }
+}
 
 /// The figures of a flow. Those of the layout are null where there is none.
 #[derive(Serialize)]
@@ -16,13 +66,8 @@ pub struct FlowResult {
     space: &'static str,
     scheme: &'static str,
     target: &'static str,
-    converged: bool,
-    stop_reason: &'static str,
-    iterations: usize,
-    /// Edge flips, `start_flips` included.
-    flips: usize,
-    /// Isometric flips to the Delaunay triangulation before the flow.
-    start_flips: usize,
+    #[serde(flatten)]
+    course: Course,
     max_curvature_error: f64,
     /// What the error is held against: the tolerance, or the rounding floor of the mesh.
     tolerance: f64,
@@ -46,15 +91,8 @@ pub struct FlowResult {
     flipped_triangles: Option<usize>,
     /// Faces of the input that fold where the map is made linear on them.
     flipped_input_faces: Option<usize>,
-    qc_mean: Option<f64>,
-    qc_max: Option<f64>,
-    area_ratio_min: Option<f64>,
-    area_ratio_max: Option<f64>,
-    /// Faces without area in the input or the layout; the qc figures leave them out. With charts also those that are smaller than
-    /// the coordinates of the unit square resolve, which the check for overlaps leaves out.
-    degenerate_pieces: Option<usize>,
-    /// Vertices of the common refinement that are none of the input's; null where the layout is of the given triangulation.
-    crossings: Option<usize>,
+    #[serde(flatten)]
+    distortion: Distortion,
     /// Number of charts, and the share of the unit square that they cover.
     #[serde(skip_serializing_if = "Option::is_none")]
     charts: Option<usize>,
@@ -114,11 +152,8 @@ impl FlowResult {
             SeamFigures { rotation, translation, residual: s.residual, edges: segment.len() }
         };
         let seams = |layout: &Layout| layout.seams.iter().zip(&layout.cut.segments).map(seam).collect();
-        let given = |v: VertexId| outcome.mirror.as_ref().map_or(v.0, |mirror| v.0.min(mirror[v.index()]));
-        let worst = |&(v, curvature_error): &(VertexId, f64)| VertexFigures {
-            vertex: given(v) as usize,
-            curvature_error,
-        };
+        let worst =
+            |&(v, curvature_error): &(VertexId, f64)| VertexFigures { vertex: v.index(), curvature_error };
         let obstruction = |o: &Obstruction| ObstructionFigures {
             vertices: o.vertices.iter().map(|v| v.index()).collect(),
             target: o.curvature,
@@ -128,11 +163,7 @@ impl FlowResult {
             space: outcome.metric.space.name(),
             scheme: outcome.scheme.name(),
             target: outcome.rule.name(),
-            converged: report.converged,
-            stop_reason: report.stop_reason.name(),
-            iterations: report.iterations,
-            flips: outcome.start_flips + report.flips,
-            start_flips: outcome.start_flips,
+            course: Course::new(report, outcome.start_flips),
             max_curvature_error: report.max_curvature_error,
             tolerance: report.tolerance,
             rounding_floor: report.rounding_floor,
@@ -147,12 +178,7 @@ impl FlowResult {
             area: outcome.curvature.area,
             flipped_triangles: laid.map(|l| l.flipped().len()),
             flipped_input_faces: laid.and_then(|l| l.on_input.as_ref()).map(|o| o.flipped.len()),
-            qc_mean: laid.map(|l| l.quality.qc_mean),
-            qc_max: laid.map(|l| l.quality.qc_max),
-            area_ratio_min: laid.map(|l| l.quality.area_ratio_min),
-            area_ratio_max: laid.map(|l| l.quality.area_ratio_max),
-            degenerate_pieces: laid.map(|l| l.degenerate.len()),
-            crossings: laid.and_then(|l| l.refinement()).map(|r| r.crossings.len()),
+            distortion: Distortion::of(laid),
             charts: packed.map(|p| p.charts.count()),
             packing: packed.map(|p| p.charts.efficiency),
             cones: cones.map(|cones| cones.into_iter().map(|(v, k)| (v.0, k)).collect()),

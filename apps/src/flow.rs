@@ -3,10 +3,11 @@
 use crate::carry;
 use crate::charts;
 use crate::circles::circles;
-use crate::cli::{FlowArgs, PinChoice, TargetChoice};
 use crate::csv;
 use crate::failure::Failure;
 use crate::figures::FlowResult;
+use crate::flow_args::{FlowArgs, PinChoice, TargetChoice};
+use crate::flow_summary;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
 use crate::metric_file::MetricFile;
@@ -14,8 +15,7 @@ use crate::options::{FlipsChoice, MethodChoice, OnChoice, SchemeChoice};
 use crate::output::{self, Outputs, check_extension, extension};
 use crate::picture::{ColorChoice, FlowPictureArgs};
 use crate::progress::Progress;
-use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes};
-use crate::say;
+use crate::report::{Done, InputSummary, Report, Seconds, path_text};
 use crate::show;
 use crate::uv;
 use ricci::Control;
@@ -28,35 +28,24 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// A finished run.
-pub struct Done {
-    pub input: Input,
-    pub outcome: Outcome,
-    pub checks: Checks,
-    /// Files written.
-    pub files: Vec<String>,
-    pub seconds: f64,
-    pub exit_code: u8,
-}
-
 /// Run the command and say what came out.
 pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
     let done = execute(args, control)?;
     if !args.common.quiet {
-        say::flow(&done);
+        flow_summary::say(&done);
     }
     Ok(done.exit_code)
 }
 
 /// Run the command; the exit code is 1 if a check fails or a file that was asked for has nothing to hold.
-pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
+pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done<Outcome>, Failure> {
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.common.quiet);
     let input = input::read(&args.surface, control)?;
     // Placed cones exist in E² alone.
     let automatic = if matches!(args.target, Some(TargetChoice::Auto(_))) { Some(Space::E2) } else { None };
-    let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(&input.mesh));
+    let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
     check_outputs(args, &input, space)?;
     let job = Job {
         space,
@@ -64,12 +53,12 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
         target: args.target.as_ref().map(|t| target(t, &input, space, control)).transpose()?,
         options: Options {
             fixed_edges: match &args.keep_edges {
-                Some(path) => csv::read_edges(path, &input.mesh)?,
+                Some(path) => csv::read_edges(path, input.mesh())?,
                 None => Vec::new(),
             },
+            pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, input.mesh())),
             ..options(args)
         },
-        pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, &input.mesh)),
         laid_out: args.charts
             || [&args.uv, &args.circles, &args.picture.base.picture, &args.common.report]
                 .iter()
@@ -86,7 +75,7 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done, Failure> {
     let svg = args.picture.base.picture.as_ref().is_some_and(|p| show::is_svg(p));
     let missing = outcome.layout.is_err() && (args.uv.is_some() || args.circles.is_some() || svg);
     let exit_code = if missing || !outcome.failed.0.is_empty() { 1 } else { checks.exit_code() };
-    Ok(Done { input, outcome, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
+    Ok(Done { input, result: outcome, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
 }
 
 fn options(args: &FlowArgs) -> Options {
@@ -119,12 +108,9 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     if args.area_normalised && args.solve.method != MethodChoice::Gradient {
         return usage("--area-normalised is a variant of the gradient flow; add --method gradient");
     }
-    if let Some(path) = &args.uv {
-        check_extension("--uv", path, if args.homogeneous { &["obj"] } else { &["obj", "glb"] })?;
-    }
-    if let Some(path) = &args.picture.base.picture {
-        check_extension("--picture", path, &["png", "svg"])?;
-    }
+    let written: &[&str] = if args.homogeneous { &["obj"] } else { &["obj", "glb"] };
+    check_extension("--uv", args.uv.as_deref(), written)?;
+    check_extension("--picture", args.picture.base.picture.as_deref(), &["png", "svg"])?;
     let table = match &args.target {
         Some(TargetChoice::Cones(path) | TargetChoice::File(path)) => Some(path.as_path()),
         _ => None,
@@ -168,14 +154,14 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
             "--circles: scheme {scheme} has no circles; use inversive, thurston, tangential or virtual"
         )));
     }
-    if args.uv.is_some() && input.positions.is_none() {
+    if args.uv.is_some() && input.positions().is_none() {
         return Err(Failure::Usage("--uv: an intrinsic metric has no positions in space".into()));
     }
     if let Some(name) = args.picture.color().filter(|_| !laid_out).and_then(ColorChoice::of_layout) {
         return missing(&format!("--color {name}"));
     }
     if let Some(zoom) = args.picture.zoom {
-        let n = input.mesh.n_vertices();
+        let n = input.mesh().n_vertices();
         if zoom.vertex as usize >= n {
             return Err(Failure::Usage(format!(
                 "--zoom: there is no vertex {}, they are 0 to {}",
@@ -187,7 +173,7 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
     if let Some(path) = args.picture.base.picture.as_ref().filter(|_| !laid_out) {
         let nothing = if extension(path) == "svg" {
             "an SVG shows the layout alone"
-        } else if input.positions.is_none() {
+        } else if input.positions().is_none() {
             "an intrinsic metric has no positions in space"
         } else {
             return Ok(());
@@ -198,7 +184,7 @@ fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
 }
 
 fn target(choice: &TargetChoice, input: &Input, space: Space, control: &Control) -> Result<Target, Failure> {
-    let n = input.mesh.n_vertices();
+    let n = input.mesh().n_vertices();
     Ok(match choice {
         TargetChoice::Uniform => Target::Uniform,
         TargetChoice::Boundary => Target::Boundary,
@@ -320,7 +306,7 @@ impl Asked {
             keep_edges: text(&args.keep_edges),
             tolerance: args.solve.tolerance,
             max_iterations: options(args).iteration_limit(),
-            input_geometry: input.geometry.name(),
+            input_geometry: input.surface.geometry().name(),
             threads: args.common.threads(),
             metric: text(&args.metric),
             uv: text(&args.uv),
@@ -353,9 +339,6 @@ pub fn report<O: Serialize>(
     asked: O,
     seconds: Seconds,
 ) -> Report<O, FlowResult> {
-    let mut report = Report::new("flow", InputSummary::of(input), asked, FlowResult::new(input, outcome));
-    report.checks = outcome.checks();
-    report.seconds = seconds;
-    report.peak_bytes = peak_bytes();
-    report
+    Report::new("flow", InputSummary::of(input), asked, FlowResult::new(input, outcome))
+        .finished(outcome.checks(), seconds)
 }

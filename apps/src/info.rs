@@ -1,15 +1,15 @@
 //! `ricci info`.
 
-use crate::cli::InfoArgs;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::options::SurfaceArgs;
+use crate::options::{Common, SurfaceArgs, distance};
 use crate::output::{Outputs, check_extension, check_outputs, extension};
 use crate::picture::SurfacePictureArgs;
-use crate::report::{InputSummary, Report, Seconds, path_text, peak_bytes, timed};
+use crate::report::{Checks, InputSummary, Report, Seconds, path_text, timed};
 use crate::say::{self, count};
 use crate::shape_quality::{self, ShapeQuality};
 use crate::show;
+use clap::Args;
 use ricci::Control;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::check::{Defect, Diagnosis, diagnose};
@@ -17,7 +17,25 @@ use ricci::mesh::io::Soup;
 use ricci::mesh::{FaceId, Mesh};
 use ricci::metric::lengths_from_positions;
 use serde::Serialize;
+use std::path::PathBuf;
 use std::time::Instant;
+
+pub const HELP: &str = "\
+Example: every defect of a scan, machine-readable
+    ricci info scan.obj --report scan.json";
+
+#[derive(Args, Debug)]
+pub struct InfoArgs {
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json)
+    pub mesh: PathBuf,
+    /// STL: corners within this distance are one vertex; 0: those in exactly the same place
+    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
+    pub weld: Option<f64>,
+    #[command(flatten)]
+    pub picture: SurfacePictureArgs,
+    #[command(flatten)]
+    pub common: Common,
+}
 
 /// What a surface is.
 #[derive(Serialize)]
@@ -77,15 +95,15 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
     let files = [&args.common.report, &args.picture.base.picture];
     check_outputs(&[Some(&args.mesh)], &files.map(|path| path.as_deref()))?;
-    if let Some(path) = &args.picture.base.picture {
-        check_extension("--picture", path, &["png"])?;
-        if extension(&args.mesh) == "json" && args.weld.is_none() {
-            return Err(Failure::Usage("--picture: an intrinsic metric has no positions in space".into()));
-        }
+    let picture = args.picture.base.picture.as_deref();
+    check_extension("--picture", picture, &["png"])?;
+    let intrinsic = extension(&args.mesh) == "json" && args.weld.is_none();
+    if picture.is_some() && intrinsic {
+        return Err(Failure::Usage("--picture: an intrinsic metric has no positions in space".into()));
     }
     let mut outputs = Outputs::default();
     let mut seconds = Seconds::default();
-    let (summary, info) = if extension(&args.mesh) == "json" && args.weld.is_none() {
+    let (summary, info) = if intrinsic {
         let surface = SurfaceArgs { mesh: args.mesh.clone(), weld: None, input_geometry: None };
         match input::read(&surface, control) {
             Ok(surface) => {
@@ -105,7 +123,7 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
                 shape_of(&soup).unwrap_or_else(|| shape_quality::of_triangles(&soup.positions, &soup.faces));
             (diagnose(&soup.positions, &soup.faces), quality)
         });
-        if let Some(path) = &args.picture.base.picture {
+        if let Some(path) = picture {
             let draw = || {
                 outputs.add(path, |out| {
                     let threads = args.common.threads();
@@ -122,10 +140,8 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     if let Some(path) = &args.common.report {
         let picture = args.picture.clone();
         let asked = Asked { weld: args.weld, picture, threads: args.common.threads() };
-        let mut report = Report::new("info", summary, asked, info);
         seconds.total = start.elapsed().as_secs_f64();
-        report.seconds = seconds;
-        report.peak_bytes = peak_bytes();
+        let report = Report::new("info", summary, asked, info).finished(Checks::default(), seconds);
         outputs.add_report(path, &report)?;
     }
     outputs.commit()?;
@@ -135,9 +151,10 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
 impl Info {
     /// An intrinsic metric is a surface already; its lengths may still form no triangles.
     fn of_metric(surface: &Input) -> Self {
-        let Input { mesh, lengths, geometry, .. } = surface;
+        let surface = &surface.surface;
+        let (mesh, lengths, geometry) = (surface.mesh(), surface.lengths(), surface.geometry());
         let broken =
-            |f: &FaceId| triangle::angles(*geometry, mesh.opposite_edges(*f).map(|e| lengths[e])).broken();
+            |f: &FaceId| triangle::angles(geometry, mesh.opposite_edges(*f).map(|e| lengths[e])).broken();
         let defect = |f: FaceId| DefectFigures {
             code: "triangle_inequality",
             message: format!("face {f} breaks the triangle inequality of {geometry}"),
@@ -150,7 +167,7 @@ impl Info {
             .then_some(DefectCount { code: "triangle_inequality", count: defects.len() });
         Info {
             admissible: defects.is_empty(),
-            quality: shape_quality::of_surface(mesh, *geometry, lengths),
+            quality: shape_quality::of_surface(mesh, geometry, lengths),
             defect_counts: counted.into_iter().collect(),
             defects,
         }

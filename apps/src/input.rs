@@ -4,24 +4,19 @@ use crate::failure::Failure;
 use crate::metric_file::{self, Intrinsic};
 use crate::options::SurfaceArgs;
 use crate::output::extension;
-use crate::report::timed;
+use crate::timing::timed;
 use ricci::Control;
+use ricci::Surface;
 use ricci::control::Stage;
 use ricci::geometry::Space;
 use ricci::mesh::io::{self, Attributes, Soup};
-use ricci::mesh::{Mesh, PerEdge, Point};
-use ricci::metric::lengths_from_positions;
+use ricci::mesh::{Mesh, Point};
 use std::path::{Path, PathBuf};
 
 /// A connected oriented surface with edge lengths.
 pub struct Input {
     pub path: PathBuf,
-    pub mesh: Mesh,
-    pub lengths: PerEdge<f64>,
-    /// The geometry in which the lengths are read.
-    pub geometry: Space,
-    /// Positions in space; none for an intrinsic metric.
-    pub positions: Option<Vec<Point>>,
+    pub surface: Surface,
     /// What else the mesh file says of vertices and corners.
     pub attributes: Attributes,
     pub seconds_read: f64,
@@ -33,26 +28,39 @@ pub fn read(args: &SurfaceArgs, control: &Control) -> Result<Input, Failure> {
     let (path, weld) = (args.mesh.as_path(), args.weld);
     let (mut seconds_read, mut seconds_build) = (0.0, 0.0);
     control.step(Stage::Read, 0.0)?;
-    let (mesh, lengths, geometry, positions, attributes) = if extension(path) == "json" && weld.is_none() {
+    let geometry = args.input_geometry.map(Space::from);
+    let (surface, attributes) = if extension(path) == "json" && weld.is_none() {
         let text = timed(&mut seconds_read, || read_text(path))?;
-        let Intrinsic { mesh, lengths, geometry } =
-            timed(&mut seconds_build, || metric_file::parse(path, &text))?;
-        (mesh, lengths, geometry, None, Attributes::default())
+        let build = || -> Result<_, Failure> {
+            let Intrinsic { mesh, lengths, geometry: written } = metric_file::parse(path, &text)?;
+            Ok(Surface::intrinsic(mesh, lengths, geometry.unwrap_or(written))?)
+        };
+        (timed(&mut seconds_build, build)?, Attributes::default())
     } else {
         let soup = timed(&mut seconds_read, || read_soup(path, weld))?;
         control.step(Stage::Build, 0.0)?;
         let build = || -> Result<_, Failure> {
-            let mesh = Mesh::from_soup(&soup)?;
-            let lengths = lengths_from_positions(&mesh, &soup.positions)?;
-            Ok((mesh, lengths))
+            let surface = Surface::from_soup(&soup)?;
+            Ok(match geometry {
+                Some(geometry) => surface.read_in(geometry),
+                None => surface,
+            })
         };
-        let (mesh, lengths) = timed(&mut seconds_build, build)?;
-        (mesh, lengths, Space::E2, Some(soup.positions), soup.attributes)
+        (timed(&mut seconds_build, build)?, soup.attributes)
     };
     control.check()?;
-    let path = path.into();
-    let geometry = args.input_geometry.map_or(geometry, Space::from);
-    Ok(Input { path, mesh, lengths, geometry, positions, attributes, seconds_read, seconds_build })
+    Ok(Input { path: path.into(), surface, attributes, seconds_read, seconds_build })
+}
+
+impl Input {
+    pub fn mesh(&self) -> &Mesh {
+        self.surface.mesh()
+    }
+
+    /// Positions in space; none for an intrinsic metric.
+    pub fn positions(&self) -> Option<&[Point]> {
+        self.surface.positions().map(|positions| positions.as_slice())
+    }
 }
 
 /// Read a mesh file; the corners of an STL file are one vertex within the distance `weld`.

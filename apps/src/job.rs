@@ -5,11 +5,12 @@ use crate::input::Input;
 use crate::laid::{self, Laid};
 use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
-use ricci::flow::{self, SurfaceFlow};
+use ricci::flow;
 use ricci::geometry::{Space, worse};
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use ricci::metric::target::{check_total, check_vertices, settle_total};
-use ricci::metric::{Curvature, Initial, Metric, Scheme, Target};
+use ricci::metric::target::check_vertices;
+use ricci::metric::{Curvature, Initial, Metric, Scheme};
+use ricci::{Class, Flow, Target};
 
 /// What to compute.
 pub struct Job {
@@ -18,8 +19,6 @@ pub struct Job {
     /// `None`: the default of the surface's topology.
     pub target: Option<Target>,
     pub options: flow::Options,
-    /// Vertices whose conformal factor is held at 0; their curvature is free.
-    pub pinned: Vec<VertexId>,
     /// Whether an output needs the layout.
     pub laid_out: bool,
 }
@@ -62,39 +61,36 @@ pub fn default_space(mesh: &Mesh) -> Space {
 }
 
 pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failure> {
-    let space = job.space;
-    let (rule, mut target) = target(&input.mesh, &input.lengths, &job)?;
+    let class = Class::new(job.scheme, job.space);
+    let rule = rule(input, &job)?;
     let mut start = 0.0;
-    let mut flow = timed(&mut start, || {
-        let Input { mesh, lengths, geometry, .. } = input;
-        SurfaceFlow::new(mesh, lengths, *geometry, job.scheme, space, &job.pinned, &job.options, control)
-    })?;
-    let report = flow.solve(&target, control)?;
-    // Layouts in H² magnify what is left of the curvature by e^distance.
-    if report.converged && space == Space::H2 && flow.mesh().is_closed() && target.iter().all(|&k| k == 0.0) {
-        flow.flatten(control)?;
-    }
-    let (mesh, metric) = (flow.mesh().clone(), flow.metric().clone());
+    let mut flow = timed(&mut start, || Flow::new(input.surface.clone(), class, &job.options, control))?;
+    let solution = flow.solve(&rule, control)?;
 
     // What goes wrong from here on is no fault of the input.
     let failed = |error: ricci::Error| Failure::Failed(error.to_string());
-    let lengths = metric.lengths(&mesh).map_err(failed)?;
-    let curvature = metric.curvature(&mesh).map_err(failed)?;
-    job.pinned.iter().for_each(|&v| target[v] = curvature.at[v]);
+    let (mesh, metric) = (solution.mesh(), solution.metric());
+    let lengths = metric.lengths(mesh).map_err(failed)?;
+    let curvature = metric.curvature(mesh).map_err(failed)?;
+    let (Some(report), Some(target), Some(final_target)) =
+        (solution.report().cloned(), solution.target().cloned(), solution.final_target()?)
+    else {
+        return Err(Failure::Failed("the flow has left no report".into()));
+    };
     let mut seconds = Seconds::new(input, &report.seconds);
     seconds.flip += start;
-    let layout = laid::lay_out(input, &flow, &curvature, &target, job.laid_out, &mut seconds, control)?;
+    let layout = laid::lay_out(input, &solution, &curvature, job.laid_out, &mut seconds, control)?;
     Ok(Outcome {
         scheme: job.scheme,
         rule,
-        final_target: flow.target(&target),
+        final_target,
         target,
-        pinned: job.pinned,
-        initial: flow.initial().clone(),
-        start_flips: flow.start_flips(),
-        mirror: flow.double().map(|double| mesh.vertices().map(|v| double.mirror(v).0).collect()),
-        mesh,
-        metric,
+        pinned: job.options.pinned,
+        initial: solution.initial().clone(),
+        start_flips: solution.start_flips(),
+        mirror: solution.double().map(|double| mesh.vertices().map(|v| double.mirror(v).0).collect()),
+        mesh: Mesh::clone(mesh),
+        metric: metric.clone(),
         lengths,
         curvature,
         report,
@@ -105,27 +101,21 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     })
 }
 
-/// The target by rule and by value, admissible.
-fn target(mesh: &Mesh, lengths: &PerEdge<f64>, job: &Job) -> Result<(Target, PerVertex<f64>), Failure> {
-    let free = !job.pinned.is_empty();
-    let rule = match &job.target {
-        Some(rule) => rule.clone(),
-        None if free => Target::Cones(Vec::new()),
-        None => Target::default_for(mesh, lengths, job.space)?,
+/// The target that was asked for or is the default of the surface. What is asked for must be possible on the given triangulation; a
+/// default that is too low for the scheme there is no fault of the input, and the flow says why it cannot be reached.
+fn rule(input: &Input, job: &Job) -> Result<Target, Failure> {
+    let pinned = &job.options.pinned;
+    let Some(rule) = &job.target else {
+        return Ok(match pinned.is_empty() {
+            true => Target::default_for(&input.surface, job.space)?,
+            false => Target::Cones(Vec::new()),
+        });
     };
-    let mut target = rule.values(mesh, lengths, job.space)?;
-    job.pinned.iter().filter(|v| v.index() < mesh.n_vertices()).for_each(|&v| target[v] = 0.0);
-    match check_vertices(mesh, job.scheme, &target) {
-        // A default that is too low for the scheme on this triangulation is no fault of the input: the flow says why it
-        // cannot be reached.
-        Err(ricci::Error::TargetBelow { .. }) if job.target.is_none() => {}
-        possible => possible?,
-    }
-    if !free {
-        check_total(mesh, job.space, &target)?;
-        settle_total(mesh, job.space, &mut target);
-    }
-    Ok((rule, target))
+    let mut target = rule.values(&input.surface, job.space)?;
+    let n = target.len();
+    pinned.iter().filter(|v| v.index() < n).for_each(|&v| target[v] = 0.0);
+    check_vertices(input.mesh(), job.scheme, &target)?;
+    Ok(rule.clone())
 }
 
 /// Gauss–Bonnet must hold to this. Each of the 3F angles is off by a few ulp, which add up like a random walk: 1e-12 for a
@@ -145,7 +135,7 @@ impl Outcome {
     pub fn checks(&self) -> Checks {
         let mut checks = Checks::default();
         checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET);
-        checks.add("max_curvature_error", self.curvature_error(), self.report.tolerance);
+        checks.add("max_curvature_error", self.curvature_error(), self.report.allowed_error());
         if let Some(mirror) = &self.mirror {
             let u = &self.metric.u;
             let differs = |(v, &image): (VertexId, &u32)| (u[v] - u[VertexId(image)]).abs();

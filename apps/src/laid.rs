@@ -1,25 +1,31 @@
 //! The layout of a flow's metric with what is said about it.
 
-use crate::charts::Packed;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::report::{Seconds, timed};
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::embed::unroll::CONE_TOLERANCE;
-use ricci::embed::{Layout, OnInput, Quality, UnrollOptions, cones_of, unroll};
-use ricci::flow::SurfaceFlow;
+use ricci::embed::{Charts, Layout, OnInput, Quality, UnrollOptions, unroll};
+use ricci::flow::Solution;
 use ricci::geometry::Space;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
-use ricci::metric::{Curvature, Refinement, SurfaceMetric};
+use ricci::metric::{Curvature, Refinement};
 use std::sync::Arc;
 
 /// Crossings per edge up to which the common refinement is formed for the summary alone: it then costs no more than the flow.
 const FEW_CROSSINGS: usize = 16;
 
 /// Whether to carry a layout back to the given triangulation: where an output needs that, or where it costs little.
-pub fn is_carried_back(metric: &SurfaceMetric, needed: bool) -> bool {
+pub fn is_carried_back(metric: &Solution, needed: bool) -> bool {
     needed || metric.crossings().is_ok_and(|n| n <= FEW_CROSSINGS * metric.mesh().n_edges())
+}
+
+/// The charts of a layout, packed.
+pub struct Packed {
+    pub charts: Charts,
+    /// Faces that overlap another one in the unit square, looked for anew in what is written; those that are degenerate there are
+    /// left out.
+    pub overlapping: usize,
 }
 
 /// A layout on the surface as it was given; in E² it is scaled to the area of the input.
@@ -44,40 +50,39 @@ pub struct Laid {
     pub consistency_limit: f64,
 }
 
-/// Lay the metric of a flow out on the given surface, or say why it has no layout. `target`: per given vertex; `needed`: by an output.
+/// Lay the metric of a flow out on the given surface, or say why it has no layout. `needed`: by an output.
 pub fn lay_out(
     input: &Input,
-    flow: &SurfaceFlow,
+    flow: &Solution,
     curvature: &Curvature,
-    target: &PerVertex<f64>,
     needed: bool,
     seconds: &mut Seconds,
     control: &Control,
 ) -> Result<Result<Laid, String>, Failure> {
-    let result = flow.now();
-    if result.metric().space == Space::S2 {
+    if flow.metric().space == Space::S2 {
         return Ok(Err("ricci uniformize lays spheres out".into()));
     }
     if let Some(first) = curvature.broken.first() {
         let n = curvature.broken.len();
         return Ok(Err(format!("{n} triangles break the triangle inequality (the first is face {first})")));
     }
-    if !is_carried_back(&result, needed) {
+    if !is_carried_back(flow, needed) {
         let why = "edge flips led far away, and no output needs the way back to the given triangulation";
         return Ok(Err(why.into()));
     }
     control.step(Stage::Layout, 0.0)?;
-    let wanted = flow.target(target);
-    let errors: f64 = curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum();
+    let sum = |wanted: PerVertex<f64>| -> f64 {
+        curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum()
+    };
+    let errors = flow.final_target()?.map_or(0.0, sum);
     let mut unrolled = || -> ricci::Result<Laid> {
-        let refinement = match result.is_unflipped() {
+        let refinement = match flow.is_unflipped() {
             true => None,
-            false => Some(Arc::new(timed(&mut seconds.refine, || result.refinement(control))?)),
+            false => Some(Arc::new(timed(&mut seconds.refine, || flow.refinement(control))?)),
         };
         timed(&mut seconds.layout, || {
-            let cones = Some(cones_of(&input.mesh, target, CONE_TOLERANCE)?);
-            let options = UnrollOptions { cones, refinement, ..UnrollOptions::default() };
-            Laid::new(input, &result, unroll(&result, &options, control)?, errors)
+            let options = UnrollOptions { refinement, ..UnrollOptions::default() };
+            Laid::new(input, flow, unroll(flow, &options, control)?, errors)
         })
     };
     match unrolled() {
@@ -89,17 +94,18 @@ pub fn lay_out(
 
 impl Laid {
     /// A layout of a metric of the input. `errors`: the sum of |K − K̄| over the vertices.
-    pub fn new(input: &Input, result: &SurfaceMetric, layout: Layout, errors: f64) -> ricci::Result<Laid> {
-        let quality = layout.quality(&input.mesh, &input.lengths)?;
-        let (weight, positions, degenerate) = match (layout.refinement(), &input.positions) {
-            (Some(r), positions) => {
-                let positions = positions.as_ref().map(|p| r.from_input_vertices(p)).transpose()?;
+    pub fn new(input: &Input, result: &Solution, layout: Layout, errors: f64) -> ricci::Result<Laid> {
+        let quality = layout.quality(input.mesh(), input.surface.lengths())?;
+        let given = input.positions();
+        let (weight, positions, degenerate) = match layout.refinement() {
+            Some(r) => {
+                let positions = given.map(|p| r.from_input_vertices(p)).transpose()?;
                 (r.weight.clone(), positions, layout.degenerate.clone())
             }
-            (None, positions) => {
+            None => {
                 let (before, after) = (&result.initial().input_u, &result.metric().u);
                 let weight = PerVertex::from_fn(after.len(), |v: VertexId| (before[v] - after[v]).exp());
-                (weight, positions.clone(), quality.degenerate.clone())
+                (weight, given.map(<[Point]>::to_vec), quality.degenerate.clone())
             }
         };
         Ok(Laid {

@@ -10,6 +10,8 @@ mod demo;
 mod failure;
 mod figures;
 mod flow;
+mod flow_args;
+mod flow_summary;
 mod gallery;
 mod info;
 mod input;
@@ -28,6 +30,7 @@ mod say;
 mod shape;
 mod shape_quality;
 mod show;
+mod timing;
 mod uniform;
 mod uv;
 

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
 use crate::options::Common;
 use crate::output::{Outputs, check_extension, check_outputs, extension};
-use crate::report::{InputSummary, Report, peak_bytes};
+use crate::report::{Checks, InputSummary, Report, Seconds};
 use crate::say::{self, count};
 use crate::shape::{Shape, ToMesh, ToMetric};
 use crate::shape_quality::{self, ShapeQuality};
@@ -98,9 +98,9 @@ fn raise(mut soup: Soup, height: f64) -> Soup {
 }
 
 fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Instant) -> Result<u8, Failure> {
-    check_extension("-o", &to.out, &["obj", "off", "ply", "glb", "json"])?;
+    check_extension("-o", Some(&to.out), &["obj", "off", "ply", "glb", "json"])?;
     let (report, picture) = (to.common.report.as_deref(), to.picture.base.picture.as_deref());
-    picture.map_or(Ok(()), |path| check_extension("--picture", path, &["png"]))?;
+    check_extension("--picture", picture, &["png"])?;
     check_outputs(&[], &[Some(&to.out), report, picture])?;
     let soup = to.spoil.apply(soup?)?;
     let mesh = Mesh::from_soup(&soup)?;
@@ -180,9 +180,8 @@ impl Made<'_> {
             let summary = InputSummary::of_mesh(out, mesh);
             let quality = shape_quality::of_surface(mesh, geometry, lengths);
             let result = MadeResult { quality, period_matrix: known_periods(shape)? };
-            let mut report = Report::new("make", summary, shape, result);
-            report.seconds.total = start.elapsed().as_secs_f64();
-            report.peak_bytes = peak_bytes();
+            let seconds = Seconds { total: start.elapsed().as_secs_f64(), ..Seconds::default() };
+            let report = Report::new("make", summary, shape, result).finished(Checks::default(), seconds);
             outputs.add_report(path, &report)?;
         }
         outputs.commit()?;

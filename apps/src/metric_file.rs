@@ -11,7 +11,8 @@ use ricci::metric::{Metric, Scheme};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// The two faces at an edge must give it the same length to this, relative: other programs compute it per face.
+/// Largest relative difference of the two lengths that a file gives an edge, one for each of its faces: programs that compute them
+/// per face round them apart.
 const LENGTHS_AGREE: f64 = 1e-12;
 
 /// What is written: the metric on its final triangulation.
@@ -57,7 +58,7 @@ impl<'a> MetricFile<'a> {
             space: metric.space.name(),
             input_geometry: metric.space.name(),
             scheme: scheme.name(),
-            faces: faces_of(mesh),
+            faces: mesh.triangles(),
             face_edges: face_edges_of(mesh),
             eta: per_face(&metric.eta),
             lengths: per_face(lengths[0]),
@@ -86,21 +87,17 @@ impl LengthsFile {
     pub fn new(mesh: &Mesh, geometry: Space, lengths: &PerEdge<f64>) -> Self {
         LengthsFile {
             input_geometry: geometry.name(),
-            faces: faces_of(mesh),
+            faces: mesh.triangles(),
             face_edges: face_edges_of(mesh),
             lengths: mesh.faces().map(|f| mesh.opposite_edges(f).map(|e| lengths[e])).collect(),
         }
     }
 }
 
-fn faces_of(mesh: &Mesh) -> Vec<[u32; 3]> {
-    mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect()
-}
-
 /// 1-based edge numbers with the direction as sign, where the faces' vertices alone do not give the surface: where edges
 /// are not determined by their ends, or two faces have the same vertices.
 fn face_edges_of(mesh: &Mesh) -> Option<Vec<[i32; 3]>> {
-    let faces = faces_of(mesh);
+    let faces = mesh.triangles();
     let determined = mesh.is_simplicial() && Mesh::from_faces(mesh.n_vertices(), &faces).is_ok();
     (!determined).then(|| mesh.faces().map(|f| mesh.face_edges(f)).collect())
 }

@@ -1,10 +1,9 @@
 //! Options that several commands share.
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use ricci::flow::{Flips, Method, Options};
 use ricci::geometry::Space;
 use ricci::metric::Scheme;
-use serde::Serialize;
 use std::path::PathBuf;
 
 /// What every command takes.
@@ -73,15 +72,9 @@ impl SolveArgs {
     /// The library's options for this.
     pub fn options(&self, threads: usize) -> Options {
         Options {
-            method: match self.method {
-                MethodChoice::Newton => Method::Newton,
-                MethodChoice::Gradient => Method::Gradient,
-            },
+            method: self.method.into(),
             tolerance: self.tolerance,
-            flips: match self.flips {
-                FlipsChoice::Auto => Flips::Auto,
-                FlipsChoice::Never => Flips::Never,
-            },
+            flips: self.flips.into(),
             max_iterations: self.max_iterations.map_or(0, |n| n as usize),
             threads,
             ..Options::default()
@@ -111,62 +104,34 @@ pub fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
-#[serde(rename_all = "lowercase")]
-pub enum GeometryChoice {
-    E2,
-    H2,
-    S2,
-}
-
-impl From<GeometryChoice> for Space {
-    fn from(choice: GeometryChoice) -> Space {
-        match choice {
-            GeometryChoice::E2 => Space::E2,
-            GeometryChoice::H2 => Space::H2,
-            GeometryChoice::S2 => Space::S2,
+/// Choices of an option that are those of a type of the library, by the same names.
+macro_rules! choices {
+    ($(#[$about:meta])* $name:ident = $of:ty { $($(#[$what:meta])* $choice:ident),+ $(,)? }) => {
+        $(#[$about])*
+        #[derive(clap::ValueEnum, serde::Serialize, Debug, Clone, Copy, PartialEq)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum $name {
+            $($(#[$what])* $choice),+
         }
-    }
-}
 
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
-#[serde(rename_all = "lowercase")]
-pub enum SchemeChoice {
-    Yamabe,
-    Inversive,
-    Thurston,
-    Tangential,
-    Virtual,
-}
-
-impl From<SchemeChoice> for Scheme {
-    fn from(choice: SchemeChoice) -> Scheme {
-        match choice {
-            SchemeChoice::Yamabe => Scheme::Yamabe,
-            SchemeChoice::Inversive => Scheme::Inversive,
-            SchemeChoice::Thurston => Scheme::Thurston,
-            SchemeChoice::Tangential => Scheme::Tangential,
-            SchemeChoice::Virtual => Scheme::Virtual,
+        impl From<$name> for $of {
+            fn from(choice: $name) -> Self {
+                match choice {
+                    $($name::$choice => Self::$choice),+
+                }
+            }
         }
-    }
+    };
 }
+pub(crate) use choices;
 
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
-#[serde(rename_all = "lowercase")]
-pub enum MethodChoice {
-    Newton,
-    Gradient,
-}
-
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
-#[serde(rename_all = "lowercase")]
-pub enum FlipsChoice {
-    Auto,
-    Never,
-}
+choices!(GeometryChoice = Space { E2, H2, S2 });
+choices!(SchemeChoice = Scheme { Yamabe, Inversive, Thurston, Tangential, Virtual });
+choices!(MethodChoice = Method { Newton, Gradient });
+choices!(FlipsChoice = Flips { Auto, Never });
 
 /// The faces of `--uv`.
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq, Default)]
+#[derive(clap::ValueEnum, serde::Serialize, Debug, Clone, Copy, PartialEq, Default)]
 #[serde(rename_all = "lowercase")]
 pub enum OnChoice {
     /// Those of the common refinement with the final triangulation: the map as it is

@@ -142,11 +142,9 @@ fn place_of(path: &Path) -> PathBuf {
     }
 }
 
-/// A usage error unless the file's extension is one of these (lower case).
-pub fn check_extension(option: &str, path: &Path, known: &[&str]) -> Result<(), Failure> {
-    if known.contains(&extension(path).as_str()) {
-        return Ok(());
-    }
+/// A usage error unless the file that an option names, if it names one, has one of these extensions (lower case).
+pub fn check_extension(option: &str, path: Option<&Path>, known: &[&str]) -> Result<(), Failure> {
+    let Some(path) = path.filter(|path| !known.contains(&extension(path).as_str())) else { return Ok(()) };
     let known: Vec<_> = known.iter().map(|e| format!(".{e}")).collect();
     Err(Failure::Usage(format!("{option} {}: the name must end in {}", path.display(), known.join(" or "))))
 }

@@ -8,6 +8,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+/// Time between two updates of the bar.
 const REFRESH: Duration = Duration::from_millis(100);
 /// Runs shorter than this show no bar.
 const PATIENCE: Duration = Duration::from_millis(400);

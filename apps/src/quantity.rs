@@ -5,6 +5,7 @@ use crate::job::Outcome;
 use crate::laid::Laid;
 use crate::picture::{CLASSES, ColorChoice, Field, Scale};
 use ricci::geometry::triangle;
+use ricci::geometry::vector::{cross, dot, norm, sub, triangle_normal};
 use ricci::mesh::{FaceId, Mesh, PerFace, PerVertex, Point};
 use ricci::metric::Refinement;
 use ricci::metric::curvature::{curvature, curvature_from_angles};
@@ -12,13 +13,13 @@ use ricci::metric::curvature::{curvature, curvature_from_angles};
 /// The quantity of a finished flow; `None` where there is none to show: those of a layout where it has none.
 pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<Field> {
     let laid = outcome.layout.as_ref().ok();
-    let mesh = laid.map_or(&input.mesh, |laid| laid.mesh());
+    let mesh = laid.map_or(input.mesh(), |laid| laid.mesh());
     Some(match choice {
         ColorChoice::None => return None,
         ColorChoice::U => {
             let factor = outcome.initial.conformal_factor(&outcome.metric).ok()?;
             let all: &[f64] = &factor;
-            let given = &all[..input.mesh.n_vertices()];
+            let given = &all[..input.mesh().n_vertices()];
             let scale = Scale::of_amounts("log conformal factor u", given);
             at_vertices(mesh, &on_layout(given, laid)?, scale)
         }
@@ -89,9 +90,10 @@ fn on_layout(given: &[f64], laid: Option<&Laid>) -> Option<PerVertex<f64>> {
 
 /// Gaussian curvature of a surface: the angle defect of each vertex over a third of the area around it.
 fn density_of_input(input: &Input) -> Option<(PerVertex<f64>, Scale)> {
-    let Input { mesh, lengths, geometry, .. } = input;
-    let defect = curvature(mesh, *geometry, lengths).ok()?.at;
-    let area = |f: FaceId| triangle::area(*geometry, mesh.opposite_edges(f).map(|e| lengths[e]));
+    let surface = &input.surface;
+    let (mesh, lengths, geometry) = (surface.mesh(), surface.lengths(), surface.geometry());
+    let defect = curvature(mesh, geometry, lengths).ok()?.at;
+    let area = |f: FaceId| triangle::area(geometry, mesh.opposite_edges(f).map(|e| lengths[e]));
     Some(density(mesh, &defect, area, geometry.curvature()))
 }
 
@@ -145,22 +147,15 @@ fn at_faces(values: &[f64], scale: Scale) -> Field {
 }
 
 fn angles(p: [Point; 3]) -> [f64; 3] {
-    let side = |i: usize, j: usize| [0, 1, 2].map(|k| p[j][k] - p[i][k]);
     let angle = |k: usize| {
-        let (a, b) = (side(k, (k + 1) % 3), side(k, (k + 2) % 3));
-        f64::atan2(doubled_area(a, b), a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+        let [a, b] = [1, 2].map(|i| sub(p[(k + i) % 3], p[k]));
+        f64::atan2(norm(cross(a, b)), dot(a, b))
     };
     [0, 1, 2].map(angle)
 }
 
 fn area(p: [Point; 3]) -> f64 {
-    let side = |j: usize| [0, 1, 2].map(|k| p[j][k] - p[0][k]);
-    0.5 * doubled_area(side(1), side(2))
-}
-
-fn doubled_area(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    n.iter().map(|x| x * x).sum::<f64>().sqrt()
+    0.5 * norm(triangle_normal(p))
 }
 
 #[cfg(test)]

@@ -1,20 +1,59 @@
 //! `ricci repair`.
 
-use crate::cli::RepairArgs;
 use crate::failure::Failure;
 use crate::info::{DefectCount, DefectFigures, summary_of};
+use crate::options::{Common, distance};
 use crate::output::{Outputs, check_extension, check_outputs, extension};
 use crate::picture::SurfacePictureArgs;
-use crate::report::{Report, Seconds, path_text, peak_bytes, timed};
+use crate::report::{Checks, Report, Seconds, path_text, timed};
 use crate::say::{self, count};
 use crate::show;
+use clap::Args;
 use ricci::Control;
 use ricci::control::Stage;
 use ricci::mesh::check::diagnose;
 use ricci::mesh::io::{self, Format};
 use ricci::mesh::repair::{Repair, Repaired, Steps, repair};
 use serde::Serialize;
+use std::path::PathBuf;
 use std::time::Instant;
+
+pub const HELP: &str = "\
+Example: the largest piece of a scan, welded within 1e-6, and where its vertices and faces came from
+    ricci repair scan.stl -o clean.ply --weld 1e-6 --component 0 --map origin.json
+
+Always: weld vertices in the same place (but not in edges in which more than two faces would meet: these are told), drop faces
+that use a vertex twice or repeat a face, give every fan of faces a vertex of its own, turn faces until neighbours agree, drop
+isolated vertices.
+The exit code is 1 if a defect is left that needs a guess; the file is written all the same.";
+
+#[derive(Args, Debug)]
+pub struct RepairArgs {
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii)
+    pub mesh: PathBuf,
+    /// Repaired mesh (.obj, .off, .ply, .glb)
+    #[arg(short = 'o', long = "out", value_name = "OUT")]
+    pub out: PathBuf,
+    /// Weld vertices within this distance; 0 welds those in exactly the same place
+    #[arg(long, value_name = "DISTANCE", default_value_t = 0.0, value_parser = distance)]
+    pub weld: f64,
+    /// Weld nothing
+    #[arg(long, conflicts_with = "weld")]
+    pub no_weld: bool,
+    /// Cut the surface open along edges in which more than two faces meet
+    #[arg(long)]
+    pub cut_edges: bool,
+    /// Keep one connected piece: 0 is that with the most faces
+    #[arg(long, value_name = "K")]
+    pub component: Option<usize>,
+    /// Write the input's vertex of each vertex and the input's face of each face
+    #[arg(long, value_name = "MAP.json")]
+    pub map: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: SurfacePictureArgs,
+    #[command(flatten)]
+    pub common: Common,
+}
 
 /// What was done, what the result is, and what is left.
 #[derive(Serialize)]
@@ -72,10 +111,8 @@ struct MapFile<'a> {
 /// Run the command: 0 if the result is a surface that the other commands accept, 1 if a defect is left.
 pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
-    check_extension("-o", &args.out, &["obj", "off", "ply", "glb"])?;
-    if let Some(path) = &args.picture.base.picture {
-        check_extension("--picture", path, &["png"])?;
-    }
+    check_extension("-o", Some(&args.out), &["obj", "off", "ply", "glb"])?;
+    check_extension("--picture", args.picture.base.picture.as_deref(), &["png"])?;
     let files =
         [Some(&args.out), args.map.as_ref(), args.picture.base.picture.as_ref(), args.common.report.as_ref()];
     check_outputs(&[Some(&args.mesh)], &files.map(|path| path.map(|path| path.as_path())))?;
@@ -88,49 +125,53 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     let done = timed(&mut seconds.build, || repair(&soup, &options))?;
     control.step(Stage::Write, 0.0)?;
     let mut outputs = Outputs::default();
-    let left_out = timed(&mut seconds.write, || -> Result<_, Failure> {
-        let format = Format::of(&args.out)?;
-        let left_out = outputs.add_named(&args.out, |path| io::write_as(path, format, &done.soup))?;
-        if let Some(path) = &args.map {
-            let map = MapFile { vertex_origin: &done.vertex_origin, face_origin: &done.face_origin };
-            outputs.add_json(path, &map)?;
-        }
-        if let Some(path) = &args.picture.base.picture {
-            let (threads, soup) = (args.common.threads(), &done.soup);
-            outputs.add(path, |out| {
-                show::draw_surface(out, &soup.positions, &soup.faces, &args.picture, threads)
-            })?;
-        }
-        Ok(left_out)
-    })?;
+    let left_out = timed(&mut seconds.write, || write(args, &done, &mut outputs))?;
     let result = RepairResult::new(&done, left_out);
     let exit_code = u8::from(!result.admissible);
     if !args.common.quiet {
         say::lines(&text(args, &done.steps, &result));
     }
     if let Some(path) = &args.common.report {
-        let text = |path: &Option<std::path::PathBuf>| path.as_deref().map(path_text);
-        let asked = Asked {
-            out: path_text(&args.out),
-            weld,
-            cut_edges: args.cut_edges,
-            component: args.component,
-            map: text(&args.map),
-            picture: args.picture.clone(),
-            threads: args.common.threads(),
-        };
         let input = summary_of(&diagnose(&soup.positions, &soup.faces), path_text(&args.mesh));
-        let left = result.defects.len() as f64;
-        let mut report = Report::new("repair", input, asked, result);
-        report.checks.add("defects", left, 0.0);
+        let mut checks = Checks::default();
+        checks.add("defects", result.defects.len() as f64, 0.0);
         seconds.total = start.elapsed().as_secs_f64();
-        report.seconds = seconds;
-        report.peak_bytes = peak_bytes();
+        let report = Report::new("repair", input, Asked::new(args, weld), result).finished(checks, seconds);
         outputs.add_report(path, &report)?;
     }
     control.check()?;
     outputs.commit()?;
     Ok(exit_code)
+}
+
+/// Write the surface, the map back and the picture; returns what the surface's format leaves out.
+fn write(args: &RepairArgs, done: &Repaired, outputs: &mut Outputs) -> Result<Vec<&'static str>, Failure> {
+    let (format, soup) = (Format::of(&args.out)?, &done.soup);
+    let left_out = outputs.add_named(&args.out, |path| io::write_as(path, format, soup))?;
+    if let Some(path) = &args.map {
+        let map = MapFile { vertex_origin: &done.vertex_origin, face_origin: &done.face_origin };
+        outputs.add_json(path, &map)?;
+    }
+    if let Some(path) = &args.picture.base.picture {
+        let threads = args.common.threads();
+        outputs
+            .add(path, |out| show::draw_surface(out, &soup.positions, &soup.faces, &args.picture, threads))?;
+    }
+    Ok(left_out)
+}
+
+impl Asked {
+    fn new(args: &RepairArgs, weld: Option<f64>) -> Asked {
+        Asked {
+            out: path_text(&args.out),
+            weld,
+            cut_edges: args.cut_edges,
+            component: args.component,
+            map: args.map.as_deref().map(path_text),
+            picture: args.picture.clone(),
+            threads: args.common.threads(),
+        }
+    }
 }
 
 impl RepairResult {

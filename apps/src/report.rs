@@ -2,11 +2,11 @@
 
 use crate::failure::Failure;
 use crate::input::Input;
+pub use crate::timing::{Seconds, timed};
 use ricci::mesh::Mesh;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::time::Instant;
 
 /// What every command's report has in common.
 #[derive(Serialize)]
@@ -37,6 +37,11 @@ impl<O, R> Report<O, R> {
             peak_bytes: None,
         }
     }
+
+    /// The report of a run that is over.
+    pub fn finished(self, checks: Checks, seconds: Seconds) -> Self {
+        Report { checks, seconds, peak_bytes: peak_bytes(), ..self }
+    }
 }
 
 /// The surface that a command worked on. What a defective list of triangles does not have is null.
@@ -54,7 +59,7 @@ pub struct InputSummary {
 
 impl InputSummary {
     pub fn of(input: &Input) -> Self {
-        InputSummary::of_mesh(&input.path, &input.mesh)
+        InputSummary::of_mesh(&input.path, input.mesh())
     }
 
     pub fn of_mesh(path: &Path, mesh: &Mesh) -> Self {
@@ -89,7 +94,7 @@ pub struct Check {
 pub struct Checks(pub BTreeMap<&'static str, Check>);
 
 impl Checks {
-    /// Hold `value ≤ limit`; NaN does not.
+    /// Add the check that `value` is at most `limit`; NaN is not.
     pub fn add(&mut self, name: &'static str, value: f64, limit: f64) {
         self.0.insert(name, Check { value, limit, holds: value <= limit });
     }
@@ -104,13 +109,40 @@ impl Checks {
     }
 }
 
+/// A finished run of a command.
+pub struct Done<T> {
+    pub input: Input,
+    /// What the command is for: the metric of a flow, a surface in its canonical shape.
+    pub result: T,
+    pub checks: Checks,
+    /// Files written.
+    pub files: Vec<String>,
+    pub seconds: f64,
+    pub exit_code: u8,
+}
+
 /// Wishes that could not be fulfilled, by option, with the reason.
 #[derive(Serialize, Default)]
 #[serde(transparent)]
 pub struct Attempts(pub BTreeMap<&'static str, String>);
 
 impl Attempts {
-    /// Go on where a wish could not be fulfilled, and remember it: what else was asked for is still delivered. Errors:
+    /// Each reason once, with the options that failed for it.
+    pub fn by_cause(&self) -> Vec<(Vec<&'static str>, &str)> {
+        let mut causes: Vec<(Vec<&'static str>, &str)> = Vec::new();
+        for (&wish, why) in &self.0 {
+            match causes.iter_mut().find(|(_, known)| known == why) {
+                Some((wishes, _)) => wishes.push(wish),
+                None => causes.push((vec![wish], why)),
+            }
+        }
+        causes
+    }
+
+    /// The value of `result`; where there is none the reason is remembered under the option `wish`, so that everything else that was
+    /// asked for is still delivered.
+    ///
+    /// # Errors
     /// [`Failure::Cancelled`] alone.
     pub fn attempt<T>(
         &mut self,
@@ -126,22 +158,6 @@ impl Attempts {
             }
         }
     }
-}
-
-/// Wall-clock seconds by phase; `write` ends before the report itself is written.
-#[derive(Serialize, Default, Clone, Copy)]
-pub struct Seconds {
-    pub total: f64,
-    pub read: f64,
-    pub build: f64,
-    pub assemble: f64,
-    pub analyse: f64,
-    pub factor: f64,
-    pub solve: f64,
-    pub flip: f64,
-    pub refine: f64,
-    pub layout: f64,
-    pub write: f64,
 }
 
 impl Seconds {
@@ -160,16 +176,8 @@ impl Seconds {
     }
 }
 
-/// Run `work` and add its seconds to a phase.
-pub fn timed<T>(phase: &mut f64, work: impl FnOnce() -> T) -> T {
-    let start = Instant::now();
-    let result = work();
-    *phase += start.elapsed().as_secs_f64();
-    result
-}
-
 /// The largest memory this process has held; known on Linux.
-pub fn peak_bytes() -> Option<u64> {
+fn peak_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
     let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;

@@ -1,16 +1,13 @@
-//! What is said on stdout: a few lines for people. All numbers are in the report.
+//! What commands say on stdout: a few lines for people. All numbers are in the report.
 
-use crate::flow::Done;
 use crate::input::Input;
-use crate::job::Outcome;
-use crate::laid::Laid;
 use crate::report::{Attempts, Checks};
 use crate::shape_quality::thinnest;
-use ricci::flow::{Options, StopReason};
-use ricci::mesh::VertexId;
+use ricci::flow::Options;
 use std::io::{self, Write};
 
-/// Faces with a smaller angle, degrees, may be why something fails: rounding moves its cotangent by 1e-13 and more.
+/// Angle in degrees below which the thinnest face is named where a check fails: rounding moves the cotangent of such an angle by
+/// 1e-13 and more.
 const SLIVER: f64 = 0.1;
 
 /// Print lines; a reader that has gone away is no error.
@@ -21,37 +18,6 @@ pub fn lines(text: &str) {
 /// `1 vertex`, `2 vertices`.
 pub fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
-}
-
-/// The summary of a flow.
-pub fn flow(done: &Done) {
-    let outcome = &done.outcome;
-    let report = &outcome.report;
-    let mut text = surface(&done.input);
-    text += &format!(
-        "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}{}\n",
-        outcome.metric.space,
-        outcome.scheme,
-        outcome.rule.name(),
-        report.stop_reason,
-        count(report.iterations, "step", "steps"),
-        report.max_curvature_error,
-        tolerance(report.tolerance),
-        match report.broken_triangles {
-            0 => String::new(),
-            n => format!(", {}", count(n, "broken triangle", "broken triangles")),
-        }
-    );
-    if !report.converged {
-        text += &format!("why      {}\n", why(outcome));
-    }
-    text += &match &outcome.layout {
-        Ok(laid) => format!("layout   {}\n", layout(laid)),
-        Err(why) => format!("layout   none: {why}\n"),
-    };
-    text += &slivers(&done.input, &done.checks);
-    text += &ending(&outcome.left_out, &outcome.failed, &done.checks, &done.files, done.seconds);
-    lines(&text);
 }
 
 /// A length or an area: with so many decimals, or, where those would be zeros or noise, with as many digits and a power of ten.
@@ -70,7 +36,7 @@ pub fn tolerance(held: f64) -> String {
 
 /// The first line of a summary: the surface.
 pub fn surface(input: &Input) -> String {
-    let mesh = &input.mesh;
+    let mesh = input.mesh();
     format!(
         "surface  {}: {}, {}, genus {}, {}\n",
         input.path.display(),
@@ -86,7 +52,7 @@ pub fn surface(input: &Input) -> String {
 
 /// Where a check fails: whether the surface has slivers, which cost digits.
 pub fn slivers(input: &Input, checks: &Checks) -> String {
-    let thinnest = || thinnest(&input.mesh, input.geometry, &input.lengths);
+    let thinnest = || thinnest(input.mesh(), input.surface.geometry(), input.surface.lengths());
     match (!checks.failed().is_empty()).then(thinnest).flatten() {
         Some((face, angle)) if angle < SLIVER => format!(
             "slivers  face {face} is the thinnest, with an angle of {angle:.1e} degrees: remesh there, or allow flips\n"
@@ -107,8 +73,8 @@ pub fn ending(
     for what in left_out {
         text += &format!("left out {what}\n");
     }
-    for (wish, why) in &failed.0 {
-        text += &format!("FAILED   --{wish}: {why}\n");
+    for (wishes, why) in failed.by_cause() {
+        text += &format!("FAILED   --{}: {why}\n", wishes.join(", --"));
     }
     text += &match checks.failed().as_slice() {
         [] if failed.0.is_empty() => "checks   all hold\n".into(),
@@ -125,57 +91,6 @@ pub fn ending(
         text += &format!("wrote    {}\n", files.join(", "));
     }
     text + &format!("{seconds:.2} s\n")
-}
-
-/// Why a flow did not converge, as far as that is known.
-fn why(outcome: &Outcome) -> String {
-    let report = &outcome.report;
-    if report.stop_reason == StopReason::BrokenTriangles {
-        return format!(
-            "no metric of the scheme on this triangulation: its energy is least with broken {}",
-            named("face", "faces", &outcome.curvature.broken)
-        );
-    }
-    if let Some(o) = &report.obstruction {
-        return format!(
-            "the target adds up to {:.6} at {}; every metric of the scheme on this triangulation has more than {:.6} there",
-            o.curvature,
-            named("vertex", "vertices", &o.vertices),
-            o.least
-        );
-    }
-    let worst: Vec<VertexId> = report.worst.iter().map(|&(v, _)| v).collect();
-    format!("the error is largest at {}", named("vertex", "vertices", &worst))
-}
-
-/// The first few elements of a list.
-fn named<Id: ToString>(one: &str, many: &str, list: &[Id]) -> String {
-    const SHOWN: usize = 5;
-    let ids: Vec<String> = list.iter().take(SHOWN).map(ToString::to_string).collect();
-    let more = if list.len() > SHOWN { format!(" … ({} in all)", list.len()) } else { String::new() };
-    format!("{} {}{more}", if list.len() == 1 { one } else { many }, ids.join(", "))
-}
-
-/// The quality of a layout.
-pub fn layout(laid: &Laid) -> String {
-    let q = &laid.quality;
-    let mut text = format!(
-        "{}, dilatation mean {:.4} max {:.3}, area ratio {:.2e} to {:.2e}",
-        count(laid.flipped().len(), "triangle flipped", "triangles flipped"),
-        q.qc_mean,
-        q.qc_max,
-        q.area_ratio_min,
-        q.area_ratio_max
-    );
-    if let Some(packed) = &laid.packed {
-        let charts = &packed.charts;
-        text += &format!(
-            "\ncharts   {}, {:.0} % of the unit square",
-            count(charts.count(), "chart", "charts"),
-            100.0 * charts.efficiency
-        );
-    }
-    text + &modulus(laid.modulus)
 }
 
 /// τ of a flat torus, after what else is said of its layout.

@@ -1,8 +1,8 @@
 //! The shapes that `ricci make` knows, and what can be done to them.
 
-use crate::options::Common;
+use crate::options::{Common, choices};
 use crate::picture::SurfacePictureArgs;
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 use num_complex::Complex64;
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, Sliver};
@@ -267,23 +267,14 @@ impl Spoil {
     }
 }
 
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
-#[serde(rename_all = "lowercase")]
-pub enum SliverChoice {
-    /// A vertex near the middle of a side
-    Cap,
-    /// A vertex near a corner
-    Needle,
-}
-
-impl From<SliverChoice> for Sliver {
-    fn from(choice: SliverChoice) -> Sliver {
-        match choice {
-            SliverChoice::Cap => Sliver::Cap,
-            SliverChoice::Needle => Sliver::Needle,
-        }
+choices!(
+    SliverChoice = Sliver {
+        /// A vertex near the middle of a side
+        Cap,
+        /// A vertex near a corner
+        Needle,
     }
-}
+);
 
 fn complex(text: &str) -> Result<Complex64, String> {
     let (re, im) = text.split_once(',').ok_or("must be RE,IM")?;

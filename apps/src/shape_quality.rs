@@ -19,7 +19,8 @@ pub struct ShapeQuality {
     pub non_delaunay_fraction: Option<f64>,
 }
 
-/// Rounding of a sum of two angles: edges of co-circular quadrilaterals count as Delaunay.
+/// Most that the two angles opposite an edge may exceed π, radians, in an edge that counts as Delaunay: the diagonals of a square
+/// both count, whatever rounding does to their angles.
 const ANGLE_ROUNDING: f64 = 1e-12;
 
 /// Quality of a surface given by its lengths.

@@ -38,9 +38,9 @@ pub fn draw(
         return flat.map_or(Ok(()), |flat| picture::write_svg(out, &flat, field.as_ref(), &style));
     }
     let (mesh, positions) =
-        laid.map_or((&input.mesh, &input.positions), |laid| (laid.mesh(), &laid.positions));
-    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
-    let cones = cones(&input.mesh, &outcome.target);
+        laid.map_or((input.mesh(), input.positions()), |laid| (laid.mesh(), laid.positions.as_deref()));
+    let faces = mesh.triangles();
+    let cones = cones(input.mesh(), &outcome.target);
     let surface = positions.as_ref().map(|positions| Surface {
         positions,
         faces: &faces,
@@ -149,7 +149,7 @@ impl Parts {
         let mut seen = vec![false; laid.coordinates().len()];
         let cones: PerVertex<f64> = {
             let mut at = PerVertex::filled(mesh.n_vertices(), 0.0);
-            cones(&input.mesh, &outcome.target).into_iter().for_each(|(v, k)| at[VertexId(v)] = k);
+            cones(input.mesh(), &outcome.target).into_iter().for_each(|(v, k)| at[VertexId(v)] = k);
             at
         };
         for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h) && cones[mesh.origin(h)] != 0.0) {

@@ -23,19 +23,21 @@ pub fn write(
     (on, homogeneous): (OnChoice, bool),
 ) -> Result<(), Failure> {
     // Without positions `--uv` is refused before the flow.
-    let (Some(positions), Some(own_positions)) = (&laid.positions, &input.positions) else { return Ok(()) };
+    let (Some(positions), Some(own_positions)) = (laid.positions.as_deref(), input.positions()) else {
+        return Ok(());
+    };
     let (mesh, positions, index, texcoords, refinement) = match (on, &laid.on_input) {
         (OnChoice::Refined, _) => {
             (laid.mesh(), positions, laid.corner_index(), laid.coordinates(), laid.refinement())
         }
         (OnChoice::Input, Some(on_input)) => {
-            (&input.mesh, own_positions, &on_input.corner_index, &on_input.coordinates[..], None)
+            (input.mesh(), own_positions, &on_input.corner_index, &on_input.coordinates[..], None)
         }
         (OnChoice::Input, None) => {
             return Err(Failure::Failed("--on input: the layout is not cut along the input's edges".into()));
         }
     };
-    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let faces = mesh.triangles();
     let weights = if homogeneous { laid.weights() } else { Vec::new() };
     let carried = carry(input, refinement)?;
     let data = Textured {

@@ -2,9 +2,8 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::guard::output;
-use crate::mesh::halfedge;
 use crate::status::ricci_status;
-use ricci::mesh::{HalfedgeId, Mesh, Point};
+use ricci::mesh::Point;
 use std::ffi::{CStr, c_char};
 use std::path::PathBuf;
 
@@ -96,8 +95,34 @@ pub fn check_buffer<T>(what: &str, needed: usize, buffer: *mut T, capacity: usiz
     if buffer.is_null() && needed > 0 { Err(Failure::null(what)) } else { Ok(()) }
 }
 
+/// What results consist of: numbers, or rows of them, which are copied one after the other.
+pub trait Row: Copy {
+    type Entry: Copy;
+    fn entries(rows: &[Self]) -> &[Self::Entry];
+}
+
+macro_rules! entries {
+    ($($number:ty)+) => {$(
+        impl Row for $number {
+            type Entry = $number;
+            fn entries(rows: &[$number]) -> &[$number] {
+                rows
+            }
+        }
+    )+};
+}
+entries!(f64 i8 u8 i32 u32 i64 usize);
+
+impl<T: Row, const N: usize> Row for [T; N] {
+    type Entry = T::Entry;
+    fn entries(rows: &[[T; N]]) -> &[T::Entry] {
+        T::entries(rows.as_flattened())
+    }
+}
+
 /// Copy results into the caller's buffer of `capacity` entries.
-pub fn copy_out<T: Copy>(what: &str, values: &[T], buffer: *mut T, capacity: usize) -> Outcome {
+pub fn copy_out<T: Row>(what: &str, values: &[T], buffer: *mut T::Entry, capacity: usize) -> Outcome {
+    let values = T::entries(values);
     check_buffer(what, values.len(), buffer, capacity)?;
     if !values.is_empty() {
         let bytes = size_of_val(values);
@@ -107,23 +132,26 @@ pub fn copy_out<T: Copy>(what: &str, values: &[T], buffer: *mut T, capacity: usi
     Ok(())
 }
 
-/// Copy rows of different lengths: their entries one after the other, and where each row starts.
-pub fn copy_rows<T: Copy>(
+/// Copy rows of different lengths: their entries one after the other, and where each row starts and the last one ends.
+/// A buffer is given with its capacity in entries.
+pub fn copy_rows<T: Row<Entry = T>>(
     what: &str,
-    entries: &[T],
-    buffer: *mut T,
-    capacity: usize,
-    starts: &[usize],
-    starts_buffer: *mut usize,
-    starts_capacity: usize,
+    rows: impl IntoIterator<Item = impl IntoIterator<Item = T>>,
+    buffer: (*mut T, usize),
+    starts_buffer: (*mut usize, usize),
 ) -> Outcome {
-    check_buffer(what, entries.len(), buffer, capacity)?;
-    copy_out("starts", starts, starts_buffer, starts_capacity)?;
-    copy_out(what, entries, buffer, capacity)
+    let (mut entries, mut starts) = (Vec::new(), vec![0]);
+    for row in rows {
+        entries.extend(row);
+        starts.push(entries.len());
+    }
+    check_buffer(what, entries.len(), buffer.0, buffer.1)?;
+    copy_out("starts", &starts, starts_buffer.0, starts_buffer.1)?;
+    copy_out(what, &entries, buffer.0, buffer.1)
 }
 
 /// Copy results whose number the caller cannot know before, with that number; for no buffer of no entries the number alone.
-pub fn copy_counted<T: Copy>(
+pub fn copy_counted<T: Row<Entry = T>>(
     what: &str,
     values: &[T],
     buffer: *mut T,
@@ -136,29 +164,6 @@ pub fn copy_counted<T: Copy>(
     }
     count.set(values.len());
     Ok(())
-}
-
-/// Rows of different lengths, one after the other, and where each starts and the last one ends.
-pub fn flattened<T>(rows: impl IntoIterator<Item = impl IntoIterator<Item = T>>) -> (Vec<T>, Vec<usize>) {
-    let (mut entries, mut starts) = (Vec::new(), vec![0]);
-    for row in rows {
-        entries.extend(row);
-        starts.push(entries.len());
-    }
-    (entries, starts)
-}
-
-/// Half-edges as signed edge numbers of a mesh.
-pub fn halfedges(what: &str, mesh: &Mesh, data: *const i32, n: usize) -> Outcome<Vec<HalfedgeId>> {
-    let known = |(i, &number): (usize, &i32)| {
-        halfedge(mesh, number).ok_or_else(|| {
-            let n = mesh.n_edges();
-            Failure::argument(format!(
-                "{what}[{i}] is {number}: edges are numbered 1 to {n}, -1 to -{n} against them"
-            ))
-        })
-    };
-    array(what, data, n)?.iter().enumerate().map(known).collect()
 }
 
 /// Finite points in ambient coordinates.

@@ -3,14 +3,14 @@
 use crate::arrays::copy_out;
 use crate::control::{self, ricci_control};
 use crate::failure::Outcome;
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle};
 use crate::layout::{not_projective, ricci_layout};
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::embed::{ChartOptions, Charts, Layout, charts};
+use ricci::flow::Solution;
 use ricci::geometry::Space;
 use ricci::mesh::Point;
-use ricci::metric::SurfaceMetric;
 use std::sync::Arc;
 
 /// A layout in charts that do not overlap, packed into the unit square.
@@ -20,15 +20,10 @@ pub struct ricci_charts {
     /// What was cut into charts, and the positions of its vertices.
     pub(crate) layout: Arc<Layout>,
     pub(crate) positions: Option<Arc<Vec<Point>>>,
-    pub(crate) surface: Arc<SurfaceMetric>,
+    pub(crate) surface: Arc<Solution>,
 }
 
-impl Handle for ricci_charts {
-    const NAME: &'static str = "charts";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_charts, "charts");
 
 /// Figures of charts.
 #[repr(C)]
@@ -58,12 +53,7 @@ pub struct ricci_charts_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_charts_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_charts_summary, "summary");
 
 /// Cut a layout into charts and pack them into the unit square.
 ///
@@ -83,19 +73,17 @@ pub unsafe extern "C" fn ricci_charts_new(
     control: *const ricci_control,
     charts: *mut *mut ricci_charts,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("charts", charts)?;
+    guard::make("charts", charts, |door| {
         let ricci_layout { layout, positions, points, surface, .. } = door.shared(layout)?;
         let uv = |h| points[layout.corner_index[h] as usize];
         let charts = self::charts(layout.mesh(), uv, &ChartOptions { margin }, &control::of(control))?;
-        place.hand_over(ricci_charts {
+        Ok(ricci_charts {
             poison: Poison::default(),
             charts,
             layout: layout.clone(),
             positions: positions.clone(),
             surface: surface.clone(),
-        });
-        Ok(())
+        })
     })
 }
 
@@ -120,8 +108,7 @@ pub unsafe extern "C" fn ricci_charts_summarise(
     summary: *mut ricci_charts_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_charts { layout, charts, .. } = door.shared(charts)?;
+    guard::with(charts, |ricci_charts { layout, charts, .. }| {
         let figures = ricci_charts_summary {
             size,
             n_charts: charts.count(),
@@ -151,7 +138,7 @@ pub unsafe extern "C" fn ricci_charts_faces(
     chart: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("chart", &door.shared(charts)?.charts.chart, chart, capacity))
+    guard::with(charts, |charts| copy_out("chart", &charts.charts.chart, chart, capacity))
 }
 
 /// The points of the charts, in the unit square.
@@ -167,9 +154,7 @@ pub unsafe extern "C" fn ricci_charts_points(
     points: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("points", door.shared(charts)?.charts.coordinates.as_flattened(), points, capacity)
-    })
+    guard::with(charts, |charts| copy_out("points", &charts.charts.coordinates, points, capacity))
 }
 
 /// The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
@@ -185,10 +170,7 @@ pub unsafe extern "C" fn ricci_charts_corners(
     corners: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let charts = door.shared(charts)?;
-        copy_out("corners", charts.corners().as_flattened(), corners, capacity)
-    })
+    guard::with(charts, |charts| copy_out("corners", &charts.corners(), corners, capacity))
 }
 
 impl ricci_charts {

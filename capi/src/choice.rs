@@ -1,7 +1,7 @@
 //! Enum values that come from C: any integer may come, and an unknown one is refused by name.
 
 use crate::failure::{Failure, Outcome};
-use crate::guard;
+use crate::integer::raw;
 use std::mem::MaybeUninit;
 
 /// An enum that C passes by value, with the library's value for each of its own.
@@ -16,9 +16,24 @@ pub trait Choice: Sized + Copy + 'static {
     fn number(self) -> i32;
 }
 
+/// Makes a `#[repr(C)]` enum the choices of an argument, each with the value that it stands for.
+macro_rules! choice {
+    ($type:ident, $name:literal, $value:ident, [$($own:ident => $stands_for:ident),+ $(,)?]) => {
+        impl $crate::choice::Choice for $type {
+            const NAME: &'static str = $name;
+            type Value = $value;
+            const ALL: &'static [(Self, $value)] = &[$(($type::$own, $value::$stands_for)),+];
+            fn number(self) -> i32 {
+                self as i32
+            }
+        }
+    };
+}
+pub(crate) use choice;
+
 /// The library's value of what C passed.
 pub fn choose<E: Choice>(value: MaybeUninit<E>) -> Outcome<E::Value> {
-    let number = guard::raw(value);
+    let number = raw(value);
     let found = E::ALL.iter().find(|(known, _)| known.number() == number);
     found.map(|&(_, value)| value).ok_or_else(|| {
         let largest = E::ALL.iter().map(|(known, _)| known.number()).max().unwrap_or(0);

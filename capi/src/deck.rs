@@ -1,15 +1,15 @@
 //! Deck transformations: words with their isometries.
 
-use crate::arrays::{ambient, array, copy_out, copy_rows, flattened};
+use crate::arrays::{ambient, array, copy_out, copy_rows};
 use crate::choice::name;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle};
+use crate::letters;
 use crate::quotient::ricci_quotient;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
-use crate::word;
 use ricci::embed::cover::{elements_to_depth, moved};
 use ricci::embed::{DeckElement, DeckGroup};
 use ricci::geometry::{Motion, Space, Twofold};
@@ -24,12 +24,7 @@ pub struct ricci_deck {
     elements: Vec<DeckElement>,
 }
 
-impl Handle for ricci_deck {
-    const NAME: &'static str = "deck";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_deck, "deck");
 
 impl ricci_deck {
     pub(crate) fn new(group: &DeckGroup, elements: Vec<DeckElement>) -> ricci_deck {
@@ -66,12 +61,7 @@ pub struct ricci_deck_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_deck_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_deck_summary, "summary");
 
 /// The deck transformations of words.
 ///
@@ -92,8 +82,7 @@ pub unsafe extern "C" fn ricci_deck_of_words(
     n_words: usize,
     deck: *mut *mut ricci_deck,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("deck", deck)?;
+    guard::make("deck", deck, |door| {
         let group = &door.shared(quotient)?.quotient.deck;
         let starts = array("starts", starts, n_words.saturating_add(1))?;
         let ascending = starts.windows(2).all(|pair| pair[0] <= pair[1]);
@@ -103,12 +92,11 @@ pub unsafe extern "C" fn ricci_deck_of_words(
         let letters = array("letters", letters, n_letters)?;
         let element = |row: &[usize]| {
             let letters = &letters[row[0]..row[1]];
-            let word = group.group.reduce(&word::word_of(&group.group, "letters", letters, row[0])?);
+            let word = group.group.reduce(&letters::word_of(&group.group, "letters", letters, row[0])?);
             Ok(DeckElement { motion: group.motion(&word)?, word })
         };
         let elements: Outcome<Vec<_>> = starts.windows(2).map(element).collect();
-        place.hand_over(ricci_deck::new(group, elements?));
-        Ok(())
+        Ok(ricci_deck::new(group, elements?))
     })
 }
 
@@ -131,12 +119,10 @@ pub unsafe extern "C" fn ricci_cover_to_depth(
     control: *const ricci_control,
     deck: *mut *mut ricci_deck,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("deck", deck)?;
+    guard::make("deck", deck, |door| {
         let group = &door.shared(quotient)?.quotient.deck;
         let elements = elements_to_depth(group, depth, limit, &control::of(control))?;
-        place.hand_over(ricci_deck::new(group, elements));
-        Ok(())
+        Ok(ricci_deck::new(group, elements))
     })
 }
 
@@ -161,8 +147,7 @@ pub unsafe extern "C" fn ricci_deck_summarise(
     summary: *mut ricci_deck_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let deck = door.shared(deck)?;
+    guard::with(deck, |deck| {
         let lengths = || deck.elements.iter().map(|g| g.word.len());
         let figures = ricci_deck_summary {
             size,
@@ -194,8 +179,8 @@ pub unsafe extern "C" fn ricci_deck_words(
 ) -> ricci_status {
     guard::call(|door| {
         let elements = &door.shared(deck)?.elements;
-        let (all, offsets) = flattened(elements.iter().map(|g| word::letters(&g.word)));
-        copy_rows("letters", &all, letters, letters_capacity, &offsets, starts, starts_capacity)
+        let rows = elements.iter().map(|g| letters::letters(&g.word));
+        copy_rows("letters", rows, (letters, letters_capacity), (starts, starts_capacity))
     })
 }
 
@@ -215,7 +200,7 @@ pub unsafe extern "C" fn ricci_deck_mobius(
 ) -> ricci_status {
     guard::call(|door| {
         let rows: Vec<_> = door.shared(deck)?.elements.iter().map(|g| g.motion.mobius()).collect();
-        copy_out("mobius", rows.as_flattened().as_flattened().as_flattened(), mobius, capacity)
+        copy_out("mobius", &rows, mobius, capacity)
     })
 }
 
@@ -235,7 +220,7 @@ pub unsafe extern "C" fn ricci_deck_matrices(
     guard::call(|door| {
         let elements = &door.shared(deck)?.elements;
         let rows: Vec<_> = elements.iter().map(|g| g.motion.matrix().map(|row| row.map(f64::from))).collect();
-        copy_out("matrices", rows.as_flattened().as_flattened(), matrices, capacity)
+        copy_out("matrices", &rows, matrices, capacity)
     })
 }
 
@@ -271,8 +256,8 @@ pub unsafe extern "C" fn ricci_deck_translation_lengths(
     lengths: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("lengths", &door.shared(deck)?.per_element(Motion::translation_length), lengths, capacity)
+    guard::with(deck, |deck| {
+        copy_out("lengths", &deck.per_element(Motion::translation_length), lengths, capacity)
     })
 }
 
@@ -301,6 +286,6 @@ pub unsafe extern "C" fn ricci_deck_apply(
             Failure::argument(format!("element {element} does not exist: there are {}", elements.len()))
         })?;
         let points = ambient("points", points, n_points)?;
-        copy_out("moved", self::moved(&points, &g.motion).as_flattened(), moved, capacity)
+        copy_out("moved", &self::moved(&points, &g.motion), moved, capacity)
     })
 }

@@ -2,8 +2,8 @@
 
 use crate::arrays;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
-use crate::sized::{self, Sized64};
+use crate::guard::{self, Poison, handle};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::mesh::check::{self, Diagnosis};
 use ricci::mesh::{Point, io};
@@ -25,12 +25,7 @@ struct Record {
     faces: Vec<u32>,
 }
 
-impl Handle for ricci_diagnosis {
-    const NAME: &'static str = "diagnosis";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_diagnosis, "diagnosis");
 
 /// Counts of a triangle list.
 #[repr(C)]
@@ -57,12 +52,7 @@ pub struct ricci_diagnosis_summary {
 }
 
 // SAFETY: integers of 8 bytes, size first.
-unsafe impl Sized64 for ricci_diagnosis_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_diagnosis_summary, "summary");
 
 /// One defect. The pointers are views into the diagnosis and live as long as it does.
 #[repr(C)]
@@ -87,12 +77,7 @@ pub struct ricci_defect {
 }
 
 // SAFETY: pointers and integers of 8 bytes, size first.
-unsafe impl Sized64 for ricci_defect {
-    const NAME: &'static str = "defect";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_defect, "defect");
 
 fn diagnose(positions: &[Point], faces: &[[u32; 3]]) -> ricci_diagnosis {
     check::diagnose(positions, faces).into()
@@ -136,11 +121,9 @@ pub unsafe extern "C" fn ricci_diagnose_arrays(
     n_faces: usize,
     diagnosis: *mut *mut ricci_diagnosis,
 ) -> ricci_status {
-    guard::call(|_| {
-        let diagnosis = output("diagnosis", diagnosis)?;
+    guard::make("diagnosis", diagnosis, |_| {
         let positions = arrays::points(positions, stride, n_vertices)?;
-        diagnosis.hand_over(diagnose(&positions, &arrays::faces(faces, n_faces)?));
-        Ok(())
+        Ok(diagnose(&positions, &arrays::faces(faces, n_faces)?))
     })
 }
 
@@ -155,11 +138,9 @@ pub unsafe extern "C" fn ricci_diagnose_file(
     path: *const c_char,
     diagnosis: *mut *mut ricci_diagnosis,
 ) -> ricci_status {
-    guard::call(|_| {
-        let diagnosis = output("diagnosis", diagnosis)?;
+    guard::make("diagnosis", diagnosis, |_| {
         let soup = io::read(&arrays::path("path", path)?)?;
-        diagnosis.hand_over(diagnose(&soup.positions, &soup.faces));
-        Ok(())
+        Ok(diagnose(&soup.positions, &soup.faces))
     })
 }
 

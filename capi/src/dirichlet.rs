@@ -5,9 +5,9 @@ use crate::choice::name;
 use crate::control::{self, ricci_control};
 use crate::deck::ricci_deck;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle};
 use crate::quotient::ricci_quotient;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::canonical::Quotient;
@@ -25,12 +25,7 @@ pub struct ricci_dirichlet {
     domain: DirichletDomain,
 }
 
-impl Handle for ricci_dirichlet {
-    const NAME: &'static str = "dirichlet domain";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_dirichlet, "dirichlet domain");
 
 /// Figures of a Dirichlet domain.
 #[repr(C)]
@@ -51,12 +46,7 @@ pub struct ricci_dirichlet_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_dirichlet_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_dirichlet_summary, "summary");
 
 /// A point of the space, from x and y.
 fn centre_point(space: Space, centre: *const f64) -> Outcome<[f64; 3]> {
@@ -84,13 +74,11 @@ pub unsafe extern "C" fn ricci_dirichlet_new(
     control: *const ricci_control,
     dirichlet: *mut *mut ricci_dirichlet,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("dirichlet", dirichlet)?;
+    guard::make("dirichlet", dirichlet, |door| {
         let quotient = door.shared(quotient)?.quotient.clone();
         let centre = centre_point(quotient.layout.space, centre)?;
         let domain = dirichlet_domain(&quotient.deck, centre, quotient.layout.area, &control::of(control))?;
-        place.hand_over(ricci_dirichlet { poison: Poison::default(), quotient, domain });
-        Ok(())
+        Ok(ricci_dirichlet { poison: Poison::default(), quotient, domain })
     })
 }
 
@@ -115,8 +103,7 @@ pub unsafe extern "C" fn ricci_dirichlet_summarise(
     summary: *mut ricci_dirichlet_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_dirichlet { quotient, domain, .. } = door.shared(dirichlet)?;
+    guard::with(dirichlet, |ricci_dirichlet { quotient, domain, .. }| {
         let figures = ricci_dirichlet_summary {
             size,
             space: name(quotient.deck.space)?,
@@ -142,9 +129,7 @@ pub unsafe extern "C" fn ricci_dirichlet_corners(
     corners: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("corners", door.shared(dirichlet)?.domain.corners.as_flattened(), corners, capacity)
-    })
+    guard::with(dirichlet, |dirichlet| copy_out("corners", &dirichlet.domain.corners, corners, capacity))
 }
 
 /// The side with the inverse element, for every side.
@@ -177,11 +162,9 @@ pub unsafe extern "C" fn ricci_dirichlet_sides(
     dirichlet: *const ricci_dirichlet,
     deck: *mut *mut ricci_deck,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("deck", deck)?;
+    guard::make("deck", deck, |door| {
         let ricci_dirichlet { quotient, domain, .. } = door.shared(dirichlet)?;
-        place.hand_over(ricci_deck::new(&quotient.deck, domain.sides.clone()));
-        Ok(())
+        Ok(ricci_deck::new(&quotient.deck, domain.sides.clone()))
     })
 }
 
@@ -203,14 +186,12 @@ pub unsafe extern "C" fn ricci_cover_within(
     control: *const ricci_control,
     deck: *mut *mut ricci_deck,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("deck", deck)?;
+    guard::make("deck", deck, |door| {
         let ricci_dirichlet { quotient, domain, .. } = door.shared(dirichlet)?;
         if radius.is_nan() {
             return Err(Failure::argument("radius is not a number"));
         }
         let elements = elements_within(&quotient.deck, domain, radius, limit, &control::of(control))?;
-        place.hand_over(ricci_deck::new(&quotient.deck, elements));
-        Ok(())
+        Ok(ricci_deck::new(&quotient.deck, elements))
     })
 }

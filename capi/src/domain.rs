@@ -1,13 +1,13 @@
 //! Fundamental domains: a surface opened along a cut.
 
-use crate::arrays::{array, copy_out, copy_rows, flattened};
+use crate::arrays::{array, copy_out, copy_rows};
+use crate::edges::{copy_paths, signed_edge};
 use crate::failure::Failure;
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle};
 use crate::homotopy::ricci_homotopy;
-use crate::mesh::signed_edge;
-use crate::sized::{self, Sized64};
+use crate::letters;
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
-use crate::word;
 use ricci::mesh::{EdgeId, PerEdge};
 use ricci::topology::FundamentalDomain;
 
@@ -17,12 +17,7 @@ pub struct ricci_domain {
     domain: FundamentalDomain,
 }
 
-impl Handle for ricci_domain {
-    const NAME: &'static str = "domain";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_domain, "domain");
 
 impl ricci_domain {
     pub(crate) fn new(domain: FundamentalDomain) -> ricci_domain {
@@ -49,12 +44,7 @@ pub struct ricci_domain_summary {
 }
 
 // SAFETY: integers of 8 bytes, size first.
-unsafe impl Sized64 for ricci_domain_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_domain_summary, "summary");
 
 /// The fundamental domain of a cut, one of those that have a corner at the base lift.
 ///
@@ -71,8 +61,7 @@ pub unsafe extern "C" fn ricci_domain_new(
     n_cut: usize,
     domain: *mut *mut ricci_domain,
 ) -> ricci_status {
-    guard::call(|door| {
-        let domain = output("domain", domain)?;
+    guard::make("domain", domain, |door| {
         let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
         let is_cut = if cut.is_null() && n_cut == 0 {
             basis.cut(mesh)
@@ -87,8 +76,7 @@ pub unsafe extern "C" fn ricci_domain_new(
             }
             is_cut
         };
-        domain.hand_over(ricci_domain::new(FundamentalDomain::new(mesh, &is_cut, basis)?));
-        Ok(())
+        Ok(ricci_domain::new(FundamentalDomain::new(mesh, &is_cut, basis)?))
     })
 }
 
@@ -146,9 +134,11 @@ pub unsafe extern "C" fn ricci_domain_sides(
 ) -> ricci_status {
     guard::call(|door| {
         let sides = &door.shared(domain)?.domain.sides;
-        let (numbers, offsets) =
-            flattened(sides.iter().map(|side| side.halfedges.iter().map(|&h| signed_edge(h))));
-        copy_rows("edges", &numbers, edges, edges_capacity, &offsets, starts, starts_capacity)
+        copy_paths(
+            sides.iter().map(|side| &side.halfedges),
+            (edges, edges_capacity),
+            (starts, starts_capacity),
+        )
     })
 }
 
@@ -191,8 +181,8 @@ pub unsafe extern "C" fn ricci_domain_elements(
 ) -> ricci_status {
     guard::call(|door| {
         let sides = &door.shared(domain)?.domain.sides;
-        let (all, offsets) = flattened(sides.iter().map(|side| word::letters(&side.element)));
-        copy_rows("letters", &all, letters, letters_capacity, &offsets, starts, starts_capacity)
+        let rows = sides.iter().map(|side| letters::letters(&side.element));
+        copy_rows("letters", rows, (letters, letters_capacity), (starts, starts_capacity))
     })
 }
 
@@ -220,9 +210,9 @@ pub unsafe extern "C" fn ricci_domain_corners(
     guard::call(|door| {
         let corners = &door.shared(domain)?.domain.corners;
         let names: Vec<u32> = corners.iter().map(|corner| corner.vertex.0).collect();
-        let (all, offsets) = flattened(corners.iter().map(|corner| word::letters(&corner.element)));
         crate::arrays::check_buffer("vertices", names.len(), vertices, vertices_capacity)?;
-        copy_rows("letters", &all, letters, letters_capacity, &offsets, starts, starts_capacity)?;
+        let rows = corners.iter().map(|corner| letters::letters(&corner.element));
+        copy_rows("letters", rows, (letters, letters_capacity), (starts, starts_capacity))?;
         copy_out("vertices", &names, vertices, vertices_capacity)
     })
 }

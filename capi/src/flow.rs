@@ -1,19 +1,19 @@
 //! The flow, once or repeatedly.
 
 use crate::arrays;
-use crate::choice::{Choice, choose, name};
+use crate::choice::{choice, choose, name};
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle, output};
 use crate::metric::ricci_metric;
 use crate::report::ricci_report;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::Control;
-use ricci::flow::{Flips, Gradient, Method, Options, StepRule, SurfaceFlow};
-use ricci::mesh::{EdgeId, PerVertex, Point};
+use ricci::flow::{Flips, Gradient, Method, Options, StepRule};
+use ricci::mesh::{EdgeId, PerVertex};
+use ricci::{Flow, Target};
 use std::mem::MaybeUninit;
-use std::sync::Arc;
 
 /// How the flow is solved.
 #[repr(C)]
@@ -25,17 +25,10 @@ pub enum ricci_method {
     RICCI_METHOD_GRADIENT = 1,
 }
 
-impl Choice for ricci_method {
-    const NAME: &'static str = "method";
-    type Value = Method;
-    const ALL: &'static [(Self, Method)] = &[
-        (ricci_method::RICCI_METHOD_NEWTON, Method::Newton),
-        (ricci_method::RICCI_METHOD_GRADIENT, Method::Gradient),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_method, "method", Method, [
+    RICCI_METHOD_NEWTON => Newton,
+    RICCI_METHOD_GRADIENT => Gradient,
+]);
 
 /// Whether edges may be flipped while the metric flows.
 #[repr(C)]
@@ -50,15 +43,10 @@ pub enum ricci_flips {
     RICCI_FLIPS_NEVER = 1,
 }
 
-impl Choice for ricci_flips {
-    const NAME: &'static str = "flips";
-    type Value = Flips;
-    const ALL: &'static [(Self, Flips)] =
-        &[(ricci_flips::RICCI_FLIPS_AUTO, Flips::Auto), (ricci_flips::RICCI_FLIPS_NEVER, Flips::Never)];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_flips, "flips", Flips, [
+    RICCI_FLIPS_AUTO => Auto,
+    RICCI_FLIPS_NEVER => Never,
+]);
 
 /// Step size of the gradient flow.
 #[repr(C)]
@@ -72,18 +60,11 @@ pub enum ricci_step {
     RICCI_STEP_FIXED = 2,
 }
 
-impl Choice for ricci_step {
-    const NAME: &'static str = "step";
-    type Value = ricci_step;
-    const ALL: &'static [(Self, ricci_step)] = &[
-        (ricci_step::RICCI_STEP_BARZILAI_BORWEIN, ricci_step::RICCI_STEP_BARZILAI_BORWEIN),
-        (ricci_step::RICCI_STEP_STABLE, ricci_step::RICCI_STEP_STABLE),
-        (ricci_step::RICCI_STEP_FIXED, ricci_step::RICCI_STEP_FIXED),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_step, "step", ricci_step, [
+    RICCI_STEP_BARZILAI_BORWEIN => RICCI_STEP_BARZILAI_BORWEIN,
+    RICCI_STEP_STABLE => RICCI_STEP_STABLE,
+    RICCI_STEP_FIXED => RICCI_STEP_FIXED,
+]);
 
 /// How a flow is done. Let ricci_flow_options_init fill it, then change fields.
 #[repr(C)]
@@ -118,12 +99,7 @@ pub struct ricci_flow_options {
 }
 
 // SAFETY: numbers, a raw pointer and `MaybeUninit` enums: any bytes are valid; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_flow_options {
-    const NAME: &'static str = "options";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_flow_options, "options");
 
 fn defaults() -> Outcome<ricci_flow_options> {
     let options = Options::default();
@@ -155,6 +131,7 @@ fn read_options(options: *const ricci_flow_options) -> Outcome<Options> {
     Ok(Options {
         method: choose(options.method)?,
         fixed_edges: fixed.into_iter().map(EdgeId).collect(),
+        pinned: Vec::new(),
         flips: choose(options.flips)?,
         tolerance: options.tolerance,
         max_iterations: options.max_iterations,
@@ -213,8 +190,8 @@ pub unsafe extern "C" fn ricci_flow(
         let target = metric.target(target, n_vertices)?;
         let options = read_options(options)?;
         let control = control::of(control);
-        let mut flow = SurfaceFlow::resume(&metric.surface, &[], &options, &control)?;
-        let (end, done) = advance(&mut flow, &target, &control, &metric.positions)?;
+        let mut flow = Flow::resume(&metric.surface, &options, &control)?;
+        let (end, done) = advance(&mut flow, target, &control)?;
         if let Ok(report) = output("report", report) {
             report.hand_over(done);
         }
@@ -223,16 +200,16 @@ pub unsafe extern "C" fn ricci_flow(
     })
 }
 
-type Positions = Option<Arc<Vec<Point>>>;
-
 /// Solve, and the metric that the flow has come to.
 fn advance(
-    flow: &mut SurfaceFlow,
-    target: &PerVertex<f64>,
+    flow: &mut Flow,
+    target: PerVertex<f64>,
     control: &Control,
-    positions: &Positions,
 ) -> Outcome<(ricci_metric, ricci_report)> {
-    let report = flow.solve(target, control)?;
+    let end = flow.solve(&Target::All(target), control)?;
+    let Some(report) = end.report().cloned() else {
+        return Err(Failure::argument("a solve has left no report"));
+    };
     log::info!(
         "flow: {} after {} iterations, {} flips and {:.3} s, max |K - target| = {:.1e}",
         report.stop_reason,
@@ -241,24 +218,17 @@ fn advance(
         report.seconds.total,
         report.max_curvature_error
     );
-    let end = ricci_metric::at(flow.now(), positions.clone())?;
-    Ok((end, ricci_report::new(report, flow.double())))
+    Ok((ricci_metric::at(end)?, ricci_report::new(report)))
 }
 
 /// A solver for many targets on one metric: it keeps its analysis, its threads and the last solution, from
 /// which the next solve starts.
 pub struct ricci_solver {
     poison: Poison,
-    flow: SurfaceFlow,
-    positions: Positions,
+    flow: Flow,
 }
 
-impl Handle for ricci_solver {
-    const NAME: &'static str = "solver";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_solver, "solver");
 
 /// A solver for many targets.
 ///
@@ -273,13 +243,10 @@ pub unsafe extern "C" fn ricci_solver_new(
     options: *const ricci_flow_options,
     solver: *mut *mut ricci_solver,
 ) -> ricci_status {
-    guard::call(|door| {
-        let solver = output("solver", solver)?;
+    guard::make("solver", solver, |door| {
         let metric = door.shared(metric)?;
-        let flow = SurfaceFlow::resume(&metric.surface, &[], &read_options(options)?, &Control::new())?;
-        let positions = metric.positions.clone();
-        solver.hand_over(ricci_solver { poison: Poison::default(), flow, positions });
-        Ok(())
+        let flow = Flow::resume(&metric.surface, &read_options(options)?, &Control::new())?;
+        Ok(ricci_solver { poison: Poison::default(), flow })
     })
 }
 
@@ -309,7 +276,7 @@ pub unsafe extern "C" fn ricci_solver_pin(
 ) -> ricci_status {
     guard::call(|door| {
         let solver = door.exclusive(solver)?;
-        let n = solver.flow.given().n_vertices();
+        let n = solver.flow.surface().mesh().n_vertices();
         let vertices = arrays::array("vertices", vertices, n_vertices)?;
         if let Some(v) = vertices.iter().find(|&&v| v as usize >= n) {
             return Err(Failure::argument(format!("vertex {v} does not exist: there are {n}")));
@@ -342,9 +309,9 @@ pub unsafe extern "C" fn ricci_solver_solve(
     guard::call(|door| {
         let result = output("result", result)?;
         let solver = door.exclusive(solver)?;
-        let n = solver.flow.given().n_vertices();
+        let n = solver.flow.surface().mesh().n_vertices();
         let target = PerVertex::from(arrays::array_of("target", target, n_vertices, n)?);
-        let (end, done) = advance(&mut solver.flow, &target, &control::of(control), &solver.positions)?;
+        let (end, done) = advance(&mut solver.flow, target, &control::of(control))?;
         if let Ok(report) = output("report", report) {
             report.hand_over(done);
         }

@@ -9,7 +9,6 @@ use crate::last_error;
 use crate::status::ricci_status;
 use std::any::Any;
 use std::cell::{Cell, RefCell};
-use std::mem::MaybeUninit;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -24,6 +23,19 @@ pub trait Handle: Sized {
     const NAME: &'static str;
     fn poison(&self) -> &Poison;
 }
+
+/// Makes a struct with a field `poison` the opaque type of this name.
+macro_rules! handle {
+    ($type:ty, $name:literal) => {
+        impl $crate::guard::Handle for $type {
+            const NAME: &'static str = $name;
+            fn poison(&self) -> &$crate::guard::Poison {
+                &self.poison
+            }
+        }
+    };
+}
+pub(crate) use handle;
 
 /// The handles that a running body has opened.
 #[derive(Default)]
@@ -88,13 +100,6 @@ pub fn output<T>(what: &str, place: *mut T) -> Outcome<Output<T>> {
     if place.is_null() { Err(Failure::null(what)) } else { Ok(Output(place)) }
 }
 
-/// The integer that C passed for an enum: any value of its width may come.
-pub fn raw<E>(value: MaybeUninit<E>) -> i32 {
-    const { assert!(size_of::<E>() == size_of::<i32>()) };
-    // SAFETY: same size, and C passed an initialised `int32_t`.
-    unsafe { value.as_ptr().cast::<i32>().read() }
-}
-
 /// Run the body of an entry point.
 pub fn call(body: impl FnOnce(&Door) -> Outcome) -> ricci_status {
     let _host = Environment::enter();
@@ -113,6 +118,24 @@ pub fn call(body: impl FnOnce(&Door) -> Outcome) -> ricci_status {
             ricci_status::RICCI_PANIC
         }
     }
+}
+
+/// Run the body of an entry point that reads one handle.
+pub fn with<H: Handle>(handle: *const H, body: impl FnOnce(&H) -> Outcome) -> ricci_status {
+    call(|door| body(door.shared(handle)?))
+}
+
+/// Run the body of an entry point that makes a handle, whose place is checked before any work is done.
+pub fn make<H: Handle>(
+    what: &str,
+    place: *mut *mut H,
+    body: impl FnOnce(&Door) -> Outcome<H>,
+) -> ricci_status {
+    call(|door| {
+        let place = output(what, place)?;
+        place.hand_over(body(door)?);
+        Ok(())
+    })
 }
 
 /// Release a handle; NULL is fine, and so is a poisoned one.

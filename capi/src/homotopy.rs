@@ -1,13 +1,14 @@
 //! Canonical homotopy bases.
 
-use crate::arrays::{copy_counted, copy_out, copy_rows, flattened};
+use crate::arrays::{copy_counted, copy_out, copy_rows};
 use crate::control::{self, ricci_control};
+use crate::edges::{copy_paths, signed_edge};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
-use crate::mesh::{ricci_mesh, signed_edge};
-use crate::sized::{self, Sized64};
+use crate::guard::{self, Poison, handle};
+use crate::letters;
+use crate::mesh::ricci_mesh;
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
-use crate::word;
 use ricci::mesh::{Mesh, VertexId};
 use ricci::topology::{HomotopyBasis, homotopy_basis, intersection_matrix};
 use std::sync::Arc;
@@ -23,12 +24,7 @@ pub struct ricci_homotopy {
     pub(crate) basis: HomotopyBasis,
 }
 
-impl Handle for ricci_homotopy {
-    const NAME: &'static str = "homotopy";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_homotopy, "homotopy");
 
 impl ricci_homotopy {
     pub(crate) fn new(mesh: Arc<Mesh>, basis: HomotopyBasis) -> ricci_homotopy {
@@ -57,12 +53,7 @@ pub struct ricci_homotopy_summary {
 }
 
 // SAFETY: integers of 8 bytes, size first.
-unsafe impl Sized64 for ricci_homotopy_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_homotopy_summary, "summary");
 
 /// A vertex that may be left to the library: -1.
 pub(crate) fn vertex_or_none(what: &str, vertex: i64) -> Outcome<Option<VertexId>> {
@@ -90,15 +81,14 @@ pub unsafe extern "C" fn ricci_homotopy_new(
     control: *const ricci_control,
     homotopy: *mut *mut ricci_homotopy,
 ) -> ricci_status {
-    guard::call(|door| {
-        let homotopy = output("homotopy", homotopy)?;
+    guard::make("homotopy", homotopy, |door| {
         let mesh = door.shared(mesh)?;
-        let (lengths, _) = mesh.lengths()?;
+        let surface = mesh.surface()?;
+        let lengths = surface.lengths();
         let base = vertex_or_none("base", base)?;
         let mesh = mesh.connectivity.clone();
         let basis = homotopy_basis(&mesh, &lengths, base, &control::of(control))?;
-        homotopy.hand_over(ricci_homotopy::new(mesh, basis));
-        Ok(())
+        Ok(ricci_homotopy::new(mesh, basis))
     })
 }
 
@@ -158,8 +148,7 @@ pub unsafe extern "C" fn ricci_homotopy_loops(
 ) -> ricci_status {
     guard::call(|door| {
         let loops = &door.shared(homotopy)?.basis.loops;
-        let (numbers, offsets) = flattened(loops.iter().map(|path| path.iter().map(|&h| signed_edge(h))));
-        copy_rows("edges", &numbers, edges, edges_capacity, &offsets, starts, starts_capacity)
+        copy_paths(loops, (edges, edges_capacity), (starts, starts_capacity))
     })
 }
 
@@ -180,11 +169,9 @@ pub unsafe extern "C" fn ricci_homotopy_loop_vertices(
     starts: *mut usize,
     starts_capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
-        let (names, offsets) =
-            flattened(basis.loops.iter().map(|path| path.iter().map(|&h| mesh.origin(h).0)));
-        copy_rows("vertices", &names, vertices, vertices_capacity, &offsets, starts, starts_capacity)
+    guard::with(homotopy, |ricci_homotopy { mesh, basis, .. }| {
+        let rows = basis.loops.iter().map(|path| path.iter().map(|&h| mesh.origin(h).0));
+        copy_rows("vertices", rows, (vertices, vertices_capacity), (starts, starts_capacity))
     })
 }
 
@@ -202,7 +189,7 @@ pub unsafe extern "C" fn ricci_homotopy_relator(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let relator: Vec<i32> = word::letters(&door.shared(homotopy)?.basis.group.relator()).collect();
+        let relator: Vec<i32> = letters::letters(&door.shared(homotopy)?.basis.group.relator()).collect();
         copy_out("letters", &relator, letters, capacity)
     })
 }
@@ -221,8 +208,7 @@ pub unsafe extern "C" fn ricci_homotopy_intersections(
     matrix: *mut i64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
+    guard::with(homotopy, |ricci_homotopy { mesh, basis, .. }| {
         copy_out("matrix", &intersection_matrix(mesh, &basis.loops)?.concat(), matrix, capacity)
     })
 }
@@ -244,8 +230,7 @@ pub unsafe extern "C" fn ricci_homotopy_tree_path(
     capacity: usize,
     n_edges: *mut usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
+    guard::with(homotopy, |ricci_homotopy { mesh, basis, .. }| {
         let path = basis.tree_path(mesh, VertexId(vertex))?;
         let numbers: Vec<i32> = path.into_iter().map(signed_edge).collect();
         copy_counted("edges", &numbers, edges, capacity, n_edges)

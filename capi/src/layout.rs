@@ -3,21 +3,21 @@
 use crate::arrays::{self, copy_out};
 use crate::choice::choose;
 use crate::control::{self, ricci_control};
+use crate::edges::copy_paths;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
-use crate::mesh::signed_edge;
+use crate::guard::{self, Poison, handle};
 use crate::metric::ricci_metric;
 use crate::model::{self, ricci_model};
-use crate::refined;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::embed::layout::bounding_diagonal;
 use ricci::embed::unroll::CONE_TOLERANCE;
 use ricci::embed::{self, Layout, OnInput, Quality, Scale, Seam, UnrollOptions, cones_of};
+use ricci::flow::Solution;
 use ricci::geometry::{Model, PlaneIsometry, Space};
 use ricci::mesh::{Mesh, PerHalfedge, Point, VertexId};
-use ricci::metric::SurfaceMetric;
+use ricci::metric::Refinement;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
@@ -42,15 +42,10 @@ pub struct ricci_layout {
     /// Of the mesh itself.
     pub(crate) input_positions: Option<Arc<Vec<Point>>>,
     pub(crate) quality: Quality,
-    pub(crate) surface: Arc<SurfaceMetric>,
+    pub(crate) surface: Arc<Solution>,
 }
 
-impl Handle for ricci_layout {
-    const NAME: &'static str = "layout";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_layout, "layout");
 
 /// Figures of a layout.
 #[repr(C)]
@@ -106,12 +101,7 @@ pub struct ricci_layout_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_layout_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_layout_summary, "summary");
 
 /// A layout of a metric that lives in this space, opened along edges of its mesh.
 fn unroll(
@@ -172,12 +162,10 @@ pub unsafe extern "C" fn ricci_layout_new(
     control: *const ricci_control,
     layout: *mut *mut ricci_layout,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = output("layout", layout)?;
+    guard::make("layout", layout, |door| {
         let metric = door.shared(metric)?;
         let cones = cones(metric.given(), target, n_vertices)?;
-        layout.hand_over(unroll(metric, cones, Space::E2, Model::default(), &control::of(control))?);
-        Ok(())
+        unroll(metric, cones, Space::E2, Model::default(), &control::of(control))
     })
 }
 
@@ -205,12 +193,10 @@ pub unsafe extern "C" fn ricci_layout_hyperbolic(
     control: *const ricci_control,
     layout: *mut *mut ricci_layout,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = output("layout", layout)?;
+    guard::make("layout", layout, |door| {
         let metric = door.shared(metric)?;
         let cones = cones(metric.given(), target, n_vertices)?;
-        layout.hand_over(unroll(metric, cones, Space::H2, choose(model)?, &control::of(control))?);
-        Ok(())
+        unroll(metric, cones, Space::H2, choose(model)?, &control::of(control))
     })
 }
 
@@ -220,6 +206,11 @@ pub unsafe extern "C" fn ricci_layout_hyperbolic(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_layout_free(layout: *mut ricci_layout) {
     guard::free(layout);
+}
+
+/// The number of pieces into which the given and the final triangulation cut each other.
+fn n_pieces(refinement: &Refinement) -> usize {
+    refinement.piece.last().map_or(0, |&last| last as usize + 1)
 }
 
 /// The figures of a layout.
@@ -235,8 +226,7 @@ pub unsafe extern "C" fn ricci_layout_summarise(
     summary: *mut ricci_layout_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_layout { layout, points, quality, surface, on_input, .. } = door.shared(layout)?;
+    guard::with(layout, |ricci_layout { layout, points, quality, surface, on_input, .. }| {
         let (mesh, given) = (layout.mesh(), surface.given());
         let figures = ricci_layout_summary {
             size,
@@ -256,7 +246,7 @@ pub unsafe extern "C" fn ricci_layout_summarise(
             n_edges: mesh.n_edges(),
             n_given_vertices: given.n_vertices(),
             n_crossings: mesh.n_vertices() - given.n_vertices(),
-            n_pieces: layout.refinement().map_or(mesh.n_faces(), |r| refined::n_pieces(r)),
+            n_pieces: layout.refinement().map_or(mesh.n_faces(), |r| n_pieces(r)),
             n_degenerate: quality.degenerate.len(),
             n_given_faces: given.n_faces(),
             n_flipped_given: on_input.as_ref().map_or(0, |on_input| on_input.flipped.len()),
@@ -278,7 +268,7 @@ pub unsafe extern "C" fn ricci_layout_points(
     points: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("points", door.shared(layout)?.points.as_flattened(), points, capacity))
+    guard::with(layout, |layout| copy_out("points", &layout.points, points, capacity))
 }
 
 /// The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
@@ -294,10 +284,7 @@ pub unsafe extern "C" fn ricci_layout_corners(
     corners: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
-        copy_out("corners", layout.corners().as_flattened(), corners, capacity)
-    })
+    guard::with(layout, |layout| copy_out("corners", &layout.corners(), corners, capacity))
 }
 
 /// The coordinates of every corner of every face.
@@ -313,11 +300,10 @@ pub unsafe extern "C" fn ricci_layout_uv(
     uv: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
+    guard::with(layout, |layout| {
         let corners: Vec<[[f64; 2]; 3]> =
             layout.corners().into_iter().map(|f| f.map(|k| layout.points[k as usize])).collect();
-        copy_out("uv", corners.as_flattened().as_flattened(), uv, capacity)
+        copy_out("uv", &corners, uv, capacity)
     })
 }
 
@@ -336,12 +322,11 @@ pub unsafe extern "C" fn ricci_layout_input_uv(
     uv: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
+    guard::with(layout, |layout| {
         let points = layout.input_points()?;
         let corners: Vec<[[f64; 2]; 3]> =
             layout.input_corners()?.into_iter().map(|f| f.map(|k| points[k as usize])).collect();
-        copy_out("uv", corners.as_flattened().as_flattened(), uv, capacity)
+        copy_out("uv", &corners, uv, capacity)
     })
 }
 
@@ -371,7 +356,7 @@ pub unsafe extern "C" fn ricci_layout_seams(
             [rotation, x, y, seam.residual]
         };
         let rows: Vec<[f64; 4]> = layout.seams.iter().map(row).collect();
-        copy_out("seams", rows.as_flattened(), seams, capacity)
+        copy_out("seams", &rows, seams, capacity)
     })
 }
 
@@ -395,9 +380,7 @@ pub unsafe extern "C" fn ricci_layout_seam_edges(
 ) -> ricci_status {
     guard::call(|door| {
         let seams = &door.shared(layout)?.layout.cut.segments;
-        let (numbers, offsets) =
-            arrays::flattened(seams.iter().map(|seam| seam.iter().map(|&h| signed_edge(h))));
-        arrays::copy_rows("edges", &numbers, edges, edges_capacity, &offsets, starts, starts_capacity)
+        copy_paths(seams, (edges, edges_capacity), (starts, starts_capacity))
     })
 }
 
@@ -433,7 +416,7 @@ pub unsafe extern "C" fn ricci_layout_qc(
     qc: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("qc", &door.shared(layout)?.quality.qc, qc, capacity))
+    guard::with(layout, |layout| copy_out("qc", &layout.quality.qc, qc, capacity))
 }
 
 /// The area distortion of every face: its share of the layout's area over its share of the input's.
@@ -449,13 +432,13 @@ pub unsafe extern "C" fn ricci_layout_area_ratio(
     ratio: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("ratio", &door.shared(layout)?.quality.area_ratio, ratio, capacity))
+    guard::with(layout, |layout| copy_out("ratio", &layout.quality.area_ratio, ratio, capacity))
 }
 
 impl ricci_layout {
     /// A layout in the plane or, in a model with two coordinates, in the hyperbolic plane.
     pub(crate) fn new(
-        surface: Arc<SurfaceMetric>,
+        surface: Arc<Solution>,
         layout: Layout,
         input_positions: &Option<Arc<Vec<Point>>>,
         model: Model,
@@ -469,7 +452,7 @@ impl ricci_layout {
         };
         Ok(ricci_layout {
             poison: Poison::default(),
-            quality: layout.quality(surface.given(), surface.given_lengths())?,
+            quality: layout.quality(surface.given(), surface.surface().lengths())?,
             points: match layout.space {
                 Space::H2 => model::plane_points(model, &layout.points),
                 _ => layout.coordinates.clone(),

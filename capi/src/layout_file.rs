@@ -25,7 +25,7 @@ pub unsafe extern "C" fn ricci_layout_write_obj(
     layout: *const ricci_layout,
     path: *const c_char,
 ) -> ricci_status {
-    guard::call(|door| File::of_layout(door.shared(layout)?).write(path, None))
+    guard::with(layout, |layout| File::of_layout(layout).write(path, None))
 }
 
 /// The same with homogeneous texture coordinates, `vt qx qy q` with the q of ricci_layout_weights: the
@@ -42,8 +42,7 @@ pub unsafe extern "C" fn ricci_layout_write_obj_homogeneous(
     layout: *const ricci_layout,
     path: *const c_char,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
+    guard::with(layout, |layout| {
         let weights = weights(&layout.surface, layout.layout.refinement())?;
         let heights = layout.heights()?;
         File { heights, ..File::of_layout(layout) }.write(path, Some(&weights))
@@ -82,7 +81,7 @@ pub unsafe extern "C" fn ricci_charts_write_obj(
     charts: *const ricci_charts,
     path: *const c_char,
 ) -> ricci_status {
-    guard::call(|door| File::of_charts(door.shared(charts)?).write(path, None))
+    guard::with(charts, |charts| File::of_charts(charts).write(path, None))
 }
 
 /// The same with homogeneous texture coordinates, `vt qx qy q`.
@@ -97,8 +96,7 @@ pub unsafe extern "C" fn ricci_charts_write_obj_homogeneous(
     charts: *const ricci_charts,
     path: *const c_char,
 ) -> ricci_status {
-    guard::call(|door| {
-        let charts = door.shared(charts)?;
+    guard::with(charts, |charts| {
         charts.check_plane()?;
         let weights = weights(&charts.surface, charts.layout.refinement())?;
         File::of_charts(charts).write(path, Some(&weights))
@@ -140,7 +138,7 @@ impl File<'_> {
             }
             of_points.iter_mut().zip(&self.heights).for_each(|(weight, height)| *weight *= height);
         }
-        let faces: Vec<[u32; 3]> = self.mesh.faces().map(|f| of_vertices(f).map(|v| v.0)).collect();
+        let faces = self.mesh.triangles();
         let data = io::Textured {
             positions,
             faces: &faces,

@@ -7,7 +7,8 @@
 //! |---|---|
 //! | `guard` | nothing unwinds into C; handles are checked, and poisoned after a panic |
 //! | `environment` | the host's floating-point environment |
-//! | `arrays`, `sized`, `choice` | arrays, structs and enum values that come from C |
+//! | `arrays`, `sized`, `choice`, `integer` | arrays, structs and enum values that come from C |
+//! | `edges`, `letters` | edge paths and words as signed numbers |
 //! | `drawing` | what layouts in the plane and in the hyperbolic plane have in common |
 //! | `failure`, `status`, `last_error` | what went wrong |
 //! | `debug` | a panic on request, for tests |
@@ -24,9 +25,12 @@
 
 mod arrays;
 mod choice;
+mod edges;
 mod environment;
 mod failure;
 mod guard;
+mod integer;
+mod letters;
 mod sized;
 
 pub mod status;
@@ -76,6 +80,8 @@ pub mod charts;
 pub mod layout_file;
 
 pub mod model;
+
+pub mod uniformize_options;
 
 pub mod uniformize;
 

@@ -1,6 +1,6 @@
 //! Log messages of the library, handed to a callback of the host.
 
-use crate::choice::{Choice, choose};
+use crate::choice::{choice, choose};
 use crate::guard;
 use crate::status::ricci_status;
 use log::{Level, LevelFilter, Log, Metadata, Record};
@@ -28,21 +28,14 @@ pub enum ricci_log_level {
 
 use ricci_log_level::*;
 
-impl Choice for ricci_log_level {
-    const NAME: &'static str = "level";
-    type Value = LevelFilter;
-    const ALL: &'static [(Self, LevelFilter)] = &[
-        (RICCI_LOG_OFF, LevelFilter::Off),
-        (RICCI_LOG_ERROR, LevelFilter::Error),
-        (RICCI_LOG_WARN, LevelFilter::Warn),
-        (RICCI_LOG_INFO, LevelFilter::Info),
-        (RICCI_LOG_DEBUG, LevelFilter::Debug),
-        (RICCI_LOG_TRACE, LevelFilter::Trace),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_log_level, "level", LevelFilter, [
+    RICCI_LOG_OFF => Off,
+    RICCI_LOG_ERROR => Error,
+    RICCI_LOG_WARN => Warn,
+    RICCI_LOG_INFO => Info,
+    RICCI_LOG_DEBUG => Debug,
+    RICCI_LOG_TRACE => Trace,
+]);
 
 /// Receives one message. May be called from any thread, by several at once; it must not call into the
 /// library. `message` is NUL-terminated UTF-8 and valid during the call only.

@@ -2,15 +2,16 @@
 
 use crate::arrays::{self, copy_out, copy_rows};
 use crate::choice::choose;
+use crate::edges::signed_edge;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
-use crate::sized::{self, Sized64};
+use crate::guard::{self, Poison, handle};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
+use ricci::Surface;
 use ricci::geometry::space::Space;
 use ricci::mesh::io::{Attributes, Soup};
-use ricci::mesh::{HalfedgeId, Mesh, PerEdge, Point};
-use ricci::metric::lengths::lengths_from_positions;
+use ricci::mesh::{Mesh, PerEdge, Point};
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
@@ -32,12 +33,7 @@ pub(crate) enum Shape {
     Lengths(Arc<PerEdge<f64>>, Space),
 }
 
-impl Handle for ricci_mesh {
-    const NAME: &'static str = "mesh";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_mesh, "mesh");
 
 impl ricci_mesh {
     pub(crate) fn new(connectivity: Arc<Mesh>, shape: Shape) -> ricci_mesh {
@@ -59,20 +55,22 @@ impl ricci_mesh {
         }
     }
 
-    pub(crate) fn positions_if_any(&self) -> Option<Arc<Vec<Point>>> {
-        match &self.shape {
-            Shape::Positions(positions) => Some(positions.clone()),
-            Shape::Lengths(..) => None,
-        }
+    /// The surface with the lengths that are measured in space, or those of an intrinsic mesh.
+    pub(crate) fn surface(&self) -> Outcome<Surface> {
+        let connectivity = self.connectivity.clone();
+        Ok(match &self.shape {
+            Shape::Positions(positions) => Surface::in_space(connectivity, positions.clone())?,
+            Shape::Lengths(lengths, space) => Surface::intrinsic(connectivity, lengths.clone(), *space)?,
+        })
     }
 
-    pub(crate) fn lengths(&self) -> Outcome<(Arc<PerEdge<f64>>, Space)> {
-        match &self.shape {
-            Shape::Positions(positions) => {
-                Ok((Arc::new(lengths_from_positions(&self.connectivity, positions)?), Space::E2))
-            }
-            Shape::Lengths(lengths, space) => Ok((lengths.clone(), *space)),
-        }
+    /// The surface with lengths of the caller's, and the mesh's own positions if it has any.
+    pub(crate) fn surface_with(&self, lengths: Vec<f64>, geometry: Space) -> Outcome<Surface> {
+        let surface = Surface::intrinsic(self.connectivity.clone(), PerEdge::from(lengths), geometry)?;
+        Ok(match &self.shape {
+            Shape::Positions(positions) => surface.with_positions(positions.clone())?,
+            Shape::Lengths(..) => surface,
+        })
     }
 }
 
@@ -107,12 +105,7 @@ pub struct ricci_mesh_summary {
 }
 
 // SAFETY: integers of 8 bytes, size first.
-unsafe impl Sized64 for ricci_mesh_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_mesh_summary, "summary");
 
 /// A mesh from positions and faces.
 ///
@@ -135,12 +128,10 @@ pub unsafe extern "C" fn ricci_mesh_from_arrays(
     n_faces: usize,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |_| {
         let positions = arrays::points(positions, stride, n_vertices)?;
         let faces = arrays::faces(faces, n_faces)?;
-        mesh.hand_over(ricci_mesh::from_soup(Soup::new(positions, faces))?);
-        Ok(())
+        ricci_mesh::from_soup(Soup::new(positions, faces))
     })
 }
 
@@ -163,12 +154,10 @@ pub unsafe extern "C" fn ricci_mesh_from_arrays_i32(
     n_faces: usize,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |_| {
         let positions = arrays::points(positions, stride, n_vertices)?;
         let faces = arrays::faces_i32(faces, n_faces)?;
-        mesh.hand_over(ricci_mesh::from_soup(Soup::new(positions, faces))?);
-        Ok(())
+        ricci_mesh::from_soup(Soup::new(positions, faces))
     })
 }
 
@@ -199,8 +188,7 @@ pub unsafe extern "C" fn ricci_mesh_from_gluing(
     geometry: MaybeUninit<ricci_space>,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |_| {
         let geometry = choose(geometry)?;
         let faces = arrays::faces(faces, n_faces)?;
         let face_edges: Vec<[i32; 3]> = arrays::array("face_edges", face_edges.cast(), n_faces)?;
@@ -212,8 +200,7 @@ pub unsafe extern "C" fn ricci_mesh_from_gluing(
             }
         }
         let shape = Shape::Lengths(Arc::new(lengths.into()), geometry);
-        mesh.hand_over(ricci_mesh::new(Arc::new(connectivity), shape));
-        Ok(())
+        Ok(ricci_mesh::new(Arc::new(connectivity), shape))
     })
 }
 
@@ -238,8 +225,7 @@ pub unsafe extern "C" fn ricci_mesh_summarise(
     summary: *mut ricci_mesh_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_mesh { connectivity: mesh, attributes, .. } = door.shared(mesh)?;
+    guard::with(mesh, |ricci_mesh { connectivity: mesh, attributes, .. }| {
         let counts = ricci_mesh_summary {
             size,
             n_vertices: mesh.n_vertices(),
@@ -271,10 +257,7 @@ pub unsafe extern "C" fn ricci_mesh_positions(
     positions: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
-        copy_out("positions", mesh.positions()?.as_flattened(), positions, capacity)
-    })
+    guard::with(mesh, |mesh| copy_out("positions", mesh.positions()?, positions, capacity))
 }
 
 /// The vertices of every face, in corner order.
@@ -290,10 +273,7 @@ pub unsafe extern "C" fn ricci_mesh_faces(
     faces: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
-        copy_out("faces", face_vertices(&mesh.connectivity).as_flattened(), faces, capacity)
-    })
+    guard::with(mesh, |mesh| copy_out("faces", &mesh.connectivity.triangles(), faces, capacity))
 }
 
 /// The edges opposite the corners of every face: how the triangles are glued, and where in a per-edge array a
@@ -320,7 +300,7 @@ pub unsafe extern "C" fn ricci_mesh_face_edges(
                 [bc, ca, ab]
             })
             .collect();
-        copy_out("face_edges", signed.as_flattened(), face_edges, capacity)
+        copy_out("face_edges", &signed, face_edges, capacity)
     })
 }
 
@@ -340,7 +320,7 @@ pub unsafe extern "C" fn ricci_mesh_edges(
     guard::call(|door| {
         let mesh = &door.shared(mesh)?.connectivity;
         let ends: Vec<[u32; 2]> = mesh.edges().map(|e| mesh.ends(e).map(|v| v.0)).collect();
-        copy_out("edges", ends.as_flattened(), edges, capacity)
+        copy_out("edges", &ends, edges, capacity)
     })
 }
 
@@ -358,7 +338,8 @@ pub unsafe extern "C" fn ricci_mesh_lengths(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let (values, _) = door.shared(mesh)?.lengths()?;
+        let surface = door.shared(mesh)?.surface()?;
+        let values = surface.lengths();
         copy_out("lengths", &values, lengths, capacity)
     })
 }
@@ -383,28 +364,8 @@ pub unsafe extern "C" fn ricci_mesh_boundary(
 ) -> ricci_status {
     guard::call(|door| {
         let mesh = &door.shared(mesh)?.connectivity;
-        let (mut order, mut offsets) = (Vec::new(), vec![0]);
-        for walk in mesh.boundary_loops() {
-            order.extend(walk.iter().rev().map(|&h| mesh.origin(h).0));
-            offsets.push(order.len());
-        }
-        copy_rows("vertices", &order, vertices, vertices_capacity, &offsets, starts, starts_capacity)
+        let loops = mesh.boundary_loops();
+        let rows = loops.iter().map(|walk| walk.iter().rev().map(|&h| mesh.origin(h).0));
+        copy_rows("vertices", rows, (vertices, vertices_capacity), (starts, starts_capacity))
     })
-}
-
-/// The 1-based number of an edge, negative against its direction.
-pub(crate) fn signed_edge(h: HalfedgeId) -> i32 {
-    let number = h.edge().0 as i32 + 1;
-    if h == h.edge().halfedge() { number } else { -number }
-}
-
-/// The half-edge of such a number; none if there is no such edge.
-pub(crate) fn halfedge(mesh: &Mesh, number: i32) -> Option<HalfedgeId> {
-    let e = number.unsigned_abs().checked_sub(1).filter(|&e| (e as usize) < mesh.n_edges())?;
-    let h = ricci::mesh::EdgeId(e).halfedge();
-    Some(if number > 0 { h } else { h.twin() })
-}
-
-pub(crate) fn face_vertices(mesh: &Mesh) -> Vec<[u32; 3]> {
-    mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect()
 }

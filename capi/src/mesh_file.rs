@@ -1,11 +1,11 @@
 //! Meshes from and to files, with their attributes.
 
 use crate::arrays::{self, copy_out};
-use crate::choice::{Choice, choose};
+use crate::choice::{choice, choose};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, output};
-use crate::mesh::{face_vertices, ricci_mesh};
-use crate::sized::{self, Sized64};
+use crate::guard;
+use crate::mesh::ricci_mesh;
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::mesh::io::{self, Attributes, Format, Soup, Texture, Wrap};
 use std::ffi::c_char;
@@ -29,12 +29,7 @@ pub struct ricci_mesh_attributes {
 }
 
 // SAFETY: pointers of 8 bytes that are only read through `arrays`, size first.
-unsafe impl Sized64 for ricci_mesh_attributes {
-    const NAME: &'static str = "attributes";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_mesh_attributes, "attributes");
 
 impl ricci_mesh_attributes {
     fn none() -> Self {
@@ -76,11 +71,7 @@ impl ricci_mesh_attributes {
 /// @param mesh  out: the new handle, to be released by ricci_mesh_free.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_read(path: *const c_char, mesh: *mut *mut ricci_mesh) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
-        mesh.hand_over(ricci_mesh::from_soup(io::read(&arrays::path("path", path)?)?)?);
-        Ok(())
-    })
+    guard::make("mesh", mesh, |_| ricci_mesh::from_soup(io::read(&arrays::path("path", path)?)?))
 }
 
 /// A mesh from an STL file whose corners within a distance of each other are one vertex.
@@ -97,11 +88,7 @@ pub unsafe extern "C" fn ricci_mesh_read_stl(
     weld: f64,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|_| {
-        let mesh = output("mesh", mesh)?;
-        mesh.hand_over(ricci_mesh::from_soup(io::read_stl(&arrays::path("path", path)?, weld)?)?);
-        Ok(())
-    })
+    guard::make("mesh", mesh, |_| ricci_mesh::from_soup(io::read_stl(&arrays::path("path", path)?, weld)?))
 }
 
 /// Fill attributes with none.
@@ -135,8 +122,7 @@ pub unsafe extern "C" fn ricci_mesh_write(
     attributes: *const ricci_mesh_attributes,
     path: *const c_char,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
+    guard::with(mesh, |mesh| {
         let path = arrays::path("path", path)?;
         let mut soup = whole(mesh)?;
         if !attributes.is_null() {
@@ -159,8 +145,7 @@ pub unsafe extern "C" fn ricci_mesh_write(
 /// @param path  file name, NUL-terminated.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_write_obj(mesh: *const ricci_mesh, path: *const c_char) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
+    guard::with(mesh, |mesh| {
         io::write_as(&arrays::path("path", path)?, Format::Obj, &whole(mesh)?)?;
         Ok(())
     })
@@ -179,9 +164,8 @@ pub unsafe extern "C" fn ricci_mesh_normals(
     normals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("normals", &door.shared(mesh)?.attributes.normals)?;
-        copy_out("normals", list.as_flattened(), normals, capacity)
+    guard::with(mesh, |mesh| {
+        copy_out("normals", present("normals", &mesh.attributes.normals)?, normals, capacity)
     })
 }
 
@@ -198,9 +182,8 @@ pub unsafe extern "C" fn ricci_mesh_colors(
     colors: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("colors", &door.shared(mesh)?.attributes.colors)?;
-        copy_out("colors", list.as_flattened(), colors, capacity)
+    guard::with(mesh, |mesh| {
+        copy_out("colors", present("colors", &mesh.attributes.colors)?, colors, capacity)
     })
 }
 
@@ -217,10 +200,7 @@ pub unsafe extern "C" fn ricci_mesh_uv(
     uv: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("uv", &door.shared(mesh)?.attributes.uv)?;
-        copy_out("uv", list.as_flattened().as_flattened(), uv, capacity)
-    })
+    guard::with(mesh, |mesh| copy_out("uv", present("uv", &mesh.attributes.uv)?, uv, capacity))
 }
 
 /// The normals of corners that the mesh was read with: of one whose vertices have several, as at hard edges.
@@ -236,9 +216,13 @@ pub unsafe extern "C" fn ricci_mesh_corner_normals(
     corner_normals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("corner normals", &door.shared(mesh)?.attributes.corner_normals)?;
-        copy_out("corner_normals", list.as_flattened().as_flattened(), corner_normals, capacity)
+    guard::with(mesh, |mesh| {
+        copy_out(
+            "corner_normals",
+            present("corner normals", &mesh.attributes.corner_normals)?,
+            corner_normals,
+            capacity,
+        )
     })
 }
 
@@ -259,20 +243,11 @@ pub enum ricci_wrap {
     RICCI_WRAP_CLAMP = 2,
 }
 
-use ricci_wrap::*;
-
-impl Choice for ricci_wrap {
-    const NAME: &'static str = "wrap";
-    type Value = Wrap;
-    const ALL: &'static [(Self, Wrap)] = &[
-        (RICCI_WRAP_REPEAT, Wrap::Repeat),
-        (RICCI_WRAP_MIRROR, Wrap::Mirror),
-        (RICCI_WRAP_CLAMP, Wrap::Clamp),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_wrap, "wrap", Wrap, [
+    RICCI_WRAP_REPEAT => Repeat,
+    RICCI_WRAP_MIRROR => Mirror,
+    RICCI_WRAP_CLAMP => Clamp,
+]);
 
 /// Write a mesh as binary glTF with a texture, whatever the file's name.
 ///
@@ -297,8 +272,7 @@ pub unsafe extern "C" fn ricci_mesh_write_textured(
     wrap: MaybeUninit<ricci_wrap>,
     path: *const c_char,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = door.shared(mesh)?;
+    guard::with(mesh, |mesh| {
         let path = arrays::path("path", path)?;
         let wrap = choose(wrap)?;
         let png: Vec<u8> = arrays::array("png", png, png_size)?;
@@ -319,6 +293,6 @@ pub unsafe extern "C" fn ricci_mesh_write_textured(
 /// The triangle list that the mesh is, with what it was read with.
 fn whole(mesh: &ricci_mesh) -> Outcome<Soup> {
     let positions = mesh.positions()?.to_vec();
-    let faces = face_vertices(&mesh.connectivity);
+    let faces = mesh.connectivity.triangles();
     Ok(Soup { positions, faces, attributes: mesh.attributes.clone() })
 }

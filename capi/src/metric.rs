@@ -3,16 +3,15 @@
 use crate::arrays::{self, copy_out};
 use crate::choice::{choose, name};
 use crate::failure::Outcome;
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle};
 use crate::mesh::ricci_mesh;
 use crate::scheme::ricci_scheme;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
-use ricci::geometry::space::Space;
+use ricci::flow::Solution;
 use ricci::mesh::{Mesh, PerEdge, Point};
-use ricci::metric::SurfaceMetric;
-use ricci::metric::scheme::Scheme;
+use ricci::{Class, Surface};
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
@@ -24,43 +23,34 @@ use std::sync::Arc;
 /// (ricci_metric_mesh), and of a surface with boundary to one of its double; ricci_layout_new leads back.
 pub struct ricci_metric {
     poison: Poison,
-    pub(crate) surface: SurfaceMetric,
+    pub(crate) surface: Solution,
     /// Of the edges of its triangulation.
     pub(crate) lengths: Arc<PerEdge<f64>>,
     /// Of the given vertices.
     pub(crate) positions: Option<Arc<Vec<Point>>>,
 }
 
-impl Handle for ricci_metric {
-    const NAME: &'static str = "metric";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_metric, "metric");
 
 impl ricci_metric {
-    fn start(
-        mesh: &ricci_mesh,
-        lengths: Arc<PerEdge<f64>>,
-        geometry: Space,
-        scheme: Scheme,
-        space: Space,
-    ) -> Outcome<ricci_metric> {
-        let surface = SurfaceMetric::new(mesh.connectivity.clone(), lengths, geometry, scheme, space)?;
-        let initial = surface.initial();
+    fn start(surface: Surface, class: Class) -> Outcome<ricci_metric> {
+        let metric = Solution::initial_of(surface, class)?;
+        let initial = metric.initial();
         if initial.clamped_edges > 0 {
             log::info!(
-                "metric: {scheme} keeps {} edge weights at a bound, lengths change by up to {:.2} %",
+                "metric: {} keeps {} edge weights at a bound, lengths change by up to {:.2} %",
+                class.scheme,
                 initial.clamped_edges,
                 100.0 * initial.max_length_change
             );
         }
-        ricci_metric::at(surface, mesh.positions_if_any())
+        ricci_metric::at(metric)
     }
 
-    /// A metric of a surface with these positions.
-    pub(crate) fn at(surface: SurfaceMetric, positions: Option<Arc<Vec<Point>>>) -> Outcome<ricci_metric> {
+    /// A metric of a surface.
+    pub(crate) fn at(surface: Solution) -> Outcome<ricci_metric> {
         let lengths = Arc::new(surface.metric().lengths(surface.mesh())?);
+        let positions = surface.surface().positions().cloned();
         Ok(ricci_metric { poison: Poison::default(), surface, lengths, positions })
     }
 
@@ -116,12 +106,7 @@ pub struct ricci_metric_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_metric_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_metric_summary, "summary");
 
 /// The initial metric of a mesh in the conformal class of its lengths.
 ///
@@ -139,12 +124,9 @@ pub unsafe extern "C" fn ricci_metric_new(
     space: MaybeUninit<ricci_space>,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
-        let (mesh, scheme, space) = (door.shared(mesh)?, choose(scheme)?, choose(space)?);
-        let (lengths, geometry) = mesh.lengths()?;
-        metric.hand_over(ricci_metric::start(mesh, lengths, geometry, scheme, space)?);
-        Ok(())
+    guard::make("metric", metric, |door| {
+        let class = Class::new(choose(scheme)?, choose(space)?);
+        ricci_metric::start(door.shared(mesh)?.surface()?, class)
     })
 }
 
@@ -169,14 +151,11 @@ pub unsafe extern "C" fn ricci_metric_from_lengths(
     space: MaybeUninit<ricci_space>,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
+    guard::make("metric", metric, |door| {
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
-        let (geometry, scheme, space) = (choose(geometry)?, choose(scheme)?, choose(space)?);
-        let lengths = Arc::new(lengths.into());
-        metric.hand_over(ricci_metric::start(mesh, lengths, geometry, scheme, space)?);
-        Ok(())
+        let class = Class::new(choose(scheme)?, choose(space)?);
+        ricci_metric::start(mesh.surface_with(lengths, choose(geometry)?)?, class)
     })
 }
 
@@ -208,7 +187,7 @@ pub unsafe extern "C" fn ricci_metric_summarise(
             size,
             space: name(surface.metric().space)?,
             input_geometry: name(initial.input_geometry)?,
-            scheme: name(surface.scheme())?,
+            scheme: name(surface.scheme()?)?,
             doubled: surface.double().is_some().into(),
             n_vertices: surface.given().n_vertices(),
             n_edges: mesh.n_edges(),
@@ -239,9 +218,7 @@ pub unsafe extern "C" fn ricci_metric_curvature(
     curvature: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("curvature", &door.shared(metric)?.surface.curvature()?.at, curvature, capacity)
-    })
+    guard::with(metric, |metric| copy_out("curvature", &metric.surface.curvature()?.at, curvature, capacity))
 }
 
 /// The variable u of every vertex.
@@ -257,10 +234,7 @@ pub unsafe extern "C" fn ricci_metric_u(
     u: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
-        copy_out("u", metric.given_part(&metric.surface.metric().u), u, capacity)
-    })
+    guard::with(metric, |metric| copy_out("u", metric.given_part(&metric.surface.metric().u), u, capacity))
 }
 
 /// The type epsilon of every vertex: 1 circle, 0 vertex scaling, -1 imaginary circle.
@@ -276,8 +250,7 @@ pub unsafe extern "C" fn ricci_metric_epsilon(
     epsilon: *mut i8,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
+    guard::with(metric, |metric| {
         copy_out("epsilon", metric.given_part(&metric.surface.metric().epsilon), epsilon, capacity)
     })
 }

@@ -1,12 +1,12 @@
 //! Models of the hyperbolic plane.
 
 use crate::arrays::{ambient, array, copy_out};
-use crate::choice::{Choice, choose};
+use crate::choice::{choice, choose};
 use crate::failure::{Failure, Outcome};
 use crate::guard;
 use crate::status::ricci_status;
 use ricci::geometry::Space;
-use ricci::geometry::model::{Model, from_half_plane, from_klein, from_poincare};
+use ricci::geometry::model::Model;
 use std::mem::MaybeUninit;
 
 /// Coordinates of the hyperbolic plane.
@@ -23,21 +23,12 @@ pub enum ricci_model {
     RICCI_MODEL_HYPERBOLOID = 3,
 }
 
-use ricci_model::*;
-
-impl Choice for ricci_model {
-    const NAME: &'static str = "model";
-    type Value = Model;
-    const ALL: &'static [(Self, Model)] = &[
-        (RICCI_MODEL_POINCARE, Model::Poincare),
-        (RICCI_MODEL_KLEIN, Model::Klein),
-        (RICCI_MODEL_HALF_PLANE, Model::HalfPlane),
-        (RICCI_MODEL_HYPERBOLOID, Model::Hyperboloid),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_model, "model", Model, [
+    RICCI_MODEL_POINCARE => Poincare,
+    RICCI_MODEL_KLEIN => Klein,
+    RICCI_MODEL_HALF_PLANE => HalfPlane,
+    RICCI_MODEL_HYPERBOLOID => Hyperboloid,
+]);
 
 /// Points of the plane (w = 1), which has one model, or of the hyperboloid, row by row: two coordinates, three for
 /// ambient ones.
@@ -50,11 +41,7 @@ pub(crate) fn coordinates(space: Space, model: Model, points: &[[f64; 3]]) -> Ve
 }
 
 pub(crate) fn plane_points(model: Model, points: &[[f64; 3]]) -> Vec<[f64; 2]> {
-    let flat = |&p: &[f64; 3]| {
-        let [x, y, _] = model.from_hyperboloid(p);
-        [x, y]
-    };
-    points.iter().map(flat).collect()
+    points.iter().map(|&p| model.plane(p)).collect()
 }
 
 /// Coordinates of points of the hyperboloid in a model.
@@ -114,29 +101,11 @@ pub unsafe extern "C" fn ricci_model_to_hyperboloid(
             }
             _ => array("coordinates", coordinates.cast(), n_points)?,
         };
-        let lifted: Outcome<Vec<[f64; 3]>> =
-            rows.iter().enumerate().map(|(i, &p)| lift(model, i, p)).collect();
-        copy_out("points", lifted?.as_flattened(), points, capacity)
+        let lifted = rows.iter().enumerate().map(|(i, &[x, y])| {
+            let none =
+                || format!("coordinates: row {i}, ({x}, {y}), is no point of the {} model", model.name());
+            model.to_hyperboloid([x, y]).ok_or_else(|| Failure::argument(none()))
+        });
+        copy_out("points", &lifted.collect::<Outcome<Vec<_>>>()?, points, capacity)
     })
-}
-
-fn lift(model: Model, i: usize, [x, y]: [f64; 2]) -> Outcome<[f64; 3]> {
-    let inside = match model {
-        Model::Poincare | Model::Klein => x.hypot(y) < 1.0,
-        Model::HalfPlane => y > 0.0,
-        Model::Hyperboloid => true,
-    };
-    let p = match model {
-        Model::Poincare => from_poincare([x, y]),
-        Model::Klein => from_klein([x, y]),
-        Model::HalfPlane => from_half_plane([x, y]),
-        Model::Hyperboloid => [x, y, x.hypot(y).hypot(1.0)],
-    };
-    if inside && p.iter().all(|x| x.is_finite()) {
-        return Ok(p);
-    }
-    Err(Failure::argument(format!(
-        "coordinates: row {i}, ({x}, {y}), is no point of the {} model",
-        model.name()
-    )))
 }

@@ -5,17 +5,16 @@ use crate::choice::choose;
 use crate::control::{self, ricci_control};
 use crate::domain::ricci_domain;
 use crate::failure::Outcome;
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle};
 use crate::homotopy::ricci_homotopy;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::metric::ricci_metric;
 use crate::report::ricci_report;
 use crate::space::ricci_space;
 use crate::status::ricci_status;
-use crate::uniformize::{read_options, ricci_uniformize_options};
+use crate::uniformize_options::{read_options, ricci_uniformize_options};
+use ricci::Surface;
 use ricci::canonical::{Quotient, quotient_of, uniformize_quotient};
-use ricci::geometry::Space;
-use ricci::mesh::{PerEdge, Point};
 use ricci::topology::FundamentalDomain;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
@@ -28,18 +27,12 @@ use std::sync::Arc;
 pub struct ricci_quotient {
     poison: Poison,
     pub(crate) quotient: Arc<Quotient>,
-    pub(crate) positions: Option<Arc<Vec<Point>>>,
 }
 
-impl Handle for ricci_quotient {
-    const NAME: &'static str = "quotient";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_quotient, "quotient");
 
 impl ricci_quotient {
-    pub(crate) fn new(quotient: Quotient, positions: Option<Arc<Vec<Point>>>) -> ricci_quotient {
+    pub(crate) fn new(quotient: Quotient) -> ricci_quotient {
         log::info!(
             "uniformize: {} after {} iterations, max |K| = {:.1e}, side pairings within {:.1e}, relation {:.1e}",
             quotient.report.stop_reason,
@@ -48,7 +41,7 @@ impl ricci_quotient {
             quotient.deck.side_residual,
             quotient.deck.relation_residual
         );
-        ricci_quotient { poison: Poison::default(), quotient: Arc::new(quotient), positions }
+        ricci_quotient { poison: Poison::default(), quotient: Arc::new(quotient) }
     }
 }
 
@@ -70,12 +63,9 @@ pub unsafe extern "C" fn ricci_quotient_new(
     control: *const ricci_control,
     quotient: *mut *mut ricci_quotient,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("quotient", quotient)?;
+    guard::make("quotient", quotient, |door| {
         let mesh = door.shared(mesh)?;
-        let (lengths, geometry) = mesh.lengths()?;
-        place.hand_over(uniformize(mesh, &lengths, geometry, options, control)?);
-        Ok(())
+        uniformize(mesh.surface()?, options, control)
     })
 }
 
@@ -100,25 +90,21 @@ pub unsafe extern "C" fn ricci_quotient_from_lengths(
     control: *const ricci_control,
     quotient: *mut *mut ricci_quotient,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("quotient", quotient)?;
+    guard::make("quotient", quotient, |door| {
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
-        place.hand_over(uniformize(mesh, &lengths.into(), choose(geometry)?, options, control)?);
-        Ok(())
+        let surface = mesh.surface_with(lengths, choose(geometry)?)?;
+        uniformize(surface, options, control)
     })
 }
 
 fn uniformize(
-    mesh: &ricci_mesh,
-    lengths: &PerEdge<f64>,
-    geometry: Space,
+    surface: Surface,
     options: *const ricci_uniformize_options,
     control: *const ricci_control,
 ) -> Outcome<ricci_quotient> {
     let (options, control) = (read_options(options)?, control::of(control));
-    let quotient = uniformize_quotient(&mesh.connectivity, lengths, geometry, &options, &control)?;
-    Ok(ricci_quotient::new(quotient, mesh.positions_if_any()))
+    Ok(ricci_quotient::new(uniformize_quotient(&surface, &options, &control)?))
 }
 
 /// ricci_quotient_new from where a metric is, such as another solver's result: in the metric's scheme.
@@ -136,12 +122,10 @@ pub unsafe extern "C" fn ricci_quotient_from_metric(
     control: *const ricci_control,
     quotient: *mut *mut ricci_quotient,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("quotient", quotient)?;
+    guard::make("quotient", quotient, |door| {
         let metric = door.shared(metric)?;
         let found = quotient_of(&metric.surface, &read_options(options)?, &control::of(control))?;
-        place.hand_over(ricci_quotient::new(found, metric.positions.clone()));
-        Ok(())
+        Ok(ricci_quotient::new(found))
     })
 }
 
@@ -164,12 +148,7 @@ pub unsafe extern "C" fn ricci_quotient_metric(
     quotient: *const ricci_quotient,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
-        let ricci_quotient { quotient, positions, .. } = door.shared(quotient)?;
-        metric.hand_over(ricci_metric::at(quotient.metric.clone(), positions.clone())?);
-        Ok(())
-    })
+    guard::make("metric", metric, |door| ricci_metric::at(door.shared(quotient)?.quotient.metric.clone()))
 }
 
 /// What the flow did.
@@ -183,10 +162,8 @@ pub unsafe extern "C" fn ricci_quotient_report(
     quotient: *const ricci_quotient,
     report: *mut *mut ricci_report,
 ) -> ricci_status {
-    guard::call(|door| {
-        let report = output("report", report)?;
-        report.hand_over(ricci_report::new(door.shared(quotient)?.quotient.report.clone(), None));
-        Ok(())
+    guard::make("report", report, |door| {
+        Ok(ricci_report::new(door.shared(quotient)?.quotient.report.clone()))
     })
 }
 
@@ -201,15 +178,10 @@ pub unsafe extern "C" fn ricci_quotient_mesh(
     quotient: *const ricci_quotient,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |door| {
         let metric = &door.shared(quotient)?.quotient.metric;
         let lengths = Arc::new(metric.metric().lengths(metric.mesh())?);
-        mesh.hand_over(ricci_mesh::new(
-            metric.mesh().clone(),
-            Shape::Lengths(lengths, metric.metric().space),
-        ));
-        Ok(())
+        Ok(ricci_mesh::new(metric.mesh().clone(), Shape::Lengths(lengths, metric.metric().space)))
     })
 }
 
@@ -224,11 +196,9 @@ pub unsafe extern "C" fn ricci_quotient_homotopy(
     quotient: *const ricci_quotient,
     homotopy: *mut *mut ricci_homotopy,
 ) -> ricci_status {
-    guard::call(|door| {
-        let homotopy = output("homotopy", homotopy)?;
+    guard::make("homotopy", homotopy, |door| {
         let quotient = &door.shared(quotient)?.quotient;
-        homotopy.hand_over(ricci_homotopy::new(quotient.metric.mesh().clone(), quotient.basis.clone()));
-        Ok(())
+        Ok(ricci_homotopy::new(quotient.metric.mesh().clone(), quotient.basis.clone()))
     })
 }
 
@@ -243,15 +213,9 @@ pub unsafe extern "C" fn ricci_quotient_domain(
     quotient: *const ricci_quotient,
     domain: *mut *mut ricci_domain,
 ) -> ricci_status {
-    guard::call(|door| {
-        let domain = output("domain", domain)?;
+    guard::make("domain", domain, |door| {
         let Quotient { metric, layout, basis, .. } = &*door.shared(quotient)?.quotient;
-        domain.hand_over(ricci_domain::new(FundamentalDomain::new(
-            metric.mesh(),
-            &layout.cut.is_cut,
-            basis,
-        )?));
-        Ok(())
+        Ok(ricci_domain::new(FundamentalDomain::new(metric.mesh(), &layout.cut.is_cut, basis)?))
     })
 }
 

@@ -1,17 +1,17 @@
 //! The layout of a quotient, on the metric's triangulation and on the given surface.
 
-use crate::arrays::{check_buffer, copy_out, copy_rows, flattened, halfedges};
+use crate::arrays::{check_buffer, copy_out};
 use crate::choice::{choose, name};
 use crate::control::{self, ricci_control};
 use crate::deck::ricci_deck;
+use crate::edges::{copy_paths, halfedges};
 use crate::failure::Outcome;
-use crate::guard::{self, output};
+use crate::guard;
 use crate::layout::ricci_layout;
-use crate::mesh::signed_edge;
 use crate::model::{self, ricci_model};
 use crate::quotient::ricci_quotient;
 use crate::report::ricci_stop_reason;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::Control;
@@ -71,12 +71,7 @@ pub struct ricci_quotient_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_quotient_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_quotient_summary, "summary");
 
 /// The figures of a quotient.
 ///
@@ -99,7 +94,7 @@ pub unsafe extern "C" fn ricci_quotient_summarise(
             space: name(layout.space)?,
             base: basis.base.0,
             stop_reason: report.stop_reason.into(),
-            converged: report.converged.into(),
+            converged: report.converged().into(),
             genus: basis.group.genus,
             angle_defect: *angle_defect,
             n_faces: metric.mesh().n_faces(),
@@ -167,7 +162,7 @@ pub unsafe extern "C" fn ricci_quotient_corners(
         let mesh = metric.mesh();
         let indices = |f| mesh.face_halfedges(f).map(|h| layout.corner_index[h]);
         let rows: Vec<[u32; 3]> = mesh.faces().map(indices).collect();
-        copy_out("corners", rows.as_flattened(), corners, capacity)
+        copy_out("corners", &rows, corners, capacity)
     })
 }
 
@@ -190,9 +185,7 @@ pub unsafe extern "C" fn ricci_quotient_cut(
 ) -> ricci_status {
     guard::call(|door| {
         let segments = &door.shared(quotient)?.quotient.layout.cut.segments;
-        let (numbers, offsets) =
-            flattened(segments.iter().map(|chain| chain.iter().map(|&h| signed_edge(h))));
-        copy_rows("edges", &numbers, edges, edges_capacity, &offsets, starts, starts_capacity)
+        copy_paths(segments, (edges, edges_capacity), (starts, starts_capacity))
     })
 }
 
@@ -217,7 +210,7 @@ pub unsafe extern "C" fn ricci_quotient_lift(
     guard::call(|door| {
         let Quotient { metric, layout, deck, .. } = &*door.shared(quotient)?.quotient;
         let path = halfedges("path", metric.mesh(), path, n_path)?;
-        copy_out("points", layout.lift(deck.corner, &path)?.as_flattened(), points, capacity)
+        copy_out("points", &layout.lift(deck.corner, &path)?, points, capacity)
     })
 }
 
@@ -242,7 +235,7 @@ pub unsafe extern "C" fn ricci_quotient_polygon(
         let base = layout.corner(deck.corner);
         let (points, inside) = (deck.canonical_polygon(base)?, deck.canonical_angles(base)?);
         check_buffer("angles", inside.len(), angles, capacity)?;
-        copy_out("corners", points.as_flattened(), corners, capacity.saturating_mul(3))?;
+        copy_out("corners", &points, corners, capacity.saturating_mul(3))?;
         copy_out("angles", &inside, angles, capacity)
     })
 }
@@ -258,11 +251,7 @@ pub unsafe extern "C" fn ricci_quotient_generators(
     quotient: *const ricci_quotient,
     deck: *mut *mut ricci_deck,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("deck", deck)?;
-        place.hand_over(ricci_deck::generators(&door.shared(quotient)?.quotient.deck));
-        Ok(())
-    })
+    guard::make("deck", deck, |door| Ok(ricci_deck::generators(&door.shared(quotient)?.quotient.deck)))
 }
 
 /// The sides of the layout as a fundamental domain, counterclockwise: the elements that carry it onto its neighbours.
@@ -276,11 +265,9 @@ pub unsafe extern "C" fn ricci_quotient_sides(
     quotient: *const ricci_quotient,
     deck: *mut *mut ricci_deck,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("deck", deck)?;
+    guard::make("deck", deck, |door| {
         let group = &door.shared(quotient)?.quotient.deck;
-        place.hand_over(ricci_deck::new(group, group.sides.clone()));
-        Ok(())
+        Ok(ricci_deck::new(group, group.sides.clone()))
     })
 }
 
@@ -302,16 +289,14 @@ pub unsafe extern "C" fn ricci_quotient_layout(
     control: *const ricci_control,
     layout: *mut *mut ricci_layout,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("layout", layout)?;
+    guard::make("layout", layout, |door| {
         let quotient = door.shared(quotient)?;
-        place.hand_over(refined(quotient, choose(model)?, &control::of(control))?);
-        Ok(())
+        refined(quotient, choose(model)?, &control::of(control))
     })
 }
 
 fn refined(quotient: &ricci_quotient, model: Model, control: &Control) -> Outcome<ricci_layout> {
     let Quotient { metric, layout, .. } = &*quotient.quotient;
     let refined = layout.refined(&Arc::new(metric.refinement(control)?), metric.metric(), control)?;
-    ricci_layout::new(Arc::new(metric.clone()), refined, &quotient.positions, model)
+    ricci_layout::new(Arc::new(metric.clone()), refined, &metric.surface().positions().cloned(), model)
 }

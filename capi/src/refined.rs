@@ -3,15 +3,16 @@
 
 use crate::arrays::{check_buffer, copy_out};
 use crate::failure::Outcome;
-use crate::guard::{self, output};
+use crate::guard;
 use crate::layout::ricci_layout;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::embed::layout::distance;
+use ricci::flow::Solution;
 use ricci::mesh::{EdgeId, FaceId, PerEdge, PerVertex};
+use ricci::metric::Refinement;
 use ricci::metric::refinement::Crossing;
-use ricci::metric::{Refinement, SurfaceMetric};
 use std::sync::Arc;
 
 /// Which of the two triangulations a function asks about.
@@ -19,10 +20,6 @@ use std::sync::Arc;
 enum Side {
     Input,
     Final,
-}
-
-pub(crate) fn n_pieces(refinement: &Refinement) -> usize {
-    refinement.piece.last().map_or(0, |&last| last as usize + 1)
 }
 
 /// What a layout unrolls as a mesh: the mesh that the metric was made from, or the common refinement.
@@ -39,8 +36,7 @@ pub unsafe extern "C" fn ricci_layout_mesh(
     layout: *const ricci_layout,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |door| {
         let layout = door.shared(layout)?;
         let mesh = Arc::new(layout.layout.mesh().clone());
         let shape = match &layout.positions {
@@ -55,8 +51,7 @@ pub unsafe extern "C" fn ricci_layout_mesh(
                 Shape::Lengths(Arc::new(PerEdge::from_fn(mesh.n_edges(), length)), space)
             }
         };
-        place.hand_over(ricci_mesh::new(mesh, shape));
-        Ok(())
+        Ok(ricci_mesh::new(mesh, shape))
     })
 }
 
@@ -73,7 +68,7 @@ pub unsafe extern "C" fn ricci_layout_input_faces(
     faces: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("faces", &door.shared(layout)?.faces_of(Side::Input), faces, capacity))
+    guard::with(layout, |layout| copy_out("faces", &layout.faces_of(Side::Input), faces, capacity))
 }
 
 /// The face of the metric's triangulation that every face of the layout is part of.
@@ -89,7 +84,7 @@ pub unsafe extern "C" fn ricci_layout_final_faces(
     faces: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("faces", &door.shared(layout)?.faces_of(Side::Final), faces, capacity))
+    guard::with(layout, |layout| copy_out("faces", &layout.faces_of(Side::Final), faces, capacity))
 }
 
 /// Where the corners of every face of the layout lie in its face of the given mesh: values at the corners of
@@ -109,7 +104,7 @@ pub unsafe extern "C" fn ricci_layout_input_barycentric(
 ) -> ricci_status {
     guard::call(|door| {
         let rows = door.shared(layout)?.barycentric(Side::Input);
-        copy_out("weights", rows.as_flattened().as_flattened(), weights, capacity)
+        copy_out("weights", &rows, weights, capacity)
     })
 }
 
@@ -129,7 +124,7 @@ pub unsafe extern "C" fn ricci_layout_final_barycentric(
 ) -> ricci_status {
     guard::call(|door| {
         let rows = door.shared(layout)?.barycentric(Side::Final);
-        copy_out("weights", rows.as_flattened().as_flattened(), weights, capacity)
+        copy_out("weights", &rows, weights, capacity)
     })
 }
 
@@ -147,12 +142,9 @@ pub unsafe extern "C" fn ricci_layout_pieces(
     pieces: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
-        match layout.layout.refinement() {
-            Some(refinement) => copy_out("pieces", &refinement.piece, pieces, capacity),
-            None => copy_out("pieces", &layout.faces_of(Side::Input), pieces, capacity),
-        }
+    guard::with(layout, |layout| match layout.layout.refinement() {
+        Some(refinement) => copy_out("pieces", &refinement.piece, pieces, capacity),
+        None => copy_out("pieces", &layout.faces_of(Side::Input), pieces, capacity),
     })
 }
 
@@ -172,8 +164,7 @@ pub unsafe extern "C" fn ricci_layout_weights(
     weights: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
+    guard::with(layout, |layout| {
         check_buffer("weights", layout.layout.mesh().n_vertices(), weights, capacity)?;
         layout.check_plane()?;
         let values = self::weights(&layout.surface, layout.layout.refinement())?;
@@ -197,7 +188,7 @@ pub unsafe extern "C" fn ricci_layout_input_crossings(
     fractions: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| door.shared(layout)?.crossings(Side::Input, edges, fractions, capacity))
+    guard::with(layout, |layout| layout.crossings(Side::Input, edges, fractions, capacity))
 }
 
 /// The crossings on the edges of the metric's triangulation, with its lengths.
@@ -215,14 +206,11 @@ pub unsafe extern "C" fn ricci_layout_final_crossings(
     fractions: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| door.shared(layout)?.crossings(Side::Final, edges, fractions, capacity))
+    guard::with(layout, |layout| layout.crossings(Side::Final, edges, fractions, capacity))
 }
 
 /// Homogeneous weight of every vertex of what a layout unrolls.
-pub(crate) fn weights(
-    surface: &SurfaceMetric,
-    refinement: Option<&Arc<Refinement>>,
-) -> Outcome<PerVertex<f64>> {
+pub(crate) fn weights(surface: &Solution, refinement: Option<&Arc<Refinement>>) -> Outcome<PerVertex<f64>> {
     Ok(match refinement {
         Some(refinement) => refinement.weight.clone(),
         None => surface.refinement(&Control::new())?.weight,

@@ -3,9 +3,9 @@
 use crate::arrays::{self, copy_out, copy_rows};
 use crate::diagnosis::ricci_diagnosis;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle};
 use crate::mesh_file::present;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::mesh::io::{self, Soup};
 use ricci::mesh::repair::{Repair, Repaired, repair};
@@ -17,12 +17,7 @@ pub struct ricci_repair {
     done: Repaired,
 }
 
-impl Handle for ricci_repair {
-    const NAME: &'static str = "repair";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_repair, "repair");
 
 /// What a repair may do beyond what is always done: dropping faces that use a vertex twice or repeat a face, giving each fan of
 /// faces a vertex of its own, turning faces until neighbours agree, dropping isolated vertices. Let
@@ -45,12 +40,7 @@ pub struct ricci_repair_options {
 }
 
 // SAFETY: numbers; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_repair_options {
-    const NAME: &'static str = "options";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_repair_options, "options");
 
 impl ricci_repair_options {
     fn standard() -> Self {
@@ -106,12 +96,7 @@ pub struct ricci_repair_summary {
 }
 
 // SAFETY: integers of 8 bytes, size first.
-unsafe impl Sized64 for ricci_repair_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_repair_summary, "summary");
 
 fn mended(soup: &Soup, options: *const ricci_repair_options) -> Outcome<ricci_repair> {
     let done = repair(soup, &ricci_repair_options::read(options)?)?;
@@ -155,11 +140,9 @@ pub unsafe extern "C" fn ricci_repair_arrays(
     options: *const ricci_repair_options,
     repair: *mut *mut ricci_repair,
 ) -> ricci_status {
-    guard::call(|_| {
-        let place = output("repair", repair)?;
+    guard::make("repair", repair, |_| {
         let soup = Soup::new(arrays::points(positions, stride, n_vertices)?, arrays::faces(faces, n_faces)?);
-        place.hand_over(mended(&soup, options)?);
-        Ok(())
+        mended(&soup, options)
     })
 }
 
@@ -176,11 +159,9 @@ pub unsafe extern "C" fn ricci_repair_file(
     options: *const ricci_repair_options,
     repair: *mut *mut ricci_repair,
 ) -> ricci_status {
-    guard::call(|_| {
-        let place = output("repair", repair)?;
+    guard::make("repair", repair, |_| {
         let soup = io::read(&arrays::path("path", path)?)?;
-        place.hand_over(mended(&soup, options)?);
-        Ok(())
+        mended(&soup, options)
     })
 }
 
@@ -247,8 +228,8 @@ pub unsafe extern "C" fn ricci_repair_result(
     guard::call(|door| {
         let soup = &door.shared(repair)?.done.soup;
         arrays::check_buffer("faces", 3 * soup.faces.len(), faces, faces_capacity)?;
-        copy_out("positions", soup.positions.as_flattened(), positions, positions_capacity)?;
-        copy_out("faces", soup.faces.as_flattened(), faces, faces_capacity)
+        copy_out("positions", &soup.positions, positions, positions_capacity)?;
+        copy_out("faces", &soup.faces, faces, faces_capacity)
     })
 }
 
@@ -301,14 +282,9 @@ pub unsafe extern "C" fn ricci_repair_refused(
     guard::call(|door| {
         let refused = &door.shared(repair)?.done.weld_refused;
         let ends: Vec<u32> = refused.iter().flat_map(|edge| edge.vertices).collect();
-        let entries: Vec<u32> = refused.iter().flat_map(|edge| edge.faces.iter().copied()).collect();
-        let mut rows = vec![0];
-        rows.extend(refused.iter().scan(0, |end, edge| {
-            *end += edge.faces.len();
-            Some(*end)
-        }));
         arrays::check_buffer("vertices", ends.len(), vertices, vertices_capacity)?;
-        copy_rows("faces", &entries, faces, faces_capacity, &rows, starts, starts_capacity)?;
+        let rows = refused.iter().map(|edge| edge.faces.iter().copied());
+        copy_rows("faces", rows, (faces, faces_capacity), (starts, starts_capacity))?;
         copy_out("vertices", &ends, vertices, vertices_capacity)
     })
 }
@@ -326,9 +302,8 @@ pub unsafe extern "C" fn ricci_repair_normals(
     normals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("normals", &door.shared(repair)?.done.soup.attributes.normals)?;
-        copy_out("normals", list.as_flattened(), normals, capacity)
+    guard::with(repair, |repair| {
+        copy_out("normals", present("normals", &repair.done.soup.attributes.normals)?, normals, capacity)
     })
 }
 
@@ -345,9 +320,8 @@ pub unsafe extern "C" fn ricci_repair_colors(
     colors: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("colors", &door.shared(repair)?.done.soup.attributes.colors)?;
-        copy_out("colors", list.as_flattened(), colors, capacity)
+    guard::with(repair, |repair| {
+        copy_out("colors", present("colors", &repair.done.soup.attributes.colors)?, colors, capacity)
     })
 }
 
@@ -364,9 +338,8 @@ pub unsafe extern "C" fn ricci_repair_uv(
     uv: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("uv", &door.shared(repair)?.done.soup.attributes.uv)?;
-        copy_out("uv", list.as_flattened().as_flattened(), uv, capacity)
+    guard::with(repair, |repair| {
+        copy_out("uv", present("uv", &repair.done.soup.attributes.uv)?, uv, capacity)
     })
 }
 
@@ -383,9 +356,13 @@ pub unsafe extern "C" fn ricci_repair_corner_normals(
     corner_normals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let list = present("corner normals", &door.shared(repair)?.done.soup.attributes.corner_normals)?;
-        copy_out("corner_normals", list.as_flattened().as_flattened(), corner_normals, capacity)
+    guard::with(repair, |repair| {
+        copy_out(
+            "corner_normals",
+            present("corner normals", &repair.done.soup.attributes.corner_normals)?,
+            corner_normals,
+            capacity,
+        )
     })
 }
 
@@ -424,9 +401,7 @@ pub unsafe extern "C" fn ricci_repair_diagnosis(
     repair: *const ricci_repair,
     diagnosis: *mut *mut ricci_diagnosis,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("diagnosis", diagnosis)?;
-        place.hand_over(ricci_diagnosis::from(door.shared(repair)?.done.diagnosis.clone()));
-        Ok(())
+    guard::make("diagnosis", diagnosis, |door| {
+        Ok(ricci_diagnosis::from(door.shared(repair)?.done.diagnosis.clone()))
     })
 }

@@ -1,12 +1,11 @@
 //! What a flow did.
 
 use crate::arrays::{check_buffer, copy_out};
-use crate::guard::{self, Handle, Poison};
-use crate::sized::{self, Sized64};
+use crate::guard::{self, Poison, handle};
+use crate::integer::raw;
+use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::flow::{Report, StopReason};
-use ricci::mesh::{Double, VertexId};
-use std::collections::BTreeSet;
 use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
 
@@ -19,27 +18,10 @@ pub struct ricci_report {
     report: Report,
 }
 
-impl Handle for ricci_report {
-    const NAME: &'static str = "report";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_report, "report");
 
 impl ricci_report {
-    /// The report of a flow on a surface, or on its double: vertices are those of the surface.
-    pub(crate) fn new(mut report: Report, double: Option<&Double>) -> ricci_report {
-        if let Some(double) = double {
-            let on_surface = |v: VertexId| v.min(double.mirror(v));
-            let mut seen = BTreeSet::new();
-            report.worst.iter_mut().for_each(|(v, _)| *v = on_surface(*v));
-            report.worst.retain(|(v, _)| seen.insert(*v));
-            if let Some(obstruction) = &mut report.obstruction {
-                obstruction.vertices.iter_mut().for_each(|v| *v = on_surface(*v));
-                obstruction.vertices.sort_unstable();
-                obstruction.vertices.dedup();
-            }
-        }
+    pub(crate) fn new(report: Report) -> ricci_report {
         ricci_report { poison: Poison::default(), report }
     }
 }
@@ -82,7 +64,7 @@ impl From<StopReason> for ricci_stop_reason {
     fn from(reason: StopReason) -> ricci_stop_reason {
         match reason {
             StopReason::Converged => RICCI_STOP_CONVERGED,
-            StopReason::RoundingFloor => RICCI_STOP_ROUNDING_FLOOR,
+            StopReason::RoundingFloor { .. } => RICCI_STOP_ROUNDING_FLOOR,
             StopReason::BrokenTriangles => RICCI_STOP_BROKEN_TRIANGLES,
             StopReason::Diverged => RICCI_STOP_DIVERGED,
             StopReason::Stalled => RICCI_STOP_STALLED,
@@ -149,12 +131,7 @@ pub struct ricci_report_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_report_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_report_summary, "summary");
 
 /// The name of a stop reason as reports spell it, such as "rounding_floor".
 ///
@@ -164,7 +141,7 @@ unsafe impl Sized64 for ricci_report_summary {
 /// @param reason  the reason.
 #[unsafe(no_mangle)]
 pub extern "C" fn ricci_stop_reason_text(reason: MaybeUninit<ricci_stop_reason>) -> *const c_char {
-    let number = guard::raw(reason);
+    let number = raw(reason);
     let name = NAMES.iter().find(|(known, _)| *known as i32 == number);
     name.map_or(c"unknown", |(_, name)| name).as_ptr()
 }
@@ -195,7 +172,7 @@ pub unsafe extern "C" fn ricci_report_summarise(
         let seconds = &report.seconds;
         let figures = ricci_report_summary {
             size,
-            converged: report.converged.into(),
+            converged: report.converged().into(),
             stop_reason: report.stop_reason.into(),
             iterations: report.iterations,
             flips: report.flips,
@@ -235,7 +212,7 @@ pub unsafe extern "C" fn ricci_report_residuals(
     residuals: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("residuals", &door.shared(report)?.report.residuals, residuals, capacity))
+    guard::with(report, |report| copy_out("residuals", &report.report.residuals, residuals, capacity))
 }
 
 /// The trace of a gradient flow.
@@ -259,7 +236,7 @@ pub unsafe extern "C" fn ricci_report_trace(
             .iter()
             .map(|row| [row.step as f64, row.energy, row.max_curvature_error, row.area, row.step_size])
             .collect();
-        copy_out("trace", rows.as_flattened(), trace, capacity)
+        copy_out("trace", &rows, trace, capacity)
     })
 }
 

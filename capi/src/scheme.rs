@@ -1,6 +1,6 @@
 //! Schemes: how lengths depend on the conformal variables.
 
-use crate::choice::Choice;
+use crate::choice::choice;
 use ricci::metric::scheme::Scheme;
 
 /// How edge lengths depend on one variable u per vertex.
@@ -19,19 +19,10 @@ pub enum ricci_scheme {
     RICCI_SCHEME_VIRTUAL = 4,
 }
 
-use ricci_scheme::*;
-
-impl Choice for ricci_scheme {
-    const NAME: &'static str = "scheme";
-    type Value = Scheme;
-    const ALL: &'static [(Self, Scheme)] = &[
-        (RICCI_SCHEME_YAMABE, Scheme::Yamabe),
-        (RICCI_SCHEME_INVERSIVE, Scheme::Inversive),
-        (RICCI_SCHEME_THURSTON, Scheme::Thurston),
-        (RICCI_SCHEME_TANGENTIAL, Scheme::Tangential),
-        (RICCI_SCHEME_VIRTUAL, Scheme::Virtual),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_scheme, "scheme", Scheme, [
+    RICCI_SCHEME_YAMABE => Yamabe,
+    RICCI_SCHEME_INVERSIVE => Inversive,
+    RICCI_SCHEME_THURSTON => Thurston,
+    RICCI_SCHEME_TANGENTIAL => Tangential,
+    RICCI_SCHEME_VIRTUAL => Virtual,
+]);

@@ -1,10 +1,10 @@
 //! Sample surfaces in space, and what can be done to a surface in space.
 
 use crate::arrays;
-use crate::choice::{Choice, choose};
+use crate::choice::{choice, choose};
 use crate::failure::Outcome;
 use crate::guard::{self, output};
-use crate::mesh::{face_vertices, ricci_mesh};
+use crate::mesh::ricci_mesh;
 use crate::status::ricci_status;
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, Sliver, TorusKnot};
@@ -154,17 +154,10 @@ pub enum ricci_sliver {
     RICCI_SLIVER_NEEDLE = 1,
 }
 
-use ricci_sliver::*;
-
-impl Choice for ricci_sliver {
-    const NAME: &'static str = "sliver";
-    type Value = Sliver;
-    const ALL: &'static [(Self, Sliver)] =
-        &[(RICCI_SLIVER_CAP, Sliver::Cap), (RICCI_SLIVER_NEEDLE, Sliver::Needle)];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_sliver, "sliver", Sliver, [
+    RICCI_SLIVER_CAP => Cap,
+    RICCI_SLIVER_NEEDLE => Needle,
+]);
 
 /// A changed copy of a surface in space.
 fn changed(
@@ -172,13 +165,11 @@ fn changed(
     result: *mut *mut ricci_mesh,
     change: impl FnOnce(&mut Soup) -> Outcome,
 ) -> ricci_status {
-    guard::call(|door| {
-        let result = output("result", result)?;
+    guard::make("result", result, |door| {
         let mesh = door.shared(mesh)?;
-        let mut soup = Soup::new(mesh.positions()?.to_vec(), face_vertices(&mesh.connectivity));
+        let mut soup = Soup::new(mesh.positions()?.to_vec(), mesh.connectivity.triangles());
         change(&mut soup)?;
-        result.hand_over(ricci_mesh::from_soup(soup)?);
-        Ok(())
+        ricci_mesh::from_soup(soup)
     })
 }
 

@@ -18,6 +18,20 @@ pub unsafe trait Sized64: Copy {
     fn with_size(self, size: usize) -> Self;
 }
 
+/// Makes a struct whose first member is `size: usize` one that crosses the boundary with its size. Whoever calls this says why the
+/// contract of [`Sized64`] holds.
+macro_rules! sized {
+    ($type:ty, $name:literal) => {
+        unsafe impl $crate::sized::Sized64 for $type {
+            const NAME: &'static str = $name;
+            fn with_size(self, size: usize) -> Self {
+                Self { size, ..self }
+            }
+        }
+    };
+}
+pub(crate) use sized;
+
 fn check<S: Sized64>(size: usize) -> Outcome {
     const { assert!(align_of::<S>() == 8 && size_of::<usize>() == 8) };
     if size < 16 || !size.is_multiple_of(8) {

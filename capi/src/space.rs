@@ -1,6 +1,6 @@
 //! The three background geometries.
 
-use crate::choice::Choice;
+use crate::choice::choice;
 use ricci::geometry::space::Space;
 
 /// Background geometry.
@@ -15,15 +15,8 @@ pub enum ricci_space {
     RICCI_SPACE_S2 = 2,
 }
 
-impl Choice for ricci_space {
-    const NAME: &'static str = "space";
-    type Value = Space;
-    const ALL: &'static [(Self, Space)] = &[
-        (ricci_space::RICCI_SPACE_E2, Space::E2),
-        (ricci_space::RICCI_SPACE_H2, Space::H2),
-        (ricci_space::RICCI_SPACE_S2, Space::S2),
-    ];
-    fn number(self) -> i32 {
-        self as i32
-    }
-}
+choice!(ricci_space, "space", Space, [
+    RICCI_SPACE_E2 => E2,
+    RICCI_SPACE_H2 => H2,
+    RICCI_SPACE_S2 => S2,
+]);

@@ -4,17 +4,16 @@ use crate::arrays::{self, copy_out};
 use crate::choice::choose;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Handle, Poison, output};
+use crate::guard::{self, Poison, handle, output};
 use crate::homotopy::vertex_or_none;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::metric::ricci_metric;
 use crate::report::ricci_stop_reason;
-use crate::sized::{self, Sized64};
+use crate::sized::{self, sized};
 use crate::space::ricci_space;
 use crate::status::ricci_status;
+use ricci::Surface;
 use ricci::canonical::{Sphere, SphereOptions, uniformize_sphere};
-use ricci::geometry::Space;
-use ricci::mesh::{PerEdge, Point};
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
@@ -22,26 +21,19 @@ use std::sync::Arc;
 pub struct ricci_sphere {
     poison: Poison,
     sphere: Sphere,
-    /// Of the given surface.
-    positions: Option<Arc<Vec<Point>>>,
 }
 
-impl Handle for ricci_sphere {
-    const NAME: &'static str = "sphere";
-    fn poison(&self) -> &Poison {
-        &self.poison
-    }
-}
+handle!(ricci_sphere, "sphere");
 
 impl ricci_sphere {
-    pub(crate) fn new(sphere: Sphere, positions: Option<Arc<Vec<Point>>>) -> ricci_sphere {
+    pub(crate) fn new(sphere: Sphere) -> ricci_sphere {
         log::info!(
             "uniformize: sphere {} after {} iterations, max |K| = {:.1e}",
             sphere.report.stop_reason,
             sphere.report.iterations,
             sphere.report.spherical_curvature_error
         );
-        ricci_sphere { poison: Poison::default(), sphere, positions }
+        ricci_sphere { poison: Poison::default(), sphere }
     }
 }
 
@@ -62,12 +54,7 @@ pub struct ricci_sphere_options {
 }
 
 // SAFETY: numbers: any bytes are valid; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_sphere_options {
-    const NAME: &'static str = "options";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_sphere_options, "options");
 
 fn defaults() -> ricci_sphere_options {
     let SphereOptions { tolerance, max_iterations, threads, .. } = SphereOptions::default();
@@ -120,12 +107,7 @@ pub struct ricci_sphere_summary {
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
-unsafe impl Sized64 for ricci_sphere_summary {
-    const NAME: &'static str = "summary";
-    fn with_size(self, size: usize) -> Self {
-        Self { size, ..self }
-    }
-}
+sized!(ricci_sphere_summary, "summary");
 
 /// Fill options with their defaults.
 ///
@@ -161,12 +143,9 @@ pub unsafe extern "C" fn ricci_sphere_new(
     control: *const ricci_control,
     sphere: *mut *mut ricci_sphere,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("sphere", sphere)?;
+    guard::make("sphere", sphere, |door| {
         let mesh = door.shared(mesh)?;
-        let (lengths, geometry) = mesh.lengths()?;
-        place.hand_over(uniformize(mesh, lengths, geometry, options, control)?);
-        Ok(())
+        uniformize(mesh.surface()?, options, control)
     })
 }
 
@@ -191,19 +170,16 @@ pub unsafe extern "C" fn ricci_sphere_from_lengths(
     control: *const ricci_control,
     sphere: *mut *mut ricci_sphere,
 ) -> ricci_status {
-    guard::call(|door| {
-        let place = output("sphere", sphere)?;
+    guard::make("sphere", sphere, |door| {
         let mesh = door.shared(mesh)?;
         let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
-        place.hand_over(uniformize(mesh, Arc::new(lengths.into()), choose(geometry)?, options, control)?);
-        Ok(())
+        let surface = mesh.surface_with(lengths, choose(geometry)?)?;
+        uniformize(surface, options, control)
     })
 }
 
 fn uniformize(
-    mesh: &ricci_mesh,
-    lengths: Arc<PerEdge<f64>>,
-    geometry: Space,
+    surface: Surface,
     options: *const ricci_sphere_options,
     control: *const ricci_control,
 ) -> Outcome<ricci_sphere> {
@@ -211,9 +187,7 @@ fn uniformize(
         sized::read(defaults(), options)?;
     let puncture = vertex_or_none("puncture", puncture)?;
     let options = SphereOptions { tolerance, max_iterations, threads, puncture };
-    let given = mesh.connectivity.clone();
-    let sphere = uniformize_sphere(given, lengths, geometry, &options, &control::of(control))?;
-    Ok(ricci_sphere::new(sphere, mesh.positions_if_any()))
+    Ok(ricci_sphere::new(uniformize_sphere(&surface, &options, &control::of(control))?))
 }
 
 /// Release a sphere. What it has handed out lives on.
@@ -275,12 +249,7 @@ pub unsafe extern "C" fn ricci_sphere_metric(
     sphere: *const ricci_sphere,
     metric: *mut *mut ricci_metric,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = output("metric", metric)?;
-        let ricci_sphere { sphere, positions, .. } = door.shared(sphere)?;
-        metric.hand_over(ricci_metric::at(sphere.metric.clone(), positions.clone())?);
-        Ok(())
-    })
+    guard::make("metric", metric, |door| ricci_metric::at(door.shared(sphere)?.sphere.metric.clone()))
 }
 
 /// The polyhedron: unit vectors as positions, the metric's triangulation as faces, counterclockwise from outside.
@@ -294,12 +263,10 @@ pub unsafe extern "C" fn ricci_sphere_mesh(
     sphere: *const ricci_sphere,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |door| {
         let Sphere { metric, positions, .. } = &door.shared(sphere)?.sphere;
         let shape = Shape::Positions(Arc::new(positions.to_vec()));
-        mesh.hand_over(ricci_mesh::new(metric.mesh().clone(), shape));
-        Ok(())
+        Ok(ricci_mesh::new(metric.mesh().clone(), shape))
     })
 }
 
@@ -316,9 +283,7 @@ pub unsafe extern "C" fn ricci_sphere_positions(
     positions: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("positions", door.shared(sphere)?.sphere.positions.as_flattened(), positions, capacity)
-    })
+    guard::with(sphere, |sphere| copy_out("positions", &sphere.sphere.positions, positions, capacity))
 }
 
 /// The plane under the sphere (ricci_stereographic_project), in which far more digits are left near (0, 0, 1) than on the sphere.
@@ -334,7 +299,7 @@ pub unsafe extern "C" fn ricci_sphere_plane(
     points: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("points", door.shared(sphere)?.sphere.plane.as_flattened(), points, capacity))
+    guard::with(sphere, |sphere| copy_out("points", &sphere.sphere.plane, points, capacity))
 }
 
 /// The common refinement of the given mesh and the polyhedron: faces that are parts of faces of both. Its vertices are those of the mesh,
@@ -356,7 +321,8 @@ pub unsafe extern "C" fn ricci_sphere_refined(
 ) -> ricci_status {
     guard::call(|door| {
         let image = output("on_sphere", on_sphere)?;
-        let ricci_sphere { sphere, positions, .. } = door.shared(sphere)?;
+        let sphere = &door.shared(sphere)?.sphere;
+        let positions = sphere.metric.surface().positions();
         let given = match (output("on_surface", on_surface), positions) {
             (Err(_), _) => None,
             (Ok(place), Some(positions)) => Some((place, positions)),

@@ -1,6 +1,6 @@
 //! What a call returns.
 
-use crate::guard;
+use crate::integer::raw;
 use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
 
@@ -110,7 +110,7 @@ impl ricci_status {
 /// @param status  what a call returned.
 #[unsafe(no_mangle)]
 pub extern "C" fn ricci_status_text(status: MaybeUninit<ricci_status>) -> *const c_char {
-    let code = guard::raw(status);
+    let code = raw(status);
     let text = TEXTS.iter().find(|(known, _)| *known as i32 == code);
     text.map_or(c"unknown status", |(_, text)| text).as_ptr()
 }

@@ -31,7 +31,7 @@ pub unsafe extern "C" fn ricci_stereographic_project(
             )));
         }
         let flat: Vec<[f64; 2]> = points.iter().map(|&p| project(p).unwrap_or([f64::INFINITY; 2])).collect();
-        copy_out("plane", flat.as_flattened(), plane, capacity)
+        copy_out("plane", &flat, plane, capacity)
     })
 }
 
@@ -56,6 +56,6 @@ pub unsafe extern "C" fn ricci_stereographic_lift(
             return Err(Failure::argument(format!("plane: row {i} is not a number")));
         }
         let lifted: Vec<Point> = plane.into_iter().map(lift).collect();
-        copy_out("points", lifted.as_flattened(), points, capacity)
+        copy_out("points", &lifted, points, capacity)
     })
 }

@@ -6,6 +6,7 @@ use crate::failure::{Failure, Outcome};
 use crate::guard;
 use crate::metric::ricci_metric;
 use crate::status::ricci_status;
+use ricci::Class;
 use ricci::flow::auto_cones;
 use ricci::geometry::space::Space;
 use ricci::mesh::{PerVertex, VertexId};
@@ -27,8 +28,8 @@ impl ricci_metric {
 
     fn resolve(&self, target: &Target) -> Outcome<PerVertex<f64>> {
         let surface = &self.surface;
-        let (space, scheme) = (surface.metric().space, surface.scheme());
-        Ok(target.resolve(surface.given(), surface.given_lengths(), space, scheme)?)
+        let class = Class::new(surface.scheme()?, surface.metric().space);
+        Ok(target.resolve(surface.surface(), class)?)
     }
 
     /// An admissible target from a caller's array.
@@ -52,10 +53,9 @@ pub unsafe extern "C" fn ricci_target_default(
     target: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
+    guard::with(metric, |metric| {
         let surface = &metric.surface;
-        let choice = Target::default_for(surface.given(), surface.given_lengths(), surface.metric().space)?;
+        let choice = Target::default_for(surface.surface(), surface.metric().space)?;
         copy_out("target", &metric.resolve(&choice)?, target, capacity)
     })
 }
@@ -74,7 +74,7 @@ pub unsafe extern "C" fn ricci_target_uniform(
     target: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("target", &door.shared(metric)?.resolve(&Target::Uniform)?, target, capacity))
+    guard::with(metric, |metric| copy_out("target", &metric.resolve(&Target::Uniform)?, target, capacity))
 }
 
 /// 0 inside, 2 pi chi shared over the boundary in proportion to adjacent boundary length. E2 only.
@@ -91,9 +91,7 @@ pub unsafe extern "C" fn ricci_target_boundary(
     target: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        copy_out("target", &door.shared(metric)?.resolve(&Target::Boundary)?, target, capacity)
-    })
+    guard::with(metric, |metric| copy_out("target", &metric.resolve(&Target::Boundary)?, target, capacity))
 }
 
 /// All curvature, 2 pi chi, at one vertex. E2 only.
@@ -112,8 +110,7 @@ pub unsafe extern "C" fn ricci_target_single(
     target: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
+    guard::with(metric, |metric| {
         let choice = Target::Single(metric.vertex(vertex)?);
         copy_out("target", &metric.resolve(&choice)?, target, capacity)
     })
@@ -139,8 +136,7 @@ pub unsafe extern "C" fn ricci_target_cones(
     target: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let metric = door.shared(metric)?;
+    guard::with(metric, |metric| {
         let vertices = metric.vertices("vertices", vertices, n_cones)?;
         let curvatures = arrays::array("curvatures", curvatures, n_cones)?;
         let choice = Target::Cones(vertices.into_iter().zip(curvatures).collect());
@@ -177,7 +173,8 @@ pub unsafe extern "C" fn ricci_target_auto(
             let message = "cones are placed in e2, by Euclidean lengths".to_string();
             return Err(Failure::new(ricci_status::RICCI_TARGET_KIND, message));
         }
-        let placed = auto_cones(surface.given(), surface.given_lengths(), n_cones, &control::of(control))?;
+        let placed =
+            auto_cones(surface.given(), surface.surface().lengths(), n_cones, &control::of(control))?;
         copy_out("target", &placed.target, target, capacity)
     })
 }

@@ -28,12 +28,10 @@ pub unsafe extern "C" fn ricci_layout_from_input_vertices(
     carried: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
-        let needed = layout.surface.given().n_vertices();
-        let values = Values::<1>::read(values, n_values, n_components, needed)?;
-        let carry = |r: &Refinement, column: &[[f64; 1]]| r.from_input_vertices(column);
-        copy_out("carried", &values.carry(layout, carry)?, carried, capacity)
+    guard::with(layout, |layout| {
+        let values = Values::<1>::read(values, n_values, n_components, layout.surface.given().n_vertices())?;
+        let all = values.carry(layout, |r, column| r.from_input_vertices(column))?;
+        copy_out("carried", &all, carried, capacity)
     })
 }
 
@@ -58,12 +56,10 @@ pub unsafe extern "C" fn ricci_layout_from_final_vertices(
     carried: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
-        let needed = layout.surface.mesh().n_vertices();
-        let values = Values::<1>::read(values, n_values, n_components, needed)?;
-        let carry = |r: &Refinement, column: &[[f64; 1]]| r.from_final_vertices(column);
-        copy_out("carried", &values.carry(layout, carry)?, carried, capacity)
+    guard::with(layout, |layout| {
+        let values = Values::<1>::read(values, n_values, n_components, layout.surface.mesh().n_vertices())?;
+        let all = values.carry(layout, |r, column| r.from_final_vertices(column))?;
+        copy_out("carried", &all, carried, capacity)
     })
 }
 
@@ -88,12 +84,10 @@ pub unsafe extern "C" fn ricci_layout_from_input_corners(
     carried: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
-        let needed = layout.surface.given().n_faces();
-        let values = Values::<3>::read(values, n_values, n_components, needed)?;
-        let carry = |r: &Refinement, column: &[[f64; 3]]| Ok(rows(&r.from_input_corners(&columns(column))?));
-        copy_out("carried", &values.carry(layout, carry)?, carried, capacity)
+    guard::with(layout, |layout| {
+        let values = Values::<3>::read(values, n_values, n_components, layout.surface.given().n_faces())?;
+        let all = values.carry(layout, |r, column| Ok(rows(&r.from_input_corners(&columns(column))?)))?;
+        copy_out("carried", &all, carried, capacity)
     })
 }
 
@@ -118,12 +112,10 @@ pub unsafe extern "C" fn ricci_layout_from_final_corners(
     carried: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let layout = door.shared(layout)?;
-        let needed = layout.surface.mesh().n_faces();
-        let values = Values::<3>::read(values, n_values, n_components, needed)?;
-        let carry = |r: &Refinement, column: &[[f64; 3]]| Ok(rows(&r.from_final_corners(&columns(column))?));
-        copy_out("carried", &values.carry(layout, carry)?, carried, capacity)
+    guard::with(layout, |layout| {
+        let values = Values::<3>::read(values, n_values, n_components, layout.surface.mesh().n_faces())?;
+        let all = values.carry(layout, |r, column| Ok(rows(&r.from_final_corners(&columns(column))?)))?;
+        copy_out("carried", &all, carried, capacity)
     })
 }
 

@@ -1,7 +1,7 @@
 //! The triangulation that a metric lives on.
 
 use crate::arrays::copy_out;
-use crate::guard::{self, output};
+use crate::guard;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::metric::ricci_metric;
 use crate::status::ricci_status;
@@ -21,12 +21,10 @@ pub unsafe extern "C" fn ricci_metric_mesh(
     metric: *const ricci_metric,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = output("mesh", mesh)?;
+    guard::make("mesh", mesh, |door| {
         let ricci_metric { surface, lengths, .. } = door.shared(metric)?;
         let shape = Shape::Lengths(lengths.clone(), surface.metric().space);
-        mesh.hand_over(ricci_mesh::new(surface.mesh().clone(), shape));
-        Ok(())
+        Ok(ricci_mesh::new(surface.mesh().clone(), shape))
     })
 }
 
@@ -68,7 +66,7 @@ pub unsafe extern "C" fn ricci_metric_mesh_u(
     u: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("u", &door.shared(metric)?.surface.metric().u, u, capacity))
+    guard::with(metric, |metric| copy_out("u", &metric.surface.metric().u, u, capacity))
 }
 
 /// The length of every edge of the triangulation.
@@ -84,7 +82,7 @@ pub unsafe extern "C" fn ricci_metric_lengths(
     lengths: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("lengths", &door.shared(metric)?.lengths, lengths, capacity))
+    guard::with(metric, |metric| copy_out("lengths", &metric.lengths, lengths, capacity))
 }
 
 /// The weight eta of every edge of the triangulation.
@@ -100,5 +98,5 @@ pub unsafe extern "C" fn ricci_metric_eta(
     eta: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| copy_out("eta", &door.shared(metric)?.surface.metric().eta, eta, capacity))
+    guard::with(metric, |metric| copy_out("eta", &metric.surface.metric().eta, eta, capacity))
 }

@@ -1,46 +1,15 @@
 //! Words in the generators of a surface's group: letters are signed generator numbers.
 
-use crate::arrays::{array, copy_counted, copy_out, copy_rows, halfedges};
-use crate::failure::{Failure, Outcome};
+use crate::arrays::{check_buffer, copy_counted, copy_out, copy_rows};
+use crate::edges::halfedges;
+use crate::failure::Failure;
 use crate::guard::{self, output};
 use crate::homotopy::ricci_homotopy;
+use crate::letters::{self, copy_word, read};
 use crate::status::ricci_status;
 use ricci::mesh::VertexId;
-use ricci::topology::word::{Letter, Word};
-use ricci::topology::{Lift, SurfaceGroup};
+use ricci::topology::Lift;
 use std::ffi::{CStr, c_char};
-
-/// The letters of a word: k for generator k (1-based), -k for its inverse.
-pub(crate) fn letters(word: &Word) -> impl Iterator<Item = i32> + '_ {
-    word.letters().iter().map(|letter| {
-        let number = letter.index() as i32 + 1;
-        if letter.is_inverse() { -number } else { number }
-    })
-}
-
-/// A caller's word, freely reduced.
-pub(crate) fn read(group: &SurfaceGroup, what: &str, data: *const i32, n: usize) -> Outcome<Word> {
-    word_of(group, what, &array(what, data, n)?, 0)
-}
-
-/// The word of these letters, which are those of `what` from number `first` on.
-pub(crate) fn word_of(group: &SurfaceGroup, what: &str, letters: &[i32], first: usize) -> Outcome<Word> {
-    let count = group.n_generators();
-    let letter = |(i, number): (usize, &i32)| match number.unsigned_abs() as usize {
-        k if k == 0 || k > count => Err(Failure::argument(format!(
-            "{what}[{}] is {number}: letters are 1 to {count} for the generators, -1 to -{count} for their inverses",
-            first + i
-        ))),
-        k if *number < 0 => Ok(Letter::generator(k - 1).inverse()),
-        k => Ok(Letter::generator(k - 1)),
-    };
-    letters.iter().enumerate().map(letter).collect()
-}
-
-/// Hand a word out.
-fn copy_word(word: &Word, buffer: *mut i32, capacity: usize, n_letters: *mut usize) -> Outcome {
-    copy_counted("letters", &letters(word).collect::<Vec<_>>(), buffer, capacity, n_letters)
-}
 
 /// The element of an edge path: of the loop along the tree to its start, along the path, and back from its end; for a loop at the base,
 /// of the loop itself. Reduced: empty if and only if the loop can be contracted.
@@ -62,8 +31,7 @@ pub unsafe extern "C" fn ricci_homotopy_path_word(
     capacity: usize,
     n_letters: *mut usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
+    guard::with(homotopy, |ricci_homotopy { mesh, basis, .. }| {
         let word = basis.path_word(mesh, &halfedges("path", mesh, path, n_path)?)?;
         copy_word(&word, letters, capacity, n_letters)
     })
@@ -232,8 +200,7 @@ pub unsafe extern "C" fn ricci_homotopy_lift(
     starts: *mut usize,
     starts_capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let ricci_homotopy { mesh, basis, .. } = door.shared(homotopy)?;
+    guard::with(homotopy, |ricci_homotopy { mesh, basis, .. }| {
         let element = read(&basis.group, "element", element, n_element)?;
         let start = Lift { vertex: VertexId(vertex), element };
         let path = halfedges("path", mesh, path, n_path)?;
@@ -246,9 +213,9 @@ pub unsafe extern "C" fn ricci_homotopy_lift(
         if letters.is_null() && letters_capacity == 0 {
             return copy_out("starts", &offsets, starts, starts_capacity);
         }
-        crate::arrays::check_buffer("letters", total, letters, letters_capacity)?;
+        check_buffer("letters", total, letters, letters_capacity)?;
         let words = basis.lift(mesh, &start, &path)?;
-        let all: Vec<i32> = words.flat_map(|lift| self::letters(&lift.element).collect::<Vec<_>>()).collect();
-        copy_rows("letters", &all, letters, letters_capacity, &offsets, starts, starts_capacity)
+        let rows = words.map(|lift| letters::letters(&lift.element).collect::<Vec<_>>());
+        copy_rows("letters", rows, (letters, letters_capacity), (starts, starts_capacity))
     })
 }

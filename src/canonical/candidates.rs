@@ -9,6 +9,7 @@
 //! belongs there turns on rounding: its angle's logarithm is as good as digits of u.
 
 use super::star::Punctured;
+use crate::error::Result;
 use crate::mesh::{PerVertex, VertexId};
 
 /// Depths looked at, in steps of 1 of u.
@@ -21,15 +22,15 @@ const LEAST_ANGLE: f64 = 1e-12;
 impl Punctured {
     /// Vertices to puncture, the best one first: by the range of u in the plane seen from them, and the digits lost in narrow angles.
     /// `plane` is the present layout, `u` that of the centred sphere.
-    pub fn candidates(&self, plane: &PerVertex<[f64; 2]>, u: &PerVertex<f64>) -> Vec<VertexId> {
+    pub fn candidates(&self, plane: &PerVertex<[f64; 2]>, u: &PerVertex<f64>) -> Result<Vec<VertexId>> {
         // Least exterior angle of the polyhedron at the edges of a vertex.
         let mut narrow = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
         let mut note = |v: VertexId, angle: f64| narrow[v] = narrow[v].min(angle);
-        let excess = self.excess();
+        let excess = self.excess()?;
         for e in self.mesh.edges().filter(|&e| !self.mesh.ends(e).contains(&self.at)) {
             self.mesh.ends(e).into_iter().for_each(|v| note(v, -excess[e]));
         }
-        for (arc, turning) in self.star().into_iter().zip(self.turning()) {
+        for (arc, turning) in self.star().into_iter().zip(self.turning()?) {
             [self.at, self.mesh.tip(arc)].into_iter().for_each(|v| note(v, turning));
         }
         let lost = |v: VertexId| -narrow[v].max(LEAST_ANGLE).ln();
@@ -48,7 +49,7 @@ impl Punctured {
         let cost = |v| (range(&self.seen_from(v, plane), v) + lost(v), v);
         let mut ranked: Vec<(f64, VertexId)> = chosen.into_iter().map(cost).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        ranked.into_iter().map(|(_, v)| v).collect()
+        Ok(ranked.into_iter().map(|(_, v)| v).collect())
     }
 }
 

@@ -62,8 +62,8 @@ impl Punctured {
     }
 
     /// By how much the angles opposite an edge of the planar part exceed π at most: 0 where every edge is Delaunay.
-    pub fn delaunay_violation(&self) -> f64 {
-        self.excess().iter().copied().fold(0.0, worse)
+    pub fn delaunay_violation(&self) -> Result<f64> {
+        Ok(self.excess()?.iter().copied().fold(0.0, worse))
     }
 }
 

@@ -11,7 +11,7 @@
 use super::star::{FLAT_POLYHEDRON, Punctured};
 use crate::control::Control;
 use crate::error::Result;
-use crate::flow::{Options, Report, Seconds, Solver, StopReason};
+use crate::flow::{Flow, Options, Report, Seconds, StopReason};
 use crate::geometry::twofold::two_sum;
 use crate::geometry::worse;
 use crate::mesh::{PerVertex, VertexId};
@@ -88,7 +88,7 @@ impl Punctured {
                 }
             }
             let changed = self.restore(slivers)?;
-            let turning = self.turning();
+            let turning = self.turning()?;
             let least = -turning.iter().map(|x| -x).fold(f64::NEG_INFINITY, worse);
             log::debug!(
                 "punctured at {}, step {}: max |K| = {error:.1e}, {} arcs, least turning {least:.1e}",
@@ -99,8 +99,8 @@ impl Punctured {
             let ended = stop_reason != StopReason::IterationLimit;
             let settled = error < SETTLED || ended;
             let go_on = changed || (settled && self.release(&turning, error.max(straight))?);
-            if (!go_on && ended) || rounds >= most || self.is_flat(FLAT_POLYHEDRON) {
-                let converged = report.converged && !go_on;
+            if (!go_on && ended) || rounds >= most || self.is_flat(FLAT_POLYHEDRON)? {
+                let converged = report.converged() && !go_on;
                 let stop_reason = if go_on { StopReason::IterationLimit } else { stop_reason };
                 return Ok(Found { converged, stop_reason, error, turning: least });
             }
@@ -111,14 +111,12 @@ impl Punctured {
     fn step(&mut self, max_step: f64, options: &Options, control: &Control) -> Result<Report> {
         let mut held: Vec<VertexId> = self.star().iter().map(|&arc| self.mesh.tip(arc)).collect();
         held.push(self.at);
-        let options = Options { fixed_edges: self.rim(), max_iterations: 1, max_step, ..options.clone() };
-        let mut solver = Solver::new(self.mesh.clone(), self.closed(), options)?;
-        solver.pin(&held)?;
-        for normal in self.followed.drain(..) {
-            solver.follow(normal)?;
-        }
-        let report = solver.solve(&PerVertex::filled(self.mesh.n_vertices(), 0.0), control)?;
-        (self.mesh, self.metric, self.followed) = solver.into_parts();
+        let options =
+            Options { fixed_edges: self.rim(), max_iterations: 1, max_step, pinned: held, ..options.clone() };
+        let followed = std::mem::take(&mut self.followed);
+        let mut flow = Flow::from_metric(self.mesh.clone(), self.closed(), &options)?.following(followed);
+        let report = flow.reach(&PerVertex::filled(self.mesh.n_vertices(), 0.0), control)?.clone();
+        (self.mesh, self.metric, self.followed) = flow.into_parts();
         self.metric.u[self.at] = 0.0;
         self.flips += report.flips;
         Ok(report)
@@ -149,7 +147,7 @@ impl Punctured {
                 WIDEST
             } else if self.flip(arc.edge()) {
                 let angle = if -turning < NARROW { -turning } else { (-0.5 * turning).min(WIDEST) };
-                angle * angle * (a / (a + b)) * (b / (a + b)) - 4.0 * self.slack(arc) / (a + b)
+                angle * angle * (a / (a + b)) * (b / (a + b)) - 4.0 * self.slack(arc)? / (a + b)
             } else {
                 continue;
             };

@@ -3,11 +3,10 @@
 use crate::control::Control;
 use crate::embed::{DeckGroup, Layout, layout_of};
 use crate::error::{Error, Result};
-use crate::flow::{Options, Report, SurfaceFlow};
+use crate::flow::{Flow, Options, Report, Solution};
 use crate::geometry::{Space, largest};
-use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use crate::metric::curvature::area;
-use crate::metric::{Scheme, SurfaceMetric};
+use crate::mesh::{Mesh, PerVertex, VertexId};
+use crate::metric::{Class, Scheme, Surface};
 use crate::parallel::Pool;
 use crate::topology::{HomotopyBasis, central_vertex, check_vertex, homotopy_basis};
 use std::ops::RangeInclusive;
@@ -38,10 +37,10 @@ impl Default for QuotientOptions {
 pub struct Quotient {
     /// What the flow did. Where it has not converged the rest is as good as the metric is.
     pub report: Report,
-    /// Largest |K|, with twice the digits of doubles; of a converged flow after corrections with as many ([`SurfaceFlow::flatten`]).
+    /// Largest |K|, with twice the digits of doubles; of a converged flow after corrections with as many ([`Flow::flatten`]).
     pub angle_defect: f64,
     /// The metric, on the triangulation that flips have led to, with the way back.
-    pub metric: SurfaceMetric,
+    pub metric: Solution,
     /// Its layout about the base vertex; in E² scaled to the area of the given surface.
     pub layout: Layout,
     /// A canonical homotopy basis on the metric's triangulation, short in the metric.
@@ -52,28 +51,24 @@ pub struct Quotient {
 
 /// The metric of constant curvature in the conformal class of a closed surface of genus 1 or more, with layout and deck group.
 ///
-/// `lengths`: E entries, read in `geometry`. Deterministic for any number of threads.
+/// Deterministic for any number of threads.
 ///
 /// Errors: [`Error::Layout`] for a surface with boundary or of genus 0, and for a torus beyond 1e-100 to 1e100; those of
-/// [`SurfaceFlow::new`], [`SurfaceFlow::solve`], [`layout_of`], [`homotopy_basis`], [`DeckGroup::new`]; [`Error::Cancelled`].
+/// [`Flow::new`], [`Flow::solve`], [`layout_of`], [`homotopy_basis`], [`DeckGroup::new`]; [`Error::Cancelled`].
 pub fn uniformize_quotient(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
-    geometry: Space,
+    surface: &Surface,
     options: &QuotientOptions,
     control: &Control,
 ) -> Result<Quotient> {
-    let space = check(mesh, options)?;
-    let (flow, scheme) = (&options.flow, options.scheme);
-    let flow = SurfaceFlow::new(mesh, lengths, geometry, scheme, space, &[], flow, control)?;
-    finish(flow, area(mesh, geometry, lengths)?, options, control)
+    let class = Class::new(options.scheme, check(surface.mesh(), options)?);
+    finish(Flow::new(surface.clone(), class, &options.flow, control)?, options, control)
 }
 
 /// [`uniformize_quotient`] from where a metric of the surface is, such as another solver's result: in its scheme, in E² for genus 1, in H²
 /// for more.
 ///
 /// Errors: those of [`uniformize_quotient`]; [`Error::Layout`] for a metric in another space.
-pub fn quotient_of(metric: &SurfaceMetric, options: &QuotientOptions, control: &Control) -> Result<Quotient> {
+pub fn quotient_of(metric: &Solution, options: &QuotientOptions, control: &Control) -> Result<Quotient> {
     let given = metric.given();
     let space = check(given, options)?;
     if metric.metric().space != space {
@@ -82,9 +77,7 @@ pub fn quotient_of(metric: &SurfaceMetric, options: &QuotientOptions, control: &
             "a surface of genus {genus} has its constant curvature in {space}, this metric lives in {other}"
         )));
     }
-    let given_area = area(given, metric.initial().input_geometry, metric.given_lengths())?;
-    let flow = SurfaceFlow::resume(metric, &[], &options.flow, control)?;
-    finish(flow, given_area, options, control)
+    finish(Flow::resume(metric, &options.flow, control)?, options, control)
 }
 
 /// The space of a surface that is such a quotient.
@@ -99,18 +92,16 @@ fn check(mesh: &Mesh, options: &QuotientOptions) -> Result<Space> {
 }
 
 /// Flow to curvature 0, layout, basis, deck group.
-fn finish(
-    mut flow: SurfaceFlow,
-    given_area: f64,
-    options: &QuotientOptions,
-    control: &Control,
-) -> Result<Quotient> {
-    let report = flow.solve(&PerVertex::filled(flow.given().n_vertices(), 0.0), control)?;
-    let angle_defect = match report.converged {
-        true => flow.flatten(control)?,
-        false => largest(flow.metric().angle_defects(flow.mesh())?.iter()),
+fn finish(mut flow: Flow, options: &QuotientOptions, control: &Control) -> Result<Quotient> {
+    let given_area = flow.surface().area()?;
+    let flat = PerVertex::filled(flow.surface().mesh().n_vertices(), 0.0);
+    let report = flow.reach(&flat, control)?.clone();
+    let angle_defect = match report.angle_defect {
+        Some(left) => left,
+        None if report.is_reached() => flow.flatten(control)?,
+        None => largest(flow.metric().angle_defects(flow.mesh())?.iter()),
     };
-    let metric = flow.now();
+    let metric = flow.solution();
     Pool::new(options.flow.threads)?.run(|| {
         let (mesh, lengths) = (metric.mesh().clone(), metric.metric().lengths(metric.mesh())?);
         let base = match options.base {

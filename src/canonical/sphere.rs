@@ -6,14 +6,13 @@ use super::star::{NEARLY_FLAT, Punctured};
 use super::tries::{Flat, Tried, on_a_circle, said};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::flow::{Options, Seconds, Solver, StopReason};
+use crate::flow::{Flow, Options, Seconds, Solution, StopReason};
 use crate::geometry::{Space, largest, triangle};
-use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
+use crate::mesh::{Mesh, PerVertex, Point, VertexId};
 use crate::metric::lengths::face_lengths;
-use crate::metric::{Curvature, Metric, Scheme, SurfaceMetric};
+use crate::metric::{Class, Curvature, Metric, Surface};
 use crate::parallel::Pool;
 use crate::topology::check_vertex;
-use std::sync::Arc;
 
 /// Edges of a result are Delaunay, and its outline convex, to this (radians).
 const DELAUNAY: f64 = 1e-9;
@@ -85,7 +84,7 @@ pub struct SphereReport {
 pub struct Sphere {
     /// The spherical metric, K = 0 at every vertex, with its triangulation and the way back to the given one: geodesic triangles
     /// over the faces of a convex polyhedron.
-    pub metric: SurfaceMetric,
+    pub metric: Solution,
     /// Unit vectors (V entries). Faces are counterclockwise from outside.
     pub positions: PerVertex<Point>,
     /// The plane under them by stereographic projection from (0, 0, −1) ([`crate::geometry::sphere::lift`]); (∞, ∞) at the puncture.
@@ -94,24 +93,19 @@ pub struct Sphere {
     pub report: SphereReport,
 }
 
-/// The surface of genus 0 with these `lengths` (E entries, read in `geometry`) as a convex polyhedron in the unit sphere: the one whose
-/// edges are, after flips inside the conformal class, chords of lengths in that class. Its vertices are moved by the Möbius transformation
+/// A surface of genus 0 as a convex polyhedron in the unit sphere: the one whose edges are, after flips inside the conformal class, chords of lengths in that class. Its vertices are moved by the Möbius transformation
 /// after which `Σ w x = 0`, w one third of the area of the given faces at a vertex; they are determined up to a rotation.
 ///
-/// A vertex is sent to infinity, the rest flows to the plane, and is lifted. Errors: [`Error::Argument`] for a surface that is
-/// no sphere, or of fewer than four vertices; sizes, lengths and triangles as for [`SurfaceMetric::delaunay`];
-/// [`Error::Layout`] where all vertices come to lie on one circle (the double of a polygon without inner vertices), where one has half of
-/// the area or more, and where no plane was found; [`Error::Cancelled`].
-pub fn uniformize_sphere(
-    given: Arc<Mesh>,
-    lengths: Arc<PerEdge<f64>>,
-    geometry: Space,
-    options: &SphereOptions,
-    control: &Control,
-) -> Result<Sphere> {
+/// A vertex is sent to infinity, the rest flows to the plane, and is lifted.
+///
+/// # Errors
+/// [`Error::Argument`] for a surface that is no sphere, or of fewer than four vertices; lengths and triangles as for [`Flow::new`];
+/// [`Error::Layout`] where all vertices come to lie on one circle (the double of a polygon without inner vertices), where one has half
+/// of the area or more, and where no plane was found; [`Error::Cancelled`].
+pub fn uniformize_sphere(surface: &Surface, options: &SphereOptions, control: &Control) -> Result<Sphere> {
     control.check()?;
-    check(&given, options)?;
-    Pool::new(options.threads)?.run(|| uniformize(given, lengths, geometry, options, control))
+    check(surface.mesh(), options)?;
+    Pool::new(options.threads)?.run(|| uniformize(surface, options, control))
 }
 
 fn check(given: &Mesh, options: &SphereOptions) -> Result<()> {
@@ -132,30 +126,15 @@ fn flow(options: &SphereOptions) -> Options {
     Options { tolerance, max_iterations, threads, ..Options::default() }
 }
 
-fn uniformize(
-    given: Arc<Mesh>,
-    lengths: Arc<PerEdge<f64>>,
-    geometry: Space,
-    options: &SphereOptions,
-    control: &Control,
-) -> Result<Sphere> {
-    let (scheme, space) = (Scheme::Yamabe, Space::S2);
-    let from = SurfaceMetric::delaunay(
-        given.clone(),
-        lengths.clone(),
-        geometry,
-        scheme,
-        space,
-        false,
-        &[],
-        control,
-    )?;
-    let (start, mesh, metric, followed, start_flips) = from.into_parts();
+fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> Result<Sphere> {
+    let from = Solution::delaunay(surface.clone(), Class::yamabe(Space::S2), control)?;
+    let start_flips = from.start_flips();
+    let (mesh, metric, followed) = from.parts();
     let n = mesh.n_vertices();
     let mut metric = Metric { space: Space::E2, u: PerVertex::filled(n, 0.0), ..metric };
     let unit = unit(&metric);
     metric.eta.iter_mut().for_each(|eta| *eta = *eta / unit / unit);
-    let weights = vertex_areas(&given, &lengths, geometry, unit);
+    let weights = vertex_areas(surface, unit);
     let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
     let flow = flow(options);
     let mut tried = Tried::new(&weights, &flow, control);
@@ -163,7 +142,7 @@ fn uniformize(
         Some(v) => tried.punctured_at(&begin, v)?,
         None => tried.best(&begin)?,
     };
-    let nearly_flat = flat.0.is_flat(NEARLY_FLAT).then(|| on_a_circle(&flat.0.mesh));
+    let nearly_flat = flat.0.is_flat(NEARLY_FLAT)?.then(|| on_a_circle(&flat.0.mesh));
     let (stop_reason, error) = (flat.2.stop_reason, flat.2.error);
     let raised = match (raised(flat, start_flips, &mut tried), nearly_flat) {
         (Err(Error::Cancelled), _) => return Err(Error::Cancelled),
@@ -181,7 +160,7 @@ fn uniformize(
     metric.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
     metric.u.iter_mut().for_each(|u| *u -= unit.ln());
     let Punctured { mesh, followed, flips, .. } = surface;
-    let metric = SurfaceMetric::at(start, mesh, metric, followed, start_flips + flips);
+    let metric = from.at(mesh, metric, followed, flips);
     Ok(Sphere { metric, positions, plane, report })
 }
 
@@ -202,7 +181,7 @@ fn raised((surface, plane, found): Flat, start_flips: usize, tried: &mut Tried) 
     let plane = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
     let (positions, spherical) = (lifted(&plane), surface.spherical(&plane, view.scale.ln()));
     let (metric, curvature) = polished(&surface.mesh, spherical, tried)?;
-    let delaunay_violation = surface.delaunay_violation();
+    let delaunay_violation = surface.delaunay_violation()?;
     let whole = curvature.broken.is_empty();
     let converged = found.converged
         && whole
@@ -245,14 +224,10 @@ fn polished(mesh: &Mesh, lifted: Metric, tried: &mut Tried) -> Result<(Metric, C
         return Ok((lifted, curvature));
     }
     let options = Options { max_iterations: POLISH_STEPS.min(left), ..flow.clone() };
-    let mut solver = Solver::new(mesh.clone(), lifted, options)?;
-    let before = solver.metric().clone();
-    let report = solver.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), tried.control)?;
-    let metric = if report.max_curvature_error < largest(curvature.at.iter()) {
-        solver.into_parts().1
-    } else {
-        before
-    };
+    let mut flow = Flow::from_metric(mesh.clone(), lifted.clone(), &options)?;
+    let report = flow.reach(&PerVertex::filled(mesh.n_vertices(), 0.0), tried.control)?.clone();
+    let better = report.max_curvature_error < largest(curvature.at.iter());
+    let metric = if better { flow.into_parts().1 } else { lifted };
     let curvature = metric.curvature(mesh)?;
     tried.spent.add(&report);
     Ok((metric, curvature))
@@ -266,11 +241,13 @@ fn unit(metric: &Metric) -> f64 {
 }
 
 /// One third of the area of the faces at each vertex; in E² in units of `unit²`.
-fn vertex_areas(mesh: &Mesh, lengths: &PerEdge<f64>, geometry: Space, unit: f64) -> PerVertex<f64> {
+fn vertex_areas(surface: &Surface, unit: f64) -> PerVertex<f64> {
+    let (mesh, geometry) = (surface.mesh(), surface.geometry());
     let unit = if geometry == Space::E2 { unit } else { 1.0 };
     let mut areas = PerVertex::filled(mesh.n_vertices(), 0.0);
     for f in mesh.faces() {
-        let third = triangle::area(geometry, face_lengths(mesh, lengths, f).map(|l| l / unit)) / 3.0;
+        let lengths = face_lengths(mesh, surface.lengths(), f).map(|l| l / unit);
+        let third = triangle::area(geometry, lengths) / 3.0;
         mesh.face_vertices(f).into_iter().for_each(|v| areas[v] += third);
     }
     areas

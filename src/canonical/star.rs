@@ -14,24 +14,25 @@ use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::conformal::{differences, edge};
 use crate::geometry::triangle::angles_from;
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
+use crate::mesh::{EdgeId, FaceId, Flip, HalfedgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::Metric;
-use crate::metric::delaunay::flip_in_class;
+use crate::metric::delaunay::ClassFlips;
 use crate::parallel;
 use std::f64::consts::PI;
 
-/// An arc longer than this, in units of log l², is off its bound: rounding of u and η is far below.
-const OFF: f64 = 1e-12;
-/// Flips per edge before the star is given up.
+/// How far above its bound u must be (in u, that is in log l² of the arc) for its arc to be flipped out of the star. Rounding of u and
+/// η moves the bound by about 1e-15.
+const ABOVE_BOUND: f64 = 1e-12;
+/// Flips per edge after which the star is given up: each round flips only edges at the star, so this is far more than they need.
 const MOST_FLIPS: usize = 100;
-/// Rounding of η moves an angle π − φ by a few ε/φ: edges that exceed π by less than this many are not flipped.
-const SLIVER: f64 = 32.0;
-/// Angles over π by less than this are at π.
-const FLAT: f64 = 1e-12;
-/// A polyhedron whose dihedral angles are all this close to 0 and π is flat: where they are within δ, rounding leaves the spherical metric
-/// |K| up to 6e-15/δ (measured), which is above 1e-10 here.
+/// Rounding of η moves an angle π − φ by a few ε/φ. Edges whose angles exceed π by less than this multiple of ε/φ are not flipped.
+const SLIVER_ROUNDING: f64 = 32.0;
+/// Radians by which the two angles opposite an edge must exceed π, beyond [`SLIVER_ROUNDING`], for the edge to be flipped.
+const ANGLE_ROUNDING: f64 = 1e-12;
+/// Radians: a polyhedron whose planar angles are all this close to 0 or π counts as flat. Where they are within δ, rounding leaves
+/// the spherical metric |K| up to 6e-15/δ (measured), which here is above the tolerance of 1e-10.
 pub(super) const FLAT_POLYHEDRON: f64 = 5e-5;
-/// That is why, where one this close does not converge.
+/// Radians: where a flow does not converge and all planar angles are this close to 0 or π, flatness is named as the reason.
 pub(super) const NEARLY_FLAT: f64 = 1e-2;
 
 /// A punctured surface: vertex scaling in E².
@@ -88,59 +89,78 @@ impl Punctured {
         [h, self.mesh.next(h), self.mesh.prev(h)].iter().any(|&h| self.mesh.origin(h) == self.at)
     }
 
-    /// Half-perimeter differences of a face, from u to twice the digits.
-    fn differences(&self, f: FaceId) -> [f64; 3] {
+    /// Half-perimeter differences of a face, from u to twice the digits. Errors: [`Error::EdgeWeight`] at an edge whose length is
+    /// beyond doubles.
+    fn differences(&self, f: FaceId) -> Result<[f64; 3]> {
         let corners = self.mesh.face_vertices(f).map(|v| self.metric.vertex(v));
         let sides = self.mesh.opposite_edges(f);
-        let side =
-            |k: usize| edge(Space::E2, corners[(k + 1) % 3], corners[(k + 2) % 3], self.metric.eta[sides[k]]);
-        differences(corners, [0, 1, 2].map(|k| side(k).unwrap_or_default()))
-    }
-
-    /// Angle of the planar part in the corner that is `turn` half-edges after `h` in its face; 0 in the star.
-    fn angle(&self, h: HalfedgeId, turn: usize) -> f64 {
-        let Some(f) = self.mesh.face(h).filter(|_| !self.in_star(h)) else { return 0.0 };
-        let corner = self.mesh.face_halfedges(f).iter().position(|&side| side == h).unwrap_or(0);
-        angles_from(Space::E2, self.differences(f)).at[(corner + turn) % 3]
-    }
-
-    /// Per edge the angles opposite it (the star has none at ∞).
-    fn opposite(&self) -> PerEdge<[f64; 2]> {
-        let mut at = vec![[0.0; 3]; self.mesh.n_faces()];
-        parallel::fill(&mut at, |f| {
-            let [first, ..] = self.mesh.face_halfedges(FaceId::from(f));
-            if self.in_star(first) { [0.0; 3] } else { angles_from(Space::E2, self.differences(f.into())).at }
-        });
-        let angle = |h: HalfedgeId| {
-            let corner = |f: FaceId| self.mesh.face_halfedges(f).iter().position(|&side| side == h);
-            self.mesh.face(h).and_then(|f| corner(f).map(|k| at[f.index()][(k + 2) % 3])).unwrap_or(0.0)
+        let side = |k: usize| {
+            let (e, need) = (sides[k], "one that gives the edge a length in the range of doubles at this u");
+            let eta = self.metric.eta[e];
+            let made = edge(Space::E2, corners[(k + 1) % 3], corners[(k + 2) % 3], eta);
+            made.ok_or(Error::EdgeWeight { edge: e.index(), eta, need })
         };
-        PerEdge::from_fn(self.mesh.n_edges(), |e: EdgeId| [angle(e.halfedge()), angle(e.halfedge().twin())])
+        Ok(differences(corners, [side(0)?, side(1)?, side(2)?]))
+    }
+
+    /// The face of a half-edge with its corner there. Errors: [`Error::Connectivity`] outside the surface, which is closed.
+    fn corner(&self, h: HalfedgeId) -> Result<(FaceId, usize)> {
+        let message = "has no face, on a surface that should be closed";
+        self.mesh.corner(h).ok_or(Error::Connectivity { element: "half-edge", index: h.index(), message })
+    }
+
+    /// Angle of the planar part in the corner that is `turn` half-edges after `h` in its face; 0 in the star, which is no part of it.
+    fn angle(&self, h: HalfedgeId, turn: usize) -> Result<f64> {
+        if self.in_star(h) {
+            return Ok(0.0);
+        }
+        let (f, corner) = self.corner(h)?;
+        Ok(angles_from(Space::E2, self.differences(f)?).at[(corner + turn) % 3])
+    }
+
+    /// Per edge the angles of the planar part opposite it; 0 in the star.
+    fn opposite(&self) -> Result<PerEdge<[f64; 2]>> {
+        let mut found = vec![Ok([0.0; 3]); self.mesh.n_faces()];
+        parallel::fill(&mut found, |f| {
+            let f = FaceId::from(f);
+            if self.in_star(self.mesh.face_halfedge(f)) {
+                return Ok([0.0; 3]);
+            }
+            Ok(angles_from(Space::E2, self.differences(f)?).at)
+        });
+        let at = found.into_iter().collect::<Result<Vec<_>>>()?;
+        let angle = |h: HalfedgeId| {
+            let (f, corner) = self.corner(h)?;
+            Ok(at[f.index()][(corner + 2) % 3])
+        };
+        let both = |e: EdgeId| Ok([angle(e.halfedge())?, angle(e.halfedge().twin())?]);
+        Ok(self.mesh.edges().map(both).collect::<Result<Vec<_>>>()?.into())
     }
 
     /// Per edge, by how much the angles opposite it exceed π; it is Delaunay where they do not.
-    pub fn excess(&self) -> PerEdge<f64> {
-        self.opposite().iter().map(|[a, b]| a + b - PI).collect::<Vec<_>>().into()
+    pub fn excess(&self) -> Result<PerEdge<f64>> {
+        Ok(self.opposite()?.iter().map(|[a, b]| a + b - PI).collect::<Vec<_>>().into())
     }
 
     /// Turning of the link at the tip of each arc of the star: π − the angle inside. It adds up to 2π.
-    pub fn turning(&self) -> Vec<f64> {
+    pub fn turning(&self) -> Result<Vec<f64>> {
         let inside = |arc: HalfedgeId| {
             let first = self.mesh.next(self.link(arc).twin());
             let around = std::iter::successors(Some(first), |out| Some(self.mesh.next(out.twin())));
-            around.take_while(|&out| self.mesh.tip(out) != self.at).map(|out| self.angle(out, 0)).sum::<f64>()
+            let planar = around.take_while(|&out| self.mesh.tip(out) != self.at);
+            planar.map(|out| self.angle(out, 0)).sum::<Result<f64>>()
         };
-        self.star().into_iter().map(|arc| PI - inside(arc)).collect()
+        self.star().into_iter().map(|arc| Ok(PI - inside(arc)?)).collect()
     }
 
     /// Whether all vertices but the puncture lie on a line of the plane, so all on one circle of the sphere, `within` some angle: planar
     /// angles are 0 or π, they add up to 2π inside, and the outline, there and back, turns nowhere the wrong way.
-    pub fn is_flat(&self, within: f64) -> bool {
+    pub fn is_flat(&self, within: f64) -> Result<bool> {
         let mut around = PerVertex::filled(self.mesh.n_vertices(), 0.0);
         for h in self.mesh.halfedges().filter(|&h| !self.in_star(h)) {
-            let angle = self.angle(h, 0);
+            let angle = self.angle(h, 0)?;
             if angle.min(PI - angle) > within {
-                return false;
+                return Ok(false);
             }
             around[self.mesh.origin(h)] += angle;
         }
@@ -153,14 +173,16 @@ impl Punctured {
             off if outside[v] => off <= within,
             off => off.abs() <= within,
         };
-        self.mesh.vertices().all(|v| v == self.at || fits(v))
+        Ok(self.mesh.vertices().all(|v| v == self.at || fits(v)))
     }
 
     /// Flip an edge inside the class.
     pub fn flip(&mut self, e: EdgeId) -> bool {
         let followed = &mut self.followed;
-        let mut record = |mesh: &Mesh, e| followed.iter_mut().for_each(|normal| normal.record(mesh, e));
-        let flipped = flip_in_class(&mut self.mesh, &mut self.metric, e, &mut record);
+        let mut record =
+            |mesh: &Mesh, flip: Flip| followed.iter_mut().for_each(|normal| normal.record(mesh, flip.edge));
+        let flipped =
+            ClassFlips { mesh: &mut self.mesh, metric: &mut self.metric, record: &mut record }.flip(e);
         self.flips += usize::from(flipped);
         flipped
     }
@@ -174,7 +196,7 @@ impl Punctured {
             for arc in self.star() {
                 let j = self.mesh.tip(arc);
                 if self.mesh.origin(arc) == self.at
-                    && (j == self.at || self.metric.u[j] > self.bound(arc) + OFF)
+                    && (j == self.at || self.metric.u[j] > self.bound(arc) + ABOVE_BOUND)
                 {
                     self.flip(arc.edge());
                 }
@@ -183,13 +205,13 @@ impl Punctured {
                 let edge = self.link(arc);
                 let beyond = edge.twin();
                 let k = self.mesh.origin(self.mesh.prev(beyond));
-                if k != self.at && self.slack(beyond) <= 0.0 && self.flip(edge.edge()) {
+                if k != self.at && self.slack(beyond)? <= 0.0 && self.flip(edge.edge()) {
                     self.metric.u[k] = self.metric.u[k].max(self.bound(edge));
                     self.metric.u_low[k] = 0.0;
                 }
             }
             if slivers {
-                self.flip_slivers();
+                self.flip_slivers()?;
             }
             if self.flips == last {
                 break;
@@ -207,29 +229,28 @@ impl Punctured {
     }
 
     /// Half of what the other two sides of the planar face at an edge exceed it by: of the one beyond the star.
-    pub fn slack(&self, side: HalfedgeId) -> f64 {
-        let side = if self.in_star(side) { side.twin() } else { side };
-        let Some(f) = self.mesh.face(side) else { return 0.0 };
-        let corner = self.mesh.face_halfedges(f).iter().position(|&h| h == side).unwrap_or(0);
-        self.differences(f)[(corner + 2) % 3]
+    pub fn slack(&self, side: HalfedgeId) -> Result<f64> {
+        let (f, corner) = self.corner(if self.in_star(side) { side.twin() } else { side })?;
+        Ok(self.differences(f)?[(corner + 2) % 3])
     }
 
     /// Flip edges that are not Delaunay by more than rounding. Newton's own test takes the cosines of the angles, which cannot tell
     /// where one is π − φ and the other about φ, below 1e-6.
-    fn flip_slivers(&mut self) {
+    fn flip_slivers(&mut self) -> Result<()> {
         let fails = |[a, b]: [f64; 2]| {
             let phi = (PI - a.max(b)).max(f64::EPSILON);
-            a + b - PI > FLAT + SLIVER * f64::EPSILON / phi
+            a + b - PI > ANGLE_ROUNDING + SLIVER_ROUNDING * f64::EPSILON / phi
         };
-        // Mostly there are none, which is soon seen.
-        if !self.opposite().iter().any(|&angles| fails(angles)) {
-            return;
+        // Usually no edge fails, and one parallel look at all of them is enough.
+        if !self.opposite()?.iter().any(|&angles| fails(angles)) {
+            return Ok(());
         }
         for e in self.mesh.edges() {
-            if fails([e.halfedge(), e.halfedge().twin()].map(|h| self.angle(h, 2))) {
+            if fails([self.angle(e.halfedge(), 2)?, self.angle(e.halfedge().twin(), 2)?]) {
                 self.flip(e);
             }
         }
+        Ok(())
     }
 
     /// Send another vertex v to infinity, by the inversion at its place in the `plane`: `u_i − 2 log |z_i − z_v|`, up to a constant.

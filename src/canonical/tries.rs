@@ -71,7 +71,7 @@ impl<'a> Tried<'a> {
             }
             Ok(moved)
         };
-        let candidates = surface.candidates(plane, &u);
+        let candidates = surface.candidates(plane, &u)?;
         let moved = candidates.into_iter().take(TRIES).map(seen_from);
         self.first_good(moved, Some(rough.clone()), STRAIGHT)
     }
@@ -99,7 +99,8 @@ impl<'a> Tried<'a> {
         straight: f64,
     ) -> Result<Flat> {
         let mut best = known;
-        let off = |(surface, _, found): &Flat| worse(found.error, surface.violation(found));
+        let off =
+            |(surface, _, found): &Flat| -> Result<f64> { Ok(worse(found.error, surface.violation(found)?)) };
         let none =
             |why: &str| Error::Layout(format!("no plane was found from any vertex that was tried: {why}"));
         let mut failure = none("the step limit came first");
@@ -109,22 +110,30 @@ impl<'a> Tried<'a> {
                 break;
             }
             let mut surface = surface?;
-            match self.flow(&mut surface, straight, left) {
+            let ended = self.flow(&mut surface, straight, left);
+            // A surface with lengths beyond doubles, after a flow that failed, is not known to be flat.
+            let is_flat = |within| matches!(surface.is_flat(within), Ok(true));
+            let [flat, nearly_flat] = [FLAT_POLYHEDRON, NEARLY_FLAT].map(is_flat);
+            match ended {
                 Err(Error::Cancelled) => return Err(Error::Cancelled),
-                _ if surface.is_flat(FLAT_POLYHEDRON) => {
+                _ if flat => {
                     self.flat = true;
                     return Err(on_a_circle(&surface.mesh));
                 }
                 Ok((plane, found)) => {
                     let flat = (surface, plane, found);
-                    if flat.2.converged && flat.0.violation(&flat.2) <= straight {
+                    if flat.2.converged && flat.0.violation(&flat.2)? <= straight {
                         return Ok(flat);
                     }
-                    if best.as_ref().is_none_or(|best| off(&flat) < off(best)) {
+                    let is_better = match &best {
+                        Some(best) => off(&flat)? < off(best)?,
+                        None => true,
+                    };
+                    if is_better {
                         best = Some(flat);
                     }
                 }
-                Err(_) if surface.is_flat(NEARLY_FLAT) => failure = on_a_circle(&surface.mesh),
+                Err(_) if nearly_flat => failure = on_a_circle(&surface.mesh),
                 Err(error) => failure = none(&said(error)),
             }
         }
@@ -170,8 +179,8 @@ pub(super) fn on_a_circle(mesh: &Mesh) -> Error {
 
 impl Punctured {
     /// By how much angles at an edge exceed π, or the outline turns the wrong way, at most.
-    fn violation(&self, found: &Found) -> f64 {
-        worse(self.delaunay_violation(), -found.turning)
+    fn violation(&self, found: &Found) -> Result<f64> {
+        Ok(worse(self.delaunay_violation()?, -found.turning))
     }
 
     /// The vertex whose shortest edge is the longest.

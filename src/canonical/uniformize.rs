@@ -4,10 +4,9 @@ use super::quotient::{Quotient, QuotientOptions, uniformize_quotient};
 use super::sphere::{Sphere, SphereOptions, uniformize_sphere};
 use crate::control::Control;
 use crate::error::{Error, Result};
+use crate::flow::Solution;
 use crate::geometry::Space;
-use crate::mesh::{Mesh, PerEdge};
-use crate::metric::{Scheme, SurfaceMetric};
-use std::sync::Arc;
+use crate::metric::{Scheme, Surface};
 
 /// A closed surface in its canonical shape.
 #[derive(Debug, Clone)]
@@ -20,7 +19,7 @@ pub enum Uniformization {
 
 impl Uniformization {
     /// The metric of constant curvature, with its triangulation and the way back to the given one.
-    pub fn metric(&self) -> &SurfaceMetric {
+    pub fn metric(&self) -> &Solution {
         match self {
             Uniformization::Sphere(sphere) => &sphere.metric,
             Uniformization::Quotient(quotient) => &quotient.metric,
@@ -36,7 +35,7 @@ impl Uniformization {
     pub fn converged(&self) -> bool {
         match self {
             Uniformization::Sphere(sphere) => sphere.report.converged,
-            Uniformization::Quotient(quotient) => quotient.report.converged,
+            Uniformization::Quotient(quotient) => quotient.report.converged(),
         }
     }
 }
@@ -44,20 +43,15 @@ impl Uniformization {
 /// The metric of constant curvature in the conformal class of a closed surface: on the sphere, in the plane or in the hyperbolic plane, by its
 /// Euler characteristic.
 ///
-/// `lengths`: E entries, read in `geometry`. Of the options a sphere takes the base as its puncture, tolerance, steps and threads; its
+/// Of the options a sphere takes the base as its puncture, tolerance, steps and threads; its
 /// scheme is [`Scheme::Yamabe`].
 ///
 /// Errors: [`Error::Layout`] for a surface with boundary; [`Error::Argument`] for a sphere in another scheme; those of
 /// [`uniformize_sphere`] and [`uniformize_quotient`].
-pub fn uniformize(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
-    geometry: Space,
-    options: &QuotientOptions,
-    control: &Control,
-) -> Result<Uniformization> {
+pub fn uniformize(surface: &Surface, options: &QuotientOptions, control: &Control) -> Result<Uniformization> {
+    let mesh = surface.mesh();
     if !mesh.is_closed() || mesh.euler() <= 0 {
-        let quotient = uniformize_quotient(mesh, lengths, geometry, options, control)?;
+        let quotient = uniformize_quotient(surface, options, control)?;
         return Ok(Uniformization::Quotient(Box::new(quotient)));
     }
     if options.scheme != Scheme::Yamabe {
@@ -71,6 +65,5 @@ pub fn uniformize(
         puncture: options.base,
         threads: flow.threads,
     };
-    let (mesh, lengths) = (Arc::new(mesh.clone()), Arc::new(lengths.clone()));
-    Ok(Uniformization::Sphere(Box::new(uniformize_sphere(mesh, lengths, geometry, &sphere, control)?)))
+    Ok(Uniformization::Sphere(Box::new(uniformize_sphere(surface, &sphere, control)?)))
 }

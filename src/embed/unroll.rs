@@ -7,10 +7,11 @@ use super::layout::{Layout, distance, lay_out};
 use super::pieces::Pieces;
 use crate::control::Control;
 use crate::error::{Result, check_size};
+use crate::flow::Solution;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::curvature::area;
-use crate::metric::{Metric, Refinement, SurfaceMetric};
+use crate::metric::{Metric, Refinement};
 use crate::parallel::{self, Pool};
 use crate::topology::{CutGraph, central_vertex, check_vertex, cut_graph};
 use std::sync::Arc;
@@ -33,8 +34,8 @@ pub enum Scale {
 /// What [`unroll`] can be asked.
 #[derive(Debug, Clone, Default)]
 pub struct UnrollOptions {
-    /// Vertices of the surface through which the cut has to go; those on the boundary change nothing. Default: those inside whose curvature is
-    /// more than [`CONE_TOLERANCE`] off flat ([`cones_of`]).
+    /// Vertices of the surface through which the cut has to go; those on the boundary change nothing. Default: those of the flow
+    /// ([`Solution::cones`]); of a metric that no flow has led to, those inside whose curvature is more than [`CONE_TOLERANCE`] off flat ([`cones_of`]).
     pub cones: Option<Vec<VertexId>>,
     /// The vertex of the surface at the origin. Default: in E² a corner of the smallest triangle, elsewhere a vertex from which none is far.
     pub root: Option<VertexId>,
@@ -42,9 +43,9 @@ pub struct UnrollOptions {
     pub scale: Scale,
     /// A cut of the surface as it came, in place of one that is found.
     pub cut: Option<CutGraph>,
-    /// [`SurfaceMetric::refinement`] of the result, where it has been formed before.
+    /// [`Solution::refinement`] of the result, where it has been formed before.
     pub refinement: Option<Arc<Refinement>>,
-    /// Threads, in a pool of the call's own; default 0: one per core. The result does not depend on it.
+    /// Threads, in a pool of the call's own; default 0: as many as the flow had. The result does not depend on it.
     pub threads: usize,
 }
 
@@ -63,29 +64,30 @@ pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<Ve
 /// grows about the root meets itself, so that nothing lies farther out than it has to.
 ///
 /// Errors: [`Error::Argument`] for a cone or root that is no vertex; [`Error::Layout`] for a sphere in E² with fewer than two cones, a cut
-/// that does not leave a disk, several components, lengths beyond what doubles can place; those of [`SurfaceMetric::refinement`] and
+/// that does not leave a disk, several components, lengths beyond what doubles can place; those of [`Solution::refinement`] and
 /// [`crate::metric::Metric::lengths`]; [`Error::Cancelled`].
 ///
 /// ```
 /// use ricci::embed::{UnrollOptions, unroll};
-/// use ricci::{Control, geometry::Space, mesh::{Mesh, shapes}, metric::{Scheme, SurfaceMetric, lengths_from_positions}};
+/// use ricci::{Control, geometry::Space, mesh::{Mesh, shapes}, metric::{Scheme, Solution, lengths_from_positions}};
 /// use std::sync::Arc;
 /// # fn main() -> ricci::Result<()> {
 /// let soup = shapes::grid(4, 3)?;
 /// let mesh = Arc::new(Mesh::from_soup(&soup)?);
 /// let lengths = Arc::new(lengths_from_positions(&mesh, &soup.positions)?);
-/// let metric = SurfaceMetric::new(mesh, lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
+/// let metric = Solution::new(mesh, lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
 /// let layout = unroll(&metric, &UnrollOptions::default(), &Control::new())?;
 /// assert!(layout.flipped.is_empty() && layout.consistency() < 1e-14);
 /// # Ok(())
 /// # }
 /// ```
-pub fn unroll(result: &SurfaceMetric, options: &UnrollOptions, control: &Control) -> Result<Layout> {
+pub fn unroll(result: &Solution, options: &UnrollOptions, control: &Control) -> Result<Layout> {
     control.check()?;
-    Pool::new(options.threads)?.run(|| unroll_in_pool(result, options, control))
+    let threads = if options.threads == 0 { result.threads() } else { options.threads };
+    Pool::new(threads)?.run(|| unroll_in_pool(result, options, control))
 }
 
-fn unroll_in_pool(result: &SurfaceMetric, options: &UnrollOptions, control: &Control) -> Result<Layout> {
+fn unroll_in_pool(result: &Solution, options: &UnrollOptions, control: &Control) -> Result<Layout> {
     let given = result.given();
     let refinement = match &options.refinement {
         Some(refinement) => Some(refinement.clone()),
@@ -93,9 +95,11 @@ fn unroll_in_pool(result: &SurfaceMetric, options: &UnrollOptions, control: &Con
         None => Some(Arc::new(result.refinement(control)?)),
     };
     let source = Source { given, mesh: result.mesh(), metric: result.metric(), refinement };
-    let mut layout = unroll_source(source, options, control)?;
+    let known = result.report().map(|_| result.cones().to_vec());
+    let cones = options.cones.clone().or(known);
+    let mut layout = unroll_source(source, &UnrollOptions { cones, ..options.clone() }, control)?;
     if options.scale == Scale::InputArea && layout.space == Space::E2 {
-        layout.scale_to_area(area(given, result.initial().input_geometry, result.given_lengths())?)?;
+        layout.scale_to_area(area(given, result.initial().input_geometry, result.surface().lengths())?)?;
     }
     Ok(layout)
 }

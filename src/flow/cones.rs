@@ -16,7 +16,7 @@ use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use crate::metric::delaunay::intrinsic_delaunay;
+use crate::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use crate::metric::{Scheme, initial_metric};
 use std::f64::consts::PI;
 
@@ -138,11 +138,13 @@ struct Placing<'a> {
 
 impl<'a> Placing<'a> {
     fn new(mesh: &Mesh, lengths: &PerEdge<f64>, control: &'a Control) -> Result<Self> {
-        let (mut mesh, mut lengths) = (mesh.clone(), lengths.clone());
+        let (mesh, lengths) = (mesh.clone(), lengths.clone());
         // An input that is no surface is refused with the names of its own elements.
         initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
         control.check()?;
-        intrinsic_delaunay(&mut mesh, &mut lengths, None, Space::E2, &[], &mut |_, _| {}, control)?;
+        let mut surface = Triangulated { mesh, lengths, geometry: Space::E2 };
+        intrinsic_delaunay(&mut surface, IntrinsicOptions::default(), &mut |_, _| {}, control)?;
+        let Triangulated { mesh, lengths, .. } = surface;
         let metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?.metric;
         let mut state = State::new(&mesh, &metric.u, &metric.u_low);
         if !state.evaluate(&mesh, &metric) {

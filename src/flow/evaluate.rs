@@ -8,10 +8,10 @@ use crate::geometry::conformal::{Edge, Vertex, differences, edge, weights};
 use crate::geometry::triangle::{self, Angles};
 use crate::geometry::twofold::two_sum;
 use crate::geometry::worse;
-use crate::mesh::{EdgeId, FaceId, Mesh, PerVertex, VertexId};
+use crate::mesh::{EdgeId, FaceId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_from_angles;
-use crate::metric::delaunay::{Queue, restore_delaunay};
+use crate::metric::delaunay::{ClassFlips, Queue};
 use crate::parallel::{fill, fill_both};
 
 /// The metric at one u: the variables with their curvature, and what was measured on the way, whose memory goes from step to step.
@@ -58,8 +58,8 @@ impl State {
         &mut self,
         mesh: &mut Mesh,
         class: &mut Metric,
-        fixed: &[EdgeId],
-        record: &mut dyn FnMut(&Mesh, EdgeId),
+        fixed: &FixedEdges,
+        record: &mut dyn FnMut(&Mesh, Flip),
         seconds: &mut Seconds,
         control: &Control,
     ) -> Result<(bool, usize)> {
@@ -67,11 +67,12 @@ impl State {
         let mut touched = Vec::new();
         let flips = timed(&mut seconds.flip, || {
             let mut queue = if real { self.suspects(mesh, fixed) } else { Queue::all(mesh, fixed) };
-            let mut record = |mesh: &Mesh, e| {
-                touched.push(e);
-                record(mesh, e);
+            let mut record = |mesh: &Mesh, flip: Flip| {
+                touched.push(flip.edge);
+                record(mesh, flip);
             };
-            restore_delaunay(mesh, class, &self.u, &mut queue, &mut record, control)
+            ClassFlips { mesh, metric: class, record: &mut record }
+                .restore_delaunay(&self.u, &mut queue, control)
         })?;
         let real = timed(&mut seconds.assemble, || {
             let real = match flips {
@@ -126,7 +127,7 @@ impl State {
     }
 
     /// Edges of negative weight, and those of faces that have none: the only ones that may fail the Delaunay condition.
-    fn suspects(&self, mesh: &Mesh, fixed: &[EdgeId]) -> Queue {
+    fn suspects(&self, mesh: &Mesh, fixed: &FixedEdges) -> Queue {
         let mut queue = Queue::new(mesh.n_edges(), fixed);
         let mut weight = vec![0.0; mesh.n_edges()];
         for f in mesh.faces() {

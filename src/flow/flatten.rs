@@ -1,7 +1,8 @@
 //! Flat vertices to twice the digits of doubles.
 
+use super::Flow;
 use super::evaluate::State;
-use super::solver::{Solver, center};
+use super::solve::center;
 use super::system::System;
 use crate::control::Control;
 use crate::error::Result;
@@ -15,14 +16,14 @@ const STEPS: usize = 4;
 /// of u that is smooth where corrections of u below 1e-16 are concerned, so they make up for it.
 const FLOOR: f64 = 1e-29;
 
-impl Solver {
+impl Flow {
     /// Bring the curvature of all vertices from nearly 0 to 0, as far as twice the digits of doubles go: iterative refinement of the
     /// nonlinear system, residuals with twice the digits ([`crate::metric::Metric::angle_defects`]), corrections in doubles with one
     /// factorisation. The triangulation stays. Returns the largest |K| that is left.
     ///
     /// For a metric that a flow to K̄ = 0 has come to. Errors: [`crate::Error::Cancelled`].
-    pub(super) fn flatten(&mut self, control: &Control) -> Result<f64> {
-        let Solver { mesh, metric, pinned, mirror, system, pool, .. } = self;
+    pub fn flatten(&mut self, control: &Control) -> Result<f64> {
+        let Flow { mesh, metric, pinned, mirror, system, pool, .. } = self;
         if mirror.is_some() {
             // Its unknowns are those of one half; rounding differs between the two.
             *system = None;

@@ -1,11 +1,11 @@
 //! The flow `du/dt = K̄ − K` itself, explicit in time [JKLLG08, Eqn 16].
 
+use super::Flow;
 use super::evaluate::State;
 use super::newton::progress;
 use super::options::StepRule;
 use super::report::{Report, StopReason, TraceRow, timed};
-use super::solver::Run;
-use crate::control::Stage;
+use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::Space;
 
@@ -14,22 +14,36 @@ const GROWTH: f64 = 10.0;
 /// Halvings before the flow counts as stalled.
 const HALVINGS: usize = 60;
 
-impl Run<'_> {
-    pub(super) fn gradient(&self, mut state: State, report: &mut Report) -> Result<State> {
-        let n = self.mesh.n_vertices();
-        let mut direction = vec![0.0; n];
-        let mut next_direction = vec![0.0; n];
-        let mut trial = State::new(self.mesh, self.start, self.start_low);
+/// The two ends of an accepted step: where it started, and where it leads.
+struct Leg {
+    state: State,
+    trial: State,
+    /// K̄ − K at `state`: the direction of the flow.
+    direction: Vec<f64>,
+    /// K̄ − K at `trial`.
+    next_direction: Vec<f64>,
+}
+
+/// Steps of the area's fixed point: one in E², where it is exact; linear convergence in S².
+const RESCALINGS: usize = 20;
+/// Half the relative error of the area after them that a metric may have: far below what the flow's tolerance sees of it.
+const AREA_REACHED: f64 = 1e-12;
+
+impl Flow {
+    pub(super) fn gradient(&self, state: State, report: &mut Report, control: &Control) -> Result<State> {
         // Pinned vertices hold their u: nothing is left to keep the area with.
-        let area = match self.class.space {
-            _ if self.pinned.contains(&true) => None,
+        let area = match self.metric.space {
+            _ if self.has_pins() => None,
             Space::S2 => Some(self.spherical_area()),
-            Space::E2 if self.options.gradient.area_normalised => Some(state.area(self.mesh, self.class)),
+            Space::E2 if self.options.gradient.area_normalised => Some(state.area(&self.mesh, &self.metric)),
             _ => None,
         };
-        let mut error = state.residual(self.target, self.pinned, &mut direction);
+        let [mut direction, next_direction] = [(); 2].map(|()| vec![0.0; self.mesh.n_vertices()]);
+        let mut error = state.residual(&self.target, &self.pinned, &mut direction);
+        let trial = State::new(&self.mesh, &self.start, &self.start_low);
+        let mut leg = Leg { state, trial, direction, next_direction };
         let (first, mut energy, mut step) = (error, 0.0, 0.0);
-        report.trace.push(self.row(&state, 0, energy, error, step));
+        report.trace.push(self.row(&leg.state, [energy, error, step], 0));
         report.residuals.push(error);
         report.stop_reason = loop {
             if error <= report.tolerance {
@@ -38,61 +52,61 @@ impl Run<'_> {
             if report.iterations >= self.options.iteration_limit() {
                 break StopReason::IterationLimit;
             }
-            self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
+            control.step(Stage::Flow, progress(first, error, report.tolerance))?;
             match self.options.gradient.step {
                 StepRule::Fixed(h) => step = h,
                 StepRule::BarzilaiBorwein if report.iterations > 0 => {}
-                _ => step = timed(&mut report.seconds.assemble, || self.stable_step(&state)),
+                _ => step = timed(&mut report.seconds.assemble, || self.stable_step(&leg.state)),
             }
             let mut h = step;
-            let mut accepted = None;
-            for _ in 0..HALVINGS {
-                self.control.check()?;
-                trial.set_step(&state, h, &direction);
-                if timed(&mut report.seconds.assemble, || self.settle(&mut trial, area)) {
-                    let now = trial.residual(self.target, self.pinned, &mut next_direction);
-                    if now <= GROWTH * error {
-                        accepted = Some(now);
-                        break;
-                    }
-                }
-                h *= 0.5;
-            }
-            let Some(now) = accepted else { break StopReason::Stalled };
-            let (mut ss, mut sy, mut yy) = (0.0, 0.0, 0.0);
-            for v in 0..n {
-                let s = trial.u[v.into()] - state.u[v.into()];
-                energy -= 0.5 * s * (direction[v] + next_direction[v]);
-                ss += s * s;
-                let y = direction[v] - next_direction[v];
-                sy += s * y;
-                yy += y * y;
-            }
-            // Barzilai–Borwein's long and short step in turn; no curvature along the step (a straight energy): keep it.
-            step = match report.iterations % 2 {
-                _ if sy <= 0.0 || ss <= 0.0 => h,
-                0 => ss / sy,
-                _ => sy / yy,
+            let Some(now) = self.go(&mut leg, &mut h, GROWTH * error, area, (report, control))? else {
+                break StopReason::Stalled;
             };
-            std::mem::swap(&mut state, &mut trial);
-            std::mem::swap(&mut direction, &mut next_direction);
+            step = leg.next_step(h, report.iterations, &mut energy);
+            std::mem::swap(&mut leg.state, &mut leg.trial);
+            std::mem::swap(&mut leg.direction, &mut leg.next_direction);
             error = now;
             report.iterations += 1;
             report.residuals.push(error);
-            report.trace.push(self.row(&state, report.iterations, energy, error, h));
+            report.trace.push(self.row(&leg.state, [energy, error, h], report.iterations));
         };
         report.max_curvature_error = error;
-        Ok(state)
+        Ok(leg.state)
     }
 
-    fn row(&self, state: &State, step: usize, energy: f64, error: f64, step_size: f64) -> TraceRow {
-        let area = state.area(self.mesh, self.class);
+    /// Go `h` along the direction of a leg, or half as far, and so on, until the error there is at most `most`: that error, none where
+    /// every step leads farther off.
+    fn go(
+        &self,
+        leg: &mut Leg,
+        h: &mut f64,
+        most: f64,
+        area: Option<f64>,
+        (report, control): (&mut Report, &Control),
+    ) -> Result<Option<f64>> {
+        let Leg { state, trial, direction, next_direction } = leg;
+        for _ in 0..HALVINGS {
+            control.check()?;
+            trial.set_step(state, *h, direction);
+            if timed(&mut report.seconds.assemble, || self.settle(trial, area)) {
+                let now = trial.residual(&self.target, &self.pinned, next_direction);
+                if now <= most {
+                    return Ok(Some(now));
+                }
+            }
+            *h *= 0.5;
+        }
+        Ok(None)
+    }
+
+    fn row(&self, state: &State, [energy, error, step_size]: [f64; 3], step: usize) -> TraceRow {
+        let area = state.area(&self.mesh, &self.metric);
         TraceRow { step, energy, max_curvature_error: error, area, step_size }
     }
 
     /// The explicit scheme is stable for h < 2/λ_max, and λ_max ≤ 2 max_i Σ |w| c(l) (Gershgorin).
     fn stable_step(&self, state: &State) -> f64 {
-        let space = self.class.space;
+        let space = self.metric.space;
         let mut row = vec![0.0; self.mesh.n_vertices()];
         for f in self.mesh.faces() {
             let weights = state.weights[f.index()];
@@ -111,19 +125,19 @@ impl Run<'_> {
         1.0 / row.into_iter().fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    /// Evaluate `state.u`, after bringing it to the total area `area` (if given) by a constant.
+    /// Evaluate `state.u`, after bringing it to the total area `area` (if given) by a constant; false where there is no such metric.
     pub(super) fn settle(&self, state: &mut State, area: Option<f64>) -> bool {
-        if area.is_none() && self.free_scale {
+        if area.is_none() && self.free_scale() {
             state.center();
         }
-        if !state.evaluate(self.mesh, self.class) {
+        if !state.evaluate(&self.mesh, &self.metric) {
             return false;
         }
         let Some(area) = area else { return true };
         // Area grows as e^{2u} (exactly in E²): a fixed point that contracts fast on the sphere too.
+        let missing = |state: &State| 0.5 * (area / state.area(&self.mesh, &self.metric)).ln();
         for _ in 0..RESCALINGS {
-            let now = state.area(self.mesh, self.class);
-            let mut shift = 0.5 * (area / now).ln();
+            let mut shift = missing(state);
             if !shift.is_finite() {
                 return false;
             }
@@ -132,7 +146,7 @@ impl Run<'_> {
             }
             state.shift(shift);
             // Near the largest spherical metric of the class the area grows faster: come back half the way.
-            while !state.evaluate(self.mesh, self.class) {
+            while !state.evaluate(&self.mesh, &self.metric) {
                 shift *= 0.5;
                 if shift.abs() <= 4.0 * f64::EPSILON {
                     return false;
@@ -140,9 +154,27 @@ impl Run<'_> {
                 state.shift(-shift);
             }
         }
-        true
+        missing(state).abs() <= AREA_REACHED
     }
 }
 
-/// Steps of the area's fixed point: one in E², where it is exact; linear convergence in S².
-const RESCALINGS: usize = 20;
+impl Leg {
+    /// Barzilai–Borwein's long and short step in turn \[BB88\]; the step `h` again where the energy is straight along it. Adds the
+    /// energy's change along the leg (trapezoidal rule).
+    fn next_step(&self, h: f64, iteration: usize, energy: &mut f64) -> f64 {
+        let (mut ss, mut sy, mut yy) = (0.0, 0.0, 0.0);
+        for v in 0..self.direction.len() {
+            let s = self.trial.u[v.into()] - self.state.u[v.into()];
+            *energy -= 0.5 * s * (self.direction[v] + self.next_direction[v]);
+            ss += s * s;
+            let y = self.direction[v] - self.next_direction[v];
+            sy += s * y;
+            yy += y * y;
+        }
+        match iteration % 2 {
+            _ if sy <= 0.0 || ss <= 0.0 => h,
+            0 => ss / sy,
+            _ => sy / yy,
+        }
+    }
+}

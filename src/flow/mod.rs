@@ -1,5 +1,15 @@
 //! The flow `du/dt = K̄ − K` [JKLLG08, Eqn 16] to a prescribed curvature, by Newton's method on its convex energy
 //! or by following it.
+//!
+//! ```
+//! use ricci::{Class, Control, Flow, Surface, Target, flow::Options, geometry::Space, mesh::shapes};
+//!
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let mut flow = Flow::new(torus, Class::yamabe(Space::E2), &Options::default(), &Control::new())?;
+//! let flat = flow.solve(&Target::Uniform, &Control::new())?;
+//! assert!(flat.converged() && flat.cones().is_empty());
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 mod cone_angles;
 pub mod cones;
@@ -7,13 +17,16 @@ mod evaluate;
 mod flatten;
 mod gradient;
 mod jacobian;
+mod line_search;
 mod newton;
 mod obstruction;
 pub mod options;
+mod origin;
 pub mod report;
-mod solver;
+mod solution;
+mod solve;
 mod spherical;
-pub mod surface;
+mod start;
 mod system;
 
 pub use cones::{AutoCones, auto_cones};
@@ -21,28 +34,76 @@ pub use jacobian::curvature_derivative;
 pub use obstruction::Obstruction;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
 pub use report::{Report, Seconds, StopReason, TraceRow};
-pub use solver::Solver;
-pub use surface::SurfaceFlow;
+pub use solution::Solution;
 
 use crate::control::Control;
 use crate::error::Result;
-use crate::mesh::{Mesh, PerVertex};
-use crate::metric::Metric;
+use crate::mesh::{FixedEdges, FlipLog, Mesh, NormalCoordinates, PerVertex};
+use crate::metric::{Class, Metric, Surface, Target};
+use crate::parallel::Pool;
+use origin::Origin;
+use solution::Reached;
+use std::sync::Arc;
+use system::System;
 
-/// The metric with curvature `target` in the conformal class of `metric`, the triangulation it is on, and how it was found.
+/// A surface in a conformal class, which flows to one target after the other. It keeps its factorisation and its threads; each solve
+/// starts from the last metric that reached its target (at first from the given one).
 ///
-/// `target`: V entries, radians, admissible (see [`crate::metric::target::check_admissible`]). A flow that does not
-/// reach it is no error: the report says so and why, and the metric is the last one. For
-/// several targets on one surface keep a [`Solver`]; for a surface with boundary, and for the way back to the triangulation it came
-/// with, a [`SurfaceFlow`].
+/// With [`Flips::Auto`] the class is that of the surface's (weighted) Delaunay triangulation and edges are flipped inside it, so that
+/// every admissible target is reached; a surface with boundary is solved on its double, whose metric is kept symmetric, since only
+/// closed surfaces have that guarantee: on one copy for as long as no edge is to be flipped across the boundary, which is all there
+/// is to do on surfaces that need no flips. [`Solution::refinement`] carries the result back to the given triangulation.
+///
+/// Edges stay as they are with [`Flips::Never`], and where flips have no part: in S², in the gradient flow, for Thurston's and
+/// tangential packings (Delaunay on any triangulation). Between imaginary circles (virtual radii) an edge need not have another
+/// diagonal: flips help there, without a guarantee. Pinned vertices keep a boundary from being doubled: interior edges alone are
+/// flipped.
+pub struct Flow {
+    origin: Arc<Origin>,
+    mesh: Mesh,
+    metric: Metric,
+    /// u of the last converged solve, or what was set, and what its doubles lose.
+    start: PerVertex<f64>,
+    start_low: PerVertex<f64>,
+    options: Options,
+    /// Whether edges may be flipped, by the options and the class.
+    flips_allowed: bool,
+    /// Edges of `mesh` that are not flipped: those of the options, and their images on a double.
+    fixed: FixedEdges,
+    pinned: Vec<bool>,
+    /// Per vertex its mirror image on a double, where the metric is kept symmetric.
+    mirror: Option<Vec<u32>>,
+    /// Told every flip.
+    followed: Vec<NormalCoordinates>,
+    /// The flips of the present solve, by which it is undone.
+    log: FlipLog,
+    /// All flips since the given triangulation.
+    flips: usize,
+    /// What the last solve was asked and did.
+    reached: Option<Reached>,
+    /// On one copy of a surface with boundary, as long as nothing is flipped across its boundary.
+    one_copy: bool,
+    /// The present solve's target per vertex of `mesh`.
+    target: PerVertex<f64>,
+    system: Option<System>,
+    /// Flips since `system` was made.
+    unseen_flips: usize,
+    pool: Arc<Pool>,
+}
+
+/// The metric of a surface with prescribed curvature in a class: [`Flow::new`] and [`Flow::solve`].
+///
+/// A flow that does not reach its target is no error: the report says so and why, and the metric is the last one. For several targets
+/// on one surface keep a [`Flow`].
+///
+/// # Errors
+/// Those of [`Flow::new`] and [`Flow::solve`].
 pub fn flow(
-    mesh: &Mesh,
-    metric: &Metric,
-    target: &PerVertex<f64>,
+    surface: Surface,
+    class: Class,
+    target: &Target,
     options: &Options,
     control: &Control,
-) -> Result<(Mesh, Metric, Report)> {
-    let mut solver = Solver::new(mesh.clone(), metric.clone(), options.clone())?;
-    let report = solver.solve(target, control)?;
-    Ok((solver.mesh().clone(), solver.metric().clone(), report))
+) -> Result<Solution> {
+    Flow::new(surface, class, options, control)?.solve(target, control)
 }

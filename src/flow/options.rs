@@ -1,7 +1,7 @@
 //! What a flow can be asked.
 
 use crate::error::{Error, Result};
-use crate::mesh::EdgeId;
+use crate::mesh::{EdgeId, VertexId};
 
 /// How the target is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -59,6 +59,9 @@ pub struct Options {
     pub flips: Flips,
     /// Edges that are not flipped: seams, feature lines. Default none. Targets that only their flips would reach are then out of reach.
     pub fixed_edges: Vec<EdgeId>,
+    /// Vertices of the given surface that hold their u; their curvature is then free. Default none. They keep a surface with boundary
+    /// from being doubled.
+    pub pinned: Vec<VertexId>,
     /// Threads of this flow's own pool; 0 (default) is one per core. The result does not depend on it.
     pub threads: usize,
     /// Options of [`Method::Gradient`].
@@ -74,6 +77,7 @@ impl Default for Options {
             max_step: 3.0,
             flips: Flips::Auto,
             fixed_edges: Vec::new(),
+            pinned: Vec::new(),
             threads: 0,
             gradient: Gradient::default(),
         }

@@ -1,17 +1,21 @@
 //! What a flow did.
 
 use super::obstruction::Obstruction;
-use crate::mesh::VertexId;
+use crate::mesh::{Double, VertexId};
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// Why a flow stopped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StopReason {
-    /// The tolerance is reached and every triangle is whole.
+    /// The tolerance asked for is reached and every triangle is whole.
     Converged,
-    /// No step reduces the error further and the error is within the rounding floor of the mesh, which is above the
-    /// tolerance; every triangle is whole. `Report::tolerance` holds the floor.
-    RoundingFloor,
+    /// No step reduces the error further, and rounding explains what is left of it; every triangle is whole. The metric is as good as
+    /// doubles can make it on this surface, but not to the tolerance asked for.
+    RoundingFloor {
+        /// Largest curvature error that rounding explains, radians; above the tolerance.
+        size: f64,
+    },
     /// The extended energy is at its minimum there, but some triangles break: no metric of this class on this
     /// triangulation has the target curvature.
     BrokenTriangles,
@@ -32,7 +36,7 @@ impl StopReason {
     pub fn name(self) -> &'static str {
         match self {
             StopReason::Converged => "converged",
-            StopReason::RoundingFloor => "rounding_floor",
+            StopReason::RoundingFloor { .. } => "rounding_floor",
             StopReason::BrokenTriangles => "broken_triangles",
             StopReason::Infeasible => "infeasible",
             StopReason::Diverged => "diverged",
@@ -105,8 +109,6 @@ pub const WORST: usize = 8;
 /// Result of a flow, with everything needed to judge it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// The curvature error is within `tolerance` and no triangle is broken.
-    pub converged: bool,
     /// Why it stopped.
     pub stop_reason: StopReason,
     /// Newton steps, or time steps.
@@ -115,8 +117,10 @@ pub struct Report {
     pub flips: usize,
     /// max |K − K̄| over the vertices that are not pinned, radians.
     pub max_curvature_error: f64,
-    /// The tolerance it is held against: the one asked for, or the rounding floor (see [`StopReason::RoundingFloor`]).
+    /// The tolerance that was asked for, radians.
     pub tolerance: f64,
+    /// Largest |K| left after the correction to twice the digits of doubles, which flows to K̄ = 0 in H² end with.
+    pub angle_defect: Option<f64>,
     /// Largest curvature error that rounding can cause at the final metric; determined where a flow stalls.
     pub rounding_floor: Option<f64>,
     /// Whether u, lengths and curvature were carried to twice the digits of a double (Newton in E², and in H² where
@@ -148,12 +152,12 @@ pub struct Report {
 impl Report {
     pub(super) fn new(tolerance: f64) -> Report {
         Report {
-            converged: false,
             stop_reason: StopReason::IterationLimit,
             iterations: 0,
             flips: 0,
             max_curvature_error: f64::INFINITY,
             tolerance,
+            angle_defect: None,
             rounding_floor: None,
             double_double: false,
             broken_triangles: 0,
@@ -166,6 +170,38 @@ impl Report {
             unknowns: 0,
             factor_entries: 0,
             seconds: Seconds::default(),
+        }
+    }
+
+    /// Whether the curvature error is at most the tolerance asked for, and no triangle is broken.
+    pub fn converged(&self) -> bool {
+        self.stop_reason == StopReason::Converged
+    }
+
+    /// Whether the flow came as far as doubles go: it converged, or it ended at the rounding floor.
+    pub fn is_reached(&self) -> bool {
+        matches!(self.stop_reason, StopReason::Converged | StopReason::RoundingFloor { .. })
+    }
+
+    /// What the curvature error is held against: the tolerance asked for, or the size of the rounding floor where the flow ended there.
+    pub fn allowed_error(&self) -> f64 {
+        match self.stop_reason {
+            StopReason::RoundingFloor { size } => size.max(self.tolerance),
+            _ => self.tolerance,
+        }
+    }
+
+    /// The report of a flow on a double, with the vertices of the surface in place of their mirror images. Errors at boundary
+    /// vertices count both copies: they are twice those of the surface.
+    pub(super) fn on_surface(&mut self, double: &Double) {
+        let on_surface = |v: VertexId| v.min(double.mirror(v));
+        let mut seen = BTreeSet::new();
+        self.worst.iter_mut().for_each(|(v, _)| *v = on_surface(*v));
+        self.worst.retain(|(v, _)| seen.insert(*v));
+        if let Some(obstruction) = &mut self.obstruction {
+            obstruction.vertices.iter_mut().for_each(|v| *v = on_surface(*v));
+            obstruction.vertices.sort_unstable();
+            obstruction.vertices.dedup();
         }
     }
 

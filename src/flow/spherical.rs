@@ -4,12 +4,11 @@
 //! on the rest. Constants are taken out by keeping the total area at `2πχ − Σ K̄`; the rest is solved with
 //! `∂K/∂u + μ·area`, which is positive definite for μ > 2 near the solution.
 
+use super::Flow;
 use super::evaluate::State;
 use super::newton::progress;
 use super::report::{Report, StopReason, timed};
-use super::solver::Run;
-use super::system::System;
-use crate::control::Stage;
+use crate::control::{Control, Stage};
 use crate::error::Result;
 use std::f64::consts::PI;
 
@@ -18,33 +17,33 @@ const MIN_DAMPING: f64 = 2.1;
 /// The flow gives up at this damping: steps are then far below the rounding of u.
 const MAX_DAMPING: f64 = 1e15;
 
-impl Run<'_> {
+impl Flow {
     /// Area that Gauss–Bonnet gives the target.
     pub(super) fn spherical_area(&self) -> f64 {
         2.0 * PI * self.mesh.euler() as f64 - self.target.iter().sum::<f64>()
     }
 
     pub(super) fn spherical(
-        &self,
-        system: &mut Option<System>,
+        &mut self,
         mut state: State,
         report: &mut Report,
+        control: &Control,
     ) -> Result<State> {
         let n = self.mesh.n_vertices();
         let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
-        let mut trial = State::new(self.mesh, self.start, self.start_low);
-        let area = (!self.pinned.contains(&true)).then(|| self.spherical_area());
+        let mut trial = State::new(&self.mesh, &self.start, &self.start_low);
+        let area = (!self.has_pins()).then(|| self.spherical_area());
         if !self.settle(&mut state, area) {
             report.stop_reason = StopReason::Stalled;
-            state = State::new(self.mesh, self.start, self.start_low);
-            state.evaluate(self.mesh, self.class);
-            report.max_curvature_error = state.residual(self.target, self.pinned, &mut residual);
+            state = State::new(&self.mesh, &self.start, &self.start_low);
+            state.evaluate(&self.mesh, &self.metric);
+            report.max_curvature_error = state.residual(&self.target, &self.pinned, &mut residual);
             return Ok(state);
         }
-        let mut error = state.residual(self.target, self.pinned, &mut residual);
+        let mut error = state.residual(&self.target, &self.pinned, &mut residual);
         let (first, mut damping) = (error, MIN_DAMPING);
         report.residuals.push(error);
-        let system = self.prepare(system, 0, report)?;
+        let mut system = self.take_system(report)?;
         report.stop_reason = loop {
             if error <= report.tolerance {
                 break StopReason::Converged;
@@ -55,10 +54,10 @@ impl Run<'_> {
             if damping > MAX_DAMPING {
                 break StopReason::Stalled;
             }
-            self.control.step(Stage::Flow, progress(first, error, report.tolerance))?;
+            control.step(Stage::Flow, progress(first, error, report.tolerance))?;
             let mass = self.vertex_areas(&state);
             timed(&mut report.seconds.assemble, || {
-                system.jacobian.assemble(self.mesh, self.class, &state);
+                system.jacobian.assemble(&self.mesh, &self.metric, &state);
                 system.jacobian.add_diagonal(|v| damping * mass[v]);
             });
             report.iterations += 1;
@@ -73,13 +72,14 @@ impl Run<'_> {
             let inside = timed(&mut report.seconds.assemble, || self.settle(&mut trial, area));
             if inside && norm_of(&trial, self) < norm_of(&state, self) {
                 std::mem::swap(&mut state, &mut trial);
-                error = state.residual(self.target, self.pinned, &mut residual);
+                error = state.residual(&self.target, &self.pinned, &mut residual);
                 report.residuals.push(error);
                 damping = (0.5 * damping).max(MIN_DAMPING);
             } else {
                 damping *= 4.0;
             }
         };
+        self.system = Some(system);
         report.max_curvature_error = error;
         Ok(state)
     }
@@ -88,7 +88,7 @@ impl Run<'_> {
     fn vertex_areas(&self, state: &State) -> Vec<f64> {
         let mut areas = vec![0.0; self.mesh.n_vertices()];
         for f in self.mesh.faces() {
-            let third = state.face_area(self.mesh, self.class.space, f) / 3.0;
+            let third = state.face_area(&self.mesh, self.metric.space, f) / 3.0;
             self.mesh.face_vertices(f).into_iter().for_each(|v| areas[v.index()] += third);
         }
         areas
@@ -96,8 +96,8 @@ impl Run<'_> {
 }
 
 /// Euclidean norm of the residual.
-fn norm_of(state: &State, run: &Run<'_>) -> f64 {
+fn norm_of(state: &State, flow: &Flow) -> f64 {
     let square =
-        |(i, t): (usize, &f64)| if run.pinned[i] { 0.0 } else { (t - state.curvature[i.into()]).powi(2) };
-    run.target.iter().enumerate().map(square).sum::<f64>().sqrt()
+        |(i, t): (usize, &f64)| if flow.pinned[i] { 0.0 } else { (t - state.curvature[i.into()]).powi(2) };
+    flow.target.iter().enumerate().map(square).sum::<f64>().sqrt()
 }

@@ -7,14 +7,14 @@ use crate::linalg::Cholesky;
 use crate::linalg::cholesky::NotPositiveDefinite;
 use crate::mesh::Mesh;
 
-/// Refinement of the linear solution stops here, relative to the right-hand side.
+/// Residual of the linear solution at which its refinement stops, relative to the right-hand side: near the rounding of doubles.
 const REFINE_TO: f64 = 1e-13;
-/// and after this many steps.
+/// Refinement steps at most; each costs a solution and gains several digits.
 const REFINE_STEPS: usize = 2;
 
-/// The order of elimination is made anew after flips of more than this share of the edges. Fill grows fast where the order does not
+/// Share of the edges that may be flipped before the order of elimination is made anew. Fill grows fast where the order does not
 /// know the pattern: flips of 0.5 % of the edges make a factor of 400,000 rows so much larger that it takes ten times as long.
-const FEW: f64 = 5e-4;
+const FEW_FLIPS: f64 = 5e-4;
 
 pub(super) struct System {
     pub jacobian: Jacobian,
@@ -57,13 +57,16 @@ impl System {
         if jacobian.pattern == self.jacobian.pattern {
             return Ok(System { jacobian, age, ..self });
         }
-        let keep = age as f64 <= FEW * mesh.n_edges() as f64;
+        let System { cholesky, rhs, solution, correction, .. } = self;
+        let keep = age as f64 <= FEW_FLIPS * mesh.n_edges() as f64;
+        // One factor at a time: the old one is released before there is memory for the new.
         let cholesky = if keep {
-            self.cholesky.analyse_again(&jacobian.pattern)
+            cholesky.analyse_again(&jacobian.pattern)?
         } else {
-            Cholesky::analyse(&jacobian.pattern)
+            drop(cholesky);
+            Cholesky::analyse(&jacobian.pattern)?
         };
-        Ok(System { jacobian, cholesky: cholesky?, age: if keep { age } else { 0 }, ..self })
+        Ok(System { jacobian, cholesky, age: if keep { age } else { 0 }, rhs, solution, correction })
     }
 
     pub fn unknowns(&self) -> usize {

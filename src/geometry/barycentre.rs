@@ -4,26 +4,38 @@
 //! barycentre* is where `Σ w_i x_i(y) = 0` [DE86; Spr05]: the lowest point of `Σ w_i b_i`, with b_i the Busemann function of point
 //! i, which is convex: its gradient is −x_i, its Hessian `1 − x_i x_iᵀ`. It exists and is unique where no point has half of the weight
 //! or more. In the upper half-space y = (p, t) and x_i is the lift of `(z_i − p)/t`.
+//!
+//! ```
+//! use ricci::geometry::barycentre::conformal_barycentre;
+//! // Four points of equal weight on the circle of radius 3 about (1, 0): it becomes the equator.
+//! let points = [[4.0, 0.0], [1.0, 3.0], [-2.0, 0.0], [1.0, -3.0]];
+//! let y = conformal_barycentre(&points, &[1.0; 4], 0.0)?;
+//! assert!((y.scale - 3.0).abs() < 1e-12 && (y.centre[0] - 1.0).abs() < 1e-12);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
+use super::complex;
 use super::sphere::{SOUTH, Similarity, lift, project};
 use super::vector::{Vector, add, dot, norm, scale};
 use crate::error::{Error, Result, check_size};
 
-/// Longest step: within this hyperbolic distance the directions, and so the Hessian, change moderately.
-const LONGEST: f64 = 1.0;
-/// Steps before it is given up: points of doubles are within a distance of 1500.
-const STEPS: usize = 2000;
-/// A step halved so often is rounding.
-const HALVINGS: usize = 30;
-/// What cannot be lowered further is taken for rounding if it is below this many of what rounding makes at most.
-const FLOOR: f64 = 8.0;
-/// `|Σ w x|/Σw` that is enough: rounding of a sum of many terms leaves less.
-const ENOUGH: f64 = 1e-15;
+/// Longest Newton step, a hyperbolic distance: within it the directions, and with them the Hessian, change moderately.
+const LONGEST_STEP: f64 = 1.0;
+/// Most Newton steps. No more are needed: points with coordinates in doubles are within a hyperbolic distance of 1500.
+const MAX_STEPS: usize = 2000;
+/// Most halvings of a step: what is left of it then is rounding.
+const MAX_HALVINGS: usize = 30;
+/// A residual that cannot be lowered further is taken for rounding if it is at most this many times the rounding of its sum.
+const ROUNDING_UNITS: f64 = 8.0;
+/// `|Σ w x|/Σw` at which the points count as balanced: a few roundings.
+const BALANCED: f64 = 1e-15;
 
 /// The similarity `z ↦ (z − p)/t` after which the lifts x of the `points` of the plane (∞ has weight `at_infinity`) have
 /// `Σ w x = 0`. Weights are not negative and one is positive at least; every other such Möbius transformation is a rotation after it.
 ///
-/// Errors: sizes; a weight that is negative or not finite; a point with half of the weight or more, or points that have it and
+/// # Errors
+///
+/// Sizes; a weight that is negative or not finite; a point with half of the weight or more, or points that have it and
 /// nearly coincide: then there is no such transformation.
 pub fn conformal_barycentre(points: &[[f64; 2]], weights: &[f64], at_infinity: f64) -> Result<Similarity> {
     check_size("weights", weights.len(), points.len())?;
@@ -52,19 +64,19 @@ pub fn conformal_barycentre(points: &[[f64; 2]], weights: &[f64], at_infinity: f
     };
     let mut y = Similarity::IDENTITY;
     let (mut mean, mut square) = moments(&y);
-    for _ in 0..STEPS {
-        if norm(mean) <= ENOUGH {
+    for _ in 0..MAX_STEPS {
+        if norm(mean) <= BALANCED {
             return Ok(y);
         }
         let step = newton(mean, square);
         let length = norm(step);
-        if length <= ENOUGH {
+        if length <= BALANCED {
             break;
         }
         let to = scale(1.0 / length, step);
-        let mut distance = length.min(LONGEST);
+        let mut distance = length.min(LONGEST_STEP);
         let mut found = None;
-        for _ in 0..HALVINGS {
+        for _ in 0..MAX_HALVINGS {
             let next = y.towards(to, distance);
             let there = moments(&next);
             // Downhill still: what lies ahead outweighs the rest. Or, near the end, better balanced.
@@ -81,8 +93,8 @@ pub fn conformal_barycentre(points: &[[f64; 2]], weights: &[f64], at_infinity: f
         }
     }
     // Rounding: of a sum of that many terms, and of p in units of t.
-    let terms = points.len() as f64 + y.centre[0].hypot(y.centre[1]) / y.scale;
-    if norm(mean) <= FLOOR * f64::EPSILON * terms { Ok(y) } else { Err(heavy(largest / total)) }
+    let terms = points.len() as f64 + complex::norm(y.centre) / y.scale;
+    if norm(mean) <= ROUNDING_UNITS * f64::EPSILON * terms { Ok(y) } else { Err(heavy(largest / total)) }
 }
 
 fn heavy(share: f64) -> Error {

@@ -2,6 +2,15 @@
 //!
 //! A vertex circle has centre p, radius γ > 0 and type ε: a real circle (ε = 1), a point (ε = 0) or a circle of
 //! imaginary radius (ε = −1). The power of a point x with respect to it is `|x − p|² − ε γ²`.
+//!
+//! ```
+//! use ricci::geometry::circle::power_circle;
+//! let triangle = [[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]];
+//! let circumcircle = power_circle(triangle, [0; 3], [0.0; 3]).unwrap();
+//! assert_eq!((circumcircle.center, circumcircle.power.sqrt()), ([1.5, 2.0], 2.5));
+//! ```
+
+use super::complex::{add, cross, norm2, sub};
 
 /// A point with equal power to three circles.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,13 +32,13 @@ pub struct PowerCircle {
 /// like for b. [JKLLG08, §4.1: the circle orthogonal to the three vertex circles of a face].
 pub fn power_circle(centers: [[f64; 2]; 3], epsilon: [i8; 3], radii: [f64; 3]) -> Option<PowerCircle> {
     let [p, q, r] = centers;
-    let (a, b) = ([q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]);
+    let (a, b) = (sub(q, p), sub(r, p));
     let s: [f64; 3] = std::array::from_fn(|i| f64::from(epsilon[i]) * radii[i] * radii[i]);
-    let f = 0.5 * (a[0] * a[0] + a[1] * a[1] - s[1] + s[0]);
-    let g = 0.5 * (b[0] * b[0] + b[1] * b[1] - s[2] + s[0]);
-    let det = a[0] * b[1] - a[1] * b[0];
+    let f = 0.5 * (norm2(a) - s[1] + s[0]);
+    let g = 0.5 * (norm2(b) - s[2] + s[0]);
+    let det = cross(a, b);
     let x = [(f * b[1] - g * a[1]) / det, (g * a[0] - f * b[0]) / det];
-    let circle = PowerCircle { center: [p[0] + x[0], p[1] + x[1]], power: x[0] * x[0] + x[1] * x[1] - s[0] };
+    let circle = PowerCircle { center: add(p, x), power: norm2(x) - s[0] };
     (circle.power.is_finite() && circle.center.iter().all(|c| c.is_finite())).then_some(circle)
 }
 

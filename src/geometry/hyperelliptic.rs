@@ -3,6 +3,16 @@
 //! The curve `y² = Π (x − e_j)` of genus g over its N = 2g + 1 or 2g + 2 finite branch points. A segment from e_p to e_q
 //! lifts to a closed curve: there on one sheet, back on the other. The 2g edges of a tree on 2g + 1 branch points give a
 //! basis of the homology [MN19, §3]; two of them meet only over a branch point that they share.
+//!
+//! ```
+//! use num_complex::Complex64;
+//! use ricci::geometry::{hyperelliptic::period_matrix, modulus::modulus};
+//! // y² = x³ − x is the square torus.
+//! let tau = period_matrix(&[-1.0, 0.0, 1.0].map(Complex64::from))?[0][0];
+//! let [re, im] = modulus([[1.0, 0.0], [tau.re, tau.im]]).unwrap();
+//! assert!(re.abs() < 1e-12 && (im - 1.0).abs() < 1e-12);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::error::{Error, Result};
 use crate::geometry::symplectic::symplectic_basis;
@@ -24,7 +34,9 @@ const ASYMMETRY: f64 = 1e-9;
 /// `branch_points`: the finite ones, 2g + 1 (then ∞ is one more) or 2g + 2, g ≥ 1, all different. Integrals of
 /// `x^k dx/y` along the edges by Gauss–Chebyshev quadrature, which converges geometrically.
 ///
-/// Errors: [`Error::Argument`] for fewer than three points, points that are not finite or too close to each other for
+/// # Errors
+///
+/// [`Error::Argument`] for fewer than three points, points that are not finite or too close to each other for
 /// doubles, and so many of them that the forms x^k dx/y are dependent in doubles (about 2g = 30).
 pub fn period_matrix(branch_points: &[Complex64]) -> Result<Vec<Vec<Complex64>>> {
     let points = normalised(branch_points)?;
@@ -85,7 +97,9 @@ fn solve(mut a: Vec<Vec<Complex64>>, mut b: Vec<Vec<Complex64>>) -> Vec<Vec<Comp
 
 /// The points moved and scaled so that their mean is 0 and their mean square 1: an affine map of x keeps the curve.
 ///
-/// Errors: as [`period_matrix`], for the points themselves.
+/// # Errors
+///
+/// As [`period_matrix`], for the points themselves.
 pub fn normalised(points: &[Complex64]) -> Result<Vec<Complex64>> {
     let refuse = |value: String, need| Err(Error::Argument { what: "branch points", value, need });
     if points.len() < 3 {

@@ -7,6 +7,13 @@
 //!
 //! Points of the hyperboloid keep their digits however far out; of a disk the border is 2e^{−d} (Poincaré) or 2e^{−2d} (Klein) away at
 //! distance d from the origin.
+//!
+//! ```
+//! use ricci::geometry::model::{distance, from_poincare, half_plane};
+//! let origin = from_poincare([0.0, 0.0]);
+//! assert_eq!(half_plane(origin), [0.0, 1.0]);
+//! assert!((distance(origin, from_poincare([0.5, 0.0])) - 3f64.ln()).abs() < 1e-15);
+//! ```
 
 use crate::error::Error;
 
@@ -44,6 +51,23 @@ impl Model {
             Model::HalfPlane => flat(half_plane(p)),
             Model::Hyperboloid => p,
         }
+    }
+
+    /// The first two coordinates of a point of the hyperboloid, all that a plane model has.
+    pub fn plane(self, p: [f64; 3]) -> [f64; 2] {
+        let [x, y, _] = self.from_hyperboloid(p);
+        [x, y]
+    }
+
+    /// The point of the hyperboloid whose first two coordinates in the model are these, if there is one within the range of doubles.
+    pub fn to_hyperboloid(self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
+        let (inside, p) = match self {
+            Model::Poincare => (x.hypot(y) < 1.0, from_poincare([x, y])),
+            Model::Klein => (x.hypot(y) < 1.0, from_klein([x, y])),
+            Model::HalfPlane => (y > 0.0, from_half_plane([x, y])),
+            Model::Hyperboloid => (true, [x, y, x.hypot(y).hypot(1.0)]),
+        };
+        (inside && p.iter().all(|x| x.is_finite())).then_some(p)
     }
 }
 
@@ -105,6 +129,20 @@ pub fn distance(p: [f64; 3], q: [f64; 3]) -> f64 {
     let d = [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     let square = d[0] * d[0] + d[1] * d[1] - d[2] * d[2];
     2.0 * (0.25 * square).max(0.0).sqrt().asinh()
+}
+
+/// The point of the hyperboloid that is the share `t` of the way from p to q along their geodesic, `sinh` of the parts over that of the
+/// whole being the weights of the ends.
+pub fn between(p: [f64; 3], q: [f64; 3], t: f64) -> [f64; 3] {
+    let length = distance(p, q);
+    let whole = length.sinh();
+    let (a, b) = if whole > 0.0 {
+        (((1.0 - t) * length).sinh() / whole, (t * length).sinh() / whole)
+    } else {
+        (1.0 - t, t)
+    };
+    let [x, y] = [0, 1].map(|k| a * p[k] + b * q[k]);
+    [x, y, 1.0f64.hypot(x.hypot(y))]
 }
 
 #[cfg(test)]

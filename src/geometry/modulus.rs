@@ -1,7 +1,16 @@
 //! The modulus of a flat torus: the shape of its lattice, independent of the basis and of the scale.
+//!
+//! ```
+//! use ricci::geometry::modulus::modulus;
+//! // Another basis of the square lattice of side 2.
+//! assert_eq!(modulus([[2.0, 0.0], [6.0, 2.0]]), Some([0.0, 1.0]));
+//! ```
 
-/// Rounding of periods, relative: below this sine of their angle they count as parallel, and within this of the border of
-/// the fundamental domain a modulus lies on it. Periods developed over thousands of triangles are good to about this.
+use super::complex::{cross, dot, norm2, scale, sub};
+
+/// Relative error of the periods that is allowed for: periods with an angle of a smaller sine count as parallel, and a modulus
+/// within this distance of the border of the fundamental domain counts as on it. Periods that were developed over thousands
+/// of triangles have about this error.
 const ROUNDING: f64 = 1e-12;
 
 /// The modulus `τ = ω₂/ω₁` `[Re τ, Im τ]` of the lattice spanned by two periods, reduced under SL(2, ℤ).
@@ -22,42 +31,38 @@ pub fn modulus(periods: [[f64; 2]; 2]) -> Option<[f64; 2]> {
         return None;
     }
     (a, b) = (a.map(|x| x / largest), b.map(|x| x / largest));
-    let sine = (a[0] * b[1] - a[1] * b[0]).abs() / (dot(a, a) * dot(b, b)).sqrt();
+    let sine = cross(a, b).abs() / (norm2(a) * norm2(b)).sqrt();
     if sine.is_nan() || sine <= ROUNDING {
         return None;
     }
-    for _ in 0..ROUNDS {
-        if dot(a, a) > dot(b, b) {
+    for _ in 0..MAX_ROUNDS {
+        if norm2(a) > norm2(b) {
             (a, b) = (b, a);
         }
-        let times = (dot(a, b) / dot(a, a)).round();
+        let times = (dot(a, b) / norm2(a)).round();
         if times == 0.0 {
             break;
         }
-        let shorter = [b[0] - times * a[0], b[1] - times * a[1]];
-        if dot(shorter, shorter) >= dot(b, b) {
+        let shorter = sub(b, scale(times, a));
+        if norm2(shorter) >= norm2(b) {
             break; // Re τ = ½: both are as short as it gets
         }
         b = shorter;
     }
-    if dot(a, a) > dot(b, b) {
+    if norm2(a) > norm2(b) {
         (a, b) = (b, a);
     }
-    let norm = dot(a, a);
-    let tau = [dot(a, b) / norm, (a[0] * b[1] - a[1] * b[0]).abs() / norm];
-    // A basis of the other orientation becomes one of this by reversing b.
-    let re = if a[0] * b[1] < a[1] * b[0] { -tau[0] } else { tau[0] };
-    let on_border = re.abs() >= 0.5 - ROUNDING || re.hypot(tau[1]) <= 1.0 + ROUNDING;
-    let re = if on_border { re.abs() } else { re };
-    Some([re, tau[1]])
+    // A clockwise basis becomes counterclockwise by reversing b.
+    let area = cross(a, b);
+    let [re, im] = [dot(a, b) / norm2(a), area.abs() / norm2(a)];
+    let re = if area < 0.0 { -re } else { re };
+    let on_border = re.abs() >= 0.5 - ROUNDING || re.hypot(im) <= 1.0 + ROUNDING;
+    Some([if on_border { re.abs() } else { re }, im])
 }
 
-/// More rounds than doubles with their exponents can need (squared lengths halve each time).
-const ROUNDS: usize = 4096;
-
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
+/// Most rounds of the reduction. Squared lengths halve each time and span at most 2²⁰⁹⁸ in doubles, so that no lattice needs
+/// as many.
+const MAX_ROUNDS: usize = 4096;
 
 #[cfg(test)]
 mod tests {

@@ -1,10 +1,18 @@
 //! Exact geometric predicates (Shewchuk's adaptive arithmetic, crate `robust`).
+//!
+//! ```
+//! use ricci::geometry::predicates::orientation;
+//! use std::cmp::Ordering;
+//! // One rounding off the diagonal.
+//! assert_eq!(orientation([0.5, 0.5], [12.0, 12.0], [24.0, 24f64.next_up()]), Ordering::Greater);
+//! ```
 
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
 
-/// Powers of two that move products of coordinates out of the range where they underflow.
+/// Triangles whose coordinates are all below this are scaled by [`LIFT`] first: products of such coordinates could underflow.
 const TINY: f64 = 1.0e-120;
+/// 2⁵¹², a power of two so that scaling is exact.
 const LIFT: f64 = f64::from_bits((1023 + 512) << 52);
 
 /// On which side of the directed line ab the point c lies: `Greater` left (a, b, c counterclockwise), `Equal`

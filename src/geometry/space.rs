@@ -1,6 +1,17 @@
 //! The three background geometries.
+//!
+//! ```
+//! use ricci::geometry::Space;
+//! let space: Space = "h2".parse()?;
+//! assert_eq!((space, space.curvature()), (Space::H2, -1.0));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::error::Error;
+use std::ops::RangeInclusive;
+
+/// Lengths that the library takes, in any space: the squares of others leave the range of doubles.
+pub const USABLE_LENGTHS: RangeInclusive<f64> = 1e-150..=1e150;
 
 /// Background geometry of constant curvature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -10,7 +10,14 @@
 //! is so in the other. Similarities of the plane, `z ↦ (z − p)/t` with t > 0, are half of the Möbius transformations of the sphere; the
 //! other half are its rotations, and each Möbius transformation is a rotation after a similarity. So a similarity is also a
 //! point (p, t) of hyperbolic space in the upper half-space.
+//!
+//! ```
+//! use ricci::geometry::sphere::{lift, project};
+//! assert_eq!(lift([1.0, 0.0]), [1.0, 0.0, 0.0]);
+//! assert_eq!(project([0.0, 1.0, 0.0]), Some([0.0, 1.0]));
+//! ```
 
+use super::complex::{self, Complex};
 use super::twofold::{self, two_product, two_sum};
 use super::vector::Vector;
 
@@ -66,13 +73,13 @@ impl Similarity {
     pub const IDENTITY: Similarity = Similarity { centre: [0.0; 2], scale: 1.0 };
 
     /// The image of a point.
-    pub fn apply(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [(x - self.centre[0]) / self.scale, (y - self.centre[1]) / self.scale]
+    pub fn apply(&self, z: Complex) -> Complex {
+        complex::sub(z, self.centre).map(|x| x / self.scale)
     }
 
-    /// The point that goes there.
-    pub fn before(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.scale * x + self.centre[0], self.scale * y + self.centre[1]]
+    /// The point whose image is this one.
+    pub fn before(&self, z: Complex) -> Complex {
+        complex::add(complex::scale(self.scale, z), self.centre)
     }
 
     /// The point of hyperbolic space at `distance` from this one, in the direction of the unit vector `to` of the unit sphere: towards
@@ -82,11 +89,8 @@ impl Similarity {
     pub fn towards(&self, to: Vector, distance: f64) -> Similarity {
         let (sinh, cosh) = (distance.sinh(), distance.cosh());
         let t = 1.0 / (cosh + to[2] * sinh);
-        let [x, y] = [to[0], to[1]].map(|x| x * sinh * t);
-        Similarity {
-            centre: [self.centre[0] + self.scale * x, self.centre[1] + self.scale * y],
-            scale: self.scale * t,
-        }
+        let step = [to[0], to[1]].map(|x| x * sinh * t);
+        Similarity { centre: self.before(step), scale: self.scale * t }
     }
 }
 

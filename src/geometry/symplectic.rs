@@ -1,4 +1,11 @@
 //! Symplectic bases of integer lattices.
+//!
+//! ```
+//! use ricci::geometry::symplectic::symplectic_basis;
+//! // Two curves that meet once, the second crossing the first from left to right.
+//! let basis = symplectic_basis(&[vec![0, -1], vec![1, 0]]).unwrap();
+//! assert_eq!(basis, [[1, 0], [0, -1]]);
+//! ```
 
 /// A basis a_1 … a_g, b_1 … b_g of ℤ^{2g} with `a_i·b_j = δ_ij` and all other products 0, for the antisymmetric form
 /// with this matrix (2g × 2g). Rows are the basis vectors in terms of the old ones.

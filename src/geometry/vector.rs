@@ -1,4 +1,9 @@
 //! Vectors in space.
+//!
+//! ```
+//! use ricci::geometry::vector::{cross, norm};
+//! assert_eq!(norm(cross([2.0, 0.0, 0.0], [0.0, 3.0, 0.0])), 6.0);
+//! ```
 
 /// x, y, z.
 pub type Vector = [f64; 3];

@@ -1,4 +1,11 @@
-//! The worst of many errors. [`f64::max`] drops a NaN, and what could not be computed would look like a pass.
+//! The largest of many errors, where NaN counts as infinite: [`f64::max`] ignores NaN, and an error that could not be computed would
+//! pass for a small one.
+//!
+//! ```
+//! use ricci::geometry::largest;
+//! assert_eq!(largest(&[1.0, -3.0]), 3.0);
+//! assert_eq!(largest(&[1.0, f64::NAN]), f64::INFINITY);
+//! ```
 
 /// The larger of two; ∞ where one is NaN.
 pub fn worse(a: f64, b: f64) -> f64 {

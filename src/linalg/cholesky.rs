@@ -27,14 +27,26 @@ pub struct Cholesky {
 pub struct NotPositiveDefinite;
 
 impl Cholesky {
-    /// Analyse a pattern: fill-reducing order (AMD), elimination tree, supernodes; memory for the factor.
+    /// Analyse a pattern: fill-reducing order (AMD [ADD96]), elimination tree, supernodes; memory for the factor.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Factorisation`] where the analysis fails or memory for the factor is lacking.
     pub fn analyse(pattern: &Pattern) -> Result<Cholesky> {
         Cholesky::with_order(pattern, SymmetricOrdering::Amd)
     }
 
-    /// Analyse a pattern of the same size in this one's order: good where few entries differ, and the order is most of the work.
-    pub fn analyse_again(&self, pattern: &Pattern) -> Result<Cholesky> {
-        match self.symbolic.perm() {
+    /// Analyse another pattern of the same size with the order found for this one. The order is most of the work of an analysis, and
+    /// stays good where few entries differ. The factor of this pattern is released first. A pattern of another size is analysed from
+    /// scratch.
+    ///
+    /// # Errors
+    ///
+    /// As [`Cholesky::analyse`].
+    pub fn analyse_again(self, pattern: &Pattern) -> Result<Cholesky> {
+        let Cholesky { symbolic, factor, scratch } = self;
+        drop((factor, scratch));
+        match symbolic.perm() {
             Some(order) if order.len() == pattern.size() => {
                 Cholesky::with_order(pattern, SymmetricOrdering::Custom(order))
             }
@@ -72,6 +84,10 @@ impl Cholesky {
     }
 
     /// Factorise a matrix with the analysed pattern.
+    ///
+    /// # Errors
+    ///
+    /// [`NotPositiveDefinite`], after which there is no factor to solve with.
     pub fn factor(&mut self, matrix: Symmetric<'_>) -> std::result::Result<(), NotPositiveDefinite> {
         let a = SparseColMatRef::new(structure(matrix.pattern), matrix.values);
         self.symbolic
@@ -88,7 +104,11 @@ impl Cholesky {
             .map_err(|_| NotPositiveDefinite)
     }
 
-    /// Overwrite `x` (n entries) with `A⁻¹ x`, A being the matrix factorised last.
+    /// Overwrite `x` with `A⁻¹ x`, A being the matrix factorised last.
+    ///
+    /// # Panics
+    ///
+    /// If `x` does not have n entries.
     pub fn solve(&mut self, x: &mut [f64]) {
         let n = x.len();
         LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(

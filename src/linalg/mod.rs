@@ -1,4 +1,18 @@
 //! Sparse symmetric positive definite systems: a fixed pattern, refilled and refactorised.
+//!
+//! ```
+//! use ricci::linalg::{Cholesky, Pattern, Symmetric};
+//! // [[2, 1], [1, 2]] x = [3, 3]
+//! let pattern = Pattern::new(2, &[(0, 1)])?;
+//! let mut values = vec![2.0; pattern.entries()];
+//! values[pattern.position(0, 1).unwrap()] = 1.0;
+//! let mut cholesky = Cholesky::analyse(&pattern)?;
+//! cholesky.factor(Symmetric { pattern: &pattern, values: &values }).unwrap();
+//! let mut x = [3.0, 3.0];
+//! cholesky.solve(&mut x);
+//! assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-15));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 pub mod cholesky;
 pub mod pattern;

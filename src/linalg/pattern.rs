@@ -12,7 +12,15 @@ pub struct Pattern {
 
 impl Pattern {
     /// The pattern with a full diagonal and the off-diagonal entries (i, j) of `pairs` (either order; repeated
-    /// pairs are one entry; pairs with i = j are on the diagonal anyway). All indices must be below `n`.
+    /// pairs are one entry; pairs with i = j are on the diagonal anyway).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TooLarge`] for more entries than a u32 can number.
+    ///
+    /// # Panics
+    ///
+    /// If an index is not below `n`.
     pub fn new(n: usize, pairs: &[(u32, u32)]) -> Result<Pattern> {
         let pairs = pairs.iter().filter(|(i, j)| i != j).map(|&(i, j)| (i.max(j), i.min(j)));
         let total = n + pairs.clone().count();
@@ -96,6 +104,10 @@ impl Symmetric<'_> {
     }
 
     /// `y = b − A x`.
+    ///
+    /// # Panics
+    ///
+    /// If an array does not have n entries.
     pub fn residual(&self, x: &[f64], b: &[f64], y: &mut [f64]) {
         y.copy_from_slice(b);
         for (i, j, a) in self.entries() {

@@ -1,4 +1,13 @@
 //! Arrays with one entry per element, indexed by the element's typed id and owned by the caller.
+//!
+//! ```
+//! use ricci::mesh::{EdgeId, Mesh, PerEdge};
+//! let mesh = Mesh::from_faces(3, &[[0, 1, 2]])?;
+//! let mut lengths = PerEdge::filled(mesh.n_edges(), 1.0);
+//! lengths[EdgeId(0)] = 1.5;
+//! assert_eq!(lengths.iter().sum::<f64>(), 3.5);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 use std::marker::PhantomData;

@@ -6,6 +6,7 @@ use super::ids::{FaceId, HalfedgeId};
 use super::incidence::{Incidence, NONE};
 use super::io::Soup;
 use crate::error::{Error, Result, check_size};
+use std::cmp::Reverse;
 
 impl Mesh {
     /// The surface of an indexed triangle list (0-based, counterclockwise).
@@ -38,75 +39,15 @@ impl Mesh {
     /// half-edge `2(e − 1)` is that direction. Each edge is named once (boundary) or twice, with opposite
     /// signs.
     ///
-    /// Errors: [`Error::Gluing`] for edge numbers that break these rules or glue different vertices,
+    /// # Errors
+    ///
+    /// [`Error::Gluing`] for edge numbers that break these rules or glue different vertices,
     /// [`Error::Defects`] for a consistent gluing that is not one surface in which every vertex is the centre
     /// of one fan.
     pub fn from_gluing(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Result<Mesh> {
         check_counts(n_vertices, faces.len())?;
         check_size("face_edges", face_edges.len(), faces.len())?;
-        let n_edges = face_edges.iter().flatten().map(|e| e.unsigned_abs() as usize).max().unwrap_or(0);
-        if n_edges > 3 * faces.len() {
-            let f = face_edges.iter().position(|e| e.iter().any(|e| e.unsigned_abs() as usize == n_edges));
-            return Err(gluing(
-                f.unwrap_or(0),
-                format!(
-                    "edge number {n_edges} exceeds the number of sides; number edges from 1 without gaps"
-                ),
-            ));
-        }
-        let mut origin = vec![NONE; 2 * n_edges];
-        let mut used = vec![false; 2 * n_edges];
-        let mut sides = vec![[NONE; 3]; faces.len()];
-        for (f, (corners, edges)) in faces.iter().zip(face_edges).enumerate() {
-            if let Some(v) = corners.iter().find(|&&v| v as usize >= n_vertices) {
-                return Err(gluing(
-                    f,
-                    format!("vertex {v} does not exist; the {n_vertices} vertices are numbered from 0"),
-                ));
-            }
-            for k in 0..3 {
-                // The side from corner k is opposite corner k + 2.
-                let edge = edges[(k + 2) % 3];
-                if edge == 0 {
-                    return Err(gluing(f, "edge number 0: edges are numbered from 1".into()));
-                }
-                let h = 2 * (edge.unsigned_abs() as usize - 1) + usize::from(edge < 0);
-                if std::mem::replace(&mut used[h], true) {
-                    return Err(gluing(
-                        f,
-                        format!(
-                            "edge {} is named twice in this direction; the two faces of an edge run along it in opposite directions",
-                            edge.unsigned_abs()
-                        ),
-                    ));
-                }
-                for (h, v) in [(h, corners[k]), (h ^ 1, corners[(k + 1) % 3])] {
-                    if origin[h] != NONE && origin[h] != v {
-                        return Err(gluing(
-                            f,
-                            format!(
-                                "edge {} starts or ends at vertex {v} here, at vertex {} elsewhere; glue sides with the same ends",
-                                edge.unsigned_abs(),
-                                origin[h]
-                            ),
-                        ));
-                    }
-                    origin[h] = v;
-                }
-                sides[f][k] = h as u32;
-            }
-        }
-        if let Some(e) = (0..n_edges).find(|e| !used[2 * e] && !used[2 * e + 1]) {
-            let f =
-                face_edges.iter().position(|edges| edges.iter().any(|n| n.unsigned_abs() as usize > e + 1));
-            return Err(gluing(
-                f.unwrap_or(0),
-                format!(
-                    "the edge numbers go up to {n_edges}, but no face names edge {}; number edges from 1 without gaps",
-                    e + 1
-                ),
-            ));
-        }
+        let (origin, sides) = glue(n_vertices, faces, face_edges)?;
         let diagnosis = diagnose_gluing(n_vertices, faces, &origin, &sides);
         if !diagnosis.defects.is_empty() {
             return Err(Error::Defects(Box::new(diagnosis)));
@@ -127,6 +68,74 @@ impl Mesh {
             self.edges().map(|e| self.ends(e)).map(|[a, b]| (a.min(b), a.max(b))).collect();
         ends.sort_unstable();
         ends.iter().all(|(a, b)| a != b) && ends.windows(2).all(|w| w[0] != w[1])
+    }
+}
+
+/// The origin of each half-edge, and the three half-edges of each face, of a gluing as [`Mesh::from_gluing`] takes it.
+fn glue(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Result<(Vec<u32>, Vec<[u32; 3]>)> {
+    let refuse = |face: usize, message: String| Err(Error::Gluing { face, message });
+    let numbers = |edges: &[i32; 3]| edges.map(|e| e.unsigned_abs() as usize);
+    let named = face_edges.iter().map(numbers).enumerate();
+    let highest = named.flat_map(|(f, edges)| edges.map(|e| (e, Reverse(f)))).max();
+    let n_edges = highest.map_or(0, |(e, _)| e);
+    if let Some((e, Reverse(f))) = highest.filter(|&(e, _)| e > 3 * faces.len()) {
+        return refuse(
+            f,
+            format!("edge number {e} exceeds the number of sides; number edges from 1 without gaps"),
+        );
+    }
+    let mut origin = vec![NONE; 2 * n_edges];
+    let mut used = vec![false; 2 * n_edges];
+    let mut sides = vec![[NONE; 3]; faces.len()];
+    for (f, (corners, edges)) in faces.iter().zip(face_edges).enumerate() {
+        if let Some(v) = corners.iter().find(|&&v| v as usize >= n_vertices) {
+            let message = format!("vertex {v} does not exist; the {n_vertices} vertices are numbered from 0");
+            return refuse(f, message);
+        }
+        for k in 0..3 {
+            // The side from corner k is opposite corner k + 2.
+            let edge = edges[(k + 2) % 3];
+            let Some(e) = edge.unsigned_abs().checked_sub(1) else {
+                return refuse(f, "edge number 0: edges are numbered from 1".into());
+            };
+            let h = 2 * e as usize + usize::from(edge < 0);
+            if std::mem::replace(&mut used[h], true) {
+                return refuse(
+                    f,
+                    format!(
+                        "edge {} is named twice in this direction; the two faces of an edge run along it in opposite directions",
+                        e + 1
+                    ),
+                );
+            }
+            for (h, v) in [(h, corners[k]), (h ^ 1, corners[(k + 1) % 3])] {
+                if origin[h] != NONE && origin[h] != v {
+                    return refuse(
+                        f,
+                        format!(
+                            "edge {} starts or ends at vertex {v} here, at vertex {} elsewhere; glue sides with the same ends",
+                            e + 1,
+                            origin[h]
+                        ),
+                    );
+                }
+                origin[h] = v;
+            }
+            sides[f][k] = h as u32;
+        }
+    }
+    // Some face names a higher number than that of a gap.
+    let gap = (0..n_edges).find(|e| !used[2 * e] && !used[2 * e + 1]);
+    let after = |gap: usize| face_edges.iter().position(|edges| numbers(edges).iter().any(|&e| e > gap + 1));
+    match gap.and_then(|gap| Some((gap, after(gap)?))) {
+        Some((gap, f)) => refuse(
+            f,
+            format!(
+                "the edge numbers go up to {n_edges}, but no face names edge {}; number edges from 1 without gaps",
+                gap + 1
+            ),
+        ),
+        None => Ok((origin, sides)),
     }
 }
 
@@ -168,8 +177,4 @@ fn check_counts(n_vertices: usize, n_faces: usize) -> Result<()> {
         return Err(Error::Argument { what: "number of vertices", value, need: "three per face or fewer" });
     }
     Ok(())
-}
-
-fn gluing(face: usize, message: String) -> Error {
-    Error::Gluing { face, message }
 }

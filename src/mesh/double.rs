@@ -2,7 +2,7 @@
 
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_size};
 
 /// Two copies of a surface, the second mirrored, glued along the boundary: a closed surface with a mirror symmetry.
 ///
@@ -80,34 +80,57 @@ impl Double {
         f.index() < self.counts[2]
     }
 
-    /// Per edge of the double, before any flip, the value of the edge that it is or mirrors (E entries).
-    pub fn spread_edges<T: Copy>(&self, values: &[T]) -> Vec<T> {
-        self.edge_origin.iter().map(|&e| values[e as usize]).collect()
+    /// Per edge of the double, before any flip, the value of the edge that it is or mirrors.
+    ///
+    /// # Errors
+    /// [`Error::Size`] unless there is one value per edge of the surface.
+    pub fn spread_edges<T: Copy>(&self, values: &[T]) -> Result<Vec<T>> {
+        check_size("values of the edges", values.len(), self.counts[1])?;
+        Ok(self.edge_origin.iter().map(|&e| values[e as usize]).collect())
     }
 
-    /// These edges of the surface, and their mirror images.
-    pub fn with_images(&self, edges: &[EdgeId]) -> Vec<EdgeId> {
+    /// These edges of the surface, and their mirror images, ascending.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for an edge that the surface does not have.
+    pub fn with_images(&self, edges: &[EdgeId]) -> Result<Vec<EdgeId>> {
         let mut chosen = vec![false; self.counts[1]];
-        edges.iter().filter(|e| e.index() < self.counts[1]).for_each(|e| chosen[e.index()] = true);
+        for e in edges {
+            match chosen.get_mut(e.index()) {
+                Some(chosen) => *chosen = true,
+                None => {
+                    let need = "an edge of the surface that was doubled";
+                    return Err(Error::Argument { what: "edge", value: e.to_string(), need });
+                }
+            }
+        }
         let all = (0..self.edge_origin.len()).filter(|&e| chosen[self.edge_origin[e] as usize]);
-        all.map(|e| EdgeId(e as u32)).collect()
+        Ok(all.map(EdgeId::from).collect())
     }
 
-    /// Per vertex of the double, the value of the vertex that it is or mirrors (V entries).
-    pub fn spread_vertices<T: Copy>(&self, values: &[T]) -> Vec<T> {
+    /// Per vertex of the double, the value of the vertex that it is or mirrors.
+    ///
+    /// # Errors
+    /// [`Error::Size`] unless there is one value per vertex of the surface.
+    pub fn spread_vertices<T: Copy>(&self, values: &[T]) -> Result<Vec<T>> {
         let n = self.counts[0];
-        (0..self.mirror.len()).map(|v| values[if v < n { v } else { self.mirror[v] as usize }]).collect()
+        check_size("values of the vertices", values.len(), n)?;
+        Ok((0..self.mirror.len()).map(|v| values[if v < n { v } else { self.mirror[v] as usize }]).collect())
     }
 
-    /// The target on the double of a target on the surface: curvature on both sides of the boundary adds up.
-    pub fn target(&self, target: &[f64]) -> Vec<f64> {
-        let mut all = self.spread_vertices(target);
+    /// The target on the double of a target on the surface (curvature per vertex, radians): the same at mirror images; on the boundary
+    /// of the surface, where both halves meet, twice as much.
+    ///
+    /// # Errors
+    /// [`Error::Size`] unless there is one value per vertex of the surface.
+    pub fn target(&self, target: &[f64]) -> Result<Vec<f64>> {
+        let mut all = self.spread_vertices(target)?;
         for (v, curvature) in all.iter_mut().enumerate() {
             if self.mirror[v] as usize == v {
                 *curvature *= 2.0;
             }
         }
-        all
+        Ok(all)
     }
 }
 
@@ -145,14 +168,28 @@ mod tests {
             }
             // Edges are mirrored with their ends.
             let lengths: Vec<[VertexId; 2]> = half.edges().map(|e| half.ends(e)).collect();
-            for (e, [a, b]) in double.spread_edges(&lengths).into_iter().enumerate() {
+            for (e, [a, b]) in double.spread_edges(&lengths).unwrap().into_iter().enumerate() {
                 let ends = double.mesh.ends(EdgeId(e as u32));
                 assert!(ends == [a, b] || ends == [a, b].map(|v| double.mirror(v)));
             }
-            let ones = double.target(&vec![1.0; half.n_vertices()]);
+            let ones = double.target(&vec![1.0; half.n_vertices()]).unwrap();
             assert_eq!(ones.iter().sum::<f64>(), 2.0 * half.n_vertices() as f64);
         }
         assert!(Double::new(&Mesh::from_soup(&shapes::icosphere(1).unwrap()).unwrap()).is_err());
+    }
+
+    #[test]
+    fn values_of_another_surface_are_refused() {
+        let half = Mesh::from_soup(&shapes::disk(2).unwrap()).unwrap();
+        let double = Double::new(&half).unwrap();
+        let [n, e] = [half.n_vertices(), half.n_edges()];
+        for wrong in [0, n - 1, n + 1] {
+            assert!(matches!(double.target(&vec![1.0; wrong]), Err(Error::Size { .. })));
+            assert!(matches!(double.spread_vertices(&vec![1; wrong]), Err(Error::Size { .. })));
+        }
+        assert!(matches!(double.spread_edges(&vec![1.0; e + 1]), Err(Error::Size { .. })));
+        assert!(matches!(double.with_images(&[EdgeId::from(e)]), Err(Error::Argument { .. })));
+        assert!(double.with_images(&[EdgeId::from(e - 1)]).unwrap().contains(&EdgeId::from(e - 1)));
     }
 
     #[test]

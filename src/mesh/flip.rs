@@ -1,7 +1,68 @@
-//! Edge flips.
+//! Edge flips, and the edges that are kept from them.
 
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, HalfedgeId};
+use crate::error::{Error, Result};
+
+/// A flip of an edge that carries a value: its length, or its weight η. Whoever follows flips is told it just before it is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flip {
+    /// The edge. The other diagonal keeps its number.
+    pub edge: EdgeId,
+    /// The value of the edge before the flip.
+    pub value: f64,
+}
+
+/// A set of edges of one surface that are not to be flipped. The default is the empty set, which fits every surface.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct FixedEdges {
+    /// Per edge, whether it is in the set; empty if none is.
+    is_fixed: Vec<bool>,
+}
+
+impl FixedEdges {
+    /// No edge at all.
+    pub const fn none() -> FixedEdges {
+        FixedEdges { is_fixed: Vec::new() }
+    }
+
+    /// The set of these edges of `mesh`, in any order. O(E).
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for an edge that the mesh does not have.
+    pub fn new(mesh: &Mesh, edges: &[EdgeId]) -> Result<FixedEdges> {
+        if edges.is_empty() {
+            return Ok(FixedEdges::none());
+        }
+        let mut is_fixed = vec![false; mesh.n_edges()];
+        for e in edges {
+            match is_fixed.get_mut(e.index()) {
+                Some(is_fixed) => *is_fixed = true,
+                None => {
+                    let need = "an existing edge";
+                    return Err(Error::Argument { what: "fixed edge", value: e.to_string(), need });
+                }
+            }
+        }
+        Ok(FixedEdges { is_fixed })
+    }
+
+    /// Whether the edge is in the set. O(1).
+    #[inline]
+    pub fn contains(&self, e: EdgeId) -> bool {
+        self.is_fixed.get(e.index()).is_some_and(|&fixed| fixed)
+    }
+}
+
+/// The names that a flip gives away, with which [`Mesh::unflip`] restores a mesh bit for bit: flipping four times turns an edge back,
+/// but leaves its faces with another first corner and its ends with another outgoing half-edge.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unflip {
+    /// Which of the sides of the left and the right face, counted from the edge, is at the face's first corner.
+    first: [u8; 2],
+    /// Whether the outgoing half-edge of the origin, of the tip, is the edge itself.
+    is_out: [bool; 2],
+}
 
 impl Mesh {
     /// Replace an edge by the other diagonal of the quadrilateral of its two faces.
@@ -38,6 +99,44 @@ impl Mesh {
             }
         }
         true
+    }
+
+    /// What [`Mesh::unflip`] needs to know of the mesh before a flip of an edge between two faces.
+    pub(super) fn before_flip(&self, e: EdgeId) -> Unflip {
+        let sides = [e.halfedge(), e.halfedge().twin()];
+        let first = sides.map(|h| {
+            let is_first = |h: HalfedgeId| self.face(h).is_some_and(|f| self.face_halfedge(f) == h);
+            if is_first(h) {
+                0
+            } else if is_first(self.next(h)) {
+                1
+            } else {
+                2
+            }
+        });
+        Unflip { first, is_out: sides.map(|h| self.out(self.origin(h)) == h) }
+    }
+
+    /// Undo the last flip, which was one of this edge. `before` is what [`Mesh::before_flip`] gave; the mesh is then bit for bit what
+    /// it was. Does nothing for an edge without two faces, which no flip leaves.
+    pub(super) fn unflip(&mut self, e: EdgeId, before: Unflip) {
+        let h = e.halfedge();
+        let t = h.twin();
+        let (Some(f), Some(g)) = (self.face(h), self.face(t)) else { return };
+        let (ca, ad) = (self.next(h), self.prev(h));
+        let (db, bc) = (self.next(t), self.prev(t));
+        let [a, b] = [ad, bc].map(|x| self.origin(x));
+        for (face, mut sides, first) in [(f, [h, bc, ca], before.first[0]), (g, [t, ad, db], before.first[1])]
+        {
+            sides.rotate_left(usize::from(first));
+            self.set_triangle(face, sides);
+        }
+        for (halfedge, v, is_out) in [(h, a, before.is_out[0]), (t, b, before.is_out[1])] {
+            self.set_origin(halfedge, v);
+            if is_out {
+                self.set_out(v, halfedge);
+            }
+        }
     }
 
     /// The sides of the quadrilateral around an interior edge h = a → b with opposite vertices c (left) and d (right): `[b → c,

@@ -16,8 +16,8 @@
 use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 use crate::error::{Error, Result};
 
-/// "No face": marks the half-edges outside the surface.
-const NONE: u32 = u32::MAX;
+/// In the array of faces: the half-edge lies outside the surface. In arrays that are being filled: nothing is there yet.
+const OUTSIDE: u32 = u32::MAX;
 
 /// Connectivity of a triangulated surface; knows no position and no length.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,7 +26,7 @@ pub struct Mesh {
     next: Vec<u32>,
     /// Per half-edge: the vertex it starts at.
     origin: Vec<u32>,
-    /// Per half-edge: its face, or `NONE`.
+    /// Per half-edge: its face, or `OUTSIDE`.
     face: Vec<u32>,
     /// Per vertex: an outgoing half-edge; the one outside the surface if the vertex is on the boundary.
     out: Vec<u32>,
@@ -43,10 +43,10 @@ impl Mesh {
     /// [`Error::Connectivity`].
     pub(crate) fn assemble(n_vertices: usize, origin: Vec<u32>, sides: &[[u32; 3]]) -> Result<Mesh> {
         let n = origin.len();
-        let (mut next, mut face) = (vec![NONE; n], vec![NONE; n]);
+        let (mut next, mut face) = (vec![OUTSIDE; n], vec![OUTSIDE; n]);
         for (f, s) in sides.iter().enumerate() {
             for k in 0..3 {
-                if face[s[k] as usize] != NONE {
+                if face[s[k] as usize] != OUTSIDE {
                     return Err(broken("half-edge", s[k] as usize, "is used by two faces"));
                 }
                 face[s[k] as usize] = f as u32;
@@ -55,18 +55,18 @@ impl Mesh {
         }
         // Outside: after the boundary half-edge h comes the outside half-edge leaving its tip, found by turning
         // around the tip through its faces.
-        for h in (0..n).filter(|&h| face[h] == NONE) {
+        for h in (0..n).filter(|&h| face[h] == OUTSIDE) {
             let mut around = h ^ 1;
-            while face[around] != NONE {
+            while face[around] != OUTSIDE {
                 let prev = next[next[around] as usize] as usize;
                 around = prev ^ 1;
             }
             next[h] = around as u32;
         }
-        let mut out = vec![NONE; n_vertices];
+        let mut out = vec![OUTSIDE; n_vertices];
         for h in 0..n {
             let v = origin[h] as usize;
-            if out[v] == NONE || face[h] == NONE {
+            if out[v] == OUTSIDE || face[h] == OUTSIDE {
                 out[v] = h as u32;
             }
         }
@@ -134,7 +134,7 @@ impl Mesh {
     #[inline]
     pub fn face(&self, h: HalfedgeId) -> Option<FaceId> {
         let f = self.face[h.index()];
-        (f != NONE).then_some(FaceId(f))
+        (f != OUTSIDE).then_some(FaceId(f))
     }
     /// The half-edge of the face's first corner.
     #[inline]
@@ -147,10 +147,21 @@ impl Mesh {
         let h = self.face_halfedge(f);
         [h, self.next(h), self.prev(h)]
     }
+    /// The face of a half-edge, and which of the face's corners is at its origin; `None` outside the surface.
+    #[inline]
+    pub fn corner(&self, h: HalfedgeId) -> Option<(FaceId, usize)> {
+        let f = self.face(h)?;
+        let corner = self.face_halfedges(f).iter().position(|&side| side == h)?;
+        Some((f, corner))
+    }
     /// The face's vertices in corner order.
     #[inline]
     pub fn face_vertices(&self, f: FaceId) -> [VertexId; 3] {
         self.face_halfedges(f).map(|h| self.origin(h))
+    }
+    /// The vertices of every face in corner order: the mesh as a triangle list.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        self.faces().map(|f| self.face_vertices(f).map(|v| v.0)).collect()
     }
     /// The edges opposite the face's corners: `[bc, ca, ab]` for the face `(a, b, c)`.
     #[inline]
@@ -178,7 +189,7 @@ impl Mesh {
     /// Whether the half-edge lies outside the surface.
     #[inline]
     pub fn is_outside(&self, h: HalfedgeId) -> bool {
-        self.face[h.index()] == NONE
+        self.face[h.index()] == OUTSIDE
     }
     /// Whether the edge has a face on one side only.
     #[inline]
@@ -192,7 +203,7 @@ impl Mesh {
     }
     /// Whether the surface has no boundary.
     pub fn is_closed(&self) -> bool {
-        !self.face.contains(&NONE)
+        !self.face.contains(&OUTSIDE)
     }
 
     /// The boundary loops, each as its outside half-edges in order.
@@ -242,8 +253,19 @@ impl Mesh {
         self.out[v.index()] = h.0;
     }
 
-    /// Check every rule of the structure; the first broken one is an [`Error::Connectivity`]. O(V + E + F).
+    /// Check every rule of the structure. O(V + E + F).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Connectivity`] for the first rule that is broken.
     pub fn validate(&self) -> Result<()> {
+        self.validate_halfedges()?;
+        self.validate_faces()?;
+        self.validate_vertices()
+    }
+
+    /// Array sizes, and what holds between a half-edge, its twin and the next one.
+    fn validate_halfedges(&self) -> Result<()> {
         let n = self.n_halfedges();
         if !n.is_multiple_of(2) || self.origin.len() != n || self.face.len() != n {
             return Err(broken("mesh", 0, "half-edge arrays of different or odd size"));
@@ -263,10 +285,16 @@ impl Mesh {
             if self.face[next] != self.face[h] {
                 return Err(broken("half-edge", h, "next lies in another face"));
             }
-            if self.face[h] == NONE && self.face[h ^ 1] == NONE {
+            if self.face[h] == OUTSIDE && self.face[h ^ 1] == OUTSIDE {
                 return Err(broken("edge", h >> 1, "has no face on either side"));
             }
         }
+        Ok(())
+    }
+
+    /// Faces are triangles, and all half-edges that name a face are sides of one.
+    fn validate_faces(&self) -> Result<()> {
+        let n = self.n_halfedges();
         for (f, &h) in self.first.iter().enumerate() {
             let h = h as usize;
             if h >= n || self.face[h] as usize != f {
@@ -277,9 +305,15 @@ impl Mesh {
                 return Err(broken("face", f, "is not a triangle"));
             }
         }
-        if self.face.iter().filter(|&&f| f != NONE).count() != 3 * self.n_faces() {
+        if self.face.iter().filter(|&&f| f != OUTSIDE).count() != 3 * self.n_faces() {
             return Err(broken("mesh", 0, "half-edges in faces are not three per face"));
         }
+        Ok(())
+    }
+
+    /// Turning around each vertex meets each half-edge once, and at most one boundary.
+    fn validate_vertices(&self) -> Result<()> {
+        let n = self.n_halfedges();
         let mut reached = 0;
         for v in self.vertices() {
             let out = self.out[v.index()] as usize;

@@ -1,5 +1,5 @@
 //! The rules of the half-edge structure on small surfaces, and that `validate` notices each broken one.
-use super::{Mesh, NONE};
+use super::{Mesh, OUTSIDE};
 use crate::mesh::VertexId;
 
 /// A disk of four faces around vertex 0, an annulus, a tetrahedron, the one-vertex torus and a cone whose
@@ -111,7 +111,7 @@ fn validate_notices_every_single_wrong_entry() {
     };
     for mesh in surfaces() {
         for h in 0..mesh.n_halfedges() {
-            for value in (0..mesh.n_halfedges() as u32 + 1).chain([NONE]) {
+            for value in (0..mesh.n_halfedges() as u32 + 1).chain([OUTSIDE]) {
                 for array in ["next", "origin", "face"] {
                     wrong(&mesh, array, h, value);
                 }
@@ -119,7 +119,7 @@ fn validate_notices_every_single_wrong_entry() {
         }
         for v in 0..mesh.n_vertices() {
             let mut broken = mesh.clone();
-            broken.out[v] = NONE;
+            broken.out[v] = OUTSIDE;
             assert!(broken.validate().is_err());
             if mesh.is_boundary_vertex(VertexId(v as u32)) {
                 broken.out[v] = mesh.out[v] ^ 1;

@@ -3,7 +3,9 @@
 //! Side `3f + k` is the side of face f from its corner k to corner k + 1. Faces that name a missing vertex or
 //! a vertex twice have no sides.
 
-/// No face, no side.
+use super::union_find::UnionFind;
+
+/// In an array of faces or sides: there is none.
 pub(super) const NONE: u32 = u32::MAX;
 
 pub(super) struct Incidence {
@@ -151,30 +153,4 @@ pub(super) fn is_forward(faces: &[[u32; 3]], side: u32) -> bool {
 
 fn distinct(f: &[u32; 3]) -> bool {
     f[0] != f[1] && f[1] != f[2] && f[2] != f[0]
-}
-
-/// Disjoint sets. The root of a set is its smallest member.
-pub(super) struct UnionFind(Vec<u32>);
-
-impl UnionFind {
-    pub fn new(n: usize) -> UnionFind {
-        UnionFind((0..n as u32).collect())
-    }
-
-    /// The root of the set of `i`.
-    pub fn root(&mut self, mut i: u32) -> u32 {
-        while self.0[i as usize] != i {
-            // Path halving.
-            let above = self.0[self.0[i as usize] as usize];
-            self.0[i as usize] = above;
-            i = above;
-        }
-        i
-    }
-
-    /// Make one set of those of `a` and `b`.
-    pub fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }

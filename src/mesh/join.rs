@@ -1,6 +1,7 @@
 //! Joining vertices in the same place without making edges of more than two faces.
 
-use super::incidence::{Incidence, UnionFind, ends};
+use super::incidence::{Incidence, ends};
+use super::union_find::UnionFind;
 use std::collections::HashSet;
 
 /// An edge in which more than two faces would meet if all vertices in its ends' places were joined.
@@ -30,7 +31,9 @@ pub(super) fn join(faces: &[[u32; 3]], first: &[u32]) -> (Vec<[u32; 3]>, Vec<Ref
         clusters.join(a, b);
         clusters.join(a, c);
     }
-    crowds.iter().for_each(|crowd| clusters.join(crowd.vertices[0], crowd.vertices[1]));
+    for RefusedWeld { vertices: [a, b], .. } in &crowds {
+        clusters.join(*a, *b);
+    }
     let mut refused = vec![false; n];
     crowds.iter().for_each(|crowd| refused[clusters.root(crowd.vertices[0]) as usize] = true);
 

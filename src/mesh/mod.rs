@@ -1,10 +1,20 @@
 //! Connectivity, building from index buffers, diagnosis, files and generators. Nothing here knows a metric.
+//!
+//! ```
+//! use ricci::mesh::{Mesh, VertexId};
+//! let tetrahedron = Mesh::from_faces(4, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])?;
+//! assert_eq!((tetrahedron.n_edges(), tetrahedron.genus()), (6, 0));
+//! let neighbours = tetrahedron.outgoing(VertexId(3)).map(|h| tetrahedron.tip(h).0);
+//! assert_eq!(neighbours.count(), 3);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 pub mod attribute;
 pub mod build;
 pub mod check;
 pub mod double;
-mod flip;
+pub mod flip;
+pub mod flip_log;
 pub mod halfedge;
 pub mod ids;
 mod incidence;
@@ -14,10 +24,13 @@ pub mod normal;
 pub mod normal_trace;
 pub mod repair;
 pub mod shapes;
+pub(crate) mod union_find;
 mod weld;
 
 pub use attribute::{PerEdge, PerFace, PerHalfedge, PerVertex};
 pub use double::Double;
+pub use flip::{FixedEdges, Flip};
+pub use flip_log::FlipLog;
 pub use halfedge::Mesh;
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use normal::NormalCoordinates;

@@ -13,15 +13,16 @@
 //! ```
 //!
 //! *Roundabouts* tell the curves apart: per half-edge h the first curve, counterclockwise from h (h included), that leaves its
-//! origin, as a number in the given triangulation's order around that vertex. Curves leave a vertex in the same order for ever.
+//! origin, as a number in the given triangulation's order around that vertex. No flip changes the order in which curves leave a vertex.
 //!
-//! A flip changes one coordinate and two roundabouts. All of it is integers: nothing is rounded, and nothing can go wrong.
+//! A flip changes one coordinate and two roundabouts. All of these are integers, so nothing is rounded.
 
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, HalfedgeId};
 use crate::error::{Error, Result, check_size};
 
-/// Coordinates beyond this are given up: no curve that long could be traced.
+/// Largest coordinate that is kept; beyond it the coordinates are marked as out of range. A curve with so many crossings could not be
+/// traced, and sums of up to 16 coordinates stay in the range of i64.
 const MOST: i64 = i64::MAX / 16;
 
 /// The given triangulation as curves on the current one.
@@ -36,6 +37,14 @@ pub struct NormalCoordinates {
     /// The half-edges of the given triangulation, counterclockwise around each vertex; on the boundary the one outside is last.
     given: Vec<HalfedgeId>,
     /// The first edge whose coordinate left the range.
+    overflow: Option<EdgeId>,
+}
+
+/// What one flip changes of [`NormalCoordinates`], to undo it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EdgeCoordinates {
+    crossings: i64,
+    first: [u32; 2],
     overflow: Option<EdgeId>,
 }
 
@@ -116,6 +125,24 @@ impl NormalCoordinates {
         let (cd, dc_first) = (at_c % degree(ca), at_d % degree(db));
         self.crossings[e.index()] = dc.min(MOST);
         (self.first[h.index()], self.first[t.index()]) = (dc_first as u32, cd as u32);
+    }
+
+    /// All that a flip of this edge will change.
+    pub(super) fn coordinates(&self, e: EdgeId) -> EdgeCoordinates {
+        let h = e.halfedge();
+        EdgeCoordinates {
+            crossings: self.crossings[e.index()],
+            first: [h, h.twin()].map(|h| self.first[h.index()]),
+            overflow: self.overflow,
+        }
+    }
+
+    /// Undo the last flip recorded, which was one of this edge, from the coordinates before it.
+    pub(super) fn restore(&mut self, e: EdgeId, before: EdgeCoordinates) {
+        let h = e.halfedge();
+        self.crossings[e.index()] = before.crossings;
+        [self.first[h.index()], self.first[h.twin().index()]] = before.first;
+        self.overflow = before.overflow;
     }
 
     /// n of an edge: how many curves cross it, −1 if it is a curve itself. Never 0: inside a triangle of the given triangulation

@@ -6,7 +6,7 @@ use super::normal::{NormalCoordinates, Strands};
 use crate::control::Control;
 use crate::error::{Error, Result};
 
-/// Half-edges or curves between two looks at the control.
+/// Half-edges or curves that are worked on between two looks at the control: less than a millisecond.
 const PER_STEP: usize = 4096;
 
 /// Where a curve crosses an edge.

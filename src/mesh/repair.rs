@@ -1,10 +1,21 @@
 //! Repair of triangle lists, as far as it needs no guess.
+//!
+//! ```
+//! use ricci::mesh::io::Soup;
+//! use ricci::mesh::repair::{Repair, repair};
+//! let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+//! let soup = Soup::new(positions, vec![[0, 1, 2], [1, 2, 3]]); // the second face looks the other way
+//! let repaired = repair(&soup, &Repair::default())?;
+//! assert_eq!((repaired.steps.turned_faces, repaired.diagnosis.defects.len()), (1, 0));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::check::{Defect, Diagnosis, diagnose};
-use super::incidence::{Incidence, NONE, UnionFind, components, is_forward};
+use super::incidence::{Incidence, NONE, components, is_forward};
 use super::io::{Attributes, Soup};
 pub use super::join::RefusedWeld;
 use super::join::join;
+use super::union_find::UnionFind;
 use super::weld::{check_tolerance, coincident};
 use crate::error::{Error, Result};
 use std::collections::{HashSet, VecDeque};
@@ -70,7 +81,9 @@ pub struct Repaired {
 
 /// Repair a triangle list. Attributes stay with their elements.
 ///
-/// Errors: [`Error::Defects`] for faces that name missing vertices and used vertices without finite coordinates, which nothing
+/// # Errors
+///
+/// [`Error::Defects`] for faces that name missing vertices and used vertices without finite coordinates, which nothing
 /// can mend; [`Error::Argument`] for a tolerance that is negative or not finite and a component that does not exist.
 pub fn repair(soup: &Soup, options: &Repair) -> Result<Repaired> {
     refuse_garbage(soup)?;

@@ -1,7 +1,7 @@
 //! Which points coincide.
 
 use super::Point;
-use super::incidence::UnionFind;
+use super::union_find::UnionFind;
 use crate::error::{Error, Result};
 use std::collections::HashMap;
 

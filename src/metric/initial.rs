@@ -29,13 +29,16 @@ pub struct Initial {
 
 /// The initial metric of `scheme` for input `lengths` (E entries, read in `input_geometry`), carried into `space`.
 ///
-/// η is computed once, in the geometry of the input. Radii from the corners' tangent lengths
-/// `γ_i^{jk} = (l_ij + l_ki − l_jk)/2` [JKLLG08, §4.1]: their mean for Thurston's and tangential packings, their
+/// η is computed once, in the geometry of the input. Radii come from the corners' tangent lengths
+/// `γ_i^{jk} = (l_ij + l_ki − l_jk)/2` \[JKLLG08, §4.1\]: their mean for Thurston's and tangential packings, their
 /// minimum for inversive distance and virtual radius (then η ≥ 1 and nothing is clamped). When the
 /// target space differs from the input geometry, u is shifted by one constant that brings the area near the one
 /// Gauss–Bonnet asks for; a shift stays in the class.
 ///
-/// Errors: a length that is not positive, a face that breaks the triangle inequality of the input geometry.
+/// # Errors
+/// - [`Error::Size`]: lengths are not one per edge.
+/// - [`Error::EdgeLength`]: a length out of range.
+/// - [`Error::TriangleInequality`]: a face that is no triangle of the input geometry.
 pub fn initial_metric(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -55,80 +58,103 @@ pub fn initial_metric(
         Scheme::Tangential => Range::Clamp(1.0, 1.0),
         _ => Range::Refuse,
     };
-    represent(mesh, lengths, input_geometry, epsilon, radii, space, range)
+    let circles = MixedClass { epsilon, radii, space };
+    Represented { mesh, lengths, input_geometry, circles, range }.initial()
 }
 
-/// Like [`initial_metric`] with given types ε (V entries) and radii γ (V entries, positive; unused where ε = 0):
-/// the input lengths are represented exactly.
+/// A conformal class of vertices of several types, with the radii that a metric is to be represented with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MixedClass {
+    /// Types ε ∈ {−1, 0, 1} (V entries).
+    pub epsilon: PerVertex<i8>,
+    /// Radii γ in the geometry of the input (V entries, positive; unused where ε = 0).
+    pub radii: PerVertex<f64>,
+    /// The space of the class.
+    pub space: Space,
+}
+
+/// Like [`initial_metric`] with given types and radii: the input lengths are represented exactly.
 ///
-/// Errors: [`Error::EdgeWeight`] where two circles of ε = 1 would need η ≤ −1, or two of ε = −1 η ≤ 1.
+/// # Errors
+/// Those of [`initial_metric`]; [`Error::Size`]; [`Error::EdgeWeight`] where two circles of ε = 1 would need η ≤ −1, or two of
+/// ε = −1 η ≤ 1; [`Error::Domain`] for a radius that is not positive.
 pub fn initial_mixed(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     input_geometry: Space,
-    epsilon: PerVertex<i8>,
-    radii: PerVertex<f64>,
-    space: Space,
+    circles: MixedClass,
 ) -> Result<Initial> {
     check_triangles(mesh, lengths, input_geometry)?;
-    check_size("epsilon", epsilon.len(), mesh.n_vertices())?;
-    check_size("radii", radii.len(), mesh.n_vertices())?;
-    represent(mesh, lengths, input_geometry, epsilon, radii, space, Range::Refuse)
+    check_size("epsilon", circles.epsilon.len(), mesh.n_vertices())?;
+    check_size("radii", circles.radii.len(), mesh.n_vertices())?;
+    Represented { mesh, lengths, input_geometry, circles, range: Range::Refuse }.initial()
 }
 
 /// What happens to an η that the scheme does not allow.
 #[derive(Clone, Copy)]
 enum Range {
+    /// It is an error.
     Refuse,
+    /// It is moved to the nearest end of this interval, which changes the length.
     Clamp(f64, f64),
 }
 
-fn represent(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
+/// A surface that is to be represented in a class.
+struct Represented<'a> {
+    mesh: &'a Mesh,
+    lengths: &'a PerEdge<f64>,
     input_geometry: Space,
-    epsilon: PerVertex<i8>,
-    radii: PerVertex<f64>,
-    space: Space,
+    circles: MixedClass,
     range: Range,
-) -> Result<Initial> {
-    let n = mesh.n_vertices();
-    let log = |v| if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) };
-    let input_u = PerVertex::from_fn(n, log);
-    if let Some(v) = mesh.vertices().find(|&v| !input_u[v].is_finite()) {
-        return Err(Error::Domain { vertex: v.index(), u: input_u[v], need: "a positive radius" });
-    }
-    let mut metric = Metric {
-        space: input_geometry,
-        epsilon,
-        eta: PerEdge::filled(mesh.n_edges(), 0.0),
-        u: input_u.clone(),
-        u_low: PerVertex::filled(n, 0.0),
-    };
-    let radii = metric.radii();
-    let mut clamped_edges = 0;
-    for e in mesh.edges() {
-        let [i, j] = mesh.ends(e);
-        let epsilon = [metric.epsilon[i], metric.epsilon[j]];
-        let eta = weight_of_length(input_geometry, lengths[e], epsilon, [input_u[i], input_u[j]]);
-        metric.eta[e] = match range {
-            Range::Clamp(low, high) => eta.clamp(low, high),
-            Range::Refuse => allowed_weight(epsilon, e, eta)?,
-        };
-        clamped_edges += usize::from(metric.eta[e] != eta);
-    }
-    let mut max_length_change = 0.0f64;
-    let mut start = lengths.clone();
-    if clamped_edges > 0 {
-        start = metric.lengths(mesh)?;
-        for e in mesh.edges() {
-            max_length_change = worse(max_length_change, (start[e] / lengths[e] - 1.0).abs());
+}
+
+impl Represented<'_> {
+    fn initial(self) -> Result<Initial> {
+        let Represented {
+            mesh,
+            lengths,
+            input_geometry,
+            circles: MixedClass { epsilon, radii, space },
+            range,
+        } = self;
+        let n = mesh.n_vertices();
+        let log = |v| if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) };
+        let input_u = PerVertex::from_fn(n, log);
+        if let Some(v) = mesh.vertices().find(|&v| !input_u[v].is_finite()) {
+            return Err(Error::Domain { vertex: v.index(), u: input_u[v], need: "a positive radius" });
         }
+        let mut metric = Metric {
+            space: input_geometry,
+            epsilon,
+            eta: PerEdge::filled(mesh.n_edges(), 0.0),
+            u: input_u.clone(),
+            u_low: PerVertex::filled(n, 0.0),
+        };
+        let radii = metric.radii();
+        let mut clamped_edges = 0;
+        for e in mesh.edges() {
+            let [i, j] = mesh.ends(e);
+            let epsilon = [metric.epsilon[i], metric.epsilon[j]];
+            let eta = weight_of_length(input_geometry, lengths[e], epsilon, [input_u[i], input_u[j]]);
+            metric.eta[e] = match range {
+                Range::Clamp(low, high) => eta.clamp(low, high),
+                Range::Refuse => allowed_weight(epsilon, e, eta)?,
+            };
+            clamped_edges += usize::from(metric.eta[e] != eta);
+        }
+        let mut max_length_change = 0.0f64;
+        let mut start = lengths.clone();
+        if clamped_edges > 0 {
+            start = metric.lengths(mesh)?;
+            for e in mesh.edges() {
+                max_length_change = worse(max_length_change, (start[e] / lengths[e] - 1.0).abs());
+            }
+        }
+        let shift = start_shift(mesh, &start, &metric, space)?;
+        metric.space = space;
+        metric.u.iter_mut().for_each(|u| *u += shift);
+        Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
     }
-    let shift = start_shift(mesh, &start, &metric, space)?;
-    metric.space = space;
-    metric.u.iter_mut().for_each(|u| *u += shift);
-    Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
 }
 
 /// η, if two vertices of these types can have it.
@@ -143,6 +169,18 @@ fn allowed_weight(epsilon: [i8; 2], edge: EdgeId, eta: f64) -> Result<f64> {
 }
 
 impl Initial {
+    /// A metric that is its own start: read in its own space.
+    pub(crate) fn of_metric(metric: Metric) -> Initial {
+        Initial {
+            input_geometry: metric.space,
+            radii: metric.radii(),
+            input_u: metric.u.clone(),
+            clamped_edges: 0,
+            max_length_change: 0.0,
+            metric,
+        }
+    }
+
     /// The conformal factor λ of [JKLLG08, Eqns 2–5] between the input and `metric`, per vertex: `u − u(0)` where
     /// ε = 0, `log(γ/γ(0))` elsewhere.
     pub fn conformal_factor(&self, metric: &Metric) -> Result<PerVertex<f64>> {
@@ -204,13 +242,14 @@ pub(super) fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> CornerRadii {
     CornerRadii { mean, min }
 }
 
-/// Largest edge allowed by the start in a curved target space, so that the flow starts from a moderate metric.
+/// Largest half chord, of the longest edge, that a flow starts with in a curved space, so that it starts from a moderate metric (in S²
+/// half chords end at 1).
 const MAX_START_HALF_CHORD: f64 = 0.5;
-/// Largest start variable of an ε = 1 vertex in H² (the domain is u < 0).
+/// Largest u that a vertex of ε = 1 starts with in H². The domain is u < 0, and the radius log coth(−u/2) is 3 here.
 const MAX_START_U: f64 = -0.1;
 
-/// The common shift of u that carries a metric (with edge `lengths`) from the input geometry to a good start in
-/// `space`.
+/// The constant by which u is shifted to carry a metric (with edge `lengths`) from the input geometry to `space`: the area comes near
+/// the one that Gauss–Bonnet asks for, and no edge becomes longer than [`MAX_START_HALF_CHORD`].
 fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, input: &Metric, space: Space) -> Result<f64> {
     if input.space == space || space == Space::E2 {
         return Ok(0.0);

@@ -1,53 +1,77 @@
-//! Where a flow with flips starts: a triangulation and circles that depend on the surface alone.
+//! The metric that a flow with flips starts from: its triangulation and its circles depend on the surface alone.
 
-use super::delaunay::intrinsic_delaunay;
-use super::initial::{Initial, check_triangles, corner_radii, initial_metric, initial_mixed};
+use super::class::Class;
+use super::initial::{Initial, MixedClass, check_triangles, corner_radii, initial_metric, initial_mixed};
+use super::isometric::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use super::scheme::Scheme;
 use crate::control::Control;
-use crate::error::Result;
-use crate::geometry::Space;
-use crate::mesh::{Double, EdgeId, Mesh, PerEdge, PerVertex};
+use crate::error::{Result, check_size};
+use crate::mesh::{Double, FixedEdges, Flip, Mesh, PerVertex};
 
-/// Radii, as a share of the largest that the corners allow. Circles that touch lock their edge: it is Delaunay whatever u, never
-/// flips, and its two radii bound the angles there; targets beyond that bound would be out of reach.
-const APART: f64 = 0.5;
+/// Radii of the circles of inversive distance, as a share of the largest that do not overlap at any corner. With a share of 1 circles
+/// would touch. Circles that touch lock their edge: it is Delaunay at every u and never flips, and its two radii bound the angles
+/// there, so that targets beyond that bound are out of reach. A half keeps η well above 1 without making the circles small.
+const SHARE_OF_LARGEST: f64 = 0.5;
 
-/// The initial metric of `scheme` on the (weighted) Delaunay triangulation of the surface: flips `mesh` and `lengths`, which stay
-/// the same surface, and so makes the conformal class independent of the triangulation the surface came with, up to ties.
+/// What [`delaunay_start`] needs to know beside the surface.
+#[derive(Debug, Clone, Copy)]
+pub struct StartOptions<'a> {
+    /// The conformal class.
+    pub class: Class,
+    /// Where the surface is the double of another one: mirror images then get the same radii.
+    pub double: Option<&'a Double>,
+    /// Edges that are not flipped.
+    pub fixed: &'a FixedEdges,
+}
+
+static NO_EDGES: FixedEdges = FixedEdges::none();
+
+impl From<Class> for StartOptions<'_> {
+    /// No double, no fixed edges.
+    fn from(class: Class) -> Self {
+        StartOptions { class, double: None, fixed: &NO_EDGES }
+    }
+}
+
+/// The initial metric of a class on the (weighted) Delaunay triangulation of the surface. Flips edges of `surface`, which stays the
+/// same surface, and so makes the conformal class independent of the triangulation that the surface came with, up to ties.
 ///
-/// Vertex scaling: on the intrinsic Delaunay triangulation. Circles that represent the lengths exactly: with the radii from the
-/// corners there, the smaller at mirrored vertices of a `double`; for inversive distance half of them, on the weighted Delaunay
-/// triangulation of those circles. Thurston's and tangential packings, which are Delaunay on any triangulation, stay on the given one.
+/// - Vertex scaling: on the intrinsic Delaunay triangulation.
+/// - Virtual radii: there too, with the radii from its corners; of two mirror images in a double the smaller one.
+/// - Inversive distance: half of those radii, on the Delaunay triangulation weighted by the circles.
+/// - Thurston's and tangential packings are Delaunay on any triangulation and stay on the given one.
 ///
-/// `fixed` edges are not flipped; `record` is told each edge just before its flip. Errors: those of [`initial_metric`] and [`intrinsic_delaunay`],
-/// with the surface as it was, maybe on another triangulation.
+/// `record` is told each flip (the edge with its length) just before it is made.
+///
+/// # Errors
+/// Those of [`initial_metric`] and [`intrinsic_delaunay`], with the surface as it was, maybe on another triangulation;
+/// [`crate::Error::Size`] for the double of something else.
 pub fn delaunay_start(
-    mesh: &mut Mesh,
-    lengths: &mut PerEdge<f64>,
-    input_geometry: Space,
-    scheme: Scheme,
-    space: Space,
-    double: Option<&Double>,
-    fixed: &[EdgeId],
-    record: &mut dyn FnMut(&Mesh, EdgeId),
+    surface: &mut Triangulated,
+    options: StartOptions,
+    record: &mut dyn FnMut(&Mesh, Flip),
     control: &Control,
 ) -> Result<Initial> {
-    if matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
-        return initial_metric(mesh, lengths, input_geometry, scheme, space);
+    let StartOptions { class: Class { scheme, space }, double, fixed } = options;
+    if !matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
+        let plain = IntrinsicOptions { circles: None, fixed };
+        intrinsic_delaunay(surface, plain, record, control)?;
     }
-    intrinsic_delaunay(mesh, lengths, None, input_geometry, fixed, record, control)?;
-    if scheme == Scheme::Yamabe {
-        return initial_metric(mesh, lengths, input_geometry, scheme, space);
+    if matches!(scheme, Scheme::Thurston | Scheme::Tangential | Scheme::Yamabe) {
+        return initial_metric(&surface.mesh, &surface.lengths, surface.geometry, scheme, space);
     }
-    check_triangles(mesh, lengths, input_geometry)?;
-    let mut radii = corner_radii(mesh, lengths).min;
+    check_triangles(&surface.mesh, &surface.lengths, surface.geometry)?;
+    let mut radii = corner_radii(&surface.mesh, &surface.lengths).min;
     if let Some(double) = double {
+        check_size("vertices of the double", double.mesh.n_vertices(), radii.len())?;
         radii = PerVertex::from_fn(radii.len(), |v| radii[v].min(radii[double.mirror(v)]));
     }
     if scheme == Scheme::Inversive {
-        radii.iter_mut().for_each(|r| *r *= APART);
-        intrinsic_delaunay(mesh, lengths, Some(&radii), input_geometry, fixed, record, control)?;
+        radii.iter_mut().for_each(|r| *r *= SHARE_OF_LARGEST);
+        let weighted = IntrinsicOptions { circles: Some(&radii), fixed };
+        intrinsic_delaunay(surface, weighted, record, control)?;
     }
-    let epsilon = PerVertex::filled(mesh.n_vertices(), scheme.epsilon());
-    initial_mixed(mesh, lengths, input_geometry, epsilon, radii, space)
+    let epsilon = PerVertex::filled(surface.mesh.n_vertices(), scheme.epsilon());
+    let circles = MixedClass { epsilon, radii, space };
+    initial_mixed(&surface.mesh, &surface.lengths, surface.geometry, circles)
 }

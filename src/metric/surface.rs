@@ -1,297 +1,124 @@
-//! A metric of a surface on a triangulation of its own, with all that leads back to the surface as it was
-//! given.
+//! A surface as it is given: connectivity, edge lengths and the geometry in which they are meant.
 
-use super::curvature::Curvature;
-use super::delaunay::boundary_fails;
+use super::class::Class;
+use super::curvature::area;
 use super::initial::{Initial, initial_metric};
-use super::lengths::Metric;
-use super::refinement::{Final, Input, Intrinsic, Refinement};
-use super::scheme::Scheme;
-use super::start::delaunay_start;
-use crate::control::Control;
-use crate::error::{Error, Result};
+use super::lengths::lengths_from_positions;
+use crate::error::{Result, check_size};
 use crate::geometry::Space;
-use crate::mesh::{Double, EdgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
+use crate::mesh::io::{self, Soup};
+use crate::mesh::{Mesh, PerEdge, Point};
+use crate::topology::check_lengths;
+use std::path::Path;
 use std::sync::Arc;
 
-/// What all metrics that flow from one start share.
-#[derive(Debug)]
-pub(crate) struct Start {
-    pub given: Arc<Mesh>,
-    /// Of the given edges, in `initial.input_geometry`.
-    pub lengths: Arc<PerEdge<f64>>,
-    pub scheme: Scheme,
-    pub double: Option<Double>,
-    pub initial: Initial,
-    /// Isometric flips from the given triangulation to that of `initial`.
-    pub flips: usize,
-    /// The latter, if that is another one.
-    pub flipped: Option<Flipped>,
-    /// Given edges that are not flipped, ascending.
-    pub fixed: Vec<EdgeId>,
-    /// Whether the start, of one copy, is half of what its double's is: there no boundary edge would be flipped.
-    pub is_half: bool,
-}
-
-/// The triangulation that isometric flips have made.
-#[derive(Debug)]
-pub(crate) struct Flipped {
-    pub mesh: Arc<Mesh>,
-    /// In `initial.input_geometry`.
-    pub lengths: PerEdge<f64>,
-    /// The given edges on it.
-    pub given: NormalCoordinates,
-}
-
-impl Start {
-    /// A target on the given surface as one on its double, if that is what flows.
-    pub fn target(&self, target: &PerVertex<f64>) -> PerVertex<f64> {
-        self.double.as_ref().map_or_else(|| target.clone(), |double| double.target(target).into())
-    }
-
-    /// The common refinement of the given triangulation with that of a metric.
-    pub fn refinement(
-        &self,
-        mesh: &Mesh,
-        metric: &Metric,
-        followed: &[NormalCoordinates],
-        control: &Control,
-    ) -> Result<Refinement> {
-        let unflipped;
-        let normal = match followed {
-            [normal, ..] => normal,
-            [] => {
-                unflipped = NormalCoordinates::new(mesh);
-                &unflipped
-            }
-        };
-        let intrinsic = self.flipped.as_ref().zip(followed.get(1)).map(|(flipped, normal)| {
-            let Flipped { mesh, lengths, given } = flipped;
-            Intrinsic { mesh, lengths, given, normal }
-        });
-        let given = self.double.as_ref().map_or(&*self.given, |double| &double.mesh);
-        let input = Input { mesh: given, geometry: self.initial.input_geometry, u: &self.initial.input_u };
-        let keep = |f| self.double.as_ref().is_none_or(|double| double.is_original(f));
-        Refinement::new(input, intrinsic, Final { mesh, metric, normal }, &keep, control)
-    }
-}
-
-/// A metric of a surface: the initial one, or one that a flow ([`crate::flow::SurfaceFlow`]) has come to.
+/// A triangulated surface with a metric, which flows start from. Clones share its arrays.
 ///
-/// It lives on a triangulation of its own, [`SurfaceMetric::mesh`]: of the given surface or of its double,
-/// whose first vertices are the given ones, after edge flips. What is asked per vertex of the given surface
-/// is answered per vertex of the given surface.
+/// Lengths are positive and finite, one per edge. Vertices have positions where the surface came from space.
+///
+/// ```
+/// # use ricci::{Surface, geometry::Space, mesh::shapes};
+/// let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+/// assert_eq!((torus.mesh().genus(), torus.geometry()), (1, Space::E2));
+/// # Ok::<(), ricci::Error>(())
+/// ```
 #[derive(Debug, Clone)]
-pub struct SurfaceMetric {
-    pub(crate) start: Arc<Start>,
+pub struct Surface {
     mesh: Arc<Mesh>,
-    metric: Metric,
-    /// Triangulations on `mesh`: that of the given edges, and that of the start if it is another one. None where no edge was ever to
-    /// be flipped.
-    followed: Vec<NormalCoordinates>,
-    flips: usize,
+    lengths: Arc<PerEdge<f64>>,
+    geometry: Space,
+    positions: Option<Arc<Vec<Point>>>,
 }
 
-impl SurfaceMetric {
-    /// The initial metric on the given triangulation: [`initial_metric`].
-    pub fn new(
-        given: Arc<Mesh>,
-        lengths: Arc<PerEdge<f64>>,
+impl Surface {
+    /// The surface of a mesh file ([`io::read`]).
+    ///
+    /// # Errors
+    /// Those of [`io::read`] and [`Surface::from_soup`].
+    pub fn read(path: impl AsRef<Path>) -> Result<Surface> {
+        Surface::from_soup(&io::read(path.as_ref())?)
+    }
+
+    /// The surface of a triangle list in space, with Euclidean lengths.
+    ///
+    /// # Errors
+    /// Those of [`Mesh::from_soup`] and [`lengths_from_positions`].
+    pub fn from_soup(soup: &Soup) -> Result<Surface> {
+        Surface::in_space(Mesh::from_soup(soup)?, soup.positions.clone())
+    }
+
+    /// A mesh with a position per vertex (V entries), with Euclidean lengths.
+    ///
+    /// # Errors
+    /// Those of [`lengths_from_positions`].
+    pub fn in_space(mesh: impl Into<Arc<Mesh>>, positions: impl Into<Arc<Vec<Point>>>) -> Result<Surface> {
+        let (mesh, positions) = (mesh.into(), positions.into());
+        let lengths = Arc::new(lengths_from_positions(&mesh, &positions)?);
+        Ok(Surface { mesh, lengths, geometry: Space::E2, positions: Some(positions) })
+    }
+
+    /// A mesh with a length per edge (E entries), read in `geometry`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Size`]; [`crate::Error::EdgeLength`] for a length that is not positive and finite.
+    pub fn intrinsic(
+        mesh: impl Into<Arc<Mesh>>,
+        lengths: impl Into<Arc<PerEdge<f64>>>,
         geometry: Space,
-        scheme: Scheme,
-        space: Space,
-    ) -> Result<SurfaceMetric> {
-        let initial = initial_metric(&given, &lengths, geometry, scheme, space)?;
-        let (mesh, metric) = (given.clone(), initial.metric.clone());
-        let start = Start {
-            given,
-            lengths,
-            scheme,
-            double: None,
-            initial,
-            flips: 0,
-            flipped: None,
-            fixed: Vec::new(),
-            is_half: false,
-        };
-        Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, followed: Vec::new(), flips: 0 })
+    ) -> Result<Surface> {
+        let (mesh, lengths) = (mesh.into(), lengths.into());
+        check_lengths(&mesh, &lengths)?;
+        Ok(Surface { mesh, lengths, geometry, positions: None })
     }
 
-    /// The initial metric on the (weighted) Delaunay triangulation, of the surface or, if it is `doubled`, of
-    /// its double: [`delaunay_start`]. `fixed` edges are not flipped.
-    pub fn delaunay(
-        given: Arc<Mesh>,
-        lengths: Arc<PerEdge<f64>>,
-        geometry: Space,
-        scheme: Scheme,
-        space: Space,
-        doubled: bool,
-        fixed: &[EdgeId],
-        control: &Control,
-    ) -> Result<SurfaceMetric> {
-        check_fixed(&given, fixed)?;
-        let double = if doubled { Some(Double::new(&given)?) } else { None };
-        let (mut mesh, mut all, all_fixed) = match &double {
-            Some(d) => (d.mesh.clone(), d.spread_edges(&lengths).into(), d.with_images(fixed)),
-            None => (Mesh::clone(&given), PerEdge::clone(&lengths), fixed.to_vec()),
-        };
-        let mut normal = NormalCoordinates::new(&mesh);
-        let mut flips = 0;
-        let mut record = |mesh: &Mesh, e| {
-            normal.record(mesh, e);
-            flips += 1;
-        };
-        let initial = delaunay_start(
-            &mut mesh,
-            &mut all,
-            geometry,
-            scheme,
-            space,
-            double.as_ref(),
-            &all_fixed,
-            &mut record,
-            control,
-        )?;
-        let (mesh, metric) = (Arc::new(mesh), initial.metric.clone());
-        let mut followed = vec![normal];
-        let flipped = (flips > 0).then(|| {
-            followed.push(NormalCoordinates::new(&mesh));
-            Flipped { mesh: mesh.clone(), lengths: all, given: followed[0].clone() }
-        });
-        let is_half = double.is_none() && !boundary_fails(&mesh, &metric, &metric.u, fixed);
-        let fixed = ascending(fixed);
-        let start = Start { given, lengths, scheme, double, initial, flips, flipped, fixed, is_half };
-        Ok(SurfaceMetric { start: Arc::new(start), mesh, metric, followed, flips })
+    /// The same metric with positions (V entries) that only serve to draw and write the surface.
+    ///
+    /// # Errors
+    /// [`crate::Error::Size`].
+    pub fn with_positions(self, positions: impl Into<Arc<Vec<Point>>>) -> Result<Surface> {
+        let positions = positions.into();
+        check_size("positions", positions.len(), self.mesh.n_vertices())?;
+        Ok(Surface { positions: Some(positions), ..self })
     }
 
-    /// What the metric has become. `flips`: all from the given triangulation to this one.
-    pub(crate) fn at(
-        start: Arc<Start>,
-        mesh: Mesh,
-        metric: Metric,
-        followed: Vec<NormalCoordinates>,
-        flips: usize,
-    ) -> SurfaceMetric {
-        let mesh = if mesh == *start.given { start.given.clone() } else { Arc::new(mesh) };
-        SurfaceMetric { start, mesh, metric, followed, flips }
+    /// The same lengths, read in another geometry.
+    pub fn read_in(self, geometry: Space) -> Surface {
+        Surface { geometry, ..self }
     }
 
-    pub(crate) fn into_parts(self) -> (Arc<Start>, Mesh, Metric, Vec<NormalCoordinates>, usize) {
-        (self.start, Arc::unwrap_or_clone(self.mesh), self.metric, self.followed, self.flips)
-    }
-
-    /// The given triangulation.
-    pub fn given(&self) -> &Arc<Mesh> {
-        &self.start.given
-    }
-
-    /// The lengths that its edges were given with, in [`Initial::input_geometry`].
-    pub fn given_lengths(&self) -> &Arc<PerEdge<f64>> {
-        &self.start.lengths
-    }
-
-    /// The scheme of its class.
-    pub fn scheme(&self) -> Scheme {
-        self.start.scheme
-    }
-
-    /// The triangulation that it lives on.
+    /// Connectivity.
     pub fn mesh(&self) -> &Arc<Mesh> {
         &self.mesh
     }
 
-    /// Its variables there.
-    pub fn metric(&self) -> &Metric {
-        &self.metric
+    /// Edge lengths, E entries, in [`Surface::geometry`].
+    pub fn lengths(&self) -> &Arc<PerEdge<f64>> {
+        &self.lengths
     }
 
-    /// Where flows on the surface start; on another triangulation if edges have been flipped.
-    pub fn initial(&self) -> &Initial {
-        &self.start.initial
+    /// The geometry of the triangles that have these lengths.
+    pub fn geometry(&self) -> Space {
+        self.geometry
     }
 
-    /// The double of the given surface, if the metric lives there.
-    pub fn double(&self) -> Option<&Double> {
-        self.start.double.as_ref()
+    /// Positions of the vertices in space, V entries, if there are any.
+    pub fn positions(&self) -> Option<&Arc<Vec<Point>>> {
+        self.positions.as_ref()
     }
 
-    /// Isometric flips before the flow.
-    pub fn start_flips(&self) -> usize {
-        self.start.flips
-    }
-
-    /// All flips that were made on the way from the given triangulation.
-    pub fn flips(&self) -> usize {
-        self.flips
-    }
-
-    /// Whether flips were allowed on the way here, and these given edges kept from them.
-    pub(crate) fn was_flipped_without(&self, fixed: &[EdgeId]) -> bool {
-        !self.followed.is_empty() && self.start.fixed == ascending(fixed)
-    }
-
-    /// Whether it lives on the surface's double, or on one copy that it could be reflected from: Delaunay along the boundary too, and
-    /// so it was at the start.
-    pub(crate) fn is_symmetric(&self) -> bool {
-        let fails = || boundary_fails(&self.mesh, &self.metric, &self.metric.u, &self.start.fixed);
-        self.double().is_some() || (self.start.is_half && !fails())
-    }
-
-    /// Whether it lives on the given triangulation itself.
-    pub fn is_unflipped(&self) -> bool {
-        self.mesh == self.start.given
-    }
-
-    /// Curvature per given vertex and the area of the given surface: of a double, half of both along the
-    /// boundary. Broken faces and the residual of Gauss–Bonnet are those of [`SurfaceMetric::mesh`].
-    pub fn curvature(&self) -> Result<Curvature> {
-        let mut curvature = self.metric.curvature(&self.mesh)?;
-        if let Some(double) = self.double() {
-            let half = |v: VertexId| if double.mirror(v) == v { 0.5 } else { 1.0 };
-            let n = double.n_half_vertices();
-            curvature.at = PerVertex::from_fn(n, |v: VertexId| half(v) * curvature.at[v]);
-            curvature.area *= 0.5;
-        }
-        Ok(curvature)
-    }
-
-    /// [`Initial::conformal_factor`] per given vertex.
-    pub fn conformal_factor(&self) -> Result<PerVertex<f64>> {
-        let mut factor = self.initial().conformal_factor(&self.metric)?.into_vec();
-        factor.truncate(self.given().n_vertices());
-        Ok(factor.into())
-    }
-
-    /// How often the given edges cross those of the metric's triangulation, and of the one that flows start from: the size of
-    /// [`SurfaceMetric::refinement`] beyond that of the surface, on a double of both halves. O(E).
+    /// Area of the triangles in their geometry.
     ///
-    /// Errors: [`Error::TooLarge`] for more than can be numbered.
-    pub fn crossings(&self) -> Result<usize> {
-        let now = self.followed.first().map_or(Ok(0), |given| given.check(&self.mesh))?;
-        let start = self.start.flipped.as_ref().map_or(Ok(0), |start| start.given.check(&start.mesh))?;
-        Ok(now + start)
+    /// # Errors
+    /// None that a surface can have; those of [`area`].
+    pub fn area(&self) -> Result<f64> {
+        area(&self.mesh, self.geometry, &self.lengths)
     }
 
-    /// The common refinement of the given triangulation and the metric's, on the given surface alone: the
-    /// first half of a double.
+    /// The initial metric in a class, on the given triangulation ([`initial_metric`]).
     ///
-    /// Errors: those of [`Refinement::new`].
-    pub fn refinement(&self, control: &Control) -> Result<Refinement> {
-        self.start.refinement(&self.mesh, &self.metric, &self.followed, control)
+    /// # Errors
+    /// Those of [`initial_metric`].
+    pub fn initial(&self, class: Class) -> Result<Initial> {
+        initial_metric(&self.mesh, &self.lengths, self.geometry, class.scheme, class.space)
     }
-}
-
-/// Every edge exists.
-pub(crate) fn check_fixed(given: &Mesh, fixed: &[EdgeId]) -> Result<()> {
-    let missing = fixed.iter().find(|e| e.index() >= given.n_edges());
-    missing.map_or(Ok(()), |e| {
-        Err(Error::Argument { what: "fixed edge", value: e.to_string(), need: "an existing edge" })
-    })
-}
-
-fn ascending(edges: &[EdgeId]) -> Vec<EdgeId> {
-    let mut edges = edges.to_vec();
-    edges.sort_unstable();
-    edges.dedup();
-    edges
 }

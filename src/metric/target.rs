@@ -1,10 +1,12 @@
 //! Target curvatures and their admissibility.
 
+use super::class::Class;
 use super::scheme::Scheme;
+use super::surface::Surface;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use crate::topology::{self, check_lengths};
+use crate::topology;
 use std::f64::consts::PI;
 
 /// Gauss–Bonnet must hold for a given target to this, relative to `2π + Σ|K̄|`: targets written with ten digits
@@ -31,12 +33,16 @@ impl Target {
     /// What is asked for when nothing is: `Boundary` on open surfaces in E², four cones of π on closed surfaces of
     /// genus 0 in E² (V ≥ 4: vertex 0 and then, three times, the vertex farthest from those chosen, along edges),
     /// `Uniform` otherwise.
-    pub fn default_for(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space) -> Result<Target> {
+    ///
+    /// # Errors
+    /// Those of [`topology::farthest_vertices`].
+    pub fn default_for(surface: &Surface, space: Space) -> Result<Target> {
+        let mesh = surface.mesh();
         Ok(match space {
             Space::H2 | Space::S2 => Target::Uniform,
             Space::E2 if !mesh.is_closed() => Target::Boundary,
             Space::E2 if mesh.euler() == 2 && mesh.n_vertices() >= 4 => {
-                let cones = topology::farthest_vertices(mesh, lengths, VertexId(0), 4)?;
+                let cones = topology::farthest_vertices(mesh, surface.lengths(), VertexId(0), 4)?;
                 Target::Cones(cones.into_iter().map(|v| (v, PI)).collect())
             }
             Space::E2 => Target::Uniform,
@@ -56,23 +62,32 @@ impl Target {
 
     /// The curvature of every vertex, checked to be admissible ([`check_admissible`]) and with an exact total
     /// ([`settle_total`]).
-    pub fn resolve(
-        &self,
-        mesh: &Mesh,
-        lengths: &PerEdge<f64>,
-        space: Space,
-        scheme: Scheme,
-    ) -> Result<PerVertex<f64>> {
-        let mut target = self.values(mesh, lengths, space)?;
-        check_admissible(mesh, space, scheme, &target)?;
-        settle_total(mesh, space, &mut target);
+    ///
+    /// # Errors
+    /// Those of [`Target::values`] and [`check_admissible`].
+    pub fn resolve(&self, surface: &Surface, class: Class) -> Result<PerVertex<f64>> {
+        let mut target = self.values(surface, class.space)?;
+        check_admissible(surface.mesh(), class, &target)?;
+        settle_total(surface.mesh(), class.space, &mut target);
         Ok(target)
     }
 
-    /// The curvature of every vertex by this rule alone. Errors: a rule that does not exist on this surface in this space, a
-    /// vertex that does not exist.
-    pub fn values(&self, mesh: &Mesh, lengths: &PerEdge<f64>, space: Space) -> Result<PerVertex<f64>> {
-        check_lengths(mesh, lengths)?;
+    /// The vertices that the caller names as cones.
+    pub fn named(&self) -> Vec<VertexId> {
+        match self {
+            Target::Single(v) => vec![*v],
+            Target::Cones(cones) => cones.iter().map(|cone| cone.0).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The curvature of every vertex by this rule alone.
+    ///
+    /// # Errors
+    /// [`Error::TargetKind`] for a rule that does not exist on this surface in this space, or a vertex that does not exist;
+    /// [`Error::Size`].
+    pub fn values(&self, surface: &Surface, space: Space) -> Result<PerVertex<f64>> {
+        let mesh = surface.mesh();
         let n = mesh.n_vertices();
         let kind = |message: &str| Error::TargetKind { target: self.name(), message: message.into() };
         let vertex = |v: VertexId| {
@@ -91,7 +106,7 @@ impl Target {
             Target::Boundary if space != Space::E2 || mesh.is_closed() => {
                 return Err(kind("exists in E² on surfaces with boundary only; use `uniform`"));
             }
-            Target::Boundary => boundary_target(mesh, lengths),
+            Target::Boundary => boundary_target(mesh, surface.lengths()),
             Target::Single(_) if space != Space::E2 => return Err(kind("exists in E² only; use `cones`")),
             Target::Single(v) => {
                 let mut target = PerVertex::filled(n, 0.0);
@@ -115,22 +130,41 @@ impl Target {
 
 /// Necessary conditions on a target: [`check_vertices`] and [`check_total`]; for vertex scaling and inversive distance with
 /// flips they are sufficient.
-pub fn check_admissible(mesh: &Mesh, space: Space, scheme: Scheme, target: &PerVertex<f64>) -> Result<()> {
-    check_vertices(mesh, scheme, target)?;
-    check_total(mesh, space, target)
+pub fn check_admissible(mesh: &Mesh, class: Class, target: &PerVertex<f64>) -> Result<()> {
+    check_vertices(mesh, class.scheme, target)?;
+    check_total(mesh, class.space, target)
 }
 
-/// What each vertex can have:
+/// What each vertex can have: [`check_upper`], and for Thurston's and tangential packings, which never flip, a lower bound too. Each
+/// of the d angles at a vertex is below π there, so `K̄ > (2 − d)π` inside, `(1 − d)π` on the boundary. (Conditions on larger vertex
+/// sets are found by the flow that runs into them: [`crate::flow::Obstruction`].)
 ///
-/// - `K̄ < 2π` inside, `K̄ < π` on the boundary;
-/// - Thurston's and tangential packings, which never flip: each of the d angles at a vertex is below π, so
-///   `K̄ > (2 − d)π` inside, `(1 − d)π` on the boundary. (Conditions on larger vertex sets are found by the flow that runs
-///   into them: [`crate::flow::Obstruction`].)
+/// # Errors
+/// Those of [`check_upper`]; [`Error::TargetBelow`].
 pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> Result<()> {
+    check_upper(mesh, target)?;
+    if !matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
+        return Ok(());
+    }
+    for v in mesh.vertices() {
+        let corners = mesh.outgoing(v).filter(|&h| !mesh.is_outside(h)).count();
+        let limit = upper_limit(mesh, v) - PI * corners as f64;
+        if target[v] <= limit {
+            let (curvature, excess) = (target[v], limit - target[v]);
+            return Err(Error::TargetBelow { vertex: v.index(), curvature, limit, excess });
+        }
+    }
+    Ok(())
+}
+
+/// Angles are positive: `K̄ < 2π` inside, `K̄ < π` on the boundary, on every triangulation.
+///
+/// # Errors
+/// [`Error::Size`]; [`Error::Argument`] for a number that is not finite; [`Error::TargetAtVertex`].
+pub fn check_upper(mesh: &Mesh, target: &PerVertex<f64>) -> Result<()> {
     check_size("target", target.len(), mesh.n_vertices())?;
     for v in mesh.vertices() {
-        let limit = if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI };
-        let curvature = target[v];
+        let (curvature, limit) = (target[v], upper_limit(mesh, v));
         if !curvature.is_finite() {
             let value = format!("{curvature} at vertex {v}");
             return Err(Error::Argument { what: "target curvature", value, need: "finite everywhere" });
@@ -139,18 +173,13 @@ pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> R
             let excess = curvature - limit;
             return Err(Error::TargetAtVertex { vertex: v.index(), curvature, limit, excess });
         }
-        let least = match scheme {
-            Scheme::Thurston | Scheme::Tangential => {
-                limit - PI * mesh.outgoing(v).filter(|&h| !mesh.is_outside(h)).count() as f64
-            }
-            _ => f64::NEG_INFINITY,
-        };
-        if curvature <= least {
-            let excess = least - curvature;
-            return Err(Error::TargetBelow { vertex: v.index(), curvature, limit: least, excess });
-        }
     }
     Ok(())
+}
+
+/// 2π inside, π on the boundary.
+fn upper_limit(mesh: &Mesh, v: VertexId) -> f64 {
+    if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI }
 }
 
 /// Gauss–Bonnet: `Σ K̄ = 2πχ` in E², `> 2πχ` in H², `< 2πχ` in S² (to [`TOTAL_TOLERANCE`]).

@@ -1,7 +1,7 @@
 //! Edge paths from corner to corner of an opened surface, and the half-edges through which they leave faces on
 //! the way.
 
-use super::check_path;
+use super::{check_path, corners_along};
 use crate::error::{Error, Result};
 use crate::mesh::{HalfedgeId, Mesh};
 
@@ -14,6 +14,8 @@ pub(crate) struct CornerWalk<'a> {
 
 /// Walk an edge path from the corner at the origin of `corner`, a half-edge of a face. Every step turns about
 /// the vertex to a side of the next edge, and runs along that side to its corner at the edge's end.
+///
+/// # Errors
 ///
 /// [`Error::Argument`] for a path that is none, or does not start at that corner.
 pub(crate) fn corner_walk<'a>(
@@ -56,7 +58,9 @@ fn turn(mesh: &Mesh, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
 
 /// All half-edges that such a walk crosses, of a closed path also in the last turn, back to `corner`.
 ///
-/// Errors: as [`corner_walk`].
+/// # Errors
+///
+/// As [`corner_walk`].
 pub(crate) fn crossed_halfedges(
     mesh: &Mesh,
     corner: HalfedgeId,
@@ -79,11 +83,7 @@ impl Iterator for CornerWalk<'_> {
 
     fn next(&mut self) -> Option<Self::Item> {
         let (&h, rest) = self.path.split_first()?;
-        // Outside the surface the way back along the twin.
-        let (from, to) = match self.mesh.is_outside(h) {
-            false => (h, self.mesh.next(h)),
-            true => (self.mesh.next(h.twin()), h.twin()),
-        };
+        let [from, to] = corners_along(self.mesh, h);
         let crossed = turn(self.mesh, self.at, from);
         (self.at, self.path) = (to, rest);
         Some((crossed, to))

@@ -1,9 +1,11 @@
 //! Cut graphs: edges along which a surface opens into a disk.
 
-use super::check_lengths;
-use super::spanning::{DisjointSets, Key, leftover, shortest_paths_under};
+use super::shorten::{LEAST_SAVING, MOVES_PER_FACE, fan};
+use super::spanning::{Key, leftover, shortest_paths_under};
+use super::{check_connected, check_lengths};
 use crate::control::Control;
 use crate::error::{Error, Result};
+use crate::mesh::union_find::UnionFind;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerVertex, VertexId};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
@@ -24,16 +26,13 @@ impl CutGraph {
     /// What is left of marked interior edges when branches that end nowhere, neither at a branch point nor on the boundary, are taken
     /// away one edge after the other.
     pub(crate) fn around(mesh: &Mesh, marked: PerEdge<bool>) -> CutGraph {
-        let mut cut = Cut {
-            is_cut: PerEdge::filled(mesh.n_edges(), false),
-            degree: PerVertex::filled(mesh.n_vertices(), 0),
-            fixed: PerVertex::from_fn(mesh.n_vertices(), |v| mesh.is_boundary_vertex(v)),
-        };
+        let fixed = PerVertex::from_fn(mesh.n_vertices(), |v| mesh.is_boundary_vertex(v));
+        let mut cut = Cut::new(mesh, fixed);
         for e in mesh.edges().filter(|&e| marked[e] && !mesh.is_boundary_edge(e)) {
-            cut.set(mesh, e, true);
+            cut.set(e, true);
         }
-        prune(mesh, &mut cut);
-        cut.into_graph(mesh)
+        cut.prune();
+        cut.into_graph()
     }
 
     /// Where a disk that grows about a vertex, next over the face whose far corner is nearest along edges, meets itself: for a surface
@@ -56,7 +55,7 @@ impl CutGraph {
         let (mut n_reached, mut is_first) = (0, true);
         while let Some(entry) = next {
             if let Some(f) = mesh.face(entry).filter(|&f| !std::mem::replace(&mut reached[f], true)) {
-                if usize::is_multiple_of(n_reached, VERTICES_PER_STEP) {
+                if usize::is_multiple_of(n_reached, VERTICES_PER_LOOK) {
                     control.check()?;
                 }
                 n_reached += 1;
@@ -92,7 +91,9 @@ impl CutGraph {
 /// `lengths`: finite and positive, one per edge. `cones`: vertices that have to lie on the cut, in any order;
 /// those on the boundary change nothing. A disk without interior cones has an empty cut.
 ///
-/// Errors: [`Error::EdgeLength`]; [`Error::Argument`] for a cone that is no vertex; [`Error::Layout`] for a
+/// # Errors
+///
+/// [`Error::EdgeLength`]; [`Error::Argument`] for a cone that is no vertex; [`Error::Layout`] for a
 /// closed surface of genus 0 with fewer than two cones (a sphere has no plane layout) and for a surface of
 /// several components; [`Error::Cancelled`].
 pub fn cut_graph(
@@ -106,7 +107,7 @@ pub fn cut_graph(
     let sources: Vec<_> = mesh.vertices().filter(|&v| fixed[v]).collect();
     let open = |sources: &[VertexId]| -> Result<_> {
         let (mut cut, shortest_arc) = tree_cotree_cut(mesh, lengths, &fixed, sources, control)?;
-        shorten(mesh, lengths, &mut cut, control)?;
+        cut.shorten(lengths, control)?;
         Ok((cut, shortest_arc))
     };
     let cut = if sources.is_empty() {
@@ -125,11 +126,11 @@ pub fn cut_graph(
         open(&sources)?.0
     };
     debug_assert!(is_disk(mesh, &cut.is_cut));
-    Ok(cut.into_graph(mesh))
+    Ok(cut.into_graph())
 }
 
-/// Vertices between two looks at the control.
-const VERTICES_PER_STEP: usize = 1024;
+/// Vertices looked at between two looks at the control; at each a few fans of triangles are measured.
+const VERTICES_PER_LOOK: usize = 1024;
 
 /// Sources tried on a closed surface without cones, besides the first. Two or three are usual.
 const MAX_ROOTS: usize = 8;
@@ -151,28 +152,41 @@ pub fn is_disk(mesh: &Mesh, is_cut: &PerEdge<bool>) -> bool {
 
 /// Whether all faces hang together through interior edges that are not walls.
 pub(super) fn is_connected(mesh: &Mesh, wall: impl Fn(EdgeId) -> bool) -> bool {
-    let mut joined = DisjointSets::new(mesh.n_faces());
+    let mut joined = UnionFind::new(mesh.n_faces());
     let mut components = mesh.n_faces();
     for e in mesh.edges().filter(|&e| !wall(e)) {
         if let (Some(f), Some(g)) = (mesh.face(e.halfedge()), mesh.face(e.halfedge().twin())) {
-            components -= usize::from(joined.union(f.index(), g.index()));
+            components -= usize::from(joined.join(f.0, g.0));
         }
     }
     components == 1
 }
 
 /// A cut in the making: marked edges, and per vertex how many half-edges of marked edges leave it.
-struct Cut {
+struct Cut<'a> {
+    mesh: &'a Mesh,
     is_cut: PerEdge<bool>,
     degree: PerVertex<u32>,
     /// Vertices a segment may not be pulled away from or across: cones and the boundary.
     fixed: PerVertex<bool>,
+    /// Scratch of [`Cut::link`], all false between its calls.
+    seen: PerVertex<bool>,
 }
 
-impl Cut {
-    fn set(&mut self, mesh: &Mesh, e: EdgeId, cut: bool) {
+impl<'a> Cut<'a> {
+    fn new(mesh: &'a Mesh, fixed: PerVertex<bool>) -> Cut<'a> {
+        Cut {
+            mesh,
+            is_cut: PerEdge::filled(mesh.n_edges(), false),
+            degree: PerVertex::filled(mesh.n_vertices(), 0),
+            fixed,
+            seen: PerVertex::filled(mesh.n_vertices(), false),
+        }
+    }
+
+    fn set(&mut self, e: EdgeId, cut: bool) {
         if std::mem::replace(&mut self.is_cut[e], cut) != cut {
-            for v in mesh.ends(e) {
+            for v in self.mesh.ends(e) {
                 self.degree[v] = if cut { self.degree[v] + 1 } else { self.degree[v] - 1 };
             }
         }
@@ -188,29 +202,124 @@ impl Cut {
         self.degree[v] == 2 && !self.fixed[v]
     }
 
-    fn into_graph(self, mesh: &Mesh) -> CutGraph {
+    /// The cut edges that leave `v`, clockwise.
+    fn leaving(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> {
+        self.mesh.outgoing(v).filter(|h| self.is_cut[h.edge()])
+    }
+
+    fn into_graph(self) -> CutGraph {
+        let mesh = self.mesh;
         let nodes: Vec<_> = mesh.vertices().filter(|&v| self.degree[v] > 0 && !self.is_inner(v)).collect();
         let mut walked = PerEdge::filled(mesh.n_edges(), false);
         let mut segments = Vec::new();
-        for &node in &nodes {
-            for start in mesh.outgoing(node).filter(|h| self.is_cut[h.edge()]) {
-                if std::mem::replace(&mut walked[start.edge()], true) {
-                    continue;
-                }
-                let mut segment = vec![start];
-                let mut h = start;
-                while self.is_inner(mesh.tip(h)) {
-                    let onwards =
-                        mesh.outgoing(mesh.tip(h)).find(|&o| self.is_cut[o.edge()] && o != h.twin());
-                    let Some(o) = onwards else { break };
-                    h = o;
-                    walked[h.edge()] = true;
-                    segment.push(h);
-                }
-                segments.push(segment);
+        for start in nodes.iter().flat_map(|&node| self.leaving(node)) {
+            if std::mem::replace(&mut walked[start.edge()], true) {
+                continue;
             }
+            let onwards = |&h: &HalfedgeId| {
+                let tip = mesh.tip(h);
+                self.leaving(tip).find(|&o| o != h.twin()).filter(|_| self.is_inner(tip))
+            };
+            let segment: Vec<_> = std::iter::successors(Some(start), onwards).collect();
+            segment.iter().for_each(|h| walked[h.edge()] = true);
+            segments.push(segment);
         }
         CutGraph { is_cut: self.is_cut, nodes, segments }
+    }
+
+    /// Close the branches that end nowhere: not at a cone and not on the boundary.
+    fn prune(&mut self) {
+        for mut v in self.mesh.vertices() {
+            while self.degree[v] == 1 && !self.fixed[v] {
+                let Some(h) = self.leaving(v).next() else { break };
+                self.set(h.edge(), false);
+                v = self.mesh.tip(h);
+            }
+        }
+    }
+
+    /// Shorten the cut by sliding edges across fans of triangles.
+    ///
+    /// ```text
+    ///      x1 --- x2         triangles at v between two neighbouring cut edges vu and vw: the end of vu
+    ///     / \    / \         slides along vw to w, so that u x1 x2 w takes the place of vu. The fan, a
+    ///    /   \  /   \        disk that hung on the path u x1 x2 w, then hangs on vu instead: the opened
+    ///   u ---- v --- w       surface stays a disk if x1, x2 are distinct and free of cuts, cones and
+    ///                        boundary. If nothing else ends at v, vw dangles then and goes too: a
+    ///                        segment is pulled straight.
+    /// ```
+    fn shorten(&mut self, lengths: &PerEdge<f64>, control: &Control) -> Result<()> {
+        let mesh = self.mesh;
+        let mut waiting: VecDeque<_> = mesh.vertices().filter(|&v| self.degree[v] > 1).collect();
+        let mut budget = MOVES_PER_FACE * mesh.n_faces();
+        let mut looked_at = 0;
+        while let (Some(v), 1..) = (waiting.pop_front(), budget) {
+            if usize::is_multiple_of(looked_at, VERTICES_PER_LOOK) {
+                control.check()?;
+            }
+            looked_at += 1;
+            let Some((closed, opened)) = self.best_slide(lengths, v) else { continue };
+            budget -= 1;
+            for (edges, open) in [(closed, false), (opened, true)] {
+                for h in edges {
+                    self.set(h.edge(), open);
+                    waiting.extend([mesh.origin(h), mesh.tip(h)]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The slide at `v` that saves most: the cut edges it closes and those it opens.
+    fn best_slide(
+        &mut self,
+        lengths: &PerEdge<f64>,
+        v: VertexId,
+    ) -> Option<(Vec<HalfedgeId>, Vec<HalfedgeId>)> {
+        let mesh = self.mesh;
+        let clockwise: Vec<_> = self.leaving(v).collect();
+        let n = clockwise.len();
+        let pairs = if n < 2 || mesh.is_boundary_vertex(v) { n.saturating_sub(1) } else { n };
+        let (mut best, mut saving) = (None, 0.0);
+        for i in 0..pairs {
+            let (b, a) = (clockwise[i], clockwise[(i + 1) % n]);
+            if mesh.tip(a) == v || mesh.tip(b) == v {
+                continue;
+            }
+            let closed = match lengths[a.edge()] >= lengths[b.edge()] {
+                _ if self.is_inner(v) => vec![a, b],
+                true => vec![a],
+                false => vec![b],
+            };
+            let old: f64 = closed.iter().map(|h| lengths[h.edge()]).sum();
+            let limit = old * (1.0 - LEAST_SAVING) - saving;
+            if let Some((opened, new)) = self.link(lengths, [a, b], limit) {
+                saving = old - new;
+                best = Some((closed, opened));
+            }
+        }
+        best
+    }
+
+    /// The edges opposite v in the fan counterclockwise between two outgoing half-edges, with their length;
+    /// `None` if that reaches `limit` or the fan cannot be swept.
+    fn link(
+        &mut self,
+        lengths: &PerEdge<f64>,
+        [a, b]: [HalfedgeId; 2],
+        limit: f64,
+    ) -> Option<(Vec<HalfedgeId>, f64)> {
+        let mesh = self.mesh;
+        let (way, length) = fan(mesh, lengths, a, b, limit)?;
+        let is_open = |h: &HalfedgeId| self.is_cut[h.edge()] || mesh.is_boundary_edge(h.edge());
+        if way.iter().any(is_open) {
+            return None;
+        }
+        let inner = || way.iter().rev().skip(1).map(|&h| mesh.tip(h));
+        let is_free = inner()
+            .all(|x| self.degree[x] == 0 && !self.fixed[x] && !std::mem::replace(&mut self.seen[x], true));
+        inner().for_each(|x| self.seen[x] = false);
+        is_free.then_some((way, length))
     }
 }
 
@@ -224,11 +333,7 @@ fn fixed_vertices(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Re
             need: "it must be below the number of vertices",
         });
     }
-    if !is_connected(mesh, |_| false) {
-        return Err(Error::Layout(
-            "the surface is empty or has several components: lay out each alone".into(),
-        ));
-    }
+    check_connected(mesh, "lay out")?;
     let mut fixed = PerVertex::from_fn(mesh.n_vertices(), |v| mesh.is_boundary_vertex(v));
     for &v in cones {
         fixed[v] = true;
@@ -241,150 +346,30 @@ fn fixed_vertices(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Re
 }
 
 /// The cut of tree and cotree with the given sources, and its shortest leftover edge.
-fn tree_cotree_cut(
-    mesh: &Mesh,
+fn tree_cotree_cut<'a>(
+    mesh: &'a Mesh,
     lengths: &PerEdge<f64>,
     fixed: &PerVertex<bool>,
     sources: &[VertexId],
     control: &Control,
-) -> Result<(Cut, Option<EdgeId>)> {
+) -> Result<(Cut<'a>, Option<EdgeId>)> {
     let forest = shortest_paths_under(mesh, lengths, sources.iter().copied(), control)?;
     let arcs = leftover(mesh, lengths, &forest, |e| mesh.is_boundary_edge(e));
     control.check()?;
-    let mut cut = Cut {
-        is_cut: PerEdge::filled(mesh.n_edges(), false),
-        degree: PerVertex::filled(mesh.n_vertices(), 0),
-        fixed: fixed.clone(),
-    };
+    let mut cut = Cut::new(mesh, fixed.clone());
     for &e in &arcs {
-        cut.set(mesh, e, true);
+        cut.set(e, true);
         for v in mesh.ends(e) {
             for h in forest.path(mesh, v) {
                 if cut.is_cut[h.edge()] {
                     break;
                 }
-                cut.set(mesh, h.edge(), true);
+                cut.set(h.edge(), true);
             }
         }
     }
-    prune(mesh, &mut cut);
+    cut.prune();
     Ok((cut, arcs.first().copied()))
-}
-
-/// Close the branches that end nowhere: not at a cone and not on the boundary.
-fn prune(mesh: &Mesh, cut: &mut Cut) {
-    for v in mesh.vertices() {
-        let mut v = v;
-        while cut.degree[v] == 1 && !cut.fixed[v] {
-            let Some(h) = mesh.outgoing(v).find(|h| cut.is_cut[h.edge()]) else { break };
-            cut.set(mesh, h.edge(), false);
-            v = mesh.tip(h);
-        }
-    }
-}
-
-/// A move must save this fraction of the length it replaces. Far above the rounding of a sum of lengths, so
-/// no sequence of moves comes back to where it was.
-const LEAST_SAVING: f64 = 1e-12;
-
-/// Moves allowed per face of the mesh. Paths from a shortest-path forest need far fewer; the bound keeps the
-/// worst case linear.
-const MOVES_PER_FACE: usize = 8;
-
-/// Shorten the cut by sliding edges across fans of triangles.
-///
-/// ```text
-///      x1 --- x2         triangles at v between two neighbouring cut edges vu and vw: the end of vu
-///     / \    / \         slides along vw to w, so that u x1 x2 w takes the place of vu. The fan, a
-///    /   \  /   \        disk that hung on the path u x1 x2 w, then hangs on vu instead: the opened
-///   u ---- v --- w       surface stays a disk if x1, x2 are distinct and free of cuts, cones and
-///                        boundary. If nothing else ends at v, vw dangles then and goes too: a
-///                        segment is pulled straight.
-/// ```
-fn shorten(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &mut Cut, control: &Control) -> Result<()> {
-    let mut waiting: VecDeque<_> = mesh.vertices().filter(|&v| cut.degree[v] > 1).collect();
-    let mut seen = PerVertex::filled(mesh.n_vertices(), false);
-    let mut budget = MOVES_PER_FACE * mesh.n_faces();
-    let mut looked_at = 0;
-    while let (Some(v), 1..) = (waiting.pop_front(), budget) {
-        if usize::is_multiple_of(looked_at, VERTICES_PER_STEP) {
-            control.check()?;
-        }
-        looked_at += 1;
-        let Some((closed, opened)) = best_slide(mesh, lengths, cut, &mut seen, v) else { continue };
-        budget -= 1;
-        for (edges, open) in [(closed, false), (opened, true)] {
-            for h in edges {
-                cut.set(mesh, h.edge(), open);
-                waiting.extend([mesh.origin(h), mesh.tip(h)]);
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The slide at `v` that saves most: the cut edges it closes and those it opens.
-fn best_slide(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
-    cut: &Cut,
-    seen: &mut PerVertex<bool>,
-    v: VertexId,
-) -> Option<(Vec<HalfedgeId>, Vec<HalfedgeId>)> {
-    let clockwise: Vec<_> = mesh.outgoing(v).filter(|h| cut.is_cut[h.edge()]).collect();
-    let n = clockwise.len();
-    let pairs = if n < 2 || mesh.is_boundary_vertex(v) { n.saturating_sub(1) } else { n };
-    let (mut best, mut saving) = (None, 0.0);
-    for i in 0..pairs {
-        let (b, a) = (clockwise[i], clockwise[(i + 1) % n]);
-        if mesh.tip(a) == v || mesh.tip(b) == v {
-            continue;
-        }
-        let closed = match lengths[a.edge()] >= lengths[b.edge()] {
-            _ if cut.is_inner(v) => vec![a, b],
-            true => vec![a],
-            false => vec![b],
-        };
-        let old: f64 = closed.iter().map(|h| lengths[h.edge()]).sum();
-        let limit = old * (1.0 - LEAST_SAVING) - saving;
-        if let Some((opened, new)) = link(mesh, lengths, cut, seen, a, b, limit) {
-            saving = old - new;
-            best = Some((closed, opened));
-        }
-    }
-    best
-}
-
-/// The edges opposite v in the fan counterclockwise from outgoing half-edge `a` to `b`, with their length;
-/// `None` if that reaches `limit` or the fan cannot be swept.
-fn link(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
-    cut: &Cut,
-    seen: &mut PerVertex<bool>,
-    a: HalfedgeId,
-    b: HalfedgeId,
-    limit: f64,
-) -> Option<(Vec<HalfedgeId>, f64)> {
-    let mut way = Vec::new();
-    let mut length = 0.0;
-    let mut h = a;
-    let mut free = true;
-    while free && h != b {
-        let (opposite, on) = (mesh.next(h), mesh.prev(h).twin());
-        length += lengths[opposite.edge()];
-        free = length < limit && !cut.is_cut[opposite.edge()] && !mesh.is_boundary_edge(opposite.edge());
-        if free && on != b {
-            let x = mesh.tip(on);
-            free = cut.degree[x] == 0 && !cut.fixed[x] && !std::mem::replace(&mut seen[x], true);
-        }
-        way.push(opposite);
-        h = on;
-    }
-    for h in &way {
-        seen[mesh.tip(*h)] = false;
-    }
-    free.then_some((way, length))
 }
 
 #[cfg(test)]
@@ -423,7 +408,7 @@ mod tests {
             let (mut cut, _) = tree_cotree_cut(&mesh, &lengths, &fixed, sources, &Control::new()).unwrap();
             assert!(is_disk(&mesh, &cut.is_cut));
             let before = cut.length(&lengths);
-            shorten(&mesh, &lengths, &mut cut, &Control::new()).unwrap();
+            cut.shorten(&lengths, &Control::new()).unwrap();
             assert!(is_disk(&mesh, &cut.is_cut));
             assert!(cut.length(&lengths) <= before);
             shorter += usize::from(cut.length(&lengths) < before);
@@ -466,17 +451,13 @@ mod tests {
                 _ => 1.0,
             });
         let edge = |kind: usize, i: usize, j: usize| EdgeId::from(3 * (i + n * j) + kind);
-        let mut cut = Cut {
-            is_cut: PerEdge::filled(mesh.n_edges(), false),
-            degree: PerVertex::filled(mesh.n_vertices(), 0),
-            fixed: PerVertex::filled(mesh.n_vertices(), false),
-        };
+        let mut cut = Cut::new(&mesh, PerVertex::filled(mesh.n_vertices(), false));
         let column = (0..n).map(|j| edge(1, 0, j));
         let row = (0..n).filter(|i| ![3, 4].contains(i)).map(|i| edge(0, i, 0));
         let detour = [edge(1, 3, 0), edge(0, 3, 1), edge(0, 4, 1), edge(1, 5, 0)];
-        column.chain(row).chain(detour).for_each(|e| cut.set(&mesh, e, true));
+        column.chain(row).chain(detour).for_each(|e| cut.set(e, true));
         assert!(is_disk(&mesh, &cut.is_cut));
-        shorten(&mesh, &lengths, &mut cut, &Control::new()).unwrap();
+        cut.shorten(&lengths, &Control::new()).unwrap();
         assert!(is_disk(&mesh, &cut.is_cut));
         assert!((0..n).all(|i| cut.is_cut[edge(0, i, 0)] && cut.is_cut[edge(1, 0, i)]));
     }

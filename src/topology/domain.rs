@@ -44,7 +44,9 @@ impl FundamentalDomain {
     /// Of the lifts with a corner at p̃ it is the one with the same corner there as the polygon of the basis;
     /// for [`HomotopyBasis::cut`] D is that polygon. O(E + g · length of the cut).
     ///
-    /// Errors: [`Error::Size`]; [`Error::Layout`] where the opened surface is no disk.
+    /// # Errors
+    ///
+    /// [`Error::Size`]; [`Error::Layout`] where the opened surface is no disk.
     pub fn new(mesh: &Mesh, is_cut: &PerEdge<bool>, basis: &HomotopyBasis) -> Result<FundamentalDomain> {
         check_size("cut marks", is_cut.len(), mesh.n_edges())?;
         basis.check_fits(mesh)?;
@@ -106,6 +108,8 @@ impl FundamentalDomain {
     /// right. From `base_corner`, γ is the element of the loop. So the isometries of the side pairings of any
     /// layout of D, multiplied along the crossings of the loops of the basis, are the generators of its deck
     /// group.
+    ///
+    /// # Errors
     ///
     /// [`Error::Argument`] for a path that is none, or does not start at that corner.
     pub fn crossings(&self, mesh: &Mesh, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<usize>> {

@@ -1,4 +1,13 @@
 //! Farthest-point sampling along edges, and central vertices.
+//!
+//! ```
+//! use ricci::mesh::{VertexId, shapes};
+//! use ricci::topology::farthest_vertices;
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let far = farthest_vertices(&mesh, &lengths, VertexId(0), 2)?;
+//! assert_eq!(far.len(), 2);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::check_vertex;
 use super::spanning::shortest_paths;
@@ -8,7 +17,11 @@ use crate::error::Result;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
 
 /// `count` vertices (at most V): `first`, then again and again the vertex farthest along edges from those
-/// chosen (the smallest index among equals). Deterministic; O(count · E log V). Errors: as
+/// chosen (the smallest index among equals). Deterministic; O(count · E log V).
+///
+/// # Errors
+///
+/// As
 /// [`shortest_paths`].
 pub fn farthest_vertices(
     mesh: &Mesh,
@@ -29,14 +42,18 @@ pub fn farthest_vertices(
 }
 
 /// Moves of the search for a central vertex; on the closed meshes of the corpus the distance changes little after three.
-const MOVES: usize = 6;
+const MAX_MOVES: usize = 6;
 
 /// A vertex from which none is far along edges: the search goes on from the middle of the path to the farthest vertex as long as that
 /// helps.
-/// Deterministic; O(E log V). Errors: as [`shortest_paths`]; [`crate::Error::Cancelled`].
+/// Deterministic; O(E log V).
+///
+/// # Errors
+///
+/// As [`shortest_paths`]; [`crate::Error::Cancelled`].
 pub fn central_vertex(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<VertexId> {
     let (mut best, mut at) = ((f64::INFINITY, VertexId(0)), VertexId(0));
-    for _ in 0..MOVES {
+    for _ in 0..MAX_MOVES {
         let Forest { distance, parent } = shortest_paths_under(mesh, lengths, [at], control)?;
         let farther = |far, v| if distance[v] > distance[far] { v } else { far };
         let far = mesh.vertices().fold(at, farther);

@@ -1,6 +1,13 @@
 //! Fundamental groups of oriented surfaces: one relator, names of the generators, the word problem.
+//!
+//! ```
+//! use ricci::topology::SurfaceGroup;
+//! let group = SurfaceGroup { genus: 2, boundaries: 0 };
+//! let word = group.parse("a1 b1 a1^-1 b1^-1 a2 b2 a2^-1")?;
+//! assert_eq!(group.text(&group.reduce(&word)), "b2");
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
-use super::reduction::Reduction;
 use super::word::{Letter, Word};
 use crate::error::{Error, Result};
 
@@ -88,28 +95,6 @@ impl SurfaceGroup {
         (0..self.genus).flat_map(handle).chain(ends).collect()
     }
 
-    /// A word of the same element, never longer than the word on a closed surface; empty exactly for the
-    /// identity.
-    ///
-    /// Closed surfaces of genus ≥ 2: Dehn's algorithm \[Deh12\]; what is left need not be the only such word.
-    /// Genus 1: `a1^p b1^q`. With boundary: freely reduced without `cb`, which the relator expresses by the
-    /// others. These two are normal forms: equal elements, equal words. O(g · length).
-    pub fn reduce(&self, word: &Word) -> Word {
-        let mut reduction = Reduction::new(*self);
-        reduction.extend(word.letters().iter().copied());
-        reduction.word()
-    }
-
-    /// Whether a word is the identity of the group.
-    pub fn is_trivial(&self, word: &Word) -> bool {
-        self.reduce(word).is_empty()
-    }
-
-    /// Whether two words are the same element of the group.
-    pub fn equal(&self, u: &Word, v: &Word) -> bool {
-        self.is_trivial(&u.inverse().times(v))
-    }
-
     /// The image in the first homology ℤ^{2g + max(b − 1, 0)}: the sum of each generator's exponents, where
     /// `cb` counts as `−c1 − … − c(b−1)`.
     pub fn abelianisation(&self, word: &Word) -> Vec<i64> {
@@ -119,8 +104,9 @@ impl SurfaceGroup {
                 *sum += if letter.is_inverse() { -1 } else { 1 };
             }
         }
-        if self.boundaries > 0 {
-            let last = sums.pop().unwrap_or(0);
+        if self.boundaries > 0
+            && let Some(last) = sums.pop()
+        {
             sums[2 * self.genus..].iter_mut().for_each(|sum| *sum -= last);
         }
         sums

@@ -1,8 +1,6 @@
 //! Canonical homotopy bases, and the group element of any edge path.
 
 use super::brahana::{NormalForm, best_starts, normal_form};
-use super::check_lengths;
-use super::cut::is_connected;
 use super::group::SurfaceGroup;
 use super::handle::{HandleLoops, LoopPair};
 use super::places::Places;
@@ -12,9 +10,9 @@ use super::rooted::RootedTree;
 use super::shorten::{path_length, shorten};
 use super::spanning::Forest;
 use super::word::{Letter, Word};
-use super::{check_path, check_vertex};
+use super::{check_connected, check_lengths, check_path, check_vertex, corners_along};
 use crate::control::Control;
-use crate::error::{Error, Result, check_size};
+use crate::error::{Result, check_size};
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
 
 /// Generators of the fundamental group of a surface as loops through one base vertex p, with the one relator
@@ -63,8 +61,10 @@ const WORK_PER_EDGE: usize = 8;
 /// commutator) and pulled straight across triangles, as long as they become shorter. O(E log E) for a fixed
 /// genus; O(g³) at worst for the words.
 ///
-/// Errors: [`Error::EdgeLength`], [`Error::Size`]; [`Error::Argument`] for a base that is no vertex;
-/// [`Error::Layout`] for an empty surface or one of several components; [`Error::Cancelled`].
+/// # Errors
+///
+/// [`crate::Error::EdgeLength`], [`crate::Error::Size`]; [`crate::Error::Argument`] for a base that is no vertex;
+/// [`crate::Error::Layout`] for an empty surface or one of several components; [`crate::Error::Cancelled`].
 pub fn homotopy_basis(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -73,10 +73,7 @@ pub fn homotopy_basis(
 ) -> Result<HomotopyBasis> {
     control.check()?;
     check_lengths(mesh, lengths)?;
-    if !is_connected(mesh, |_| false) {
-        let message = "the surface is empty or has several components: take a homotopy basis of each alone";
-        return Err(Error::Layout(message.into()));
-    }
+    check_connected(mesh, "take a homotopy basis of")?;
     let rooted = match base {
         Some(base) => {
             check_vertex(mesh, base)?;
@@ -168,7 +165,9 @@ impl HomotopyBasis {
 
     /// The tree path from the base to `v`; its lift from p̃ ends at ṽ.
     ///
-    /// [`Error::Argument`] for what is no vertex.
+    /// # Errors
+    ///
+    /// [`crate::Error::Argument`] for what is no vertex.
     pub fn tree_path(&self, mesh: &Mesh, v: VertexId) -> Result<Vec<HalfedgeId>> {
         self.check_fits(mesh)?;
         check_vertex(mesh, v)?;
@@ -192,12 +191,8 @@ impl HomotopyBasis {
     }
 
     fn halfedge_letters(&self, mesh: &Mesh, h: HalfedgeId) -> impl Iterator<Item = Letter> + '_ {
-        // Inside a face the two corners are lifted together; an outside half-edge is the way back along its
-        // twin.
-        let (from, to) = match mesh.is_outside(h) {
-            false => (h, mesh.next(h)),
-            true => (mesh.next(h.twin()), h.twin()),
-        };
+        // The two corners of one face are lifted together.
+        let [from, to] = corners_along(mesh, h);
         self.places.between(self.place[from], self.place[to])
     }
 
@@ -205,7 +200,9 @@ impl HomotopyBasis {
     /// along the tree; for a loop at the base, of the loop itself. Reduced in the group
     /// ([`SurfaceGroup::reduce`]). The lift of the path that starts at ũ ends at `γ ṽ`.
     ///
-    /// [`Error::Argument`] for half-edges that do not follow each other.
+    /// # Errors
+    ///
+    /// [`crate::Error::Argument`] for half-edges that do not follow each other.
     pub fn path_word(&self, mesh: &Mesh, path: &[HalfedgeId]) -> Result<Word> {
         self.check_fits(mesh)?;
         check_path(mesh, path)?;

@@ -1,5 +1,19 @@
 //! Spanning trees, homology generators, cut graphs, homotopy bases and lifts to the universal cover.
 //! Everything is walked through half-edges, so loops and repeated edges of a Δ-complex are no special cases.
+//!
+//! ```
+//! use ricci::mesh::shapes;
+//! use ricci::topology::{cut_graph, homotopy_basis, intersection_matrix};
+//! use ricci::{Control, topology::cut::is_disk};
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let control = Control::new();
+//! let basis = homotopy_basis(&mesh, &lengths, None, &control)?;
+//! assert_eq!(basis.group.names(), ["a1", "b1"]);
+//! assert_eq!(intersection_matrix(&mesh, &basis.loops)?, [[0, 1], [-1, 0]]);
+//! let cut = cut_graph(&mesh, &lengths, &[], &control)?;
+//! assert!(is_disk(&mesh, &cut.is_cut));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 mod brahana;
 mod corner_walk;
@@ -34,10 +48,8 @@ pub use spanning::{Forest, shortest_paths};
 pub use word::{Letter, Word};
 
 use crate::error::{Error, Result, check_size};
+use crate::geometry::space::USABLE_LENGTHS;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
-
-/// Lengths outside this range are refused: their squares would leave the range of doubles.
-const LENGTHS: std::ops::RangeInclusive<f64> = 1e-150..=1e150;
 
 /// The vertex exists.
 pub(crate) fn check_vertex(mesh: &Mesh, v: VertexId) -> Result<()> {
@@ -59,6 +71,22 @@ pub(crate) fn check_path(mesh: &Mesh, path: &[HalfedgeId]) -> Result<()> {
     })
 }
 
+/// The corners at the start and the end of a half-edge, as half-edges of its face; outside the surface, of the face of its twin.
+fn corners_along(mesh: &Mesh, h: HalfedgeId) -> [HalfedgeId; 2] {
+    match mesh.is_outside(h) {
+        false => [h, mesh.next(h)],
+        true => [mesh.next(h.twin()), h.twin()],
+    }
+}
+
+/// The surface is connected and not empty; `advice` says what to do with one that is not.
+fn check_connected(mesh: &Mesh, advice: &str) -> Result<()> {
+    if cut::is_connected(mesh, |_| false) {
+        return Ok(());
+    }
+    Err(Error::Layout(format!("the surface is empty or has several components: {advice} each alone")))
+}
+
 /// A path that ends where it starts.
 fn check_loop(mesh: &Mesh, path: &[HalfedgeId]) -> Result<()> {
     check_path(mesh, path)?;
@@ -78,7 +106,7 @@ fn bad_path(h: HalfedgeId, need: &'static str) -> Error {
 /// first edge without.
 pub(crate) fn check_lengths(mesh: &Mesh, lengths: &PerEdge<f64>) -> Result<()> {
     check_size("lengths", lengths.len(), mesh.n_edges())?;
-    match lengths.iter().enumerate().find(|(_, l)| !LENGTHS.contains(*l)) {
+    match lengths.iter().enumerate().find(|(_, l)| !USABLE_LENGTHS.contains(*l)) {
         Some((edge, &length)) => Err(Error::EdgeLength { edge, length }),
         None => Ok(()),
     }

@@ -3,6 +3,31 @@
 use super::group::SurfaceGroup;
 use super::word::{Letter, Word, inverse};
 
+/// The word problem.
+impl SurfaceGroup {
+    /// A word of the same element, never longer than the word on a closed surface; empty exactly for the
+    /// identity.
+    ///
+    /// Closed surfaces of genus ≥ 2: Dehn's algorithm \[Deh12\]; what is left need not be the only such word.
+    /// Genus 1: `a1^p b1^q`. With boundary: freely reduced without `cb`, which the relator expresses by the
+    /// others. These two are normal forms: equal elements, equal words. O(g · length).
+    pub fn reduce(&self, word: &Word) -> Word {
+        let mut reduction = Reduction::new(*self);
+        reduction.extend(word.letters().iter().copied());
+        reduction.word()
+    }
+
+    /// Whether a word is the identity of the group.
+    pub fn is_trivial(&self, word: &Word) -> bool {
+        self.reduce(word).is_empty()
+    }
+
+    /// Whether two words are the same element of the group.
+    pub fn equal(&self, u: &Word, v: &Word) -> bool {
+        self.is_trivial(&u.inverse().times(v))
+    }
+}
+
 /// A product of letters that is kept reduced while letters are multiplied to its right; see
 /// [`SurfaceGroup::reduce`].
 #[derive(Debug, Clone)]

@@ -1,14 +1,11 @@
 //! Shortest-path trees that contain every boundary loop but one edge of it, and where to root them.
 
-use super::spanning::{Forest, Key, leftover};
+use super::spanning::{Forest, Key, VERTICES_PER_LOOK, leftover};
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-
-/// Vertices between two looks at the control.
-const VERTICES_PER_STEP: usize = 4096;
 
 /// Roots sampled, and moves made from the best of them. On the closed meshes and disks of the corpus the
 /// loops are then within a few percent of the best of forty sampled roots.
@@ -98,7 +95,7 @@ fn tree_along_boundary(
     queue.push(Reverse((Key(0.0), root)));
     let mut steps = 0;
     while let Some(Reverse((Key(d), v))) = queue.pop() {
-        if usize::is_multiple_of(steps, VERTICES_PER_STEP) {
+        if usize::is_multiple_of(steps, VERTICES_PER_LOOK) {
             control.check()?;
         }
         steps += 1;

@@ -4,13 +4,13 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge};
 
-/// A move must save this fraction of the length it replaces. Far above the rounding of a sum of lengths, so
-/// no sequence of moves comes back to where it was.
-const LEAST_SAVING: f64 = 1e-12;
+/// The fraction of the length it replaces that a move of a path or a cut must save. It is far above the
+/// rounding of a sum of lengths, so that no sequence of moves comes back to where it was.
+pub(super) const LEAST_SAVING: f64 = 1e-12;
 
-/// Moves allowed per face of the mesh, besides those that take out a spur. Paths made of shortest paths need
-/// far fewer; the bound keeps the worst case linear.
-const MOVES_PER_FACE: usize = 8;
+/// Moves allowed per face of the mesh, besides those that take out a spur of a path. What is made of shortest
+/// paths needs far fewer; the bound keeps the worst case linear.
+pub(super) const MOVES_PER_FACE: usize = 8;
 
 /// Steps between two looks at the control.
 const STEPS_PER_LOOK: usize = 4096;
@@ -76,7 +76,7 @@ fn shorter_side(
 
 /// The edges opposite the origin of `from` in the fan counterclockwise from it to `to`, with their length;
 /// `None` if that reaches `limit` or the fan leaves the surface.
-fn fan(
+pub(super) fn fan(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     from: HalfedgeId,

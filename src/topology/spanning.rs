@@ -3,12 +3,13 @@
 use super::{check_lengths, check_vertex};
 use crate::control::Control;
 use crate::error::Result;
+use crate::mesh::union_find::UnionFind;
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-/// Vertices between two looks at the control.
-const VERTICES_PER_STEP: usize = 4096;
+/// Vertices settled between two looks at the control: a fraction of a millisecond.
+pub(super) const VERTICES_PER_LOOK: usize = 4096;
 
 /// A real priority-queue key in the total order of `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +47,11 @@ impl Forest {
 ///
 /// `lengths` are positive, one per edge. Equal distances are settled in order of vertex id and the first path
 /// found stays, so the forest depends on the input alone. A component without a source gets one: its vertex
-/// of lowest id. Errors: lengths that are not E positive numbers, a source that is no vertex.
+/// of lowest id.
+///
+/// # Errors
+///
+/// Lengths that are not E positive numbers, a source that is no vertex.
 pub fn shortest_paths(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -76,7 +81,7 @@ pub(crate) fn shortest_paths_under(
     let mut steps = 0;
     loop {
         while let Some(Reverse((Key(d), v))) = queue.pop() {
-            if usize::is_multiple_of(steps, VERTICES_PER_STEP) {
+            if usize::is_multiple_of(steps, VERTICES_PER_LOOK) {
                 control.check()?;
             }
             steps += 1;
@@ -122,48 +127,14 @@ pub(crate) fn leftover(
     let mut arcs: Vec<(Key, EdgeId)> =
         mesh.edges().filter(|&e| !in_forest[e] && !wall(e)).map(|e| (Key(arc(e)), e)).collect();
     arcs.sort_unstable_by(|a, b| b.cmp(a));
-    let outside = mesh.n_faces();
-    let node = |h: HalfedgeId| mesh.face(h).map_or(outside, |f| f.index());
-    let mut joined = DisjointSets::new(outside + 1);
+    let outside = mesh.n_faces() as u32;
+    let node = |h: HalfedgeId| mesh.face(h).map_or(outside, |f| f.0);
+    let mut joined = UnionFind::new(mesh.n_faces() + 1);
     let mut left: Vec<EdgeId> = arcs
         .into_iter()
         .map(|(_, e)| e)
-        .filter(|e| !joined.union(node(e.halfedge()), node(e.halfedge().twin())))
+        .filter(|e| !joined.join(node(e.halfedge()), node(e.halfedge().twin())))
         .collect();
     left.reverse();
     left
-}
-
-/// Disjoint sets of 0…n−1 with path halving and union by size.
-pub(crate) struct DisjointSets {
-    parent: Vec<u32>,
-    size: Vec<u32>,
-}
-
-impl DisjointSets {
-    pub(crate) fn new(n: usize) -> Self {
-        DisjointSets { parent: (0..n as u32).collect(), size: vec![1; n] }
-    }
-
-    pub(crate) fn find(&mut self, mut i: usize) -> usize {
-        while self.parent[i] as usize != i {
-            self.parent[i] = self.parent[self.parent[i] as usize];
-            i = self.parent[i] as usize;
-        }
-        i
-    }
-
-    /// Merge the sets of `i` and `j`; false if they were one already.
-    pub(crate) fn union(&mut self, i: usize, j: usize) -> bool {
-        let (mut i, mut j) = (self.find(i), self.find(j));
-        if i == j {
-            return false;
-        }
-        if self.size[i] < self.size[j] {
-            std::mem::swap(&mut i, &mut j);
-        }
-        self.parent[j] = i as u32;
-        self.size[i] += self.size[j];
-        true
-    }
 }

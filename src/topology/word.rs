@@ -1,4 +1,12 @@
 //! Words in generators and their inverses: elements of a free group.
+//!
+//! ```
+//! use ricci::topology::{Letter, Word};
+//! let [a, b] = [0, 1].map(Letter::generator);
+//! let word = Word::from_iter([a, b, b.inverse()]);
+//! assert_eq!(word.letters(), [a]);
+//! assert!(word.times(&word.inverse()).is_empty());
+//! ```
 
 /// A generator or its inverse: generator k is letter `2k`, its inverse `2k + 1` (as edges and half-edges).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

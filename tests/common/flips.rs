@@ -99,7 +99,7 @@ pub fn honest(flow: &SurfaceFlow, report: &Report, target: &PerVertex<f64>, what
     }
     let found = measure(mesh, metric);
     assert_eq!(found.broken, 0, "{what}");
-    let target = flow.target(target);
+    let target = flow.target(target).unwrap();
     for v in mesh.vertices() {
         let error = (found.curvature[v.index()] - target[v]).abs();
         let most = report.tolerance + found.rounding[v.index()];

@@ -3,10 +3,10 @@
 use ricci::Control;
 use ricci::flow::{Flips, Options, Solver};
 use ricci::geometry::Space;
-use ricci::mesh::{Double, EdgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
-use ricci::metric::delaunay::{Queue, failing, restore_delaunay};
-use ricci::metric::refinement::{Final, Input, Intrinsic};
-use ricci::metric::{Metric, Refinement, Scheme, Target, delaunay_start};
+use ricci::mesh::{Double, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
+use ricci::metric::delaunay::{ClassFlips, Queue, failing};
+use ricci::metric::refinement::{Final, Input, Intrinsic, Triangulations};
+use ricci::metric::{Class, Metric, Refinement, Scheme, StartOptions, Target, Triangulated, delaunay_start};
 use std::f64::consts::PI;
 
 pub const SCHEMES: [Scheme; 2] = [Scheme::Yamabe, Scheme::Inversive];
@@ -32,11 +32,11 @@ pub fn flow(
 ) -> Option<Flown> {
     let mut flown = Flown::start(input, lengths, kind, double);
     let Flown { mesh, metric, normal, flips, start, .. } = &mut flown;
-    let mut record = |mesh: &Mesh, e: EdgeId| {
+    let mut record = |mesh: &Mesh, flip: Flip| {
         *flips += 1;
-        normal.record(mesh, e);
+        normal.record(mesh, flip.edge);
         if let Some((.., its_own)) = start {
-            its_own.record(mesh, e);
+            its_own.record(mesh, flip.edge);
         }
     };
     let options = Options { flips: Flips::Auto, ..Options::default() };
@@ -49,9 +49,11 @@ pub fn flow(
     for step in 1..=20 {
         let s = f64::from(step) / 20.0;
         let u = PerVertex::from_fn(from.len(), |v: VertexId| (1.0 - s) * from[v] + s * to[v]);
-        let mut queue = Queue::new(mesh.n_edges(), &[]);
+        let mut queue = Queue::new(mesh.n_edges(), &FixedEdges::none());
         failing(mesh, metric, &u).into_iter().for_each(|e| queue.push(e));
-        restore_delaunay(mesh, metric, &u, &mut queue, &mut record, &Control::new()).unwrap();
+        ClassFlips { mesh, metric, record: &mut record }
+            .restore_delaunay(&u, &mut queue, &Control::new())
+            .unwrap();
         metric.u = u;
     }
     Some(flown)
@@ -65,25 +67,16 @@ impl Flown {
         (space, scheme): (Space, Scheme),
         double: Option<&Double>,
     ) -> Flown {
-        let (mut mesh, mut lengths) = (input.clone(), lengths.clone());
-        let mut normal = NormalCoordinates::new(&mesh);
+        let mut surface = Triangulated { mesh: input.clone(), lengths: lengths.clone(), geometry: Space::E2 };
+        let mut normal = NormalCoordinates::new(input);
         let mut flips = 0;
-        let mut record = |mesh: &Mesh, e: EdgeId| {
+        let mut record = |mesh: &Mesh, flip: Flip| {
             flips += 1;
-            normal.record(mesh, e);
+            normal.record(mesh, flip.edge);
         };
-        let start = delaunay_start(
-            &mut mesh,
-            &mut lengths,
-            Space::E2,
-            scheme,
-            space,
-            double,
-            &[],
-            &mut record,
-            &Control::new(),
-        )
-        .unwrap();
+        let options = StartOptions { double, ..Class::new(scheme, space).into() };
+        let start = delaunay_start(&mut surface, options, &mut record, &Control::new()).unwrap();
+        let Triangulated { mesh, lengths, .. } = surface;
         let intrinsic =
             (flips > 0).then(|| (mesh.clone(), lengths, normal.clone(), NormalCoordinates::new(&mesh)));
         Flown { mesh, metric: start.metric, input_u: start.input_u, normal, flips, start: intrinsic }
@@ -99,7 +92,7 @@ impl Flown {
             given,
             normal,
         });
-        Refinement::new(given, intrinsic, result, &keep, &Control::new()).unwrap()
+        Refinement::new(Triangulations { input: given, intrinsic, result }, &keep, &Control::new()).unwrap()
     }
 }
 

@@ -68,10 +68,10 @@ fn every_closed_mesh_is_refined_with_its_flat_and_hyperbolic_metrics() {
 fn every_open_mesh_is_refined_in_its_half_of_the_double() {
     for (name, half, lengths, positions) in corpus().into_iter().filter(|(_, mesh, ..)| !mesh.is_closed()) {
         let double = Double::new(&half).unwrap();
-        let lengths_of_double: PerEdge<f64> = double.spread_edges(&lengths).into();
+        let lengths_of_double: PerEdge<f64> = double.spread_edges(&lengths).unwrap().into();
         for scheme in SCHEMES {
             let Ok(target) = Target::Boundary.resolve(&half, &lengths, Space::E2, scheme) else { continue };
-            let target: PerVertex<f64> = double.target(&target).into();
+            let target: PerVertex<f64> = double.target(&target).unwrap().into();
             let kind = (Space::E2, scheme);
             let Some(flown) = flow(&double.mesh, &lengths_of_double, kind, &target, Some(&double)) else {
                 println!("{name} {scheme} does not converge");

@@ -7,7 +7,7 @@ use ricci::Control;
 use ricci::geometry::Space;
 use ricci::geometry::flip::Hinge;
 use ricci::mesh::{EdgeId, FaceId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
-use ricci::metric::refinement::{Final, Input};
+use ricci::metric::refinement::{Final, Input, Triangulations};
 use ricci::metric::{Metric, Refinement, Scheme, initial_metric, lengths_from_positions};
 use std::f64::consts::PI;
 
@@ -21,14 +21,9 @@ fn without_flips_the_refinement_is_the_input() {
     let mut metric = initial.metric;
     metric.u.iter_mut().for_each(|u| *u += 0.5);
     let given = Input { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
-    let r = Refinement::new(
-        given,
-        None,
-        Final { mesh: &mesh, metric: &metric, normal: &normal },
-        &|_| true,
-        &Control::new(),
-    )
-    .unwrap();
+    let result = Final { mesh: &mesh, metric: &metric, normal: &normal };
+    let all = Triangulations { input: given, intrinsic: None, result };
+    let r = Refinement::new(all, &|_| true, &Control::new()).unwrap();
     assert_eq!(r.mesh.n_vertices(), mesh.n_vertices());
     for f in r.mesh.faces() {
         assert_eq!(r.mesh.face_vertices(f), mesh.face_vertices(f));
@@ -96,7 +91,12 @@ fn refined_from_either_side_the_crossings_are_the_same() {
         let refine = |a: &Mesh, b: &Mesh, metric: &Metric, normal: &NormalCoordinates| {
             let given = Input { mesh: a, geometry: Space::E2, u: &metric.u };
             let result = Final { mesh: b, metric, normal };
-            Refinement::new(given, None, result, &|_| true, &Control::new()).unwrap()
+            Refinement::new(
+                Triangulations { input: given, intrinsic: None, result },
+                &|_| true,
+                &Control::new(),
+            )
+            .unwrap()
         };
         let there = refine(&before, &after, &metric, &normal);
         let here = refine(&after, &back, &again, &reverse);
@@ -202,7 +202,12 @@ fn edges_across_a_cocircular_quadrilateral_stay_straight() {
         seen += 1;
         let given = Input { mesh: &before, geometry: space, u: &u };
         let result = Final { mesh: &mesh, metric: &metric, normal: &normal };
-        let r = Refinement::new(given, None, result, &|_| true, &Control::new()).unwrap();
+        let r = Refinement::new(
+            Triangulations { input: given, intrinsic: None, result },
+            &|_| true,
+            &Control::new(),
+        )
+        .unwrap();
         // The diagonals' common point, as a combination of their ends.
         let volume = |a: usize, b: usize, c: usize| determinant([at[a], at[b], at[c]]);
         let c = r.crossings[0];
@@ -290,7 +295,7 @@ fn any_number_of_threads_gives_the_same_and_a_cancelled_call_says_so() {
     let refine = |control: &Control| {
         let given = Input { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
         let result = Final { mesh: &after, metric: &metric, normal: &normal };
-        Refinement::new(given, None, result, &|_| true, control)
+        Refinement::new(Triangulations { input: given, intrinsic: None, result }, &|_| true, control)
     };
     let one = refine(&Control::new()).unwrap();
     assert!(one.crossings.len() > mesh.n_edges());
@@ -305,5 +310,8 @@ fn any_number_of_threads_gives_the_same_and_a_cancelled_call_says_so() {
     let blind = NormalCoordinates::new(&mesh);
     let given = Input { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
     let result = Final { mesh: &after, metric: &metric, normal: &blind };
-    assert!(Refinement::new(given, None, result, &|_| true, &Control::new()).is_err());
+    assert!(
+        Refinement::new(Triangulations { input: given, intrinsic: None, result }, &|_| true, &Control::new())
+            .is_err()
+    );
 }

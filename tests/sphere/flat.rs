@@ -15,7 +15,7 @@ fn double(points: &[Point], faces: &[[u32; 3]]) -> (Mesh, PerEdge<f64>) {
     let half = Mesh::from_faces(points.len(), faces).unwrap();
     let double = Double::new(&half).unwrap();
     let lengths = lengths_from_positions(&half, points).unwrap();
-    let lengths = double.spread_edges(&lengths).into();
+    let lengths = double.spread_edges(&lengths).unwrap().into();
     (double.mesh, lengths)
 }
 

@@ -1,10 +1,11 @@
 //! The options of `ricci uniformize` and `ricci cover`.
 
-use crate::options::{Common, OnChoice, SolveArgs, SurfaceArgs};
+use crate::options::{Common, OnChoice, SolveArgs, SurfaceArgs, choices};
 use crate::picture::{PictureArgs, Texture};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use ricci::geometry::model::Model;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use std::path::PathBuf;
 
 pub const UNIFORMIZE_HELP: &str = "\
@@ -79,7 +80,7 @@ pub struct UniformizeArgs {
     #[arg(long, value_enum, requires = "picture")]
     pub show: Option<ShowChoice>,
     /// Model of the hyperbolic plane in pictures
-    #[arg(long, value_enum, value_name = "MODEL", requires = "picture")]
+    #[arg(long, value_name = "MODEL", requires = "picture", value_parser = model_that_is_drawn())]
     pub model: Option<ModelChoice>,
 }
 
@@ -105,7 +106,7 @@ pub struct CoverArgs {
     /// What the picture shows [default: copies]
     #[arg(long, value_enum, requires = "picture")]
     pub show: Option<TilesChoice>,
-    /// Model of the hyperbolic plane in --cover, --domain and pictures [default: poincare]
+    /// Model of the hyperbolic plane in --cover, --domain and pictures, where the hyperboloid is drawn as poincare [default: poincare]
     #[arg(long, value_enum, value_name = "MODEL")]
     pub model: Option<ModelChoice>,
 }
@@ -136,28 +137,21 @@ pub enum TilesChoice {
     Tiles,
 }
 
-/// A model of the hyperbolic plane.
-#[derive(ValueEnum, Debug, Clone, Copy, PartialEq)]
-pub enum ModelChoice {
-    Poincare,
-    Klein,
-    HalfPlane,
-    Hyperboloid,
+/// What a picture shows.
+#[derive(Clone, Copy)]
+pub enum Shown {
+    Uniform(ShowChoice),
+    Cover(TilesChoice),
 }
 
-impl From<ModelChoice> for Model {
-    fn from(choice: ModelChoice) -> Model {
-        match choice {
-            ModelChoice::Poincare => Model::Poincare,
-            ModelChoice::Klein => Model::Klein,
-            ModelChoice::HalfPlane => Model::HalfPlane,
-            ModelChoice::Hyperboloid => Model::Hyperboloid,
-        }
-    }
-}
+choices!(
+    /// A model of the hyperbolic plane.
+    ModelChoice = Model { Poincare, Klein, HalfPlane, Hyperboloid }
+);
 
-impl Serialize for ModelChoice {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(Model::from(*self).name())
-    }
+/// The models that are plane.
+fn model_that_is_drawn() -> impl TypedValueParser<Value = ModelChoice> {
+    let drawn = ModelChoice::value_variants().iter().filter(|model| **model != ModelChoice::Hyperboloid);
+    PossibleValuesParser::new(drawn.filter_map(ValueEnum::to_possible_value))
+        .try_map(|name| ModelChoice::from_str(&name, false))
 }

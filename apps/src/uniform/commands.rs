@@ -1,53 +1,21 @@
 //! Both commands from beginning to end.
 
-use super::args::{CanonicalArgs, CoverArgs, TilesChoice, UniformizeArgs};
-use super::pictures::Shown;
+use super::args::{CanonicalArgs, CoverArgs, Shown, TilesChoice, UniformizeArgs};
+use super::needs::Needs;
 use super::quotient::Uniformized;
-use super::request::{CoverWish, Needs, Wish};
+use super::request::{CoverWish, Wish};
+use super::shape::Shape;
 use super::sphere::{Round, flowed, punctured};
 use super::summary;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::options::MethodChoice;
 use crate::progress::Progress;
-use crate::report::{Attempts, Checks, timed};
+use crate::report::{Done, timed};
 use ricci::Control;
 use ricci::canonical::{self, QuotientOptions, Uniformization};
 use ricci::mesh::VertexId;
 use std::time::Instant;
-
-/// A surface in its canonical shape.
-pub enum Shape {
-    Sphere(Box<Round>),
-    Quotient(Box<Uniformized>),
-}
-
-impl Shape {
-    pub fn checks(&self) -> Checks {
-        match self {
-            Shape::Sphere(s) => s.checks(),
-            Shape::Quotient(u) => u.checks(),
-        }
-    }
-
-    pub fn failed(&self) -> &Attempts {
-        match self {
-            Shape::Sphere(s) => &s.failed,
-            Shape::Quotient(u) => &u.failed,
-        }
-    }
-}
-
-/// A finished run.
-pub struct Done {
-    pub input: Input,
-    pub shape: Shape,
-    pub checks: Checks,
-    /// Files written.
-    pub files: Vec<String>,
-    pub seconds: f64,
-    pub exit_code: u8,
-}
 
 /// Run `ricci uniformize` and say what came out.
 pub fn uniformize(args: &UniformizeArgs, control: &Control) -> Result<u8, Failure> {
@@ -67,7 +35,7 @@ pub fn cover(args: &CoverArgs, control: &Control) -> Result<u8, Failure> {
     Ok(done.exit_code)
 }
 
-pub fn execute_uniformize(args: &UniformizeArgs, control: &Control) -> Result<Done, Failure> {
+pub fn execute_uniformize(args: &UniformizeArgs, control: &Control) -> Result<Done<Shape>, Failure> {
     let shown = args.show.map(Shown::Uniform);
     execute(
         &Wish { args: &args.canonical, command: "uniformize", shown, model: args.model, cover: None },
@@ -75,7 +43,7 @@ pub fn execute_uniformize(args: &UniformizeArgs, control: &Control) -> Result<Do
     )
 }
 
-pub fn execute_cover(args: &CoverArgs, control: &Control) -> Result<Done, Failure> {
+pub fn execute_cover(args: &CoverArgs, control: &Control) -> Result<Done<Shape>, Failure> {
     let cover = CoverWish {
         depth: args.depth.map_or(2, usize::from),
         radius: args.radius,
@@ -92,7 +60,7 @@ pub fn execute_cover(args: &CoverArgs, control: &Control) -> Result<Done, Failur
 
 /// The base vertex that was asked for, if it is one.
 fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure> {
-    let n = input.mesh.n_vertices();
+    let n = input.mesh().n_vertices();
     match args.base {
         Some(v) if v as usize >= n => {
             Err(Failure::Usage(format!("--base {v}: there is no such vertex, they are 0 to {}", n - 1)))
@@ -104,14 +72,13 @@ fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure
 /// Uniformize a closed surface: by the library's one call, but for the paper's flow of spheres.
 fn shape(input: &Input, args: &CanonicalArgs, needs: Needs, control: &Control) -> Result<Shape, Failure> {
     let (base, mut taken) = (base(input, args)?, 0.0);
-    if input.mesh.euler() > 0 && args.solve.method == MethodChoice::Gradient {
+    if input.mesh().euler() > 0 && args.solve.method == MethodChoice::Gradient {
         let found = timed(&mut taken, || flowed(input, args, base, control))?;
         return Ok(Shape::Sphere(Box::new(Round::new(input, args, found, taken, needs, control)?)));
     }
     let flow = args.solve.options(args.common.threads());
     let options = QuotientOptions { scheme: args.solve.scheme.into(), base, flow };
-    let Input { mesh, lengths, geometry, .. } = input;
-    Ok(match timed(&mut taken, || canonical::uniformize(mesh, lengths, *geometry, &options, control))? {
+    Ok(match timed(&mut taken, || canonical::uniformize(&input.surface, &options, control))? {
         Uniformization::Sphere(sphere) => {
             let found = punctured(*sphere);
             Shape::Sphere(Box::new(Round::new(input, args, found, taken, needs, control)?))
@@ -123,7 +90,7 @@ fn shape(input: &Input, args: &CanonicalArgs, needs: Needs, control: &Control) -
 }
 
 /// The exit code is 1 if a check fails or a file that was asked for has nothing to hold.
-fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done, Failure> {
+fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done<Shape>, Failure> {
     let (start, args) = (Instant::now(), wish.args);
     wish.check_request()?;
     let progress = Progress::watch(control, args.common.quiet);
@@ -138,5 +105,5 @@ fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done, Failure> {
     let files = wish.write(&input, &mut shape, &checks, shown, control, start)?;
     drop(progress);
     let exit_code = if shape.failed().0.is_empty() { checks.exit_code() } else { 1 };
-    Ok(Done { input, shape, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
+    Ok(Done { input, result: shape, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
 }

@@ -1,7 +1,7 @@
 //! Copies of the opened surface as binary glTF: a node each, named by its word; faces, texture coordinates and the checkerboard once, for
 //! all, and a tint of its own for each of a few classes of copies.
 
-use super::cover_file::Copies;
+use super::copies::Copies;
 use super::tiling::tint;
 use crate::checkerboard;
 use crate::picture::{TINTS, tint_color};
@@ -9,30 +9,15 @@ use ricci::Control;
 use serde_json::{Value, json};
 use std::io::{self, Seek, SeekFrom, Write};
 
-/// Bounds of positions are written when these are known; so much room is left for each.
+/// Characters of each bound of the positions: the bounds are filled in once the positions are written, and the longest double has
+/// 24 characters.
 const BOUND: usize = 26;
-/// Most bytes of the file: what glTF can count.
+/// Most bytes of the file: glTF counts them in 32 bits.
 const MOST: u64 = u32::MAX as u64;
 
 /// Write the copies; coordinates are single precision, as glTF has them.
 pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>, control: &Control) -> io::Result<()> {
-    let png = checkerboard::png().map_err(|e| io::Error::other(e.to_string()))?;
-    let indices: Vec<u8> = copies.faces.as_flattened().iter().flat_map(|i| i.to_le_bytes()).collect();
-    let texcoords = checkerboard::coordinates(copies.texcoords);
-    // v downwards.
-    let st = texcoords.iter().flat_map(|[s, t]| [*s as f32, (1.0 - t) as f32]);
-    let texcoords: Vec<u8> = st.flat_map(f32::to_le_bytes).collect();
-    let mut shared = Vec::new();
-    let mut views = Vec::new();
-    for (bytes, target) in [(&indices, Some(34963)), (&texcoords, Some(34962)), (&png, None)] {
-        let mut view = json!({"buffer": 0, "byteOffset": shared.len(), "byteLength": bytes.len()});
-        if let Some(target) = target {
-            view["target"] = json!(target);
-        }
-        views.push(view);
-        shared.extend_from_slice(bytes);
-        shared.resize(shared.len().next_multiple_of(4), 0);
-    }
+    let (shared, views) = shared(copies)?;
     let (n, copy) = (copies.elements.len(), 12 * copies.points.len());
     let binary = shared.len() as u64 + n as u64 * copy as u64;
     let none = vec![[[f64::MIN_POSITIVE; 3]; 2]; n];
@@ -54,19 +39,14 @@ pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>, control: &Co
     out.write_all(b"BIN\0")?;
     out.write_all(&shared)?;
     let mut bounds = Vec::with_capacity(n);
-    let work = |k: usize| -> ([[f64; 3]; 2], Vec<u8>) {
-        let points: Vec<[f32; 3]> = copies.points(k).into_iter().map(|p| p.map(|x| x as f32)).collect();
-        let bound = |axis: usize, pick: fn(f32, f32) -> f32, start: f32| {
-            f64::from(points.iter().map(|p| p[axis]).fold(start, pick))
-        };
-        let low = [0, 1, 2].map(|axis| bound(axis, f32::min, f32::INFINITY));
-        let high = [0, 1, 2].map(|axis| bound(axis, f32::max, f32::NEG_INFINITY));
-        ([low, high], points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect())
-    };
-    copies.each(control, work, |(bound, bytes)| {
-        bounds.push(bound);
-        out.write_all(&bytes)
-    })?;
+    copies.each(
+        control,
+        |k| positions(copies, k),
+        |(bound, bytes)| {
+            bounds.push(bound);
+            out.write_all(&bytes)
+        },
+    )?;
     // What was left open.
     let end = out.stream_position()?;
     document.offset = shared.len();
@@ -74,6 +54,38 @@ pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>, control: &Co
     out.write_all(document.text(&bounds).as_bytes())?;
     out.seek(SeekFrom::Start(end))?;
     Ok(())
+}
+
+/// What all copies share: indices, texture coordinates and the texture, each from a multiple of four bytes, and where they lie.
+fn shared(copies: &Copies<'_>) -> io::Result<(Vec<u8>, Vec<Value>)> {
+    let png = checkerboard::png().map_err(|e| io::Error::other(e.to_string()))?;
+    let indices: Vec<u8> = copies.faces.as_flattened().iter().flat_map(|i| i.to_le_bytes()).collect();
+    let texcoords = checkerboard::coordinates(copies.texcoords);
+    // glTF counts v downwards.
+    let st = texcoords.iter().flat_map(|[s, t]| [*s as f32, (1.0 - t) as f32]);
+    let texcoords: Vec<u8> = st.flat_map(f32::to_le_bytes).collect();
+    let (mut shared, mut views) = (Vec::new(), Vec::new());
+    for (bytes, target) in [(&indices, Some(34963)), (&texcoords, Some(34962)), (&png, None)] {
+        let mut view = json!({"buffer": 0, "byteOffset": shared.len(), "byteLength": bytes.len()});
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        views.push(view);
+        shared.extend_from_slice(bytes);
+        shared.resize(shared.len().next_multiple_of(4), 0);
+    }
+    Ok((shared, views))
+}
+
+/// The positions of a copy in single precision, and their least and largest coordinates.
+fn positions(copies: &Copies<'_>, k: usize) -> ([[f64; 3]; 2], Vec<u8>) {
+    let points: Vec<[f32; 3]> = copies.points(k).into_iter().map(|p| p.map(|x| x as f32)).collect();
+    let bound = |axis: usize, pick: fn(f32, f32) -> f32, start: f32| {
+        f64::from(points.iter().map(|p| p[axis]).fold(start, pick))
+    };
+    let low = [0, 1, 2].map(|axis| bound(axis, f32::min, f32::INFINITY));
+    let high = [0, 1, 2].map(|axis| bound(axis, f32::max, f32::NEG_INFINITY));
+    ([low, high], points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect())
 }
 
 struct Document<'a> {
@@ -90,26 +102,6 @@ impl Document<'_> {
     /// The JSON: equally long whatever the bounds are.
     fn text(&self, bounds: &[[[f64; 3]; 2]]) -> String {
         let n = self.copies.points.len();
-        let colors = (0..=TINTS).map(|t| {
-            let [r, g, b] = tint_color(t);
-            json!({
-                "doubleSided": true,
-                "pbrMetallicRoughness": {
-                    "baseColorFactor": [r, g, b, 1.0], "baseColorTexture": {"index": 0},
-                    "metallicFactor": 0.0, "roughnessFactor": 0.8
-                }
-            })
-        });
-        let head = json!({
-            "asset": {"version": "2.0", "generator": concat!("ricci ", env!("CARGO_PKG_VERSION"))},
-            "scene": 0,
-            "scenes": [{"nodes": (0..bounds.len()).collect::<Vec<_>>()}],
-            "materials": colors.collect::<Vec<_>>(),
-            "textures": [{"source": 0, "sampler": 0}],
-            "samplers": [{"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}],
-            "images": [{"bufferView": 2, "mimeType": "image/png"}],
-            "buffers": [{"byteLength": self.binary}]
-        });
         let shared = [
             json!({"bufferView": 0, "componentType": 5125, "count": 3 * self.copies.faces.len(), "type": "SCALAR"}),
             json!({"bufferView": 1, "componentType": 5126, "count": n, "type": "VEC2"}),
@@ -138,7 +130,7 @@ impl Document<'_> {
             nodes.push(json!({"mesh": k, "name": self.copies.name(k)}).to_string());
         }
         let list = |name: &str, items: &[String]| format!(",\"{name}\":[{}]", items.join(","));
-        let mut text = head.to_string();
+        let mut text = self.head(bounds.len()).to_string();
         text.pop();
         for (name, items) in
             [("bufferViews", &views), ("accessors", &accessors), ("nodes", &nodes), ("meshes", &meshes)]
@@ -148,5 +140,29 @@ impl Document<'_> {
         text.push('}');
         text.extend(std::iter::repeat_n(' ', text.len().next_multiple_of(4) - text.len()));
         text
+    }
+
+    /// All but the lists that have an entry for each copy.
+    fn head(&self, n_copies: usize) -> Value {
+        let colors = (0..=TINTS).map(|t| {
+            let [r, g, b] = tint_color(t);
+            json!({
+                "doubleSided": true,
+                "pbrMetallicRoughness": {
+                    "baseColorFactor": [r, g, b, 1.0], "baseColorTexture": {"index": 0},
+                    "metallicFactor": 0.0, "roughnessFactor": 0.8
+                }
+            })
+        });
+        json!({
+            "asset": {"version": "2.0", "generator": concat!("ricci ", env!("CARGO_PKG_VERSION"))},
+            "scene": 0,
+            "scenes": [{"nodes": (0..n_copies).collect::<Vec<_>>()}],
+            "materials": colors.collect::<Vec<_>>(),
+            "textures": [{"source": 0, "sampler": 0}],
+            "samplers": [{"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}],
+            "images": [{"bufferView": 2, "mimeType": "image/png"}],
+            "buffers": [{"byteLength": self.binary}]
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! Copies of the opened surface as OBJ: an object each, named by its word; texture coordinates once, for all.
 
-use super::cover_file::Copies;
+use super::copies::Copies;
 use ricci::Control;
 use std::fmt::Write as _;
 use std::io::{self, Write};

@@ -2,7 +2,7 @@
 
 use super::group_file::letters;
 use super::quotient::Uniformized;
-use ricci::flow::Report;
+use crate::figures::{Course, Distortion};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -10,11 +10,8 @@ use std::collections::BTreeMap;
 pub struct UniformFigures {
     space: &'static str,
     scheme: &'static str,
-    converged: bool,
-    stop_reason: &'static str,
-    iterations: usize,
-    flips: usize,
-    start_flips: usize,
+    #[serde(flatten)]
+    course: Course,
     max_curvature_error: f64,
     /// max |K| of the metric that was laid out, whose lengths have twice the digits of doubles.
     angle_defect: f64,
@@ -25,12 +22,8 @@ pub struct UniformFigures {
     /// With --on input: faces of the input that fold where the map is made linear on them.
     #[serde(skip_serializing_if = "Option::is_none")]
     flipped_input_faces: Option<usize>,
-    qc_mean: Option<f64>,
-    qc_max: Option<f64>,
-    area_ratio_min: Option<f64>,
-    area_ratio_max: Option<f64>,
-    degenerate_pieces: Option<usize>,
-    crossings: Option<usize>,
+    #[serde(flatten)]
+    distortion: Distortion,
     /// Of the metric: 4π(g − 1) in H², that of the surface as given in E².
     area: f64,
     /// The vertex at the origin.
@@ -76,19 +69,13 @@ struct DomainFigures {
 impl UniformFigures {
     /// `copies`: whether they were asked for.
     pub fn new(u: &Uniformized, copies: bool) -> UniformFigures {
-        let Report { converged, stop_reason, iterations, flips, .. } = u.report;
         let laid = u.laid().ok();
-        let quality = laid.map(|laid| &laid.quality);
         let layout = laid.map_or(&u.layout, |laid| &laid.layout);
         let length = |path: &Vec<ricci::mesh::HalfedgeId>| path.iter().map(|h| u.lengths[h.edge()]).sum();
         UniformFigures {
             space: u.deck.space.name(),
-            scheme: u.metric.scheme().name(),
-            converged,
-            stop_reason: stop_reason.name(),
-            iterations,
-            flips: u.metric.start_flips() + flips,
-            start_flips: u.metric.start_flips(),
+            scheme: u.scheme.name(),
+            course: Course::new(&u.report, u.metric.start_flips()),
             max_curvature_error: u.curvature_error(),
             angle_defect: u.angle_defect,
             tolerance: u.report.tolerance,
@@ -96,12 +83,7 @@ impl UniformFigures {
             double_double: u.report.double_double,
             flipped_triangles: u.flipped().len(),
             flipped_input_faces: laid.and_then(|l| l.on_input.as_ref()).map(|o| o.flipped.len()),
-            qc_mean: quality.map(|q| q.qc_mean),
-            qc_max: quality.map(|q| q.qc_max),
-            area_ratio_min: quality.map(|q| q.area_ratio_min),
-            area_ratio_max: quality.map(|q| q.area_ratio_max),
-            degenerate_pieces: laid.map(|laid| laid.degenerate.len()),
-            crossings: laid.and_then(|laid| laid.refinement()).map(|r| r.crossings.len()),
+            distortion: Distortion::of(laid),
             area: u.area(),
             base: u.basis.base.0,
             radius: layout.radius,

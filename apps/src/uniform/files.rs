@@ -1,28 +1,29 @@
 //! The files of both commands.
 
-use super::commands::Shape;
+use super::args::{ShowChoice, Shown};
 use super::cover_file;
 use super::figures::UniformFigures;
 use super::group_file::{DomainFile, GroupFile};
-use super::pictures::{self, Canvas, Shown};
+use super::pictures::{self, Canvas};
 use super::quotient::Uniformized;
 use super::request::Wish;
+use super::shape::Shape;
 use super::sphere::Round;
 use super::sphere_figures::SphereFigures;
-use super::{args::ShowChoice, sphere_picture};
+use super::sphere_picture;
 use crate::carry;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::metric_file::MetricFile;
 use crate::output::{Outputs, extension};
 use crate::picture::Texture;
-use crate::report::{Checks, InputSummary, Report, Seconds, path_text, peak_bytes};
+use crate::report::{Checks, InputSummary, Report, Seconds, path_text};
 use crate::uv;
 use ricci::Control;
 use ricci::control::Stage;
+use ricci::flow::Solution;
 use ricci::mesh::io::{self, Textured};
 use ricci::mesh::{PerEdge, PerVertex};
-use ricci::metric::SurfaceMetric;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
@@ -82,11 +83,7 @@ impl Wish<'_> {
         checks: &Checks,
         seconds: Seconds,
     ) -> Report<O, R> {
-        let mut report = Report::new(self.command, InputSummary::of(input), asked, figures);
-        report.checks = checks.clone();
-        report.seconds = seconds;
-        report.peak_bytes = peak_bytes();
-        report
+        Report::new(self.command, InputSummary::of(input), asked, figures).finished(checks.clone(), seconds)
     }
 
     fn write_quotient(
@@ -122,7 +119,8 @@ impl Wish<'_> {
         }
         if let Some(path) = &args.picture.picture {
             let texture = args.texture.unwrap_or(Texture::Checker);
-            let canvas = Canvas { path, at, style: args.picture.style(texture), threads };
+            let (at, style) = (self.drawn_place(u.deck.space), args.picture.style(texture));
+            let canvas = Canvas { path, at, style, threads };
             let ready = pictures::prepare(u, shown, &canvas);
             let written = ready.and_then(|ready| outputs.add(path, |out| ready.write(out, u, &canvas)));
             u.failed.attempt("picture", written)?;
@@ -165,7 +163,7 @@ impl Wish<'_> {
             let beside = matches!(shown, Shown::Uniform(ShowChoice::Both));
             let threads = args.common.threads();
             let written = s.refinement().and_then(|r| {
-                let given = input.positions.as_ref();
+                let given = input.positions();
                 let positions = given.map(|p| r.from_input_vertices(p)).transpose()?;
                 outputs.add(path, |out| {
                     sphere_picture::write(out, s, r, positions.as_deref(), &style, beside, threads)
@@ -180,21 +178,21 @@ impl Wish<'_> {
 fn write_metric(
     outputs: &mut Outputs,
     path: &Path,
-    surface: &SurfaceMetric,
+    surface: &Solution,
     lengths: &PerEdge<f64>,
     target: &PerVertex<f64>,
 ) -> Result<(), Failure> {
     let (mesh, metric) = (surface.mesh(), surface.metric());
     let lost = metric.length_remainders(mesh)?;
     let factor = surface.conformal_factor()?;
-    let file = MetricFile::new(mesh, surface.scheme(), metric, [lengths, &lost], &factor, target, None);
+    let file = MetricFile::new(mesh, surface.scheme()?, metric, [lengths, &lost], &factor, target, None);
     outputs.add_json(path, &file)
 }
 
 /// The final triangulation on the unit sphere, with the input's colours.
 fn write_on_sphere(outputs: &mut Outputs, path: &Path, input: &Input, s: &Round) -> Result<(), Failure> {
     let mesh = s.metric.mesh();
-    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let faces = mesh.triangles();
     let data = Textured {
         positions: &s.positions,
         colors: input.attributes.colors.as_deref().unwrap_or_default(),

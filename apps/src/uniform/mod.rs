@@ -2,6 +2,7 @@
 
 mod args;
 mod commands;
+mod copies;
 mod cover_file;
 mod cover_glb;
 mod cover_obj;
@@ -9,10 +10,12 @@ mod figures;
 mod files;
 mod group_file;
 mod model_place;
+mod needs;
 mod outline;
 mod pictures;
 mod quotient;
 mod request;
+mod shape;
 mod sphere;
 mod sphere_figures;
 mod sphere_picture;
@@ -20,5 +23,6 @@ mod summary;
 mod tiling;
 
 pub use args::{COVER_HELP, CoverArgs, UNIFORMIZE_HELP, UniformizeArgs};
-pub use commands::{Done, Shape, cover, execute_cover, execute_uniformize, uniformize};
+pub use commands::{cover, execute_cover, execute_uniformize, uniformize};
 pub use figures::UniformFigures;
+pub use shape::Shape;

@@ -1,10 +1,11 @@
 //! Coordinates of points of the plane, or of the hyperbolic plane in one of its models.
 
 use ricci::geometry::Space;
-use ricci::geometry::model::{Model, distance};
+use ricci::geometry::model::{Model, between, distance};
 
-/// Points of a geodesic per unit of length, and at most.
+/// Straight pieces per unit of hyperbolic length by which a geodesic is drawn.
 const STEPS_PER_LENGTH: f64 = 14.0;
+/// Most straight pieces by which one geodesic is drawn.
 const MOST_STEPS: f64 = 96.0;
 
 /// Where points are written or drawn.
@@ -37,8 +38,10 @@ impl ModelPlace {
 
     /// Plane coordinates.
     pub fn flat(self, p: [f64; 3]) -> [f64; 2] {
-        let [x, y, _] = self.coordinates(p);
-        [x, y]
+        match self {
+            ModelPlace::Plane => [p[0], p[1]],
+            ModelPlace::Hyperbolic(model) => model.plane(p),
+        }
     }
 
     /// As many coordinates as the model has.
@@ -52,29 +55,17 @@ impl ModelPlace {
         if self == ModelPlace::Plane || self == ModelPlace::Hyperbolic(Model::Klein) {
             return vec![p, q];
         }
-        let length = distance(p, q);
-        let steps = (STEPS_PER_LENGTH * length).clamp(1.0, MOST_STEPS).ceil() as usize;
-        (0..=steps).map(|k| along(p, q, length, k as f64 / steps as f64)).collect()
+        let steps = (STEPS_PER_LENGTH * distance(p, q)).clamp(1.0, MOST_STEPS).ceil() as usize;
+        (0..=steps).map(|k| between(p, q, k as f64 / steps as f64)).collect()
     }
 
     /// The point that is this share of the way from p to q.
     pub fn between(self, p: [f64; 3], q: [f64; 3], share: f64) -> [f64; 3] {
         match self {
             ModelPlace::Plane => [0, 1, 2].map(|k| p[k] + share * (q[k] - p[k])),
-            ModelPlace::Hyperbolic(_) => along(p, q, distance(p, q), share),
+            ModelPlace::Hyperbolic(_) => between(p, q, share),
         }
     }
-}
-
-fn along(p: [f64; 3], q: [f64; 3], length: f64, t: f64) -> [f64; 3] {
-    let whole = length.sinh();
-    let (a, b) = if whole > 0.0 {
-        (((1.0 - t) * length).sinh() / whole, (t * length).sinh() / whole)
-    } else {
-        (1.0 - t, t)
-    };
-    let [x, y] = [0, 1].map(|k| a * p[k] + b * q[k]);
-    [x, y, 1.0f64.hypot(x.hypot(y))]
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What pictures of uniformized surfaces and their covers show.
 
-use super::args::{ShowChoice, TilesChoice};
+use super::args::{ShowChoice, Shown, TilesChoice};
 use super::model_place::ModelPlace;
 use super::outline::{Side, loops, loops_on_surface, sides};
 use super::quotient::{ORIGIN, Uniformized};
@@ -31,13 +31,6 @@ const BOLD: f64 = 1.8;
 /// How much higher than its domain the shown part of the half-plane is.
 const HEADROOM: f64 = 1.12;
 
-/// What a picture shows.
-#[derive(Clone, Copy)]
-pub enum Shown {
-    Uniform(ShowChoice),
-    Cover(TilesChoice),
-}
-
 /// Where and how to draw.
 pub struct Canvas<'a> {
     pub path: &'a Path,
@@ -60,7 +53,6 @@ pub struct Ready {
 pub fn prepare(u: &Uniformized, shown: Shown, canvas: &Canvas<'_>) -> Result<Ready, Failure> {
     let laid = u.laid()?;
     let (uv, tiles) = pattern(u, laid);
-    let mesh = laid.mesh();
     let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
     let tiling = match shown {
         Shown::Uniform(ShowChoice::Surface) => None,
@@ -75,7 +67,7 @@ pub fn prepare(u: &Uniformized, shown: Shown, canvas: &Canvas<'_>) -> Result<Rea
         tiling,
         uv,
         tiles,
-        faces: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect(),
+        faces: laid.mesh().triangles(),
         loops: if with_surface { loops_on_surface(u) } else { Vec::new() },
         with_surface,
     })

@@ -1,6 +1,6 @@
 //! A closed surface of genus 1 or more in its metric of constant curvature, laid out on the surface as it was given.
 
-use super::request::Needs;
+use super::needs::{Needs, known, told};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
@@ -13,9 +13,10 @@ use ricci::embed::{
     DeckElement, DeckGroup, DirichletDomain, Layout, UnrollOptions, dirichlet_domain, unroll,
 };
 use ricci::flow::Report;
+use ricci::flow::Solution;
 use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex};
-use ricci::metric::{Curvature, SurfaceMetric};
+use ricci::metric::{Curvature, Scheme};
 use ricci::topology::HomotopyBasis;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -23,13 +24,14 @@ use std::sync::Arc;
 
 /// The origin in ambient coordinates: the base point.
 pub const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
-/// A relation residual beyond this is no relation.
+/// Largest residual of the group's relation and of the layout's side pairings, relative to the largest matrix on the way: half of
+/// the digits of a double.
 const RELATION: f64 = 1e-8;
-/// Rounding of the area, per vertex.
+/// What rounding may do to the area per vertex, beside the curvature that the flow has left.
 const AREA_ROUNDING: f64 = 1e-12;
-/// Deck transformations of a torus turn by this at most, radians.
+/// Largest rotation of a deck transformation of a torus, radians: the default tolerance of a flow.
 const TURNING: f64 = 1e-10;
-/// The Dirichlet domain has the surface's area to this, relative: corners are known to 1e-8 of its size.
+/// Largest difference of the areas of Dirichlet domain and surface, relative: corners are known to 1e-8 of the domain's size.
 const DOMAIN_AREA: f64 = 1e-7;
 
 /// A uniformized surface.
@@ -37,7 +39,8 @@ pub struct Uniformized {
     pub report: Report,
     /// max |K| to twice the digits of doubles.
     pub angle_defect: f64,
-    pub metric: SurfaceMetric,
+    pub metric: Solution,
+    pub scheme: Scheme,
     pub lengths: PerEdge<f64>,
     pub curvature: Curvature,
     /// The curvature asked for: 0 everywhere.
@@ -57,23 +60,6 @@ pub struct Uniformized {
     pub failed: Attempts,
     pub left_out: Vec<&'static str>,
     pub seconds: Seconds,
-}
-
-/// What a step has made, or why it could not. Errors: [`Failure::Cancelled`] alone.
-pub fn told<T>(made: ricci::Result<T>) -> Result<Result<T, String>, Failure> {
-    match made {
-        Err(ricci::Error::Cancelled) => Err(Failure::Cancelled),
-        made => Ok(made.map_err(|error| error.to_string())),
-    }
-}
-
-/// What was made, if it was.
-pub fn known<T>(made: &Option<Result<T, String>>) -> Result<&T, Failure> {
-    match made {
-        Some(Ok(made)) => Ok(made),
-        Some(Err(why)) => Err(Failure::Failed(why.clone())),
-        None => Err(Failure::Failed("no output has asked for it".into())),
-    }
 }
 
 impl Uniformized {
@@ -128,12 +114,13 @@ impl Uniformized {
         let one =
             DeckElement { word: Default::default(), motion: ricci::geometry::Motion::identity(deck.space) };
         Ok(Uniformized {
-            target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
+            target: PerVertex::filled(input.mesh().n_vertices(), 0.0),
             report,
             angle_defect,
-            metric,
             lengths,
             curvature,
+            scheme: metric.scheme()?,
+            metric,
             layout,
             laid,
             modulus: deck.modulus(),
@@ -187,7 +174,7 @@ impl Uniformized {
     pub fn checks(&self) -> Checks {
         let mut checks = Checks::default();
         checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET);
-        checks.add("max_curvature_error", self.curvature_error(), self.report.tolerance);
+        checks.add("max_curvature_error", self.curvature_error(), self.report.allowed_error());
         checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
         let [consistency, limit] = self.consistency();
         let meeting = if self.deck.space == Space::H2 { MEETING } else { limit };
@@ -210,7 +197,7 @@ impl Uniformized {
             let turning = self.deck.generators.iter().map(|g| g.rotation_angle()).fold(0.0, worse);
             checks.add("turning", turning, TURNING);
         }
-        checks.add("unconverged", f64::from(u8::from(!self.report.converged)), 0.0);
+        checks.add("unconverged", f64::from(u8::from(!self.report.converged())), 0.0);
         if let Some(laid) = &self.laid {
             checks.add("without_refinement", f64::from(u8::from(laid.is_err())), 0.0);
         }

@@ -1,8 +1,8 @@
 //! What is asked of the commands, and what they refuse.
 
-use super::args::{CanonicalArgs, ModelChoice, ShowChoice, TilesChoice};
+use super::args::{CanonicalArgs, ModelChoice, ShowChoice, Shown, TilesChoice};
 use super::model_place::ModelPlace;
-use super::pictures::Shown;
+use super::needs::Needs;
 use super::quotient::Uniformized;
 use crate::failure::Failure;
 use crate::input::Input;
@@ -67,17 +67,6 @@ impl CoverWish<'_> {
     }
 }
 
-/// What some outputs need beside metric, layout and group.
-#[derive(Clone, Copy)]
-pub struct Needs {
-    /// The common refinement of the given triangulation and the metric's.
-    pub refinement: bool,
-    /// The layout on the input's own faces.
-    pub on_input: bool,
-    /// The Dirichlet domain of the base point.
-    pub domain: bool,
-}
-
 impl Wish<'_> {
     /// What the outputs that are asked for are made from.
     pub fn needs(&self, shown: Shown) -> Needs {
@@ -103,30 +92,22 @@ impl Wish<'_> {
         let meshes =
             [("--uv", args.uv.as_deref()), ("--sphere", args.sphere.as_deref()), ("--cover", copies)];
         for (option, path) in meshes {
-            path.map_or(Ok(()), |path| check_extension(option, path, &["obj", "glb"]))?;
+            check_extension(option, path, &["obj", "glb"])?;
         }
-        if let Some(path) = &args.picture.picture {
-            check_extension("--picture", path, &["png", "svg"])?;
-            if is_svg(path)
-                && matches!(self.shown, Some(Shown::Uniform(ShowChoice::Both | ShowChoice::Surface)))
-            {
-                return Err(Failure::Usage(
-                    "--picture: an SVG shows no surface in space; use .png, or --show domain".into(),
-                ));
-            }
-            if self.model == Some(ModelChoice::Hyperboloid) {
-                return Err(Failure::Usage(
-                    "--picture: the hyperboloid is no plane; use --model poincare, klein or half-plane"
-                        .into(),
-                ));
-            }
+        let picture = args.picture.picture.as_deref();
+        check_extension("--picture", picture, &["png", "svg"])?;
+        let in_space = matches!(self.shown, Some(Shown::Uniform(ShowChoice::Both | ShowChoice::Surface)));
+        if in_space && picture.is_some_and(is_svg) {
+            return Err(Failure::Usage(
+                "--picture: an SVG shows no surface in space; use .png, or --show domain".into(),
+            ));
         }
         let files = [
             args.metric.as_deref(),
             args.uv.as_deref(),
             args.sphere.as_deref(),
             args.generators.as_deref(),
-            args.picture.picture.as_deref(),
+            picture,
             args.common.report.as_deref(),
             copies,
             domain,
@@ -136,7 +117,7 @@ impl Wish<'_> {
 
     /// What can be refused once the surface is known; what the picture shows.
     pub fn check_surface(&self, input: &Input) -> Result<Shown, Failure> {
-        let mesh = &input.mesh;
+        let mesh = input.mesh();
         let refuse = |why: &str| Err(Failure::Input(format!("{}: {why}", input.path.display())));
         if !mesh.is_closed() {
             return refuse(
@@ -158,12 +139,12 @@ impl Wish<'_> {
                 "--model: a torus lies in the plane, which has no other model".into(),
             ));
         }
-        let usual = match (&input.positions, &self.args.picture.picture) {
+        let usual = match (input.positions(), &self.args.picture.picture) {
             (Some(_), Some(path)) if !is_svg(path) => ShowChoice::Both,
             _ => ShowChoice::Domain,
         };
         let shown = self.shown.unwrap_or(Shown::Uniform(usual));
-        if input.positions.is_none() {
+        if input.positions().is_none() {
             let nothing = "an intrinsic metric has no positions in space";
             if self.args.uv.is_some() {
                 return Err(Failure::Usage(format!(
@@ -192,7 +173,7 @@ impl Wish<'_> {
             );
         }
         if args.solve.method == MethodChoice::Newton {
-            if input.mesh.n_vertices() < 4 {
+            if input.mesh().n_vertices() < 4 {
                 let path = input.path.display();
                 let why =
                     "a sphere of fewer than four vertices is no polyhedron; cut each triangle into four";
@@ -213,14 +194,20 @@ impl Wish<'_> {
         match self.shown {
             None | Some(Shown::Cover(_)) => Ok(Shown::Uniform(ShowChoice::Both)),
             Some(shown @ Shown::Uniform(ShowChoice::Both)) => Ok(shown),
-            Some(shown @ Shown::Uniform(ShowChoice::Surface)) if input.positions.is_some() => Ok(shown),
+            Some(shown @ Shown::Uniform(ShowChoice::Surface)) if input.positions().is_some() => Ok(shown),
             Some(_) => usage("--show: a sphere has no fundamental domain; use both"),
         }
     }
 
-    /// Where pictures and copies lie.
+    /// Where copies lie.
     pub fn place(&self, space: Space) -> ModelPlace {
         ModelPlace::new(space, self.model.map_or(Model::Poincare, Model::from))
+    }
+
+    /// Where pictures lie: the hyperboloid is drawn as the Poincaré disk, which is its projection.
+    pub fn drawn_place(&self, space: Space) -> ModelPlace {
+        let drawn = self.model.filter(|model| *model != ModelChoice::Hyperboloid);
+        ModelPlace::new(space, drawn.map_or(Model::Poincare, Model::from))
     }
 
     /// What was asked, defaults put in: a run with these options is this run.
@@ -228,11 +215,11 @@ impl Wish<'_> {
         let args = self.args;
         let text = |path: &Option<PathBuf>| path.as_deref().map(path_text);
         let options = args.solve.options(args.common.threads());
-        let space = if input.mesh.euler() < 0 { Space::H2 } else { Space::E2 };
+        let space = if input.mesh().euler() < 0 { Space::H2 } else { Space::E2 };
         let drawn = args.picture.picture.is_some();
         Asked {
             weld: args.surface.weld,
-            input_geometry: input.geometry.name(),
+            input_geometry: input.surface.geometry().name(),
             scheme: args.solve.scheme,
             method: args.solve.method,
             flips: args.solve.flips,

@@ -1,8 +1,7 @@
 //! A closed surface of genus 0 on the unit sphere.
 
 use super::args::CanonicalArgs;
-use super::quotient::{known, told};
-use super::request::Needs;
+use super::needs::{Needs, known, told};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
@@ -10,18 +9,24 @@ use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
 use ricci::canonical::{Sphere, SphereReport};
 use ricci::embed::{Layout, layout_of};
-use ricci::flow::{Report, SurfaceFlow};
+use ricci::flow::{Report, Solution, flow};
+use ricci::geometry::vector::{add, distance, dot, triangle_normal};
 use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex, Point, VertexId};
-use ricci::metric::{Curvature, Refinement, SurfaceMetric};
+use ricci::metric::{Curvature, Refinement, Scheme};
+use ricci::{Class, Target};
 
-/// Edges are Delaunay and the outline of the plane is convex to this, radians; the centre of mass is in the middle to this.
+/// Most that an angle may miss the Delaunay condition of an edge, or convexity of the plane's outline, radians: ten times the
+/// default tolerance of the flow whose curvature errors it consists of.
 const DELAUNAY: f64 = 1e-9;
+/// Largest distance of the centre of mass from the centre of the unit sphere.
 const CENTRING: f64 = 1e-9;
-/// Positions with a range of u below this are convex to [`CONVEX`]: beyond it they run out of digits.
-const RANGE: f64 = 30.0;
+/// Range of u up to which the polyhedron is checked for convexity: e^30 leaves positions three of their sixteen digits.
+const CHECKED_RANGE: f64 = 30.0;
+/// Most that a vertex may lie over the plane of the face next to one of its faces, in radii of the sphere.
 const CONVEX: f64 = 1e-12;
-/// Faces with a longest edge below this are a point to their positions.
+/// Length below which the longest edge of a face on the unit sphere counts as a point: rounding of positions, 1e-16, is then 1e-4
+/// of it.
 const POINT: f64 = 1e-12;
 
 /// How the sphere was found.
@@ -37,7 +42,8 @@ pub struct Round {
     pub way: Way,
     /// What max |K| is held against.
     pub tolerance: f64,
-    pub metric: SurfaceMetric,
+    pub metric: Solution,
+    pub scheme: Scheme,
     pub positions: PerVertex<Point>,
     pub curvature: Curvature,
     pub lengths: PerEdge<f64>,
@@ -49,7 +55,7 @@ pub struct Round {
 }
 
 /// How a sphere was found, its metric, and where its vertices are.
-pub type Found = (Way, SurfaceMetric, PerVertex<Point>);
+pub type Found = (Way, Solution, PerVertex<Point>);
 
 /// What [`ricci::canonical::uniformize()`] found.
 pub fn punctured(sphere: Sphere) -> Found {
@@ -64,15 +70,15 @@ pub fn flowed(
     base: Option<VertexId>,
     control: &Control,
 ) -> Result<Found, Failure> {
-    let Input { mesh, lengths, geometry, .. } = input;
     let options = args.solve.options(args.common.threads());
-    let scheme = args.solve.scheme.into();
-    let mut flow = SurfaceFlow::new(mesh, lengths, *geometry, scheme, Space::S2, &[], &options, control)?;
-    let report = flow.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), control)?;
-    let metric = flow.now();
+    let class = Class::new(args.solve.scheme.into(), Space::S2);
+    let metric = flow(input.surface.clone(), class, &Target::Uniform, &options, control)?;
+    let Some(report) = metric.report().cloned() else {
+        return Err(Failure::Failed("the flow has left no report".into()));
+    };
     let root = base.unwrap_or(VertexId(0));
     let layout = layout_of(metric.mesh(), metric.metric(), Some(root), None, control)?;
-    let mut positions = PerVertex::filled(mesh.n_vertices(), [0.0, 0.0, 1.0]);
+    let mut positions = PerVertex::filled(input.mesh().n_vertices(), [0.0, 0.0, 1.0]);
     for h in metric.mesh().halfedges().filter(|&h| !metric.mesh().is_outside(h)) {
         positions[metric.mesh().origin(h)] = layout.corner(h);
     }
@@ -102,14 +108,15 @@ impl Round {
         };
         let tolerance = match &way {
             Way::Puncture(_) => args.solve.tolerance,
-            Way::Flow(report, _) => report.tolerance,
+            Way::Flow(report, _) => report.allowed_error(),
         };
         Ok(Round {
             way,
             tolerance,
             curvature: metric.curvature().map_err(failed)?,
             lengths: metric.metric().lengths(metric.mesh()).map_err(failed)?,
-            target: PerVertex::filled(input.mesh.n_vertices(), 0.0),
+            target: PerVertex::filled(input.mesh().n_vertices(), 0.0),
+            scheme: metric.scheme()?,
             metric,
             positions,
             refinement,
@@ -128,9 +135,7 @@ impl Round {
         let is_inward = |f: &FaceId| {
             let [a, b, c] = self.corners(*f);
             // From the differences: the determinant of nearly equal vectors would cancel.
-            let [p, q] = [b, c].map(|x| [0, 1, 2].map(|k| x[k] - a[k]));
-            let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
-            !self.is_point(*f) && (0..3).map(|k| n[k] * (a[k] + b[k] + c[k])).sum::<f64>() <= 0.0
+            !self.is_point(*f) && dot(triangle_normal([a, b, c]), add(add(a, b), c)) <= 0.0
         };
         self.metric.mesh().faces().filter(is_inward).count()
     }
@@ -142,8 +147,7 @@ impl Round {
 
     fn is_point(&self, f: FaceId) -> bool {
         let [a, b, c] = self.corners(f);
-        let far = |p: Point, q: Point| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
-        far(a, b).max(far(b, c)).max(far(c, a)) < POINT
+        distance(a, b).max(distance(b, c)).max(distance(c, a)) < POINT
     }
 
     fn corners(&self, f: FaceId) -> [Point; 3] {
@@ -173,7 +177,7 @@ impl Round {
         checks.add("flipped_triangles", self.inward() as f64, 0.0);
         let converged = match &self.way {
             Way::Puncture(report) => report.converged,
-            Way::Flow(report, _) => report.converged,
+            Way::Flow(report, _) => report.converged(),
         };
         checks.add("unconverged", f64::from(u8::from(!converged)), 0.0);
         if let Way::Puncture(report) = &self.way {
@@ -181,7 +185,7 @@ impl Round {
             checks.add("delaunay_violation", report.delaunay_violation, DELAUNAY);
             checks.add("outline_bends_inward", worse(-report.link_turning, 0.0), DELAUNAY);
             checks.add("centring", report.centring, CENTRING);
-            if report.u_range < RANGE {
+            if report.u_range < CHECKED_RANGE {
                 checks.add("nonconvexity", report.nonconvexity, CONVEX);
             }
         }

@@ -1,28 +1,28 @@
 //! The figures of a sphere, as the report has them, and what is said of it.
 
 use super::sphere::{Round, Way};
+use crate::figures::Course;
 use crate::input::Input;
 use crate::say;
+use ricci::geometry::vector::distance;
 use ricci::geometry::worse;
 use ricci::mesh::FaceId;
 use ricci::metric::Refinement;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Pieces whose image has a shorter longest edge are too small for the digits of positions to show their shape.
-const SMALL: f64 = 1e-7;
-/// Pieces with less area, relative to the square of their longest edge, have no shape.
-const FLAT: f64 = 1e-12;
+/// Least length of the longest edge of a piece on the unit sphere whose distortion is measured: coordinates of 1e-16 then give the
+/// shape to 1e-9.
+const MEASURED_EDGE: f64 = 1e-7;
+/// Least area over the square of the longest edge of a piece whose distortion is measured: flatter ones count as degenerate.
+const MEASURED_SHARE: f64 = 1e-12;
 
 #[derive(Serialize)]
 pub struct SphereFigures {
     space: &'static str,
     scheme: &'static str,
-    converged: bool,
-    stop_reason: &'static str,
-    iterations: usize,
-    flips: usize,
-    start_flips: usize,
+    #[serde(flatten)]
+    course: Course,
     /// max |K| of the spherical metric.
     max_curvature_error: f64,
     tolerance: f64,
@@ -74,9 +74,14 @@ struct SphereQuality {
 impl SphereFigures {
     /// `copies`: whether a cover was asked for.
     pub fn new(input: &Input, s: &Round, copies: bool) -> SphereFigures {
-        let (converged, stop_reason, iterations, flips) = match &s.way {
-            Way::Puncture(r) => (r.converged, r.stop_reason, r.iterations, r.flips),
-            Way::Flow(r, _) => (r.converged, r.stop_reason, r.iterations, r.flips),
+        let start_flips = s.metric.start_flips();
+        let course = match &s.way {
+            Way::Flow(r, _) => Course::new(r, start_flips),
+            Way::Puncture(r) => {
+                let (stop_reason, flips) = (r.stop_reason.name(), start_flips + r.flips);
+                let (converged, iterations) = (r.converged, r.iterations);
+                Course { converged, stop_reason, iterations, flips, start_flips }
+            }
         };
         let plane = match &s.way {
             Way::Flow(..) => None,
@@ -93,12 +98,8 @@ impl SphereFigures {
         };
         SphereFigures {
             space: "s2",
-            scheme: s.metric.scheme().name(),
-            converged,
-            stop_reason: stop_reason.name(),
-            iterations,
-            flips: s.metric.start_flips() + flips,
-            start_flips: s.metric.start_flips(),
+            scheme: s.scheme.name(),
+            course,
             max_curvature_error: s.curvature_error(),
             tolerance: s.tolerance,
             flipped_triangles: s.inward(),
@@ -122,7 +123,7 @@ impl SphereQuality {
         let mut degenerate_pieces = 0;
         for f in r.mesh.faces() {
             match (flat(sides_in_input(input, r, f)), flat(sides(s.piece(r, f)))) {
-                (Some(from), Some(to)) if to.0 >= SMALL => pieces.push((from, to)),
+                (Some(from), Some(to)) if to.0 >= MEASURED_EDGE => pieces.push((from, to)),
                 _ => degenerate_pieces += 1,
             }
         }
@@ -157,7 +158,7 @@ impl SphereQuality {
 /// Lengths of a piece's sides 0 → 1, 1 → 2, 2 → 0 in the input.
 fn sides_in_input(input: &Input, r: &Refinement, f: FaceId) -> [f64; 3] {
     let given = r.input_face[f];
-    let [a, b, c] = input.mesh.opposite_edges(given).map(|e| input.lengths[e]);
+    let [a, b, c] = input.mesh().opposite_edges(given).map(|e| input.surface.lengths()[e]);
     let w = r.input_barycentric(f);
     [(0, 1), (1, 2), (2, 0)].map(|(i, j)| {
         // |Σ w_k p_k|² = −Σ w_j w_k l_jk² for weights that add up to 0.
@@ -166,9 +167,8 @@ fn sides_in_input(input: &Input, r: &Refinement, f: FaceId) -> [f64; 3] {
     })
 }
 
-fn sides(p: [[f64; 3]; 3]) -> [f64; 3] {
-    let far = |i: usize, j: usize| (0..3).map(|k| (p[i][k] - p[j][k]).powi(2)).sum::<f64>().sqrt();
-    [far(0, 1), far(1, 2), far(2, 0)]
+fn sides([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+    [distance(a, b), distance(b, c), distance(c, a)]
 }
 
 /// A triangle with these sides in the plane: its longest side, and the vectors from corner 0 to the others, the first along x; none for one
@@ -177,7 +177,8 @@ fn flat([l01, l12, l20]: [f64; 3]) -> Option<(f64, [[f64; 2]; 2])> {
     let longest = l01.max(l12).max(l20);
     let x = (l01 * l01 + l20 * l20 - l12 * l12) / (2.0 * l01);
     let y = (l20 * l20 - x * x).max(0.0).sqrt();
-    (0.5 * l01 * y > FLAT * longest * longest && x.is_finite()).then_some((longest, [[l01, 0.0], [x, y]]))
+    (0.5 * l01 * y > MEASURED_SHARE * longest * longest && x.is_finite())
+        .then_some((longest, [[l01, 0.0], [x, y]]))
 }
 
 /// The quotient of the singular values of the linear map from one triangle to another.
@@ -198,7 +199,7 @@ pub fn text(s: &Round, copies: bool) -> String {
     };
     let mut text = format!(
         "metric   s2 {}: {stop} after {}, max |K| = {:.1e}{}, area {:.6}\n",
-        s.metric.scheme(),
+        s.scheme,
         say::count(steps, "step", "steps"),
         s.curvature_error(),
         say::tolerance(s.tolerance),

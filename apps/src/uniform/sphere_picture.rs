@@ -2,6 +2,7 @@
 
 use super::sphere::Round;
 use crate::picture::{self, Picture, Style, Surface, Tiles};
+use ricci::geometry::vector::{norm, triangle_normal};
 use ricci::metric::Refinement;
 use std::io::{self, Write};
 
@@ -15,14 +16,14 @@ pub fn write(
     beside: bool,
     threads: usize,
 ) -> io::Result<()> {
-    let faces: Vec<[u32; 3]> = r.mesh.faces().map(|f| r.mesh.face_vertices(f).map(|v| v.0)).collect();
+    let faces = r.mesh.triangles();
     let mut on_sphere = vec![[0.0, 0.0, 1.0]; r.mesh.n_vertices()];
     let (mut uv, mut scale) = (Vec::new(), Vec::new());
     for (f, face) in r.mesh.faces().zip(&faces) {
         let piece = s.piece(r, f);
         (0..3).for_each(|k| on_sphere[face[k] as usize] = piece[k]);
         uv.push(hemisphere(piece));
-        scale.push(area(piece));
+        scale.push(0.5 * norm(triangle_normal(piece)));
     }
     // On either hemisphere the pattern's scale is between 1/2 and 1 of the sphere's.
     let flat: Vec<f64> = uv.iter().map(|uv| 0.5 * picture::doubled_area(*uv).abs()).collect();
@@ -43,10 +44,4 @@ fn hemisphere(piece: [[f64; 3]; 3]) -> [[f64; 2]; 3] {
     let north = piece.iter().map(|p| p[2]).sum::<f64>() >= 0.0;
     piece
         .map(|[x, y, z]| if north { [x / (1.0 + z), y / (1.0 + z)] } else { [x / (1.0 - z), -y / (1.0 - z)] })
-}
-
-fn area([a, b, c]: [[f64; 3]; 3]) -> f64 {
-    let [p, q] = [b, c].map(|x| [0, 1, 2].map(|k| x[k] - a[k]));
-    let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
-    0.5 * n[0].hypot(n[1]).hypot(n[2])
 }

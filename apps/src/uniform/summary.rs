@@ -1,23 +1,25 @@
 //! What the commands say on stdout.
 
-use super::commands::{Done, Shape};
 use super::quotient::Uniformized;
+use super::shape::Shape;
 use super::sphere_figures;
+use crate::flow_summary;
+use crate::report::Done;
 use crate::say;
 
 /// The summary of a run; `copies`: whether a cover was asked for.
-pub fn say(done: &Done, copies: bool) {
+pub fn say(done: &Done<Shape>, copies: bool) {
     let mut text = say::surface(&done.input);
-    text += &match &done.shape {
+    text += &match &done.result {
         Shape::Quotient(u) => quotient(u, copies),
         Shape::Sphere(s) => sphere_figures::text(s, copies),
     };
     text += &say::slivers(&done.input, &done.checks);
-    let left_out = match &done.shape {
+    let left_out = match &done.result {
         Shape::Quotient(u) => u.left_out.as_slice(),
         Shape::Sphere(_) => &[],
     };
-    text += &say::ending(left_out, done.shape.failed(), &done.checks, &done.files, done.seconds);
+    text += &say::ending(left_out, done.result.failed(), &done.checks, &done.files, done.seconds);
     say::lines(&text);
 }
 
@@ -25,15 +27,15 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
     let mut text = format!(
         "metric   {} {}: {} after {}, max |K| = {:.1e}{}, area {}\n",
         u.deck.space,
-        u.metric.scheme(),
+        u.scheme,
         u.report.stop_reason,
         say::count(u.report.iterations, "step", "steps"),
         u.curvature_error(),
-        say::tolerance(u.report.tolerance),
+        say::tolerance(u.report.allowed_error()),
         say::size(u.area(), 6),
     );
     let flipped = || say::count(u.flipped().len(), "triangle flipped", "triangles flipped");
-    let layout = u.laid().map_or_else(|_| flipped(), say::layout);
+    let layout = u.laid().map_or_else(|_| flipped(), flow_summary::layout);
     text += &format!("layout   {layout}{}\n", say::modulus(u.modulus));
     if let Some(Err(why)) = &u.laid {
         text += &format!("FAILED   to carry it back to the given triangulation: {why}\n");

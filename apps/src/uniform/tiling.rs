@@ -5,16 +5,19 @@ use crate::picture::{Cell, Drawing, Frame, Label, Line, Pattern, TINTS};
 use ricci::embed::{DeckElement, DeckGroup};
 use ricci::geometry::{Motion, Twofold};
 
-/// Copies with a smaller radius in pixels are left out, drawn in one colour, drawn without their border.
+/// Radius in pixels below which a copy is left out.
 const LEAST: f64 = 0.35;
+/// Radius in pixels below which a copy is drawn in one colour, without its pattern.
 const PLAIN: f64 = 7.0;
+/// Radius in pixels above which a copy is drawn with its border.
 const BORDERED: f64 = 3.0;
-/// Cells of pattern in all; beyond that copies have one colour.
+/// Triangles of pattern in one drawing; copies beyond that many are drawn in one colour, so that memory stays bounded.
 const MOST_CELLS: usize = 1_500_000;
-/// Points of an outline that is drawn in one colour.
+/// Points of the outline of a copy that is drawn in one colour.
 const COARSE: usize = 32;
-/// Steps from the centre of a tile to its border, for one larger than this many pixels.
+/// Rings of triangles between the centre and the border of a tile with a radius above [`LARGE`]; smaller tiles have one.
 const STEPS: usize = 8;
+/// Radius in pixels above which straight edges from the centre to the border would show.
 const LARGE: f64 = 30.0;
 
 /// What is copied: ambient coordinates of the corners of triangles, and the border as a closed polygon.

@@ -127,6 +127,19 @@ fn models_show_the_same_points() {
     }
 }
 
+/// Copies lie on the hyperboloid; the picture, which that is none for, shows its projection.
+#[test]
+fn the_hyperboloid_is_drawn_as_the_poincare_disk() {
+    let place = place();
+    for model in ["poincare", "hyperboloid"] {
+        let files = format!("--cover {model}.obj --picture {model}.png --size 128");
+        place.expect(0, &format!("cover two.obj --depth 1 --model {model} {files} --quiet"));
+    }
+    let [p, w] = ["poincare.png", "hyperboloid.png"].map(|name| std::fs::read(place.path(name)).unwrap());
+    assert!(p == w);
+    assert!(read(&place, "hyperboloid.obj").obj.v.iter().all(|p| p[2] >= 1.0));
+}
+
 #[test]
 fn binary_gltf_has_a_node_for_each_copy() {
     let place = place();
@@ -239,9 +252,13 @@ fn what_shows_no_copies_is_written_where_there_are_too_many() {
             &format!("cover two.obj {how} --limit {limit} --cover c.obj --picture p.png {others}"),
         );
         let report = place.json("r.json");
-        for wish in [option, "cover", "picture"] {
-            let why = format!("--{wish}: more than {limit} copies; lower --{option}");
-            assert!(ended.out.contains(&why), "{}", ended.out);
+        // The cause is told once, with all that failed for it.
+        let mut wishes = [option, "cover", "picture"];
+        wishes.sort_unstable();
+        let why = format!("--{}: more than {limit} copies; lower --{option}", wishes.join(", --"));
+        assert!(ended.out.contains(&why), "{}", ended.out);
+        assert_eq!(ended.out.matches("copies; lower").count(), 1, "{}", ended.out);
+        for wish in wishes {
             assert!(report["result"]["failed"][wish].as_str().unwrap().contains("raise --limit"));
         }
         assert!(report["result"]["copies"].is_null());

@@ -1,7 +1,8 @@
 //! Defects of triangles that are glued consistently along numbered edges, whatever surface they form.
 
 use super::{Defect, Diagnosis, genus, several_components};
-use crate::mesh::incidence::{UnionFind, boundary_loops, components};
+use crate::mesh::incidence::{boundary_loops, components};
+use crate::mesh::union_find::UnionFind;
 
 /// Diagnose faces whose side k is the half-edge `sides[f][k]`; half-edge h starts at `origin[h]`, its twin is
 /// `h ^ 1`, and no half-edge is in two faces.

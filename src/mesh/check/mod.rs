@@ -1,4 +1,12 @@
 //! Diagnosis of triangle lists: every defect, its elements and its remedy.
+//!
+//! ```
+//! use ricci::mesh::check::diagnose;
+//! let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+//! assert!(diagnose(&positions, &[[0, 1, 2]]).defects.is_empty());
+//! let diagnosis = diagnose(&positions, &[[0, 1, 2], [0, 1, 1]]);
+//! assert_eq!(diagnosis.counts(), [("degenerate_face", 1)]);
+//! ```
 
 mod defect;
 mod gluing;

@@ -1,6 +1,6 @@
 //! How much a file may unfold to. Compression, instances and polygons are the ways in which a small file becomes a large mesh.
 
-use super::scan::Place;
+use super::scan::Location;
 use crate::error::Result;
 
 /// Bytes that any file may unfold to, and more for each of its own: honest files need less, and a reader that stays within them
@@ -20,7 +20,7 @@ impl Budget {
     }
 
     /// Account for `count` items of `size` bytes, before they are allocated.
-    pub fn take(&mut self, count: usize, size: usize, what: &str, place: Place<'_>) -> Result<()> {
+    pub fn take(&mut self, count: usize, size: usize, what: &str, place: Location<'_>) -> Result<()> {
         match count.checked_mul(size).and_then(|bytes| self.left.checked_sub(bytes)) {
             Some(left) => {
                 self.left = left;

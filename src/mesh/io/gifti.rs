@@ -3,9 +3,10 @@
 
 use super::budget::Budget;
 use super::gifti_data::{Header, Table};
-use super::scan::Place;
-use super::{Attributes, Point, Soup};
+use super::scan::Location;
+use super::{Attributes, Soup};
 use crate::error::Result;
+use crate::mesh::Point;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
@@ -25,7 +26,7 @@ pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
     let mut root = false;
     loop {
         let event = reader.read_event();
-        let place = Place::line(path, lines.until(reader.buffer_position()));
+        let place = Location::line(path, lines.until(reader.buffer_position()));
         match event {
             Ok(Event::Start(tag)) if !root => {
                 if tag.name().0 != "GIFTI" {
@@ -50,7 +51,7 @@ pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
             Err(e) => return place.error(format!("this is no XML: {e}")),
         }
     }
-    arrays.soup(Place::whole(path))
+    arrays.soup(Location::whole(path))
 }
 
 /// Line numbers of positions that grow.
@@ -79,7 +80,7 @@ struct Arrays {
 }
 
 impl Arrays {
-    fn take(&mut self, header: &Header, text: &str, place: Place<'_>) -> Result<()> {
+    fn take(&mut self, header: &Header, text: &str, place: Location<'_>) -> Result<()> {
         let rows = |what: &'static str, budget: &mut Budget| header.table(what, text, budget, place);
         let points = |table: Table| (0..table.rows).map(|i| table.row(i)).collect();
         match header.intent.as_str() {
@@ -108,7 +109,7 @@ impl Arrays {
         Ok(())
     }
 
-    fn soup(self, place: Place<'_>) -> Result<Soup> {
+    fn soup(self, place: Location<'_>) -> Result<Soup> {
         let Some(positions) = self.points else {
             return place.error(
                 "the file has no NIFTI_INTENT_POINTSET: it is data on a surface, not a surface".into(),

@@ -3,7 +3,7 @@
 use super::base64;
 use super::budget::Budget;
 use super::kind::Kind;
-use super::scan::{Place, Quoted};
+use super::scan::{Location, Quoted};
 use crate::error::{At, Result};
 use flate2::read::{GzDecoder, ZlibDecoder};
 use quick_xml::events::BytesStart;
@@ -33,7 +33,7 @@ pub(super) struct Header {
 }
 
 impl Header {
-    pub fn new(tag: &BytesStart<'_>, place: Place<'_>) -> Result<Header> {
+    pub fn new(tag: &BytesStart<'_>, place: Location<'_>) -> Result<Header> {
         let mut header = Header {
             intent: String::new(),
             data_type: String::new(),
@@ -83,7 +83,7 @@ impl Header {
         what: &'static str,
         text: &str,
         budget: &mut Budget,
-        place: Place<'_>,
+        place: Location<'_>,
     ) -> Result<Table> {
         let name = self.data_type.strip_prefix("NIFTI_TYPE_").map(str::to_ascii_lowercase);
         let Some(kind) = name.and_then(|name| Kind::named(&name)) else {
@@ -132,7 +132,7 @@ impl Header {
         text: &str,
         encoding: Encoding,
         size: usize,
-        place: Place<'_>,
+        place: Location<'_>,
     ) -> Result<Vec<u8>> {
         let mut bytes = match base64::decode(text.as_bytes()) {
             Ok(bytes) => bytes,
@@ -167,7 +167,7 @@ impl Header {
 }
 
 /// Which of two words is in the value of an attribute: files say `LittleEndian` and `GIFTI_ENDIAN_LITTLE`.
-fn choice(name: &str, value: &str, [first, second]: [&str; 2], place: Place<'_>) -> Result<bool> {
+fn choice(name: &str, value: &str, [first, second]: [&str; 2], place: Location<'_>) -> Result<bool> {
     let lower = value.to_ascii_lowercase();
     match (lower.contains(first), lower.contains(second)) {
         (true, false) => Ok(false),
@@ -177,12 +177,12 @@ fn choice(name: &str, value: &str, [first, second]: [&str; 2], place: Place<'_>)
 }
 
 /// The `count` numbers of a text; `place` is where it begins.
-fn ascii(what: &str, text: &str, count: usize, place: Place<'_>) -> Result<Vec<f64>> {
+fn ascii(what: &str, text: &str, count: usize, place: Location<'_>) -> Result<Vec<f64>> {
     let mut numbers = Vec::new();
     let mut last = place;
     for (i, line) in text.split('\n').enumerate() {
         if let At::Line(first) = place.at {
-            last = Place::line(place.path, first + i);
+            last = Location::line(place.path, first + i);
         }
         for token in line.split_ascii_whitespace() {
             if numbers.len() == count {

@@ -1,137 +1,108 @@
 //! Mesh files: triangles and positions, as the file numbers them.
+//!
+//! ```
+//! use ricci::mesh::io::parse_obj;
+//! let soup = parse_obj(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "square.obj")?;
+//! assert_eq!(soup.faces, [[0, 1, 2], [0, 2, 3]]);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 mod atomic;
+#[cfg(any(feature = "gltf", feature = "gifti"))]
 mod base64;
 mod budget;
+#[cfg(feature = "gifti")]
 mod gifti;
+#[cfg(feature = "gifti")]
 mod gifti_data;
+#[cfg(feature = "gltf")]
 mod gltf;
 mod kind;
 mod obj;
 mod off;
 mod off_binary;
+mod off_extras;
 mod ply;
 mod polygon;
 mod scan;
+mod soup;
 mod stl;
 mod textured;
 
 pub use atomic::{destination, write_atomically};
+#[cfg(feature = "gifti")]
 pub use gifti::parse_gifti;
+#[cfg(feature = "gltf")]
 pub use gltf::{Texture, Wrap, parse_glb, write_glb};
 pub use obj::{parse_obj, write_obj};
 pub use off::{parse_off, write_off};
 pub use ply::{parse_ply, write_ply};
+pub use soup::{Attributes, Soup};
 pub use stl::{parse_stl, parse_stl_welded};
 pub use textured::Textured;
 
-use super::Point;
-use crate::error::{Error, Result, check_size};
+use crate::error::{Error, Result};
 use std::path::Path;
 
-/// An indexed triangle list as a file gives it. Polygons are triangulated: convex ones as fans from their first corner, others
-/// ear by ear. Vertices keep the file's numbering, isolated ones included.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Soup {
-    /// Vertex positions; coordinates may be non-finite, [`super::check::diagnose`] finds that.
-    pub positions: Vec<Point>,
-    /// Corners of each triangle, 0-based. Indices may be out of range, the diagnosis finds that too.
-    pub faces: Vec<[u32; 3]>,
-    /// What else there is at vertices and corners.
-    pub attributes: Attributes,
-}
+/// What reads a file of each extension: bytes and, for errors, the path.
+const READERS: &[(&str, fn(&[u8], &str) -> Result<Soup>)] = &[
+    ("obj", parse_obj),
+    ("off", parse_off),
+    ("ply", parse_ply),
+    ("stl", parse_stl),
+    #[cfg(feature = "gltf")]
+    ("glb", parse_glb),
+    #[cfg(feature = "gltf")]
+    ("gltf", parse_glb),
+    #[cfg(feature = "gifti")]
+    ("gii", parse_gifti),
+];
 
-/// What a file says beside positions and faces. Where it gives an attribute to some elements only, the others have the default.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Attributes {
-    /// Normal of each vertex (V entries), of any length; by default 0.
-    pub normals: Option<Vec<Point>>,
-    /// Normals of each face's corners (F entries), of any length, by default 0: in place of those of the vertices where the corners
-    /// of a vertex have different ones, as at hard edges. Formats that have both write these.
-    pub corner_normals: Option<Vec<[Point; 3]>>,
-    /// Colour of each vertex (V entries): red, green, blue, opacity, from 0 to 1; by default opaque white.
-    pub colors: Option<Vec<[f64; 4]>>,
-    /// Texture coordinates of each face's corners (F entries); by default (0, 0).
-    pub uv: Option<Vec<[[f64; 2]; 3]>>,
-}
+/// The format that each extension names where a file is written.
+const WRITERS: &[(&str, Format)] = &[
+    ("obj", Format::Obj),
+    ("off", Format::Off),
+    ("ply", Format::Ply),
+    #[cfg(feature = "gltf")]
+    ("glb", Format::Glb),
+];
 
-/// The defaults of [`Attributes`].
-const NO_NORMAL: Point = [0.0; 3];
-const WHITE: [f64; 4] = [1.0; 4];
-const NO_TEXCOORD: [f64; 2] = [0.0; 2];
+/// Extensions whose readers, and those whose writers, need a cargo feature, with its name.
+const READER_FEATURES: &[(&str, &str)] = &[("glb", "gltf"), ("gltf", "gltf"), ("gii", "gifti")];
+const WRITER_FEATURES: &[(&str, &str)] = &[("glb", "gltf")];
 
-impl Attributes {
-    /// What a format leaves out that has one normal per vertex only and, unless `corner_uv`, one pair of texture coordinates.
-    fn left_out(&self, corner_uv: bool) -> Vec<&'static str> {
-        let corner_normals = self.corner_normals.as_ref().map(|_| "normals at hard edges");
-        let seams =
-            self.uv.as_ref().filter(|_| !corner_uv).map(|_| "texture coordinates, for they have seams");
-        corner_normals.into_iter().chain(seams).collect()
-    }
-
-    /// Texture coordinates per vertex, if the corners of each of the `n` vertices agree on them.
-    pub(crate) fn vertex_uv(&self, n: usize, faces: &[[u32; 3]]) -> Option<Vec<[f64; 2]>> {
-        let mut at: Vec<Option<[f64; 2]>> = vec![None; n];
-        for (&v, &uv) in faces.as_flattened().iter().zip(self.uv.as_ref()?.as_flattened()) {
-            let slot = at.get_mut(v as usize)?;
-            if slot.is_some_and(|known| known != uv) {
-                return None;
-            }
-            *slot = Some(uv);
-        }
-        Some(at.into_iter().map(Option::unwrap_or_default).collect())
-    }
-}
-
-impl Soup {
-    /// A triangle list without attributes.
-    pub fn new(positions: Vec<Point>, faces: Vec<[u32; 3]>) -> Soup {
-        Soup { positions, faces, attributes: Attributes::default() }
-    }
-
-    /// Numbers are finite, corners name vertices, attributes have an entry for each element.
-    pub(crate) fn check_writable(&self) -> Result<()> {
-        let Soup { positions, faces, attributes } = self;
-        let Attributes { normals, corner_normals, colors, uv } = attributes;
-        finite("position", positions)?;
-        in_range("vertex", faces, positions.len())?;
-        if let Some(normals) = normals {
-            check_size("normals", normals.len(), positions.len())?;
-            finite("normal", normals)?;
-        }
-        if let Some(normals) = corner_normals {
-            check_size("corner_normals", normals.len(), faces.len())?;
-            finite("normal", normals.as_flattened())?;
-        }
-        if let Some(colors) = colors {
-            check_size("colors", colors.len(), positions.len())?;
-            finite("colour", colors)?;
-        }
-        if let Some(uv) = uv {
-            check_size("uv", uv.len(), faces.len())?;
-            finite("texture coordinate", uv.as_flattened())?;
-        }
-        Ok(())
-    }
-}
-
-/// Extensions that [`read`] knows.
-pub const READABLE: &str = ".obj, .off, .ply, .stl, .glb, .gltf, .gii";
-
-/// Read a mesh file by its extension (case does not matter).
-pub fn read(path: &Path) -> Result<Soup> {
-    let name = path.display().to_string();
+/// The entry of `table` for the extension of a path (case does not matter), or the error that names the extensions of the table or
+/// the cargo feature that this build lacks.
+fn by_extension<T: Copy>(path: &Path, table: &[(&str, T)], features: &[(&str, &str)]) -> Result<T> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    let parse = match extension.as_deref() {
-        Some("obj") => parse_obj,
-        Some("off") => parse_off,
-        Some("ply") => parse_ply,
-        Some("stl") => parse_stl,
-        Some("glb" | "gltf") => parse_glb,
-        Some("gii") => parse_gifti,
-        _ => return Err(Error::UnknownFormat { path: name, known: READABLE }),
+    let is_this = |known: &str| extension.as_deref() == Some(known);
+    if let Some((_, entry)) = table.iter().find(|(known, _)| is_this(known)) {
+        return Ok(*entry);
+    }
+    let message = match features.iter().find(|(known, _)| is_this(known)) {
+        Some((extension, feature)) => {
+            format!(
+                ".{extension} files need the cargo feature `{feature}`, without which this library was built"
+            )
+        }
+        None => {
+            let known: Vec<_> = table.iter().map(|(extension, _)| format!(".{extension}")).collect();
+            format!("unknown format; known are {}", known.join(", "))
+        }
     };
-    parse(&content(path)?, &name)
+    Err(Error::UnknownFormat { path: path.display().to_string(), message })
+}
+
+/// Read a mesh file by its extension (case does not matter): .obj, .off, .ply, .stl; with the cargo feature `gltf` .glb and .gltf,
+/// with `gifti` .gii.
+///
+/// # Errors
+///
+/// [`Error::UnknownFormat`] for another extension, or one whose feature this build lacks; [`Error::Io`]; [`Error::Parse`] with the
+/// line or byte where the file is not what its format says.
+pub fn read(path: &Path) -> Result<Soup> {
+    let parse = by_extension(path, READERS, READER_FEATURES)?;
+    parse(&content(path)?, &path.display().to_string())
 }
 
 /// Read an STL file, whatever its name, and weld it within a distance: [`parse_stl_welded`].
@@ -143,9 +114,6 @@ fn content(path: &Path) -> Result<Vec<u8>> {
     std::fs::read(path).map_err(|e| Error::Io { path: path.display().to_string(), message: e.to_string() })
 }
 
-/// Extensions that [`write()`] knows.
-pub const WRITABLE: &str = ".obj, .off, .ply, .glb";
-
 /// A format that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
@@ -156,20 +124,18 @@ pub enum Format {
     /// PLY, binary.
     Ply,
     /// Binary glTF 2.0.
+    #[cfg(feature = "gltf")]
     Glb,
 }
 
 impl Format {
-    /// The format that a file's extension names (case does not matter). Errors: [`Error::UnknownFormat`].
+    /// The format that a file's extension names (case does not matter): .obj, .off, .ply, .glb.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnknownFormat`] for another extension, and for .glb in a build without the cargo feature `gltf`.
     pub fn of(path: &Path) -> Result<Format> {
-        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-        match extension.as_deref() {
-            Some("obj") => Ok(Format::Obj),
-            Some("off") => Ok(Format::Off),
-            Some("ply") => Ok(Format::Ply),
-            Some("glb") => Ok(Format::Glb),
-            _ => Err(Error::UnknownFormat { path: path.display().to_string(), known: WRITABLE }),
-        }
+        by_extension(path, WRITERS, WRITER_FEATURES)
     }
 }
 
@@ -178,6 +144,7 @@ pub fn write(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     write_as(path, Format::of(path)?, soup)
 }
 
+#[cfg(feature = "gltf")]
 /// Write binary glTF with a texture over the texture coordinates of a mesh: [`write_glb`].
 pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Result<()> {
     textured::with_textured(soup, |data| write_glb(path, data, Some(texture))).map(drop)
@@ -187,37 +154,35 @@ pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Res
 /// positions read back as they are; GLB has 24 bits, see [`write_glb`]. Returned is what was left out because the format has no
 /// place for it, by name: normals and texture coordinates with more than one value at a vertex, in PLY and OFF.
 ///
-/// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range;
+/// # Errors
+///
+/// With the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range;
 /// [`Error::Size`] for attributes of another size; [`Error::Io`].
 pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<Vec<&'static str>> {
     match format {
         Format::Ply => write_ply(path, soup),
         Format::Off => write_off(path, soup),
         Format::Obj => textured::with_textured(soup, |data| write_obj(path, data)).map(|()| Vec::new()),
+        #[cfg(feature = "gltf")]
         Format::Glb => textured::with_textured(soup, |data| write_glb(path, data, None)).map(|_| Vec::new()),
     }
 }
 
-fn finite<const N: usize>(what: &'static str, points: &[[f64; N]]) -> Result<()> {
-    match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
-        Some(i) => {
-            let value = format!("{:?} at entry {i}", points[i]);
-            Err(Error::Argument { what, value, need: "a file holds finite numbers only" })
-        }
-        None => Ok(()),
-    }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-fn in_range(what: &'static str, faces: &[[u32; 3]], n: usize) -> Result<()> {
-    match faces.iter().position(|corners| corners.iter().any(|&v| v as usize >= n)) {
-        Some(f) => {
-            let value = format!("one of {:?} in face {f}", faces[f]);
-            Err(Error::Argument {
-                what,
-                value,
-                need: "corners must be below the number of entries they name",
-            })
-        }
-        None => Ok(()),
+    /// The first four readers are those of a build without features.
+    #[test]
+    fn a_build_without_a_feature_names_it() {
+        let message = |path: &str| match by_extension(Path::new(path), &READERS[..4], READER_FEATURES) {
+            Err(error @ Error::UnknownFormat { .. }) => error.to_string(),
+            other => panic!("{other:?}"),
+        };
+        assert!(by_extension(Path::new("a.PLY"), &READERS[..4], READER_FEATURES).is_ok());
+        assert!(message("a/b.GLB").starts_with("a/b.GLB: .glb files need the cargo feature `gltf`"));
+        assert!(message("b.gii").contains("`gifti`"));
+        assert_eq!(message("b.x"), "b.x: unknown format; known are .obj, .off, .ply, .stl");
+        assert!(message("obj").contains("unknown format"));
     }
 }

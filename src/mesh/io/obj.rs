@@ -3,9 +3,11 @@
 
 use super::budget::Budget;
 use super::polygon::Polygons;
-use super::scan::{Place, Quoted};
-use super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, Textured, WHITE, write_atomically};
+use super::scan::{Location, Quoted};
+use super::soup::{NO_NORMAL, NO_TEXCOORD, WHITE};
+use super::{Attributes, Soup, Textured, write_atomically};
 use crate::error::Result;
+use crate::mesh::Point;
 use std::io::Write;
 use std::path::Path;
 
@@ -20,7 +22,7 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
     let mut lines = super::scan::lines(&text);
     let mut joined = String::new();
     while let Some((number, line)) = lines.next() {
-        let place = Place::line(path, number);
+        let place = Location::line(path, number);
         let mut line = line;
         if line.ends_with('\\') {
             joined.clear();
@@ -59,11 +61,11 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
             _ => {}
         }
     }
-    file.soup(Budget::of(bytes), Place::whole(path))
+    file.soup(Budget::of(bytes), Location::whole(path))
 }
 
-/// No entry.
-const NONE: u32 = u32::MAX;
+/// In a list of entries that corners name: this corner names none.
+const NO_ENTRY: u32 = u32::MAX;
 
 /// What has been read so far.
 #[derive(Default)]
@@ -73,13 +75,13 @@ struct File {
     texcoords: Vec<[f64; 2]>,
     normals: Vec<Point>,
     polygons: Polygons,
-    /// Per corner, the entry it names, or `NONE`.
+    /// Per corner, the entry it names, or `NO_ENTRY`.
     corner_texcoords: Vec<u32>,
     corner_normals: Vec<u32>,
 }
 
 impl File {
-    fn soup(mut self, mut budget: Budget, place: Place<'_>) -> Result<Soup> {
+    fn soup(mut self, mut budget: Budget, place: Location<'_>) -> Result<Soup> {
         let triangles = self.polygons.triangles(&self.positions, &mut budget, place)?;
         fn of<const N: usize>(list: &[[f64; N]], entries: &[u32], corner: usize) -> Option<[f64; N]> {
             let entry = list.get(entries[corner] as usize).copied();
@@ -165,11 +167,11 @@ fn attribute(number: Option<&str>, count: usize) -> u32 {
         n if n < 0 => count.checked_sub(usize::try_from(n.unsigned_abs()).ok()?)?.try_into().ok(),
         n => u32::try_from(n - 1).ok(),
     };
-    number.and_then(entry).unwrap_or(NONE)
+    number.and_then(entry).unwrap_or(NO_ENTRY)
 }
 
 /// The vertex of a corner `v`, `v/vt`, `v//vn`, `v/vt/vn`: 1-based, or negative from the last vertex so far.
-fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
+fn corner(place: Location<'_>, token: &str, vertices: usize) -> Result<u32> {
     let index = token.split('/').next().unwrap_or("");
     let Ok(number) = index.parse::<i64>() else {
         return place.error(format!("corner {} does not start with a vertex number", Quoted(token)));
@@ -194,7 +196,9 @@ fn corner(place: Place<'_>, token: &str, vertices: usize) -> Result<u32> {
 /// Write an OBJ file with 17 significant digits (which read back to the same doubles), atomically. With
 /// [`Textured::texcoord_weights`] a comment on the first line says that the `vt` are homogeneous.
 ///
-/// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of
+/// # Errors
+///
+/// With the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of
 /// range, [`crate::Error::Size`], [`crate::Error::Io`].
 pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
     data.check()?;

@@ -3,10 +3,13 @@
 
 use super::budget::Budget;
 use super::off_binary::parse_off_binary;
+use super::off_extras::{Columns, Extras};
 use super::polygon::Polygons;
-use super::scan::{Place, Quoted, tokens};
-use super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, write_atomically};
+use super::scan::{Location, Quoted, tokens};
+use super::soup::{Attributes, Soup};
+use super::write_atomically;
 use crate::error::Result;
+use crate::mesh::Point;
 use std::io::Write;
 use std::path::Path;
 
@@ -19,14 +22,14 @@ pub fn parse_off(bytes: &[u8], path: &str) -> Result<Soup> {
 }
 
 /// What each vertex has, where the data begin and the place of the header, if that says `BINARY`.
-fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Place<'a>)>> {
+fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Location<'a>)>> {
     let mut end = 0;
     for (i, line) in bytes.split_inclusive(|&b| b == b'\n').enumerate() {
         end += line.len();
         let line = line.split(|&b| b == b'#').next().unwrap_or_default();
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         if let Some(first) = words.next() {
-            let place = Place::line(path, i + 1);
+            let place = Location::line(path, i + 1);
             let header = String::from_utf8_lossy(first);
             return match split_header(&header) {
                 Some((prefix, "")) if words.next().is_some_and(|w| w.eq_ignore_ascii_case(b"BINARY")) => {
@@ -46,16 +49,8 @@ fn split_header(word: &str) -> Option<(String, &str)> {
     upper.or_else(|| word.split_once("off").map(|(prefix, rest)| (prefix.to_ascii_uppercase(), rest)))
 }
 
-/// What each vertex has besides its coordinates, in this order.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Columns {
-    pub normal: bool,
-    pub color: bool,
-    pub texture: bool,
-}
-
 /// What the letters before `OFF` name, in any order.
-fn columns(prefix: &str, place: Place<'_>) -> Result<Columns> {
+fn columns(prefix: &str, place: Location<'_>) -> Result<Columns> {
     let prefix = prefix.trim_start_matches('\u{feff}');
     let mut rest = prefix;
     let mut columns = Columns::default();
@@ -175,7 +170,7 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
         polygons.push(corners.iter().copied());
     }
     match tokens.next() {
-        None => extras.soup(positions, &polygons, Budget::of(text.as_bytes()), Place::whole(path)),
+        None => extras.soup(positions, &polygons, Budget::of(text.as_bytes()), Location::whole(path)),
         Some(token) => tokens.place().error(format!(
             "{} comes after the last face: the header promises {n_vertices} vertices and {n_faces} faces, each on a line of its own",
             Quoted(token)
@@ -183,75 +178,13 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
     }
 }
 
-/// The attributes of the vertices read so far.
-pub(super) struct Extras {
-    has: Columns,
-    /// What some vertex has.
-    any: Columns,
-    normals: Vec<Point>,
-    colors: Vec<[f64; 4]>,
-    texture: Vec<[f64; 2]>,
-}
-
-impl Extras {
-    pub fn new(has: Columns) -> Extras {
-        Extras { has, any: Columns::default(), normals: Vec::new(), colors: Vec::new(), texture: Vec::new() }
-    }
-
-    /// The numbers behind the coordinates of a vertex. A colour is what the others leave over, three numbers or four.
-    pub fn push(&mut self, rest: &[f64]) {
-        let (normal, rest) = rest.split_at(if self.has.normal { rest.len().min(3) } else { 0 });
-        let (color, texture) = rest.split_at(rest.len().saturating_sub(if self.has.texture { 2 } else { 0 }));
-        let finite = |list: &&[f64]| list.iter().all(|x| x.is_finite());
-        let normal = Some(normal).filter(finite).and_then(|x| <Point>::try_from(x).ok());
-        let texture = Some(texture).filter(finite).and_then(|x| <[f64; 2]>::try_from(x).ok());
-        let color = match *color {
-            [r, g, b] => Some([r, g, b, f64::NAN]),
-            [r, g, b, a, ..] => Some([r, g, b, a]),
-            _ => None,
-        };
-        self.any.normal |= normal.is_some();
-        self.any.texture |= texture.is_some();
-        self.any.color |= self.has.color && color.is_some();
-        if self.has.normal {
-            self.normals.push(normal.unwrap_or(NO_NORMAL));
-        }
-        if self.has.texture {
-            self.texture.push(texture.unwrap_or(NO_TEXCOORD));
-        }
-        if self.has.color {
-            self.colors.push(color.unwrap_or([f64::NAN; 4]));
-        }
-    }
-
-    /// The triangle list, with the attributes that vertices have.
-    pub fn soup(
-        self,
-        positions: Vec<Point>,
-        polygons: &Polygons,
-        mut budget: Budget,
-        place: Place<'_>,
-    ) -> Result<Soup> {
-        let triangles = polygons.triangles(&positions, &mut budget, place)?;
-        // Components are from 0 to 1, or from 0 to 255 as soon as one is larger.
-        let full = if self.colors.iter().flatten().any(|&x| x > 1.0) { 255.0 } else { 1.0 };
-        let color = |c: [f64; 4]| c.map(|x| if x.is_nan() { 1.0 } else { x / full });
-        let uv = |v: u32| self.texture.get(v as usize).copied().unwrap_or_default();
-        let attributes = Attributes {
-            normals: self.any.normal.then_some(self.normals),
-            colors: self.any.color.then(|| self.colors.into_iter().map(color).collect()),
-            uv: self.any.texture.then(|| triangles.iter().map(|&t| polygons.face(t).map(uv)).collect()),
-            ..Attributes::default()
-        };
-        Ok(Soup { faces: triangles.iter().map(|&t| polygons.face(t)).collect(), positions, attributes })
-    }
-}
-
 /// Write text OFF with 17 significant digits (which read back to the same doubles), with normals, colours (0 to 255) where there
 /// are any, and texture coordinates where each vertex has a single pair; atomically. Returned is what was left out, by name: normals
 /// and texture coordinates that differ between the corners of a vertex.
 ///
-/// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
+/// # Errors
+///
+/// With the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`crate::Error::Size`] for attributes of another size, [`crate::Error::Io`].
 pub fn write_off(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     soup.check_writable()?;

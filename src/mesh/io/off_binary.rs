@@ -1,11 +1,12 @@
 //! Binary OFF: what Geomview reads and writes, and what other programs write under the same header.
 
 use super::budget::Budget;
-use super::off::{Columns, Extras};
+use super::off_extras::{Columns, Extras};
 use super::polygon::Polygons;
-use super::scan::Place;
-use super::{Point, Soup, in_range};
+use super::scan::Location;
+use super::soup::{Soup, in_range};
 use crate::error::Result;
+use crate::mesh::Point;
 
 /// How the data behind `OFF BINARY` are laid out. The file does not say which it is.
 #[derive(Clone, Copy, PartialEq)]
@@ -17,15 +18,20 @@ struct Dialect {
     color: usize,
 }
 
-/// The format's definition.
+/// As Geomview's manual defines the format.
 const GEOMVIEW: Dialect = Dialect { big_endian: true, face_colors: true, color: 4 };
-/// Of programs that copy their memory.
+/// As programs write it that copy their memory to the file.
 const COPIED: Dialect = Dialect { big_endian: false, face_colors: false, color: 4 };
 
 /// Parse the data that begin at `start`: three `i32` counts, `columns` `f32` per vertex of which the first
 /// three are the position, and per face the `i32` number of its corners and these, 0-based. The dialect is
 /// the one in which the file ends where its last face does; colours may also be integers up to 255.
-pub(super) fn parse_off_binary(bytes: &[u8], start: usize, has: Columns, place: Place<'_>) -> Result<Soup> {
+pub(super) fn parse_off_binary(
+    bytes: &[u8],
+    start: usize,
+    has: Columns,
+    place: Location<'_>,
+) -> Result<Soup> {
     let read = |dialect| Words { bytes, at: start, dialect, place }.soup(has);
     let first = read(GEOMVIEW);
     if first.is_ok() {
@@ -54,7 +60,7 @@ struct Words<'a> {
     bytes: &'a [u8],
     at: usize,
     dialect: Dialect,
-    place: Place<'a>,
+    place: Location<'a>,
 }
 
 impl Words<'_> {
@@ -102,11 +108,11 @@ impl Words<'_> {
                 "the {n_vertices} vertices and {n_faces} faces that the header promises end here, {left} bytes before the file does"
             ));
         }
-        extras.soup(positions, &polygons, Budget::of(self.bytes), Place::whole(self.place.path))
+        extras.soup(positions, &polygons, Budget::of(self.bytes), Location::whole(self.place.path))
     }
 
-    fn at(&self, byte: usize) -> Place<'_> {
-        Place::byte(self.place.path, byte)
+    fn at(&self, byte: usize) -> Location<'_> {
+        Location::byte(self.place.path, byte)
     }
 
     fn word(&mut self, what: impl Fn() -> String) -> Result<u32> {

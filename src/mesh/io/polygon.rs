@@ -1,10 +1,10 @@
 //! Polygons of a file, and their triangles.
 
-use super::Point;
 use super::budget::Budget;
-use super::scan::Place;
+use super::scan::Location;
 use crate::error::Result;
 use crate::geometry::predicates::orientation;
+use crate::mesh::Point;
 use std::cmp::Ordering;
 
 /// The polygons of a file in its order, as flat lists: corner k of the file is `corners[k]`.
@@ -15,7 +15,8 @@ pub(super) struct Polygons {
     ends: Vec<usize>,
 }
 
-/// Polygons of more corners are cut into fans: looking for ears takes time in proportion to their square.
+/// Most corners of a polygon that is cut ear by ear. A larger one becomes a fan: the time to find its ears grows with the square of
+/// the number of corners.
 const MOST_CORNERS: usize = 1000;
 
 impl Polygons {
@@ -28,7 +29,7 @@ impl Polygons {
         self.ends.is_empty()
     }
 
-    /// The corners pushed onto `corners` since the last polygon are one.
+    /// End a polygon: its corners are those pushed onto `corners` since the last one ended.
     pub fn end(&mut self) {
         self.ends.push(self.corners.len());
     }
@@ -41,7 +42,7 @@ impl Polygons {
         &self,
         positions: &[Point],
         budget: &mut Budget,
-        place: Place<'_>,
+        place: Location<'_>,
     ) -> Result<Vec<[usize; 3]>> {
         let starts = std::iter::once(&0).chain(&self.ends);
         let count = starts.zip(&self.ends).map(|(start, end)| (end - start).saturating_sub(2)).sum();
@@ -69,7 +70,7 @@ impl Polygons {
 /// What is known of a corner of a polygon while ears are cut off it.
 #[derive(Clone, Copy)]
 enum Corner {
-    /// Nothing: one of its neighbours was cut off.
+    /// Nothing, since one of its neighbours was cut off.
     New,
     /// It turns inwards.
     Reflex,
@@ -157,7 +158,7 @@ mod tests {
     use super::*;
 
     fn triangles(polygons: &Polygons, positions: &[Point]) -> Vec<[usize; 3]> {
-        polygons.triangles(positions, &mut Budget::of(&[]), Place::whole("t")).unwrap()
+        polygons.triangles(positions, &mut Budget::of(&[]), Location::whole("t")).unwrap()
     }
 
     fn area(p: [[f64; 2]; 3]) -> f64 {

@@ -15,24 +15,24 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 
 /// Where a token stands.
 #[derive(Clone, Copy)]
-pub(super) struct Place<'a> {
+pub(super) struct Location<'a> {
     pub path: &'a str,
     pub at: At,
 }
 
-impl<'a> Place<'a> {
+impl<'a> Location<'a> {
     /// Lines count from 1.
     pub fn line(path: &'a str, line: usize) -> Self {
-        Place { path, at: At::Line(line) }
+        Location { path, at: At::Line(line) }
     }
 
     /// Bytes count from 0.
     pub fn byte(path: &'a str, byte: usize) -> Self {
-        Place { path, at: At::Byte(byte) }
+        Location { path, at: At::Byte(byte) }
     }
 
     pub fn whole(path: &'a str) -> Self {
-        Place { path, at: At::Whole }
+        Location { path, at: At::Whole }
     }
 
     pub fn error<T>(self, message: String) -> Result<T> {
@@ -86,8 +86,8 @@ pub(super) fn tokens<'a>(
 
 impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
     /// That of the last token.
-    pub fn place(&self) -> Place<'a> {
-        if self.line == 0 { Place::whole(self.path) } else { Place::line(self.path, self.line) }
+    pub fn place(&self) -> Location<'a> {
+        if self.line == 0 { Location::whole(self.path) } else { Location::line(self.path, self.line) }
     }
 
     /// Skip what is left of the current line.

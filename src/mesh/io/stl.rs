@@ -1,11 +1,12 @@
 //! STL, ascii and binary. Our own reader: what says `solid` may be binary, counts in headers may be wrong, and errors name
 //! the line or the byte.
 
+use super::Soup;
 use super::budget::Budget;
 use super::polygon::Polygons;
-use super::scan::{Place, Quoted, tokens};
-use super::{Point, Soup};
+use super::scan::{Location, Quoted, tokens};
 use crate::error::Result;
+use crate::mesh::Point;
 use crate::mesh::weld::{check_tolerance, coincident, place_key};
 use std::collections::HashMap;
 
@@ -41,7 +42,9 @@ fn is_text(bytes: &[u8]) -> bool {
 /// of the first of them. Faces keep their number; those that collapse use a vertex twice, which the diagnosis finds and
 /// [`crate::mesh::repair`] drops.
 ///
-/// Errors: [`crate::Error::Argument`] for a distance that is negative or not finite; [`crate::Error::Parse`].
+/// # Errors
+///
+/// [`crate::Error::Argument`] for a distance that is negative or not finite; [`crate::Error::Parse`].
 pub fn parse_stl_welded(bytes: &[u8], path: &str, weld: f64) -> Result<Soup> {
     check_tolerance(weld)?;
     let mut soup = parse_stl(bytes, path)?;
@@ -81,12 +84,12 @@ fn binary(bytes: &[u8], count: u32, path: &str) -> Result<Soup> {
     let (whole, more) = (body.len() / TRIANGLE, body.len() % TRIANGLE);
     let count = if count == 0 && more == 0 { whole } else { count as usize };
     if count > whole {
-        return Place::byte(path, bytes.len()).error(format!(
+        return Location::byte(path, bytes.len()).error(format!(
             "the file ends in triangle {whole} of the {count} that its header promises; export it again"
         ));
     }
     if count < whole {
-        return Place::byte(path, HEADER).error(format!(
+        return Location::byte(path, HEADER).error(format!(
             "the header promises {count} triangles, behind it are {whole} and {more} bytes; export it again"
         ));
     }
@@ -166,14 +169,14 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     match expect {
         Expect::Corner(_) | Expect::Loop => return place.error("the file ends inside a loop".into()),
         Expect::Normal => return place.error("the file ends inside a facet".into()),
-        _ if !begun => return Place::whole(path).error(NO_STL.into()),
+        _ if !begun => return Location::whole(path).error(NO_STL.into()),
         _ if polygons.is_empty() && !ended => {
             return place.error("the file has neither a facet nor the word `endsolid`".into());
         }
         _ => {}
     }
     let mut budget = Budget::of(text.as_bytes());
-    let triangles = polygons.triangles(&weld.soup.positions, &mut budget, Place::whole(path))?;
+    let triangles = polygons.triangles(&weld.soup.positions, &mut budget, Location::whole(path))?;
     weld.soup.faces = triangles.iter().map(|&t| polygons.face(t)).collect();
     Ok(weld.soup)
 }

@@ -1,7 +1,8 @@
 //! Triangle lists whose corners number positions and texture coordinates apart, as OBJ has them.
 
-use super::{Attributes, Point, Soup, finite, in_range};
+use super::soup::{Attributes, Soup, finite, in_range};
 use crate::error::{Error, Result, check_size};
+use crate::mesh::Point;
 use std::collections::HashMap;
 
 /// What [`super::write_obj`] and [`super::write_glb`] write.

@@ -51,7 +51,9 @@ type Point2 = [f64; 2];
 ///
 /// Every height sums over all holes: the time grows with n² g².
 ///
-/// Errors: [`crate::Error::Argument`] for a count that is too small, or too large to number the vertices.
+/// # Errors
+///
+/// [`crate::Error::Argument`] for a count that is too small, or too large to number the vertices.
 pub fn genus(genus: usize, n: usize) -> Result<Soup> {
     let vertices = 8.0 * (5.0 * genus as f64 + 1.0) * (n as f64).powi(2);
     check_count("genus", genus, 1, vertices)?;

@@ -17,7 +17,9 @@ use crate::mesh::io::Soup;
 ///      a___\___b
 /// ```
 ///
-/// Errors: [`Error::Argument`] for a vertex that does not exist or is in no face, or for too many levels; [`Error::TooLarge`].
+/// # Errors
+///
+/// [`Error::Argument`] for a vertex that does not exist or is in no face, or for too many levels; [`Error::TooLarge`].
 /// The error for levels names the largest number: 100 for a vertex at the origin, and elsewhere as many as leave the edges
 /// at it 1024 times what doubles resolve at its coordinates (about 40 on the unit sphere), so that angles keep three digits.
 pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
@@ -47,7 +49,13 @@ pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
         }
         let middle_of = |a: u32| middle.iter().find(|&&(known, _)| known == a).map_or(a, |&(_, m)| m);
         for &f in &star {
-            let corner = soup.faces[f].iter().position(|&v| v == vertex).unwrap_or(0);
+            let Some(corner) = soup.faces[f].iter().position(|&v| v == vertex) else {
+                return Err(Error::Connectivity {
+                    element: "face",
+                    index: f,
+                    message: "left the graded vertex",
+                });
+            };
             let (a, b) = (soup.faces[f][(corner + 1) % 3], soup.faces[f][(corner + 2) % 3]);
             let (near_a, near_b) = (middle_of(a), middle_of(b));
             soup.faces[f] = [vertex, near_a, near_b];
@@ -58,9 +66,9 @@ pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
     Ok(())
 }
 
-/// Beyond this, edges are of no use even at the origin, where doubles resolve them.
+/// Most levels of grading. At the origin doubles would resolve shorter edges, but 2⁻¹⁰⁰ of an edge is of no use.
 const MOST_LEVELS: usize = 100;
-/// Edges at the graded vertex stay this many roundings of its largest coordinate long.
+/// Least length of the edges at the graded vertex, in units of its largest coordinate: 1024 roundings of that.
 const RESOLVED: f64 = 1024.0 * f64::EPSILON;
 
 fn most_levels(soup: &Soup, vertex: u32, star: &[usize]) -> usize {
@@ -88,7 +96,9 @@ pub enum Sliver {
 ///
 /// The new vertices come last; of each face cut, the first third keeps its number and the others come last.
 ///
-/// Errors: [`Error::Argument`] for an angle outside 1e-7 … 0.1 or more slivers than faces; [`Error::TooLarge`].
+/// # Errors
+///
+/// [`Error::Argument`] for an angle outside 1e-7 … 0.1 or more slivers than faces; [`Error::TooLarge`].
 pub fn slivers(soup: &mut Soup, kind: Sliver, count: usize, angle: f64, seed: u64) -> Result<()> {
     check_corners(soup)?;
     if !(THINNEST..=0.1).contains(&angle) {
@@ -124,8 +134,8 @@ pub fn slivers(soup: &mut Soup, kind: Sliver, count: usize, angle: f64, seed: u6
     Ok(())
 }
 
-/// The sides of a cap with this angle differ from its base by a few ulps: `2 (1 − cos 1e-7) = 1e-14`. Thinner ones have no
-/// area by their lengths.
+/// Least angle of a sliver, radians. The sides of a cap with this angle exceed its base by a few ulps together, `2 (1 − cos 1e-7) =
+/// 1e-14` of it; of a thinner one the lengths say that it has no area.
 const THINNEST: f64 = 1e-7;
 
 /// Above the middle of pq, seen from p and q under `angle`.
@@ -160,7 +170,7 @@ fn check_room(soup: &Soup, new_faces: usize) -> Result<()> {
     if count > u32::MAX as usize / 3 { Err(Error::TooLarge { what: "faces", count }) } else { Ok(()) }
 }
 
-/// Attributes belong to the elements that were there.
+/// Drop the attributes: those of new vertices and faces are not known.
 fn forget_attributes(soup: &mut Soup) {
     soup.attributes = Default::default();
 }

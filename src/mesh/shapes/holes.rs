@@ -6,13 +6,13 @@ use crate::mesh::io::Soup;
 use crate::mesh::{HalfedgeId, Mesh, PerVertex, Point, VertexId};
 
 /// A hole's radius as a share of the distance from its centre to the nearest other centre or boundary vertex.
-const SHARE: f64 = 0.3;
+const RADIUS_SHARE: f64 = 0.3;
 /// A hole stays where the surface faces the same way as at its centre, within this cosine.
-const FACING: f64 = 0.5;
+const LEAST_FACING_COSINE: f64 = 0.5;
 /// What a hole's radius shrinks by from one attempt to the next.
 const SHRINK: f64 = 0.95;
 /// Radii down to this share of the largest possible one are tried; the one with the fattest triangles is taken.
-const CHOICE: f64 = 0.7;
+const LEAST_RADIUS_SHARE: f64 = 0.7;
 
 /// Cut `count` round holes out of a surface, as far from each other and from the boundary as its vertices allow: the
 /// surface stays connected and has `count` more boundary loops.
@@ -25,7 +25,9 @@ const CHOICE: f64 = 0.7;
 /// holes, nor a hole and the boundary, share a vertex.
 /// Vertices and faces keep their order, those cut out are dropped, and so are attributes.
 ///
-/// Errors: those of [`Mesh::from_soup`] for the surface; [`Error::Argument`] if there is no room for as many holes of
+/// # Errors
+///
+/// Those of [`Mesh::from_soup`] for the surface; [`Error::Argument`] if there is no room for as many holes of
 /// either kind.
 pub fn punch(soup: &Soup, count: usize) -> Result<Soup> {
     let mesh = Mesh::from_soup(soup)?;
@@ -53,13 +55,13 @@ fn smallest_sine(soup: &Soup) -> f64 {
 /// The surface with some holes cut.
 #[derive(Clone)]
 struct State {
-    place: PerVertex<Place>,
+    region: PerVertex<Region>,
     positions: Vec<Point>,
 }
 
 impl State {
     fn new(mesh: &Mesh, positions: &[Point]) -> State {
-        State { place: PerVertex::filled(mesh.n_vertices(), Place::Outside), positions: positions.to_vec() }
+        State { region: PerVertex::filled(mesh.n_vertices(), Region::Outside), positions: positions.to_vec() }
     }
 }
 
@@ -96,9 +98,11 @@ impl<'a> Surface<'a> {
             };
             // Sine, largest radius that works, state.
             let mut best: Option<(f64, f64, State)> = None;
-            let mut radius = SHARE * apart;
+            let mut radius = RADIUS_SHARE * apart;
             let least = self.ring_radius(c);
-            while radius > least.max(best.as_ref().map_or(0.0, |(_, largest, _)| CHOICE * largest)) {
+            while radius
+                > least.max(best.as_ref().map_or(0.0, |(_, largest, _)| LEAST_RADIUS_SHARE * largest))
+            {
                 if let Some((sine, next)) = attempt(radius) {
                     let largest = best.as_ref().map_or(radius, |&(_, largest, _)| largest);
                     if best.as_ref().is_none_or(|&(known, ..)| sine > known) {
@@ -125,7 +129,7 @@ impl<'a> Surface<'a> {
         for _ in 0..count {
             let open = |v: &VertexId| !taken[*v] && ring(*v).all(|w| !taken[w]);
             let c = self.mesh.vertices().filter(open).max_by(|&v, &w| free[v].total_cmp(&free[w]))?;
-            state.place[c] = Place::Inside;
+            state.region[c] = Region::Inside;
             taken[c] = true;
             ring(c).for_each(|v| taken[v] = true);
             self.keep_off(&mut free, self.at(c));
@@ -178,7 +182,7 @@ impl<'a> Surface<'a> {
     /// Whether the surface within two edges of a vertex faces the way it does there.
     fn is_flat(&self, v: VertexId) -> bool {
         let along = |w: VertexId| self.mesh.outgoing(w).map(|h| self.mesh.tip(h));
-        along(v).flat_map(along).all(|w| dot(self.normals[w], self.normals[v]) >= FACING)
+        along(v).flat_map(along).all(|w| dot(self.normals[w], self.normals[v]) >= LEAST_FACING_COSINE)
     }
 
     /// Longest edge at a vertex.
@@ -188,15 +192,15 @@ impl<'a> Surface<'a> {
 
     /// Cut the ball about `c` out; `None` where the piece does not face the centre's way, or meets another hole.
     fn cut(&self, c: VertexId, radius: f64, state: &mut State) -> Option<()> {
-        let inside = self.inside(c, radius, &mut state.place)?;
+        let inside = self.inside(c, radius, &mut state.region)?;
         self.snap(c, radius, &inside, state)
     }
 
     /// What is left.
     fn rest(&self, state: &State) -> Soup {
-        let State { place, positions } = state;
+        let State { region, positions } = state;
         let gone = |f: &[VertexId; 3]| {
-            f.iter().any(|&v| place[v] == Place::Inside) || f.iter().all(|&v| place[v] == Place::Rim)
+            f.iter().any(|&v| region[v] == Region::Inside) || f.iter().all(|&v| region[v] == Region::Rim)
         };
         let faces: Vec<[VertexId; 3]> =
             self.mesh.faces().map(|f| self.mesh.face_vertices(f)).filter(|f| !gone(f)).collect();
@@ -213,27 +217,28 @@ impl<'a> Surface<'a> {
     }
 
     /// The vertices within the ball, from its centre along edges.
-    fn inside(&self, c: VertexId, radius: f64, place: &mut PerVertex<Place>) -> Option<Vec<VertexId>> {
+    fn inside(&self, c: VertexId, radius: f64, region: &mut PerVertex<Region>) -> Option<Vec<VertexId>> {
         let mut inside = vec![c];
-        if place[c] != Place::Outside {
+        if region[c] != Region::Outside {
             return None;
         }
-        place[c] = Place::Inside;
+        region[c] = Region::Inside;
         let mut next = 0;
         while next < inside.len() {
             let v = inside[next];
-            if self.mesh.is_boundary_vertex(v) || dot(self.normals[v], self.normals[c]) < FACING {
+            if self.mesh.is_boundary_vertex(v) || dot(self.normals[v], self.normals[c]) < LEAST_FACING_COSINE
+            {
                 return None;
             }
             for tip in self.mesh.outgoing(v).map(|h| self.mesh.tip(h)) {
                 if distance(self.at(tip), self.at(c)) < radius {
-                    match place[tip] {
-                        Place::Outside => {
-                            place[tip] = Place::Inside;
+                    match region[tip] {
+                        Region::Outside => {
+                            region[tip] = Region::Inside;
                             inside.push(tip);
                         }
-                        Place::Inside => {}
-                        Place::Rim => return None,
+                        Region::Inside => {}
+                        Region::Rim => return None,
                     }
                 }
             }
@@ -244,13 +249,13 @@ impl<'a> Surface<'a> {
 
     /// Move the vertices nearest to the rim onto it, each along the edge on which it is nearest.
     fn snap(&self, c: VertexId, radius: f64, inside: &[VertexId], state: &mut State) -> Option<()> {
-        let State { place, positions } = state;
+        let State { region, positions } = state;
         // Distance moved, vertex, new position.
         let mut moves: Vec<(f64, VertexId, Point)> = Vec::new();
-        let leaving = |h: &HalfedgeId| place[self.mesh.tip(*h)] != Place::Inside;
+        let leaving = |h: &HalfedgeId| region[self.mesh.tip(*h)] != Region::Inside;
         for h in inside.iter().flat_map(|&v| self.mesh.outgoing(v)).filter(leaving) {
             let (a, b) = (self.mesh.origin(h), self.mesh.tip(h));
-            if place[b] == Place::Rim || self.mesh.is_boundary_vertex(b) {
+            if region[b] == Region::Rim || self.mesh.is_boundary_vertex(b) {
                 return None;
             }
             let t = leave(self.at(a), self.at(b), self.at(c), radius);
@@ -260,18 +265,18 @@ impl<'a> Surface<'a> {
         }
         moves.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         for (_, v, p) in moves {
-            if place[v] != Place::Rim {
-                place[v] = Place::Rim;
+            if region[v] != Region::Rim {
+                region[v] = Region::Rim;
                 positions[v.index()] = p;
             }
         }
-        (place[c] == Place::Inside).then_some(())
+        (region[c] == Region::Inside).then_some(())
     }
 }
 
 /// Where a vertex is with respect to the holes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Place {
+enum Region {
     Outside,
     Inside,
     Rim,

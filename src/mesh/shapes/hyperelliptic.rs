@@ -11,7 +11,7 @@ use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge, PerVertex, VertexId};
 use num_complex::Complex64;
 
 /// Rounds of smoothing after vertices have been moved onto the branch points.
-const ROUNDS: usize = 10;
+const SMOOTHING_ROUNDS: usize = 10;
 
 /// The Riemann surface of `y² = Π (x − e_j)` as the double cover of the round sphere, branched over the points `e_j` and,
 /// if their number is odd, over ∞: genus g for 2g + 1 or 2g + 2 points, g ≥ 1. Its period matrix is known:
@@ -25,7 +25,9 @@ const ROUNDS: usize = 10;
 ///
 /// Vertex j is the one over e_j, the one over ∞ follows if there is one, then the pairs over the other vertices.
 ///
-/// Errors: [`Error::Argument`] for fewer than three points, points that are not finite, and points so close to each
+/// # Errors
+///
+/// [`Error::Argument`] for fewer than three points, points that are not finite, and points so close to each
 /// other on the sphere that the vertices there are the same or neighbours (raise n).
 pub fn hyperelliptic(branch_points: &[Complex64], n: usize) -> Result<Intrinsic> {
     check_count("branch points", branch_points.len(), 3, 20.0 * (n as f64).powi(2))?;
@@ -77,7 +79,7 @@ fn sphere(points: &[Vector], n: usize) -> Result<(Soup, Vec<u32>)> {
         branch.push(v.0);
         soup.positions[v.index()] = points[j];
     }
-    for _ in 0..ROUNDS {
+    for _ in 0..SMOOTHING_ROUNDS {
         let old = soup.positions.clone();
         for v in mesh.vertices().filter(|v| !branch.contains(&v.0)) {
             let sum = mesh.outgoing(v).fold([0.0; 3], |sum, h| add(sum, old[mesh.tip(h).index()]));

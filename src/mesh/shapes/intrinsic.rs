@@ -1,7 +1,8 @@
 //! Surfaces given by glued triangles and edge lengths alone.
 
-use super::{SIZES, THIN, check_count};
+use super::{THIN, check_count};
 use crate::error::{Error, Result};
+use crate::geometry::space::USABLE_LENGTHS;
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Mesh, PerEdge};
 use std::f64::consts::PI;
@@ -34,7 +35,9 @@ impl Intrinsic {
     /// Edge e becomes 2e − 1 and 2e, in its direction; vertex V + e − 1 is its midpoint; then come three
     /// edges per face.
     ///
-    /// Errors: a gluing that is no surface (see [`Mesh::from_gluing`]); [`Error::EdgeLength`] and
+    /// # Errors
+    ///
+    /// A gluing that is no surface (see [`Mesh::from_gluing`]); [`Error::EdgeLength`] and
     /// [`Error::TriangleInequality`] for lengths without such triangles; [`Error::Argument`] for sides in H²
     /// beyond 700; more edges than i32 can number.
     pub fn subdivide(&self) -> Result<Intrinsic> {
@@ -79,10 +82,14 @@ impl Intrinsic {
 
     /// Every length usable, every face a triangle of the geometry.
     pub(super) fn check_triangles(&self) -> Result<()> {
-        if let Some((edge, &length)) = self.lengths.iter().enumerate().find(|(_, l)| !SIZES.contains(*l)) {
+        if let Some((edge, &length)) =
+            self.lengths.iter().enumerate().find(|(_, l)| !USABLE_LENGTHS.contains(*l))
+        {
             return Err(Error::EdgeLength { edge, length });
         }
-        if let Some(l) = self.lengths.iter().find(|&&l| self.geometry == Space::H2 && l > FAR) {
+        if let Some(l) =
+            self.lengths.iter().find(|&&l| self.geometry == Space::H2 && l > LONGEST_HYPERBOLIC_SIDE)
+        {
             let need = "at most 700: its triangles' midlines are beyond doubles";
             return Err(Error::Argument { what: "length in H²", value: l.to_string(), need });
         }
@@ -100,7 +107,7 @@ impl Intrinsic {
 }
 
 /// Longest side in H² whose midlines are found: the square of their half chord grows like e^l, up to e^709.
-const FAR: f64 = 700.0;
+const LONGEST_HYPERBOLIC_SIDE: f64 = 700.0;
 
 /// Distance of the midpoints of two sides b, c that meet at `angle` (a: the third side): the cosine law for
 /// half the sides, in half-chord form.
@@ -123,7 +130,9 @@ fn midline(geometry: Space, b: f64, c: f64, a: f64, angle: f64) -> f64 {
 /// The flat torus ℂ/(ℤ + τℤ), Im τ > 0, as an n × m grid of parallelograms, each halved by its diagonal from
 /// z to z + 1/n + τ/m; legal down to 1 × 1 (one vertex). Vertex (i, j) is i + n j.
 ///
-/// Errors: [`Error::Argument`] for τ outside the upper half plane or not finite, triangles flatter than 1e-12
+/// # Errors
+///
+/// [`Error::Argument`] for τ outside the upper half plane or not finite, triangles flatter than 1e-12
 /// (twice the area over the longest side squared), or counts out of range.
 pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
     if !(tau[0].is_finite() && tau[1].is_finite() && tau[1] > 0.0) {

@@ -13,7 +13,9 @@ use crate::mesh::io::Soup;
 /// their triangulations the same one in the limit of fine meshes. A closed surface that does not contain the centre
 /// keeps its outside.
 ///
-/// Errors: [`Error::Argument`] for a radius outside 1e-150 … 1e150, or a vertex within 1e-12 R of the centre.
+/// # Errors
+///
+/// [`Error::Argument`] for a radius outside 1e-150 … 1e150, or a vertex within 1e-12 R of the centre.
 pub fn invert(soup: &mut Soup, centre: Vector, radius: f64) -> Result<()> {
     check_size("radius of the inversion", radius)?;
     let near = |p: &Vector| dot(sub(*p, centre), sub(*p, centre)) < (1e-12 * radius).powi(2);
@@ -44,12 +46,14 @@ const CLEARANCE: f64 = 1.2;
 /// lies beyond the last rim. The largest is 6.8 for two handles, 17 for three, 32 for four, in proportion to the square of
 /// their number.
 ///
-/// Errors: those of [`genus`]; [`Error::Argument`] for a ratio below 1, another one than 1 for a single handle, and
+/// # Errors
+///
+/// Those of [`genus`]; [`Error::Argument`] for a ratio below 1, another one than 1 for a single handle, and
 /// one too large for so few handles.
 pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
     let mut soup = genus(handles, n)?;
     let refuse = |need| Err(Error::Argument { what: "ratio of the handles", value: ratio.to_string(), need });
-    if !(1.0..=SIZE).contains(&ratio) {
+    if !(1.0..=MOST_RATIO).contains(&ratio) {
         return refuse("between 1 and 1000");
     }
     if ratio == 1.0 {
@@ -80,4 +84,4 @@ pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
 }
 
 /// Largest ratio of the handles' sizes.
-const SIZE: f64 = 1000.0;
+const MOST_RATIO: f64 = 1000.0;

@@ -8,10 +8,10 @@ use crate::mesh::io::Soup;
 use std::f64::consts::{PI, TAU};
 
 /// Points of the core curve at which the room for a tube is measured, for each time it goes round.
-const SAMPLES: usize = 128;
+const SAMPLES_PER_ROUND: usize = 128;
 
 /// Largest turn of the curve from one cross-section to the next.
-const TURN: f64 = 0.25 * PI;
+const MOST_TURN: f64 = 0.25 * PI;
 
 /// The core of a knotted torus: the curve on the torus of revolution with radii `big` and `small` that goes `p`
 /// times around the axis while it goes `q` times around the tube.
@@ -47,7 +47,7 @@ impl TorusKnot {
     /// The largest radius of a tube that does not meet itself, as far as samples show: half the least distance of
     /// points that are further apart along the curve than the tube's half turn, and the least radius of curvature.
     fn room(&self) -> f64 {
-        let n = SAMPLES * (self.p + self.q) as usize;
+        let n = SAMPLES_PER_ROUND * (self.p + self.q) as usize;
         let points: Vec<Point> = (0..n).map(|i| self.at(i as f64 / n as f64)).collect();
         let step = |i: usize| distance(points[i % n], points[(i + 1) % n]);
         // Radius of the circle through three successive points.
@@ -79,7 +79,9 @@ impl TorusKnot {
     /// Vertex (i, j) is `i + n j`. From one section to the next the circle is carried along with as little rotation
     /// as possible, and what is missing to close up after one round is shared out evenly.
     ///
-    /// Errors: [`Error::Argument`] for p, q that are 0 or not coprime, radii out of range, a tube that would meet
+    /// # Errors
+    ///
+    /// [`Error::Argument`] for p, q that are 0 or not coprime, radii out of range, a tube that would meet
     /// itself, and counts out of range; the error for too few sections names the least number.
     pub fn torus(&self, tube: f64, n: usize, m: usize) -> Result<Soup> {
         let TorusKnot { p, q, big, small } = *self;
@@ -115,10 +117,10 @@ impl TorusKnot {
         Ok(self.sweep(tube, n, m))
     }
 
-    /// The least number of equal steps in t after which the tangent has turned by at most [`TURN`], and whose chords are
+    /// The least number of equal steps in t after which the tangent has turned by at most [`MOST_TURN`], and whose chords are
     /// within `slack` of the curve: an arc of length s that turns by θ leaves its chord by s θ/8 at most.
     fn least_sections(&self, slack: f64) -> usize {
-        let n = SAMPLES * (self.p + self.q) as usize;
+        let n = SAMPLES_PER_ROUND * (self.p + self.q) as usize;
         let velocity = |i: usize| self.velocity(i as f64 / n as f64);
         let (mut turn, mut speed) = (0.0f64, 0.0f64);
         for i in 0..n {
@@ -126,7 +128,7 @@ impl TorusKnot {
             turn = turn.max(norm(cross(a, b)).atan2(dot(a, b)) * n as f64);
             speed = speed.max(norm(a));
         }
-        (turn / TURN).max((0.125 * speed * turn / slack).sqrt()).ceil().max(3.0) as usize
+        (turn / MOST_TURN).max((0.125 * speed * turn / slack).sqrt()).ceil().max(3.0) as usize
     }
 
     fn sweep(&self, tube: f64, n: usize, m: usize) -> Soup {

@@ -1,4 +1,11 @@
 //! Sample surfaces of every topology, at any resolution.
+//!
+//! ```
+//! use ricci::mesh::{Mesh, shapes};
+//! let mesh = Mesh::from_soup(&shapes::genus(3, 2)?)?;
+//! assert_eq!((mesh.genus(), mesh.is_closed()), (3, true));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 mod genus;
 mod grading;
@@ -27,7 +34,7 @@ pub use sphere::{ellipsoid, icosphere};
 pub use torus::torus;
 
 use crate::error::{Error, Result};
-use std::ops::RangeInclusive;
+use crate::geometry::space::USABLE_LENGTHS;
 
 /// Largest number of vertices a generator makes (half-edges are numbered in u32, six to a vertex).
 const MAX_VERTICES: f64 = 5e8;
@@ -46,17 +53,13 @@ fn check_count(what: &'static str, count: usize, least: usize, vertices: f64) ->
     Ok(())
 }
 
-/// Sizes and lengths outside this range are refused, as everywhere in the library: their squares would leave
-/// the range of doubles.
-const SIZES: RangeInclusive<f64> = 1e-150..=1e150;
-
 /// Least ratio of two sizes of a shape: points that differ by the smaller one alone keep four of their
 /// digits.
 const THIN: f64 = 1e-12;
 
-/// A size within [`SIZES`].
+/// A size within [`USABLE_LENGTHS`].
 fn check_size(what: &'static str, size: f64) -> Result<()> {
-    if SIZES.contains(&size) {
+    if USABLE_LENGTHS.contains(&size) {
         return Ok(());
     }
     Err(Error::Argument { what, value: format!("{size:e}"), need: "a number between 1e-150 and 1e150" })

@@ -28,6 +28,10 @@ impl SplitMix64 {
 }
 
 /// Move every vertex by up to `amplitude` × the mean edge length in each coordinate, uniformly.
+///
+/// # Errors
+///
+/// [`Error::Argument`] for an amplitude out of range.
 pub fn noise(soup: &mut Soup, amplitude: f64, seed: u64) -> Result<()> {
     if !(0.0..=1e3).contains(&amplitude) {
         return Err(Error::Argument {

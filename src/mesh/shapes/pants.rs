@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 
 /// Boundary lengths that are allowed: the seams next to a boundary of length l are about log(4/l) long each, and a
 /// side of half the longest is far from where subdivision ends.
-const LENGTHS: RangeInclusive<f64> = 1e-6..=200.0;
+const BOUNDARY_LENGTHS: RangeInclusive<f64> = 1e-6..=200.0;
 
 /// The hyperbolic pair of pants whose three boundary loops are geodesics of these `lengths` l₁, l₂, l₃: a sphere with
 /// three holes, unique up to isometry [Bus92, Theorem 3.1.7]. Curvature is 0 at every vertex, the boundary's included;
@@ -26,10 +26,12 @@ const LENGTHS: RangeInclusive<f64> = 1e-6..=200.0;
 /// `level` times ([`Intrinsic::subdivide`]): 8 · 4^level faces. Vertices 0 … 5 are the corners: boundary 1 passes
 /// through 5 and 0, boundary 2 through 1 and 2, boundary 3 through 3 and 4.
 ///
-/// Errors: [`Error::Argument`] for a length outside 1e-6 … 200, or too many levels; [`Error::TriangleInequality`] where
+/// # Errors
+///
+/// [`Error::Argument`] for a length outside 1e-6 … 200, or too many levels; [`Error::TriangleInequality`] where
 /// subdivided triangles next to a very long or short boundary are too thin for doubles.
 pub fn pants(lengths: [f64; 3], level: usize) -> Result<Intrinsic> {
-    if let Some(l) = lengths.iter().find(|l| !LENGTHS.contains(*l)) {
+    if let Some(l) = lengths.iter().find(|l| !BOUNDARY_LENGTHS.contains(*l)) {
         let need = "between 1e-6 and 200";
         return Err(Error::Argument { what: "boundary length", value: l.to_string(), need });
     }

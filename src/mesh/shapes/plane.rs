@@ -37,7 +37,9 @@ pub fn disk(n: usize) -> Result<Soup> {
 /// ≥ 3 steps, alternate rings turned by half a step. (n_radial + 1)·n_around vertices, ring by ring from
 /// inside.
 ///
-/// Errors: [`Error::Argument`] for radii outside 1e-150 … 1e150 or not increasing, counts out of range, and
+/// # Errors
+///
+/// [`Error::Argument`] for radii outside 1e-150 … 1e150 or not increasing, counts out of range, and
 /// rings so close or so far apart that no triangle between them has an area in doubles.
 pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Result<Soup> {
     check_size("inner radius", inner)?;

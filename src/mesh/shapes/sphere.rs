@@ -2,6 +2,7 @@
 
 use super::{THIN, check_count, check_size};
 use crate::error::{Error, Result};
+use crate::geometry::vector::{cross, dot};
 use crate::mesh::Point;
 use crate::mesh::io::Soup;
 use std::collections::HashMap;
@@ -58,7 +59,9 @@ pub fn icosphere(n: usize) -> Result<Soup> {
 
 /// The ellipsoid with half axes a, b, c along x, y, z: the icosphere, scaled.
 ///
-/// Errors: [`Error::Argument`] for an axis outside 1e-150 … 1e150 or below 1e-12 of the longest, or n out of
+/// # Errors
+///
+/// [`Error::Argument`] for an axis outside 1e-150 … 1e150 or below 1e-12 of the longest, or n out of
 /// range.
 pub fn ellipsoid(axes: [f64; 3], n: usize) -> Result<Soup> {
     for (what, axis) in ["first half axis", "second half axis", "third half axis"].into_iter().zip(axes) {
@@ -84,8 +87,7 @@ fn icosahedron_faces(p: &[Point]) -> Vec<[u32; 3]> {
             for c in b + 1..12 {
                 if near(a, b) && near(b, c) && near(c, a) {
                     let [x, y, z] = [p[a], p[b], p[c]];
-                    let volume = x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0])
-                        + x[2] * (y[0] * z[1] - y[1] * z[0]);
+                    let volume = dot(x, cross(y, z));
                     let [a, b, c] = [a as u32, b as u32, c as u32];
                     faces.push(if volume > 0.0 { [a, b, c] } else { [a, c, b] });
                 }

@@ -11,7 +11,9 @@ use std::f64::consts::TAU;
 ///
 /// Its flat metric has the modulus `i r/√(R² − r²)` up to SL(2, ℤ).
 ///
-/// Errors: [`Error::Argument`] for radii outside 1e-150 … 1e150, r/R within 1e-12 of 0 or of 1 or beyond, or
+/// # Errors
+///
+/// [`Error::Argument`] for radii outside 1e-150 … 1e150, r/R within 1e-12 of 0 or of 1 or beyond, or
 /// counts out of range.
 pub fn torus(big: f64, small: f64, n_u: usize, n_v: usize) -> Result<Soup> {
     check_size("radius of the centre circle", big)?;

@@ -17,7 +17,7 @@
 
 use super::Crossing;
 use super::geodesic::place;
-use super::order::{Place, TIP, before, between};
+use super::order::{OnEdge, TIP, before, between};
 use crate::mesh::normal::Strands;
 use crate::mesh::{Curves, FaceId, HalfedgeId, Mesh};
 
@@ -44,8 +44,8 @@ pub(super) enum Border {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Station {
     pub border: Border,
-    /// Its place on the line.
-    pub line: Place,
+    /// Where on the line.
+    pub line: OnEdge,
     /// As a vector: weights of the corners of the face.
     pub vector: [f64; 3],
 }
@@ -54,20 +54,20 @@ pub(super) struct Station {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Passing {
     pub halfedge: HalfedgeId,
-    /// Place on the line.
-    pub line: Place,
-    /// Place on the half-edge.
-    pub across: Place,
+    /// Where on the line.
+    pub line: OnEdge,
+    /// Where on the half-edge.
+    pub across: OnEdge,
     /// Homogeneous weight.
     pub weight: f64,
 }
 
 /// An end of a chord: weights of the corners, place on the final half-edge, homogeneous weight.
-type End = ([f64; 3], Place, f64);
+type End = ([f64; 3], OnEdge, f64);
 
 impl Chords<'_> {
     /// How many chords cross a half-edge nearer to its origin than this place on it.
-    pub fn rank(&self, h: HalfedgeId, at: Place) -> i64 {
+    pub fn rank(&self, h: HalfedgeId, at: OnEdge) -> i64 {
         let crossings = &self.crossings[self.curves.numbers(h.edge())];
         let along = if h.0 & 1 == 0 { at } else { [at[1], at[0]] };
         let rank = crossings.partition_point(|(c, _)| before(c.input_weights, along));
@@ -148,7 +148,7 @@ impl Chords<'_> {
         let crossed = self.curves.crossings(side.edge())[along].halfedge;
         let crossed = if odd { crossed.twin() } else { crossed };
         let (crossing, weight) = self.crossings[self.curves.numbers(side.edge()).start + along];
-        let turned = |[x, y]: Place, odd: bool| if odd { [y, x] } else { [x, y] };
+        let turned = |[x, y]: OnEdge, odd: bool| if odd { [y, x] } else { [x, y] };
         let mut vector = [0.0; 3];
         [vector[k], vector[(k + 1) % 3]] = turned(crossing.input_weights, odd);
         let place = turned(crossing.final_weights, halfedge.unwrap_or(crossed).0 & 1 == 1);

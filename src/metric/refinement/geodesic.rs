@@ -16,12 +16,13 @@
 //! the edge, which is what rounding of the intrinsic lengths does too.
 
 use super::Intrinsic;
-use super::order::{Place, restore_order, restore_order_across};
+use super::order::{OnEdge, restore_order, restore_order_across};
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Curves, EdgeId, HalfedgeId, PerEdge, PerHalfedge};
 use crate::parallel;
 
-/// Weight of an end that rounding has put on the wrong side of it.
+/// Smallest weight of an end. A crossing lies strictly between the ends of its edge; where rounding has put it on an end or beyond,
+/// this weight, the rounding of a weight near 1, moves it back inside.
 const LEAST: f64 = f64::EPSILON;
 
 /// A crossing of an edge of the input with an intrinsic half-edge, from its left to its right. Weights are
@@ -29,9 +30,9 @@ const LEAST: f64 = f64::EPSILON;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Straight {
     /// Of the ends of the input's edge.
-    pub edge: Place,
+    pub edge: OnEdge,
     /// Of the origin and tip of the half-edge.
-    pub across: Place,
+    pub across: OnEdge,
     /// The point as vector, with the weights `across`, over that with the weights `edge`: 1 in E².
     pub ratio: f64,
 }
@@ -54,8 +55,8 @@ pub(super) fn straight(intrinsic: &Intrinsic, geometry: Space, curves: &Curves) 
     parallel::fill(&mut found, |e| frames.along(curves, EdgeId::from(e)));
     let mut all = found.concat();
     let crossed = || intrinsic.mesh.edges().flat_map(|e| curves.crossings(e)).map(|at| at.halfedge);
-    let turned = |h: HalfedgeId, [x, y]: Place| if h.0 & 1 == 0 { [x, y] } else { [y, x] };
-    let mut places: Vec<Place> = crossed().zip(&all).map(|(h, s)| turned(h, s.across)).collect();
+    let turned = |h: HalfedgeId, [x, y]: OnEdge| if h.0 & 1 == 0 { [x, y] } else { [y, x] };
+    let mut places: Vec<OnEdge> = crossed().zip(&all).map(|(h, s)| turned(h, s.across)).collect();
     restore_order_across(intrinsic.mesh, curves, &mut places);
     crossed().zip(&mut all).zip(places).for_each(|((h, s), place)| s.across = turned(h, place));
     all
@@ -107,7 +108,7 @@ impl<'a> Frames<'a> {
                 a = self.forward(a, crossing.halfedge, next.halfedge);
             }
         }
-        let mut places: Vec<Place> = all.iter().map(|s| s.edge).collect();
+        let mut places: Vec<OnEdge> = all.iter().map(|s| s.edge).collect();
         restore_order(&mut places);
         all.iter_mut().zip(places).for_each(|(s, place)| s.edge = place);
         all
@@ -163,9 +164,10 @@ fn back([sine, cosine]: [f64; 2]) -> [f64; 2] {
     [-sine, cosine]
 }
 
-/// Weights in this proportion. Of two that must be positive one may be rounded to less than that: it becomes
-/// [`LEAST`].
-pub(super) fn place(weights: [f64; 2]) -> Place {
+/// The point with weights in this proportion. Both weights are positive without rounding; one that is not becomes [`LEAST`]. Where
+/// neither is a positive number, the point is unknown to doubles; the middle of the edge then stands for it, which the order along the
+/// edge corrects ([`super::order::restore_order`]).
+pub(super) fn place(weights: [f64; 2]) -> OnEdge {
     let [x, y] = weights.map(|w| if w > 0.0 && w < f64::INFINITY { w } else { 0.0 });
     match x + y {
         total if total > 0.0 && total < f64::INFINITY => match [x / total, y / total] {

@@ -12,14 +12,14 @@
 //! and around its ends. What is left may be out of order along either edge, there or by rounding: it is
 //! pooled ([`restore_order`]). The order of the crossings along both edges is all that a bijection takes.
 
+use super::Crossing;
 use super::chords::{Border, Chords, Passing, Station};
+use super::crossings::Lines;
 use super::geodesic::{Straight, straight};
-use super::order::{ORIGIN, Place, TIP, restore_order, restore_order_across};
+use super::order::{ORIGIN, OnEdge, TIP, restore_order, restore_order_across};
 use super::pieces::torn;
-use super::{Crossing, Final, HALFEDGES, Scales, Strips};
 use crate::control::Control;
-use crate::error::{Error, Result, check_size};
-use crate::geometry::Space;
+use crate::error::Result;
 use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates, PerEdge};
 
@@ -47,44 +47,18 @@ pub(super) struct Placement<'a> {
 }
 
 impl<'a> Placement<'a> {
-    /// O(edges + crossings of any two of the three triangulations). Errors: [`Error::Size`],
-    /// [`Error::TooLarge`], [`Error::Connectivity`], [`Error::EdgeWeight`] as those of
-    /// [`super::Refinement::new`].
-    pub fn new(
-        intrinsic: Intrinsic<'a>,
-        geometry: Space,
-        result: &Final,
-        strips: &Strips,
-        scales: &Scales,
-        control: &Control,
-    ) -> Result<Placement<'a>> {
-        let mesh = intrinsic.mesh;
-        check_size("intrinsic edges", mesh.n_edges(), result.mesh.n_edges())?;
-        check_size("intrinsic lengths", intrinsic.lengths.len(), mesh.n_edges())?;
-        for (what, count) in [
-            ("crossings of input and intrinsic edges", intrinsic.given.check(mesh)?),
-            ("crossings of intrinsic and final edges", intrinsic.normal.check(result.mesh)?),
-        ] {
-            if count > u32::MAX as usize / HALFEDGES {
-                return Err(Error::TooLarge { what, count });
-            }
-        }
+    /// O(edges + crossings of any two of the three triangulations). Errors: those of [`super::Refinement::new`].
+    pub fn new(intrinsic: Intrinsic<'a>, lines: &Lines, control: &Control) -> Result<Placement<'a>> {
+        let (mesh, result) = (intrinsic.mesh, lines.result.mesh);
         let curves = Curves::trace(mesh, intrinsic.given, control)?;
         control.check()?;
-        let straight = straight(&intrinsic, geometry, &curves);
+        let straight = straight(&intrinsic, lines.geometry, &curves);
         control.check()?;
-        let on_final = Curves::trace(result.mesh, intrinsic.normal, control)?;
-        let ends: Vec<_> = mesh.edges().map(|e| mesh.ends(e)).collect();
-        let raw = strips.crossings(&ends, &on_final)?;
+        let on_final = Curves::trace(result, intrinsic.normal, control)?;
+        let crossings = lines.crossings(mesh, &on_final)?;
         control.check()?;
-        let mut crossings = Vec::with_capacity(raw.len());
-        for e in mesh.edges() {
-            for (raw, at) in raw[on_final.numbers(e)].iter().zip(on_final.crossings(e)) {
-                crossings.push(scales.crossing(raw, e, ends[e.index()], at.halfedge, result.mesh));
-            }
-        }
         let stays = PerEdge::from_fn(mesh.n_edges(), |e| on_final.along(e));
-        let chords = Chords { mesh, curves: on_final, crossings, weight: scales.vertices() };
+        let chords = Chords { mesh, curves: on_final, crossings, weight: lines.vertex_weights() };
         Ok(Placement { curves, straight, stays, chords })
     }
 
@@ -93,14 +67,14 @@ impl<'a> Placement<'a> {
     pub fn place(&self, e: EdgeId, strip: &[CurveCrossing], placed: &mut [(Crossing, f64)]) -> Result<bool> {
         let along_intrinsic = self.curves.along(e).is_some();
         if !along_intrinsic && !strip.is_empty() {
-            for ((crossing, weight), passing) in placed.iter_mut().zip(reduced(self.line(e), strip)?) {
+            for ((crossing, weight), passing) in placed.iter_mut().zip(reduced(self.line(e)?, strip)?) {
                 let Passing { halfedge, line, across: [x, y], weight: q } = passing;
                 crossing.input_weights = line;
                 crossing.final_weights = if halfedge.0 & 1 == 0 { [x, y] } else { [y, x] };
                 *weight = q;
             }
         }
-        let mut places: Vec<Place> = placed.iter().map(|(crossing, _)| crossing.input_weights).collect();
+        let mut places: Vec<OnEdge> = placed.iter().map(|(crossing, _)| crossing.input_weights).collect();
         restore_order(&mut places);
         let mut moved = !along_intrinsic;
         for ((crossing, _), place) in placed.iter_mut().zip(places) {
@@ -113,7 +87,7 @@ impl<'a> Placement<'a> {
     /// Bring the crossings of each final edge with the input's edges into order, once all are placed: marks
     /// those that this moves.
     pub fn settle(result: &Mesh, curves: &Curves, crossings: &mut [Crossing], moved: &mut [bool]) {
-        let mut places: Vec<Place> = crossings.iter().map(|c| c.final_weights).collect();
+        let mut places: Vec<OnEdge> = crossings.iter().map(|c| c.final_weights).collect();
         restore_order_across(result, curves, &mut places);
         for ((crossing, place), moved) in crossings.iter_mut().zip(places).zip(moved) {
             *moved |= crossing.final_weights != place;
@@ -121,54 +95,61 @@ impl<'a> Placement<'a> {
         }
     }
 
-    /// All that the straight line of an edge of the input passes.
-    fn line(&self, e: EdgeId) -> Vec<Passing> {
+    /// All that the straight line of an edge of the input passes. Errors: [`crate::Error::Connectivity`] where it leaves the surface.
+    fn line(&self, e: EdgeId) -> Result<Vec<Passing>> {
         let (mesh, crossings) = (self.chords.mesh, self.curves.crossings(e));
-        let local =
-            |f: FaceId, h: HalfedgeId| mesh.face_halfedges(f).iter().position(|&x| x == h).unwrap_or(0);
-        let corner = |f: FaceId, k: usize, line: Place| {
+        // The corner opposite a half-edge, in its face.
+        let opposite = |h: HalfedgeId, line: OnEdge| -> Result<(FaceId, Station)> {
+            let (f, k) = mesh.corner(h).ok_or_else(torn)?;
+            let k = (k + 2) % 3;
             let mut vector = [0.0; 3];
             vector[k] = 1.0;
-            (f, Station { border: Border::Corner(k), line, vector })
+            Ok((f, Station { border: Border::Corner(k), line, vector }))
         };
-        let face = |h: HalfedgeId| mesh.face(h).unwrap_or(FaceId(0));
         let mut passed = Vec::new();
         let mut from = None;
         for (straight, at) in self.straight[self.curves.numbers(e)].iter().zip(crossings) {
             let h = at.halfedge;
-            // Half-edges h and its twin share what rank the crossing has.
-            let rank = self.chords.rank(h, straight.across);
-            let on = |h: HalfedgeId, [x, y]: Place, rank: i64| {
-                let f = face(h);
-                let k = local(f, h);
+            // The station on a half-edge, in its face.
+            let on = |h: HalfedgeId, [x, y]: OnEdge, rank: i64| -> Result<(FaceId, Station)> {
+                let (f, k) = mesh.corner(h).ok_or_else(torn)?;
                 let mut vector = [0.0; 3];
                 (vector[k], vector[(k + 1) % 3]) = (straight.ratio * x, straight.ratio * y);
-                (f, Station { border: Border::Side(k, rank), line: straight.edge, vector })
+                Ok((f, Station { border: Border::Side(k, rank), line: straight.edge, vector }))
             };
-            let (f, to) = on(h, straight.across, rank);
-            let (_, start) = from.unwrap_or_else(|| corner(f, (local(f, h) + 2) % 3, ORIGIN));
+            let rank = self.chords.rank(h, straight.across);
+            let (f, to) = on(h, straight.across, rank)?;
+            let (_, start) = match from {
+                Some(station) => station,
+                None => opposite(h, ORIGIN)?,
+            };
             self.chords.pass(f, start, to, &mut passed);
+            passed.extend(self.along_final(h, straight));
+            // The same crossing seen from the other face: ranks along a half-edge and its twin add up to the number of chords.
             let [x, y] = straight.across;
-            if let Some(along) = self.stays[h.edge()] {
-                let ends = [mesh.origin(h), mesh.tip(h)].map(|v| self.chords.weight[v.index()]);
-                let image = [x * ends[0], y * ends[1]];
-                let total = image[0] + image[1];
-                let halfedge = if h.0 & 1 == 0 { along } else { along.twin() };
-                let across = image.map(|x| x / total);
-                passed.push(Passing {
-                    halfedge,
-                    line: straight.edge,
-                    across,
-                    weight: straight.ratio * total,
-                });
-            }
-            from = Some(on(h.twin(), [y, x], self.chords.count(h) - rank));
+            from = Some(on(h.twin(), [y, x], self.chords.count(h) - rank)?);
         }
         if let (Some((f, start)), Some(last)) = (from, crossings.last()) {
-            let (_, end) = corner(f, (local(f, last.halfedge.twin()) + 2) % 3, TIP);
+            let (_, end) = opposite(last.halfedge.twin(), TIP)?;
             self.chords.pass(f, start, end, &mut passed);
         }
-        passed
+        Ok(passed)
+    }
+
+    /// The passage through an intrinsic half-edge itself, where a final edge runs along it.
+    fn along_final(&self, h: HalfedgeId, straight: &Straight) -> Option<Passing> {
+        let along = self.stays[h.edge()]?;
+        let mesh = self.chords.mesh;
+        let ends = [mesh.origin(h), mesh.tip(h)].map(|v| self.chords.weight[v.index()]);
+        let [x, y] = straight.across;
+        let image = [x * ends[0], y * ends[1]];
+        let total = image[0] + image[1];
+        Some(Passing {
+            halfedge: if h.0 & 1 == 0 { along } else { along.twin() },
+            line: straight.edge,
+            across: image.map(|x| x / total),
+            weight: straight.ratio * total,
+        })
     }
 }
 

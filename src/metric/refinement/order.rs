@@ -1,44 +1,45 @@
-//! Places along an edge, and their order.
+//! Points on an edge, and their order.
 //!
-//! A place is the pair of weights of an edge's ends, which add up to 1: near either end the smaller one tells
-//! how near, to the relative accuracy of doubles.
+//! A point is the pair of weights of the edge's ends, which add up to 1: near either end the smaller weight says how near, to the
+//! relative accuracy of doubles.
 
 use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, Mesh};
 
-/// Weights of the origin and of the tip.
-pub(super) type Place = [f64; 2];
+/// A point on an edge: weights of the origin and of the tip.
+pub(super) type OnEdge = [f64; 2];
 
-/// The ends themselves.
-pub(super) const ORIGIN: Place = [1.0, 0.0];
-pub(super) const TIP: Place = [0.0, 1.0];
+/// The origin itself.
+pub(super) const ORIGIN: OnEdge = [1.0, 0.0];
+/// The tip itself.
+pub(super) const TIP: OnEdge = [0.0, 1.0];
 
-/// Share of the way to its neighbours over which places are spread that rounding has swapped or merged.
-/// Small, since the true places are nearer to each other than rounding; large against it, so that the spread
-/// places differ.
+/// Share of the way to its neighbours over which points are spread that rounding has swapped or merged. The true points are nearer
+/// to each other than rounding, so the share must be small; 1e-6 is still far above the 1e-16 of rounding, so that the points
+/// differ afterwards.
 const SPREAD: f64 = 1.0 / (1 << 20) as f64;
 
 /// Whether a lies nearer to the origin than b, and neither weight says otherwise.
-pub(super) fn before(a: Place, b: Place) -> bool {
+pub(super) fn before(a: OnEdge, b: OnEdge) -> bool {
     a[1] <= b[1] && a[0] >= b[0] && a != b
 }
 
 /// `(1 − t) a + t b`.
-pub(super) fn between(a: Place, b: Place, t: f64) -> Place {
+pub(super) fn between(a: OnEdge, b: OnEdge, t: f64) -> OnEdge {
     [0, 1].map(|k| (1.0 - t) * a[k] + t * b[k])
 }
 
-/// Bring places into strict order that should be so already, but for rounding.
+/// Bring points into strict order that would be in order without rounding.
 ///
-/// Places out of order, or equal to their neighbour, are pooled: the least change that leaves none out of
-/// order (in the mean square) puts them into one place. Around it they are then spread evenly over [`SPREAD`]
-/// of the way to the next on both sides. Places in order stay as they are, bit for bit. What doubles cannot
-/// tell apart still coincides, but is not swapped: afterwards neither weight runs back anywhere.
-pub(super) fn restore_order(places: &mut [Place]) {
+/// Points out of order, or equal to their neighbour, are pooled: the least change (in the mean square) that leaves none out of order
+/// moves them to one point. They are then spread evenly around it, over [`SPREAD`] of the way to the next point on both sides.
+/// Points in order stay as they are, bit for bit. Points between which there is no double still coincide, but are not swapped:
+/// afterwards neither weight runs back anywhere.
+pub(super) fn restore_order(places: &mut [OnEdge]) {
     if places.windows(2).all(|pair| before(pair[0], pair[1])) {
         return;
     }
-    let mut pools: Vec<(Place, usize)> = Vec::with_capacity(places.len());
+    let mut pools: Vec<(OnEdge, usize)> = Vec::with_capacity(places.len());
     for &place in places.iter() {
         let (mut mean, mut n) = (place, 1);
         while let Some(&(last, m)) = pools.last().filter(|(last, _)| !before(*last, mean)) {
@@ -67,7 +68,7 @@ pub(super) fn restore_order(places: &mut [Place]) {
 
 /// The same for the crossings of all `curves` with the edges of a triangulation, in the order of the curves:
 /// places along the half-edges 2e.
-pub(super) fn restore_order_across(mesh: &Mesh, curves: &Curves, places: &mut [Place]) {
+pub(super) fn restore_order_across(mesh: &Mesh, curves: &Curves, places: &mut [OnEdge]) {
     let crossings = || mesh.edges().flat_map(|e| curves.crossings(e));
     let mut start = vec![0; mesh.n_edges() + 1];
     crossings().for_each(|at| start[at.halfedge.edge().index() + 1] += 1);
@@ -87,7 +88,7 @@ mod tests {
     use super::*;
     use crate::mesh::shapes::SplitMix64;
 
-    fn at(t: f64) -> Place {
+    fn at(t: f64) -> OnEdge {
         [1.0 - t, t]
     }
 

@@ -15,9 +15,9 @@ use crate::error::{Error, Result};
 use crate::mesh::normal::Strands;
 use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh};
 
-/// "No edge of the output yet".
+/// Marks a slot whose crossing is not known yet.
 const NONE: u32 = u32::MAX;
-/// Faces between two looks at the control.
+/// Faces that are cut between two looks at the control: less than a millisecond.
 const FACES_PER_STEP: usize = 1024;
 
 /// A corner of a piece within its final triangle.
@@ -56,13 +56,21 @@ pub struct Origin {
     pub result: Option<EdgeId>,
 }
 
+/// Two triangulations of a surface, one drawn on the other.
+#[derive(Clone, Copy)]
+pub(super) struct Overlay<'a> {
+    pub input: &'a Mesh,
+    pub result: &'a Final<'a>,
+    /// The input's edges on the final triangulation.
+    pub curves: &'a Curves,
+    /// Per crossing, or empty: whether it is off the class's straight line, so that the map of a piece at it is projective in each
+    /// triangle only.
+    pub moved: &'a [bool],
+}
+
 /// The pieces as triangles, half-edges not yet numbered without gaps.
 pub(super) struct Pieces<'a> {
-    input: &'a Mesh,
-    result: &'a Final<'a>,
-    curves: &'a Curves,
-    /// Per crossing, if any: whether the pieces at it are one projective map in each triangle only.
-    moved: &'a [bool],
+    pub overlay: Overlay<'a>,
     /// Per final edge: its first slot; slots hold the crossings in order along half-edge 2e.
     slot_start: Vec<u32>,
     slots: Vec<u32>,
@@ -82,22 +90,13 @@ pub(super) struct Pieces<'a> {
 
 impl<'a> Pieces<'a> {
     /// Cut all final triangles, O(output); keep the pieces of those faces of the input that `keep` names. A piece with a crossing that
-    /// is `moved` (an entry for each, or none at all) is taken apart into its triangles.
-    pub fn cut(
-        input: &'a Mesh,
-        result: &'a Final<'a>,
-        curves: &'a Curves,
-        moved: &'a [bool],
-        keep: &dyn Fn(FaceId) -> bool,
-        control: &Control,
-    ) -> Result<Pieces<'a>> {
+    /// was moved is taken apart into its triangles.
+    pub fn cut(overlay: Overlay<'a>, keep: &dyn Fn(FaceId) -> bool, control: &Control) -> Result<Pieces<'a>> {
+        let Overlay { input, result, curves, .. } = overlay;
         let mesh = result.mesh;
         let n = |e: EdgeId| result.normal.crossings(e).max(0) as u32;
         let mut pieces = Pieces {
-            input,
-            result,
-            curves,
-            moved,
+            overlay,
             slot_start: running_sum(mesh.edges().map(n)),
             slots: vec![NONE; curves.n_crossings()],
             crossed_by: vec![0; curves.n_crossings()],
@@ -138,14 +137,14 @@ impl<'a> Pieces<'a> {
 
     fn slot(&self, side: HalfedgeId, position: i64) -> usize {
         let e = side.edge();
-        let n = self.result.normal.crossings(e);
+        let n = self.overlay.result.normal.crossings(e);
         let along = if side.0 & 1 == 0 { position } else { n - 1 - position };
         self.slot_start[e.index()] as usize + along as usize
     }
 
     fn cut_face(&mut self, f: FaceId, keep: &dyn Fn(FaceId) -> bool) -> Result<()> {
-        let h = self.result.mesh.face_halfedges(f);
-        let n = h.map(|h| self.result.normal.crossings(h.edge()).max(0));
+        let h = self.overlay.result.mesh.face_halfedges(f);
+        let n = h.map(|h| self.overlay.result.normal.crossings(h.edge()).max(0));
         let Strands { arc, fan } = Strands::new(n);
         let next = |k: usize| (k + 1) % 3;
         let mut polygon: Vec<(Spot, Way)> = Vec::with_capacity(6);
@@ -198,7 +197,7 @@ impl<'a> Pieces<'a> {
         self.emit(h, &polygon, keep)
     }
 
-    /// Triangulate one piece.
+    /// Triangulate one piece, if it lies in a face of the input that is kept.
     fn emit(
         &mut self,
         h: [HalfedgeId; 3],
@@ -206,7 +205,6 @@ impl<'a> Pieces<'a> {
         keep: &dyn Fn(FaceId) -> bool,
     ) -> Result<()> {
         let size = polygon.len();
-        let mut corners = Vec::with_capacity(size);
         let mut sides = Vec::with_capacity(size);
         // The half-edge of the input that a curve is part of, per side of the piece.
         let mut curves = Vec::with_capacity(size);
@@ -222,35 +220,46 @@ impl<'a> Pieces<'a> {
             curves.push(curve);
         }
         let mut face = None;
+        let mut corners = Vec::with_capacity(size);
         for (i, &(spot, _)) in polygon.iter().enumerate() {
-            let input = match spot {
-                Spot::Corner(k, turn) => {
-                    let coincident = i64::from(self.result.normal.crossings(h[k].edge()) < 0);
-                    self.result.normal.leaving(self.result.mesh, h[k], coincident + turn - 1)
-                }
-                Spot::Side(..) => curves[i].or(curves[(i + size - 1) % size]).ok_or_else(torn)?,
-            };
-            let (vertex, result) = match spot {
-                Spot::Corner(k, _) => (self.result.mesh.origin(h[k]).0, h[k]),
-                Spot::Side(k, at) => {
-                    (self.result.mesh.n_vertices() as u32 + self.slots[self.slot(h[k], at)], h[k])
-                }
-            };
-            let lies_in = self.input.face(input).ok_or_else(torn)?;
+            let corner = self.piece_corner(h, spot, curves[i].or(curves[(i + size - 1) % size]))?;
+            let lies_in = self.overlay.input.face(corner.input).ok_or_else(torn)?;
             if *face.get_or_insert(lies_in) != lies_in {
                 return Err(torn());
             }
-            corners.push(Corner { vertex, input, result });
+            corners.push(corner);
         }
-        if !face.is_some_and(keep) {
-            return Ok(());
+        if face.is_some_and(keep) {
+            self.triangulate(&sides, &corners);
         }
+        Ok(())
+    }
+
+    /// A corner of a piece; `curve` is the half-edge of the input that a side of the piece at it is part of.
+    fn piece_corner(&self, h: [HalfedgeId; 3], spot: Spot, curve: Option<HalfedgeId>) -> Result<Corner> {
+        let Final { mesh, normal, .. } = self.overlay.result;
+        match spot {
+            Spot::Corner(k, turn) => {
+                let coincident = i64::from(normal.crossings(h[k].edge()) < 0);
+                let input = normal.leaving(mesh, h[k], coincident + turn - 1);
+                Ok(Corner { vertex: mesh.origin(h[k]).0, input, result: h[k] })
+            }
+            Spot::Side(k, at) => {
+                let vertex = mesh.n_vertices() as u32 + self.slots[self.slot(h[k], at)];
+                Ok(Corner { vertex, input: curve.ok_or_else(torn)?, result: h[k] })
+            }
+        }
+    }
+
+    /// Append the triangles of a piece with these sides, side i following corner i: a fan around corner 0, whose triangles are cut off
+    /// by new edges.
+    fn triangulate(&mut self, sides: &[u32], corners: &[Corner]) {
+        let (size, n) = (sides.len(), self.overlay.result.mesh.n_vertices());
         // Numbers of crossings follow those of the vertices.
-        let n = self.result.mesh.n_vertices();
+        let crossing = |c: &Corner| (c.vertex as usize).checked_sub(n);
         let is_moved =
-            |c: &Corner| self.moved.get((c.vertex as usize).wrapping_sub(n)).is_some_and(|&moved| moved);
+            |c: &Corner| crossing(c).and_then(|c| self.overlay.moved.get(c)).is_some_and(|&moved| moved);
         let apart = corners.iter().any(is_moved);
-        // A fan of triangles, each cut off by a new edge.
         let mut left = sides[0];
         for i in 1..size - 1 {
             let closing = if i + 2 == size {
@@ -265,7 +274,6 @@ impl<'a> Pieces<'a> {
             left = closing ^ 1;
             self.n_pieces += u32::from(apart || i + 2 == size);
         }
-        Ok(())
     }
 
     /// The half-edge of a part of a final half-edge.
@@ -281,9 +289,9 @@ impl<'a> Pieces<'a> {
         let crossing = |k: usize, at: i64| {
             let c = self.slots[self.slot(h[k], at)] as usize;
             let e = EdgeId(self.crossed_by[c]);
-            let number = c - self.curves.numbers(e).start;
+            let number = c - self.overlay.curves.numbers(e).start;
             // Whether the curve leaves the face here.
-            (e, number as u32, self.curves.crossings(e)[number].halfedge == h[k])
+            (e, number as u32, self.overlay.curves.crossings(e)[number].halfedge == h[k])
         };
         let (e, part, forward) = match (from, to) {
             (Spot::Side(k, at), _) => {

@@ -18,11 +18,12 @@ use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, EdgeId, HalfedgeId, PerEdge, VertexId};
 use crate::parallel;
 
-/// Circles nearer to each other than this (η − 1) are taken to be this far apart. Across two circles that touch, the straight
-/// line has no direction, and all lines would meet where they touch. Any η serves the refinement: it decides only where along its
-/// edge a crossing lies.
-const APART: f64 = 1e-6;
-/// Products are brought back near 1 by a power of 2, which rounds nothing, when they leave this range.
+/// Least η − 1 of two circles in a strip. Across two circles that touch (η = 1) a straight line has no direction, and all lines would
+/// meet where they touch. A larger η may be used, since it only decides where along its edge a crossing lies; 1e-6 leaves half of the
+/// digits to the differences from 1.
+const LEAST_GAP: f64 = 1e-6;
+/// Products above this, or below its inverse, are brought near 1 by a power of 2, which rounds nothing. Formulas multiply up to three of
+/// them, so that 1e90 stays far inside the range of doubles.
 const LARGE: f64 = 1e30;
 
 /// A vertex of the strip's line with its products with the ends of one edge of the strip, all multiplied by 2^exponent.
@@ -55,7 +56,7 @@ impl<'a> Strips<'a> {
         let unit = if scaling && most.is_normal() { power(-(most.log2() as i32)) } else { 1.0 };
         let eta = PerEdge::from_fn(metric.eta.len(), |e| {
             let [i, j] = result.mesh.ends(e).map(|v| metric.epsilon[v]);
-            if i * j == 1 { metric.eta[e].max(1.0 + APART) } else { unit * metric.eta[e] }
+            if i * j == 1 { metric.eta[e].max(1.0 + LEAST_GAP) } else { unit * metric.eta[e] }
         });
         Strips { result, eta }
     }

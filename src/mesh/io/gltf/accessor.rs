@@ -2,7 +2,7 @@
 //! read or allocated.
 
 use super::super::budget::Budget;
-use super::super::scan::Place;
+use super::super::scan::Location;
 use super::document::{Document, Shape, Sparse};
 use super::locate::locate;
 use crate::error::Result;
@@ -93,8 +93,8 @@ struct Elements<'a> {
 
 impl Elements<'_> {
     /// Where element `i` stands, or the place of what names it.
-    fn place<'p>(&self, i: usize, else_at: Place<'p>) -> Place<'p> {
-        self.start.map_or(else_at, |start| Place::byte(else_at.path, start + i * self.stride))
+    fn place<'p>(&self, i: usize, else_at: Location<'p>) -> Location<'p> {
+        self.start.map_or(else_at, |start| Location::byte(else_at.path, start + i * self.stride))
     }
 
     fn number(&self, i: usize, k: usize) -> f64 {
@@ -117,15 +117,15 @@ pub(super) struct Accessor<'a> {
 
 impl<'a> File<'a> {
     /// Where entry `index` of an array of the document stands.
-    pub fn place_of(&self, array: &str, index: usize) -> Place<'a> {
+    pub fn place_of(&self, array: &str, index: usize) -> Location<'a> {
         match locate(self.json, array, index) {
-            Some(at) => Place::byte(self.path, self.json_start + at),
-            None => Place::whole(self.path),
+            Some(at) => Location::byte(self.path, self.json_start + at),
+            None => Location::whole(self.path),
         }
     }
 
-    pub fn whole(&self) -> Place<'a> {
-        Place::whole(self.path)
+    pub fn whole(&self) -> Location<'a> {
+        Location::whole(self.path)
     }
 
     /// The accessor that `what` names; it holds one of these shapes.
@@ -231,7 +231,7 @@ impl<'a> File<'a> {
 
 impl Accessor<'_> {
     /// Where the document names it.
-    fn place<'p>(&self, file: &File<'p>) -> Place<'p> {
+    fn place<'p>(&self, file: &File<'p>) -> Location<'p> {
         file.place_of("accessors", self.index as usize)
     }
 

@@ -11,7 +11,7 @@ mod write;
 pub use write::{Texture, Wrap, write_glb};
 
 use super::budget::Budget;
-use super::scan::{Place, Quoted};
+use super::scan::{Location, Quoted};
 use super::{Soup, base64};
 use crate::error::Result;
 use accessor::{File, Stored};
@@ -34,7 +34,7 @@ const KNOWN_EXTENSIONS: [&str; 5] =
 /// lacks and another has is filled up with the defaults of [`super::Attributes`]. Skins and morph targets are left as stored. Buffers are the binary chunk and
 /// base64 data; other files are refused by name, and so is what an extension compresses. `path` is used in errors.
 pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
-    let place = Place::whole(path);
+    let place = Location::whole(path);
     let bom = b"\xef\xbb\xbf";
     let (json, binary) = if bytes.trim_ascii_start().starts_with(b"{") || bytes.starts_with(bom) {
         (Chunk { start: if bytes.starts_with(bom) { bom.len() } else { 0 }, end: bytes.len() }, None)
@@ -48,7 +48,7 @@ pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
             let said = e.to_string();
             let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
             let said: String = said.chars().take(200).collect();
-            return Place::byte(path, json.start + byte_of(text, e.line(), e.column()))
+            return Location::byte(path, json.start + byte_of(text, e.line(), e.column()))
                 .error(format!("the JSON of the file is not that of glTF: {said}"));
         }
     };
@@ -82,14 +82,14 @@ fn chunks(bytes: &[u8], path: &str) -> Result<(Chunk, Option<Chunk>)> {
     let word =
         |at: usize| bytes.get(at..at + 4).and_then(|b| b.first_chunk()).map(|b| u32::from_le_bytes(*b));
     let (true, Some(version), Some(length)) = (bytes.starts_with(b"glTF"), word(4), word(8)) else {
-        return Place::byte(path, 0)
+        return Location::byte(path, 0)
             .error("this is no GLB file: that begins with `glTF`, its version and its length".into());
     };
     if version != 2 {
-        return Place::byte(path, 4).error(format!("this is version {version} of GLB; version 2 is read"));
+        return Location::byte(path, 4).error(format!("this is version {version} of GLB; version 2 is read"));
     }
     if length as usize > bytes.len() {
-        return Place::byte(path, bytes.len())
+        return Location::byte(path, bytes.len())
             .error(format!("the file ends here, its header promises {length} bytes; export it again"));
     }
     let end = length as usize;
@@ -97,7 +97,7 @@ fn chunks(bytes: &[u8], path: &str) -> Result<(Chunk, Option<Chunk>)> {
     let mut chunk = |kind: &[u8; 4]| -> Result<Option<Chunk>> {
         let Some(size) = word(at).filter(|_| at + 8 <= end) else { return Ok(None) };
         if size as usize > end - at - 8 {
-            return Place::byte(path, at)
+            return Location::byte(path, at)
                 .error(format!("this chunk promises {size} bytes, {} follow", end - at - 8));
         }
         let data = Chunk { start: at + 8, end: at + 8 + size as usize };
@@ -107,7 +107,7 @@ fn chunks(bytes: &[u8], path: &str) -> Result<(Chunk, Option<Chunk>)> {
     };
     match chunk(b"JSON")? {
         Some(json) => Ok((json, chunk(b"BIN\0")?)),
-        None => Place::byte(path, 12).error("the first chunk of the file is not JSON".into()),
+        None => Location::byte(path, 12).error("the first chunk of the file is not JSON".into()),
     }
 }
 

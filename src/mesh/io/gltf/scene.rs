@@ -1,18 +1,19 @@
 //! The meshes of a scene, in space.
 
 use super::super::budget::Budget;
-use super::super::{Attributes, NO_NORMAL, NO_TEXCOORD, Point, Soup, WHITE};
 use super::accessor::File;
 use super::document::{Affine, Primitive, Shape};
 use super::seams::first_alike;
 use crate::error::{Error, Result};
+use crate::mesh::Point;
+use crate::mesh::io::soup::{Attributes, NO_NORMAL, NO_TEXCOORD, Soup, WHITE};
 use crate::mesh::weld::place_key;
 
 /// Modes of a primitive with faces.
 const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
 const FAN: u32 = 6;
-/// Bytes that reading a primitive costs at least: an empty one that is shown often takes its time too.
+/// Bytes of the budget that each primitive takes, an empty one too: nodes may show it often, and each time takes a while.
 const PRIMITIVE: usize = 64;
 
 /// All meshes below the roots of the scene: the default one, else the first, else every mesh where it stands.
@@ -78,7 +79,7 @@ struct Collected<'a> {
     first: Vec<u32>,
 }
 
-/// Of vertices that other programs wrote.
+/// Stands for the number of a vertex that another program wrote.
 const NO_NUMBER: u32 = u32::MAX;
 
 impl Collected<'_> {

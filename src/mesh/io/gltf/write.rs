@@ -1,8 +1,9 @@
 //! Binary glTF 2.0 from a triangle list, with texture.
 
-use super::super::{Point, Textured, write_atomically};
 use super::seams::first_alike;
 use crate::error::{Error, Result};
+use crate::mesh::Point;
+use crate::mesh::io::{Textured, write_atomically};
 use crate::mesh::weld::place_key;
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -57,7 +58,9 @@ const PLAIN: std::ops::RangeInclusive<f64> = 1e-25..=1e30;
 /// the places of the vertices do not tell which of them are one, the file says so in an attribute of ours, `_RICCI_VERTEX`: the
 /// number as two of 16 bits, the lower one first.
 ///
-/// Errors, with the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
+/// # Errors
+///
+/// With the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`Error::Size`], [`Error::TooLarge`] for more than the 4 GB that glTF can count, [`Error::Io`].
 pub fn write_glb(path: &Path, data: &Textured<'_>, texture: Option<Texture<'_>>) -> Result<Vec<u32>> {
     data.check()?;

@@ -1,12 +1,13 @@
 //! The rows of a PLY file, one number after the other.
 
 use super::super::kind::Kind;
-use super::super::scan::{Place, Quoted};
+use super::super::scan::{Location, Quoted};
 use super::header::{Element, Encoding, Header};
 use crate::error::Result;
 use std::iter::Peekable;
 
-/// What is left of the body. A row of text is a line, on which further numbers may follow; blank lines are none.
+/// The part of the body that has not been read yet. In text each row is a line: further numbers on it are skipped, and so are blank
+/// lines.
 pub(super) struct Body<'a> {
     path: &'a str,
     bytes: &'a [u8],
@@ -52,10 +53,10 @@ impl<'a> Body<'a> {
     }
 
     /// The row that was read last, or the byte behind it.
-    pub fn place(&self) -> Place<'a> {
+    pub fn place(&self) -> Location<'a> {
         match self.source {
-            Source::Text { line, .. } => Place::line(self.path, line),
-            Source::Binary { at, .. } => Place::byte(self.path, at),
+            Source::Text { line, .. } => Location::line(self.path, line),
+            Source::Binary { at, .. } => Location::byte(self.path, at),
         }
     }
 
@@ -65,7 +66,7 @@ impl<'a> Body<'a> {
         &mut self,
         element: &Element<'_>,
         lists: &[Option<usize>],
-        mut take: impl FnMut(usize, &Row, Place<'a>) -> Result<()>,
+        mut take: impl FnMut(usize, &Row, Location<'a>) -> Result<()>,
     ) -> Result<()> {
         if element.properties.is_empty() {
             return Ok(());
@@ -91,7 +92,7 @@ impl<'a> Body<'a> {
         number: usize,
         lists: &[Option<usize>],
         row: &mut Row,
-    ) -> Result<Place<'a>> {
+    ) -> Result<Location<'a>> {
         if let Source::Text { lines, rest, line } = &mut self.source {
             let Some((next, text)) = lines.next() else { return self.ended(element) };
             (*rest, *line) = (text, next);
@@ -136,7 +137,7 @@ impl<'a> Body<'a> {
                 Ok(kind.number(word))
             }
             Source::Text { lines, rest, line } => {
-                let place = Place::line(self.path, *line);
+                let place = Location::line(self.path, *line);
                 let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
                 let (token, behind) = rest.split_at(end);
                 *rest = behind.trim_ascii_start();
@@ -165,8 +166,8 @@ impl<'a> Body<'a> {
 
     fn ended<T>(&self, element: &Element<'_>) -> Result<T> {
         let place = match self.source {
-            Source::Text { line, .. } => Place::line(self.path, line),
-            Source::Binary { .. } => Place::byte(self.path, self.bytes.len()),
+            Source::Text { line, .. } => Location::line(self.path, line),
+            Source::Binary { .. } => Location::byte(self.path, self.bytes.len()),
         };
         place.error(format!("the file ends inside {} of {} rows", said(element), element.count))
     }

@@ -1,7 +1,7 @@
 //! The header of a PLY file: what its body holds, and where that begins.
 
 use super::super::kind::Kind;
-use super::super::scan::{Place, Quoted};
+use super::super::scan::{Location, Quoted};
 use crate::error::Result;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -44,8 +44,8 @@ impl<'a> Element<'a> {
     }
 
     /// The header's line of this element.
-    pub fn place<'p>(&self, path: &'p str) -> Place<'p> {
-        Place::line(path, self.line)
+    pub fn place<'p>(&self, path: &'p str) -> Location<'p> {
+        Location::line(path, self.line)
     }
 }
 
@@ -86,12 +86,12 @@ pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<Header<'a>> {
     let mut lines = Lines { bytes, at: start, number: 0, only_returns: false };
     if lines.next() != Some(b"ply") {
         let what = "this is no PLY file: that begins with the line `ply`";
-        return Place::line(path, 1).error(what.into());
+        return Location::line(path, 1).error(what.into());
     }
     let mut encoding = None;
     let mut elements: Vec<Element<'a>> = Vec::new();
     while let Some(line) = lines.next() {
-        let place = Place::line(path, lines.number);
+        let place = Location::line(path, lines.number);
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         match words.next() {
             None | Some(b"comment" | b"obj_info") => {}
@@ -121,7 +121,7 @@ pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<Header<'a>> {
             }
         }
     }
-    Place::line(path, lines.number).error("the header has no line `end_header`".into())
+    Location::line(path, lines.number).error("the header has no line `end_header`".into())
 }
 
 /// The elements that are read.
@@ -131,7 +131,7 @@ fn text(word: &[u8]) -> String {
     String::from_utf8_lossy(word).into_owned()
 }
 
-fn format(word: Option<&[u8]>, place: Place<'_>) -> Result<Encoding> {
+fn format(word: Option<&[u8]>, place: Location<'_>) -> Result<Encoding> {
     match word {
         Some(b"ascii") => Ok(Encoding::Ascii),
         Some(b"binary_little_endian") => Ok(Encoding::Little),
@@ -143,7 +143,7 @@ fn format(word: Option<&[u8]>, place: Place<'_>) -> Result<Encoding> {
     }
 }
 
-fn property<'a>(mut words: impl Iterator<Item = &'a [u8]>, place: Place<'_>) -> Result<Property<'a>> {
+fn property<'a>(mut words: impl Iterator<Item = &'a [u8]>, place: Location<'_>) -> Result<Property<'a>> {
     let kind = |word: Option<&[u8]>| {
         let name = text(word.unwrap_or_default());
         match Kind::named(&name) {

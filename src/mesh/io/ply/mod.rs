@@ -11,9 +11,10 @@ pub use write::write_ply;
 use super::budget::Budget;
 use super::kind::Kind;
 use super::polygon::Polygons;
-use super::scan::Place;
-use super::{Attributes, Point, Soup};
+use super::scan::Location;
+use super::{Attributes, Soup};
 use crate::error::Result;
+use crate::mesh::Point;
 use body::{Body, Row};
 use header::{Element, header};
 
@@ -25,7 +26,7 @@ use header::{Element, header};
 pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
     let header = header(bytes, path)?;
     let Some(vertex) = header.elements.iter().find(|e| e.name == b"vertex") else {
-        return Place::line(path, header.line - 1).error("the header has no element `vertex`".into());
+        return Location::line(path, header.line - 1).error("the header has no element `vertex`".into());
     };
     let mut vertices = Vertices::new(vertex, path)?;
     let (mut polygons, mut corner_uv) = (Polygons::default(), Vec::new());
@@ -61,7 +62,7 @@ pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
             _ => body.skip(element)?,
         }
     }
-    let triangles = polygons.triangles(&vertices.positions, &mut budget, Place::whole(path))?;
+    let triangles = polygons.triangles(&vertices.positions, &mut budget, Location::whole(path))?;
     Ok(vertices.soup(&polygons, &triangles, &corner_uv))
 }
 
@@ -164,7 +165,7 @@ impl Vertices {
     }
 }
 
-fn index(number: f64, face: usize, place: Place<'_>) -> Result<u32> {
+fn index(number: f64, face: usize, place: Location<'_>) -> Result<u32> {
     if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {
         return Ok(number as u32);
     }
@@ -172,7 +173,7 @@ fn index(number: f64, face: usize, place: Place<'_>) -> Result<u32> {
 }
 
 /// Triangles of the strips of one list, which −1 separates; every other triangle of a strip is turned around.
-fn strips(list: &[f64], row: usize, place: Place<'_>, polygons: &mut Polygons) -> Result<()> {
+fn strips(list: &[f64], row: usize, place: Location<'_>, polygons: &mut Polygons) -> Result<()> {
     for strip in list.split(|&v| v == -1.0) {
         for (k, w) in strip.windows(3).enumerate() {
             let [a, b, c] = [index(w[0], row, place)?, index(w[1], row, place)?, index(w[2], row, place)?];

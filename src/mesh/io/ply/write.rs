@@ -1,7 +1,7 @@
 //! Binary PLY from a triangle list.
 
-use super::super::{Attributes, Soup, write_atomically};
 use crate::error::Result;
+use crate::mesh::io::{Attributes, Soup, write_atomically};
 use std::io::Write;
 use std::path::Path;
 
@@ -9,7 +9,9 @@ use std::path::Path;
 /// and texture coordinates where there are any: at the vertices (s, t) if each has a single pair, else at the corners of the faces
 /// (texcoord); atomically. Returned is what was left out, by name: normals that differ between the corners of a vertex.
 ///
-/// Errors, with the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
+/// # Errors
+///
+/// With the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`crate::Error::Size`] for attributes of another size, [`crate::Error::Io`].
 pub fn write_ply(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     soup.check_writable()?;

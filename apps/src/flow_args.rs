@@ -1,0 +1,195 @@
+//! The options of `ricci flow`.
+
+use crate::options::{Common, OnChoice, SolveArgs, SurfaceArgs, distance};
+use crate::picture::FlowPictureArgs;
+use clap::{Args, ValueEnum};
+use ricci::geometry::Space;
+use serde::{Serialize, Serializer};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+pub const HELP: &str = "\
+Example: a flat torus, its layout as texture coordinates and a picture of both
+    ricci make torus -o torus.obj
+    ricci flow torus.obj --uv flat.obj --picture flat.png --report flat.json
+Example: eight cones, and charts in the unit square
+    ricci flow torus.obj --target auto:8 --charts --uv atlas.obj --picture atlas.svg
+
+Files
+    --target cones:FILE.csv    rows `vertex,curvature` in radians; 0 at every vertex that is not named
+    --metric M.json            faces, lengths, eta (per face, opposite the corners: bc, ca, ab), u,
+                               conformal_factor, epsilon, target, boundary; `input_geometry` is the
+                               geometry that `lengths` are in, so the file can be read back as a MESH
+    --uv OUT.obj | OUT.glb     the surface with the layout as texture coordinates, in E² scaled to its area, in
+                               H² of the Poincaré disk, and the input's colours and normals; with --homogeneous (.obj) each vt is
+                               `qx qy q`: linear in a face are these three, the texture is at (x, y); with --on input the input's
+                               own vertices and faces, in order, the map made linear on each
+    --circles C.json           vertex circles and the circles orthogonal to them, in the layout's coordinates
+    --trace T.csv              step,energy,max_curvature_error,area,step_size (gradient flow)";
+
+#[derive(Args, Debug)]
+pub struct FlowArgs {
+    #[command(flatten)]
+    pub surface: SurfaceArgs,
+    /// Background geometry; auto is h2 on closed surfaces of genus ≥ 2 and e2 elsewhere
+    #[arg(long, value_enum, default_value_t = SpaceChoice::Auto)]
+    pub space: SpaceChoice,
+    /// Curvature: uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
+    #[arg(long, value_name = "TARGET", long_help = TARGET_HELP)]
+    pub target: Option<TargetChoice>,
+    #[command(flatten)]
+    pub solve: SolveArgs,
+    /// Keep the total area during the gradient flow (E²)
+    #[arg(long)]
+    pub area_normalised: bool,
+    /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,…
+    #[arg(long, value_name = "VERTICES")]
+    pub pin: Option<PinChoice>,
+    /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex
+    #[arg(long, value_name = "E.csv")]
+    pub keep_edges: Option<PathBuf>,
+    /// Write the metric
+    #[arg(long, value_name = "M.json")]
+    pub metric: Option<PathBuf>,
+    /// Write the surface with its layout as texture coordinates (E²; H² of closed surfaces), .obj or .glb
+    #[arg(long, value_name = "OUT.obj")]
+    pub uv: Option<PathBuf>,
+    /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
+    #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
+    pub on: OnChoice,
+    /// Write homogeneous texture coordinates to --uv, `vt qx qy q`: the projective map of each piece is linear in them
+    #[arg(long, requires = "uv")]
+    pub homogeneous: bool,
+    /// Write the vertex circles and dual circles of the layout (circle schemes, E²)
+    #[arg(long, value_name = "C.json")]
+    pub circles: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: FlowPictureArgs,
+    /// Write the steps of the gradient flow
+    #[arg(long, value_name = "T.csv")]
+    pub trace: Option<PathBuf>,
+    /// Cut a layout that overlaps itself into charts that do not, packed into the unit square (--uv, --picture)
+    #[arg(long)]
+    pub charts: bool,
+    /// Least distance of two charts, in sides of the unit square
+    #[arg(long, value_name = "DISTANCE", default_value_t = 1.0 / 256.0, value_parser = distance, requires = "charts")]
+    pub margin: f64,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+const TARGET_HELP: &str = "\
+Prescribed curvature in radians:
+  uniform         2πχ/V at every vertex of a closed surface in E²; 0 everywhere in H² and S²
+  boundary        0 inside, 2πχ shared over the boundary in proportion to its length (E², open surfaces)
+  single:V        all of 2πχ at vertex V, 0 elsewhere (E²)
+  auto:N          N cones where they lower the distortion of area most, 0 elsewhere inside (E²)
+  cones:FILE.csv  the curvatures of the file's rows `vertex,curvature`, 0 elsewhere
+  file:FILE.csv   the curvature of every vertex
+[default: boundary on open surfaces in E²; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
+with --pin 0 at every vertex that is not pinned]";
+
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum SpaceChoice {
+    Auto,
+    E2,
+    H2,
+    S2,
+}
+
+impl SpaceChoice {
+    /// The space asked for; `None` is auto.
+    pub fn space(self) -> Option<Space> {
+        match self {
+            SpaceChoice::Auto => None,
+            SpaceChoice::E2 => Some(Space::E2),
+            SpaceChoice::H2 => Some(Space::H2),
+            SpaceChoice::S2 => Some(Space::S2),
+        }
+    }
+}
+
+/// A target as it is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TargetChoice {
+    Uniform,
+    Boundary,
+    Single(u32),
+    Auto(usize),
+    Cones(PathBuf),
+    File(PathBuf),
+}
+
+impl FromStr for TargetChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once(':') {
+            None if text == "uniform" => Ok(TargetChoice::Uniform),
+            None if text == "boundary" => Ok(TargetChoice::Boundary),
+            Some(("single", v)) => {
+                v.parse().map(TargetChoice::Single).map_err(|_| format!("`{v}` is not a vertex number"))
+            }
+            Some(("cones", file)) if !file.is_empty() => Ok(TargetChoice::Cones(file.into())),
+            Some(("file", file)) if !file.is_empty() => Ok(TargetChoice::File(file.into())),
+            Some(("auto", n)) => {
+                n.parse().map(TargetChoice::Auto).map_err(|_| format!("`{n}` is not a number of cones"))
+            }
+            _ => Err("must be uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv".into()),
+        }
+    }
+}
+
+impl std::fmt::Display for TargetChoice {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            TargetChoice::Uniform => f.write_str("uniform"),
+            TargetChoice::Boundary => f.write_str("boundary"),
+            TargetChoice::Single(v) => write!(f, "single:{v}"),
+            TargetChoice::Auto(n) => write!(f, "auto:{n}"),
+            TargetChoice::Cones(file) => write!(f, "cones:{}", file.display()),
+            TargetChoice::File(file) => write!(f, "file:{}", file.display()),
+        }
+    }
+}
+
+/// Vertices whose conformal factor is held.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PinChoice {
+    Boundary,
+    Vertices(Vec<u32>),
+}
+
+impl FromStr for PinChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "boundary" {
+            return Ok(PinChoice::Boundary);
+        }
+        let vertex = |v: &str| v.trim().parse().map_err(|_| format!("`{v}` is not a vertex number"));
+        text.split(',').map(vertex).collect::<Result<_, _>>().map(PinChoice::Vertices)
+    }
+}
+
+impl Serialize for TargetChoice {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn targets_read_back_as_written() {
+        for text in ["uniform", "boundary", "single:7", "auto:4", "cones:a:b.csv", "file:/x/y.csv"] {
+            assert_eq!(text.parse::<TargetChoice>().unwrap().to_string(), text);
+        }
+        for text in ["", "single", "single:-1", "cones:", "auto:", "auto:-1", "Uniform"] {
+            assert!(text.parse::<TargetChoice>().is_err(), "{text}");
+        }
+    }
+}

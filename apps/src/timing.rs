@@ -1,0 +1,28 @@
+//! Seconds by phase.
+
+use serde::Serialize;
+use std::time::Instant;
+
+/// Wall-clock seconds by phase; `write` ends before the report itself is written.
+#[derive(Serialize, Default, Clone, Copy)]
+pub struct Seconds {
+    pub total: f64,
+    pub read: f64,
+    pub build: f64,
+    pub assemble: f64,
+    pub analyse: f64,
+    pub factor: f64,
+    pub solve: f64,
+    pub flip: f64,
+    pub refine: f64,
+    pub layout: f64,
+    pub write: f64,
+}
+
+/// Run `work` and add its seconds to a phase.
+pub fn timed<T>(phase: &mut f64, work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let result = work();
+    *phase += start.elapsed().as_secs_f64();
+    result
+}

@@ -1,0 +1,166 @@
+//! What all metrics that flow from one start share: the surface, its triangulation at the start, and the initial metric there.
+
+use crate::control::Control;
+use crate::error::{Result, check_size};
+use crate::mesh::{Double, EdgeId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex};
+use crate::metric::delaunay::{Triangulated, boundary_fails};
+use crate::metric::refinement::{Final, Input, Intrinsic, Triangulations};
+use crate::metric::{Class, Initial, Metric, Refinement, StartOptions, Surface, delaunay_start};
+use std::sync::Arc;
+
+/// Where flows on a surface start.
+#[derive(Debug)]
+pub(super) struct Origin {
+    pub surface: Surface,
+    /// None for a metric of mixed types.
+    pub class: Option<Class>,
+    pub double: Option<Double>,
+    /// The metric that flows start from.
+    pub initial: Initial,
+    /// Isometric flips from the given triangulation to that of `initial`.
+    pub flips: usize,
+    /// The latter, if that is another one.
+    pub flipped: Option<Flipped>,
+    /// Given edges that are not flipped.
+    pub fixed: FixedEdges,
+    /// Whether edges may be flipped from here on.
+    pub follows: bool,
+    /// Whether this start, of one copy, is half of what its double's is: there no boundary edge would be flipped.
+    pub is_half: bool,
+}
+
+/// The triangulation that isometric flips have made.
+#[derive(Debug)]
+pub(super) struct Flipped {
+    pub mesh: Arc<Mesh>,
+    /// In the geometry of the surface.
+    pub lengths: PerEdge<f64>,
+    /// The given edges on it.
+    pub given: NormalCoordinates,
+}
+
+impl Origin {
+    /// The initial metric on the given triangulation, whose edges stay.
+    pub fn rigid(surface: Surface, class: Class) -> Result<Origin> {
+        let initial = surface.initial(class)?;
+        Ok(Origin {
+            surface,
+            class: Some(class),
+            double: None,
+            initial,
+            flips: 0,
+            flipped: None,
+            fixed: FixedEdges::none(),
+            follows: false,
+            is_half: false,
+        })
+    }
+
+    /// A metric as it is, on its triangulation; `follows`: edges may be flipped from there on.
+    pub fn of_metric(mesh: Mesh, metric: &Metric, follows: bool) -> Result<Origin> {
+        let lengths = metric.lengths(&mesh)?;
+        let initial = Initial::of_metric(metric.clone());
+        let surface = Surface::intrinsic(mesh, lengths, metric.space)?;
+        Ok(Origin {
+            surface,
+            class: None,
+            double: None,
+            initial,
+            flips: 0,
+            flipped: None,
+            fixed: FixedEdges::none(),
+            follows,
+            is_half: false,
+        })
+    }
+
+    /// The initial metric on the (weighted) Delaunay triangulation, of the surface or, if it is `doubled`, of its double:
+    /// [`delaunay_start`]. `fixed` edges are not flipped.
+    pub fn delaunay(
+        surface: Surface,
+        class: Class,
+        doubled: bool,
+        fixed: &[EdgeId],
+        control: &Control,
+    ) -> Result<Origin> {
+        let given = surface.mesh();
+        let double = if doubled { Some(Double::new(given)?) } else { None };
+        let (mesh, lengths, all_fixed) = match &double {
+            Some(d) => (d.mesh.clone(), d.spread_edges(surface.lengths())?.into(), d.with_images(fixed)?),
+            None => (Mesh::clone(given), PerEdge::clone(surface.lengths()), fixed.to_vec()),
+        };
+        let all_fixed = FixedEdges::new(&mesh, &all_fixed)?;
+        let mut normal = NormalCoordinates::new(&mesh);
+        let mut flips = 0;
+        let mut record = |mesh: &Mesh, flip: Flip| {
+            normal.record(mesh, flip.edge);
+            flips += 1;
+        };
+        let mut triangulated = Triangulated { mesh, lengths, geometry: surface.geometry() };
+        let options = StartOptions { class, double: double.as_ref(), fixed: &all_fixed };
+        let initial = delaunay_start(&mut triangulated, options, &mut record, control)?;
+        let Triangulated { mesh, lengths, .. } = triangulated;
+        let metric = &initial.metric;
+        let is_half = double.is_none() && !boundary_fails(&mesh, metric, &metric.u, &all_fixed);
+        let fixed = FixedEdges::new(given, fixed)?;
+        let flipped = (flips > 0).then(|| Flipped { mesh: Arc::new(mesh), lengths, given: normal });
+        let class = Some(class);
+        Ok(Origin { surface, class, double, initial, flips, flipped, fixed, follows: true, is_half })
+    }
+
+    /// The triangulation at the start, and what is followed through flips from there: the given edges, and those of the start if
+    /// they are others.
+    pub fn start(&self) -> (Arc<Mesh>, Vec<NormalCoordinates>) {
+        let unflipped = || match &self.double {
+            Some(double) => Arc::new(double.mesh.clone()),
+            None => self.surface.mesh().clone(),
+        };
+        match &self.flipped {
+            Some(flipped) => {
+                (flipped.mesh.clone(), vec![flipped.given.clone(), NormalCoordinates::new(&flipped.mesh)])
+            }
+            None if self.follows => {
+                let mesh = unflipped();
+                let normal = NormalCoordinates::new(&mesh);
+                (mesh, vec![normal])
+            }
+            None => (unflipped(), Vec::new()),
+        }
+    }
+
+    /// A target on the given surface as one on what flows: on a double, curvature on both sides of the boundary adds up.
+    pub fn spread_target(&self, target: &PerVertex<f64>) -> Result<PerVertex<f64>> {
+        check_size("target", target.len(), self.surface.mesh().n_vertices())?;
+        match &self.double {
+            Some(double) => Ok(double.target(target)?.into()),
+            None => Ok(target.clone()),
+        }
+    }
+
+    /// The common refinement of the given triangulation with that of a metric.
+    pub fn refinement(
+        &self,
+        mesh: &Mesh,
+        metric: &Metric,
+        followed: &[NormalCoordinates],
+        control: &Control,
+    ) -> Result<Refinement> {
+        let unflipped;
+        let normal = match followed {
+            [normal, ..] => normal,
+            [] => {
+                unflipped = NormalCoordinates::new(mesh);
+                &unflipped
+            }
+        };
+        let intrinsic = self.flipped.as_ref().zip(followed.get(1)).map(|(flipped, normal)| {
+            let Flipped { mesh, lengths, given } = flipped;
+            Intrinsic { mesh, lengths, given, normal }
+        });
+        let given = self.double.as_ref().map_or(&**self.surface.mesh(), |double| &double.mesh);
+        let input = Input { mesh: given, geometry: self.initial.input_geometry, u: &self.initial.input_u };
+        let keep = |f| self.double.as_ref().is_none_or(|double| double.is_original(f));
+        let result = Final { mesh, metric, normal };
+        Refinement::new(Triangulations { input, intrinsic, result }, &keep, control)
+    }
+}

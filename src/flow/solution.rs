@@ -1,0 +1,240 @@
+//! What a flow has come to: a metric of the surface, with its report, its cones and the way back to the surface as it was given.
+
+use super::origin::Origin;
+use super::report::Report;
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::geometry::Space;
+use crate::mesh::{Double, Mesh, NormalCoordinates, PerVertex, VertexId};
+use crate::metric::delaunay::boundary_fails;
+use crate::metric::{Class, Curvature, Initial, Metric, Refinement, Scheme, Surface};
+use crate::parallel::within;
+use std::sync::Arc;
+
+/// A metric of a surface: the one that a [`super::Flow`] has come to, or the initial one.
+///
+/// It lives on a triangulation of its own, [`Solution::mesh`]: that of the given surface or of its double, whose first vertices are
+/// the given ones, after edge flips. What is asked per vertex of the given surface is answered per vertex of the given surface.
+/// Clones share the arrays of the surface.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    pub(super) origin: Arc<Origin>,
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) metric: Metric,
+    /// Triangulations as curves on `mesh`: that of the given edges, and that of the start if isometric flips made another one.
+    /// Empty where no edge was ever to be flipped.
+    pub(super) followed: Vec<NormalCoordinates>,
+    pub(super) flips: usize,
+    pub(super) reached: Option<Reached>,
+    pub(super) threads: usize,
+}
+
+/// What a flow was asked for and how it went.
+#[derive(Debug, Clone)]
+pub(super) struct Reached {
+    pub report: Report,
+    /// Per given vertex; at pinned vertices the curvature that came out.
+    pub target: PerVertex<f64>,
+    pub cones: Vec<VertexId>,
+}
+
+impl Solution {
+    /// The initial metric of the surface in a class, on the given triangulation: no flow has been made, [`Solution::report`] is none.
+    ///
+    /// # Errors
+    /// Those of [`crate::metric::initial_metric`].
+    pub fn initial_of(surface: Surface, class: Class) -> Result<Solution> {
+        Ok(Solution::start(Origin::rigid(surface, class)?))
+    }
+
+    /// The initial metric of a closed surface on its (weighted) Delaunay triangulation.
+    pub(crate) fn delaunay(surface: Surface, class: Class, control: &Control) -> Result<Solution> {
+        Ok(Solution::start(Origin::delaunay(surface, class, false, &[], control)?))
+    }
+
+    /// Copies of what flows change: triangulation, metric, and what is told of flips.
+    pub(crate) fn parts(&self) -> (Mesh, Metric, Vec<NormalCoordinates>) {
+        (Mesh::clone(&self.mesh), self.metric.clone(), self.followed.clone())
+    }
+
+    /// What the metric has become `flips` flips later.
+    pub(crate) fn at(
+        self,
+        mesh: Mesh,
+        metric: Metric,
+        followed: Vec<NormalCoordinates>,
+        flips: usize,
+    ) -> Solution {
+        let given = self.given();
+        let mesh = if mesh == **given { given.clone() } else { Arc::new(mesh) };
+        Solution { mesh, metric, followed, flips: self.flips + flips, ..self }
+    }
+
+    /// Where flows from this origin start.
+    pub(super) fn start(origin: Origin) -> Solution {
+        let metric = origin.initial.metric.clone();
+        let (mesh, followed) = origin.start();
+        Solution {
+            mesh,
+            metric,
+            followed,
+            flips: origin.flips,
+            origin: Arc::new(origin),
+            reached: None,
+            threads: 0,
+        }
+    }
+
+    /// The surface as it was given.
+    pub fn surface(&self) -> &Surface {
+        &self.origin.surface
+    }
+
+    /// The given triangulation.
+    pub fn given(&self) -> &Arc<Mesh> {
+        self.origin.surface.mesh()
+    }
+
+    /// The class of the metric; none for a flow that began at a metric of mixed types ([`super::Flow::from_metric`]).
+    pub fn class(&self) -> Option<Class> {
+        self.origin.class
+    }
+
+    /// The scheme of the class.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] where there is no class.
+    pub fn scheme(&self) -> Result<Scheme> {
+        let none = || {
+            let value = "vertices of any type".into();
+            Error::Argument { what: "class of the metric", value, need: "one scheme for all vertices" }
+        };
+        self.class().map(|class| class.scheme).ok_or_else(none)
+    }
+
+    /// The triangulation that the metric lives on.
+    pub fn mesh(&self) -> &Arc<Mesh> {
+        &self.mesh
+    }
+
+    /// Its variables there.
+    pub fn metric(&self) -> &Metric {
+        &self.metric
+    }
+
+    /// Where flows on the surface start; on another triangulation if isometric flips came first.
+    pub fn initial(&self) -> &Initial {
+        &self.origin.initial
+    }
+
+    /// The double of the given surface, if the metric lives there.
+    pub fn double(&self) -> Option<&Double> {
+        self.origin.double.as_ref()
+    }
+
+    /// How the flow went; none for an initial metric.
+    pub fn report(&self) -> Option<&Report> {
+        self.reached.as_ref().map(|reached| &reached.report)
+    }
+
+    /// Whether a flow led here and its error is at most the tolerance asked for.
+    pub fn converged(&self) -> bool {
+        self.report().is_some_and(Report::converged)
+    }
+
+    /// The curvature asked for, per given vertex, at pinned vertices what came out; none for an initial metric.
+    pub fn target(&self) -> Option<&PerVertex<f64>> {
+        self.reached.as_ref().map(|reached| &reached.target)
+    }
+
+    /// The target per vertex of [`Solution::mesh`]: on a double, curvature on both sides of the boundary adds up.
+    ///
+    /// # Errors
+    /// None that a solution can have; those of [`crate::mesh::Double::target`].
+    pub fn final_target(&self) -> Result<Option<PerVertex<f64>>> {
+        self.target().map(|target| self.origin.spread_target(target)).transpose()
+    }
+
+    /// The cones: interior vertices of the given surface that the caller named as cones, or whose curvature is to be off 0 by more
+    /// than the tolerance of the flow. A layout is cut open through them. None for an initial metric.
+    pub fn cones(&self) -> &[VertexId] {
+        self.reached.as_ref().map_or(&[], |reached| &reached.cones)
+    }
+
+    /// Threads of the flow; 0 for one per core.
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
+    /// Isometric flips before the flow.
+    pub fn start_flips(&self) -> usize {
+        self.origin.flips
+    }
+
+    /// All flips that were made on the way from the given triangulation.
+    pub fn flips(&self) -> usize {
+        self.flips
+    }
+
+    /// Whether it lives on the given triangulation itself.
+    pub fn is_unflipped(&self) -> bool {
+        Arc::ptr_eq(&self.mesh, self.given())
+    }
+
+    /// Curvature per given vertex and the area of the given surface: of a double, half of both along the boundary. Broken faces and
+    /// the residual of Gauss–Bonnet are those of [`Solution::mesh`].
+    ///
+    /// # Errors
+    /// Those of [`Metric::lengths`].
+    pub fn curvature(&self) -> Result<Curvature> {
+        let mut curvature = self.metric.curvature(&self.mesh)?;
+        if let Some(double) = self.double() {
+            let half = |v: VertexId| if double.mirror(v) == v { 0.5 } else { 1.0 };
+            let n = double.n_half_vertices();
+            curvature.at = PerVertex::from_fn(n, |v: VertexId| half(v) * curvature.at[v]);
+            curvature.area *= 0.5;
+        }
+        Ok(curvature)
+    }
+
+    /// [`Initial::conformal_factor`] per given vertex.
+    ///
+    /// # Errors
+    /// Those of [`Initial::conformal_factor`].
+    pub fn conformal_factor(&self) -> Result<PerVertex<f64>> {
+        let mut factor = self.initial().conformal_factor(&self.metric)?.into_vec();
+        factor.truncate(self.given().n_vertices());
+        Ok(factor.into())
+    }
+
+    /// How often the given edges cross those of the metric's triangulation, and of the one that flows start from: the size of
+    /// [`Solution::refinement`] beyond that of the surface, on a double of both halves. O(E).
+    ///
+    /// # Errors
+    /// [`crate::Error::TooLarge`] for more than can be numbered.
+    pub fn crossings(&self) -> Result<usize> {
+        let now = self.followed.first().map_or(Ok(0), |given| given.check(&self.mesh))?;
+        let start = self.origin.flipped.as_ref().map_or(Ok(0), |start| start.given.check(&start.mesh))?;
+        Ok(now + start)
+    }
+
+    /// The common refinement of the given triangulation and the metric's, on the given surface alone: the first half of a double.
+    ///
+    /// # Errors
+    /// Those of [`Refinement::new`].
+    pub fn refinement(&self, control: &Control) -> Result<Refinement> {
+        within(self.threads, || self.origin.refinement(&self.mesh, &self.metric, &self.followed, control))
+    }
+
+    /// Whether the metric is 0 curvature off the cones in H² or E², so that a layout exists; never in S².
+    pub fn is_laid_out(&self) -> bool {
+        self.metric.space != Space::S2
+    }
+
+    /// Whether flows may go on from here on the double of the surface, or on one copy that could be reflected: Delaunay along the
+    /// boundary too, as it was at the start.
+    pub(super) fn is_symmetric(&self) -> bool {
+        let fails = || boundary_fails(&self.mesh, &self.metric, &self.metric.u, &self.origin.fixed);
+        self.double().is_some() || (self.origin.is_half && !fails())
+    }
+}

@@ -1,0 +1,328 @@
+//! One solve: from a target to a solution, by the method of the options, and back to where it was if it fails.
+
+use super::Flow;
+use super::evaluate::State;
+use super::obstruction::{obstruction, obstruction_at_a_vertex};
+use super::options::Method;
+use super::report::{Report, StopReason, WORST, timed};
+use super::solution::{Reached, Solution};
+use super::system::System;
+use crate::control::Control;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::Space;
+use crate::geometry::conformal::is_precise;
+use crate::mesh::{Mesh, PerVertex, VertexId};
+use crate::metric::Target;
+use crate::metric::curvature::gauss_bonnet;
+use crate::metric::target::{check_total, check_upper, settle_total};
+
+/// How a method came to its end.
+pub(super) enum End {
+    /// Where the report says.
+    Stopped(State),
+    /// On one copy of a surface with boundary, where its double would flip a boundary edge.
+    AtBoundary(State),
+}
+
+impl End {
+    pub fn state(&self) -> &State {
+        match self {
+            End::Stopped(state) | End::AtBoundary(state) => state,
+        }
+    }
+}
+
+impl Flow {
+    /// Flow to a target; at pinned vertices it is ignored.
+    ///
+    /// Not reaching it is reported, not an error.
+    ///
+    /// # Errors
+    /// Those of [`Target::values`]; without pins a total that no metric can have ([`check_total`]); curvature that no angle can have
+    /// ([`check_upper`]); [`Error::Cancelled`], [`Error::Factorisation`]: the flow is then where it was before.
+    pub fn solve(&mut self, target: &Target, control: &Control) -> Result<Solution> {
+        let (space, given) = (self.metric.space, self.origin.surface.mesh().clone());
+        let mut values = target.values(&self.origin.surface, space)?;
+        given.vertices().filter(|v| self.pinned[v.index()]).for_each(|v| values[v] = 0.0);
+        check_upper(&given, &values)?;
+        if !self.has_pins() {
+            check_total(&given, space, &values)?;
+            settle_total(&given, space, &mut values);
+        }
+        self.reach(&values, control)?;
+        let named = target.named();
+        self.remember_cones(&given, &named);
+        Ok(self.solution())
+    }
+
+    /// [`Flow::solve`] for the curvature of every given vertex, whatever it is: no target is refused but those that are not finite.
+    /// The report tells what came of it.
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::Argument`]; those of [`Flow::solve`].
+    pub(crate) fn reach(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<&Report> {
+        let given = self.origin.surface.mesh();
+        check_size("target", target.len(), given.n_vertices())?;
+        if let Some(v) = given.vertices().find(|&v| !target[v].is_finite()) {
+            let value = format!("{} at vertex {v}", target[v]);
+            return Err(Error::Argument { what: "target curvature", value, need: "finite everywhere" });
+        }
+        let mut report = self.advance(target, control)?;
+        if report.is_reached() && self.is_to_be_flattened(target) {
+            report.angle_defect = Some(self.flatten(control)?);
+        }
+        if let Some(double) = &self.origin.double {
+            report.on_surface(double);
+        }
+        let mut target = target.clone();
+        if self.has_pins() {
+            let curvature = self.solution().curvature()?.at;
+            let pinned = |v: &VertexId| self.pinned[v.index()];
+            self.origin.surface.mesh().vertices().filter(pinned).for_each(|v| target[v] = curvature[v]);
+        }
+        let reached = self.reached.insert(Reached { report, target, cones: Vec::new() });
+        Ok(&reached.report)
+    }
+
+    /// Interior vertices that are named, or whose curvature is to be off 0 by more than the tolerance.
+    fn remember_cones(&mut self, given: &Mesh, named: &[VertexId]) {
+        let Some(reached) = &mut self.reached else { return };
+        let is_cone = |v: &VertexId| named.contains(v) || reached.target[*v].abs() > self.options.tolerance;
+        let inside = given.vertices().filter(|&v| !given.is_boundary_vertex(v));
+        reached.cones = inside.filter(is_cone).collect();
+    }
+
+    /// Layouts in H² magnify what is left of the curvature by e^distance.
+    fn is_to_be_flattened(&self, target: &PerVertex<f64>) -> bool {
+        self.metric.space == Space::H2 && self.mesh.is_closed() && target.iter().all(|&k| k == 0.0)
+    }
+
+    /// From one copy to the double where the solve leads there.
+    fn advance(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<Report> {
+        if !self.one_copy {
+            return Ok(self.run(target, control)?.0);
+        }
+        let before = self.solution();
+        let (start, low) = (self.start.clone(), self.start_low.clone());
+        let (mut report, left) = self.run(target, control)?;
+        if !left {
+            return Ok(report);
+        }
+        let mut took = 0.0;
+        let doubled = timed(&mut took, || self.doubled(control));
+        report.seconds.flip += took;
+        report.seconds.total += took;
+        let rest = doubled.and_then(|mut doubled| {
+            let limit = self.options.max_iterations;
+            doubled.options.max_iterations = self.options.iteration_limit() - report.iterations;
+            let rest = doubled.run(target, control)?.0;
+            doubled.options.max_iterations = limit;
+            Ok((rest, doubled))
+        });
+        match rest {
+            Ok((rest, mut doubled)) => {
+                if let (false, Some(double)) = (rest.is_reached(), &doubled.origin.double) {
+                    let spread = |x: &[f64]| double.spread_vertices(x).map(PerVertex::from);
+                    (doubled.start, doubled.start_low) = (spread(&start)?, spread(&low)?);
+                }
+                *self = doubled;
+                Ok(report.then(rest))
+            }
+            Err(error) => {
+                *self = Flow::resume(&before, &self.options, &Control::new())?;
+                (self.start, self.start_low) = (start, low);
+                Err(error)
+            }
+        }
+    }
+
+    /// One solve on the present copy or double; whether it was left because the double would flip a boundary edge.
+    fn run(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<(Report, bool)> {
+        self.target = self.origin.spread_target(target)?;
+        if !self.has_pins() {
+            settle_total(&self.mesh, self.metric.space, &mut self.target);
+        }
+        let mut report = Report::new(self.options.tolerance);
+        let precise = self.metric.epsilon.iter().all(|&e| is_precise(self.metric.space, e));
+        report.double_double = precise && self.options.method == Method::Newton;
+        let mut seconds = 0.0;
+        self.log.clear();
+        let mirror = self.mirror.clone();
+        let pool = self.pool.clone();
+        let end = timed(&mut seconds, || pool.run(|| self.flow(&mut report, control)));
+        if self.mirror.is_some() != mirror.is_some() {
+            (self.mirror, self.system) = (mirror, None);
+        }
+        let end = match end {
+            Ok(end) => end,
+            Err(error) => {
+                // The triangulation from before, whose system is to be made anew.
+                self.log.undo(&mut self.mesh, &mut self.metric.eta, &mut self.followed)?;
+                self.system = None;
+                return Err(error);
+            }
+        };
+        self.log.clear();
+        report.seconds.total = seconds;
+        self.flips += report.flips;
+        let (mut state, left) = match end {
+            End::Stopped(state) => (state, false),
+            End::AtBoundary(state) => (state, true),
+        };
+        if self.one_copy && self.free_scale() {
+            // The scale of the double, where a vertex inside counts twice.
+            let copies = |v| if self.mesh.is_boundary_vertex(v) { 1.0 } else { 2.0 };
+            let (sum, n) = self
+                .mesh
+                .vertices()
+                .fold((0.0, 0.0), |(sum, n), v| (sum + copies(v) * state.u[v], n + copies(v)));
+            state.shift(-sum / n);
+        }
+        if report.is_reached() {
+            (self.start, self.start_low) = (state.u.clone(), state.low.clone());
+        }
+        (self.metric.u, self.metric.u_low) = (state.u, state.low);
+        Ok((report, left))
+    }
+
+    /// The flow by its method, from the start to the end that the report tells.
+    fn flow(&mut self, report: &mut Report, control: &Control) -> Result<End> {
+        let mut state = State::new(&self.mesh, &self.start, &self.start_low);
+        let keeps_area = self.options.method == Method::Gradient && self.options.gradient.area_normalised;
+        if self.free_scale() && !keeps_area {
+            state.center();
+        }
+        if !self.evaluate(&mut state, report, control)? {
+            return Err(Error::Argument { what: "u", value: "start".into(), need: "in the metric's domain" });
+        }
+        // A target that is infeasible on one triangulation can be feasible after flips, so obstructions are only searched where flips
+        // are off. One that a single vertex rules out needs no flow.
+        if !self.flips_allowed {
+            report.obstruction = obstruction_at_a_vertex(
+                &self.mesh,
+                &self.metric,
+                &self.target,
+                &self.pinned,
+                report.tolerance,
+            );
+        }
+        let end = match (self.options.method, self.metric.space) {
+            _ if report.obstruction.is_some() => {
+                let mut residual = vec![0.0; self.target.len()];
+                report.max_curvature_error = state.residual(&self.target, &self.pinned, &mut residual);
+                report.residuals.push(report.max_curvature_error);
+                report.stop_reason = StopReason::Infeasible;
+                End::Stopped(state)
+            }
+            (Method::Gradient, _) => End::Stopped(self.gradient(state, report, control)?),
+            (Method::Newton, Space::S2) => End::Stopped(self.spherical(state, report, control)?),
+            (Method::Newton, _) => self.newton(state, report, control)?,
+        };
+        self.judge(end.state(), report);
+        Ok(end)
+    }
+
+    /// What the report says of the last state.
+    fn judge(&self, state: &State, report: &mut Report) {
+        report.broken_triangles = state.broken();
+        let area = state.area(&self.mesh, &self.metric);
+        report.gauss_bonnet = gauss_bonnet(&self.mesh, self.metric.space, &state.curvature, area);
+        report.worst = self.worst(state);
+        if report.is_reached() && report.broken_triangles > 0 {
+            report.stop_reason = StopReason::BrokenTriangles;
+        }
+        let open = matches!(
+            report.stop_reason,
+            StopReason::Stalled | StopReason::Diverged | StopReason::IterationLimit
+        );
+        if !self.flips_allowed && open {
+            report.obstruction = obstruction(&self.mesh, &self.metric, state, &self.target, &self.pinned);
+            if report.obstruction.is_some() {
+                report.stop_reason = StopReason::Infeasible;
+            }
+        }
+    }
+
+    /// The vertices that are farthest from their target.
+    fn worst(&self, state: &State) -> Vec<(VertexId, f64)> {
+        let mut worst: Vec<(VertexId, f64)> = Vec::with_capacity(WORST + 1);
+        let first = |v: &VertexId| self.mirror.as_ref().is_none_or(|mirror| mirror[v.index()] >= v.0);
+        for v in self.mesh.vertices().filter(|v| !self.pinned[v.index()]).filter(first) {
+            let error = state.curvature[v] - self.target[v];
+            let rank = worst.partition_point(|(_, other)| other.abs() >= error.abs());
+            if rank < WORST && error != 0.0 {
+                worst.insert(rank, (v, error));
+                worst.truncate(WORST);
+            }
+        }
+        worst
+    }
+
+    pub(super) fn has_pins(&self) -> bool {
+        self.pinned.contains(&true)
+    }
+
+    /// E² without pinned vertices: u is determined up to a constant, and Σ u = 0 is kept.
+    pub(super) fn free_scale(&self) -> bool {
+        self.metric.space == Space::E2 && !self.has_pins()
+    }
+
+    /// Curvature error that a linear solution may leave: it is added to what the tolerance allows.
+    pub(super) fn enough(&self) -> f64 {
+        0.01 * self.options.tolerance
+    }
+
+    /// Compute a state at its u, on the Delaunay triangulation there if edges may be flipped; false outside the domain.
+    pub(super) fn evaluate(
+        &mut self,
+        state: &mut State,
+        report: &mut Report,
+        control: &Control,
+    ) -> Result<bool> {
+        if !self.flips_allowed {
+            return Ok(timed(&mut report.seconds.assemble, || state.evaluate(&self.mesh, &self.metric)));
+        }
+        let (log, followed) = (&mut self.log, &mut self.followed);
+        let mut record = |mesh: &Mesh, flip| log.record(mesh, flip, followed);
+        let (real, flips) = state.evaluate_delaunay(
+            &mut self.mesh,
+            &mut self.metric,
+            &self.fixed,
+            &mut record,
+            &mut report.seconds,
+            control,
+        )?;
+        report.flips += flips;
+        self.unseen_flips += flips;
+        Ok(real)
+    }
+
+    /// Take the system for the present unknowns and triangulation: analysed now, or kept. It is put back by the caller.
+    pub(super) fn take_system(&mut self, report: &mut Report) -> Result<System> {
+        let flips = std::mem::take(&mut self.unseen_flips);
+        let kept = self.system.take();
+        let fixed = || {
+            let mut fixed = self.pinned.clone();
+            fixed[0] |= self.free_scale();
+            fixed
+        };
+        let system = match kept {
+            Some(kept) if flips == 0 => kept,
+            Some(kept) => timed(&mut report.seconds.analyse, || {
+                kept.flipped(&self.mesh, &fixed(), self.mirror.as_deref(), flips)
+            })?,
+            None => timed(&mut report.seconds.analyse, || {
+                System::new(&self.mesh, &fixed(), self.mirror.as_deref())
+            })?,
+        };
+        report.unknowns = system.unknowns();
+        report.factor_entries = system.factor_entries();
+        Ok(system)
+    }
+}
+
+/// Subtract the mean.
+pub(super) fn center(x: &mut [f64]) {
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    x.iter_mut().for_each(|x| *x -= mean);
+}

@@ -1,0 +1,114 @@
+//! An indexed triangle list with its attributes, and what a writer asks of one.
+
+use crate::error::{Error, Result, check_size};
+use crate::mesh::Point;
+
+/// An indexed triangle list as a file gives it. Polygons are triangulated: convex ones as fans from their first corner, others
+/// ear by ear. Vertices keep the file's numbering, isolated ones included.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Soup {
+    /// Vertex positions; coordinates may be non-finite, [`crate::mesh::check::diagnose`] finds that.
+    pub positions: Vec<Point>,
+    /// Corners of each triangle, 0-based. Indices may be out of range, the diagnosis finds that too.
+    pub faces: Vec<[u32; 3]>,
+    /// What else there is at vertices and corners.
+    pub attributes: Attributes,
+}
+
+/// What a file says beside positions and faces. Where it gives an attribute to some elements only, the others have the default.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Attributes {
+    /// Normal of each vertex (V entries), of any length; by default 0.
+    pub normals: Option<Vec<Point>>,
+    /// Normals of each face's corners (F entries), of any length, by default 0: in place of those of the vertices where the corners
+    /// of a vertex have different ones, as at hard edges. Formats that have both write these.
+    pub corner_normals: Option<Vec<[Point; 3]>>,
+    /// Colour of each vertex (V entries): red, green, blue, opacity, from 0 to 1; by default opaque white.
+    pub colors: Option<Vec<[f64; 4]>>,
+    /// Texture coordinates of each face's corners (F entries); by default (0, 0).
+    pub uv: Option<Vec<[[f64; 2]; 3]>>,
+}
+
+/// The defaults of [`Attributes`].
+pub(super) const NO_NORMAL: Point = [0.0; 3];
+pub(super) const WHITE: [f64; 4] = [1.0; 4];
+pub(super) const NO_TEXCOORD: [f64; 2] = [0.0; 2];
+
+impl Attributes {
+    /// What a format leaves out that has one normal per vertex only and, unless `corner_uv`, one pair of texture coordinates.
+    pub(super) fn left_out(&self, corner_uv: bool) -> Vec<&'static str> {
+        let corner_normals = self.corner_normals.as_ref().map(|_| "normals at hard edges");
+        let seams =
+            self.uv.as_ref().filter(|_| !corner_uv).map(|_| "texture coordinates, for they have seams");
+        corner_normals.into_iter().chain(seams).collect()
+    }
+
+    /// Texture coordinates per vertex, if the corners of each of the `n` vertices agree on them.
+    pub(crate) fn vertex_uv(&self, n: usize, faces: &[[u32; 3]]) -> Option<Vec<[f64; 2]>> {
+        let mut at: Vec<Option<[f64; 2]>> = vec![None; n];
+        for (&v, &uv) in faces.as_flattened().iter().zip(self.uv.as_ref()?.as_flattened()) {
+            let slot = at.get_mut(v as usize)?;
+            if slot.is_some_and(|known| known != uv) {
+                return None;
+            }
+            *slot = Some(uv);
+        }
+        Some(at.into_iter().map(Option::unwrap_or_default).collect())
+    }
+}
+
+impl Soup {
+    /// A triangle list without attributes.
+    pub fn new(positions: Vec<Point>, faces: Vec<[u32; 3]>) -> Soup {
+        Soup { positions, faces, attributes: Attributes::default() }
+    }
+
+    /// Numbers are finite, corners name vertices, attributes have an entry for each element.
+    pub(crate) fn check_writable(&self) -> Result<()> {
+        let Soup { positions, faces, attributes } = self;
+        let Attributes { normals, corner_normals, colors, uv } = attributes;
+        finite("position", positions)?;
+        in_range("vertex", faces, positions.len())?;
+        if let Some(normals) = normals {
+            check_size("normals", normals.len(), positions.len())?;
+            finite("normal", normals)?;
+        }
+        if let Some(normals) = corner_normals {
+            check_size("corner_normals", normals.len(), faces.len())?;
+            finite("normal", normals.as_flattened())?;
+        }
+        if let Some(colors) = colors {
+            check_size("colors", colors.len(), positions.len())?;
+            finite("colour", colors)?;
+        }
+        if let Some(uv) = uv {
+            check_size("uv", uv.len(), faces.len())?;
+            finite("texture coordinate", uv.as_flattened())?;
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn finite<const N: usize>(what: &'static str, points: &[[f64; N]]) -> Result<()> {
+    match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        Some(i) => {
+            let value = format!("{:?} at entry {i}", points[i]);
+            Err(Error::Argument { what, value, need: "a file holds finite numbers only" })
+        }
+        None => Ok(()),
+    }
+}
+
+pub(super) fn in_range(what: &'static str, faces: &[[u32; 3]], n: usize) -> Result<()> {
+    match faces.iter().position(|corners| corners.iter().any(|&v| v as usize >= n)) {
+        Some(f) => {
+            let value = format!("one of {:?} in face {f}", faces[f]);
+            Err(Error::Argument {
+                what,
+                value,
+                need: "corners must be below the number of entries they name",
+            })
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,30 @@
+//! Where a metric is looked for: the scheme that represents it, and the space that it lives in.
+
+use super::scheme::Scheme;
+use crate::geometry::Space;
+
+/// A conformal class up to the surface: how lengths depend on the variables u, and the background geometry of the triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Class {
+    /// The row of (ε, η) of \[JKLLG08, §4.1\] that represents the input's metric.
+    pub scheme: Scheme,
+    /// The geometry of the result's triangles; the input's lengths may be read in another one.
+    pub space: Space,
+}
+
+impl Class {
+    /// Any scheme in any space.
+    pub fn new(scheme: Scheme, space: Space) -> Class {
+        Class { scheme, space }
+    }
+
+    /// Vertex scaling, the discrete Yamabe flow: the usual choice.
+    pub fn yamabe(space: Space) -> Class {
+        Class::new(Scheme::Yamabe, space)
+    }
+
+    /// Inversive distance circle packings.
+    pub fn inversive(space: Space) -> Class {
+        Class::new(Scheme::Inversive, space)
+    }
+}

@@ -1,0 +1,219 @@
+//! The intrinsic Delaunay triangulation of a surface, by isometric flips.
+//!
+//! The surface stays as it is: an edge is replaced by the geodesic across its two triangles. The triangulation may be weighted by
+//! circles around the vertices; it depends on the surface and the circles alone, up to ties.
+
+use super::flip_queue::{Flippable, Queue, allowance, endless};
+use super::lengths::face_lengths;
+use crate::control::Control;
+use crate::error::{Result, check_size};
+use crate::geometry::flip::{Hinge, TOLERANCE, circle_product, circle_square, diagonal};
+use crate::geometry::{Space, triangle};
+use crate::mesh::{FixedEdges, Flip, FlipLog, HalfedgeId, Mesh, PerEdge, PerVertex};
+use crate::topology::check_lengths;
+use std::f64::consts::PI;
+
+/// A triangulated surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Triangulated {
+    /// Its connectivity.
+    pub mesh: Mesh,
+    /// Lengths of its edges (E entries).
+    pub lengths: PerEdge<f64>,
+    /// The geometry of its triangles.
+    pub geometry: Space,
+}
+
+/// Which triangulation [`intrinsic_delaunay`] makes; by default the plain Delaunay one.
+#[derive(Debug, Clone, Copy)]
+pub struct IntrinsicOptions<'a> {
+    /// Radii of circles around the vertices (V entries, 0 for none), for a triangulation that is weighted by them.
+    pub circles: Option<&'a PerVertex<f64>>,
+    /// Edges that stay.
+    pub fixed: &'a FixedEdges,
+}
+
+static NO_EDGES: FixedEdges = FixedEdges::none();
+
+impl Default for IntrinsicOptions<'_> {
+    fn default() -> Self {
+        IntrinsicOptions { circles: None, fixed: &NO_EDGES }
+    }
+}
+
+/// Two angles whose cosines add up to more than this add up to less than π, and to more where the sum is below minus this. The cosines
+/// are rounded by a few 1e-16 only, but near π, where one angle is near π and the other near 0, they say nothing of the sum.
+const DECISIVE: f64 = 1e-3;
+
+/// Share by which the sum of all cotangents must have fallen for a series of flips to count as progress. The sum has about 16 digits,
+/// of which rounding of the lengths of thin triangles spoils some.
+const PROGRESS: f64 = 1e-6;
+
+/// Isometric flips until every edge of the triangulation is Delaunay, but the fixed ones and those whose flip would make a triangle
+/// too thin for doubles. Returns the number of flips; `record` is told each flip (the edge with its length) just before it is made.
+///
+/// Every flip towards the plain Delaunay triangulation lowers the sum of all cotangents \[Musin97\]. Rounding could make flips go in
+/// circles on triangles that are nearly degenerate; then the sum does not fall.
+///
+/// # Errors
+/// The surface is left as it was, bit for bit, whatever `record` was told.
+/// - [`crate::Error::Size`]: lengths or circles are not one per edge, per vertex.
+/// - [`crate::Error::EdgeLength`]: a length out of range.
+/// - [`crate::Error::Connectivity`]: the flips do not end, since the sum of cotangents does not fall any more.
+/// - [`crate::Error::Cancelled`].
+pub fn intrinsic_delaunay(
+    surface: &mut Triangulated,
+    options: IntrinsicOptions,
+    record: &mut dyn FnMut(&Mesh, Flip),
+    control: &Control,
+) -> Result<usize> {
+    control.check()?;
+    let Triangulated { mesh, lengths, geometry } = surface;
+    check_lengths(mesh, lengths)?;
+    if let Some(radii) = options.circles {
+        check_size("radii", radii.len(), mesh.n_vertices())?;
+    }
+    let condition = Condition { geometry: *geometry, circles: options.circles };
+    let mut queue = Queue::where_holds(mesh, options.fixed, |h| condition.fails(mesh, lengths, h));
+    if queue.is_empty() {
+        return Ok(0);
+    }
+    let mut log = FlipLog::default();
+    let mut logged = |mesh: &Mesh, flip: Flip| {
+        log.record(mesh, flip, &mut []);
+        record(mesh, flip);
+    };
+    let flips = flip_to_the_end(mesh, lengths, &mut queue, condition, &mut logged, control);
+    if flips.is_err() {
+        log.undo(mesh, lengths, &mut [])?;
+    }
+    flips
+}
+
+/// [`Queue::flip_until_empty`] with isometric flips, for as long as the sum of cotangents falls.
+fn flip_to_the_end(
+    mesh: &mut Mesh,
+    lengths: &mut PerEdge<f64>,
+    queue: &mut Queue,
+    condition: Condition,
+    record: &mut dyn FnMut(&Mesh, Flip),
+    control: &Control,
+) -> Result<usize> {
+    let most = allowance(mesh.n_edges());
+    let mut lowest = condition.cotangents(mesh, lengths);
+    let mut flips = 0;
+    loop {
+        let decide = |mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId| {
+            if condition.fails(mesh, lengths, h) { condition.flipped(mesh, lengths, h) } else { None }
+        };
+        let mut surface = Flippable { mesh, values: lengths, decide, record };
+        flips += queue.flip_until_empty(most, &mut surface, control)?;
+        if queue.is_empty() {
+            return Ok(flips);
+        }
+        let now = condition.cotangents(mesh, lengths);
+        if now >= (1.0 - PROGRESS) * lowest {
+            return Err(endless(
+                "isometric flips towards Delaunay do not end: 100 per edge and a million have not lowered the sum of \
+                 cotangents; its triangles are too thin for doubles",
+            ));
+        }
+        lowest = now;
+    }
+}
+
+/// The condition that an edge of a surface is tested for.
+#[derive(Clone, Copy)]
+struct Condition<'a> {
+    geometry: Space,
+    circles: Option<&'a PerVertex<f64>>,
+}
+
+impl Condition<'_> {
+    /// Whether the edge of a half-edge between two faces fails it.
+    fn fails(self, mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> bool {
+        match self.circles {
+            None => is_obtuse(self.geometry, sides(mesh, lengths, h)),
+            Some(radii) => weighted_hinge(mesh, lengths, radii, self.geometry, h).wants_flip(),
+        }
+    }
+
+    /// Length of the other diagonal, if there is one and both triangles at it have an area in doubles.
+    fn flipped(self, mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> Option<f64> {
+        let sides = sides(mesh, lengths, h);
+        let [left, right] = sides.map(|l| triangle::angles(self.geometry, l));
+        // Angle at the origin of h: corner 0 on the left; on the right its twin starts at the other end.
+        let at_origin = left.at[0] + right.at[1];
+        let at_tip = left.at[1] + right.at[0];
+        if left.broken() || right.broken() || at_origin >= PI || at_tip >= PI {
+            return None;
+        }
+        let [near, far] = [sides[0][1], sides[1][0]];
+        let length = diagonal(self.geometry, near, far, at_origin);
+        let made = [[near, far], [sides[0][0], sides[1][1]]].map(|[a, b]| [a, b, length]);
+        let fits = length > 0.0 && length.is_finite() && made.iter().all(has_area);
+        fits.then_some(length)
+    }
+
+    /// The sum of the cotangents of all angles, `Σ (a² + b² + c²)/4A` over the Euclidean triangles of the half chords; without
+    /// triangles that have no area.
+    fn cotangents(self, mesh: &Mesh, lengths: &PerEdge<f64>) -> f64 {
+        let of = |f| {
+            let chords = face_lengths(mesh, lengths, f).map(|l| half_chord(self.geometry, l));
+            let squares: f64 = chords.iter().map(|l| l * l).sum();
+            squares / (4.0 * triangle::area(Space::E2, chords))
+        };
+        mesh.faces().map(of).filter(|sum| sum.is_finite()).sum()
+    }
+}
+
+/// Whether doubles hold these lengths apart from those of a triangle without area.
+fn has_area(l: &[f64; 3]) -> bool {
+    triangle::half_differences(*l).into_iter().all(|r| r > 0.0)
+}
+
+/// l, sinh(l/2), sin(l/2).
+fn half_chord(geometry: Space, length: f64) -> f64 {
+    match geometry {
+        Space::E2 => length,
+        Space::H2 => (0.5 * length).sinh(),
+        Space::S2 => (0.5 * length).sin(),
+    }
+}
+
+/// Sides of the faces left and right of h, in the order opposite, next, previous of the corner at the origin of h, of its twin.
+fn sides(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> [[f64; 3]; 2] {
+    [h, h.twin()].map(|h| [mesh.next(h), mesh.prev(h), h].map(|side| lengths[side.edge()]))
+}
+
+/// Whether the angles α, β opposite a common side add up to more than π by more than [`TOLERANCE`]. In curved spaces the angles are
+/// those of the Euclidean triangles of the half chords, which decide alike.
+///
+/// Far from π the sum of the cosines decides. Near π, where α is near π and β near 0, it cannot, but `sin(α + β)` can.
+fn is_obtuse(geometry: Space, sides: [[f64; 3]; 2]) -> bool {
+    let chords = sides.map(|sides| sides.map(|l| half_chord(geometry, l)));
+    let [cos_k, cos_l] = chords.map(|[a, b, c]| (a * a + b * b - c * c) / (2.0 * a * b));
+    if (cos_k + cos_l).abs() > DECISIVE {
+        return cos_k + cos_l < 0.0;
+    }
+    let [sin_k, sin_l] = chords.map(|[a, b, c]| 2.0 * triangle::area(Space::E2, [a, b, c]) / (a * b));
+    sin_k * cos_l + cos_k * sin_l < -TOLERANCE
+}
+
+/// The hinge of an edge with circles of these radii around its four vertices, whose w are γ, tanh γ, tan γ.
+fn weighted_hinge(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    radii: &PerVertex<f64>,
+    geometry: Space,
+    h: HalfedgeId,
+) -> Hinge {
+    let [jk, ki, il, lj] = mesh.quadrilateral(h);
+    let vertices = [h, h.twin(), ki, lj].map(|h| mesh.origin(h));
+    let product = |e: HalfedgeId| {
+        let radii = mesh.ends(e.edge()).map(|v| radii[v]);
+        circle_product(geometry, lengths[e.edge()], radii)
+    };
+    let squares = vertices.map(|v| circle_square(geometry, radii[v]));
+    Hinge::from_products(squares, [h, ki, jk, il, lj].map(product))
+}
