@@ -5,17 +5,15 @@
 //! genus 3, in H² and, with one cone, in E²; a round is one of each job, one after the other, so that what else the machine does hits all alike; medians of five rounds.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
-use ricci::Control;
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
 use ricci::embed::cover::{elements_to_depth, moved};
 use ricci::embed::{DeckGroup, UnrollOptions, layout_of, unroll};
-use ricci::flow::{Options, SurfaceFlow};
+use ricci::flow::{Options, Solution, flow};
 use ricci::geometry::Space;
-use ricci::mesh::{Mesh, PerVertex, VertexId, shapes};
-use ricci::metric::{Scheme, SurfaceMetric, lengths_from_positions};
+use ricci::mesh::{Mesh, VertexId, shapes};
 use ricci::parallel::Pool;
 use ricci::topology::{homotopy_basis, shortest_paths};
-use std::f64::consts::TAU;
+use ricci::{Class, Control, Surface, Target};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -37,7 +35,7 @@ const JOBS: [&str; 7] = [
 ];
 
 /// Seconds of each job.
-fn round(mesh: &Arc<Mesh>, given: &Quotient, flat: &SurfaceMetric) -> [f64; 7] {
+fn round(mesh: &Arc<Mesh>, given: &Quotient, flat: &Solution) -> [f64; 7] {
     let control = Control::new();
     let metric = &given.metric;
     let lengths = metric.metric().lengths(mesh).unwrap();
@@ -67,8 +65,7 @@ fn round(mesh: &Arc<Mesh>, given: &Quotient, flat: &SurfaceMetric) -> [f64; 7] {
     let sum: f64 = copies.iter().map(|g| moved(&refined.points, &g.motion)[0][2]).sum();
     assert!(sum.is_finite());
     done(&mut lap);
-    let options =
-        UnrollOptions { cones: Some(vec![CONE]), refinement: flat_refinement, ..UnrollOptions::default() };
+    let options = UnrollOptions { refinement: flat_refinement, ..UnrollOptions::default() };
     assert!(unroll(flat, &options, &control).unwrap().broken.is_empty());
     done(&mut lap);
     seconds
@@ -96,28 +93,11 @@ fn main() {
     println!("|---|{}", "---|".repeat(JOBS.len()));
     for vertices in sizes {
         let n = ((vertices as f64 / 128.0).sqrt().round() as usize).max(1);
-        let soup = shapes::genus(3, n).unwrap();
-        let mesh = Mesh::from_soup(&soup).unwrap();
-        let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-        let options = QuotientOptions::default();
-        let given = uniformize_quotient(&mesh, &lengths, Space::E2, &options, &Control::new()).unwrap();
+        let surface = Surface::from_soup(&shapes::genus(3, n).unwrap()).unwrap();
+        let given = uniformize_quotient(&surface, &QuotientOptions::default(), &Control::new()).unwrap();
         let final_mesh = given.metric.mesh().clone();
-        let mut target = PerVertex::filled(mesh.n_vertices(), 0.0);
-        target[CONE] = TAU * mesh.euler() as f64;
-        let flow = Options::default();
-        let mut flow = SurfaceFlow::new(
-            &mesh,
-            &lengths,
-            Space::E2,
-            Scheme::Yamabe,
-            Space::E2,
-            &[],
-            &flow,
-            &Control::new(),
-        )
-        .unwrap();
-        flow.solve(&target, &Control::new()).unwrap();
-        let flat = flow.now();
+        let (class, target) = (Class::yamabe(Space::E2), Target::Single(CONE));
+        let flat = flow(surface.clone(), class, &target, &Options::default(), &Control::new()).unwrap();
         let n_flat = flat.refinement(&Control::new()).unwrap().mesh.n_faces();
         let pool = Pool::new(0).unwrap();
         let rounds: Vec<[f64; 7]> =
@@ -128,9 +108,9 @@ fn main() {
             if job == 0 { format!("{seconds:.4}") } else { format!("{seconds:.4} ({ratio:.1})") }
         };
         let cells: Vec<String> = (0..JOBS.len()).map(cell).collect();
-        println!("| {} | {} |", mesh.n_vertices(), cells.join(" | "));
-        let flat: f64 = median(rounds.iter().map(|r| r[JOBS.len() - 1]).collect());
-        let each = 1e6 * flat / n_flat as f64;
-        eprintln!("{} vertices: in E² {n_flat} triangles, {each:.2} µs each", mesh.n_vertices());
+        println!("| {} | {} |", surface.mesh().n_vertices(), cells.join(" | "));
+        let seconds: f64 = median(rounds.iter().map(|r| r[JOBS.len() - 1]).collect());
+        let each = 1e6 * seconds / n_flat as f64;
+        eprintln!("{} vertices: in E² {n_flat} triangles, {each:.2} µs each", surface.mesh().n_vertices());
     }
 }

@@ -4,18 +4,18 @@
 mod common;
 
 use common::Random;
-use common::flow::surface;
+use common::flow::{attempt, surface};
 use ricci::embed::overlap::{Triangle, overlapping};
 use ricci::embed::{ChartOptions, Charts, Layout, UnrollOptions, charts, layout_of, unroll};
-use ricci::flow::{Flips, Options, Solver, SurfaceFlow, auto_cones};
+use ricci::flow::{Options, auto_cones, flow};
 use ricci::geometry::Space;
 use ricci::geometry::predicates::orientation;
-use ricci::mesh::io::{self, Soup};
+use ricci::mesh::io::Soup;
 use ricci::mesh::shapes;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
-use ricci::metric::{Class, Scheme, Target, Triangulated, delaunay_start};
+use ricci::metric::{Triangulated, delaunay_start};
 use ricci::topology::cut_graph;
-use ricci::{Control, Error};
+use ricci::{Class, Control, Error, Flow, Surface, Target};
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
@@ -309,11 +309,9 @@ fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> (Mes
     let mut surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
     let class = Class::yamabe(Space::E2).into();
     let start = delaunay_start(&mut surface, class, &mut |_, _| {}, &Control::new()).unwrap();
-    let mesh = surface.mesh;
-    let mut solver =
-        Solver::new(mesh, start.metric, Options { flips: Flips::Auto, ..Options::default() }).unwrap();
-    assert!(solver.solve(target, &Control::new()).unwrap().converged);
-    let (mesh, metric) = (solver.mesh().clone(), solver.metric().clone());
+    let mut flow = Flow::from_metric(surface.mesh, start.metric, &Options::default()).unwrap();
+    assert!(attempt(&mut flow, target).is_reached());
+    let (mesh, metric) = (flow.mesh().clone(), flow.metric().clone());
     let cones: Vec<_> =
         mesh.vertices().filter(|&v| target[v] != 0.0 && !mesh.is_boundary_vertex(v)).collect();
     let cut = cut_graph(&mesh, &metric.lengths(&mesh).unwrap(), &cones, &Control::new()).unwrap();
@@ -351,16 +349,9 @@ fn layouts_of_high_genus_come_apart_into_few_charts() {
 
 #[test]
 fn layouts_of_real_surfaces_come_apart() {
-    let Some(folder) = common::corpus("good") else { return };
-    for (file, n) in [
-        ("bob", 8),
-        ("kitten_10k", 8),
-        ("rocker_arm", 12),
-        ("bumpy_cube", 20),
-        ("pretzel", 8),
-        ("hand_cgal", 6),
-    ] {
-        let Ok(soup) = io::read(&folder.join(format!("{file}.obj"))) else { continue };
+    let names = ["bob", "kitten_10k", "rocker_arm", "bumpy_cube", "pretzel", "hand_cgal"];
+    let Some(soups) = common::named("good", &names) else { return };
+    for ((file, soup), n) in soups.into_iter().zip([8, 8, 12, 20, 8, 6]) {
         let (mesh, lengths) = surface(&soup);
         let target = auto_cones(&mesh, &lengths, n, &Control::new()).unwrap().target;
         let (mesh, layout) = lay_out(&mesh, &lengths, &target);
@@ -380,33 +371,23 @@ fn layouts_of_real_surfaces_come_apart() {
 /// All curvature at a single vertex, on surfaces of high genus, laid out on the common refinement: e^40 between the scales.
 #[test]
 fn layouts_with_a_single_cone_come_apart_into_few_charts() {
-    let Some(folder) = common::corpus("good") else { return };
-    for file in ["elephant_2775", "holes_7b", "casting"] {
-        let Ok(soup) = io::read(&folder.join(format!("{file}.obj"))) else { continue };
-        let (given, lengths) = surface(&soup);
-        let target = Target::Single(VertexId(0)).values(&given, &lengths, Space::E2).unwrap();
+    let Some(soups) = common::named("good", &["elephant_2775", "holes_7b", "casting"]) else { return };
+    for (file, soup) in soups {
         let (options, control) = (Options::default(), Control::new());
-        let mut flow = SurfaceFlow::new(
-            &given,
-            &lengths,
-            Space::E2,
-            Scheme::Yamabe,
-            Space::E2,
-            &[],
-            &options,
-            &Control::new(),
-        )
-        .unwrap();
-        assert!(flow.solve(&target, &control).unwrap().converged);
-        let options = UnrollOptions { cones: Some(vec![VertexId(0)]), ..UnrollOptions::default() };
-        let layout = unroll(&flow.now(), &options, &control).unwrap();
+        let given = Surface::from_soup(&soup).unwrap();
+        let target = Target::Single(VertexId(0));
+        let flat = flow(given, Class::yamabe(Space::E2), &target, &options, &control).unwrap();
+        assert!(flat.report().unwrap().is_reached(), "{file}: {:?}", flat.report());
+        let inside = !flat.given().is_boundary_vertex(VertexId(0));
+        assert_eq!(flat.cones(), &[VertexId(0)][..usize::from(inside)], "{file}");
+        let layout = unroll(&flat, &UnrollOptions::default(), &control).unwrap();
         let (start, laid) = (Instant::now(), layout.mesh());
         let result = charts(laid, |h| layout.uv(h), &ChartOptions::default(), &control).unwrap();
         let seconds = start.elapsed().as_secs_f64();
         verify(laid, &|h| layout.uv(h), &result);
         println!(
             "{file}: genus {}, {} faces, {} charts, {} degenerate, efficiency {:.2}, {seconds:.2} s",
-            given.genus(),
+            flat.given().genus(),
             laid.n_faces(),
             result.count(),
             result.degenerate.len(),

@@ -3,19 +3,19 @@
 
 mod common;
 
-use common::flow::surface;
+use common::flow::{attempt, euclidean, surface};
 use ricci::flow::cones::MAX_AUTO_CONES;
-use ricci::flow::{AutoCones, Flips, Options, Solver, auto_cones};
+use ricci::flow::{AutoCones, Options, auto_cones};
 use ricci::geometry::Space;
-use ricci::mesh::io::{self, Soup};
+use ricci::mesh::io::Soup;
 use ricci::mesh::shapes;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use ricci::metric::Scheme;
 use ricci::metric::curvature::curvature;
 use ricci::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use ricci::metric::target::{check_total, check_vertices};
-use ricci::metric::{Class, Scheme, delaunay_start};
 use ricci::topology::farthest_vertices;
-use ricci::{Control, Error};
+use ricci::{Class, Control, Error, Flow};
 use std::f64::consts::PI;
 
 fn place(mesh: &Mesh, lengths: &PerEdge<f64>, n: usize) -> AutoCones {
@@ -40,15 +40,12 @@ fn measured(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> f64
         let area = (s * (s - a) * (s - b) * (s - c)).max(0.0).sqrt();
         mesh.face_vertices(f).into_iter().for_each(|v| mass[v] += area / 3.0);
     }
-    let mut surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
-    let class = Class::yamabe(Space::E2).into();
-    let start = delaunay_start(&mut surface, class, &mut |_, _| {}, &Control::new()).unwrap();
-    let mesh = surface.mesh;
-    let options = Options { flips: Flips::Auto, ..Options::default() };
-    let mut solver = Solver::new(mesh, start.metric, options).unwrap();
-    let report = solver.solve(target, &Control::new()).unwrap();
-    assert!(report.converged, "{:?} {:e}", report.stop_reason, report.max_curvature_error);
-    let u = &solver.metric().u;
+    assert!(mesh.is_closed());
+    let (given, class) = (euclidean(mesh, lengths), Class::yamabe(Space::E2));
+    let mut flow = Flow::new(given, class, &Options::default(), &Control::new()).unwrap();
+    let report = attempt(&mut flow, target);
+    assert!(report.is_reached(), "{:?} {:e}", report.stop_reason, report.max_curvature_error);
+    let u = &flow.metric().u;
     let total: f64 = mass.iter().sum();
     let mean = u.iter().zip(mass.iter()).map(|(u, m)| u * m).sum::<f64>() / total;
     u.iter().zip(mass.iter()).map(|(u, m)| (u - mean).powi(2) * m).sum::<f64>() / total
@@ -114,16 +111,12 @@ fn placed_cones_beat_farthest_points_with_equal_shares() {
 
 #[test]
 fn on_real_surfaces_placed_cones_beat_farthest_points() {
-    let Some(folder) = common::corpus("good") else { return };
+    let names =
+        ["bob", "spot_low", "kitten_10k", "rocker_arm", "bumpy_cube", "genus3", "pretzel", "hand_cgal"];
+    let Some(soups) = common::named("good", &names) else { return };
     println!("| mesh | V | χ | 4 | 8 | 16 | farthest 8 |");
-    for file in
-        ["bob", "spot_low", "kitten_10k", "rocker_arm", "bumpy_cube", "genus3", "pretzel", "hand_cgal"]
-    {
-        let Ok(soup) = io::read(&folder.join(format!("{file}.obj"))) else { continue };
+    for (file, soup) in soups {
         let (mesh, lengths) = surface(&soup);
-        if mesh.n_vertices() > 20_000 {
-            continue;
-        }
         let [four, eight, sixteen] =
             [4, 8, 16].map(|n| measured(&mesh, &lengths, &place(&mesh, &lengths, n).target));
         let equal = (mesh.euler() != 0).then(|| measured(&mesh, &lengths, &equal_cones(&mesh, &lengths, 8)));

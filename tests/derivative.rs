@@ -245,6 +245,103 @@ fn derivative_is_semidefinite_in_the_plane_and_definite_in_the_hyperbolic_plane(
     });
 }
 
+/// Curvature from the variables, whatever breaks; `None` where an edge has no length. And the number of broken faces.
+fn extended(mesh: &Mesh, metric: &Metric, u: Vec<f64>) -> Option<(Vec<f64>, usize)> {
+    let k = Metric { u: u.into(), ..metric.clone() }.curvature(mesh).ok()?;
+    Some((k.at.into_vec(), k.broken.len()))
+}
+
+/// Where along `u + t direction` the first triangle breaks: the t, to rounding. `None` where none does within reach, or an edge loses
+/// its length first.
+fn breaking_point(mesh: &Mesh, metric: &Metric, direction: &[f64]) -> Option<f64> {
+    let broken = |t: f64| {
+        let u = metric.u.iter().zip(direction).map(|(u, d)| u + t * d).collect();
+        extended(mesh, metric, u).map(|(_, broken)| broken > 0)
+    };
+    let mut high = (1..600).map(|k| 0.01 * f64::from(k)).find(|&t| broken(t) != Some(false))?;
+    let mut low = high - 0.01;
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match broken(middle)? {
+            true => high = middle,
+            false => low = middle,
+        }
+    }
+    (broken(high) == Some(true)).then_some(high)
+}
+
+/// The matrix at `u + t direction` against differences there, as far as `reach` to either side: central ones, and one-sided ones.
+/// Returns how far each is off, relative to the largest entry.
+fn against_differences(mesh: &Mesh, at: &Metric, h: f64, broken: usize, what: &str) -> [f64; 2] {
+    let ours = matrix(mesh, at);
+    let largest = ours.iter().flatten().fold(1.0f64, |m, x| m.max(x.abs()));
+    let mut worst = [0.0f64; 2];
+    let moved = |j: usize, h: f64| {
+        let mut u = at.u.to_vec();
+        u[j] += h;
+        let (k, now) = extended(mesh, at, u).unwrap();
+        assert_eq!(now, broken, "{what}: the step is too long");
+        k
+    };
+    for j in 0..mesh.n_vertices() {
+        let [plus, here, minus] = [h, 0.0, -h].map(|h| moved(j, h));
+        for i in 0..mesh.n_vertices() {
+            let central = (plus[i] - minus[i]) / (2.0 * h);
+            let sides = [(plus[i] - here[i]) / h, (here[i] - minus[i]) / h];
+            worst[0] = worst[0].max((ours[i][j] - central).abs() / largest);
+            worst[1] = sides.iter().fold(worst[1], |m, side| m.max((ours[i][j] - side).abs() / largest));
+        }
+    }
+    worst
+}
+
+/// Next to a triangle that is about to break its angles move as the root of the distance, on the other side not at all: the matrix says
+/// both, for every space and scheme whose triangles can break.
+#[test]
+fn derivative_is_right_next_to_triangles_that_break() {
+    let mut random = Random::new(29);
+    let mut tested = 0;
+    for (name, mesh) in &surfaces()[..2] {
+        for space in SPACES {
+            for scheme in Scheme::ALL {
+                let metric = random_metric(mesh, space, Some(scheme), &mut random);
+                let n = mesh.n_vertices();
+                let first =
+                    (0..n).map(|v| (0..n).map(|w| if v == w { -1.0 } else { 0.0 }).collect::<Vec<f64>>());
+                let more: Vec<Vec<f64>> =
+                    (0..20).map(|_| (0..n).map(|_| random.symmetric()).collect()).collect();
+                let found = first.chain(more).find_map(|d| breaking_point(mesh, &metric, &d).map(|t| (t, d)));
+                // Any three circles that meet at right angles or less have a triangle, but on the sphere.
+                let never = matches!(scheme, Scheme::Thurston | Scheme::Tangential) && space != Space::S2;
+                assert_eq!(found.is_none(), never, "{name} {space} {scheme}: {found:?}");
+                let Some((t, direction)) = found else { continue };
+                for distance in [1e-2f64, 1e-4, 1e-6] {
+                    for side in [-1.0, 1.0] {
+                        let at = |t: f64| {
+                            metric.u.iter().zip(&direction).map(|(u, d)| u + t * d).collect::<Vec<_>>()
+                        };
+                        let u = at(t + side * distance);
+                        let Some((_, broken)) = extended(mesh, &metric, u.clone()) else { continue };
+                        let what = format!("{name} {space} {scheme}, {:e} from {t}", side * distance);
+                        assert_eq!(broken > 0, side > 0.0, "{what}");
+                        let here = Metric { u: u.into(), ..metric.clone() };
+                        let [central, sided] =
+                            against_differences(mesh, &here, 1e-4 * distance, broken, &what);
+                        println!(
+                            "{what}: central differences off by {central:.1e}, one-sided by {sided:.1e}"
+                        );
+                        // Rounding of K over the step, and the root's second and third derivatives.
+                        let rounding = 1e-14 / (1e-4 * distance);
+                        assert!(central < 1e-6 + rounding && sided < 1e-3 + rounding, "{what}");
+                        tested += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(tested > 100, "{tested}");
+}
+
 /// Gauss–Legendre nodes and weights on [0, 1].
 const GAUSS: [(f64, f64); 5] = [
     (0.046_910_077_030_668, 0.118_463_442_528_094_5),

@@ -5,16 +5,16 @@
 mod common;
 
 use common::Random;
-use common::flips::{SCHEMES, honest};
-use common::flow::surface;
-use ricci::flow::{Options, Report, StopReason, SurfaceFlow};
+use common::flips::{SCHEMES, balanced, honest, in_the_middle, started, stretched};
+use common::flow::{attempt, euclidean, surface};
+use ricci::flow::{Options, Report, StopReason};
 use ricci::geometry::Space;
 use ricci::mesh::shapes::{self, Sliver};
 use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, VertexId};
+use ricci::metric::Scheme;
 use ricci::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use ricci::metric::target::check_admissible;
-use ricci::metric::{Scheme, Target};
-use ricci::{Control, Error};
+use ricci::{Class, Control, Error, Flow, Target};
 use std::f64::consts::PI;
 
 type Surface = (Mesh, PerEdge<f64>);
@@ -28,10 +28,11 @@ fn flow(
     what: &str,
 ) -> Result<Report, Error> {
     let what = format!("{what}, {space} {scheme}");
-    check_admissible(mesh, space, scheme, target).unwrap();
-    let mut flow =
-        SurfaceFlow::new(mesh, lengths, geometry, scheme, space, &[], &Options::default(), &Control::new())?;
-    let report = flow.solve(target, &Control::new()).unwrap();
+    let class = Class::new(scheme, space);
+    check_admissible(mesh, class, target).unwrap();
+    let given = ricci::Surface::intrinsic(mesh.clone(), lengths.clone(), geometry)?;
+    let mut flow = Flow::new(given, class, &Options::default(), &Control::new())?;
+    let report = attempt(&mut flow, target);
     let reached = honest(&flow, &report, target, &what);
     println!(
         "{what}: {}, {} steps, {} + {} flips, error {:.1e} of {:.1e}",
@@ -40,7 +41,7 @@ fn flow(
         flow.start_flips(),
         report.flips,
         report.max_curvature_error,
-        report.tolerance
+        report.allowed_error()
     );
     assert!(reached, "{what}: {}", report.stop_reason);
     Ok(report)
@@ -48,21 +49,13 @@ fn flow(
 
 /// Flat (four cones on a sphere), and of constant curvature −1 where there is such a metric.
 fn default_targets(surface: &Surface) -> Vec<(Space, PerVertex<f64>)> {
-    let (mesh, lengths) = surface;
-    let curved = (mesh.euler() < 0).then_some(Space::H2);
+    let given = euclidean(&surface.0, &surface.1);
+    let curved = (given.mesh().euler() < 0).then_some(Space::H2);
     let target = |space| {
-        let target = Target::default_for(mesh, lengths, space).unwrap();
-        (space, target.resolve(mesh, lengths, space, Scheme::Yamabe).unwrap())
+        let target = Target::default_for(&given, space).unwrap();
+        (space, target.resolve(&given, Class::yamabe(space)).unwrap())
     };
     [Space::E2].into_iter().chain(curved).map(target).collect()
-}
-
-/// Curvatures at some vertices; what is left of 2πχ is shared by the others.
-fn balanced(mesh: &Mesh, cones: &[(VertexId, f64)]) -> PerVertex<f64> {
-    let left = 2.0 * PI * mesh.euler() as f64 - cones.iter().map(|(_, k)| k).sum::<f64>();
-    let mut target = PerVertex::filled(mesh.n_vertices(), left / (mesh.n_vertices() - cones.len()) as f64);
-    cones.iter().for_each(|&(v, k)| target[v] = k);
-    target
 }
 
 #[test]
@@ -115,36 +108,20 @@ fn edges_a_million_times_as_long_as_others() {
 
 #[test]
 fn a_sphere_a_million_times_as_long_as_wide() {
-    let mut soup = shapes::icosphere(6).unwrap();
-    soup.positions.iter_mut().for_each(|p| p[2] *= 1e6);
-    let stretched = surface(&soup);
-    let n = stretched.0.n_vertices();
-    let mut by_height: Vec<usize> = (0..n).collect();
-    by_height.sort_by(|&a, &b| soup.positions[a][2].total_cmp(&soup.positions[b][2]));
+    let (surface, by_height) = stretched(6, 1e6);
+    let n = by_height.len();
     // Two cones at either end: a long flat pillow.
-    let ends: Vec<_> = [0, 1, n - 2, n - 1].iter().map(|&k| (VertexId::from(by_height[k]), PI)).collect();
-    // Four about the middle: the ends become discs that are smaller by the exponential of the length over the width.
-    let middle: Vec<_> = (0..4).map(|k| (VertexId::from(by_height[n / 2 - 2 + k]), PI)).collect();
+    let ends: Vec<_> = [0, 1, n - 2, n - 1].iter().map(|&k| (by_height[k], PI)).collect();
     for scheme in SCHEMES {
         let kind = (Space::E2, scheme);
-        flow(&stretched, Space::E2, kind, &balanced(&stretched.0, &ends), "cones at the ends").unwrap();
-        let target = balanced(&stretched.0, &middle);
-        let (mesh, lengths) = &stretched;
-        let made = SurfaceFlow::new(
-            mesh,
-            lengths,
-            Space::E2,
-            scheme,
-            Space::E2,
-            &[],
-            &Options::default(),
-            &Control::new(),
-        );
-        let mut flow = made.unwrap();
-        let report = flow.solve(&target, &Control::new()).unwrap();
+        flow(&surface, Space::E2, kind, &balanced(&surface.0, &ends), "cones at the ends").unwrap();
+        // Four in the middle stall, for flips round η more than the last digits of needles bear: no claim is made that does not hold.
+        let target = in_the_middle(&surface.0, &by_height);
+        let mut flow = started(&surface, kind, &Options { max_iterations: 150, ..Options::default() });
+        let report = attempt(&mut flow, &target);
+        honest(&flow, &report, &target, "cones in the middle");
         println!("cones in the middle, {scheme}: {} after {}", report.stop_reason, report.iterations);
-        assert!(!honest(&flow, &report, &target, "cones in the middle"));
-        assert_eq!(report.stop_reason, StopReason::Diverged, "lengths of a range that doubles do not have");
+        assert_ne!(report.stop_reason, StopReason::Diverged, "{scheme}");
     }
 }
 
@@ -230,7 +207,8 @@ fn all_curvature_at_one_vertex() {
         let surface = surface(&shapes::genus(genus, 4).unwrap());
         for vertex in [0, surface.0.n_vertices() / 2] {
             let target = Target::Single(vertex.into());
-            let target = target.resolve(&surface.0, &surface.1, Space::E2, Scheme::Yamabe).unwrap();
+            let target =
+                target.resolve(&euclidean(&surface.0, &surface.1), Class::yamabe(Space::E2)).unwrap();
             for scheme in SCHEMES {
                 let what = format!("genus {genus}, all at vertex {vertex}");
                 flow(&surface, Space::E2, (Space::E2, scheme), &target, &what).unwrap();
@@ -278,52 +256,40 @@ fn surfaces_of_one_or_two_vertices() {
 fn what_cannot_be_is_refused_by_name() {
     let sphere = surface(&shapes::icosphere(2).unwrap());
     let at = |v: usize, k: f64| balanced(&sphere.0, &[(v.into(), k)]);
-    let check = |target: &PerVertex<f64>, space| check_admissible(&sphere.0, space, Scheme::Yamabe, target);
+    let check = |target: &PerVertex<f64>, space| check_admissible(&sphere.0, Class::yamabe(space), target);
     assert!(matches!(check(&at(3, 2.0 * PI), Space::E2), Err(Error::TargetAtVertex { vertex: 3, .. })));
     let mut over = at(3, 1.0);
     over[5usize.into()] += 1e-3;
     assert!(matches!(check(&over, Space::E2), Err(Error::TargetTotal { .. })));
     assert!(matches!(check(&at(3, 1.0), Space::H2), Err(Error::TargetTotal { .. })));
-    // Flowed to nevertheless, none of them is called converged.
+    // A flow refuses them with the same errors, and is where it was.
     let mut nan = at(3, 1.0);
     nan[7usize.into()] = f64::NAN;
+    let small: PerVertex<f64> = at(3, 1.0).iter().map(|k| k - 0.01).collect::<Vec<_>>().into();
     for scheme in SCHEMES {
-        let start = |space| {
-            let options = Options { max_iterations: 60, ..Options::default() };
-            SurfaceFlow::new(&sphere.0, &sphere.1, Space::E2, scheme, space, &[], &options, &Control::new())
-                .unwrap()
+        let refused = |space, target: &PerVertex<f64>| {
+            let mut flow = started(&sphere, (space, scheme), &Options::default());
+            let before = (flow.mesh().clone(), flow.metric().clone());
+            let error = flow.solve(&Target::All(target.clone()), &Control::new()).unwrap_err();
+            println!("inadmissible, {space} {scheme}: {error}");
+            assert!(before == (flow.mesh().clone(), flow.metric().clone()));
+            assert!(flow.solution().report().is_none());
+            error
         };
-        for (space, target) in [
-            (Space::E2, at(3, 2.5 * PI)),
-            (Space::E2, over.clone()),
-            (Space::H2, at(3, 1.0).iter().map(|k| k - 0.01).collect::<Vec<_>>().into()),
-        ] {
-            let mut flow = start(space);
-            let report = flow.solve(&target, &Control::new()).unwrap();
-            assert!(!honest(&flow, &report, &target, "inadmissible"), "{space} {scheme}: {report:?}");
-            assert!(
-                !matches!(report.stop_reason, StopReason::Converged | StopReason::RoundingFloor),
-                "{report:?}"
-            );
-            println!("inadmissible, {space} {scheme}: {} after {}", report.stop_reason, report.iterations);
-        }
-        let error = start(Space::E2).solve(&nan, &Control::new()).unwrap_err();
-        assert!(matches!(error, Error::Argument { what: "target curvature", .. }), "{error}");
+        let large = at(3, 2.5 * PI);
+        assert!(matches!(refused(Space::E2, &large), Error::TargetAtVertex { vertex: 3, .. }));
+        assert!(matches!(refused(Space::H2, &large), Error::TargetAtVertex { vertex: 3, .. }));
+        assert!(matches!(refused(Space::E2, &over), Error::TargetTotal { .. }));
+        assert!(matches!(refused(Space::H2, &small), Error::TargetTotal { .. }));
+        assert!(matches!(refused(Space::E2, &nan), Error::Argument { what: "target curvature", .. }));
     }
     // A triangle inequality that fails, a length that is none.
     for (edge, length) in [(0usize, 10.0), (1, f64::NAN), (2, 0.0)] {
         let mut lengths = sphere.1.clone();
         lengths[edge.into()] = length;
-        let made = SurfaceFlow::new(
-            &sphere.0,
-            &lengths,
-            Space::E2,
-            Scheme::Yamabe,
-            Space::E2,
-            &[],
-            &Options::default(),
-            &Control::new(),
-        );
+        let made = ricci::Surface::intrinsic(sphere.0.clone(), lengths, Space::E2).and_then(|surface| {
+            Flow::new(surface, Class::yamabe(Space::E2), &Options::default(), &Control::new())
+        });
         let Err(error) = made else { panic!("edge {edge} of length {length} passed") };
         println!("refused: {error}");
     }

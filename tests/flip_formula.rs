@@ -6,7 +6,7 @@ mod common;
 
 use common::Random;
 use ricci::geometry::Space;
-use ricci::geometry::flip::{Hinge, diagonal};
+use ricci::geometry::flip::{Hinge, Weight, diagonal};
 
 /// Circles with centre and ε r², the power of a point p is |p − c|² − ε r².
 #[derive(Clone, Copy, Debug)]
@@ -194,6 +194,27 @@ fn flipping_twice_gives_the_weight_back() {
         let plain = Hinge::new(epsilon, [1.0; 4], eta).flipped().unwrap();
         assert!((plain / kl - 1.0).abs() < 1e-12, "{plain} {kl}");
     }
+}
+
+/// Four vertices that are 2^±3000 times as large decide alike, bit for bit, and have the same η.
+#[test]
+fn weights_beyond_doubles_flip_as_others_do() {
+    let mut random = Draw(Random::new(12));
+    let mut flips = 0;
+    for epsilon in [[0.0; 4], [1.0; 4], [1.0, 0.0, 1.0, 0.0]].into_iter().cycle().take(3000) {
+        let w: [f64; 4] = std::array::from_fn(|_| random.between(-3.0, 3.0).exp());
+        let eta: [f64; 5] = std::array::from_fn(|_| 1.0 + random.between(-3.0, 3.0).exp());
+        let plain = Hinge::new(epsilon, w, eta);
+        for exponent in [-3000, -40, 0, 3000] {
+            let (hinge, scale) = Hinge::of_weights(epsilon, w.map(|value| Weight { value, exponent }), eta);
+            assert_eq!(hinge.wants_flip(), plain.wants_flip(), "{epsilon:?} {exponent}");
+            let [ours, theirs] =
+                [(hinge, scale), (plain, w[2] * w[3])].map(|(h, by)| h.flipped().map(|x| x / by));
+            assert_eq!(ours, theirs, "{epsilon:?} {exponent}");
+        }
+        flips += usize::from(plain.wants_flip());
+    }
+    assert!((100..2900).contains(&flips), "{flips}");
 }
 
 #[test]

@@ -4,50 +4,29 @@
 mod common;
 
 use common::flips::{SCHEMES, reach, started};
-use ricci::Control;
-use ricci::flow::{Options, Report, Solver};
+use common::flow::{attempt, euclidean};
+use ricci::flow::{Options, Report};
 use ricci::geometry::Space;
-use ricci::mesh::{Double, Mesh, PerEdge, PerVertex, VertexId, io};
+use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId, io};
 use ricci::metric::delaunay::{IntrinsicOptions, Triangulated, failing, intrinsic_delaunay};
-use ricci::metric::{Class, Scheme, StartOptions, Target, curvature, delaunay_start, lengths_from_positions};
+use ricci::metric::{Scheme, curvature, lengths_from_positions};
+use ricci::{Class, Control, Flow, Target};
 use std::f64::consts::PI;
 
 /// Largest mesh that the optimised tests of a debug build take.
 const MOST_VERTICES: usize = 3000;
 
-/// Make the triangulation intrinsic Delaunay, and flow.
-fn solve(
-    mesh: Mesh,
-    lengths: PerEdge<f64>,
-    geometry: Space,
-    (space, scheme): (Space, Scheme),
-    target: &PerVertex<f64>,
-    double: Option<&Double>,
-) -> (Solver, Report) {
-    let mut surface = Triangulated { mesh, lengths, geometry };
-    let options = StartOptions { double, ..Class::new(scheme, space).into() };
-    let start = delaunay_start(&mut surface, options, &mut |_, _| {}, &Control::new());
-    let start = start.unwrap().metric;
-    let mut solver = Solver::new(surface.mesh, start, Options::default()).unwrap();
-    if let Some(double) = double {
-        let mirror: Vec<VertexId> = solver.mesh().vertices().map(|v| double.mirror(v)).collect();
-        solver.keep_symmetric(&mirror).unwrap();
-    }
-    let report = solver.solve(target, &Control::new()).unwrap();
-    (solver, report)
-}
-
 /// Converged, and the metric, measured anew, has the curvature, whole triangles and a Delaunay triangulation.
-fn check(solver: &Solver, report: &Report, target: &PerVertex<f64>, what: &str) {
-    assert!(report.converged, "{what}: {} after {} steps", report.stop_reason, report.iterations);
-    let (mesh, metric) = (solver.mesh(), solver.metric());
+fn check(flow: &Flow, report: &Report, target: &PerVertex<f64>, what: &str) {
+    assert!(report.is_reached(), "{what}: {} after {} steps", report.stop_reason, report.iterations);
+    let (mesh, metric, target) = (flow.mesh(), flow.metric(), flow.spread_target(target));
     mesh.validate().unwrap();
     let k = curvature(mesh, metric.space, &metric.lengths(mesh).unwrap()).unwrap();
     assert!(k.broken.is_empty(), "{what}");
     assert!(k.gauss_bonnet < 1e-10, "{what}: {}", k.gauss_bonnet);
     // Lengths are rounded; the report's own error is formed from u.
     let worst = mesh.vertices().map(|v| (k.at[v] - target[v]).abs()).fold(0.0, f64::max);
-    assert!(worst < 1e-8 && report.max_curvature_error <= report.tolerance, "{what}: {worst}");
+    assert!(worst < 1e-8 && report.max_curvature_error <= report.allowed_error(), "{what}: {worst}");
     assert!(failing(mesh, metric, &metric.u).is_empty(), "{what}");
 }
 
@@ -59,7 +38,7 @@ fn default_target(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space, scheme: Sch
         (0..4).for_each(|k| target[(k * step).into()] = PI);
         return target;
     }
-    Target::Uniform.resolve(mesh, lengths, space, scheme).unwrap()
+    Target::Uniform.resolve(&euclidean(mesh, lengths), Class::new(scheme, space)).unwrap()
 }
 
 fn corpus() -> Vec<(String, Mesh, PerEdge<f64>)> {
@@ -83,9 +62,10 @@ fn every_closed_mesh_reaches_its_uniform_metric() {
         for scheme in SCHEMES {
             for space in [Space::E2, Space::H2].into_iter().filter(|s| *s == Space::E2 || mesh.genus() >= 2) {
                 let target = default_target(&mesh, &lengths, space, scheme);
-                let (solver, report) =
-                    solve(mesh.clone(), lengths.clone(), Space::E2, (space, scheme), &target, None);
-                check(&solver, &report, &target, &format!("{name} {space} {scheme}"));
+                let mut flow =
+                    started(&(mesh.clone(), lengths.clone()), (space, scheme), &Options::default());
+                let report = attempt(&mut flow, &target);
+                check(&flow, &report, &target, &format!("{name} {space} {scheme}"));
                 steps.push(report.iterations);
             }
         }
@@ -100,28 +80,21 @@ fn every_closed_mesh_reaches_its_uniform_metric() {
 #[test]
 fn every_open_mesh_becomes_flat_through_its_double() {
     for (name, half, lengths) in corpus().into_iter().filter(|(_, mesh, _)| !mesh.is_closed()) {
-        let double = Double::new(&half).unwrap();
-        let lengths_of_double: PerEdge<f64> = double.spread_edges(&lengths).unwrap().into();
+        let given = euclidean(&half, &lengths);
+        let surface = (half, lengths);
         for scheme in SCHEMES {
-            let target = Target::Boundary.resolve(&half, &lengths, Space::E2, scheme);
+            let target = Target::Boundary.resolve(&given, Class::new(scheme, Space::E2));
             // A packing's own limit at a vertex of one triangle is that of the input triangulation: flips lift it.
             let Ok(target) = target else { continue };
-            let target: PerVertex<f64> = double.target(&target).unwrap().into();
-            let kind = (Space::E2, scheme);
-            let (solver, report) = solve(
-                double.mesh.clone(),
-                lengths_of_double.clone(),
-                Space::E2,
-                kind,
-                &target,
-                Some(&double),
-            );
+            let mut flow = started(&surface, (Space::E2, scheme), &Options::default());
+            let report = attempt(&mut flow, &target);
             let what = format!("{name} {scheme}");
-            check(&solver, &report, &target, &what);
+            check(&flow, &report, &target, &what);
+            let Some(double) = flow.double() else { continue };
             // The solution is unique, and so symmetric.
-            let u = &solver.metric().u;
+            let u = &flow.metric().u;
             let range = u.iter().fold(0.0f64, |m, u| m.max(u.abs())).max(1.0);
-            for v in solver.mesh().vertices() {
+            for v in flow.mesh().vertices() {
                 let difference = (u[v] - u[double.mirror(v)]).abs();
                 assert!(difference < 1e-6 * range, "{what}: {difference} at {v}");
             }
@@ -135,7 +108,8 @@ fn rounding_that_differs_between_mirror_images_does_not_hold_the_error() {
     // order, leave η so different that symmetric steps alone stop at 1e-5.
     let found = corpus().into_iter().find(|(name, ..)| name == "elephant_with_holes.obj");
     let Some((name, mesh, lengths)) = found else { return };
-    let target = Target::Single(VertexId(0)).resolve(&mesh, &lengths, Space::E2, Scheme::Yamabe).unwrap();
+    let target = Target::Single(VertexId(0));
+    let target = target.resolve(&euclidean(&mesh, &lengths), Class::yamabe(Space::E2)).unwrap();
     let mut flow = started(&(mesh, lengths), (Space::E2, Scheme::Yamabe), &Options::default());
     let report = reach(&mut flow, &target, &name);
     println!("{name}: {} steps, {} flips", report.iterations, report.flips);

@@ -5,23 +5,23 @@ mod common;
 
 use common::Random;
 use common::flips::{SCHEMES, drawn_below, honest, reach, started};
-use common::flow::surface;
-use ricci::Control;
-use ricci::flow::{Options, SurfaceFlow};
+use common::flow::{attempt, euclidean, surface};
+use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::{Double, Mesh, PerEdge, PerVertex, VertexId, shapes};
-use ricci::metric::{Scheme, Target};
+use ricci::metric::Scheme;
+use ricci::{Control, Flow, Target};
 
 /// log of the change of size at the given vertices, its mean subtracted.
-fn factor(flow: &SurfaceFlow, n: usize) -> Vec<f64> {
-    let factor = flow.now().conformal_factor().unwrap();
+fn factor(flow: &Flow, n: usize) -> Vec<f64> {
+    let factor = flow.solution().conformal_factor().unwrap();
     let half: Vec<f64> = factor.iter().take(n).copied().collect();
     let mean = half.iter().sum::<f64>() / n as f64;
     half.iter().map(|u| u - mean).collect()
 }
 
 /// Flow on the double given as a closed surface of its own.
-fn on_the_double(given: &(Mesh, PerEdge<f64>), target: &PerVertex<f64>, scheme: Scheme) -> SurfaceFlow {
+fn on_the_double(given: &(Mesh, PerEdge<f64>), target: &PerVertex<f64>, scheme: Scheme) -> Flow {
     let double = Double::new(&given.0).unwrap();
     let lengths = double.spread_edges(&given.1).unwrap().into();
     let target = double.target(target).unwrap().into();
@@ -39,7 +39,7 @@ fn one_copy_does_where_the_boundary_stays_delaunay() {
     let flat = surface(&shapes::disk(12).unwrap());
     let n = flat.0.n_vertices();
     // Hills inside: the boundary hardly notices.
-    let mut target = Target::Boundary.values(&flat.0, &flat.1, Space::E2).unwrap();
+    let mut target = Target::Boundary.values(&euclidean(&flat.0, &flat.1), Space::E2).unwrap();
     (target[VertexId(0)], target[VertexId(9)]) = (0.3, -0.3);
     for scheme in SCHEMES {
         let mut flow = started(&flat, (Space::E2, scheme), &Options::default());
@@ -60,7 +60,7 @@ fn one_copy_does_where_the_boundary_stays_delaunay() {
 fn the_flow_goes_on_in_the_double_where_the_boundary_gives_way() {
     let flat = surface(&shapes::disk(8).unwrap());
     let n = flat.0.n_vertices();
-    let first = Target::Boundary.values(&flat.0, &flat.1, Space::E2).unwrap();
+    let first = Target::Boundary.values(&euclidean(&flat.0, &flat.1), Space::E2).unwrap();
     let total: f64 = first.iter().sum();
     let mut random = Random::new(4);
     for scheme in SCHEMES {
@@ -69,7 +69,7 @@ fn the_flow_goes_on_in_the_double_where_the_boundary_gives_way() {
             let mut flow = started(&flat, (Space::E2, scheme), &Options::default());
             reach(&mut flow, &first, "round");
             assert!(flow.double().is_none(), "{scheme}: one copy to begin with");
-            let before = flow.now();
+            let before = flow.solution();
             // Curvature at random, the boundary included.
             let mut target = PerVertex::from_fn(n, |_: VertexId| f64::from(round) * 0.6 * random.symmetric());
             drawn_below(&mut target, total, 2.8);
@@ -88,8 +88,7 @@ fn the_flow_goes_on_in_the_double_where_the_boundary_gives_way() {
             assert!(worst < 1e-8, "{scheme}: {worst:e}");
             // Both go on to the next target, and a flow from either metric ends where they do.
             reach(&mut flow, &first, "round again");
-            let mut resumed =
-                SurfaceFlow::resume(&before, &[], &Options::default(), &Control::new()).unwrap();
+            let mut resumed = Flow::resume(&before, &Options::default(), &Control::new()).unwrap();
             reach(&mut resumed, &first, "resumed");
             assert!(distance(&factor(&flow, n), &factor(&resumed, n)) < 1e-8, "{scheme}");
         }
@@ -105,8 +104,8 @@ fn obtuse_boundaries_begin_on_the_double() {
     for scheme in [Scheme::Yamabe, Scheme::Inversive, Scheme::Virtual] {
         let mut flow = started(&rough, (Space::E2, scheme), &Options::default());
         assert!(flow.double().is_some(), "{scheme}");
-        let target = Target::Boundary.values(&rough.0, &rough.1, Space::E2).unwrap();
-        let report = flow.solve(&target, &Control::new()).unwrap();
+        let target = Target::Boundary.values(&euclidean(&rough.0, &rough.1), Space::E2).unwrap();
+        let report = attempt(&mut flow, &target);
         let reached = honest(&flow, &report, &target, "rough");
         assert!(reached, "{scheme}: {}", report.stop_reason);
     }

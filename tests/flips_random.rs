@@ -5,11 +5,11 @@ mod common;
 
 use common::Random;
 use common::flips::{SCHEMES, drawn_below, reach, shuffle, started};
-use common::flow::surface;
+use common::flow::{euclidean, surface};
 use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, shapes};
-use ricci::metric::{Scheme, Target};
+use ricci::{Class, Target};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -92,8 +92,9 @@ fn the_result_depends_on_the_metric_and_not_on_its_triangulation() {
         assert!(2 * flips > edges, "{name}: {flips} of {edges} edges");
         let curved = (given.0.euler() < 0).then_some(Space::H2);
         for space in [Space::E2].into_iter().chain(curved) {
-            let target = Target::default_for(&given.0, &given.1, space).unwrap();
-            let target = target.resolve(&given.0, &given.1, space, Scheme::Yamabe).unwrap();
+            let whole = euclidean(&given.0, &given.1);
+            let target = Target::default_for(&whole, space).unwrap();
+            let target = target.resolve(&whole, Class::yamabe(space)).unwrap();
             for scheme in SCHEMES {
                 let what = format!("{name} {space} {scheme}, {flips} flips");
                 let run = |surface: &(Mesh, PerEdge<f64>)| {

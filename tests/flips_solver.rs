@@ -5,13 +5,13 @@ mod common;
 
 use common::Random;
 use common::flips::{SCHEMES, honest, measure, reach, started};
-use common::flow::{distance, surface};
-use ricci::flow::{Flips, Options, Report, Solver, StopReason, SurfaceFlow};
+use common::flow::{attempt, distance, euclidean, surface};
+use ricci::flow::{Flips, Options, StopReason};
 use ricci::geometry::Space;
 use ricci::mesh::io::Soup;
 use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, VertexId, shapes};
-use ricci::metric::{Metric, Refinement, Scheme, Target, initial_metric};
-use ricci::{Control, Error};
+use ricci::metric::{Metric, Refinement, Scheme, initial_metric};
+use ricci::{Class, Control, Error, Flow, Target};
 use std::f64::consts::PI;
 use std::time::Duration;
 
@@ -36,8 +36,8 @@ fn cones(mesh: &Mesh, seed: u64) -> PerVertex<f64> {
     target
 }
 
-fn everything(flow: &SurfaceFlow) -> (Mesh, Metric, Refinement) {
-    (flow.mesh().clone(), flow.metric().clone(), flow.refinement(&Control::new()).unwrap())
+fn everything(flow: &Flow) -> (Mesh, Metric, Refinement) {
+    (flow.mesh().clone(), flow.metric().clone(), flow.solution().refinement(&Control::new()).unwrap())
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn a_cancelled_flow_leaves_everything_as_it_was() {
         let start = everything(&flow);
         let before = Control::new();
         before.cancel();
-        assert_eq!(flow.solve(&target, &before).unwrap_err(), Error::Cancelled);
+        assert!(matches!(flow.solve(&Target::All(target.clone()), &before), Err(Error::Cancelled)));
         assert!(everything(&flow) == start, "{scheme}: cancelled before it began");
         reach(&mut flow, &target, "first target");
         let reached = everything(&flow);
@@ -96,7 +96,7 @@ fn a_cancelled_flow_leaves_everything_as_it_was() {
                     std::thread::sleep(Duration::from_secs_f64(report.seconds.total * f64::from(part) / 8.0));
                     control.cancel();
                 });
-                flow.solve(&next, &control)
+                flow.solve(&Target::All(next.clone()), &control)
             });
             match result {
                 Err(error) => {
@@ -121,14 +121,14 @@ fn a_cancelled_flow_leaves_everything_as_it_was() {
 fn without_flips_the_triangulation_stays() {
     let (mesh, lengths) = surface(&shapes::genus(2, 3).unwrap());
     let start = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap().metric;
-    let target = Target::Single(VertexId(7)).values(&mesh, &lengths, Space::E2).unwrap();
+    let target = Target::Single(VertexId(7)).values(&euclidean(&mesh, &lengths), Space::E2).unwrap();
     let options = |flips| Options { flips, ..Options::default() };
-    let mut rigid = Solver::new(mesh.clone(), start.clone(), options(Flips::Never)).unwrap();
-    let report = rigid.solve(&target, &Control::new()).unwrap();
+    let mut rigid = Flow::from_metric(mesh.clone(), start.clone(), &options(Flips::Never)).unwrap();
+    let report = attempt(&mut rigid, &target);
     assert!(rigid.mesh() == &mesh && rigid.metric().eta == start.eta && report.flips == 0);
-    assert!(!report.converged, "this target needs flips");
-    let mut free = Solver::new(mesh.clone(), start, options(Flips::Auto)).unwrap();
-    let report = free.solve(&target, &Control::new()).unwrap();
+    assert!(!report.is_reached(), "this target needs flips");
+    let mut free = Flow::from_metric(mesh.clone(), start, &options(Flips::Auto)).unwrap();
+    let report = attempt(&mut free, &target);
     assert_eq!(report.stop_reason, StopReason::Converged);
     assert!(report.flips > 0 && free.mesh() != &mesh);
 }
@@ -138,19 +138,18 @@ fn fixed_edges_stay() {
     let (given, lengths) = surface(&shapes::punch(&shapes::genus(2, 4).unwrap(), 1).unwrap());
     let fixed: Vec<EdgeId> = given.edges().filter(|e| e.index() % 5 == 0).collect();
     let ends: Vec<[VertexId; 2]> = fixed.iter().map(|&e| given.ends(e)).collect();
-    let target = Target::default_for(&given, &lengths, Space::E2).unwrap();
-    let target = target.values(&given, &lengths, Space::E2).unwrap();
+    let surface = euclidean(&given, &lengths);
+    let target = Target::default_for(&surface, Space::E2).unwrap();
     let begin = |fixed_edges| {
         let options = Options { fixed_edges, ..Options::default() };
-        let (space, scheme) = (Space::E2, Scheme::Yamabe);
-        SurfaceFlow::new(&given, &lengths, Space::E2, scheme, space, &[], &options, &Control::new())
+        Flow::new(surface.clone(), Class::yamabe(Space::E2), &options, &Control::new())
     };
     let run = |fixed_edges| {
         let mut flow = begin(fixed_edges).unwrap();
         flow.solve(&target, &Control::new()).unwrap();
         flow
     };
-    let kept = |flow: &SurfaceFlow| {
+    let kept = |flow: &Flow| {
         let sides = |e: EdgeId| [e.halfedge(), e.halfedge().twin()].map(|h| flow.mesh().prev(h));
         fixed.iter().zip(&ends).all(|(&e, ends)| flow.mesh().ends(e) == *ends && sides(e)[0] != sides(e)[1])
     };
@@ -168,7 +167,7 @@ fn the_way_back_gives_the_first_metric_back() {
                 let what = format!("χ = {} {space} {scheme}", surface.0.euler());
                 let mut flow = started(surface, (space, scheme), &Options::default());
                 let first = PerVertex::from(measure(flow.mesh(), flow.metric()).curvature);
-                let sorted = |flow: &SurfaceFlow| {
+                let sorted = |flow: &Flow| {
                     let mut lengths = flow.metric().lengths(flow.mesh()).unwrap().to_vec();
                     lengths.sort_by(f64::total_cmp);
                     lengths
@@ -199,23 +198,15 @@ fn pinned_vertices_hold_while_edges_flip() {
     let torus = noisy(shapes::torus(2.0, 0.7, 24, 12).unwrap(), 0.2);
     let boundary: Vec<VertexId> = disk.0.vertices().filter(|&v| disk.0.is_boundary_vertex(v)).collect();
     let cases = [("disk", disk, boundary), ("torus", torus, [0, 50, 51, 200].map(VertexId).to_vec())];
-    for (name, (mesh, lengths), pins) in &cases {
+    for (name, surface, pins) in &cases {
+        let mesh = &surface.0;
         for scheme in SCHEMES {
             let what = format!("{name} {scheme}");
-            let made = SurfaceFlow::new(
-                mesh,
-                lengths,
-                Space::E2,
-                scheme,
-                Space::E2,
-                pins,
-                &Options::default(),
-                &Control::new(),
-            );
-            let mut flow = made.unwrap();
+            let options = Options { pinned: pins.clone(), ..Options::default() };
+            let mut flow = started(surface, (Space::E2, scheme), &options);
             let start = flow.metric().u.clone();
             let mut target = cones(mesh, 9);
-            let report = flow.solve(&target, &Control::new()).unwrap();
+            let report = attempt(&mut flow, &target);
             assert!(flow.double().is_none() && flow.start_flips() + report.flips > 0, "{what}");
             assert!(pins.iter().all(|&v| flow.metric().u[v] == start[v]), "{what}");
             // Their curvature is free.
@@ -240,21 +231,22 @@ fn imaginary_circles_flip_as_far_as_they_can_and_claim_no_more() {
     ];
     for (name, surface) in &surfaces {
         for space in [Some(Space::E2), (surface.0.euler() < 0).then_some(Space::H2)].into_iter().flatten() {
-            let default = Target::default_for(&surface.0, &surface.1, space).unwrap();
-            let default = default.values(&surface.0, &surface.1, space).unwrap();
+            let given = euclidean(&surface.0, &surface.1);
+            let default = Target::default_for(&given, space).unwrap().values(&given, space).unwrap();
             let mut targets = vec![("default", default)];
             targets.extend((space == Space::E2).then(|| ("cones", cones(&surface.0, 10))));
             for (kind, target) in targets {
                 let what = format!("{name} {space} {kind}");
                 let mut flow = started(surface, (space, Scheme::Virtual), &Options::default());
-                let report: Report = flow.solve(&target, &Control::new()).unwrap();
+                let report = attempt(&mut flow, &target);
                 let reached = honest(&flow, &report, &target, &what);
                 println!(
                     "virtual, {what}: {} after {}, {} flips",
                     report.stop_reason, report.iterations, report.flips
                 );
                 // Whatever came of it, the report says what the metric is.
-                let (found, wanted) = (measure(flow.mesh(), flow.metric()), flow.target(&target).unwrap());
+                let (found, wanted) =
+                    (measure(flow.mesh(), flow.metric()), flow.spread_target(&target).unwrap());
                 assert_eq!(found.broken, report.broken_triangles, "{what}");
                 let off = |v: VertexId| (found.curvature[v.index()] - wanted[v]).abs();
                 let error = flow.mesh().vertices().map(off).fold(0.0, f64::max);
@@ -277,10 +269,10 @@ fn imaginary_circles_flip_as_far_as_they_can_and_claim_no_more() {
 
 /// Largest power, with respect to the circle orthogonal to those around a face's corners, that the circle beyond a side has below
 /// zero: relative to the squared size of the two triangles, laid out in the plane.
-fn deepest(flow: &SurfaceFlow) -> f64 {
+fn deepest(flow: &Flow) -> f64 {
     let (mesh, metric) = (flow.mesh(), flow.metric());
     let lengths = metric.lengths(mesh).unwrap();
-    let square = |v: VertexId| f64::from(metric.epsilon[v]) * metric.radii()[v].powi(2);
+    let square = |v: VertexId| f64::from(metric.epsilon[v]) * metric.radii().unwrap()[v].powi(2);
     let squares: PerVertex<f64> = PerVertex::from_fn(mesh.n_vertices(), square);
     let mut worst = 0.0f64;
     for e in mesh.edges() {
@@ -337,36 +329,25 @@ fn the_final_triangulation_is_weighted_delaunay_by_the_circles_themselves() {
 fn flows_that_go_on_from_a_metric_end_where_new_ones_do() {
     for soup in [shapes::genus(1, 3).unwrap(), shapes::punch(&shapes::genus(1, 3).unwrap(), 2).unwrap()] {
         let (given, lengths) = surface(&soup);
-        let first = Target::default_for(&given, &lengths, Space::E2).unwrap();
-        let first = first.values(&given, &lengths, Space::E2).unwrap();
+        let whole = euclidean(&given, &lengths);
+        let first = Target::default_for(&whole, Space::E2).unwrap().values(&whole, Space::E2).unwrap();
         let inside: Vec<VertexId> = given.vertices().filter(|&v| !given.is_boundary_vertex(v)).collect();
         let mut second = first.clone();
         (second[inside[3]], second[inside[40]]) = (1.5, -1.5);
         for scheme in SCHEMES {
             let options = Options::default();
-            let begin = || {
-                SurfaceFlow::new(
-                    &given,
-                    &lengths,
-                    Space::E2,
-                    scheme,
-                    Space::E2,
-                    &[],
-                    &options,
-                    &Control::new(),
-                )
-                .unwrap()
-            };
+            let class = Class::new(scheme, Space::E2);
+            let begin = || Flow::new(whole.clone(), class, &options, &Control::new()).unwrap();
             let (mut straight, mut aside) = (begin(), begin());
-            assert!(straight.solve(&second, &Control::new()).unwrap().converged);
-            assert!(aside.solve(&first, &Control::new()).unwrap().converged);
-            let halfway = aside.now();
+            assert!(attempt(&mut straight, &second).converged());
+            assert!(attempt(&mut aside, &first).converged());
+            let halfway = aside.solution();
             assert!(halfway.double().is_none() || !given.is_closed());
             let k = halfway.curvature().unwrap().at;
             assert!(given.vertices().all(|v| (k[v] - first[v]).abs() < 1e-9));
-            let mut resumed = SurfaceFlow::resume(&halfway, &[], &options, &Control::new()).unwrap();
-            assert!(resumed.solve(&second, &Control::new()).unwrap().converged);
-            let (a, b) = (straight.now(), resumed.now());
+            let mut resumed = Flow::resume(&halfway, &options, &Control::new()).unwrap();
+            assert!(attempt(&mut resumed, &second).converged());
+            let (a, b) = (straight.solution(), resumed.solution());
             assert!(b.flips() >= halfway.flips() && a.start_flips() == b.start_flips());
             let [a, b] = [a, b].map(|end| end.conformal_factor().unwrap());
             // Up to scale.
@@ -376,11 +357,11 @@ fn flows_that_go_on_from_a_metric_end_where_new_ones_do() {
 
             // Without flips the triangulation stays where it is; other fixed edges begin anew.
             let never = Options { flips: Flips::Never, ..Options::default() };
-            let mut rigid = SurfaceFlow::resume(&halfway, &[], &never, &Control::new()).unwrap();
-            rigid.solve(&first, &Control::new()).unwrap();
-            assert!(rigid.now().mesh() == halfway.mesh() && rigid.now().flips() == halfway.flips());
+            let mut rigid = Flow::resume(&halfway, &never, &Control::new()).unwrap();
+            attempt(&mut rigid, &first);
+            assert!(rigid.solution().mesh() == halfway.mesh() && rigid.solution().flips() == halfway.flips());
             let fixed = Options { fixed_edges: given.edges().collect(), ..Options::default() };
-            let anew = SurfaceFlow::resume(&halfway, &[], &fixed, &Control::new()).unwrap().now();
+            let anew = Flow::resume(&halfway, &fixed, &Control::new()).unwrap().solution();
             assert!(anew.flips() == 0 && anew.is_unflipped());
         }
     }

@@ -4,19 +4,19 @@
 mod common;
 
 use common::Random;
-use common::flow::{converged, rigid, solve, surface};
-use ricci::flow::{StopReason, flow};
+use common::flow::{converged, euclidean, rigid, solve, surface};
+use ricci::flow::StopReason;
 use ricci::geometry::Space;
 use ricci::mesh::shapes;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use ricci::metric::{Scheme, Target, curvature, initial_metric};
-use ricci::{Control, Error};
+use ricci::metric::{Scheme, curvature, initial_metric};
+use ricci::{Class, Error, Surface, Target};
 use std::f64::consts::PI;
 
 #[test]
 fn inadmissible_targets_are_refused_with_the_amount() {
-    let (mesh, lengths) = surface(&shapes::icosphere(2).unwrap());
-    let resolve = |target: Target, space| target.resolve(&mesh, &lengths, space, Scheme::Yamabe).unwrap_err();
+    let sphere = Surface::from_soup(&shapes::icosphere(2).unwrap()).unwrap();
+    let resolve = |target: Target, space| target.resolve(&sphere, Class::yamabe(space)).unwrap_err();
     match resolve(Target::Cones(vec![(VertexId(3), 7.0)]), Space::E2) {
         Error::TargetAtVertex { vertex: 3, excess, .. } => assert!((excess - (7.0 - 2.0 * PI)).abs() < 1e-14),
         other => panic!("{other}"),
@@ -41,10 +41,10 @@ fn inadmissible_targets_are_refused_with_the_amount() {
         (VertexId(22), 5.0),
         (VertexId(23), 5.0),
     ]);
-    let error = low.resolve(&mesh, &lengths, Space::E2, Scheme::Tangential).unwrap_err();
+    let error = low.resolve(&sphere, Class::new(Scheme::Tangential, Space::E2)).unwrap_err();
     assert!(matches!(error, Error::TargetBelow { vertex: 0, .. }), "{error}");
-    let (disk, lengths) = surface(&shapes::disk(3).unwrap());
-    let error = Target::Uniform.resolve(&disk, &lengths, Space::E2, Scheme::Yamabe).unwrap_err();
+    let disk = Surface::from_soup(&shapes::disk(3).unwrap()).unwrap();
+    let error = Target::Uniform.resolve(&disk, Class::yamabe(Space::E2)).unwrap_err();
     assert!(matches!(error, Error::TargetKind { target: "uniform", .. }));
 }
 
@@ -120,9 +120,9 @@ fn a_triangulation_without_solution_is_reported_as_such() {
     // Another vertex takes the curvature back.
     target[VertexId(3)] -= 6.0;
     (0..12).filter(|v| ![0, 3].contains(v)).for_each(|v| target[VertexId(v)] += 0.6);
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
-    let (_, metric, report) = flow(&mesh, &initial.metric, &target, &rigid(), &Control::new()).unwrap();
-    assert!(!report.converged, "{report:?}");
+    let initial = euclidean(&mesh, &lengths).initial(Class::yamabe(Space::E2)).unwrap();
+    let (metric, report) = solve(&mesh, &initial.metric, &target, &rigid());
+    assert!(!report.is_reached(), "{report:?}");
     assert!(report.broken_triangles > 0);
     assert_eq!(report.stop_reason, StopReason::BrokenTriangles);
     assert!(metric.u.iter().all(|u| u.is_finite()));

@@ -3,18 +3,17 @@
 
 mod common;
 
-use common::flow::surface;
+use common::flow::{euclidean, surface};
 use ricci::embed::unroll::CONE_TOLERANCE;
 use ricci::embed::{Layout, Scale, UnrollOptions, cones_of, unroll};
-use ricci::flow::{Flips, Options, SurfaceFlow, auto_cones};
+use ricci::flow::{Flips, Options, Solution, auto_cones, flow};
 use ricci::geometry::{PlaneIsometry, Space};
 use ricci::mesh::io::Soup;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::curvature::area;
-use ricci::metric::{Scheme, SurfaceMetric, Target};
 use ricci::topology::cut::is_disk;
 use ricci::topology::cut_graph;
-use ricci::{Control, Error};
+use ricci::{Class, Control, Error, Target};
 use std::f64::consts::PI;
 
 fn flow_to(
@@ -22,14 +21,12 @@ fn flow_to(
     space: Space,
     target: &PerVertex<f64>,
     flips: Flips,
-) -> SurfaceMetric {
+) -> Solution {
     let options = Options { flips, ..Options::default() };
-    let control = Control::new();
-    let mut flow =
-        SurfaceFlow::new(mesh, lengths, Space::E2, Scheme::Yamabe, space, &[], &options, &control).unwrap();
-    let report = flow.solve(target, &control).unwrap();
-    assert!(report.converged || flips == Flips::Never);
-    flow.now()
+    let (class, target) = (Class::yamabe(space), Target::All(target.clone()));
+    let found = flow(euclidean(mesh, lengths), class, &target, &options, &Control::new()).unwrap();
+    assert!(found.converged() || flips == Flips::Never);
+    found
 }
 
 fn with_cones(cones: &[VertexId]) -> UnrollOptions {
@@ -100,13 +97,11 @@ fn layouts_in_the_plane_are_cut_along_the_inputs_edges() {
     for (name, soup) in surfaces {
         let surface = surface(&soup);
         let mesh = &surface.0;
+        let given = euclidean(mesh, &surface.1);
         let target = match mesh.euler() {
             2 => auto_cones(mesh, &surface.1, 6, &Control::new()).unwrap().target,
-            -2 => Target::Single(VertexId(3)).values(mesh, &surface.1, Space::E2).unwrap(),
-            _ => Target::default_for(mesh, &surface.1, Space::E2)
-                .unwrap()
-                .values(mesh, &surface.1, Space::E2)
-                .unwrap(),
+            -2 => Target::Single(VertexId(3)).values(&given, Space::E2).unwrap(),
+            _ => Target::default_for(&given, Space::E2).unwrap().values(&given, Space::E2).unwrap(),
         };
         for flips in [Flips::Auto, Flips::Never] {
             if ["genus 2", "open torus"].contains(&name) && flips == Flips::Never {
@@ -118,12 +113,12 @@ fn layouts_in_the_plane_are_cut_along_the_inputs_edges() {
             let what = format!("{name}, flips {flips:?}, {} of them", result.flips());
             check(mesh, &layout, &what);
             assert_eq!(layout.refinement().is_some(), !result.is_unflipped());
-            let given = area(mesh, Space::E2, &surface.1).unwrap();
-            assert!((layout.area / given - 1.0).abs() < 1e-12, "{what}");
+            let given_area = area(mesh, Space::E2, &surface.1).unwrap();
+            assert!((layout.area / given_area - 1.0).abs() < 1e-12, "{what}");
             let options = UnrollOptions { scale: Scale::AsSolved, ..with_cones(&cones) };
             let solved = unroll(&result, &options, &Control::new()).unwrap();
             assert_eq!(solved.scale, 1.0);
-            assert!((solved.area * layout.scale * layout.scale / given - 1.0).abs() < 1e-12, "{what}");
+            assert!((solved.area * layout.scale * layout.scale / given_area - 1.0).abs() < 1e-12, "{what}");
             let quality = layout.quality(mesh, &surface.1).unwrap();
             assert!(quality.qc_mean >= 1.0 && quality.qc_mean < 3.0, "{what}: {}", quality.qc_mean);
         }
@@ -212,11 +207,9 @@ fn a_sphere_in_its_own_space_has_no_cut_and_an_explicit_cut_is_kept() {
     let round = surface(&shapes::icosphere(4).unwrap());
     let (mesh, lengths) = &round;
     let (options, control) = (Options { tolerance: 1e-8, ..Options::default() }, Control::new());
-    let mut flow =
-        SurfaceFlow::new(mesh, lengths, Space::E2, Scheme::Yamabe, Space::S2, &[], &options, &control)
-            .unwrap();
-    flow.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), &control).unwrap();
-    let layout = unroll(&flow.now(), &with_cones(&[]), &control).unwrap();
+    let class = Class::yamabe(Space::S2);
+    let found = flow(euclidean(mesh, lengths), class, &Target::Uniform, &options, &control).unwrap();
+    let layout = unroll(&found, &with_cones(&[]), &control).unwrap();
     assert!(layout.seams.is_empty() && layout.flipped.is_empty());
     assert!((layout.area - 4.0 * PI).abs() < 1e-6, "{}", layout.area);
 }
@@ -226,7 +219,7 @@ fn layouts_do_not_depend_on_the_number_of_threads() {
     let surface = surface(&shapes::genus(2, 8).unwrap());
     let mesh = &surface.0;
     let cone = VertexId(11);
-    let target = Target::Single(cone).values(mesh, &surface.1, Space::E2).unwrap();
+    let target = Target::Single(cone).values(&euclidean(mesh, &surface.1), Space::E2).unwrap();
     let flat = flow_to(&surface, Space::E2, &target, Flips::Auto);
     let curved = flow_to(&surface, Space::H2, &PerVertex::filled(mesh.n_vertices(), 0.0), Flips::Auto);
     for (result, cones) in [(flat, vec![cone]), (curved, Vec::new())] {

@@ -48,7 +48,7 @@ pub fn circles(mesh: &Mesh, metric: &Metric, scheme: &'static str, laid: &Laid) 
     if layout.space != Space::E2 {
         return None;
     }
-    let (gamma, scale) = (metric.radii(), layout.scale);
+    let (gamma, scale) = (metric.radii().ok()?, layout.scale);
     let n_given = laid.refinement().map_or(mesh.n_vertices(), |r| r.n_input_vertices);
     let mut vertex_of = vec![None; layout.coordinates.len()];
     for h in laid.mesh().halfedges().filter(|&h| laid.mesh().origin(h).index() < n_given) {

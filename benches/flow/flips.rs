@@ -1,11 +1,11 @@
 //! What edge flips cost: where none is needed, where many are, and the way back.
 
 use super::{heap, median};
-use ricci::Control;
-use ricci::flow::{Flips, Options, Report, SurfaceFlow, flow};
+use ricci::flow::{Flips, Options, Report};
 use ricci::geometry::Space;
-use ricci::mesh::{Mesh, PerEdge, PerVertex, shapes};
-use ricci::metric::{Scheme, Target, lengths_from_positions};
+use ricci::mesh::{Mesh, PerVertex, shapes};
+use ricci::metric::Scheme;
+use ricci::{Class, Control, Flow, Surface, Target};
 use std::f64::consts::PI;
 use std::time::Instant;
 
@@ -19,9 +19,9 @@ const CONES: usize = 8;
 /// Seconds of one flow from the input to the metric, and to the refinement.
 #[derive(Clone)]
 pub struct Run {
-    /// [`SurfaceFlow::new`]: the double, Delaunay, circles, the solver.
+    /// [`Flow::new`]: the double, Delaunay, circles.
     pub start: f64,
-    /// [`SurfaceFlow::solve`].
+    /// [`Flow::solve`].
     pub report: Report,
     pub start_flips: usize,
 }
@@ -50,8 +50,6 @@ pub struct Row {
     pub bytes: usize,
 }
 
-type Surface = (Mesh, PerEdge<f64>);
-
 fn seconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
     let start = Instant::now();
     let result = work();
@@ -59,26 +57,27 @@ fn seconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
 }
 
 /// The surface in the class of `scheme`, and the seconds that took.
-fn start((mesh, lengths): &Surface, scheme: Scheme, flips: Flips) -> (f64, SurfaceFlow) {
-    let options = Options { flips, ..Options::default() };
-    seconds(|| {
-        SurfaceFlow::new(mesh, lengths, Space::E2, scheme, Space::E2, &[], &options, &Control::new()).unwrap()
-    })
+fn start(surface: &Surface, scheme: Scheme, flips: Flips) -> (f64, Flow) {
+    let (class, options) = (Class::new(scheme, Space::E2), Options { flips, ..Options::default() });
+    seconds(|| Flow::new(surface.clone(), class, &options, &Control::new()).unwrap())
+}
+
+/// The report of a flow to a target.
+fn solve(flow: &mut Flow, target: &Target) -> Report {
+    flow.solve(target, &Control::new()).unwrap().report().unwrap().clone()
 }
 
 /// A flat torus of equilateral triangles.
 fn acute(vertices: usize) -> Surface {
     let side = (vertices as f64).sqrt() as usize;
-    shapes::flat_torus([-0.5, 0.75f64.sqrt()], side, side).unwrap().build().unwrap()
+    let (mesh, lengths) = shapes::flat_torus([-0.5, 0.75f64.sqrt()], side, side).unwrap().build().unwrap();
+    Surface::intrinsic(mesh, lengths, Space::E2).unwrap()
 }
 
 /// A flat disk of nearly equilateral triangles.
 fn acute_disk(vertices: usize) -> Surface {
     let rings = (vertices as f64 / 3.0).sqrt() as usize;
-    let soup = shapes::disk(rings).unwrap();
-    let mesh = Mesh::from_soup(&soup).unwrap();
-    let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-    (mesh, lengths)
+    Surface::from_soup(&shapes::disk(rings).unwrap()).unwrap()
 }
 
 /// A torus of revolution whose triangles are twice as long as wide, with noise.
@@ -86,9 +85,7 @@ fn rough(vertices: usize) -> Surface {
     let side = (vertices as f64 / 4.0).sqrt();
     let mut soup = shapes::torus(2.0, 0.9, (4.0 * side) as usize, side as usize).unwrap();
     shapes::noise(&mut soup, 0.2, 1).unwrap();
-    let mesh = Mesh::from_soup(&soup).unwrap();
-    let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-    (mesh, lengths)
+    Surface::from_soup(&soup).unwrap()
 }
 
 /// Curvature in waves, so small that no edge loses the Delaunay property.
@@ -101,23 +98,24 @@ fn waves(mesh: &Mesh) -> PerVertex<f64> {
 }
 
 /// Cones of ±π in turn, evenly spread over the vertices.
-fn cones(surface: &Surface) -> PerVertex<f64> {
-    let n = surface.0.n_vertices();
+fn cones(surface: &Surface) -> Target {
+    let n = surface.mesh().n_vertices();
     let at = (0..CONES).map(|k| ((n / CONES * k).into(), if k % 2 == 0 { PI } else { -PI }));
-    Target::Cones(at.collect()).resolve(&surface.0, &surface.1, Space::E2, Scheme::Yamabe).unwrap()
+    Target::Cones(at.collect())
 }
 
 /// From the input to a disk of waves, with and without flips.
 fn open(vertices: usize, scheme: Scheme) -> ([Run; 2], f64) {
     let surface = acute_disk(vertices);
-    let mut target = Target::Boundary.values(&surface.0, &surface.1, Space::E2).unwrap();
+    let mut target = Target::Boundary.values(&surface, Space::E2).unwrap();
     // The disk is not as regular as the torus.
-    target.iter_mut().zip(waves(&surface.0).iter()).for_each(|(k, wave)| *k += 0.1 * wave);
+    target.iter_mut().zip(waves(surface.mesh()).iter()).for_each(|(k, wave)| *k += 0.1 * wave);
+    let target = Target::All(target);
     let run = |flips| {
         let (start, mut flow) = start(&surface, scheme, flips);
-        let report = flow.solve(&target, &Control::new()).unwrap();
+        let report = solve(&mut flow, &target);
         assert!(
-            report.converged && report.flips == 0 && flow.double().is_none(),
+            report.converged() && report.flips == 0 && flow.double().is_none(),
             "flips where none should be"
         );
         Run { start, report, start_flips: 0 }
@@ -130,7 +128,7 @@ fn open(vertices: usize, scheme: Scheme) -> ([Run; 2], f64) {
 
 pub fn measure(vertices: usize, scheme: Scheme) -> Row {
     let surface = acute(vertices);
-    let target = waves(&surface.0);
+    let target = Target::All(waves(surface.mesh()));
     let (mut never, mut auto) = (Vec::new(), Vec::new());
     // Inversive distance starts from smaller circles where edges may flip: both flows start from those.
     let (_, first) = start(&surface, scheme, Flips::Auto);
@@ -142,8 +140,9 @@ pub fn measure(vertices: usize, scheme: Scheme) -> Row {
         for (flips, runs) in [(Flips::Never, &mut never), (Flips::Auto, &mut auto)] {
             let (start, _) = start(&surface, scheme, flips);
             let options = Options { flips, ..Options::default() };
-            let (_, _, report) = flow(&surface.0, metric, &target, &options, &Control::new()).unwrap();
-            assert!(report.converged && report.flips == 0, "flips where none should be");
+            let mesh = Mesh::clone(surface.mesh());
+            let report = solve(&mut Flow::from_metric(mesh, metric.clone(), &options).unwrap(), &target);
+            assert!(report.converged() && report.flips == 0, "flips where none should be");
             runs.push(Run { start, report, start_flips: 0 });
         }
         assert_eq!(auto[round - 1].report.iterations, never[round - 1].report.iterations);
@@ -156,19 +155,19 @@ pub fn measure(vertices: usize, scheme: Scheme) -> Row {
     for _ in 0..rounds {
         let (peak, (took, run)) = heap::peak(|| {
             let (start, mut flow) = start(&surface, scheme, Flips::Auto);
-            let report = flow.solve(&target, &Control::new()).unwrap();
-            assert!(report.converged, "{report:?}");
+            let report = solve(&mut flow, &target);
+            assert!(report.converged(), "{report:?}");
             let run = Run { start, report, start_flips: flow.start_flips() };
-            let (took, refinement) = seconds(|| flow.refinement(&Control::new()).unwrap());
+            let (took, refinement) = seconds(|| flow.solution().refinement(&Control::new()).unwrap());
             triangles = refinement.mesh.n_faces();
             (took, run)
         });
         flipped.push(run);
         refined.push(took);
-        bytes = peak / surface.0.n_vertices();
+        bytes = peak / surface.mesh().n_vertices();
     }
     Row {
-        vertices: surface.0.n_vertices(),
+        vertices: surface.mesh().n_vertices(),
         scheme,
         plain: [middle(never), middle(auto)],
         ratio,

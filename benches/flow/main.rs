@@ -21,11 +21,11 @@ mod peers;
 
 use linear::{Linear, Matrix};
 use peers::Peers;
-use ricci::Control;
 use ricci::flow::{Flips, Options, Report, flow};
 use ricci::geometry::Space;
-use ricci::mesh::{Mesh, shapes};
-use ricci::metric::{Scheme, Target, initial_metric, lengths_from_positions};
+use ricci::mesh::shapes;
+use ricci::metric::Scheme;
+use ricci::{Class, Control, Surface, Target};
 
 /// Rounds of measurements, of which the medians are printed: below 100,000 vertices they are short.
 fn rounds(vertices: usize) -> usize {
@@ -42,7 +42,7 @@ struct Row {
     rounds: usize,
     /// Of the flow of median time.
     report: Report,
-    /// Most bytes of the heap during the flow: mesh, start, target and solver together.
+    /// Most bytes of the heap during the flow: surface, start, target and factor together.
     peak: usize,
     /// faer first, then the peers: medians.
     linear: Vec<Linear>,
@@ -70,23 +70,21 @@ fn measure(vertices: usize, scheme: Scheme, peers: Option<&Peers>) -> Row {
     let side = (vertices as f64 / 2.0).sqrt();
     let mut soup = shapes::torus(2.0, 0.9, (2.0 * side) as usize, side as usize).unwrap();
     shapes::noise(&mut soup, 0.05, 1).unwrap();
-    let mesh = Mesh::from_soup(&soup).unwrap();
-    let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-    let start = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::E2).unwrap().metric;
-    let target = Target::Uniform.resolve(&mesh, &lengths, Space::E2, scheme).unwrap();
-    drop((soup, lengths));
+    let (surface, class) = (Surface::from_soup(&soup).unwrap(), Class::new(scheme, Space::E2));
+    drop(soup);
     let (mut reports, mut solvers) = (Vec::new(), Vec::new());
     let mut peak = 0;
     let rounds = rounds(vertices);
     for round in 1..=rounds {
         eprintln!("{vertices} {scheme}: round {round} of {rounds}");
         let options = Options { flips: Flips::Never, ..Options::default() };
-        let run = || flow(&mesh, &start, &target, &options, &Control::new()).unwrap();
-        let (most, (_, metric, report)) = heap::peak(run);
-        assert!(report.converged, "{report:?}");
+        let run = || flow(surface.clone(), class, &Target::Uniform, &options, &Control::new()).unwrap();
+        let (most, solution) = heap::peak(run);
+        let report = solution.report().unwrap().clone();
+        assert!(report.converged(), "{report:?}");
         peak = peak.max(most);
         reports.push(report);
-        let matrix = Matrix::new(&mesh, &metric);
+        let matrix = Matrix::new(solution.mesh(), solution.metric());
         let mut linear = vec![matrix.faer()];
         if let Some(peers) = peers {
             linear.extend(peers.measure(&matrix));
@@ -98,7 +96,7 @@ fn measure(vertices: usize, scheme: Scheme, peers: Option<&Peers>) -> Row {
     }
     reports.sort_by(|a, b| a.seconds.total.total_cmp(&b.seconds.total));
     Row {
-        vertices: mesh.n_vertices(),
+        vertices: surface.mesh().n_vertices(),
         scheme,
         report: reports.swap_remove(rounds / 2),
         peak,

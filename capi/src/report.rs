@@ -292,7 +292,7 @@ mod tests {
     fn reasons_are_spelt_as_in_the_library() {
         for reason in [
             StopReason::Converged,
-            StopReason::RoundingFloor,
+            StopReason::RoundingFloor { size: 1e-8 },
             StopReason::BrokenTriangles,
             StopReason::Diverged,
             StopReason::Stalled,

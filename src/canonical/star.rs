@@ -12,7 +12,8 @@
 
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::geometry::conformal::{differences, edge};
+use crate::geometry::conformal::{differences, edge, in_one_unit};
+use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::angles_from;
 use crate::mesh::{EdgeId, FaceId, Flip, HalfedgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::Metric;
@@ -92,7 +93,7 @@ impl Punctured {
     /// Half-perimeter differences of a face, from u to twice the digits. Errors: [`Error::EdgeWeight`] at an edge whose length is
     /// beyond doubles.
     fn differences(&self, f: FaceId) -> Result<[f64; 3]> {
-        let corners = self.mesh.face_vertices(f).map(|v| self.metric.vertex(v));
+        let mut corners = self.mesh.face_vertices(f).map(|v| self.metric.vertex(v));
         let sides = self.mesh.opposite_edges(f);
         let side = |k: usize| {
             let (e, need) = (sides[k], "one that gives the edge a length in the range of doubles at this u");
@@ -100,7 +101,9 @@ impl Punctured {
             let made = edge(Space::E2, corners[(k + 1) % 3], corners[(k + 2) % 3], eta);
             made.ok_or(Error::EdgeWeight { edge: e.index(), eta, need })
         };
-        Ok(differences(corners, [side(0)?, side(1)?, side(2)?]))
+        let mut edges = [side(0)?, side(1)?, side(2)?];
+        let unit = in_one_unit(&mut corners, &mut edges);
+        Ok(differences(corners, edges).map(|r| scaled(r, unit)))
     }
 
     /// The face of a half-edge with its corner there. Errors: [`Error::Connectivity`] outside the surface, which is closed.

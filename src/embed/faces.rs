@@ -63,7 +63,7 @@ impl<'a> Faces<'a, Motion<Twofold>> {
     /// Of a metric in any space, with twice the digits of doubles. Errors: those of [`Metric::lengths`].
     pub fn precise(mesh: &'a Mesh, metric: &Metric) -> Result<Self> {
         let chords = metric.half_chords(mesh)?;
-        let angles = half_angles(metric, mesh, &chords);
+        let angles = half_angles(metric, mesh, &metric.scaled_chords(mesh)?);
         let differences = metric.differences(mesh)?;
         let step = |&chord: &Twofold| [Motion::translation_of_chord(chord, metric.space).a[0], chord];
         let area = |f: FaceId| {

@@ -4,7 +4,8 @@ use super::report::{Seconds, timed};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::Space;
-use crate::geometry::conformal::{Edge, Vertex, differences, edge, weights};
+use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit, weights};
+use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles};
 use crate::geometry::twofold::two_sum;
 use crate::geometry::worse;
@@ -40,7 +41,7 @@ impl State {
         }
     }
 
-    /// Compute everything from `self.u`; false when some edge has no real length there (outside the domain).
+    /// Compute everything from `self.u` and `self.low`; false when some edge has no real length there (outside the domain).
     pub fn evaluate(&mut self, mesh: &Mesh, class: &Metric) -> bool {
         if !self.measure(mesh, class) {
             return false;
@@ -176,20 +177,18 @@ impl State {
         self.shift(-(self.u.iter().sum::<f64>() / self.u.len() as f64));
     }
 
-    /// Half-perimeter differences of a face.
-    fn differences(&self, mesh: &Mesh, f: FaceId) -> [f64; 3] {
-        face_differences(mesh, &self.vertices, &self.edges, f)
-    }
-
-    /// Area of a face.
+    /// Area of a face; infinite where doubles end, which takes lengths of 1e154.
     pub fn face_area(&self, mesh: &Mesh, space: Space, f: FaceId) -> f64 {
-        triangle::area_from(space, self.differences(mesh, f))
+        let (corners, edges, unit) = face_parts(mesh, &self.vertices, &self.edges, f);
+        scaled(triangle::area_from(space, differences(corners, edges)), 2 * unit)
     }
 
+    /// Number of faces that break the triangle inequality.
     pub fn broken(&self) -> usize {
         self.angles.iter().filter(|a| a.broken()).count()
     }
 
+    /// Total area; infinite as [`State::face_area`].
     pub fn area(&self, mesh: &Mesh, class: &Metric) -> f64 {
         mesh.faces().map(|f| self.face_area(mesh, class.space, f)).sum()
     }
@@ -211,11 +210,13 @@ fn add(u: f64, low: f64, x: f64) -> (f64, f64) {
     two_sum(sum, lost + low)
 }
 
+/// An edge; without a real length, the default, whose `q2` is 0.
 fn measured_edge(mesh: &Mesh, class: &Metric, vertices: &[Vertex], e: EdgeId) -> Edge {
     let [i, j] = mesh.ends(e);
     edge(class.space, vertices[i.index()], vertices[j.index()], class.eta[e]).unwrap_or_default()
 }
 
+/// Angles and derivative weights of a face.
 fn measured_face(
     mesh: &Mesh,
     class: &Metric,
@@ -223,15 +224,17 @@ fn measured_face(
     edges: &[Edge],
     f: FaceId,
 ) -> (Angles, [f64; 3]) {
-    let opposite = mesh.opposite_edges(f);
-    let corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
-    let differences = differences(corners, opposite.map(|e| edges[e.index()]));
-    let q2 = opposite.map(|e| edges[e.index()].q2);
-    let weights = weights(class.space, differences, q2, corners, opposite.map(|e| class.eta[e]));
+    let (corners, edges, _) = face_parts(mesh, vertices, edges, f);
+    let differences = differences(corners, edges);
+    let eta = mesh.opposite_edges(f).map(|e| class.eta[e]);
+    let weights = weights(class.space, differences, edges.map(|e| e.q2), corners, eta);
     (triangle::angles_from(class.space, differences), weights)
 }
 
-fn face_differences(mesh: &Mesh, vertices: &[Vertex], edges: &[Edge], f: FaceId) -> [f64; 3] {
-    let corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
-    differences(corners, mesh.opposite_edges(f).map(|e| edges[e.index()]))
+/// Corners of a face and the edges opposite them, in one unit of length, and its exponent.
+fn face_parts(mesh: &Mesh, vertices: &[Vertex], edges: &[Edge], f: FaceId) -> ([Vertex; 3], [Edge; 3], i32) {
+    let mut corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
+    let mut edges = mesh.opposite_edges(f).map(|e| edges[e.index()]);
+    let unit = in_one_unit(&mut corners, &mut edges);
+    (corners, edges, unit)
 }

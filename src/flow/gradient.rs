@@ -133,7 +133,7 @@ impl Flow {
         if !state.evaluate(&self.mesh, &self.metric) {
             return false;
         }
-        let Some(area) = area else { return true };
+        let Some(area) = area else { return state.area(&self.mesh, &self.metric).is_finite() };
         // Area grows as e^{2u} (exactly in E²): a fixed point that contracts fast on the sphere too.
         let missing = |state: &State| 0.5 * (area / state.area(&self.mesh, &self.metric)).ln();
         for _ in 0..RESCALINGS {

@@ -87,9 +87,10 @@ impl Jacobian {
         }
     }
 
-    /// What rounding e^u and forming the angles from it can do to the curvature of each vertex, where this was assembled:
-    /// `Σ |∂K_i/∂u_j| δ` with δ an ulp (its square where u and the lengths have twice the digits: [`is_precise`]), term by term, and two
-    /// ulp of π for every angle.
+    /// The change of the curvature of each vertex that rounding can cause, at the state that this was assembled at.
+    ///
+    /// `Σ |∂K_i/∂u_j| δ`, term by term, for the rounding of e^u and of the lengths, where δ is an ulp of 1, or its square where these have
+    /// twice the digits ([`is_precise`]); and two ulp of π for every angle, which is a double.
     pub fn rounding_floor(&self, mesh: &Mesh, class: &Metric, state: &State) -> Vec<f64> {
         let precise = class.epsilon.iter().all(|&e| is_precise(class.space, e));
         let moved = if precise { f64::EPSILON * f64::EPSILON } else { f64::EPSILON };
@@ -107,11 +108,13 @@ impl Jacobian {
         floor
     }
 
+    /// The mean size of the entries on the diagonal.
     pub fn mean_diagonal(&self) -> f64 {
         let n = self.pattern.size();
         (0..n).map(|j| self.values[self.pattern.diagonal(j)].abs()).sum::<f64>() / n.max(1) as f64
     }
 
+    /// The matrix as it was last assembled.
     pub fn matrix(&self) -> Symmetric<'_> {
         Symmetric { pattern: &self.pattern, values: &self.values }
     }
@@ -132,7 +135,7 @@ pub fn curvature_derivative(mesh: &Mesh, metric: &Metric) -> Result<Vec<(VertexI
     let mut state = State::new(mesh, &metric.u, &metric.u_low);
     if !state.evaluate(mesh, metric) {
         // The first edge without a length is named by this call.
-        metric.lengths(mesh)?;
+        metric.check_domain(mesh)?;
         return Err(Error::Argument { what: "metric", value: "u".into(), need: "inside its domain" });
     }
     let mut jacobian = Jacobian::new(mesh, &vec![false; mesh.n_vertices()], None)?;

@@ -8,6 +8,7 @@ use super::solve::{End, center};
 use super::system::System;
 use crate::control::{Control, Stage};
 use crate::error::Result;
+use crate::geometry::twofold::MAX_EXPONENT;
 use crate::geometry::{Space, largest, worse};
 use crate::metric::delaunay::boundary_fails;
 
@@ -31,9 +32,6 @@ const MAX_FLOOR: f64 = 1e-7;
 const PATIENCE: usize = 8;
 /// Radians. Below this residual convergence is quadratic.
 const QUADRATIC: f64 = 1e-8;
-/// Lengths within one metric that differ by more than e^MAX_RANGE mean that there is no solution to run to: solutions
-/// of the test corpus stay below e^350, and doubles end at e^700.
-const MAX_RANGE: f64 = 500.0;
 /// Radians. Once converged, the last factor is reused to bring the error down to this, each step at least halving it; in H², whose
 /// layouts magnify errors by e^distance, as far as it goes.
 const POLISH_TO: f64 = 1e-13;
@@ -81,7 +79,9 @@ impl Flow {
             if at.error <= report.tolerance {
                 break StopReason::Converged;
             }
-            if range(&at.state.u) > MAX_RANGE {
+            if self.metric.space == Space::E2
+                && largest(at.state.u.iter()) > MAX_EXPONENT - self.options.max_step
+            {
                 break StopReason::Diverged;
             }
             if at_limit {
@@ -295,12 +295,6 @@ impl Flow {
         }
         Ok(())
     }
-}
-
-/// Largest minus smallest.
-fn range(x: &[f64]) -> f64 {
-    let (low, high) = x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
-    high - low
 }
 
 /// Fraction of the way from `first` to `goal` on a logarithmic scale.

@@ -59,7 +59,7 @@ impl Origin {
     /// A metric as it is, on its triangulation; `follows`: edges may be flipped from there on.
     pub fn of_metric(mesh: Mesh, metric: &Metric, follows: bool) -> Result<Origin> {
         let lengths = metric.lengths(&mesh)?;
-        let initial = Initial::of_metric(metric.clone());
+        let initial = Initial::of_metric(metric.clone())?;
         let surface = Surface::intrinsic(mesh, lengths, metric.space)?;
         Ok(Origin {
             surface,

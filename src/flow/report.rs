@@ -22,7 +22,7 @@ pub enum StopReason {
     /// No metric of the class on this triangulation has the target curvature: `Report::obstruction` names a set of
     /// vertices that proves it.
     Infeasible,
-    /// The variables run away without limit, and no obstruction was found.
+    /// The variables run away: some |u| exceeds 5e5, where metrics in E² end, and no obstruction was found.
     Diverged,
     /// No step reduces the error, which is above the rounding floor: `Report::worst` says where,
     /// `Report::broken_triangles` whether triangles break there. No obstruction was found.
@@ -123,8 +123,8 @@ pub struct Report {
     pub angle_defect: Option<f64>,
     /// Largest curvature error that rounding can cause at the final metric; determined where a flow stalls.
     pub rounding_floor: Option<f64>,
-    /// Whether u, lengths and curvature were carried to twice the digits of a double (Newton in E², and in H² where
-    /// every ε is 0; the corrections are doubles).
+    /// Whether u and the lengths were carried to twice the digits of a double (Newton in E², and in H² where every ε is 0; the
+    /// corrections are doubles). The angles formed from them are doubles, and so is the curvature, but for what its sums lose.
     pub double_double: bool,
     /// Faces that break the triangle inequality.
     pub broken_triangles: usize,

@@ -97,7 +97,7 @@ impl Flow {
             }
         }
         let pool = Arc::new(Pool::new(options.threads)?);
-        pool.run(|| metric.lengths(&mesh).map(|_| ()))?;
+        pool.run(|| metric.check_domain(&mesh))?;
         let mirror = origin
             .double
             .as_ref()
@@ -179,7 +179,7 @@ impl Flow {
     pub fn set_u(&mut self, u: PerVertex<f64>) -> Result<()> {
         let u_low = PerVertex::filled(u.len(), 0.0);
         let metric = Metric { u, u_low, ..self.metric.clone() };
-        self.pool.run(|| metric.lengths(&self.mesh).map(|_| ()))?;
+        self.pool.run(|| metric.check_domain(&self.mesh))?;
         (self.start, self.start_low) = (metric.u.clone(), metric.u_low.clone());
         self.metric = metric;
         Ok(())

@@ -16,10 +16,17 @@
 //! ```text
 //! gap_k = l_k − γ_i − γ_j          r_k = s − l_k = γ_k + (gap_i + gap_j − gap_k)/2
 //! ```
+//!
+//! In E² everything is homogeneous, and only ratios within one triangle matter. A vertex or an edge whose size is far from 1 is kept in
+//! a unit of its own, a power of two ([`Vertex::exponent`], [`Edge::exponent`]), and [`in_one_unit`] brings those of a triangle
+//! together: so the lengths of one metric may range over e^±5e5. Powers of two are exact: where nothing over- or underflows, the digits
+//! are those of plain doubles. H² and S² have a size of their own, and no such units: lengths in H² lie between
+//! [`MIN_HYPERBOLIC_CHORD`] and [`MAX_HYPERBOLIC_CHORD`].
 
 use super::Space;
+use super::scaled::{exponent, scaled};
 use super::triangle::half_differences;
-use super::twofold::{self, Twofold, two_product, two_sum};
+use super::twofold::{self, MAX_EXPONENT, Twofold, two_product, two_sum};
 use std::f64::consts::PI;
 
 /// A vertex at its current u.
@@ -27,30 +34,44 @@ use std::f64::consts::PI;
 pub struct Vertex {
     /// ε.
     pub epsilon: f64,
-    /// e^u.
+    /// e^u, in units of 2^`exponent`.
     pub scale: f64,
-    /// What `scale` misses of e^u, relative to it: where [`is_precise`]; there the part of u that its double loses is kept apart.
+    /// What `scale` misses of e^u, relative to it, where the vertex [`is_precise`]; else 0, and `scale`, `d` and `radius` are those of u
+    /// with the part that its double loses.
     pub low: f64,
-    /// d = 1 + λ ε e^{2u}; NaN outside the metric's domain (d ≤ 0).
+    /// d = 1 + λ ε e^{2u}; NaN outside the metric's domain: where d ≤ 0; where |u| > 5e5 in E²; where e^u is no normal number in H² with
+    /// ε = 0.
     pub d: f64,
-    /// γ where ε = 1, else 0.
+    /// γ where ε = 1, else 0; in units of 2^`exponent`.
     pub radius: f64,
+    /// The unit of `scale` and `radius` is 2 to this power: not 0 only in E², where |u| is above [`MAX_PLAIN_U`].
+    pub exponent: i32,
 }
 
-/// An edge at the current u of its ends.
+/// An edge at the current u of its ends. Lengths are in units of 2^`exponent`, squares in units of 4^`exponent`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Edge {
     /// l − γ_i − γ_j with the radii of [`Vertex::radius`].
     pub gap: f64,
-    /// What the double `gap` loses, as far as it is known: where both ends are [`is_precise`].
+    /// What the double `gap` loses: known where both ends are [`is_precise`], else 0.
     pub low: f64,
     /// Squared half chord: l²/4, sinh²(l/2), sin²(l/2) in E², H², S².
     pub q2: f64,
+    /// The exponent of the unit; 0 in H² and S².
+    pub exponent: i32,
 }
 
-/// Squared half chords are refused above this: hyperbolic lengths then stay below 300, and no product of them overflows.
-const MAX_HYPERBOLIC_CHORD: f64 = 1e129;
-/// Above this u, e^u is so near 1 that `2 artanh e^u = −log tanh(−u/2)` needs its second form.
+/// Largest squared half chord of an edge in H²: its length is below 300, and no product of such lengths overflows.
+pub const MAX_HYPERBOLIC_CHORD: f64 = 1e129;
+/// Smallest squared half chord of an edge in H²: its length is above 2e-140, and what its square loses (2^-106 of it) is still a
+/// normal number.
+pub const MIN_HYPERBOLIC_CHORD: f64 = 1e-280;
+/// Largest |u| in E² whose e^u is kept without an exponent, 256 log 2: its square has the size of 2^±512, which leaves as much room
+/// again for η.
+const MAX_PLAIN_U: f64 = 177.0;
+/// Binary exponents of squared lengths that need no unit of their own: what they lose, and products of two of them, are normal numbers.
+const PLAIN_SQUARES: std::ops::RangeInclusive<i32> = -500..=500;
+/// Above this u, e^u is so near 1 that `2 artanh e^u` cancels, and its second form `−log tanh(−u/2)` is used.
 const NEAR_HOROCYCLE: f64 = -1.0;
 
 /// Radius γ of a vertex of type ε with variable u: `u = log γ` in E²; where λε = −1 (circles in H², imaginary ones in S²)
@@ -73,11 +94,17 @@ impl Vertex {
     /// The quantities of a vertex of type ε with variable `u + low`, where `low` is what the double u loses (half an ulp of it at
     /// most): e^u has 16 digits also where u is large.
     pub fn precise(space: Space, epsilon: i8, u: f64, low: f64) -> Vertex {
+        if space == Space::E2 {
+            return Vertex::in_plane(epsilon, u, low);
+        }
         let rounded = Vertex::new(space, epsilon, u);
         if is_precise(space, epsilon) {
             let (scale, lost) = twofold::exp(u);
-            let radius = if epsilon == 1 { scale } else { 0.0 };
-            return Vertex { scale, low: lost + low, radius, ..rounded };
+            // A subnormal e^u has not the digits that this promises.
+            return match scale.is_normal() {
+                true => Vertex { scale, low: lost + low, ..rounded },
+                false => Vertex { scale: f64::NAN, d: f64::NAN, ..rounded },
+            };
         }
         let lambda = space.curvature() * f64::from(epsilon);
         // dγ/du = γ, sinh γ, sin γ
@@ -93,8 +120,25 @@ impl Vertex {
         }
     }
 
+    fn in_plane(epsilon: i8, u: f64, low: f64) -> Vertex {
+        let (scale, lost, exponent) = match u.abs() {
+            x if x <= MAX_PLAIN_U => {
+                let (scale, lost) = twofold::exp(u);
+                (scale, lost, 0)
+            }
+            x if x <= MAX_EXPONENT => twofold::exp_parts(u),
+            _ => (f64::NAN, 0.0, 0),
+        };
+        let d = if scale.is_nan() { scale } else { 1.0 };
+        let radius = if epsilon == 1 { scale } else { 0.0 };
+        Vertex { epsilon: f64::from(epsilon), scale, low: lost + low, d, radius, exponent }
+    }
+
     /// The quantities of a vertex of type ε with variable u.
     pub fn new(space: Space, epsilon: i8, u: f64) -> Vertex {
+        if space == Space::E2 && u.abs() > MAX_PLAIN_U {
+            return Vertex { low: 0.0, ..Vertex::in_plane(epsilon, u, 0.0) };
+        }
         let d = match space.curvature() * f64::from(epsilon) {
             0.0 => 1.0,
             x if x < 0.0 => -(2.0 * u).exp_m1(),
@@ -106,34 +150,105 @@ impl Vertex {
             low: 0.0,
             d: if d > 0.0 { d } else { f64::NAN },
             radius: if epsilon == 1 { radius(space, epsilon, u) } else { 0.0 },
+            exponent: 0,
         }
+    }
+
+    /// The same vertex in units of 2^`unit`.
+    fn in_unit(self, unit: i32) -> Vertex {
+        let by = self.exponent - unit;
+        Vertex { scale: scaled(self.scale, by), radius: scaled(self.radius, by), exponent: unit, ..self }
     }
 }
 
-/// An edge; `None` when (ε, η, u) give no real positive finite length.
+/// Binary exponent of a unit of length in which `2 η e_a e_b`, `ε e_a²` and `ε e_b²` stay in the middle of the doubles, from the e (as
+/// number and exponent) of two vertices with these ε.
+pub(super) fn unit_of_products(e: [(f64, i32); 2], epsilon: [f64; 2], eta: f64) -> i32 {
+    let [x, y] = e.map(|(scale, power)| power + exponent(scale));
+    let own = [x, y].into_iter().zip(epsilon).filter(|(_, epsilon)| *epsilon != 0.0).map(|(x, _)| x);
+    // With half of η taken off, neither η nor what is left of the product leaves the doubles.
+    let cross = if eta == 0.0 { i32::MIN } else { (x + y).div_euclid(2) + exponent(eta).div_euclid(4) };
+    own.fold(cross, i32::max)
+}
+
+/// An edge; `None` when (ε, η, u) give no real positive finite length (in H² none in the range of lengths).
 #[inline]
 pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
-    let q2 = match space {
-        Space::E2 => 0.25 * squared_chord(a, b, eta),
-        _ => squared_chord(a, b, eta) / (a.d * b.d),
+    if space == Space::E2 {
+        return plane_edge(a, b, eta);
+    }
+    let q2 = squared_chord(a, b, eta) / (a.d * b.d);
+    let range = if space == Space::H2 {
+        MIN_HYPERBOLIC_CHORD..=MAX_HYPERBOLIC_CHORD
+    } else {
+        f64::MIN_POSITIVE..=f64::MAX
     };
-    if !(q2 > 0.0 && q2 < f64::INFINITY) || (space == Space::H2 && q2 > MAX_HYPERBOLIC_CHORD) {
+    if !range.contains(&q2) {
         return None;
     }
     let circles = a.epsilon > 0.0 && b.epsilon > 0.0;
     if circles && eta == 1.0 {
         // sin²(l/2) > 1: the circles together reach around the sphere.
-        return (space != Space::S2 || q2 <= 1.0).then_some(Edge { gap: 0.0, low: 0.0, q2 });
+        return (space != Space::S2 || q2 <= 1.0).then_some(Edge { gap: 0.0, low: 0.0, q2, exponent: 0 });
     }
     let length = length(space, q2);
     let sum = a.radius + b.radius;
     let gap = if circles { circle_gap(space, a, b, eta, length + sum) } else { length - sum };
-    let low = match space {
-        Space::E2 => lost_gap(a, b, eta, gap),
-        Space::H2 if a.epsilon == 0.0 && b.epsilon == 0.0 => lost_length(a, b, eta, gap),
-        _ => 0.0,
+    let precise = space == Space::H2 && a.epsilon == 0.0 && b.epsilon == 0.0;
+    let low = if precise { lost_length(a, b, eta, gap) } else { 0.0 };
+    (gap.is_finite() && low.is_finite()).then_some(Edge { gap, low, q2, exponent: 0 })
+}
+
+/// An edge in E², in a unit in which its length is neither tiny nor huge.
+fn plane_edge(a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
+    let plain = if a.exponent | b.exponent == 0 { squared_chord(a, b, eta) } else { f64::NAN };
+    let ([a, b], n) = if PLAIN_SQUARES.contains(&exponent(plain)) {
+        ([a, b], plain)
+    } else {
+        let ends = in_unit_of_edge(a, b, eta);
+        (ends, squared_chord(ends[0], ends[1], eta))
     };
-    gap.is_finite().then_some(Edge { gap, low: if low.is_finite() { low } else { 0.0 }, q2 })
+    if !(n > 0.0 && n < f64::INFINITY) {
+        return None;
+    }
+    let (q2, exponent) = (0.25 * n, a.exponent);
+    let circles = a.epsilon > 0.0 && b.epsilon > 0.0;
+    if circles && eta == 1.0 {
+        // The circles touch: l is the sum of their radii, and what it loses that of what they lose.
+        let low = a.radius * a.low + b.radius * b.low;
+        return Some(Edge { gap: 0.0, low, q2, exponent });
+    }
+    let length = 2.0 * q2.sqrt();
+    let sum = a.radius + b.radius;
+    let gap = if circles { circle_gap(Space::E2, a, b, eta, length + sum) } else { length - sum };
+    let low = lost_gap(a, b, eta, gap);
+    (gap.is_finite() && low.is_finite()).then_some(Edge { gap, low, q2, exponent })
+}
+
+/// The ends of an edge in E² in one unit, in which its length is neither tiny nor huge.
+fn in_unit_of_edge(a: Vertex, b: Vertex, eta: f64) -> [Vertex; 2] {
+    let unit = unit_of_products([a, b].map(|v| (v.scale, v.exponent)), [a.epsilon, b.epsilon], eta);
+    [a, b].map(|v| v.in_unit(unit))
+}
+
+/// Bring the corners of a triangle and the edges opposite them to one unit of length, and return its exponent: 0 where nothing is far
+/// from 1, and in H² and S².
+///
+/// Else the longest edge is about 1. What is smaller than it by more than 2^500 may become 0.
+#[inline]
+pub fn in_one_unit(corners: &mut [Vertex; 3], edges: &mut [Edge; 3]) -> i32 {
+    let plain = |k: usize| corners[k].exponent | edges[k].exponent == 0;
+    if plain(0) && plain(1) && plain(2) {
+        return 0;
+    }
+    let size = |e: &Edge| e.exponent + exponent(e.q2).div_euclid(2);
+    let unit = size(&edges[0]).max(size(&edges[1])).max(size(&edges[2]));
+    *corners = corners.map(|v| v.in_unit(unit));
+    *edges = edges.map(|e| {
+        let by = e.exponent - unit;
+        Edge { gap: scaled(e.gap, by), low: scaled(e.low, by), q2: scaled(e.q2, 2 * by), exponent: unit }
+    });
+    unit
 }
 
 /// `l − γ_a − γ_b − gap` in E², to twice the digits: the angles of needles and of triangles in metrics of wide range turn on it.
@@ -156,15 +271,17 @@ fn lost_gap(a: Vertex, b: Vertex, eta: f64, gap: f64) -> f64 {
 }
 
 /// The half chord of an edge (l/2, sinh(l/2), sin(l/2) in E², H², S²) with twice the digits, as far as its ends have them
-/// ([`is_precise`]); 0 for an edge without a real length.
-pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: f64) -> Twofold {
+/// ([`is_precise`]), and the exponent of its unit; 0 for an edge without a real length.
+pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: f64) -> (Twofold, i32) {
+    let [a, b] = if space == Space::E2 { in_unit_of_edge(a, b, eta) } else { [a, b] };
     let [x, y] = [a, b].map(|v| Twofold::from(v.scale) + (v.scale * v.low).into());
     let square = |v: Vertex, x: Twofold| x * x * v.epsilon.into();
     let n = x * y * (2.0 * eta).into() + square(a, x) + square(b, y);
-    match space {
+    let q = match space {
         Space::E2 => n.sqrt() * 0.5.into(),
         _ => (n / (Twofold::from(a.d) * b.d.into())).sqrt(),
-    }
+    };
+    (q, a.exponent)
 }
 
 /// `l − length` in H² where ε = 0, from `sinh²(l/2) = 2 η e^{u_a + u_b}` to twice the digits: `2 (q − sinh(length/2))/cosh(length/2)`.
@@ -172,16 +289,22 @@ fn lost_length(a: Vertex, b: Vertex, eta: f64, length: f64) -> f64 {
     let (up, lost) = twofold::exp(0.5 * length);
     let up = Twofold::from(up) + (up * lost).into();
     let down = Twofold::from(1.0) / up;
-    let rest = half_chord(Space::H2, a, b, eta) - (up - down) * 0.5.into();
+    let rest = half_chord(Space::H2, a, b, eta).0 - (up - down) * 0.5.into();
     4.0 * rest.high / (up.high + down.high)
 }
 
 impl Edge {
+    /// The length: 0 or infinite where it is beyond the doubles (in E²), NaN in S² where q² > 1.
+    pub fn length(self, space: Space) -> f64 {
+        scaled(length(space, self.q2), self.exponent)
+    }
+
     /// What a double `length` of the edge from `a` to `b` loses: `γ_a + γ_b + gap + low − length`, to twice the digits.
     pub fn remainder(self, a: Vertex, b: Vertex, length: f64) -> f64 {
+        let [a, b] = [a, b].map(|v| v.in_unit(self.exponent));
         let (sum, lost) = two_sum(a.radius, b.radius);
         let (sum, more) = two_sum(sum, self.gap);
-        (sum - length) + (lost + more + self.low)
+        scaled((sum - scaled(length, -self.exponent)) + (lost + more + self.low), self.exponent)
     }
 }
 
@@ -225,12 +348,23 @@ fn circle_gap(space: Space, a: Vertex, b: Vertex, eta: f64, total: f64) -> f64 {
     }
 }
 
-/// Half-perimeter differences `r_k` of a triangle, given its corners and the edges opposite them.
+/// Half-perimeter differences `r_k` of a triangle, given its corners and the edges opposite them, all in one unit ([`in_one_unit`]).
 #[inline]
 pub fn differences(corners: [Vertex; 3], edges: [Edge; 3]) -> [f64; 3] {
-    let rest = half_differences(edges.map(|e| e.gap));
-    let low = edges.map(|e| 0.5 * e.low);
-    [0, 1, 2].map(|k| corners[k].radius + (rest[k] + (low[(k + 1) % 3] + low[(k + 2) % 3] - low[k])))
+    let gap = edges.map(|e| e.gap);
+    if corners.iter().all(|v| v.radius == 0.0) {
+        let (rest, low) = (half_differences(gap), edges.map(|e| 0.5 * e.low));
+        return [0, 1, 2].map(|k| rest[k] + (low[(k + 1) % 3] + low[(k + 2) % 3] - low[k]));
+    }
+    // Near a broken triangle of circles 2γ_k and the gaps cancel: what each sum loses is kept.
+    [0, 1, 2].map(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let (sum, first) = two_sum(gap[i], gap[j]);
+        let (sum, second) = two_sum(sum, -gap[k]);
+        let (sum, third) = two_sum(sum, 2.0 * corners[k].radius);
+        let low = edges[i].low + edges[j].low - edges[k].low;
+        0.5 * (sum + (first + second + third + low))
+    })
 }
 
 /// The weights `w_k = ∂θ_i/∂u_j = ∂θ_j/∂u_i` of the three edges (w_k belongs to edge ij, opposite corner k).
@@ -283,6 +417,6 @@ pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], et
         scale * sum / (delta * chord)
     };
     let w = [weight(0), weight(1), weight(2)];
-    // Of a triangle so thin that its area underflows doubles cannot say how it would move.
+    // Where a triangle is so thin that its area underflows, the quotients are no numbers: it is treated as a broken one.
     if w.iter().all(|w| w.is_finite()) { w } else { [0.0; 3] }
 }

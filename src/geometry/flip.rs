@@ -19,7 +19,8 @@
 //! is that of squared lengths, whatever that of η.
 
 use super::Space;
-use super::conformal::Vertex;
+use super::conformal::{Vertex, unit_of_products};
+use super::scaled::scaled;
 
 /// Least `D/η_ij²` of an edge that can be flipped. Where it is smaller, circles i and j touch to the rounding of η (1e-16, with room),
 /// and the plane of their vectors has no direction across.
@@ -49,12 +50,22 @@ pub struct Meeting {
     pub edge: [f64; 2],
 }
 
+/// `w` of a vertex, which may be beyond the doubles: `value · 2^exponent`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weight {
+    /// w in the unit.
+    pub value: f64,
+    /// The exponent of the unit: 0 but for vertices in E² that are far from 1 in size.
+    pub exponent: i32,
+}
+
 /// `w` of a vertex for the Delaunay condition: `e^u` in E², `tan γ`-like elsewhere, `2 e^u/(1 − λ ε e^{2u})`.
-pub fn weight(space: Space, v: Vertex) -> f64 {
-    match space {
+pub fn weight(space: Space, v: Vertex) -> Weight {
+    let value = match space {
         Space::E2 => v.scale,
         _ => 2.0 * v.scale / (1.0 - space.curvature() * v.epsilon * v.scale * v.scale),
-    }
+    };
+    Weight { value, exponent: v.exponent }
 }
 
 impl Hinge {
@@ -66,6 +77,22 @@ impl Hinge {
             std::array::from_fn(|v| epsilon[v] * w[v] * w[v]),
             std::array::from_fn(|e| eta[e] * ends[e]),
         )
+    }
+
+    /// The hinge of weights that may be beyond the doubles, and `w_k w_l` in its unit: η of the other diagonal is
+    /// [`Hinge::flipped`] over that.
+    pub fn of_weights(epsilon: [f64; 4], w: [Weight; 4], eta: [f64; 5]) -> (Hinge, f64) {
+        let mut values = w.map(|w| w.value);
+        if w.iter().any(|w| w.exponent != 0) {
+            let unit = |(e, [a, b]): (usize, [usize; 2])| {
+                let ends = [a, b].map(|v| (w[v].value, w[v].exponent));
+                unit_of_products(ends, [epsilon[a], epsilon[b]], eta[e])
+            };
+            let edges = [[0, 1], [0, 2], [1, 2], [0, 3], [1, 3]].into_iter().enumerate();
+            let unit = edges.map(unit).fold(i32::MIN, i32::max);
+            values = w.map(|w| scaled(w.value, w.exponent - unit));
+        }
+        (Hinge::new(epsilon, values, eta), values[2] * values[3])
     }
 
     /// From `ε w²` of the vertices i, j, k, l and `η w w` of the edges ij, ik, jk, il, jl.

@@ -11,6 +11,7 @@ pub mod model;
 pub mod modulus;
 pub mod motion;
 pub mod predicates;
+pub(crate) mod scaled;
 pub mod space;
 pub mod sphere;
 pub mod symplectic;

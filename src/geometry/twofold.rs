@@ -1,5 +1,6 @@
 //! Doubles with what they lose: sums, products and e^x; numbers of twice the digits.
 
+use super::scaled::scaled;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number of about 32 digits: the unevaluated sum of two doubles, the second at most half an ulp of the first \[Dek71\].
@@ -34,6 +35,13 @@ impl Twofold {
         let (square, lost) = two_product(root, root);
         let rest = ((self.high - square) - lost) + self.low;
         Twofold::renormalised(root, rest / (2.0 * root))
+    }
+}
+
+impl Twofold {
+    /// This number times 2^k: exact while both parts stay normal numbers.
+    pub(crate) fn scaled(self, k: i32) -> Twofold {
+        Twofold { high: scaled(self.high, k), low: scaled(self.low, k) }
     }
 }
 
@@ -112,7 +120,9 @@ pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
     (product, ((a * b - product) + a * b_low + a_low * b) + a_low * b_low)
 }
 
-/// log 2 in three parts; the first has so few digits that its multiples in the range of [`exp`] are exact.
+/// Largest |x| of [`exp_parts`]: e^x lies 2^(7e5) from 1 there, and the multiples of log 2 that are taken off x are still exact.
+pub(crate) const MAX_EXPONENT: f64 = 5e5;
+/// log 2 in three parts; the first has 33 binary digits, so that its products with integers below 2^20 are exact.
 const LN_2: [f64; 3] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10, 1.161_222_722_936_253_2e-26];
 /// e^x − 1 is formed at x/2^HALVINGS, where all but two terms of its series are below 1e-7 and need no second part, and squared out.
 const HALVINGS: i32 = 6;
@@ -120,12 +130,18 @@ const HALVINGS: i32 = 6;
 /// `e^x` as a double and what that misses of it, relative to it (error below 1e-21): u is known to more digits than a double
 /// holds, and the rounding of e^u would throw them away.
 ///
-/// A result that is not a normal number is that of [`f64::exp`], with 0.
+/// A result that is not a normal number is that of [`f64::exp`], with 0; [`exp_parts`] has no such limit.
 pub(crate) fn exp(x: f64) -> (f64, f64) {
     let rounded = x.exp();
     if !rounded.is_normal() {
         return (rounded, 0.0);
     }
+    let (mantissa, low, k) = exp_parts(x);
+    (scaled(mantissa, k), low)
+}
+
+/// `e^x = mantissa (1 + low) 2^k` as (mantissa, low, k), the mantissa between 0.7 and 1.5; for |x| up to [`MAX_EXPONENT`].
+pub(crate) fn exp_parts(x: f64) -> (f64, f64, i32) {
     let k = (x * std::f64::consts::LOG2_E).round();
     let (rest, lost) = two_sum(x, -k * LN_2[0]);
     let (middle, middle_low) = two_product(k, LN_2[1]);
@@ -148,13 +164,7 @@ pub(crate) fn exp(x: f64) -> (f64, f64) {
     }
     let (sum, lost) = two_sum(1.0, p);
     let (sum, lost) = two_sum(sum, lost + p_low);
-    (scaled(sum, k), lost / sum)
-}
-
-/// `x 2^k` for a normal result, whose power may itself be none.
-fn scaled(x: f64, k: f64) -> f64 {
-    let half = (0.5 * k).trunc();
-    x * 2f64.powi(half as i32) * 2f64.powi((k - half) as i32)
+    (sum, lost / sum, k as i32)
 }
 
 #[cfg(test)]
@@ -204,6 +214,24 @@ mod tests {
             let change = (next - e) / e + (next_low * (next / e) - low);
             let expected = step + 0.5 * step * step;
             assert!((change - expected).abs() < 1e-21, "{x}: {change:e} {expected:e}");
+        }
+    }
+
+    /// e^x beyond the range of doubles: e^a e^−a = 1, and e^(a + log 2) = 2 e^a to the digits of log 2.
+    #[test]
+    fn exponentials_beyond_doubles_keep_their_digits() {
+        for i in 1..500 {
+            let a = f64::from(i) * 1000.0;
+            let [(x, x_low, k), (y, y_low, l)] = [a, -a].map(exp_parts);
+            assert_eq!(k, -l);
+            let (product, low) = two_product(x, y);
+            let error = (product - 1.0) + (low + x_low + y_low);
+            assert!(error.abs() < 1e-20, "{a}: {error:e}");
+            let (z, z_low, m) = exp_parts(a + 0.5);
+            let (root, root_low) = exp(0.5);
+            let (product, low) = two_product(x, root);
+            let error = (product - scaled(z, m - k)) / product + (low / product + x_low + root_low - z_low);
+            assert!(error.abs() < 1e-20, "{a}: {error:e}");
         }
     }
 

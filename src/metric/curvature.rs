@@ -1,8 +1,9 @@
 //! Curvature, area and the Gauss–Bonnet residual of a metric given by its edge lengths.
 
-use super::lengths::{Metric, face_lengths};
-use crate::error::Result;
+use super::lengths::{Metric, face_differences, face_lengths};
+use crate::error::{Error, Result};
 use crate::geometry::Space;
+use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles, angles_from, area_from, half_differences};
 use crate::geometry::twofold::two_sum;
 use crate::mesh::{FaceId, Mesh, PerEdge, PerVertex};
@@ -26,23 +27,37 @@ pub struct Curvature {
 /// Curvature of the metric with these edge lengths (E entries).
 pub fn curvature(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> Result<Curvature> {
     check_lengths(mesh, lengths)?;
-    Ok(curvature_of(mesh, space, |f| half_differences(face_lengths(mesh, lengths, f))))
+    Ok(curvature_of(mesh, space, |f| (half_differences(face_lengths(mesh, lengths, f)), 0)))
 }
 
 impl Metric {
-    /// Curvature, from the variables themselves ([`Metric::differences`]). Errors: as [`Metric::lengths`].
+    /// Curvature, from the variables themselves: also where lengths are beyond the doubles.
+    ///
+    /// Errors: those of [`Metric::check_domain`]; [`Error::Argument`] where the area is beyond the doubles: u is then to be shifted by
+    /// a constant, which changes neither angles nor curvature.
     pub fn curvature(&self, mesh: &Mesh) -> Result<Curvature> {
-        let differences = self.differences(mesh)?;
-        Ok(curvature_of(mesh, self.space, |f| differences[f]))
+        let (vertices, edges) = self.vertices_and_edges(mesh)?;
+        let curvature = curvature_of(mesh, self.space, |f| face_differences(mesh, &vertices, &edges, f));
+        if !curvature.area.is_finite() {
+            let value = "so large that the area is beyond doubles".into();
+            return Err(Error::Argument { what: "u", value, need: "smaller: subtract a constant" });
+        }
+        Ok(curvature)
     }
 }
 
-fn curvature_of(mesh: &Mesh, space: Space, differences: impl Fn(FaceId) -> [f64; 3] + Sync) -> Curvature {
+/// Curvature from the half-perimeter differences of the faces and the exponents of their units.
+fn curvature_of(
+    mesh: &Mesh,
+    space: Space,
+    differences: impl Fn(FaceId) -> ([f64; 3], i32) + Sync,
+) -> Curvature {
     let mut angles = vec![Angles { at: [0.0; 3] }; mesh.n_faces()];
-    parallel::fill(&mut angles, |f| angles_from(space, differences(f.into())));
+    parallel::fill(&mut angles, |f| angles_from(space, differences(f.into()).0));
     let at = curvature_from_angles(mesh, angles.iter().map(|a| a.at));
     let broken = mesh.faces().filter(|f| angles[f.index()].broken()).collect();
-    let area = mesh.faces().map(|f| area_from(space, differences(f))).sum::<f64>();
+    let face_area = |(r, unit): ([f64; 3], i32)| scaled(area_from(space, r), 2 * unit);
+    let area = mesh.faces().map(|f| face_area(differences(f))).sum::<f64>();
     let gauss_bonnet = gauss_bonnet(mesh, space, &at, area);
     Curvature { at, broken, area, gauss_bonnet }
 }
@@ -50,7 +65,9 @@ fn curvature_of(mesh: &Mesh, space: Space, differences: impl Fn(FaceId) -> [f64;
 /// |Σ K + λ·area − 2πχ|
 pub(crate) fn gauss_bonnet(mesh: &Mesh, space: Space, curvature: &PerVertex<f64>, area: f64) -> f64 {
     let total: f64 = curvature.iter().sum();
-    (total + space.curvature() * area - 2.0 * PI * mesh.euler() as f64).abs()
+    // In E² the area may be beyond the doubles, and has no part in this.
+    let curved = if space == Space::E2 { 0.0 } else { space.curvature() * area };
+    (total + curved - 2.0 * PI * mesh.euler() as f64).abs()
 }
 
 /// π − (π rounded to a double). Without it every vertex is off by twice this, always to the same side, and the

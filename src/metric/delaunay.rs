@@ -8,7 +8,7 @@ use super::lengths::Metric;
 use crate::control::Control;
 use crate::error::{Result, check_size};
 use crate::geometry::conformal::Vertex;
-use crate::geometry::flip::{Hinge, weight};
+use crate::geometry::flip::{Hinge, Weight, weight};
 use crate::mesh::{EdgeId, FixedEdges, Flip, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 
 pub use super::flip_queue::Queue;
@@ -21,16 +21,17 @@ fn hinge_of(mesh: &Mesh, h: HalfedgeId) -> ([VertexId; 4], [HalfedgeId; 5]) {
     ([h, h.twin(), ki, lj].map(|h| mesh.origin(h)), [h, ki, jk, il, lj])
 }
 
-/// The Delaunay hinge of half-edge h, `w` per vertex.
+/// The Delaunay hinge of half-edge h, `w` per vertex, and the product of the `w` of its left and right vertex in the hinge's unit.
 fn hinge(
     mesh: &Mesh,
     h: HalfedgeId,
     epsilon: &PerVertex<i8>,
     eta: &PerEdge<f64>,
-    w: &PerVertex<f64>,
-) -> Hinge {
+    w: &PerVertex<Weight>,
+) -> (Hinge, f64) {
     let (vertices, sides) = hinge_of(mesh, h);
-    Hinge::new(vertices.map(|v| f64::from(epsilon[v])), vertices.map(|v| w[v]), sides.map(|h| eta[h.edge()]))
+    let epsilon = vertices.map(|v| f64::from(epsilon[v]));
+    Hinge::of_weights(epsilon, vertices.map(|v| w[v]), sides.map(|h| eta[h.edge()]))
 }
 
 /// A metric whose edges are flipped inside its conformal class: η changes on the edges flipped.
@@ -63,12 +64,10 @@ impl ClassFlips<'_> {
         let w = weights(metric, u);
         let Metric { epsilon, eta, .. } = &mut **metric;
         let decide = |mesh: &Mesh, eta: &PerEdge<f64>, h: HalfedgeId| {
-            let hinge = hinge(mesh, h, epsilon, eta, &w);
+            let (hinge, scale) = hinge(mesh, h, epsilon, eta, &w);
             if !hinge.wants_flip() {
                 return None;
             }
-            let [k, l] = [h, h.twin()].map(|h| mesh.origin(mesh.prev(h)));
-            let scale = w[k] * w[l];
             hinge.flipped().map(|product| product / scale).filter(|eta| eta.is_finite())
         };
         let most = allowance(mesh.n_edges());
@@ -90,8 +89,8 @@ impl ClassFlips<'_> {
         let (vertices, sides) = hinge_of(self.mesh, h);
         let w = vertices.map(|v| weight(metric.space, metric.vertex(v)));
         let epsilon = vertices.map(|v| f64::from(metric.epsilon[v]));
-        let hinge = Hinge::new(epsilon, w, sides.map(|h| metric.eta[h.edge()]));
-        let flipped = hinge.flipped().map(|product| product / (w[2] * w[3]));
+        let (hinge, scale) = Hinge::of_weights(epsilon, w, sides.map(|h| metric.eta[h.edge()]));
+        let flipped = hinge.flipped().map(|product| product / scale);
         let Some(eta) = flipped.filter(|eta| eta.is_finite()) else { return false };
         (self.record)(self.mesh, Flip { edge, value: metric.eta[edge] });
         metric.eta[edge] = eta;
@@ -102,7 +101,7 @@ impl ClassFlips<'_> {
 /// The edges that fail the weighted Delaunay condition at variables `u` (V entries) and can be flipped, ascending.
 pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> {
     let w = weights(metric, u);
-    let fails = |h| hinge(mesh, h, &metric.epsilon, &metric.eta, &w).wants_flip();
+    let fails = |h| hinge(mesh, h, &metric.epsilon, &metric.eta, &w).0.wants_flip();
     Queue::where_holds(mesh, &FixedEdges::none(), fails).into_vec()
 }
 
@@ -114,13 +113,13 @@ pub fn boundary_fails(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>, fixed: &
         let corners = [i, j, k, k];
         let w = corners.map(|v| weight(metric.space, Vertex::new(metric.space, metric.epsilon[v], u[v])));
         let eta = [h, ki, jk, ki, jk].map(|h| metric.eta[h.edge()]);
-        Hinge::new(corners.map(|v| f64::from(metric.epsilon[v])), w, eta).wants_flip()
+        Hinge::of_weights(corners.map(|v| f64::from(metric.epsilon[v])), w, eta).0.wants_flip()
     };
     let mut along = mesh.edges().flat_map(|e| [e.halfedge(), e.halfedge().twin()]);
     along.any(|h| mesh.is_outside(h.twin()) && !fixed.contains(h.edge()) && fails(h))
 }
 
 /// `w` of every vertex at variables `u`.
-fn weights(metric: &Metric, u: &PerVertex<f64>) -> PerVertex<f64> {
+fn weights(metric: &Metric, u: &PerVertex<f64>) -> PerVertex<Weight> {
     PerVertex::from_fn(u.len(), |v| weight(metric.space, Vertex::new(metric.space, metric.epsilon[v], u[v])))
 }

@@ -4,7 +4,8 @@ use super::curvature::area;
 use super::lengths::{Metric, face_lengths};
 use super::scheme::Scheme;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::conformal::Vertex;
+use crate::geometry::conformal::{Vertex, radius};
+use crate::geometry::scaled::scaled;
 use crate::geometry::{Space, triangle, worse};
 use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
 use crate::topology::check_lengths;
@@ -130,7 +131,7 @@ impl Represented<'_> {
             u: input_u.clone(),
             u_low: PerVertex::filled(n, 0.0),
         };
-        let radii = metric.radii();
+        let radii = metric.radii()?;
         let mut clamped_edges = 0;
         for e in mesh.edges() {
             let [i, j] = mesh.ends(e);
@@ -170,15 +171,15 @@ fn allowed_weight(epsilon: [i8; 2], edge: EdgeId, eta: f64) -> Result<f64> {
 
 impl Initial {
     /// A metric that is its own start: read in its own space.
-    pub(crate) fn of_metric(metric: Metric) -> Initial {
-        Initial {
+    pub(crate) fn of_metric(metric: Metric) -> Result<Initial> {
+        Ok(Initial {
             input_geometry: metric.space,
-            radii: metric.radii(),
+            radii: metric.radii()?,
             input_u: metric.u.clone(),
             clamped_edges: 0,
             max_length_change: 0.0,
             metric,
-        }
+        })
     }
 
     /// The conformal factor λ of [JKLLG08, Eqns 2–5] between the input and `metric`, per vertex: `u − u(0)` where
@@ -186,13 +187,11 @@ impl Initial {
     pub fn conformal_factor(&self, metric: &Metric) -> Result<PerVertex<f64>> {
         check_size("u", metric.u.len(), self.radii.len())?;
         check_size("epsilon", metric.epsilon.len(), self.radii.len())?;
-        let radii = metric.radii();
-        Ok(PerVertex::from_fn(metric.u.len(), |v| {
-            if metric.epsilon[v] == 0 {
-                metric.u[v] - self.input_u[v]
-            } else {
-                (radii[v] / self.radii[v]).ln()
-            }
+        Ok(PerVertex::from_fn(metric.u.len(), |v| match metric.epsilon[v] {
+            0 => metric.u[v] - self.input_u[v],
+            // log γ is u: the radius itself may be beyond the doubles.
+            _ if metric.space == Space::E2 => metric.u[v] - self.radii[v].ln(),
+            epsilon => (radius(metric.space, epsilon, metric.u[v]) / self.radii[v]).ln(),
         }))
     }
 }
@@ -209,12 +208,14 @@ fn log_radius(space: Space, radius: f64) -> f64 {
 /// η from a length: the length formulas solved for it.
 fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) -> f64 {
     let [a, b] = [0, 1].map(|k| Vertex::new(space, epsilon[k], u[k]));
+    // Of the larger circle, 2 to this power is the unit of length.
+    let unit = a.exponent.max(b.exponent);
     let n = match space {
-        Space::E2 => length * length,
+        Space::E2 => scaled(length, -unit) * scaled(length, -unit),
         Space::H2 => (0.5 * length).sinh().powi(2) * a.d * b.d,
         Space::S2 => (0.5 * length).sin().powi(2) * a.d * b.d,
     };
-    let (x, y) = (a.scale, b.scale);
+    let [x, y] = [a, b].map(|v| scaled(v.scale, v.exponent - unit));
     (n - a.epsilon * x * x - b.epsilon * y * y) / (2.0 * x * y)
 }
 

@@ -2,8 +2,9 @@
 
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
-use crate::geometry::conformal::{Edge, Vertex, differences, edge, length, radius};
-use crate::mesh::{EdgeId, Mesh, PerEdge, PerFace, PerVertex, Point, VertexId};
+use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit, radius};
+use crate::geometry::scaled::scaled;
+use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex, Point, VertexId};
 use crate::parallel;
 use crate::topology::check_lengths;
 
@@ -23,7 +24,9 @@ pub struct Metric {
 }
 
 impl Metric {
-    /// Number of vertices, edges agree with the mesh; ε is −1, 0 or 1; η and u are finite.
+    /// Number of vertices, edges agree with the mesh; ε is −1, 0 or 1; η and u are finite, and `u_low` is at most an ulp of u.
+    ///
+    /// Errors: [`Error::Size`], [`Error::Argument`] (ε, `u_low`), [`Error::Domain`] (u), [`Error::EdgeWeight`] (η).
     pub fn check(&self, mesh: &Mesh) -> Result<()> {
         check_size("epsilon", self.epsilon.len(), mesh.n_vertices())?;
         check_size("eta", self.eta.len(), mesh.n_edges())?;
@@ -36,6 +39,16 @@ impl Metric {
         if let Some(v) = mesh.vertices().find(|&v| !self.u[v].is_finite()) {
             return Err(Error::Domain { vertex: v.index(), u: self.u[v], need: "finite" });
         }
+        // An ulp of u is between ε|u|/2 and ε|u|. NaN compares with nothing.
+        let is_ulp = |v: VertexId| self.u_low[v].abs() <= f64::EPSILON * self.u[v].abs();
+        if let Some(v) = mesh.vertices().find(|&v| !is_ulp(v)) {
+            let value = format!("{} at vertex {v}, where u is {}", self.u_low[v], self.u[v]);
+            return Err(Error::Argument {
+                what: "u_low",
+                value,
+                need: "what the double u loses, at most an ulp of it",
+            });
+        }
         match mesh.edges().find(|&e| !self.eta[e].is_finite()) {
             Some(e) => Err(Error::EdgeWeight { edge: e.index(), eta: self.eta[e], need: "finite" }),
             None => Ok(()),
@@ -47,10 +60,31 @@ impl Metric {
         Vertex::precise(self.space, self.epsilon[v], self.u[v], self.u_low[v])
     }
 
-    /// The edge lengths; the first edge without a real positive length is an error that names it.
+    /// Whether this is a metric: every edge has a real positive length, whether doubles hold it or not.
+    ///
+    /// Errors: those of [`Metric::check`]; [`Error::Domain`] where u is outside the domain of its vertex type (in E² beyond ±5e5),
+    /// [`Error::EdgeWeight`] for the first edge without a length (in H² without one between 2e-140 and 300).
+    pub fn check_domain(&self, mesh: &Mesh) -> Result<()> {
+        self.vertices_and_edges(mesh).map(|_| ())
+    }
+
+    /// The edge lengths.
+    ///
+    /// Errors: those of [`Metric::check_domain`]; [`Error::EdgeWeight`] for the first edge whose length no double holds, below 2e-308
+    /// or above 2e308, which happens in E² alone. Angles, curvature and the flow have no such limit.
     pub fn lengths(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
-        let (_, edges) = self.vertices_and_edges(mesh)?;
-        Ok(edges.iter().map(|e| length(self.space, e.q2)).collect::<Vec<_>>().into())
+        self.lengths_of(&self.vertices_and_edges(mesh)?.1)
+    }
+
+    fn lengths_of(&self, edges: &PerEdge<Edge>) -> Result<PerEdge<f64>> {
+        let lengths: PerEdge<f64> = edges.iter().map(|e| e.length(self.space)).collect::<Vec<_>>().into();
+        match lengths.iter().position(|l| !l.is_normal()) {
+            Some(edge) => {
+                let need = "one that gives the edge a length between 2e-308 and 2e308 at this u (angles have no such limit)";
+                Err(Error::EdgeWeight { edge, eta: self.eta[EdgeId::from(edge)], need })
+            }
+            None => Ok(lengths),
+        }
     }
 
     /// The half-perimeter differences `r_k = s − l_k` of every face, in corner order (F entries, `s = Σ r`).
@@ -59,8 +93,10 @@ impl Metric {
     /// rounded, have not. Errors: as [`Metric::lengths`].
     pub fn differences(&self, mesh: &Mesh) -> Result<PerFace<[f64; 3]>> {
         let (vertices, edges) = self.vertices_and_edges(mesh)?;
+        self.lengths_of(&edges)?;
         Ok(PerFace::from_fn(mesh.n_faces(), |f| {
-            differences(mesh.face_vertices(f).map(|v| vertices[v]), mesh.opposite_edges(f).map(|e| edges[e]))
+            let (r, unit) = face_differences(mesh, &vertices, &edges, f);
+            r.map(|r| scaled(r, unit))
         }))
     }
 
@@ -69,9 +105,10 @@ impl Metric {
     /// It matters where circles of very different sizes meet, and far out in H². Where ε is 0 at both ends: in E² and H², 0 in S². Errors: as [`Metric::lengths`].
     pub fn length_remainders(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
         let (vertices, edges) = self.vertices_and_edges(mesh)?;
+        let lengths = self.lengths_of(&edges)?;
         Ok(PerEdge::from_fn(mesh.n_edges(), |e| {
             let [a, b] = mesh.ends(e).map(|v| vertices[v]);
-            edges[e].remainder(a, b, length(self.space, edges[e].q2))
+            edges[e].remainder(a, b, lengths[e])
         }))
     }
 
@@ -79,7 +116,7 @@ impl Metric {
         self.check(mesh)?;
         let vertices: PerVertex<Vertex> = PerVertex::from_fn(mesh.n_vertices(), |v| self.vertex(v));
         if let Some(v) = mesh.vertices().find(|&v| vertices[v].d.is_nan()) {
-            let need = "u < 0 where ε has the sign of −λ";
+            let need = "u < 0 where ε has the sign of −λ, in E² between −5e5 and 5e5, in H² above −708";
             return Err(Error::Domain { vertex: v.index(), u: self.u[v], need });
         }
         let mut edges = vec![Edge::default(); mesh.n_edges()];
@@ -90,7 +127,7 @@ impl Metric {
         });
         match edges.iter().position(|e| e.q2 == 0.0) {
             Some(e) => {
-                let need = "one that gives the edge a real length at this u (in S² below π, in H² below 300)";
+                let need = "one that gives the edge a real length at this u (in S² below π, in H² between 2e-140 and 300)";
                 Err(Error::EdgeWeight { edge: e, eta: self.eta[EdgeId::from(e)], need })
             }
             None => Ok((vertices, edges.into())),
@@ -98,9 +135,32 @@ impl Metric {
     }
 
     /// Circle radii γ from u (ε = 0: e^u): [`radius`].
-    pub fn radii(&self) -> PerVertex<f64> {
-        PerVertex::from_fn(self.u.len(), |v| radius(self.space, self.epsilon[v], self.u[v]))
+    ///
+    /// Errors: [`Error::Domain`] for the first vertex whose radius is no positive number that a double holds.
+    pub fn radii(&self) -> Result<PerVertex<f64>> {
+        let radii: PerVertex<f64> =
+            PerVertex::from_fn(self.u.len(), |v| radius(self.space, self.epsilon[v], self.u[v]));
+        match radii.iter().position(|r| !r.is_normal()) {
+            Some(v) => {
+                let need = "one whose radius is between 2e-308 and 2e308";
+                Err(Error::Domain { vertex: v, u: self.u[VertexId::from(v)], need })
+            }
+            None => Ok(radii),
+        }
     }
+}
+
+/// Half-perimeter differences of a face, and the exponent of their unit.
+pub(super) fn face_differences(
+    mesh: &Mesh,
+    vertices: &PerVertex<Vertex>,
+    edges: &PerEdge<Edge>,
+    f: FaceId,
+) -> ([f64; 3], i32) {
+    let mut corners = mesh.face_vertices(f).map(|v| vertices[v]);
+    let mut sides = mesh.opposite_edges(f).map(|e| edges[e]);
+    let unit = in_one_unit(&mut corners, &mut sides);
+    (differences(corners, sides), unit)
 }
 
 /// Euclidean edge lengths of a mesh in space; an edge of zero or non-finite length is an error that names it.
@@ -123,6 +183,6 @@ pub fn lengths_from_positions(mesh: &Mesh, positions: &[Point]) -> Result<PerEdg
 
 /// The lengths opposite the corners of a face: `[l_bc, l_ca, l_ab]` for the face (a, b, c).
 #[inline]
-pub fn face_lengths(mesh: &Mesh, lengths: &PerEdge<f64>, f: crate::mesh::FaceId) -> [f64; 3] {
+pub fn face_lengths(mesh: &Mesh, lengths: &PerEdge<f64>, f: FaceId) -> [f64; 3] {
     mesh.opposite_edges(f).map(|e| lengths[e])
 }

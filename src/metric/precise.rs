@@ -2,9 +2,10 @@
 
 use super::lengths::Metric;
 use crate::error::Result;
-use crate::geometry::Twofold;
 use crate::geometry::conformal::half_chord;
+use crate::geometry::scaled::exponent;
 use crate::geometry::triangle::half_angles_of_chords;
+use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex};
 use crate::parallel;
 
@@ -12,8 +13,14 @@ impl Metric {
     /// The half chords of the edges: l/2, sinh(l/2), sin(l/2) in E², H², S². To 20 digits where lengths are precise
     /// ([`crate::geometry::conformal::is_precise`]), else to those of doubles. Errors: as [`Metric::lengths`].
     pub fn half_chords(&self, mesh: &Mesh) -> Result<PerEdge<Twofold>> {
+        self.lengths(mesh)?;
+        Ok(self.scaled_chords(mesh)?.iter().map(|(q, unit)| q.scaled(*unit)).collect::<Vec<_>>().into())
+    }
+
+    /// The half chords in units of their own, with the exponents of these.
+    pub(crate) fn scaled_chords(&self, mesh: &Mesh) -> Result<PerEdge<(Twofold, i32)>> {
         let vertices = self.vertices_and_edges(mesh)?.0;
-        let mut chords = vec![Twofold::default(); mesh.n_edges()];
+        let mut chords = vec![(Twofold::default(), 0); mesh.n_edges()];
         parallel::fill(&mut chords, |e| {
             let e = EdgeId::from(e);
             let [a, b] = mesh.ends(e).map(|v| vertices[v]);
@@ -25,9 +32,9 @@ impl Metric {
     /// By how much the angles around each vertex inside miss 2π, in (−2π, 2π], to twice the digits: the curvature of vertices
     /// that are meant to be flat, where the sum of double angles shows its own rounding. 0 on the boundary.
     ///
-    /// The rotations by all the angles are multiplied; no angle is formed. Errors: as [`Metric::lengths`].
+    /// The rotations by all the angles are multiplied; no angle is formed. Errors: those of [`Metric::check_domain`].
     pub fn angle_defects(&self, mesh: &Mesh) -> Result<PerVertex<f64>> {
-        let half_angles = half_angles(self, mesh, &self.half_chords(mesh)?);
+        let half_angles = half_angles(self, mesh, &self.scaled_chords(mesh)?);
         let mut turn: PerVertex<[Twofold; 2]> =
             PerVertex::filled(mesh.n_vertices(), [1.0.into(), 0.0.into()]);
         for f in mesh.faces() {
@@ -44,16 +51,20 @@ impl Metric {
     }
 }
 
-/// `[cos, sin]` of half the angle at each corner, from the half chords.
+/// `[cos, sin]` of half the angle at each corner, from the half chords and the exponents of their units.
 pub(crate) fn half_angles(
     metric: &Metric,
     mesh: &Mesh,
-    chords: &PerEdge<Twofold>,
+    chords: &PerEdge<(Twofold, i32)>,
 ) -> PerFace<[[Twofold; 2]; 3]> {
     let mut angles = vec![[[Twofold::default(); 2]; 3]; mesh.n_faces()];
     parallel::fill(&mut angles, |f| {
-        let chords = mesh.opposite_edges(FaceId::from(f)).map(|e| chords[e]);
-        half_angles_of_chords(metric.space, chords)
+        let sides = mesh.opposite_edges(FaceId::from(f)).map(|e| chords[e]);
+        // In E² the longest side is about 1; in H² and S² lengths have no other unit than 1.
+        let size = |(q, unit): (Twofold, i32)| unit + exponent(q.high);
+        let unit =
+            if metric.space == Space::E2 { sides.map(size).into_iter().fold(i32::MIN, i32::max) } else { 0 };
+        half_angles_of_chords(metric.space, sides.map(|(q, own)| q.scaled(own - unit)))
     });
     angles.into()
 }

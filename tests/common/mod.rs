@@ -4,6 +4,7 @@
 pub mod flips;
 pub mod flow;
 
+use ricci::mesh::io::{self, Soup};
 use ricci::mesh::shapes::SplitMix64;
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -28,6 +29,21 @@ pub fn index(kind: &str) -> Option<(PathBuf, Vec<HashMap<String, String>>)> {
     let mut rows = text.lines().map(fields);
     let header = rows.next().unwrap();
     Some((folder, rows.map(|row| header.iter().cloned().zip(row).collect()).collect()))
+}
+
+/// The meshes of these names from the corpus, or `None` where the corpus is absent. Each must be a row of `INDEX.csv`, be readable and
+/// have the numbers of vertices and faces that the row counts.
+pub fn named<'a>(kind: &str, names: &[&'a str]) -> Option<Vec<(&'a str, Soup)>> {
+    let (folder, rows) = index(kind)?;
+    let read = |&name: &&'a str| {
+        let row = rows.iter().find(|row| row["name"] == name);
+        let row = row.unwrap_or_else(|| panic!("{name} is not in INDEX.csv"));
+        let soup = io::read(&folder.join(&row["file"])).unwrap_or_else(|error| panic!("{error}"));
+        let counted = [&row["V"], &row["F"]].map(|n| n.parse::<usize>().unwrap());
+        assert_eq!([soup.positions.len(), soup.faces.len()], counted, "{name}: vertices and faces");
+        (name, soup)
+    };
+    Some(names.iter().map(read).collect())
 }
 
 /// Fields of a CSV line with quoted fields.

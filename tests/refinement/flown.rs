@@ -1,12 +1,13 @@
 //! Flows whose flips are recorded.
 
-use ricci::Control;
-use ricci::flow::{Flips, Options, Solver};
+use crate::common::flow::{attempt, euclidean};
+use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::{Double, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use ricci::metric::delaunay::{ClassFlips, Queue, failing};
 use ricci::metric::refinement::{Final, Input, Intrinsic, Triangulations};
-use ricci::metric::{Class, Metric, Refinement, Scheme, StartOptions, Target, Triangulated, delaunay_start};
+use ricci::metric::{Metric, Refinement, Scheme, StartOptions, Triangulated, delaunay_start};
+use ricci::{Class, Control, Flow, Target};
 use std::f64::consts::PI;
 
 pub const SCHEMES: [Scheme; 2] = [Scheme::Yamabe, Scheme::Inversive];
@@ -15,6 +16,8 @@ pub const SCHEMES: [Scheme; 2] = [Scheme::Yamabe, Scheme::Inversive];
 pub struct Flown {
     pub mesh: Mesh,
     pub metric: Metric,
+    /// Of the input.
+    pub geometry: Space,
     pub input_u: PerVertex<f64>,
     pub normal: NormalCoordinates,
     pub flips: usize,
@@ -39,13 +42,11 @@ pub fn flow(
             its_own.record(mesh, flip.edge);
         }
     };
-    let options = Options { flips: Flips::Auto, ..Options::default() };
-    let mut solver = Solver::new(mesh.clone(), metric.clone(), options).unwrap();
-    let report = solver.solve(target, &Control::new()).unwrap();
-    if !report.converged {
+    let mut flow = Flow::from_metric(mesh.clone(), metric.clone(), &Options::default()).unwrap();
+    if !attempt(&mut flow, target).is_reached() {
         return None;
     }
-    let (from, to) = (metric.u.clone(), &solver.metric().u);
+    let (from, to) = (metric.u.clone(), &flow.metric().u);
     for step in 1..=20 {
         let s = f64::from(step) / 20.0;
         let u = PerVertex::from_fn(from.len(), |v: VertexId| (1.0 - s) * from[v] + s * to[v]);
@@ -60,10 +61,20 @@ pub fn flow(
 }
 
 impl Flown {
-    /// The start's flips.
+    /// The start's flips, from Euclidean lengths.
     pub fn start(
         input: &Mesh,
         lengths: &PerEdge<f64>,
+        kind: (Space, Scheme),
+        double: Option<&Double>,
+    ) -> Flown {
+        Flown::start_in(Space::E2, (input, lengths), kind, double)
+    }
+
+    /// The start's flips, from lengths in any geometry.
+    pub fn start_in(
+        geometry: Space,
+        (input, lengths): (&Mesh, &PerEdge<f64>),
         (space, scheme): (Space, Scheme),
         double: Option<&Double>,
     ) -> Flown {
@@ -79,12 +90,20 @@ impl Flown {
         let Triangulated { mesh, lengths, .. } = surface;
         let intrinsic =
             (flips > 0).then(|| (mesh.clone(), lengths, normal.clone(), NormalCoordinates::new(&mesh)));
-        Flown { mesh, metric: start.metric, input_u: start.input_u, normal, flips, start: intrinsic }
+        Flown {
+            mesh,
+            metric: start.metric,
+            geometry,
+            input_u: start.input_u,
+            normal,
+            flips,
+            start: intrinsic,
+        }
     }
 
     pub fn refine(&self, input: &Mesh, double: Option<&Double>) -> Refinement {
         let keep = |f| double.is_none_or(|double| double.is_original(f));
-        let given = Input { mesh: input, geometry: Space::E2, u: &self.input_u };
+        let given = Input { mesh: input, geometry: self.geometry, u: &self.input_u };
         let result = Final { mesh: &self.mesh, metric: &self.metric, normal: &self.normal };
         let intrinsic = self.start.as_ref().map(|(mesh, lengths, given, normal)| Intrinsic {
             mesh,
@@ -104,5 +123,5 @@ pub fn default_target(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space, scheme:
         (0..4).for_each(|k| target[(k * step).into()] = PI);
         return target;
     }
-    Target::Uniform.resolve(mesh, lengths, space, scheme).unwrap()
+    Target::Uniform.resolve(&euclidean(mesh, lengths), Class::new(scheme, space)).unwrap()
 }

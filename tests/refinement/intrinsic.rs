@@ -1,17 +1,17 @@
 //! Surfaces that isometric flips change first: their edges are straight on the surface.
 
 use crate::check::{check, determinant};
+use crate::common::flow::{attempt, euclidean};
 use crate::common::{self, Random};
 use crate::flown::{Flown, SCHEMES, default_target, flow};
 use crate::small::shuffle;
-use ricci::Control;
 use ricci::embed::{UnrollOptions, cones_of, unroll};
-use ricci::flow::{Options, SurfaceFlow};
+use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, Point, io, shapes};
-use ricci::metric::{Refinement, SurfaceMetric, lengths_from_positions};
+use ricci::metric::{Refinement, lengths_from_positions};
+use ricci::{Class, Control, Flow, Solution};
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 type Surface = (Mesh, PerEdge<f64>);
 
@@ -84,7 +84,7 @@ fn squared_length(from: [f64; 3], to: [f64; 3], sides: [f64; 3]) -> f64 {
 }
 
 /// The largest disagreement of lengths, relative to the longest side of the faces, between input and final triangulation.
-fn strain(r: &Refinement, (input, lengths): &Surface, metric: &SurfaceMetric) -> f64 {
+fn strain(r: &Refinement, (input, lengths): &Surface, metric: &Solution) -> f64 {
     let mesh = metric.mesh();
     let finally = metric.metric().lengths(mesh).unwrap();
     let mut worst = 0.0f64;
@@ -106,19 +106,9 @@ fn strain(r: &Refinement, (input, lengths): &Surface, metric: &SurfaceMetric) ->
 /// dilatation − 1, over the spread of the layout.
 fn unchanged(surface: &Surface, scheme: ricci::metric::Scheme) -> (usize, usize, f64, [f64; 2]) {
     let (input, lengths) = surface;
-    let given = (Arc::new(input.clone()), Arc::new(lengths.clone()));
-    let doubled = !input.is_closed();
-    let metric = SurfaceMetric::delaunay(
-        given.0,
-        given.1,
-        Space::E2,
-        scheme,
-        Space::E2,
-        doubled,
-        &[],
-        &Control::new(),
-    )
-    .unwrap();
+    let class = Class::new(scheme, Space::E2);
+    let flow = Flow::new(euclidean(input, lengths), class, &Options::default(), &Control::new()).unwrap();
+    let metric = flow.solution();
     let r = metric.refinement(&Control::new()).unwrap();
     assert!(r.weight.iter().all(|q| (q - 1.0).abs() < 1e-12));
     let curvature = metric.curvature().unwrap();
@@ -183,13 +173,16 @@ fn a_curved_surface_is_mapped_to_itself_with_its_homogeneous_weights() {
     let ((mesh, flat), _) = rough_sphere(6, 0.4, 1.0);
     for (space, scheme) in [(Space::H2, SCHEMES[0]), (Space::H2, SCHEMES[1]), (Space::S2, SCHEMES[0])] {
         let lengths = PerEdge::from_fn(mesh.n_edges(), |e| 0.8 * flat[e]);
-        let given = (Arc::new(mesh.clone()), Arc::new(lengths.clone()));
-        let metric =
-            SurfaceMetric::delaunay(given.0, given.1, space, scheme, space, false, &[], &Control::new())
-                .unwrap();
-        let r = metric.refinement(&Control::new()).unwrap();
-        assert!(metric.start_flips() > 50 && r.crossings.len() > 50);
-        let finally = metric.metric().lengths(metric.mesh()).unwrap();
+        let start = Flown::start_in(space, (&mesh, &lengths), (space, scheme), None);
+        let r = start.refine(&mesh, None);
+        assert!(start.flips > 50 && r.crossings.len() > 50);
+        if space == Space::H2 {
+            let surface = ricci::Surface::intrinsic(mesh.clone(), lengths.clone(), space).unwrap();
+            let class = Class::new(scheme, space);
+            let flow = Flow::new(surface, class, &Options::default(), &Control::new()).unwrap();
+            assert!(flow.solution().refinement(&Control::new()).unwrap() == r);
+        }
+        let finally = start.metric.lengths(&start.mesh).unwrap();
         let gram = |l: [f64; 3]| {
             let g = l.map(|l: f64| if space == Space::H2 { l.cosh() } else { l.cos() });
             [[1.0, g[2], g[1]], [g[2], 1.0, g[0]], [g[1], g[0], 1.0]]
@@ -200,7 +193,7 @@ fn a_curved_surface_is_mapped_to_itself_with_its_homogeneous_weights() {
         let mut worst = 0.0f64;
         for f in r.mesh.faces() {
             let of_input = gram(mesh.opposite_edges(r.input_face[f]).map(|e| lengths[e]));
-            let of_final = gram(metric.mesh().opposite_edges(r.final_face[f]).map(|e| finally[e]));
+            let of_final = gram(start.mesh.opposite_edges(r.final_face[f]).map(|e| finally[e]));
             let (a, b, q) = (r.input_barycentric(f), r.final_barycentric(f), r.weights(f));
             for (i, j) in [(0, 0), (0, 1), (1, 2), (2, 0)] {
                 let image = q[i] * q[j] * product(b[i], b[j], of_final);
@@ -217,25 +210,19 @@ fn a_curved_surface_is_mapped_to_itself_with_its_homogeneous_weights() {
 fn crossings_lie_where_the_map_of_the_delaunay_triangulation_takes_them() {
     for scheme in SCHEMES {
         let ((sheared, lengths), positions) = sheared_disk(10, 3);
-        let given = (Arc::new(sheared.clone()), Arc::new(lengths.clone()));
-        let start = SurfaceMetric::delaunay(
-            given.0,
-            given.1,
-            Space::E2,
-            scheme,
-            Space::E2,
-            false,
-            &[],
-            &Control::new(),
-        )
-        .unwrap();
+        // A vertex that is pinned keeps the surface from being doubled: the Delaunay triangulation of the double is another one.
+        let boundary: Vec<_> = sheared.vertices().filter(|&v| sheared.is_boundary_vertex(v)).collect();
+        let options = Options { pinned: vec![boundary[0]], ..Options::default() };
+        let begin = |mesh: &Mesh, lengths: &PerEdge<f64>| {
+            let class = Class::new(scheme, Space::E2);
+            Flow::new(euclidean(mesh, lengths), class, &options, &Control::new()).unwrap()
+        };
+        let start = begin(&sheared, &lengths).solution();
         let faces: Vec<_> =
             start.mesh().faces().map(|f| start.mesh().face_vertices(f).map(|v| v.0)).collect();
         let delaunay = Mesh::from_faces(sheared.n_vertices(), &faces).unwrap();
         let its_lengths = lengths_from_positions(&delaunay, &positions).unwrap();
-        // Some of the way to a surface whose boundary turns evenly, but for two corners, and curvature inside. A vertex that is pinned
-        // keeps the surface from being doubled: the Delaunay triangulation of the double is another one.
-        let boundary: Vec<_> = sheared.vertices().filter(|&v| sheared.is_boundary_vertex(v)).collect();
+        // Some of the way to a surface whose boundary turns evenly, but for two corners, and curvature inside.
         let mut target = start.curvature().unwrap().at;
         target.iter_mut().for_each(|k| *k *= 0.7);
         boundary.iter().for_each(|&v| target[v] += 0.3 * PI / boundary.len() as f64);
@@ -243,22 +230,12 @@ fn crossings_lie_where_the_map_of_the_delaunay_triangulation_takes_them() {
         let cones = [45.into(), 68.into()];
         (target[cones[0]], target[cones[1]]) = (0.5, -0.5);
         let flown = |mesh: &Mesh, lengths: &PerEdge<f64>| {
-            let (options, pinned) = (Options::default(), [boundary[0]]);
-            let mut flow = SurfaceFlow::new(
-                mesh,
-                lengths,
-                Space::E2,
-                scheme,
-                Space::E2,
-                &pinned,
-                &options,
-                &Control::new(),
-            )
-            .unwrap();
-            assert!(flow.solve(&target, &Control::new()).unwrap().converged);
-            let r = flow.refinement(&Control::new()).unwrap();
+            let mut flow = begin(mesh, lengths);
+            assert!(attempt(&mut flow, &target).converged());
+            let flat = flow.solution();
+            let r = flat.refinement(&Control::new()).unwrap();
             let options = UnrollOptions { cones: Some(cones.to_vec()), ..UnrollOptions::default() };
-            let laid = unroll(&flow.now(), &options, &Control::new()).unwrap();
+            let laid = unroll(&flat, &options, &Control::new()).unwrap();
             let quality = laid.quality(mesh, lengths).unwrap();
             (flow, r, quality)
         };
@@ -295,7 +272,7 @@ fn crossings_lie_where_the_map_of_the_delaunay_triangulation_takes_them() {
             .fold(0.0, f64::max);
         println!(
             "{scheme}: {} flips, {} crossings to {:.0e}; qc mean {} and {}, max {} and {}",
-            flow.now().flips(),
+            flow.solution().flips(),
             r.crossings.len(),
             off,
             quality.qc_mean,

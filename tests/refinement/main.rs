@@ -10,10 +10,12 @@ mod normal;
 mod small;
 
 use check::{check, check_layout};
+use common::flow::euclidean;
 use flown::{SCHEMES, default_target, flow};
 use ricci::geometry::Space;
 use ricci::mesh::{Double, Mesh, PerEdge, PerVertex, Point, io};
-use ricci::metric::{Scheme, Target, lengths_from_positions};
+use ricci::metric::{Scheme, lengths_from_positions};
+use ricci::{Class, Target};
 
 /// Largest mesh that the optimised tests of a debug build take.
 const MOST_VERTICES: usize = 3000;
@@ -70,7 +72,8 @@ fn every_open_mesh_is_refined_in_its_half_of_the_double() {
         let double = Double::new(&half).unwrap();
         let lengths_of_double: PerEdge<f64> = double.spread_edges(&lengths).unwrap().into();
         for scheme in SCHEMES {
-            let Ok(target) = Target::Boundary.resolve(&half, &lengths, Space::E2, scheme) else { continue };
+            let class = Class::new(scheme, Space::E2);
+            let Ok(target) = Target::Boundary.resolve(&euclidean(&half, &lengths), class) else { continue };
             let target: PerVertex<f64> = double.target(&target).unwrap().into();
             let kind = (Space::E2, scheme);
             let Some(flown) = flow(&double.mesh, &lengths_of_double, kind, &target, Some(&double)) else {

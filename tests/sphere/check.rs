@@ -6,12 +6,11 @@ use ricci::geometry::Space;
 use ricci::geometry::vector::{add, cross, dot, norm, scale, sub};
 use ricci::mesh::{Mesh, PerEdge, Point, io, shapes};
 use ricci::metric::lengths_from_positions;
-use ricci::{Control, Result};
-use std::sync::Arc;
+use ricci::{Control, Result, Surface};
 
 pub fn run(mesh: &Mesh, lengths: &PerEdge<f64>, options: &SphereOptions) -> Result<Sphere> {
-    let (mesh, lengths) = (Arc::new(mesh.clone()), Arc::new(lengths.clone()));
-    uniformize_sphere(mesh, lengths, Space::E2, options, &Control::new())
+    let given = Surface::intrinsic(mesh.clone(), lengths.clone(), Space::E2)?;
+    uniformize_sphere(&given, options, &Control::new())
 }
 
 pub fn surface(soup: &io::Soup) -> (Mesh, PerEdge<f64>) {

@@ -18,8 +18,7 @@ use ricci::geometry::vector::dot;
 use ricci::mesh::shapes::{self, Intrinsic};
 use ricci::mesh::{Mesh, PerEdge, VertexId, io};
 use ricci::metric::lengths_from_positions;
-use ricci::{Control, Error};
-use std::sync::Arc;
+use ricci::{Control, Error, Surface};
 
 /// A report but for its times.
 fn timeless(report: &SphereReport) -> SphereReport {
@@ -184,22 +183,19 @@ fn the_way_back_is_a_refinement_of_the_given_faces() {
 
 #[test]
 fn a_cancelled_call_says_so() {
-    let (mesh, lengths) = surface(&rough(1, 0.2));
+    let given = Surface::from_soup(&rough(1, 0.2)).unwrap();
     let control = Control::new();
     control.cancel();
-    let result =
-        uniformize_sphere(Arc::new(mesh), Arc::new(lengths), Space::E2, &SphereOptions::default(), &control);
+    let result = uniformize_sphere(&given, &SphereOptions::default(), &control);
     assert!(matches!(result, Err(Error::Cancelled)));
 }
 
 #[test]
 fn cancelling_from_another_thread_stops_it() {
-    let (mesh, lengths) = surface(&shapes::ellipsoid([1.0, 1.0, 9.0], 40).unwrap());
+    let given = Surface::from_soup(&shapes::ellipsoid([1.0, 1.0, 9.0], 40).unwrap()).unwrap();
     let control = Control::new();
     let handle = control.clone();
-    let worker = std::thread::spawn(move || {
-        uniformize_sphere(Arc::new(mesh), Arc::new(lengths), Space::E2, &SphereOptions::default(), &handle)
-    });
+    let worker = std::thread::spawn(move || uniformize_sphere(&given, &SphereOptions::default(), &handle));
     std::thread::sleep(std::time::Duration::from_millis(60));
     control.cancel();
     assert!(matches!(worker.join().unwrap(), Err(Error::Cancelled)));

@@ -96,8 +96,7 @@ fn traces_depend_on_the_surface_alone() {
 #[test]
 fn a_sphere_is_laid_out_without_a_cut() {
     let surface = Surface::from_soup("ellipsoid", &shapes::ellipsoid([1.0, 1.3, 0.8], 4).unwrap());
-    let one =
-        uniformize(&surface.mesh, &surface.lengths, Space::E2, &QuotientOptions::default(), &Control::new());
+    let one = uniformize(&surface.given(), &QuotientOptions::default(), &Control::new());
     let Uniformization::Sphere(sphere) = one.unwrap() else { panic!("a sphere") };
     let (mesh, metric) = (sphere.metric.mesh(), sphere.metric.metric());
     let layout = layout_of(mesh, metric, Some(VertexId(7)), None, &Control::new()).unwrap();
@@ -124,14 +123,7 @@ fn one_call_serves_every_closed_surface() {
         (Surface::from_soup("genus 2", &shapes::genus(2, 2).unwrap()), Space::H2),
     ];
     for (surface, space) in surfaces {
-        let one = uniformize(
-            &surface.mesh,
-            &surface.lengths,
-            Space::E2,
-            &QuotientOptions::default(),
-            &Control::new(),
-        );
-        let one = one.unwrap();
+        let one = uniformize(&surface.given(), &QuotientOptions::default(), &Control::new()).unwrap();
         assert!(one.converged() && one.space() == space, "{}", surface.name);
         let curvature = one.metric().curvature().unwrap();
         assert!(curvature.at.iter().all(|k| k.abs() < 1e-9), "{}", surface.name);
@@ -143,7 +135,7 @@ fn the_base_of_a_sphere_is_its_puncture() {
     let surface = Surface::from_soup("ellipsoid", &shapes::ellipsoid([1.0, 1.3, 0.8], 3).unwrap());
     for v in [5, 17] {
         let options = QuotientOptions { base: Some(VertexId(v)), ..QuotientOptions::default() };
-        let one = uniformize(&surface.mesh, &surface.lengths, Space::E2, &options, &Control::new());
+        let one = uniformize(&surface.given(), &options, &Control::new());
         let Uniformization::Sphere(sphere) = one.unwrap() else { panic!("a sphere") };
         assert_eq!(sphere.report.puncture, VertexId(v));
     }

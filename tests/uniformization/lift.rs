@@ -6,9 +6,7 @@ use ricci::canonical::{QuotientOptions, quotient_of};
 use ricci::embed::cover::moved;
 use ricci::geometry::Space;
 use ricci::mesh::{HalfedgeId, Mesh, VertexId, shapes};
-use ricci::metric::{Scheme, SurfaceMetric};
-use ricci::{Control, Error};
-use std::sync::Arc;
+use ricci::{Class, Control, Error, Solution, Surface};
 
 /// A random walk of edges from a vertex.
 fn walk(mesh: &Mesh, from: VertexId, length: usize, random: &mut Random) -> Vec<HalfedgeId> {
@@ -80,9 +78,8 @@ fn paths_that_do_not_start_at_the_corner_are_refused() {
 fn a_metric_is_taken_up_where_it_is() {
     for surface in generated().into_iter().take(5) {
         let first = surface.uniformized();
-        let (mesh, lengths) = (Arc::new(surface.mesh.clone()), Arc::new(surface.lengths.clone()));
-        let space = first.layout.space;
-        let start = SurfaceMetric::new(mesh, lengths, surface.geometry, Scheme::Yamabe, space).unwrap();
+        let class = Class::yamabe(first.layout.space);
+        let start = Solution::initial_of(surface.given(), class).unwrap();
         let (options, control) = (QuotientOptions::default(), Control::new());
         let second = quotient_of(&start, &options, &control).unwrap();
         assert_eq!(first.layout, second.layout, "{}", surface.name);
@@ -95,8 +92,8 @@ fn a_metric_is_taken_up_where_it_is() {
 #[test]
 fn a_metric_in_another_space_is_refused() {
     let (mesh, lengths) = shapes::bolza(1).unwrap().build().unwrap();
-    let flat =
-        SurfaceMetric::new(Arc::new(mesh), Arc::new(lengths), Space::H2, Scheme::Yamabe, Space::E2).unwrap();
+    let bolza = Surface::intrinsic(mesh, lengths, Space::H2).unwrap();
+    let flat = Solution::initial_of(bolza, Class::yamabe(Space::E2)).unwrap();
     let error = quotient_of(&flat, &QuotientOptions::default(), &Control::new()).unwrap_err();
     assert!(matches!(&error, Error::Layout(message) if message.contains("h2")), "{error}");
 }

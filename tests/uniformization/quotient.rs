@@ -4,19 +4,23 @@ use crate::common::Random;
 use crate::surfaces::{Surface, corpus, generated};
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
 use ricci::embed::{UnrollOptions, dirichlet_domain, unroll};
-use ricci::flow::{Options, SurfaceFlow};
+use ricci::flow::{Options, flow};
 use ricci::geometry::{Motion, Space, Twofold};
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
-use ricci::metric::{Scheme, SurfaceMetric};
+use ricci::metric::Scheme;
 use ricci::topology::word::{Letter, Word};
-use ricci::{Control, Error};
+use ricci::{Class, Control, Error, Target};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Everything that must hold of a uniformization, measured from what it returns.
 pub fn check(surface: &Surface, q: &Quotient) {
     let name = &surface.name;
-    assert!(q.report.converged && q.report.max_curvature_error <= 1e-10, "{name}: {}", q.report.stop_reason);
+    assert!(
+        q.report.converged() && q.report.max_curvature_error <= 1e-10,
+        "{name}: {}",
+        q.report.stop_reason
+    );
     let (mesh, genus) = (&**q.metric.mesh(), surface.mesh.genus());
     let layout = &q.layout;
     assert!(layout.broken.is_empty() && layout.flipped.is_empty(), "{name}");
@@ -87,7 +91,7 @@ fn corpus_surfaces_are_quotients_of_the_plane_and_the_hyperbolic_plane() {
 fn circle_packings_uniformize_too() {
     let surface = Surface::from_soup("genus 2", &ricci::mesh::shapes::genus(2, 3).unwrap());
     let q = surface.with(&QuotientOptions { scheme: Scheme::Inversive, ..QuotientOptions::default() });
-    assert!(q.report.converged && q.layout.flipped.is_empty());
+    assert!(q.report.converged() && q.layout.flipped.is_empty());
     // Lengths between circles have the digits of doubles alone.
     assert!(
         q.layout.disagreement < 1e-10 && q.deck.relation_residual < 1e-10,
@@ -229,7 +233,7 @@ fn generators_keep_their_digits_on_long_surfaces() {
 #[test]
 fn what_is_no_quotient_is_refused() {
     let run = |surface: &Surface, options: &QuotientOptions| {
-        uniformize_quotient(&surface.mesh, &surface.lengths, surface.geometry, options, &Control::new())
+        uniformize_quotient(&surface.given(), options, &Control::new())
     };
     let sphere = Surface::from_soup("sphere", &ricci::mesh::shapes::icosphere(2).unwrap());
     let disk = Surface::from_soup("disk", &ricci::mesh::shapes::disk(3).unwrap());
@@ -241,8 +245,7 @@ fn what_is_no_quotient_is_refused() {
     assert!(matches!(run(&torus, &far), Err(Error::Argument { .. })));
     let control = Control::new();
     control.cancel();
-    let cancelled =
-        uniformize_quotient(&torus.mesh, &torus.lengths, Space::E2, &QuotientOptions::default(), &control);
+    let cancelled = uniformize_quotient(&torus.given(), &QuotientOptions::default(), &control);
     assert!(matches!(cancelled, Err(Error::Cancelled)));
 }
 
@@ -292,28 +295,15 @@ fn the_given_half_of_a_double_is_laid_out() {
         ),
     ];
     for surface in surfaces {
-        let Surface { name, mesh, lengths, geometry } = &surface;
-        let (given, control) = (Arc::new(mesh.clone()), Control::new());
-        let lengths = Arc::new(lengths.clone());
-        let start = SurfaceMetric::delaunay(
-            given,
-            lengths,
-            *geometry,
-            Scheme::Yamabe,
-            Space::H2,
-            true,
-            &[],
-            &control,
-        );
-        let mut flow = SurfaceFlow::resume(&start.unwrap(), &[], &Options::default(), &control).unwrap();
-        let report = flow.solve(&PerVertex::filled(mesh.n_vertices(), 0.0), &control).unwrap();
-        assert!(report.converged && flow.double().is_some(), "{name}");
-        assert!(flow.flatten(&control).unwrap() < 1e-18, "{name}");
-        let r = flow.refinement(&control).unwrap();
-        let (cones, root) = (Some(Vec::new()), Some(VertexId(0)));
-        let refinement = Some(Arc::new(r.clone()));
-        let options = UnrollOptions { cones, root, refinement, ..UnrollOptions::default() };
-        let layout = unroll(&flow.now(), &options, &control).unwrap();
+        let (Surface { name, mesh, .. }, control) = (&surface, Control::new());
+        let class = Class::yamabe(Space::H2);
+        let flat = flow(surface.given(), class, &Target::Uniform, &Options::default(), &control).unwrap();
+        assert!(flat.converged() && flat.double().is_some(), "{name}");
+        assert!(flat.report().unwrap().angle_defect.unwrap() < 1e-18, "{name}");
+        let r = flat.refinement(&control).unwrap();
+        let (root, refinement) = (Some(VertexId(0)), Some(Arc::new(r.clone())));
+        let options = UnrollOptions { root, refinement, ..UnrollOptions::default() };
+        let layout = unroll(&flat, &options, &control).unwrap();
         assert!((layout.area + 2.0 * PI * mesh.euler() as f64).abs() < 1e-9, "{name}: {}", layout.area);
         assert!(layout.on_input().unwrap().flipped.len() * 100 < mesh.n_faces(), "{name}");
         assert!(layout.flipped.is_empty() && layout.degenerate.is_empty(), "{name}");

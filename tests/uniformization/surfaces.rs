@@ -31,12 +31,17 @@ impl Surface {
         Surface { name: name.into(), mesh, lengths, geometry: surface.geometry }
     }
 
+    /// The surface that flows start from.
+    pub fn given(&self) -> ricci::Surface {
+        ricci::Surface::intrinsic(self.mesh.clone(), self.lengths.clone(), self.geometry).unwrap()
+    }
+
     pub fn uniformized(&self) -> Quotient {
         self.with(&QuotientOptions::default())
     }
 
     pub fn with(&self, options: &QuotientOptions) -> Quotient {
-        uniformize_quotient(&self.mesh, &self.lengths, self.geometry, options, &Control::new())
+        uniformize_quotient(&self.given(), options, &Control::new())
             .unwrap_or_else(|error| panic!("{}: {error}", self.name))
     }
 }
