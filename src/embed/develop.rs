@@ -205,7 +205,7 @@ impl<F: Frame> Development<F> {
                 {
                     let point = &mut points[corner[h] as usize];
                     if point[0].is_nan() {
-                        *point = placed.point(faces.space, weights);
+                        *point = placed.point(faces, weights);
                     }
                 }
             }
@@ -236,20 +236,25 @@ impl<F: Frame> Development<F> {
 }
 
 impl<F: Frame> Placed<F> {
+    /// The point with these weights of the face's corners, as the face's first half-edge has it at the origin.
+    fn local(&self, faces: &Faces<F>, weights: [f64; 3]) -> [f64; 3] {
+        combination(faces.space, *self.local.get_or_init(|| faces.local(self.face)), weights)
+    }
+
     /// The point of the face with these weights of its corners, where it lies.
-    pub fn point(&self, space: Space, weights: [f64; 3]) -> [f64; 3] {
+    pub fn point(&self, faces: &Faces<F>, weights: [f64; 3]) -> [f64; 3] {
         match weights.iter().position(|&w| w == 1.0) {
             Some(corner) => self.sides[corner].apply([0.0, 0.0, 1.0]),
-            None => self.sides[0].apply(combination(space, self.local, weights)),
+            None => self.sides[0].apply(self.local(faces, weights)),
         }
     }
 
     /// By how much a point misses that one: a vector in the frame of the face's first half-edge, for a corner that of its own.
-    pub fn miss(&self, space: Space, point: [f64; 3], weights: [f64; 3]) -> [f64; 2] {
+    pub fn miss(&self, faces: &Faces<F>, point: [f64; 3], weights: [f64; 3]) -> [f64; 2] {
         match weights.iter().position(|&w| w == 1.0) {
             // About the corner itself: seen from elsewhere in a large face of H² it would be magnified.
-            Some(corner) if space != Space::E2 => self.sides[corner].miss(point, [0.0, 0.0, 1.0]),
-            _ => self.sides[0].miss(point, combination(space, self.local, weights)),
+            Some(corner) if faces.space != Space::E2 => self.sides[corner].miss(point, [0.0, 0.0, 1.0]),
+            _ => self.sides[0].miss(point, self.local(faces, weights)),
         }
     }
 }

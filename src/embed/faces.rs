@@ -9,6 +9,7 @@ use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace};
 use crate::metric::Metric;
 use crate::metric::precise::half_angles;
 use crate::parallel;
+use std::cell::OnceCell;
 
 /// The triangles of a metric as frames walk along and about them.
 pub(super) struct Faces<'a, F: Frame> {
@@ -23,10 +24,11 @@ pub(super) struct Faces<'a, F: Frame> {
 
 /// A triangle where it lies.
 pub(super) struct Placed<F> {
+    pub face: FaceId,
     /// The frames of its half-edges.
     pub sides: [F; 3],
-    /// [`Faces::local`].
-    pub local: [[f64; 3]; 3],
+    /// [`Faces::local`], once it was needed: pieces have points elsewhere than at its corners.
+    pub local: OnceCell<[[f64; 3]; 3]>,
 }
 
 impl<'a> Faces<'a, PlaneFrame> {
@@ -112,7 +114,7 @@ impl<F: Frame> Faces<'_, F> {
 
     /// A face whose first half-edge has this frame.
     pub fn placed(&self, f: FaceId, frame: F) -> Placed<F> {
-        Placed { sides: self.around(f, 0, frame), local: self.local(f) }
+        Placed { face: f, sides: self.around(f, 0, frame), local: OnceCell::new() }
     }
 
     /// The corners of a face as its first half-edge has them at the origin, along the x axis: ambient coordinates.

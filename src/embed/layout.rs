@@ -8,7 +8,7 @@ use super::pieces::Pieces;
 use super::shape::{Shape, extent};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::complex::{norm, sub};
+use crate::geometry::complex::{norm, norm2, sub};
 use crate::geometry::model::{distance as hyperbolic_distance, klein, poincare};
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
@@ -127,7 +127,9 @@ pub struct OnInput {
 pub fn layout(mesh: &Arc<Mesh>, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Control) -> Result<Layout> {
     check_lengths(mesh, lengths)?;
     let faces = Faces::of_lengths(mesh, lengths.clone());
-    lay_out(Pieces::Mesh(mesh.clone()), &faces, None, Some(cut.clone()), control)
+    let mut layout = lay_out(Pieces::Mesh(mesh.clone()), &faces, None, Some(cut.clone()), control)?;
+    layout.find_flat();
+    Ok(layout)
 }
 
 /// Lay a metric of constant curvature out in its space, outwards from `root` (default: a corner of the smallest triangle) with
@@ -147,7 +149,9 @@ pub fn layout_of(
     control: &Control,
 ) -> Result<Layout> {
     let faces = Faces::precise(mesh, metric)?;
-    lay_out(Pieces::Mesh(mesh.clone()), &faces, root, cut.cloned(), control)
+    let mut layout = lay_out(Pieces::Mesh(mesh.clone()), &faces, root, cut.cloned(), control)?;
+    layout.find_flat();
+    Ok(layout)
 }
 
 /// Where the corners of the part of a flat surface lie that a cut leaves around the smallest triangle, per half-edge of a face; NaN beyond the cut.
@@ -165,7 +169,7 @@ pub(crate) fn unroll_part(
     Ok(PerHalfedge::from_fn(mesh.n_halfedges(), |h| flat(Space::E2, points[corner[h] as usize])))
 }
 
-/// Lay pieces out. `cut`: on the pieces.
+/// Lay pieces out; what is flipped or degenerate is not yet found ([`Layout::find_flat`]). `cut`: on the pieces.
 pub(super) fn lay_out<F: Frame>(
     pieces: Pieces,
     faces: &Faces<F>,
@@ -247,7 +251,7 @@ fn assemble<F: Frame>(
     }
     // A refinement with a boundary, of a closed triangulation, is the given half of a double.
     let is_half = faces.mesh.is_closed() && !mesh.is_closed();
-    let mut layout = Layout {
+    let layout = Layout {
         space,
         seams,
         flipped: Vec::new(),
@@ -270,7 +274,6 @@ fn assemble<F: Frame>(
         points,
         coordinates,
     };
-    layout.find_flat();
     control.check()?;
     Ok(layout)
 }
@@ -292,14 +295,16 @@ fn misses_of<F: Frame>(
     let (mut worst, mut worst_edge) = (0.0, 0.0);
     for &f in of_patch {
         let (halfedges, weights) = (pieces.mesh().face_halfedges(f), pieces.final_barycentric(f));
-        let off = [0, 1, 2]
-            .map(|k| placed.miss(faces.space, points[corner_index[halfedges[k]] as usize], weights[k]));
+        let off = [0, 1, 2].map(|k| {
+            let point = points[corner_index[halfedges[k]] as usize];
+            placed.miss(faces, point, weights[k]).map(|x| x / longest)
+        });
         for k in 0..3 {
-            worst = worse(worst, norm(off[k]));
-            worst_edge = worse(worst_edge, norm(sub(off[(k + 1) % 3], off[k])));
+            worst = worse(worst, norm2(off[k]));
+            worst_edge = worse(worst_edge, norm2(sub(off[(k + 1) % 3], off[k])));
         }
     }
-    [worst, worst_edge / longest]
+    [longest * worst.sqrt(), worst_edge.sqrt()]
 }
 
 impl Seam {
@@ -411,6 +416,7 @@ impl Layout {
         let grown = Development::of_frames(r, PerFace::from_fn(mesh.n_faces(), frame));
         let mut layout = assemble(pieces, &faces, grown, cut, control)?;
         layout.scale_by(self.scale);
+        layout.find_flat();
         Ok(layout)
     }
 
@@ -516,6 +522,7 @@ impl Layout {
         }
         self.scale_by(factor);
         self.area = area;
+        self.find_flat();
         Ok(factor)
     }
 
@@ -532,11 +539,10 @@ impl Layout {
         self.diameter *= factor;
         self.scale *= factor;
         self.area *= factor * factor;
-        self.find_flat();
     }
 
     /// Find the triangles that are flipped or degenerate.
-    fn find_flat(&mut self) {
+    pub(super) fn find_flat(&mut self) {
         let mesh = self.pieces.mesh();
         if self.pieces.refinement().is_none() {
             self.flipped = match self.space {

@@ -5,7 +5,7 @@ use super::shape::{LEAST_SHARE, Shape, extent};
 use super::triangle::Triangle;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
-use crate::geometry::complex::{conj, cross, doubled_area, mul, norm, sub};
+use crate::geometry::complex::{conj, cross, doubled_area, mul, norm, norm2, sub};
 use crate::geometry::triangle::area;
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace};
 use crate::parallel;
@@ -151,7 +151,7 @@ fn summary(mesh: &Mesh, qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality 
 /// (16 A A′)`: the areas are formed directly, so nothing cancels where K is large. The corner is the one
 /// opposite the longest side, where a needle's edge vectors are far from parallel.
 fn dilatation(from: [[f64; 2]; 3], to: [[f64; 2]; 3]) -> f64 {
-    let k = longest_side([[1, 2], [2, 0], [0, 1]].map(|[i, j]| norm(sub(from[i], from[j]))));
+    let k = longest_side([[1, 2], [2, 0], [0, 1]].map(|[i, j]| norm2(sub(from[i], from[j]))));
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
     let vectors = |t: [[f64; 2]; 3]| [sub(t[i], t[k]), sub(t[j], t[k])];
     let ([p, q], [p_image, q_image]) = (vectors(from), vectors(to));

@@ -1,7 +1,7 @@
 //! How flat a triangle in the plane is, and what rounding of its coordinates does to that.
 
 use super::overlap::Triangle;
-use crate::geometry::complex::{cross, norm, sub};
+use crate::geometry::complex::{cross, norm, norm2, sub};
 
 /// A triangle counts as flipped where its area is below −this · longest edge² and what rounding its coordinates does to it, as
 /// degenerate within that of zero: thinner pieces are what rounding makes of crossings that coincide.
@@ -18,7 +18,12 @@ pub(super) struct Shape {
 impl Shape {
     pub fn of([a, b, c]: Triangle) -> Shape {
         let edges = [sub(b, a), sub(c, b), sub(a, c)];
-        let longest = edges.into_iter().map(norm).fold(0.0, f64::max);
+        let square = edges.into_iter().map(norm2).fold(0.0, f64::max);
+        // Squares of the smallest and the largest doubles are none.
+        let longest = match square.is_normal() {
+            true => square.sqrt(),
+            false => edges.into_iter().map(norm).fold(0.0, f64::max),
+        };
         if longest == 0.0 {
             return Shape { share: 0.0, longest };
         }

@@ -97,8 +97,10 @@ fn unroll_in_pool(result: &Solution, options: &UnrollOptions, control: &Control)
     let source = Source { given, mesh: result.mesh(), metric: result.metric(), refinement };
     let known = result.report().map(|_| result.cones().to_vec());
     let cones = options.cones.clone().or(known);
-    let mut layout = unroll_source(source, &UnrollOptions { cones, ..options.clone() }, control)?;
-    if options.scale == Scale::InputArea && layout.space == Space::E2 {
+    let mut layout = laid_out(source, &UnrollOptions { cones, ..options.clone() }, control)?;
+    if options.scale == Scale::AsSolved || layout.space != Space::E2 {
+        layout.find_flat();
+    } else {
         layout.scale_to_area(area(given, result.initial().input_geometry, result.surface().lengths())?)?;
     }
     Ok(layout)
@@ -119,6 +121,12 @@ pub struct Source<'a> {
 
 /// [`unroll`] from its parts, in the metric's own scale. Errors: as there.
 pub fn unroll_source(source: Source, options: &UnrollOptions, control: &Control) -> Result<Layout> {
+    let mut layout = laid_out(source, options, control)?;
+    layout.find_flat();
+    Ok(layout)
+}
+
+fn laid_out(source: Source, options: &UnrollOptions, control: &Control) -> Result<Layout> {
     control.check()?;
     let Source { mesh, metric, .. } = source;
     match metric.space {
