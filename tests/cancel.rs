@@ -7,7 +7,7 @@ use common::Random;
 use common::flow::{euclidean, surface};
 use ricci::embed::overlap::overlapping;
 use ricci::embed::pack::pack;
-use ricci::embed::{ChartOptions, charts, layout_of, layout_refined, refined_cut};
+use ricci::embed::{ChartOptions, UnrollOptions, charts, layout_of, unroll};
 use ricci::flow::{Options, auto_cones};
 use ricci::geometry::Space;
 use ricci::mesh::{Curves, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
@@ -15,6 +15,7 @@ use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, intrinsic_del
 use ricci::metric::{Scheme, Triangulated, delaunay_start, initial_metric};
 use ricci::topology::cut_graph;
 use ricci::{Class, Control, Error, Flow, Result, Target};
+use std::sync::Arc;
 use std::time::Duration;
 
 /// A torus whose triangulation is far from Delaunay.
@@ -59,14 +60,13 @@ fn a_cancelled_control_stops_every_stage() {
     is_cancelled("Curves::trace", Curves::trace(mesh, &normal, &stop));
     let cones = [VertexId(3), VertexId(700)];
     is_cancelled("cut_graph", cut_graph(mesh, lengths, &cones, &stop));
-    let r = now.refinement(&free).unwrap();
-    is_cancelled("refined_cut", refined_cut(&r, made.mesh(), made.metric(), &cones, &stop));
-    let cut = refined_cut(&r, made.mesh(), made.metric(), &cones, &free).unwrap();
-    is_cancelled("layout_refined", layout_refined(&r, made.mesh(), made.metric(), &cut, &stop));
-    let layout = layout_refined(&r, made.mesh(), made.metric(), &cut, &free).unwrap().layout;
-    is_cancelled("charts", charts(&r.mesh, |h| layout.corner_uv(h), &ChartOptions::default(), &stop));
+    let options = UnrollOptions { cones: Some(cones.to_vec()), ..UnrollOptions::default() };
+    is_cancelled("unroll", unroll(&now, &options, &stop));
+    let layout = unroll(&now, &options, &free).unwrap();
+    is_cancelled("layout_of", layout_of(now.mesh(), now.metric(), None, None, &stop));
+    is_cancelled("charts", charts(layout.mesh(), |h| layout.uv(h), &ChartOptions::default(), &stop));
     is_cancelled("pack", pack(&[[1.0, 2.0], [1.0, 1.0]], 0.0, &stop));
-    let triangles: Vec<_> = r.mesh.faces().map(|f| layout.face_uv(&r.mesh, f)).collect();
+    let triangles: Vec<_> = layout.mesh().faces().map(|f| layout.face_uv(f)).collect();
     is_cancelled("overlapping", overlapping(&triangles, &stop));
     is_cancelled("auto_cones", auto_cones(mesh, lengths, 4, &stop));
 }
@@ -199,10 +199,10 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
     }
     made.solve(&Target::Uniform, &free).unwrap();
     let cut = cut_graph(made.mesh(), &made.metric().lengths(made.mesh()).unwrap(), &[], &free).unwrap();
-    let layout = layout_of(made.mesh(), made.metric(), &cut, &free).unwrap();
-    let uv = |h| layout.corner_uv(h);
+    let layout = layout_of(&Arc::new(made.mesh().clone()), made.metric(), None, Some(&cut), &free).unwrap();
+    let uv = |h| layout.uv(h);
     interrupt("charts", one, |c| charts(made.mesh(), uv, &ChartOptions::default(), c).map(drop));
-    let triangles: Vec<_> = made.mesh().faces().map(|f| layout.face_uv(made.mesh(), f)).collect();
+    let triangles: Vec<_> = made.mesh().faces().map(|f| layout.face_uv(f)).collect();
     interrupt("overlapping", one, |c| overlapping(&triangles, c));
     let sides: Vec<[f64; 2]> = (1..3000).map(|k| [k as f64, 1.0 + (k % 7) as f64]).collect();
     interrupt("pack", one, |c| pack(&sides, 0.001, c));

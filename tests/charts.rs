@@ -6,7 +6,7 @@ mod common;
 use common::Random;
 use common::flow::{attempt, surface};
 use ricci::embed::overlap::{Triangle, overlapping};
-use ricci::embed::{ChartOptions, Charts, Layout, charts, layout_of, layout_refined, refined_cut};
+use ricci::embed::{ChartOptions, Charts, Layout, UnrollOptions, charts, layout_of, unroll};
 use ricci::flow::{Options, auto_cones, flow};
 use ricci::geometry::Space;
 use ricci::geometry::predicates::orientation;
@@ -18,6 +18,7 @@ use ricci::topology::cut_graph;
 use ricci::{Class, Control, Error, Flow, Surface, Target};
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::Arc;
 use std::time::Instant;
 
 fn cut(mesh: &Mesh, uv: impl Fn(HalfedgeId) -> [f64; 2]) -> Charts {
@@ -314,7 +315,7 @@ fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> (Mes
     let cones: Vec<_> =
         mesh.vertices().filter(|&v| target[v] != 0.0 && !mesh.is_boundary_vertex(v)).collect();
     let cut = cut_graph(&mesh, &metric.lengths(&mesh).unwrap(), &cones, &Control::new()).unwrap();
-    let layout = layout_of(&mesh, &metric, &cut, &Control::new()).unwrap();
+    let layout = layout_of(&Arc::new(mesh.clone()), &metric, None, Some(&cut), &Control::new()).unwrap();
     (mesh, layout)
 }
 
@@ -329,7 +330,7 @@ fn layouts_of_high_genus_come_apart_into_few_charts() {
         for (name, target) in [("single", single), ("auto:8", placed)] {
             let (mesh, layout) = lay_out(&mesh, &lengths, &target);
             let start = Instant::now();
-            let result = cut(&mesh, |h| layout.corner_uv(h));
+            let result = cut(&mesh, |h| layout.uv(h));
             println!(
                 "genus {genus}, {name}: {} faces, {} charts, efficiency {:.2}, seams {:.2} -> {:.2}, {:.2} s",
                 mesh.n_faces(),
@@ -339,7 +340,7 @@ fn layouts_of_high_genus_come_apart_into_few_charts() {
                 result.seam_length[1] / layout.diameter,
                 start.elapsed().as_secs_f64()
             );
-            let all: Vec<Triangle> = mesh.faces().map(|f| layout.face_uv(&mesh, f)).collect();
+            let all: Vec<Triangle> = mesh.faces().map(|f| layout.face_uv(f)).collect();
             assert_eq!(result.count() == 1, overlapping(&all, &Control::new()).unwrap().is_empty());
             assert!(result.count() < 50);
         }
@@ -355,10 +356,9 @@ fn layouts_of_real_surfaces_come_apart() {
         let target = auto_cones(&mesh, &lengths, n, &Control::new()).unwrap().target;
         let (mesh, layout) = lay_out(&mesh, &lengths, &target);
         let start = Instant::now();
-        let result =
-            charts(&mesh, |h| layout.corner_uv(h), &ChartOptions::default(), &Control::new()).unwrap();
+        let result = charts(&mesh, |h| layout.uv(h), &ChartOptions::default(), &Control::new()).unwrap();
         let seconds = start.elapsed().as_secs_f64();
-        verify(&mesh, &|h| layout.corner_uv(h), &result);
+        verify(&mesh, &|h| layout.uv(h), &result);
         println!(
             "{file}, {n} cones: {} faces, {} charts, efficiency {:.2}, {seconds:.2} s",
             mesh.n_faces(),
@@ -380,17 +380,15 @@ fn layouts_with_a_single_cone_come_apart_into_few_charts() {
         assert!(flat.report().unwrap().is_reached(), "{file}: {:?}", flat.report());
         let inside = !flat.given().is_boundary_vertex(VertexId(0));
         assert_eq!(flat.cones(), &[VertexId(0)][..usize::from(inside)], "{file}");
-        let r = flat.refinement(&control).unwrap();
-        let cut = refined_cut(&r, flat.mesh(), flat.metric(), flat.cones(), &control).unwrap();
-        let layout = layout_refined(&r, flat.mesh(), flat.metric(), &cut, &control).unwrap().layout;
-        let start = Instant::now();
-        let result = charts(&r.mesh, |h| layout.corner_uv(h), &ChartOptions::default(), &control).unwrap();
+        let layout = unroll(&flat, &UnrollOptions::default(), &control).unwrap();
+        let (start, laid) = (Instant::now(), layout.mesh());
+        let result = charts(laid, |h| layout.uv(h), &ChartOptions::default(), &control).unwrap();
         let seconds = start.elapsed().as_secs_f64();
-        verify(&r.mesh, &|h| layout.corner_uv(h), &result);
+        verify(laid, &|h| layout.uv(h), &result);
         println!(
             "{file}: genus {}, {} faces, {} charts, {} degenerate, efficiency {:.2}, {seconds:.2} s",
             flat.given().genus(),
-            r.mesh.n_faces(),
+            laid.n_faces(),
             result.count(),
             result.degenerate.len(),
             result.efficiency

@@ -1,8 +1,8 @@
 //! What the input's file says of vertices and corners, on the mesh that is written with the layout.
 
 use crate::input::Input;
-use crate::laid::Laid;
 use ricci::mesh::Point;
+use ricci::metric::Refinement;
 use std::collections::HashMap;
 
 /// Colours and normals of the written mesh; empty for none.
@@ -14,31 +14,34 @@ pub struct Carried {
     pub face_normals: Vec<[u32; 3]>,
 }
 
-/// Where the layout's mesh is a refinement, crossings have what is linear along the input's edges, corners what is linear in the
+/// For the input's own mesh or a `refinement` of it: crossings have what is linear along the input's edges, corners what is linear in the
 /// input's faces: drawn, both look as in the input. Normals are not made unit vectors: their direction between corners is that of
 /// their sum.
-pub fn carry(input: &Input, laid: &Laid) -> ricci::Result<Carried> {
+pub fn carry(input: &Input, refinement: Option<&Refinement>) -> ricci::Result<Carried> {
     let given = &input.attributes;
     let mut carried = Carried::default();
     if let Some(colors) = &given.colors {
-        carried.colors = at_vertices(laid, colors)?;
+        carried.colors = at_vertices(refinement, colors)?;
     }
     match (&given.corner_normals, &given.normals) {
         (Some(corners), _) => {
-            let corners = match &laid.refinement {
+            let corners = match refinement {
                 Some(r) => &r.from_input_corners(corners)?,
                 None => corners,
             };
             (carried.normals, carried.face_normals) = numbered(corners);
         }
-        (None, Some(normals)) => carried.normals = at_vertices(laid, normals)?,
+        (None, Some(normals)) => carried.normals = at_vertices(refinement, normals)?,
         (None, None) => {}
     }
     Ok(carried)
 }
 
-fn at_vertices<const N: usize>(laid: &Laid, values: &[[f64; N]]) -> ricci::Result<Vec<[f64; N]>> {
-    laid.refinement.as_ref().map_or_else(|| Ok(values.to_vec()), |r| r.from_input_vertices(values))
+fn at_vertices<const N: usize>(
+    refinement: Option<&Refinement>,
+    values: &[[f64; N]],
+) -> ricci::Result<Vec<[f64; N]>> {
+    refinement.map_or_else(|| Ok(values.to_vec()), |r| r.from_input_vertices(values))
 }
 
 /// What of the input's attributes the written file has no place for.

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::Outcome;
-use crate::laid::{Laid, Packed, Placed};
+use crate::laid::{Laid, Packed};
 use crate::report::timed;
 use ricci::Control;
 use ricci::embed::ChartOptions;
@@ -34,7 +34,7 @@ pub fn interior_cones(input: &Input, outcome: &Outcome) -> Option<Vec<(VertexId,
 pub fn cut(outcome: &mut Outcome, margin: f64, control: &Control) -> Result<(), Failure> {
     let Ok(laid) = &mut outcome.layout else { return Ok(()) };
     let packed = timed(&mut outcome.seconds.layout, || -> ricci::Result<Packed> {
-        let mesh = &laid.mesh;
+        let mesh = laid.mesh();
         let options = ChartOptions { margin };
         let charts = ricci::embed::charts(mesh, |h| laid.corner_uv(h), &options, control)?;
         let counts = |f: &FaceId| charts.degenerate.binary_search(f).is_err();
@@ -51,19 +51,11 @@ pub fn cut(outcome: &mut Outcome, margin: f64, control: &Control) -> Result<(), 
 /// The layout as it is written and drawn: in charts where it was cut into them.
 impl Laid {
     pub fn coordinates(&self) -> &[[f64; 2]] {
-        match (&self.packed, &self.placed) {
-            (Some(packed), _) => &packed.charts.coordinates,
-            (None, Placed::Plane(layout)) => &layout.coordinates,
-            (None, Placed::Space(place)) => &place.coordinates,
-        }
+        self.packed.as_ref().map_or(&self.layout.coordinates, |packed| &packed.charts.coordinates)
     }
 
     pub fn corner_index(&self) -> &PerHalfedge<u32> {
-        match (&self.packed, &self.placed) {
-            (Some(packed), _) => &packed.charts.corner_index,
-            (None, Placed::Plane(layout)) => &layout.corner_index,
-            (None, Placed::Space(place)) => &place.refined.corner_index,
-        }
+        self.packed.as_ref().map_or(&self.layout.corner_index, |packed| &packed.charts.corner_index)
     }
 
     pub fn corner_uv(&self, h: HalfedgeId) -> [f64; 2] {

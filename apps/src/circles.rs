@@ -6,6 +6,7 @@
 
 use crate::laid::Laid;
 use ricci::embed::Layout;
+use ricci::geometry::Space;
 use ricci::geometry::circle::power_circle;
 use ricci::mesh::{FaceId, Mesh};
 use ricci::metric::Metric;
@@ -43,12 +44,15 @@ pub struct Circles {
 
 /// The circles of a Euclidean metric laid out in the plane; `mesh` is the triangulation of the metric.
 pub fn circles(mesh: &Mesh, metric: &Metric, scheme: &'static str, laid: &Laid) -> Option<Circles> {
-    let (layout, scale) = (laid.plane()?, laid.scale);
-    let gamma = metric.radii().ok()?;
-    let n_given = laid.refinement.as_ref().map_or(mesh.n_vertices(), |r| r.n_input_vertices);
+    let layout = &laid.layout;
+    if layout.space != Space::E2 {
+        return None;
+    }
+    let (gamma, scale) = (metric.radii().ok()?, layout.scale);
+    let n_given = laid.refinement().map_or(mesh.n_vertices(), |r| r.n_input_vertices);
     let mut vertex_of = vec![None; layout.coordinates.len()];
-    for h in laid.mesh.halfedges().filter(|&h| laid.mesh.origin(h).index() < n_given) {
-        vertex_of[layout.corner_index[h] as usize] = Some(laid.mesh.origin(h));
+    for h in laid.mesh().halfedges().filter(|&h| laid.mesh().origin(h).index() < n_given) {
+        vertex_of[layout.corner_index[h] as usize] = Some(laid.mesh().origin(h));
     }
     let vertex_circle = |(uv, v): (usize, Option<_>)| {
         let v: ricci::mesh::VertexId = v?;
@@ -71,9 +75,9 @@ pub fn circles(mesh: &Mesh, metric: &Metric, scheme: &'static str, laid: &Laid) 
 
 /// The faces of the metric's triangulation where they lie in the layout: those of a refinement are found from their largest piece.
 fn final_faces(laid: &Laid, layout: &Layout) -> Vec<(FaceId, [[f64; 2]; 3])> {
-    let mesh = &laid.mesh;
-    let Some(refinement) = &laid.refinement else {
-        return mesh.faces().map(|f| (f, layout.face_uv(mesh, f))).collect();
+    let mesh = laid.mesh();
+    let Some(refinement) = laid.refinement() else {
+        return mesh.faces().map(|f| (f, layout.face_uv(f))).collect();
     };
     let mut largest: BTreeMap<FaceId, (f64, FaceId)> = BTreeMap::new();
     for piece in mesh.faces() {
@@ -84,7 +88,7 @@ fn final_faces(laid: &Laid, layout: &Layout) -> Vec<(FaceId, [[f64; 2]; 3])> {
         }
     }
     let corners = |(f, (share, piece)): (FaceId, (f64, FaceId))| {
-        let (weights, uv) = (refinement.final_barycentric(piece), layout.face_uv(mesh, piece));
+        let (weights, uv) = (refinement.final_barycentric(piece), layout.face_uv(piece));
         (share > 0.0)
             .then(|| (f, [0, 1, 2].map(|c| [0, 1].map(|axis| solve(weights, uv.map(|p| p[axis]), c)))))
     };

@@ -4,8 +4,10 @@ use crate::charts;
 use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
+use ricci::embed::{Layout, Seam};
 use ricci::flow::{Obstruction, Report};
-use ricci::mesh::VertexId;
+use ricci::geometry::{PlaneIsometry, Space};
+use ricci::mesh::{HalfedgeId, VertexId};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -53,7 +55,7 @@ impl Distortion {
             area_ratio_min: quality.map(|q| q.area_ratio_min),
             area_ratio_max: quality.map(|q| q.area_ratio_max),
             degenerate_pieces: laid.map(|laid| laid.degenerate.len()),
-            crossings: laid.and_then(|laid| laid.refinement.as_ref()).map(|r| r.crossings.len()),
+            crossings: laid.and_then(Laid::refinement).map(|r| r.crossings.len()),
         }
     }
 }
@@ -87,6 +89,8 @@ pub struct FlowResult {
     max_length_change: f64,
     area: f64,
     flipped_triangles: Option<usize>,
+    /// Faces of the input that fold where the map is made linear on them.
+    flipped_input_faces: Option<usize>,
     #[serde(flatten)]
     distortion: Distortion,
     /// Number of charts, and the share of the unit square that they cover.
@@ -143,12 +147,11 @@ impl FlowResult {
         let laid = layout.as_ref().ok();
         let packed = laid.and_then(|l| l.packed.as_ref());
         let cones = charts::interior_cones(input, outcome);
-        let seam = |s: &ricci::embed::Seam| SeamFigures {
-            rotation: s.rotation,
-            translation: s.translation,
-            residual: s.residual,
-            edges: s.halfedges.len(),
+        let seam = |(s, segment): (&Seam, &Vec<HalfedgeId>)| {
+            let PlaneIsometry { rotation, translation } = s.isometry();
+            SeamFigures { rotation, translation, residual: s.residual, edges: segment.len() }
         };
+        let seams = |layout: &Layout| layout.seams.iter().zip(&layout.cut.segments).map(seam).collect();
         let worst =
             |&(v, curvature_error): &(VertexId, f64)| VertexFigures { vertex: v.index(), curvature_error };
         let obstruction = |o: &Obstruction| ObstructionFigures {
@@ -174,12 +177,13 @@ impl FlowResult {
             max_length_change: initial.max_length_change,
             area: outcome.curvature.area,
             flipped_triangles: laid.map(|l| l.flipped().len()),
+            flipped_input_faces: laid.and_then(|l| l.on_input.as_ref()).map(|o| o.flipped.len()),
             distortion: Distortion::of(laid),
             charts: packed.map(|p| p.charts.count()),
             packing: packed.map(|p| p.charts.efficiency),
             cones: cones.map(|cones| cones.into_iter().map(|(v, k)| (v.0, k)).collect()),
             modulus: laid.and_then(|l| l.modulus),
-            seams: laid.and_then(Laid::plane).map(|layout| layout.seams.iter().map(seam).collect()),
+            seams: laid.map(|l| &l.layout).filter(|layout| layout.space == Space::E2).map(seams),
             no_layout: layout.as_ref().err().cloned(),
             failed: outcome.failed.0.clone(),
             left_out: outcome.left_out.clone(),

@@ -11,7 +11,7 @@ use crate::flow_summary;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
 use crate::metric_file::MetricFile;
-use crate::options::{FlipsChoice, MethodChoice, SchemeChoice};
+use crate::options::{FlipsChoice, MethodChoice, OnChoice, SchemeChoice};
 use crate::output::{self, Outputs, check_extension, extension};
 use crate::picture::{ColorChoice, FlowPictureArgs};
 use crate::progress::Progress;
@@ -90,6 +90,11 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     let usage = |message: &str| Err(Failure::Usage(message.into()));
     if args.charts && args.circles.is_some() {
         return usage("--circles: circles belong to the layout as a whole; leave --charts or --circles out");
+    }
+    if args.on == OnChoice::Input && (args.charts || args.homogeneous) {
+        return usage(
+            "--on input: charts and homogeneous coordinates belong to the refinement; leave --on, or them, out",
+        );
     }
     if args.margin >= 1.0 {
         return usage("--margin: a share of the unit square's side, in [0, 1)");
@@ -218,7 +223,7 @@ fn write(
     }
     control.check()?;
     if let (Some(path), Ok(laid)) = (&args.uv, &outcome.layout) {
-        let written = uv::write(&mut outputs, path, input, laid, args.homogeneous);
+        let written = uv::write(&mut outputs, path, input, laid, (args.on, args.homogeneous));
         if outcome.failed.attempt("uv", written)?.is_some() {
             outcome.left_out = carry::left_out(input);
         }
@@ -276,6 +281,7 @@ pub struct Asked {
     threads: usize,
     metric: Option<String>,
     uv: Option<String>,
+    on: OnChoice,
     circles: Option<String>,
     #[serde(flatten)]
     picture: FlowPictureArgs,
@@ -304,6 +310,7 @@ impl Asked {
             threads: args.common.threads(),
             metric: text(&args.metric),
             uv: text(&args.uv),
+            on: args.on,
             circles: text(&args.circles),
             picture: args.picture.clone(),
             homogeneous: args.homogeneous,

@@ -1,6 +1,6 @@
 //! The options of `ricci flow`.
 
-use crate::options::{Common, SolveArgs, SurfaceArgs, distance};
+use crate::options::{Common, OnChoice, SolveArgs, SurfaceArgs, distance};
 use crate::picture::FlowPictureArgs;
 use clap::{Args, ValueEnum};
 use ricci::geometry::Space;
@@ -22,7 +22,8 @@ Files
                                geometry that `lengths` are in, so the file can be read back as a MESH
     --uv OUT.obj | OUT.glb     the surface with the layout as texture coordinates, in E² scaled to its area, in
                                H² of the Poincaré disk, and the input's colours and normals; with --homogeneous (.obj) each vt is
-                               `qx qy q`: linear in a face are these three, the texture is at (x, y)
+                               `qx qy q`: linear in a face are these three, the texture is at (x, y); with --on input the input's
+                               own vertices and faces, in order, the map made linear on each
     --circles C.json           vertex circles and the circles orthogonal to them, in the layout's coordinates
     --trace T.csv              step,energy,max_curvature_error,area,step_size (gradient flow)";
 
@@ -53,6 +54,9 @@ pub struct FlowArgs {
     /// Write the surface with its layout as texture coordinates (E²; H² of closed surfaces), .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<PathBuf>,
+    /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
+    #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
+    pub on: OnChoice,
     /// Write homogeneous texture coordinates to --uv, `vt qx qy q`: the projective map of each piece is linear in them
     #[arg(long, requires = "uv")]
     pub homogeneous: bool,

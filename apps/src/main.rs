@@ -13,7 +13,6 @@ mod flow;
 mod flow_args;
 mod flow_summary;
 mod gallery;
-mod in_space;
 mod info;
 mod input;
 mod job;

@@ -129,3 +129,14 @@ choices!(GeometryChoice = Space { E2, H2, S2 });
 choices!(SchemeChoice = Scheme { Yamabe, Inversive, Thurston, Tangential, Virtual });
 choices!(MethodChoice = Method { Newton, Gradient });
 choices!(FlipsChoice = Flips { Auto, Never });
+
+/// The faces of `--uv`.
+#[derive(clap::ValueEnum, serde::Serialize, Debug, Clone, Copy, PartialEq, Default)]
+#[serde(rename_all = "lowercase")]
+pub enum OnChoice {
+    /// Those of the common refinement with the final triangulation: the map as it is
+    #[default]
+    Refined,
+    /// The input's own: the map made linear on each
+    Input,
+}

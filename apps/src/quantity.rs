@@ -13,7 +13,7 @@ use ricci::metric::curvature::{curvature, curvature_from_angles};
 /// The quantity of a finished flow; `None` where there is none to show: those of a layout where it has none.
 pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<Field> {
     let laid = outcome.layout.as_ref().ok();
-    let mesh = laid.map_or(input.mesh(), |laid| &laid.mesh);
+    let mesh = laid.map_or(input.mesh(), |laid| laid.mesh());
     Some(match choice {
         ColorChoice::None => return None,
         ColorChoice::U => {
@@ -43,8 +43,8 @@ pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<
 
 /// Pieces in colours: a hue for the face of the final triangulation, a shade for that of the input. Faces side by side differ.
 fn pieces(laid: &Laid) -> Field {
-    let mesh = &laid.mesh;
-    let parts = |of: fn(&Refinement) -> &PerFace<FaceId>| match &laid.refinement {
+    let mesh = laid.mesh();
+    let parts = |of: fn(&Refinement) -> &PerFace<FaceId>| match laid.refinement() {
         Some(refinement) => of(refinement).clone(),
         None => mesh.faces().collect::<Vec<_>>().into(),
     };
@@ -80,7 +80,7 @@ const CURVATURE: &str = "Gaussian curvature K (1/length²)";
 
 /// Values at given vertices, at those of what is laid out.
 fn on_layout(given: &[f64], laid: Option<&Laid>) -> Option<PerVertex<f64>> {
-    let Some(refinement) = laid.and_then(|laid| laid.refinement.as_ref()) else {
+    let Some(refinement) = laid.and_then(|laid| laid.refinement()) else {
         return Some(given.to_vec().into());
     };
     let given: Vec<[f64; 1]> = given.iter().map(|x| [*x]).collect();

@@ -38,7 +38,7 @@ pub fn draw(
         return flat.map_or(Ok(()), |flat| picture::write_svg(out, &flat, field.as_ref(), &style));
     }
     let (mesh, positions) =
-        laid.map_or((input.mesh(), input.positions()), |laid| (&laid.mesh, laid.positions.as_deref()));
+        laid.map_or((input.mesh(), input.positions()), |laid| (laid.mesh(), laid.positions.as_deref()));
     let faces = mesh.triangles();
     let cones = cones(input.mesh(), &outcome.target);
     let surface = positions.as_ref().map(|positions| Surface {
@@ -54,13 +54,13 @@ pub fn draw(
 
 /// The surroundings of a vertex, as much of the surface as of the layout.
 fn focus(zoom: &Zoom, laid: &Laid) -> Option<Focus> {
-    let mesh = &laid.mesh;
+    let mesh = laid.mesh();
     let v = VertexId(zoom.vertex);
     let around: Vec<FaceId> = mesh.faces().filter(|&f| mesh.face_vertices(f).contains(&v)).collect();
     let h = mesh.halfedges().find(|&h| !mesh.is_outside(h) && mesh.origin(h) == v)?;
     let at_layout = laid.corner_uv(h);
     let Some(positions) = &laid.positions else {
-        let radius = 0.5 * laid.diameter() / zoom.factor;
+        let radius = 0.5 * laid.layout.diameter / zoom.factor;
         return Some(Focus { at: [0.0; 3], radius, normal: [0.0; 3], at_layout, radius_layout: radius });
     };
     let extent = |k: usize| {
@@ -132,7 +132,7 @@ struct Parts {
 
 impl Parts {
     fn new(input: &Input, outcome: &Outcome, laid: &Laid) -> Parts {
-        let mesh = &laid.mesh;
+        let mesh = laid.mesh();
         let side = |h: HalfedgeId| (laid.corner_uv(h), laid.corner_uv(mesh.next(h)));
         let face_uv = |f| mesh.face_halfedges(f).map(|h| laid.corner_uv(h));
         let mut parts = Parts { corner_uv: mesh.faces().map(face_uv).collect(), ..Parts::default() };

@@ -2,28 +2,25 @@
 
 use crate::arrays::copy_out;
 use crate::control::{self, ricci_control};
-use crate::drawing;
 use crate::failure::Outcome;
 use crate::guard::{self, Poison, handle};
-use crate::layout::ricci_layout;
+use crate::layout::{not_projective, ricci_layout};
 use crate::sized::{self, sized};
 use crate::status::ricci_status;
-use ricci::embed::{ChartOptions, Charts, charts};
+use ricci::embed::{ChartOptions, Charts, Layout, charts};
 use ricci::flow::Solution;
 use ricci::geometry::Space;
-use ricci::mesh::{Mesh, Point};
-use ricci::metric::Refinement;
+use ricci::mesh::Point;
 use std::sync::Arc;
 
 /// A layout in charts that do not overlap, packed into the unit square.
 pub struct ricci_charts {
     poison: Poison,
-    pub(crate) mesh: Arc<Mesh>,
-    pub(crate) positions: Option<Arc<Vec<Point>>>,
     pub(crate) charts: Charts,
-    /// Of the layout.
+    /// What was cut into charts, and the positions of its vertices.
+    pub(crate) layout: Arc<Layout>,
+    pub(crate) positions: Option<Arc<Vec<Point>>>,
     pub(crate) surface: Arc<Solution>,
-    pub(crate) refinement: Option<Arc<Refinement>>,
 }
 
 handle!(ricci_charts, "charts");
@@ -77,16 +74,15 @@ pub unsafe extern "C" fn ricci_charts_new(
     charts: *mut *mut ricci_charts,
 ) -> ricci_status {
     guard::make("charts", charts, |door| {
-        let ricci_layout { mesh, positions, drawing, surface, refinement, .. } = door.shared(layout)?;
-        let charts =
-            self::charts(mesh, |h| drawing.corner(h), &ChartOptions { margin }, &control::of(control))?;
+        let ricci_layout { layout, positions, points, surface, .. } = door.shared(layout)?;
+        let uv = |h| points[layout.corner_index[h] as usize];
+        let charts = self::charts(layout.mesh(), uv, &ChartOptions { margin }, &control::of(control))?;
         Ok(ricci_charts {
             poison: Poison::default(),
-            mesh: mesh.clone(),
-            positions: positions.clone(),
             charts,
+            layout: layout.clone(),
+            positions: positions.clone(),
             surface: surface.clone(),
-            refinement: refinement.clone(),
         })
     })
 }
@@ -112,11 +108,11 @@ pub unsafe extern "C" fn ricci_charts_summarise(
     summary: *mut ricci_charts_summary,
     size: usize,
 ) -> ricci_status {
-    guard::with(charts, |ricci_charts { mesh, charts, .. }| {
+    guard::with(charts, |ricci_charts { layout, charts, .. }| {
         let figures = ricci_charts_summary {
             size,
             n_charts: charts.count(),
-            n_faces: mesh.n_faces(),
+            n_faces: layout.mesh().n_faces(),
             n_points: charts.coordinates.len(),
             n_flipped: charts.flipped.len(),
             scale: charts.scale,
@@ -180,11 +176,11 @@ pub unsafe extern "C" fn ricci_charts_corners(
 impl ricci_charts {
     /// The layout is one in the plane.
     pub(crate) fn check_plane(&self) -> Outcome {
-        if self.surface.metric().space == Space::E2 { Ok(()) } else { Err(drawing::not_projective()) }
+        if self.layout.space == Space::E2 { Ok(()) } else { Err(not_projective()) }
     }
 
     pub(crate) fn corners(&self) -> Vec<[u32; 3]> {
-        let index = &self.charts.corner_index;
-        self.mesh.faces().map(|f| self.mesh.face_halfedges(f).map(|h| index[h])).collect()
+        let (mesh, index) = (self.layout.mesh(), &self.charts.corner_index);
+        mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| index[h])).collect()
     }
 }

@@ -93,7 +93,7 @@ pub unsafe extern "C" fn ricci_deck_of_words(
         let element = |row: &[usize]| {
             let letters = &letters[row[0]..row[1]];
             let word = group.group.reduce(&letters::word_of(&group.group, "letters", letters, row[0])?);
-            Ok(DeckElement { motion: group.motion(&word), word })
+            Ok(DeckElement { motion: group.motion(&word)?, word })
         };
         let elements: Outcome<Vec<_>> = starts.windows(2).map(element).collect();
         Ok(ricci_deck::new(group, elements?))

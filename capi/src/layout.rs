@@ -1,22 +1,24 @@
 //! Layouts in the plane.
 
 use crate::arrays::{self, copy_out};
+use crate::choice::choose;
 use crate::control::{self, ricci_control};
-use crate::drawing::Drawing;
 use crate::edges::copy_paths;
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, Poison, handle};
 use crate::metric::ricci_metric;
+use crate::model::{self, ricci_model};
 use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::Control;
-use ricci::embed::{Quality, layout_of, layout_refined, quality, refined_cut};
+use ricci::embed::layout::bounding_diagonal;
+use ricci::embed::unroll::CONE_TOLERANCE;
+use ricci::embed::{self, Layout, OnInput, Quality, Scale, Seam, UnrollOptions, cones_of};
 use ricci::flow::Solution;
-use ricci::geometry::space::Space;
-use ricci::mesh::{Mesh, Point, VertexId};
+use ricci::geometry::{Model, PlaneIsometry, Space};
+use ricci::mesh::{Mesh, PerHalfedge, Point, VertexId};
 use ricci::metric::Refinement;
-use ricci::metric::curvature::curvature;
-use ricci::topology::cut_graph;
+use std::mem::MaybeUninit;
 use std::sync::Arc;
 
 /// A surface unrolled into the plane along a cut: of a flat metric (ricci_layout_new), or of a hyperbolic one in a
@@ -28,14 +30,19 @@ use std::sync::Arc;
 /// ricci_layout_mesh gives it; faces and points of a layout are its own.
 pub struct ricci_layout {
     pub(crate) poison: Poison,
-    /// What is unrolled.
-    pub(crate) mesh: Arc<Mesh>,
+    pub(crate) layout: Arc<Layout>,
+    /// Positions of the vertices of what is unrolled.
     pub(crate) positions: Option<Arc<Vec<Point>>>,
-    pub(crate) drawing: Drawing,
+    /// In which the points are given, of a layout in H2.
+    pub(crate) model: Model,
+    /// The points of the layout in the plane, or in that model.
+    pub(crate) points: Vec<[f64; 2]>,
+    /// The layout on the mesh itself, where it is cut along edges of that.
+    pub(crate) on_input: Option<OnInput>,
+    /// Of the mesh itself.
+    pub(crate) input_positions: Option<Arc<Vec<Point>>>,
     pub(crate) quality: Quality,
     pub(crate) surface: Arc<Solution>,
-    /// If edges were flipped.
-    pub(crate) refinement: Option<Arc<Refinement>>,
 }
 
 handle!(ricci_layout, "layout");
@@ -86,68 +93,57 @@ pub struct ricci_layout_summary {
     pub n_pieces: usize,
     /// Faces without area in the input or the layout, but for rounding; qc and area_ratio leave them out.
     pub n_degenerate: usize,
+    /// F of the mesh that the metric was made from.
+    pub n_given_faces: usize,
+    /// Faces of that mesh that are not counterclockwise in ricci_layout_input_uv, where the map is made linear on them; 0 of ricci_quotient_layout,
+    /// which is not cut along its edges.
+    pub n_flipped_given: usize,
 }
 
 // SAFETY: only ever written by the library; 8-byte alignment, size first.
 sized!(ricci_layout_summary, "summary");
 
-fn unroll(metric: &ricci_metric, cones: &[VertexId], control: &Control) -> Outcome<ricci_layout> {
+/// A layout of a metric that lives in this space, opened along edges of its mesh.
+fn unroll(
+    metric: &ricci_metric,
+    cones: Vec<VertexId>,
+    space: Space,
+    model: Model,
+    control: &Control,
+) -> Outcome<ricci_layout> {
     let ricci_metric { surface, positions, .. } = metric;
-    let (given, given_lengths) = (surface.given(), surface.surface().lengths());
-    let (mesh, class) = (surface.mesh(), surface.metric());
-    if class.space != Space::E2 {
-        return Err(Failure::new(
-            ricci_status::RICCI_LAYOUT,
-            format!(
-                "this metric lives in {}: ricci_layout_new unrolls those in e2, ricci_layout_hyperbolic those in h2",
-                class.space
-            ),
-        ));
+    let lives = surface.metric().space;
+    if lives != space {
+        let message = format!(
+            "this metric lives in {lives}: ricci_layout_new unrolls those in e2, ricci_layout_hyperbolic those in h2"
+        );
+        return Err(Failure::new(ricci_status::RICCI_LAYOUT, message));
     }
-    // That of the input, where it has one in the plane.
-    let area = match surface.initial().input_geometry {
-        Space::E2 => Some(curvature(given, Space::E2, given_lengths)?.area),
-        _ => None,
+    let curvature = surface.curvature()?;
+    if let (Space::H2, Some(f)) = (space, curvature.broken.first()) {
+        let message = format!("face {f} of the metric's triangulation breaks the triangle inequality");
+        return Err(Failure::new(ricci_status::RICCI_TRIANGLE_INEQUALITY, message));
+    }
+    // The area of the input, where it has one in the plane.
+    let scale = match surface.initial().input_geometry {
+        Space::E2 => Scale::InputArea,
+        _ => Scale::AsSolved,
     };
-    let (poison, surface) = (Poison::default(), Arc::new(surface.clone()));
-    if surface.is_unflipped() {
-        let cut = cut_graph(mesh, &metric.lengths, cones, control)?;
-        let mut layout = layout_of(mesh, class, &cut, control)?;
-        if let Some(area) = area {
-            layout.scale_to_area(mesh, area)?;
-        }
-        let quality = quality(mesh, given_lengths, &layout)?;
-        let (mesh, positions) = (mesh.clone(), positions.clone());
-        let drawing = Drawing::from(layout);
-        return Ok(ricci_layout { poison, mesh, positions, drawing, quality, surface, refinement: None });
-    }
-    let refinement = surface.refinement(control)?;
-    let cut = refined_cut(&refinement, mesh, class, cones, control)?;
-    let mut refined = layout_refined(&refinement, mesh, class, &cut, control)?;
-    if let Some(area) = area {
-        refined.scale_to_area(&refinement, area)?;
-    }
-    let quality = refined.quality(&refinement, given, given_lengths)?;
-    let positions = match positions {
-        Some(positions) => Some(Arc::new(refinement.from_input_vertices(positions)?)),
-        None => None,
-    };
-    let (mesh, drawing) = (Arc::new(refinement.mesh.clone()), Drawing::from(refined.layout));
-    let refinement = Some(Arc::new(refinement));
-    Ok(ricci_layout { poison, mesh, positions, drawing, quality, surface, refinement })
+    let options = UnrollOptions { cones: Some(cones), scale, ..UnrollOptions::default() };
+    let layout = embed::unroll(surface, &options, control)?;
+    ricci_layout::new(Arc::new(surface.clone()), layout, positions, model)
 }
 
-/// Interior vertices whose target, one of the n_vertices at `target`, is not 0.
-pub(crate) fn cones(mesh: &Mesh, target: *const f64, n_vertices: usize) -> Outcome<Vec<VertexId>> {
+/// Interior vertices whose target, one of the n_vertices at `target`, is off flat by more than a flow's tolerance.
+fn cones(mesh: &Mesh, target: *const f64, n_vertices: usize) -> Outcome<Vec<VertexId>> {
     let target = arrays::array_of("target", target, n_vertices, mesh.n_vertices())?;
-    let cone = |v: &VertexId| target[v.index()] != 0.0 && !mesh.is_boundary_vertex(*v);
-    Ok(mesh.vertices().filter(cone).collect())
+    Ok(cones_of(mesh, &target, CONE_TOLERANCE)?)
 }
 
 /// Unroll a Euclidean metric into the plane.
 ///
-/// The surface is cut open along its homology generators and through every interior vertex whose target is
-/// not 0; the metric should be flat at all others, and `consistency` says how far it is. Triangles are
+/// The surface is cut open along edges of the mesh: its homology generators, and through every interior vertex whose target is more
+/// than 1e-10 off 0. The metric should be flat at all others, and `consistency` says how far it is. Triangles are
 /// counterclockwise where the mesh's are. Of a metric whose edges were flipped the common refinement is
 /// unrolled.
 /// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_TRIANGLE_INEQUALITY, RICCI_LAYOUT (not E2),
@@ -169,7 +165,38 @@ pub unsafe extern "C" fn ricci_layout_new(
     guard::make("layout", layout, |door| {
         let metric = door.shared(metric)?;
         let cones = cones(metric.given(), target, n_vertices)?;
-        unroll(metric, &cones, &control::of(control))
+        unroll(metric, cones, Space::E2, Model::default(), &control::of(control))
+    })
+}
+
+/// Unroll a hyperbolic metric, of a closed surface or one with boundary, into the hyperbolic plane about its centre.
+///
+/// The surface is cut open along edges of the mesh, as little as its topology asks for, and through every interior vertex whose target is more
+/// than 1e-10 off 0; the metric should have curvature -1 at all others, and `consistency` says how far its corners are apart, as a distance.
+/// Of a metric whose edges were flipped the common refinement is unrolled. A closed surface with its deck group: ricci_quotient_from_metric.
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (RICCI_MODEL_HYPERBOLOID), RICCI_TRIANGLE_INEQUALITY,
+/// RICCI_LAYOUT (not H2; points beyond the reach of doubles), RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement),
+/// RICCI_CANCELLED.
+///
+/// @param metric      the metric, in H2.
+/// @param target      the n_vertices curvatures it was made for.
+/// @param n_vertices  number of vertices of the mesh that the metric was made from.
+/// @param model       coordinates of the points; in the Klein disk the map is projective on every piece.
+/// @param control     progress and cancellation; NULL for neither.
+/// @param layout      out: the new handle, to be released by ricci_layout_free.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_hyperbolic(
+    metric: *const ricci_metric,
+    target: *const f64,
+    n_vertices: usize,
+    model: MaybeUninit<ricci_model>,
+    control: *const ricci_control,
+    layout: *mut *mut ricci_layout,
+) -> ricci_status {
+    guard::make("layout", layout, |door| {
+        let metric = door.shared(metric)?;
+        let cones = cones(metric.given(), target, n_vertices)?;
+        unroll(metric, cones, Space::H2, choose(model)?, &control::of(control))
     })
 }
 
@@ -199,28 +226,30 @@ pub unsafe extern "C" fn ricci_layout_summarise(
     summary: *mut ricci_layout_summary,
     size: usize,
 ) -> ricci_status {
-    guard::with(layout, |ricci_layout { mesh, drawing, quality, surface, refinement, .. }| {
-        let n_given_vertices = surface.given().n_vertices();
+    guard::with(layout, |ricci_layout { layout, points, quality, surface, on_input, .. }| {
+        let (mesh, given) = (layout.mesh(), surface.given());
         let figures = ricci_layout_summary {
             size,
             n_faces: mesh.n_faces(),
-            n_points: drawing.points.len(),
-            n_seams: drawing.seams.len(),
-            n_seam_edges: drawing.seams.iter().map(Vec::len).sum(),
-            n_flipped: drawing.flipped.len(),
-            consistency: drawing.consistency,
-            diameter: drawing.diameter,
-            area: drawing.area,
+            n_points: points.len(),
+            n_seams: layout.seams.len(),
+            n_seam_edges: layout.cut.segments.iter().map(Vec::len).sum(),
+            n_flipped: layout.flipped.len(),
+            consistency: layout.consistency(),
+            diameter: bounding_diagonal(points),
+            area: layout.area,
             qc_mean: quality.qc_mean,
             qc_max: quality.qc_max,
             area_ratio_min: quality.area_ratio_min,
             area_ratio_max: quality.area_ratio_max,
             n_vertices: mesh.n_vertices(),
             n_edges: mesh.n_edges(),
-            n_given_vertices,
-            n_crossings: mesh.n_vertices() - n_given_vertices,
-            n_pieces: refinement.as_deref().map_or(mesh.n_faces(), n_pieces),
+            n_given_vertices: given.n_vertices(),
+            n_crossings: mesh.n_vertices() - given.n_vertices(),
+            n_pieces: layout.refinement().map_or(mesh.n_faces(), |r| n_pieces(r)),
             n_degenerate: quality.degenerate.len(),
+            n_given_faces: given.n_faces(),
+            n_flipped_given: on_input.as_ref().map_or(0, |on_input| on_input.flipped.len()),
         };
         sized::write(figures, summary, size)
     })
@@ -239,7 +268,7 @@ pub unsafe extern "C" fn ricci_layout_points(
     points: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(layout, |layout| copy_out("points", &layout.drawing.points, points, capacity))
+    guard::with(layout, |layout| copy_out("points", &layout.points, points, capacity))
 }
 
 /// The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
@@ -271,9 +300,32 @@ pub unsafe extern "C" fn ricci_layout_uv(
     uv: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(layout, |ricci_layout { mesh, drawing, .. }| {
-        let corner_points = |f| mesh.face_halfedges(f).map(|h| drawing.corner(h));
-        let corners: Vec<[[f64; 2]; 3]> = mesh.faces().map(corner_points).collect();
+    guard::with(layout, |layout| {
+        let corners: Vec<[[f64; 2]; 3]> =
+            layout.corners().into_iter().map(|f| f.map(|k| layout.points[k as usize])).collect();
+        copy_out("uv", &corners, uv, capacity)
+    })
+}
+
+/// The coordinates of every corner of every face of the mesh that the metric was made from. The map is made linear on each face; where that
+/// folds faces, the summary's n_flipped_given counts them.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (ricci_quotient_layout, which is cut along edges of the metric's
+/// triangulation).
+///
+/// @param layout    the layout.
+/// @param uv        out: n_given_faces x 3 x 2, in the order of ricci_mesh_faces.
+/// @param capacity  entries of `uv`, at least 6 n_given_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_input_uv(
+    layout: *const ricci_layout,
+    uv: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(layout, |layout| {
+        let points = layout.input_points()?;
+        let corners: Vec<[[f64; 2]; 3]> =
+            layout.input_corners()?.into_iter().map(|f| f.map(|k| points[k as usize])).collect();
         copy_out("uv", &corners, uv, capacity)
     })
 }
@@ -293,13 +345,18 @@ pub unsafe extern "C" fn ricci_layout_seams(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let drawing = &door.shared(layout)?.drawing;
-        let rows = drawing.motions.as_ref().ok_or_else(|| {
+        let layout = &door.shared(layout)?.layout;
+        if layout.space != Space::E2 {
             let message =
                 "the sides of these seams are paired by isometries of h2: ricci_quotient_sides has them";
-            Failure::new(ricci_status::RICCI_LAYOUT, message)
-        })?;
-        copy_out("seams", rows, seams, capacity)
+            return Err(Failure::new(ricci_status::RICCI_LAYOUT, message));
+        }
+        let row = |seam: &Seam| {
+            let PlaneIsometry { rotation, translation: [x, y] } = seam.isometry();
+            [rotation, x, y, seam.residual]
+        };
+        let rows: Vec<[f64; 4]> = layout.seams.iter().map(row).collect();
+        copy_out("seams", &rows, seams, capacity)
     })
 }
 
@@ -322,7 +379,7 @@ pub unsafe extern "C" fn ricci_layout_seam_edges(
     starts_capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let seams = &door.shared(layout)?.drawing.seams;
+        let seams = &door.shared(layout)?.layout.cut.segments;
         copy_paths(seams, (edges, edges_capacity), (starts, starts_capacity))
     })
 }
@@ -341,7 +398,7 @@ pub unsafe extern "C" fn ricci_layout_flipped(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|door| {
-        let flipped: Vec<u32> = door.shared(layout)?.drawing.flipped.iter().map(|f| f.0).collect();
+        let flipped: Vec<u32> = door.shared(layout)?.layout.flipped.iter().map(|f| f.0).collect();
         copy_out("faces", &flipped, faces, capacity)
     })
 }
@@ -379,8 +436,79 @@ pub unsafe extern "C" fn ricci_layout_area_ratio(
 }
 
 impl ricci_layout {
-    pub(crate) fn corners(&self) -> Vec<[u32; 3]> {
-        let index = &self.drawing.corner_index;
-        self.mesh.faces().map(|f| self.mesh.face_halfedges(f).map(|h| index[h])).collect()
+    /// A layout in the plane or, in a model with two coordinates, in the hyperbolic plane.
+    pub(crate) fn new(
+        surface: Arc<Solution>,
+        layout: Layout,
+        input_positions: &Option<Arc<Vec<Point>>>,
+        model: Model,
+    ) -> Outcome<ricci_layout> {
+        if model == Model::Hyperboloid {
+            return Err(Failure::argument("a layout in the plane needs a model with two coordinates"));
+        }
+        let positions = match (input_positions, layout.refinement()) {
+            (Some(positions), Some(r)) => Some(Arc::new(r.from_input_vertices(positions)?)),
+            (positions, _) => positions.clone(),
+        };
+        Ok(ricci_layout {
+            poison: Poison::default(),
+            quality: layout.quality(surface.given(), surface.surface().lengths())?,
+            points: match layout.space {
+                Space::H2 => model::plane_points(model, &layout.points),
+                _ => layout.coordinates.clone(),
+            },
+            on_input: layout.on_input(),
+            input_positions: input_positions.clone(),
+            layout: Arc::new(layout),
+            positions,
+            model,
+            surface,
+        })
     }
+
+    pub(crate) fn corners(&self) -> Vec<[u32; 3]> {
+        corners_of(self.layout.mesh(), &self.layout.corner_index)
+    }
+
+    fn cut_on_input(&self) -> Outcome<&OnInput> {
+        self.on_input.as_ref().ok_or_else(|| {
+            let message = "this layout is cut along edges of the metric's triangulation, not of the mesh: take ricci_layout_new or \
+                           ricci_layout_hyperbolic";
+            Failure::new(ricci_status::RICCI_LAYOUT, message)
+        })
+    }
+
+    /// The point of every corner of every face of the given mesh.
+    pub(crate) fn input_corners(&self) -> Outcome<Vec<[u32; 3]>> {
+        Ok(corners_of(self.surface.given(), &self.cut_on_input()?.corner_index))
+    }
+
+    /// The points of the corners of the given mesh.
+    pub(crate) fn input_points(&self) -> Outcome<Vec<[f64; 2]>> {
+        Ok(self.cut_on_input()?.points.iter().map(|&k| self.points[k as usize]).collect())
+    }
+
+    /// It lies in the Euclidean plane.
+    pub(crate) fn check_plane(&self) -> Outcome {
+        if self.layout.space == Space::E2 { Ok(()) } else { Err(not_projective()) }
+    }
+
+    /// What homogeneous weights of vertices are multiplied with at every point; nothing in the Euclidean plane.
+    pub(crate) fn heights(&self) -> Outcome<Vec<f64>> {
+        match (self.layout.space, self.model) {
+            (Space::E2, _) => Ok(Vec::new()),
+            (_, Model::Klein) => Ok(self.layout.points.iter().map(|p| p[2]).collect()),
+            _ => Err(not_projective()),
+        }
+    }
+}
+
+fn corners_of(mesh: &Mesh, index: &PerHalfedge<u32>) -> Vec<[u32; 3]> {
+    mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| index[h])).collect()
+}
+
+pub(crate) fn not_projective() -> Failure {
+    let message =
+        "the map is not projective in these coordinates: take RICCI_MODEL_KLEIN in the hyperbolic plane";
+    Failure::new(ricci_status::RICCI_LAYOUT, message)
 }

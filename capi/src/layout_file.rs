@@ -43,9 +43,29 @@ pub unsafe extern "C" fn ricci_layout_write_obj_homogeneous(
     path: *const c_char,
 ) -> ricci_status {
     guard::with(layout, |layout| {
-        let weights = weights(&layout.surface, layout.refinement.as_ref())?;
-        let heights = layout.drawing.heights()?;
+        let weights = weights(&layout.surface, layout.layout.refinement())?;
+        let heights = layout.heights()?;
         File { heights, ..File::of_layout(layout) }.write(path, Some(&weights))
+    })
+}
+
+/// Write the mesh that the metric was made from, its own vertices and faces in order, with ricci_layout_input_uv as texture coordinates, as
+/// OBJ with 17 significant digits. Seams run along its edges only.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_LAYOUT (as of ricci_layout_input_uv).
+///
+/// @param layout  the layout.
+/// @param path    file name, NUL-terminated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_write_input_obj(
+    layout: *const ricci_layout,
+    path: *const c_char,
+) -> ricci_status {
+    guard::call(|door| {
+        let layout = door.shared(layout)?;
+        let (corners, points) = (layout.input_corners()?, layout.input_points()?);
+        let (mesh, positions) = (&**layout.surface.given(), layout.input_positions.as_ref());
+        File { mesh, positions, points: &points, corners, heights: Vec::new() }.write(path, None)
     })
 }
 
@@ -78,7 +98,7 @@ pub unsafe extern "C" fn ricci_charts_write_obj_homogeneous(
 ) -> ricci_status {
     guard::with(charts, |charts| {
         charts.check_plane()?;
-        let weights = weights(&charts.surface, charts.refinement.as_ref())?;
+        let weights = weights(&charts.surface, charts.layout.refinement())?;
         File::of_charts(charts).write(path, Some(&weights))
     })
 }
@@ -95,13 +115,13 @@ struct File<'a> {
 
 impl File<'_> {
     fn of_layout(layout: &ricci_layout) -> File<'_> {
-        let (positions, points) = (layout.positions.as_ref(), &layout.drawing.points);
-        File { mesh: &layout.mesh, positions, points, corners: layout.corners(), heights: Vec::new() }
+        let (positions, points) = (layout.positions.as_ref(), &layout.points);
+        File { mesh: layout.layout.mesh(), positions, points, corners: layout.corners(), heights: Vec::new() }
     }
 
     fn of_charts(charts: &ricci_charts) -> File<'_> {
         let (positions, points) = (charts.positions.as_ref(), &charts.charts.coordinates);
-        File { mesh: &charts.mesh, positions, points, corners: charts.corners(), heights: Vec::new() }
+        File { mesh: charts.layout.mesh(), positions, points, corners: charts.corners(), heights: Vec::new() }
     }
 
     /// Write OBJ; with the homogeneous weights of the vertices, if given.

@@ -25,7 +25,6 @@
 
 mod arrays;
 mod choice;
-mod drawing;
 mod edges;
 mod environment;
 mod failure;
@@ -70,7 +69,6 @@ pub mod report;
 
 pub mod flow;
 
-pub mod hyperbolic;
 pub mod layout;
 
 pub mod refined;

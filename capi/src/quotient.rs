@@ -15,8 +15,6 @@ use crate::status::ricci_status;
 use crate::uniformize_options::{read_options, ricci_uniformize_options};
 use ricci::Surface;
 use ricci::canonical::{Quotient, quotient_of, uniformize_quotient};
-use ricci::geometry::Space;
-use ricci::geometry::modulus::modulus;
 use ricci::topology::FundamentalDomain;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
@@ -237,14 +235,7 @@ pub unsafe extern "C" fn ricci_quotient_modulus(
 ) -> ricci_status {
     guard::call(|door| {
         let deck = &door.shared(quotient)?.quotient.deck;
-        let period = |g: &ricci::geometry::Motion<_>| {
-            let [x, y, _] = g.origin().map(f64::from);
-            [x, y]
-        };
-        let found = match deck.generators.as_slice() {
-            [a, b] if deck.space == Space::E2 => modulus([period(a), period(b)]),
-            _ => None,
-        };
+        let found = deck.modulus();
         let found = found.ok_or_else(|| {
             ricci::Error::Layout("only a torus has a modulus in the upper half-plane".into())
         })?;

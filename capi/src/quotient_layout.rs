@@ -7,7 +7,6 @@ use crate::deck::ricci_deck;
 use crate::edges::{copy_paths, halfedges};
 use crate::failure::Outcome;
 use crate::guard;
-use crate::hyperbolic::in_space;
 use crate::layout::ricci_layout;
 use crate::model::{self, ricci_model};
 use crate::quotient::ricci_quotient;
@@ -17,12 +16,9 @@ use crate::space::ricci_space;
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::canonical::Quotient;
-use ricci::embed::refine_space_layout;
-use ricci::geometry::Space;
 use ricci::geometry::model::Model;
-use ricci::mesh::{HalfedgeId, Mesh};
-use ricci::metric::Refinement;
 use std::mem::MaybeUninit;
+use std::sync::Arc;
 
 /// Figures of a quotient.
 #[repr(C)]
@@ -214,7 +210,7 @@ pub unsafe extern "C" fn ricci_quotient_lift(
     guard::call(|door| {
         let Quotient { metric, layout, deck, .. } = &*door.shared(quotient)?.quotient;
         let path = halfedges("path", metric.mesh(), path, n_path)?;
-        copy_out("points", &layout.lift(metric.mesh(), deck.corner, &path)?, points, capacity)
+        copy_out("points", &layout.lift(deck.corner, &path)?, points, capacity)
     })
 }
 
@@ -237,7 +233,7 @@ pub unsafe extern "C" fn ricci_quotient_polygon(
     guard::call(|door| {
         let Quotient { layout, deck, .. } = &*door.shared(quotient)?.quotient;
         let base = layout.corner(deck.corner);
-        let (points, inside) = (deck.canonical_polygon(base), deck.canonical_angles(base));
+        let (points, inside) = (deck.canonical_polygon(base)?, deck.canonical_angles(base)?);
         check_buffer("angles", inside.len(), angles, capacity)?;
         copy_out("corners", &points, corners, capacity.saturating_mul(3))?;
         copy_out("angles", &inside, angles, capacity)
@@ -301,37 +297,6 @@ pub unsafe extern "C" fn ricci_quotient_layout(
 
 fn refined(quotient: &ricci_quotient, model: Model, control: &Control) -> Outcome<ricci_layout> {
     let Quotient { metric, layout, .. } = &*quotient.quotient;
-    let mesh = metric.mesh();
-    let refinement = metric.refinement(control)?;
-    let refined = refine_space_layout(layout, &refinement, mesh, control)?;
-    let seams = layout.cut.segments.iter().map(|chain| chain_on(&refinement, mesh, chain)).collect();
-    let laid = (refined, seams, layout.area);
-    let mut out =
-        in_space(metric, refinement, &quotient.quotient.metric.surface().positions().cloned(), laid, model)?;
-    if layout.space == Space::E2 {
-        let residual = out.drawing.consistency;
-        let motion = |g: &ricci::geometry::Motion<_>| {
-            // Pairings carry right onto left.
-            let [x, y, _] = g.inverse().origin().map(f64::from);
-            [0.0, x, y, residual]
-        };
-        out.drawing.motions = Some(layout.pairings.iter().map(motion).collect());
-    }
-    Ok(out)
-}
-
-/// A chain of half-edges of the final triangulation on its refinement.
-fn chain_on(r: &Refinement, mesh: &Mesh, chain: &[HalfedgeId]) -> Vec<HalfedgeId> {
-    let mut fine = Vec::with_capacity(chain.len());
-    for &h in chain {
-        let along = |v| r.mesh.outgoing(v).find(|&part| r.final_halfedge(part) == Some(h));
-        // Between the ends there are only crossings, of one edge each.
-        let mut at = along(mesh.origin(h));
-        while let Some(part) = at {
-            fine.push(part);
-            let tip = r.mesh.tip(part);
-            at = if tip.index() < r.n_input_vertices { None } else { along(tip) };
-        }
-    }
-    fine
+    let refined = layout.refined(&Arc::new(metric.refinement(control)?), metric.metric(), control)?;
+    ricci_layout::new(Arc::new(metric.clone()), refined, &metric.surface().positions().cloned(), model)
 }

@@ -8,6 +8,7 @@ use crate::layout::ricci_layout;
 use crate::mesh::{Shape, ricci_mesh};
 use crate::status::ricci_status;
 use ricci::Control;
+use ricci::embed::layout::distance;
 use ricci::flow::Solution;
 use ricci::mesh::{EdgeId, FaceId, PerEdge, PerVertex};
 use ricci::metric::Refinement;
@@ -37,20 +38,20 @@ pub unsafe extern "C" fn ricci_layout_mesh(
 ) -> ricci_status {
     guard::make("mesh", mesh, |door| {
         let layout = door.shared(layout)?;
-        let mesh = &layout.mesh;
+        let mesh = Arc::new(layout.layout.mesh().clone());
         let shape = match &layout.positions {
             Some(positions) => Shape::Positions(positions.clone()),
             None => {
+                let space = layout.layout.space;
                 let length = |e: EdgeId| {
                     let [h, twin] = [e.halfedge(), e.halfedge().twin()];
                     let h = if mesh.is_outside(h) { twin } else { h };
-                    layout.drawing.distance(h, mesh.next(h))
+                    distance(space, layout.layout.corner(h), layout.layout.corner(mesh.next(h)))
                 };
-                let space = layout.surface.metric().space;
                 Shape::Lengths(Arc::new(PerEdge::from_fn(mesh.n_edges(), length)), space)
             }
         };
-        Ok(ricci_mesh::new(mesh.clone(), shape))
+        Ok(ricci_mesh::new(mesh, shape))
     })
 }
 
@@ -141,7 +142,7 @@ pub unsafe extern "C" fn ricci_layout_pieces(
     pieces: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(layout, |layout| match &layout.refinement {
+    guard::with(layout, |layout| match layout.layout.refinement() {
         Some(refinement) => copy_out("pieces", &refinement.piece, pieces, capacity),
         None => copy_out("pieces", &layout.faces_of(Side::Input), pieces, capacity),
     })
@@ -164,9 +165,9 @@ pub unsafe extern "C" fn ricci_layout_weights(
     capacity: usize,
 ) -> ricci_status {
     guard::with(layout, |layout| {
-        check_buffer("weights", layout.mesh.n_vertices(), weights, capacity)?;
-        layout.drawing.check_plane()?;
-        let values = self::weights(&layout.surface, layout.refinement.as_ref())?;
+        check_buffer("weights", layout.layout.mesh().n_vertices(), weights, capacity)?;
+        layout.check_plane()?;
+        let values = self::weights(&layout.surface, layout.layout.refinement())?;
         copy_out("weights", &values, weights, capacity)
     })
 }
@@ -218,25 +219,25 @@ pub(crate) fn weights(surface: &Solution, refinement: Option<&Arc<Refinement>>) 
 
 impl ricci_layout {
     fn faces_of(&self, side: Side) -> Vec<u32> {
-        let of = |f: FaceId| match (&self.refinement, side) {
+        let of = |f: FaceId| match (self.layout.refinement(), side) {
             (Some(refinement), Side::Input) => refinement.input_face[f].0,
             (Some(refinement), Side::Final) => refinement.final_face[f].0,
             (None, _) => f.0,
         };
-        self.mesh.faces().map(of).collect()
+        self.layout.mesh().faces().map(of).collect()
     }
 
     fn barycentric(&self, side: Side) -> Vec<[[f64; 3]; 3]> {
-        let of = |f: FaceId| match (&self.refinement, side) {
+        let of = |f: FaceId| match (self.layout.refinement(), side) {
             (Some(refinement), Side::Input) => refinement.input_barycentric(f),
             (Some(refinement), Side::Final) => refinement.final_barycentric(f),
             (None, _) => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         };
-        self.mesh.faces().map(of).collect()
+        self.layout.mesh().faces().map(of).collect()
     }
 
     fn crossings(&self, side: Side, edges: *mut u32, fractions: *mut f64, capacity: usize) -> Outcome {
-        let crossings = self.refinement.as_ref().map_or(&[][..], |refinement| &refinement.crossings);
+        let crossings = self.layout.refinement().map_or(&[][..], |refinement| &refinement.crossings);
         let of = |c: &Crossing| match side {
             Side::Input => (c.input_edge.0, c.input_weights[1]),
             Side::Final => (c.final_edge.0, c.final_weights[1]),

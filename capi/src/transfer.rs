@@ -158,7 +158,7 @@ impl<const K: usize> Values<K> {
         carry: impl Fn(&Refinement, &[[f64; K]]) -> ricci::Result<Vec<[f64; K]>>,
     ) -> Outcome<Vec<f64>> {
         let n = self.n_components;
-        let Some(refinement) = layout.refinement.as_ref().filter(|_| n > 0) else { return Ok(self.all) };
+        let Some(refinement) = layout.layout.refinement().filter(|_| n > 0) else { return Ok(self.all) };
         let mut carried = Vec::new();
         for component in 0..n {
             let row = |row: &[f64]| std::array::from_fn(|k| row[k * n + component]);

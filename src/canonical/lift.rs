@@ -2,8 +2,7 @@
 
 use super::star::Punctured;
 use crate::control::Control;
-use crate::embed::corner::number_corners;
-use crate::embed::develop::develop;
+use crate::embed::layout::unroll_part;
 use crate::error::{Error, Result};
 use crate::geometry::barycentre::conformal_barycentre;
 use crate::geometry::sphere::{SOUTH, Similarity, lift, log_density};
@@ -12,6 +11,7 @@ use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 use crate::geometry::{Space, worse};
 use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::metric::Metric;
+use std::sync::Arc;
 
 impl Punctured {
     /// The vertices in the plane, the smallest triangle at the origin; the puncture at (∞, ∞). Errors: [`Error::Layout`] where
@@ -19,13 +19,10 @@ impl Punctured {
     pub fn lay_out(&self, control: &Control) -> Result<PerVertex<[f64; 2]>> {
         let mut is_cut = PerEdge::filled(self.mesh.n_edges(), false);
         self.star().into_iter().for_each(|arc| is_cut[self.link(arc).edge()] = true);
-        let closed = self.closed();
-        let (lengths, differences) = (closed.lengths(&self.mesh)?, closed.differences(&self.mesh)?);
-        let (corner, n) = number_corners(&self.mesh, &is_cut);
-        let laid = develop(&self.mesh, &lengths, &differences, &is_cut, &corner, n, control)?;
+        let at = unroll_part(&Arc::new(self.mesh.clone()), &self.closed(), &is_cut, control)?;
         let mut plane = PerVertex::filled(self.mesh.n_vertices(), [f64::INFINITY; 2]);
         for h in self.mesh.halfedges().filter(|&h| !self.in_star(h)) {
-            plane[self.mesh.origin(h)] = laid.coordinates[corner[h] as usize];
+            plane[self.mesh.origin(h)] = at[h];
         }
         let outside = |v: &VertexId| *v != self.at && plane[*v].iter().any(|x| !x.is_finite());
         match self.mesh.vertices().find(outside) {

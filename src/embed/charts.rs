@@ -66,7 +66,7 @@ pub struct Charts {
     /// Faces whose image is clockwise, by more than what makes it degenerate. Each is a chart of its own: no motion of the plane
     /// mends it.
     pub flipped: Vec<FaceId>,
-    /// Faces without area to speak of, in the layout or in the unit square: within [`super::refined::FLAT`] · longest edge² of zero,
+    /// Faces without area to speak of, in the layout or in the unit square: within [`super::shape::LEAST_SHARE`] · longest edge² of zero,
     /// or lower than two steps of the coordinates. They lie in the charts of their neighbours, and may overlap what is around them
     /// by as much as their own size.
     pub degenerate: Vec<FaceId>,

@@ -1,7 +1,7 @@
 //! Finite pieces of the universal cover.
 
 use super::deck::{DeckElement, DeckGroup};
-use super::dirichlet::{DirichletDomain, identity, to_origin};
+use super::dirichlet::{DirichletDomain, identity};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
@@ -26,10 +26,10 @@ pub fn elements_to_depth(
     limit: usize,
     control: &Control,
 ) -> Result<Vec<DeckElement>> {
-    let letters: Vec<DeckElement> = (0..deck.group.n_generators())
+    let letters = (0..deck.group.n_generators())
         .flat_map(|k| [Letter::generator(k), Letter::generator(k).inverse()])
-        .map(|letter| DeckElement { word: Word::from_iter([letter]), motion: deck.letter(letter) })
-        .collect();
+        .map(|letter| Ok(DeckElement { word: Word::from_iter([letter]), motion: deck.letter(letter)? }))
+        .collect::<Result<Vec<_>>>()?;
     let mut found = Found::new(deck, limit);
     let mut level = 0..1;
     for _ in 0..depth {
@@ -53,7 +53,7 @@ pub fn elements_within(
     control: &Control,
 ) -> Result<Vec<DeckElement>> {
     let mut found = Found::new(deck, limit);
-    let home = to_origin(deck.space, domain.centre);
+    let home = Motion::to_origin(deck.space, precise_point(deck.space, domain.centre));
     let moved = |g: &Motion<Twofold>| g.conjugated_by(&home).displacement();
     // As far as the centre is from γ D, γ⁻¹ of the centre is from D.
     let lines = domain.lines();

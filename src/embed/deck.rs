@@ -1,17 +1,16 @@
 //! The deck group of a surface of constant curvature: its fundamental group as isometries of the model space.
 
-use super::dirichlet::to_origin;
-use super::space_develop::Faces;
-use super::space_layout::SpaceLayout;
+use super::faces::Faces;
+use super::layout::Layout;
 use crate::control::Control;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, worse};
 use crate::mesh::{HalfedgeId, Mesh};
 use crate::metric::Metric;
 use crate::topology::word::{Letter, Word};
-use crate::topology::{FundamentalDomain, HomotopyBasis, SurfaceGroup, crossed_halfedges};
+use crate::topology::{FundamentalDomain, HomotopyBasis, Side, SurfaceGroup, crossed_halfedges};
 use std::f64::consts::TAU;
 
 /// An element of the deck group.
@@ -57,7 +56,7 @@ impl DeckGroup {
     pub fn new(
         mesh: &Mesh,
         metric: &Metric,
-        layout: &SpaceLayout,
+        layout: &Layout,
         basis: &HomotopyBasis,
         control: &Control,
     ) -> Result<DeckGroup> {
@@ -67,7 +66,10 @@ impl DeckGroup {
             group: basis.group,
             generators: Vec::new(),
             sides: Vec::new(),
-            corner: mesh.outgoing(basis.base).find(|&h| !mesh.is_outside(h)).unwrap_or(mesh.out(basis.base)),
+            corner: mesh
+                .outgoing(basis.base)
+                .find(|&h| !mesh.is_outside(h))
+                .ok_or_else(|| Error::Layout(format!("the base, vertex {}, has no face", basis.base)))?,
             relation_residual: 0.0,
             relation_error: 0.0,
             side_residual: 0.0,
@@ -77,13 +79,13 @@ impl DeckGroup {
         }
         let domain = FundamentalDomain::new(mesh, &layout.cut.is_cut, basis)?;
         deck.corner = domain.base_corner;
-        let pairing = |k: usize| match domain.sides[k].halfedges.first() {
-            Some(&h) => layout.neighbour(h).normalised(),
-            None => Motion::identity(layout.space),
+        let pairing = |side: &Side| match side.halfedges.first() {
+            Some(&h) => Ok(layout.neighbour(h).normalised()),
+            None => Err(Error::Layout("a side of the fundamental domain has no edges".into())),
         };
-        let pairings: Vec<_> = (0..domain.sides.len()).map(pairing).collect();
+        let pairings: Vec<_> = domain.sides.iter().map(pairing).collect::<Result<_>>()?;
         let faces = match layout.space {
-            Space::H2 => Some(Faces::new(mesh, metric)?),
+            Space::H2 => Some(Faces::precise(mesh, metric)?),
             _ => None,
         };
         for path in &basis.loops {
@@ -94,8 +96,8 @@ impl DeckGroup {
             let whole = match &faces {
                 Some(faces) => {
                     let crossed = crossed_halfedges(mesh, deck.corner, path)?;
-                    let home = faces.frame(&layout.frames, deck.corner);
-                    faces.transport(deck.corner, &crossed, deck.corner).conjugated_by(&home)
+                    let home = layout.frame(faces, deck.corner)?;
+                    transport(faces, deck.corner, &crossed)?.conjugated_by(&home)
                 }
                 None => {
                     let crossed = domain.crossings(mesh, deck.corner, path)?;
@@ -106,46 +108,46 @@ impl DeckGroup {
         }
         for (side, motion) in domain.sides.iter().zip(pairings).filter(|(side, _)| side.partner.is_some()) {
             let word = side.element.clone();
-            let spelled = deck.motion(&word).compose(&motion.inverse());
-            deck.side_residual = worse(deck.side_residual, deck.residual(&word, &spelled));
+            let spelled = deck.motion(&word)?.compose(&motion.inverse());
+            deck.side_residual = worse(deck.side_residual, deck.residual(&word, &spelled)?);
             deck.sides.push(DeckElement { word, motion });
         }
         let relator = deck.group.relator();
-        let whole = deck.products(relator.letters());
+        let whole = deck.motion(&relator)?;
         deck.relation_error = whole.distance_from_identity().min(f64::MAX);
-        deck.relation_residual = deck.residual(&relator, &whole);
+        deck.relation_residual = deck.residual(&relator, &whole)?;
         Ok(deck)
     }
 
-    /// The isometry of a generator or its inverse.
-    pub fn letter(&self, letter: Letter) -> Motion<Twofold> {
+    /// The isometry of a generator or its inverse. Errors: [`Error::Argument`] for a generator that the group has not.
+    pub fn letter(&self, letter: Letter) -> Result<Motion<Twofold>> {
         match self.generators.get(letter.index()) {
-            Some(g) if letter.is_inverse() => g.inverse(),
-            Some(g) => *g,
-            None => Motion::identity(self.space),
+            Some(g) if letter.is_inverse() => Ok(g.inverse()),
+            Some(g) => Ok(*g),
+            None => {
+                let value = format!("number {}", letter.index());
+                Err(Error::Argument { what: "generator", value, need: "one of the group's generators" })
+            }
         }
     }
 
-    /// The isometry of a word.
-    pub fn motion(&self, word: &Word) -> Motion<Twofold> {
-        self.products(word.letters())
-    }
-
-    fn products(&self, letters: &[Letter]) -> Motion<Twofold> {
-        letters.iter().fold(Motion::identity(self.space), |m, &l| m.compose(&self.letter(l)))
+    /// The isometry of a word. Errors: as [`DeckGroup::letter`].
+    pub fn motion(&self, word: &Word) -> Result<Motion<Twofold>> {
+        let letters = word.letters().iter();
+        letters.map(|&l| self.letter(l)).try_fold(Motion::identity(self.space), |m, g| Ok(m.compose(&g?)))
     }
 
     /// How far `rest` is from the identity, relative to the largest ‖P‖² of the partial products of a word.
-    fn residual(&self, word: &Word, rest: &Motion<Twofold>) -> f64 {
+    fn residual(&self, word: &Word, rest: &Motion<Twofold>) -> Result<f64> {
         let mut product = Motion::identity(self.space);
         let mut largest = product.norm_square();
         for &letter in word.letters() {
-            product = product.compose(&self.letter(letter));
+            product = product.compose(&self.letter(letter)?);
             largest = largest.max(product.norm_square());
         }
         let residual = rest.distance_from_identity() / largest;
         // Products beyond the range of doubles say nothing.
-        if residual.is_nan() { f64::MAX } else { residual }
+        Ok(if residual.is_nan() { f64::MAX } else { residual })
     }
 
     /// |tr| of the generators' matrices of determinant 1: 2 cosh(L/2) in H².
@@ -170,15 +172,15 @@ impl DeckGroup {
     /// lift at `base` under its prefixes, in ambient coordinates; 4g + b of them.
     ///
     /// It is a fundamental domain of a closed surface: the geodesic loops of the generators meet in the base alone. Its corners need
-    /// not be convex.
-    pub fn canonical_polygon(&self, base: [f64; 3]) -> Vec<[f64; 3]> {
+    /// not be convex. Errors: as [`DeckGroup::letter`].
+    pub fn canonical_polygon(&self, base: [f64; 3]) -> Result<Vec<[f64; 3]>> {
         let mut product = Motion::identity(self.space);
         let base = precise_point(self.space, base);
         let relator = self.group.relator();
         let corner = |&letter: &Letter| {
             let at = product.apply(base).map(f64::from);
-            product = product.compose(&self.letter(letter));
-            at
+            product = product.compose(&self.letter(letter)?);
+            Ok(at)
         };
         relator.letters().iter().map(corner).collect()
     }
@@ -187,9 +189,9 @@ impl DeckGroup {
     /// point of it.
     ///
     /// Each is formed at the base: seen from corner P_k, the neighbours are where the last letter came from and where the next one
-    /// leads.
-    pub fn canonical_angles(&self, base: [f64; 3]) -> Vec<f64> {
-        let home = to_origin(self.space, base);
+    /// leads. Errors: as [`DeckGroup::letter`].
+    pub fn canonical_angles(&self, base: [f64; 3]) -> Result<Vec<f64>> {
+        let home = Motion::to_origin(self.space, precise_point(self.space, base));
         let direction = |g: Motion<Twofold>| {
             let [x, y, _] = g.conjugated_by(&home).origin().map(f64::from);
             y.atan2(x)
@@ -198,10 +200,29 @@ impl DeckGroup {
         let letters = relator.letters();
         let n = letters.len();
         let angle = |k: usize| {
-            let [before, after] =
-                [letters[(k + n - 1) % n].inverse(), letters[k]].map(|l| direction(self.letter(l)));
-            (before - after).rem_euclid(TAU)
+            let before = direction(self.letter(letters[(k + n - 1) % n].inverse())?);
+            Ok((before - direction(self.letter(letters[k])?)).rem_euclid(TAU))
         };
         (0..n).map(angle).collect()
     }
+}
+
+/// What a walk from a half-edge and back to it does to a frame: through the half-edges `crossed`, each of the face one is in.
+fn transport(
+    faces: &Faces<Motion<Twofold>>,
+    corner: HalfedgeId,
+    crossed: &[HalfedgeId],
+) -> Result<Motion<Twofold>> {
+    let mut frame = Motion::identity(faces.space);
+    let (mut face, mut k) = faces.place_of(corner)?;
+    for &h in crossed {
+        let (same, side) = faces.place_of(h)?;
+        if same != face {
+            return Err(Error::Layout(format!("half-edge {h} is no side of face {face}, where a walk is")));
+        }
+        frame = faces.across(faces.around(face, k, frame)[side], h);
+        (face, k) = faces.place_of(h.twin())?;
+    }
+    let (_, side) = faces.place_of(corner)?;
+    Ok(faces.around(face, k, frame)[side])
 }

@@ -68,7 +68,7 @@ pub fn dirichlet_domain(
         )));
     }
     // Everything about the origin: the base point is carried there.
-    let home = to_origin(deck.space, centre);
+    let home = Motion::to_origin(deck.space, precise_point(deck.space, centre));
     let about = |g: &DeckElement| DeckElement { word: g.word.clone(), motion: g.motion.conjugated_by(&home) };
     // The surface is covered by what the neighbours' centres are about: nothing nearest to the centre is farther out than all of them
     // together.
@@ -76,9 +76,10 @@ pub fn dirichlet_domain(
     // The generators, too: on a surface of few vertices they are shorter than the sides.
     let generators = (0..deck.generators.len()).map(|k| {
         let letter = Letter::generator(k);
-        DeckElement { word: Word::from_iter([letter]), motion: deck.letter(letter) }
+        Ok(DeckElement { word: Word::from_iter([letter]), motion: deck.letter(letter)? })
     });
-    let factors: Vec<_> = deck.sides.iter().cloned().chain(generators).map(|g| about(&g)).collect();
+    let sides = deck.sides.iter().cloned().map(Ok);
+    let factors = sides.chain(generators).map(|g| g.map(|g| about(&g))).collect::<Result<Vec<_>>>()?;
     // Lengths of the plane are in units of the longest pairing, those of H² as they are.
     let unit = if deck.space == Space::E2 {
         factors.iter().map(|g| g.motion.displacement()).fold(0.0, f64::max)
@@ -156,19 +157,6 @@ fn shortest_products(
 
 fn inverse(g: &DeckElement) -> DeckElement {
     DeckElement { word: g.word.inverse(), motion: g.motion.inverse() }
-}
-
-/// An isometry that carries a point to the origin.
-pub(super) fn to_origin(space: Space, p: [f64; 3]) -> Motion<Twofold> {
-    to_origin_precise(space, precise_point(space, p))
-}
-
-fn to_origin_precise(space: Space, [x, y, w]: [Twofold; 3]) -> Motion<Twofold> {
-    let (one, two) = (Twofold::from(1.0), Twofold::from(2.0));
-    // 2ab is x + iy, with b in that direction and a real: 2a² = 1 + w.
-    let a = if space == Space::E2 { one } else { ((w + one) / two).sqrt() };
-    let b = [x, y].map(|x| x / (two * a));
-    Motion { space, a: [a, Twofold::from(0.0)], b }.normalised().inverse()
 }
 
 /// A convex polygon about the origin in the plane or in the Klein disk. Corners are vectors `[x, y, w]` of height 1, with twice the digits:
@@ -380,9 +368,9 @@ impl Polygon {
         let n = points.len();
         let ray = |k: usize| self.distance(&self.corners[k]);
         let side = |k: usize| {
-            let to_corner = to_origin_precise(space, points[k]);
+            let to_corner = Motion::to_origin(space, points[k]);
             let [x, y, w] = to_corner.apply(points[(k + 1) % n]).map(f64::from);
-            super::space_layout::distance_from_origin(space, [x, y, w])
+            super::layout::distance_from_origin(space, [x, y, w])
         };
         let sector = |k: usize| match space {
             Space::H2 => triangle::area(space, [side(k), ray((k + 1) % n), ray(k)]),
@@ -410,7 +398,7 @@ pub(super) struct Lines(Vec<Bisector>);
 impl DirichletDomain {
     pub(super) fn lines(&self) -> Lines {
         let line = |side: &DeckElement| {
-            let home = to_origin(side.motion.space, self.centre);
+            let home = Motion::to_origin(side.motion.space, precise_point(side.motion.space, self.centre));
             Bisector::new(&side.motion.conjugated_by(&home))
         };
         Lines(self.sides.iter().map(line).collect())

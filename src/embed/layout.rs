@@ -1,188 +1,641 @@
-//! Layout of a flat cone metric in the plane.
+//! A surface, opened along a cut, in the space of its metric.
 
 use super::corner::number_corners;
-use super::develop::{Development, develop};
-use super::seam::Seam;
+use super::develop::{Development, Start, develop};
+use super::faces::{Faces, place_in_face};
+use super::frame::Frame;
+use super::pieces::Pieces;
+use super::shape::{Shape, extent};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::predicates::orientation;
-use crate::geometry::triangle::half_differences;
-use crate::geometry::{PlaneIsometry, Space, worse};
+use crate::geometry::complex::{norm, norm2, sub};
+use crate::geometry::model::{distance as hyperbolic_distance, klein, poincare};
+use crate::geometry::modulus::modulus;
+use crate::geometry::motion::precise_point;
+use crate::geometry::predicates::{orientation, winding};
+use crate::geometry::{Motion, PlaneIsometry, Space, Twofold, worse};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
-use crate::metric::Metric;
-use crate::topology::{CutGraph, check_lengths, cut};
+use crate::metric::{Metric, Refinement};
+use crate::parallel;
+use crate::topology::{CutGraph, check_lengths, check_vertex, corner_walk, cut};
 use std::cmp::Ordering;
+use std::sync::Arc;
 
-/// A surface, opened along a cut, in the plane E²: counterclockwise where the mesh is.
+/// Rounding of one step of a development, relative: a direction is turned by an angle and made a unit vector again, a few ulp.
+const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// What the two sides of a seam may always differ by in H², a distance: copies of the layout are to meet to this.
+pub const MEETING: f64 = 1e-8;
+
+/// A surface, opened along a cut, in the model space of its metric: E², H² or S². Orientation is the surface's (of a sphere seen from
+/// outside).
+///
+/// What is laid out is [`Layout::mesh`]: the metric's own triangulation, or a common refinement of it with the surface as it came. Then
+/// a *piece*, a triangle of the refinement, lies in its *final face*, a triangle of the metric's: its corners are the combinations of the
+/// face's corners, as vectors, that the refinement names, brought back to the plane, the hyperboloid or the sphere. So the map from the input
+/// is projective on every piece: with the homogeneous weights q of its corners ([`Refinement::weight`]) and their ambient coordinates P it
+/// is q P that is linear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
-    /// Per half-edge, the index into `coordinates` of the corner at its origin, in its face. Corners around a
-    /// vertex share an index unless cut or boundary edges separate them. A half-edge outside the surface has
-    /// the index of the corner at its origin in the face across the edge.
+    /// The space.
+    pub space: Space,
+    /// Along which the surface is opened.
+    pub cut: CutGraph,
+    /// Per half-edge, the index into `points` of the corner at its origin, in its face. Corners around a vertex share an index unless cut
+    /// or boundary edges separate them. A half-edge outside the surface has the index of the corner at its origin in the face across the
+    /// edge.
     pub corner_index: PerHalfedge<u32>,
-    /// Plane coordinates of the vertices of the opened surface, in units of the lengths. The smallest
-    /// triangle lies at the origin.
+    /// Ambient coordinates `[x, y, w]` of the vertices of the opened surface: of the plane `w = 1`, of the hyperboloid
+    /// `w² = 1 + x² + y²` ([`crate::geometry::model`] has other models), of the unit sphere `x² + y² + w² = 1`.
+    pub points: Vec<[f64; 3]>,
+    /// Plane coordinates of the same: in E² their own, in H² of the Poincaré disk, in S² by stereographic projection from the south pole.
     pub coordinates: Vec<[f64; 2]>,
     /// One seam per segment of the cut, in the same order.
     pub seams: Vec<Seam>,
-    /// Faces that are not counterclockwise in these coordinates: clockwise or without area, by exact
-    /// arithmetic.
+    /// Triangles that are not counterclockwise. Of a metric's own triangulation: clockwise or without area, by exact arithmetic. Of a
+    /// refinement: those with an area below −[`super::shape::LEAST_SHARE`] · longest edge² and what rounding does to it.
     pub flipped: Vec<FaceId>,
-    /// Faces whose lengths break the triangle inequality: no such triangle exists, they are laid out with
-    /// angles (π, 0, 0), and the layout does not represent the metric there.
+    /// Triangles of a refinement whose area is within that of zero.
+    pub degenerate: Vec<FaceId>,
+    /// Triangles in final faces whose lengths break the triangle inequality, ascending: they are laid out with angles (π, 0, 0), and the layout
+    /// does not represent the metric there.
     pub broken: Vec<FaceId>,
-    /// Largest disagreement between an edge vector derived in its face and the one between the placed
-    /// vertices, relative to `diameter`. It measures how far the metric is from flat off the cones, and
-    /// rounding.
-    pub consistency: f64,
-    /// The same disagreement relative to the length of the edge itself.
+    /// Largest distance between where a face has its corner and where the corner lies, also across the cut by the seams' pairings: how far the
+    /// metric is from constant curvature off the cones, and rounding, both magnified by e^radius in H². See [`Layout::consistency`].
+    pub disagreement: f64,
+    /// Largest difference between an edge as its face has it and as it lies, relative to the longest side of the final face.
     pub local_consistency: f64,
-    /// Diagonal of the layout's bounding box.
+    /// Largest distance of a point from the origin.
+    pub radius: f64,
+    /// Diagonal of the bounding box of `coordinates`; infinite for a vertex at the south pole of the sphere.
     pub diameter: f64,
-    /// Sum of the areas of the triangles with the given lengths.
+    /// Area of the surface, by formulas without angles; of a double's given half, half of the double's.
     pub area: f64,
+    /// Lengths in the layout over lengths in the metric.
+    pub scale: f64,
+    pub(super) pieces: Pieces,
+    /// The surface as it came and the cut on it, where the cut runs along its edges.
+    pub(super) input: Option<(Arc<Mesh>, CutGraph)>,
     /// Per half-edge: 0 if not cut, k + 1 on the left side of seam k, −(k + 1) on its right side.
-    pub(super) side: PerHalfedge<i32>,
+    side: PerHalfedge<i32>,
+    /// Number of final faces between the origin and the farthest piece, at most.
+    n_steps: usize,
+    /// The frames of the final faces' first half-edges, with twice the digits; none where doubles were enough …
+    frames: Vec<Motion<Twofold>>,
+    /// … and per triangle the number of its own.
+    patch: PerFace<u32>,
 }
 
-/// Lay a flat cone metric out in the plane, O(E log E).
-///
-/// `lengths`: one per edge, flat at every vertex that is inside the opened surface; what is missing to that
-/// shows in [`Layout::consistency`] and [`Layout::broken`]. `cut` opens the surface into a disk
-/// ([`crate::topology::cut_graph`]).
-///
-/// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk,
-/// [`Error::Cancelled`].
-pub fn layout(mesh: &Mesh, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Control) -> Result<Layout> {
-    check_lengths(mesh, lengths)?;
-    let differences = |f| half_differences(mesh.opposite_edges(f).map(|e| lengths[e]));
-    lay_out(mesh, lengths, &PerFace::from_fn(mesh.n_faces(), differences), cut, control)
+/// How the two sides of a segment of the cut lie to each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seam {
+    /// The isometry that carries the opened surface onto its neighbour across the left side of the segment: the image of its right side onto
+    /// that of its left side.
+    pub pairing: Motion<Twofold>,
+    /// How far that is from the isometry of any edge of the segment, there: relative to the layout's diameter in E², a distance elsewhere.
+    pub residual: f64,
 }
 
-/// [`layout`] of a metric (E²), from its variables: triangles keep their shape where circles of very different sizes meet,
-/// which rounded lengths do not. Errors: as [`layout`] and [`Metric::lengths`]; [`Error::Layout`] in another space.
-pub fn layout_of(mesh: &Mesh, metric: &Metric, cut: &CutGraph, control: &Control) -> Result<Layout> {
-    if metric.space != Space::E2 {
-        return Err(Error::Layout(format!("a metric in {} has no layout in the plane", metric.space)));
+impl Seam {
+    /// In E², the isometry `z ↦ e^{iθ} z + t` from the left side to the right side.
+    pub fn isometry(&self) -> PlaneIsometry {
+        self.pairing.inverse().into()
     }
-    lay_out(mesh, &metric.lengths(mesh)?, &metric.differences(mesh)?, cut, control)
 }
 
-fn lay_out(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
-    differences: &PerFace<[f64; 3]>,
-    cut: &CutGraph,
+/// The layout on the surface as it came: where its corners lie if the map is made linear on its own faces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OnInput {
+    /// Per half-edge of the input, the index into `points` of the corner at its origin ([`Layout::corner_index`]).
+    pub corner_index: PerHalfedge<u32>,
+    /// Which of [`Layout::points`], and so of [`Layout::coordinates`], the vertices of the opened input are.
+    pub points: Vec<u32>,
+    /// Their plane coordinates.
+    pub coordinates: Vec<[f64; 2]>,
+    /// Faces of the input that are not counterclockwise in these coordinates, by exact arithmetic: there the map folds.
+    pub flipped: Vec<FaceId>,
+    /// The cut on the input.
+    pub cut: CutGraph,
+}
+
+/// Lay lengths that are flat off the cut out in E², in units of the lengths, by doubles, O(E log E). A corner of the smallest triangle
+/// lies at the origin.
+///
+/// `lengths`: one per edge, flat at every vertex that is inside the opened surface; what is missing to that shows in
+/// [`Layout::consistency`] and [`Layout::broken`]. `cut` opens the surface into a disk ([`crate::topology::cut_graph`]).
+///
+/// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk, [`Error::Cancelled`].
+pub fn layout(mesh: &Arc<Mesh>, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Control) -> Result<Layout> {
+    check_lengths(mesh, lengths)?;
+    let faces = Faces::of_lengths(mesh, lengths.clone());
+    let mut layout = lay_out(Pieces::Mesh(mesh.clone()), &faces, None, Some(cut.clone()), control)?;
+    layout.find_flat();
+    Ok(layout)
+}
+
+/// Lay a metric of constant curvature out in its space, outwards from `root` (default: a corner of the smallest triangle) with
+/// twice the digits of doubles, as deck groups need them: O(E log E).
+///
+/// `cut`: where to open the surface; `None` for one without cones, whose cut is then the locus where the order of [`Layout`]'s faces, by
+/// the distance of their far corner, meets itself (nearly a Dirichlet domain: small, round about the root; no cut at all on a sphere). Cones
+/// inside have to lie on a given cut.
+///
+/// Errors: [`Error::Argument`] for a root that is no vertex; [`Error::Layout`] for a cut that does not leave a disk, a surface of several
+/// components, lengths beyond what doubles can place; those of [`Metric::lengths`]; [`Error::Cancelled`].
+pub fn layout_of(
+    mesh: &Arc<Mesh>,
+    metric: &Metric,
+    root: Option<VertexId>,
+    cut: Option<&CutGraph>,
     control: &Control,
 ) -> Result<Layout> {
-    check_cut(mesh, cut)?;
+    let faces = Faces::precise(mesh, metric)?;
+    let mut layout = lay_out(Pieces::Mesh(mesh.clone()), &faces, root, cut.cloned(), control)?;
+    layout.find_flat();
+    Ok(layout)
+}
+
+/// Where the corners of the part of a flat surface lie that a cut leaves around the smallest triangle, per half-edge of a face; NaN beyond the cut.
+/// Errors: those of [`layout_of`].
+pub(crate) fn unroll_part(
+    mesh: &Arc<Mesh>,
+    metric: &Metric,
+    is_cut: &PerEdge<bool>,
+    control: &Control,
+) -> Result<PerHalfedge<[f64; 2]>> {
+    let (pieces, faces) = (Pieces::Mesh(mesh.clone()), Faces::in_plane(mesh, metric)?);
+    let grown = develop(&pieces, &faces, start(&pieces, &faces, None)?, Some(is_cut), control)?;
+    let (corner, n_corners) = number_corners(mesh, is_cut);
+    let points = grown.points(&pieces, &faces, &corner, n_corners);
+    Ok(PerHalfedge::from_fn(mesh.n_halfedges(), |h| flat(Space::E2, points[corner[h] as usize])))
+}
+
+/// Lay pieces out; what is flipped or degenerate is not yet found ([`Layout::find_flat`]). `cut`: on the pieces.
+pub(super) fn lay_out<F: Frame>(
+    pieces: Pieces,
+    faces: &Faces<F>,
+    root: Option<VertexId>,
+    cut: Option<CutGraph>,
+    control: &Control,
+) -> Result<Layout> {
+    cut.as_ref().map_or(Ok(()), |cut| check_cut(pieces.mesh(), cut))?;
+    let start = start(&pieces, faces, root)?;
+    let grown = develop(&pieces, faces, start, cut.as_ref().map(|cut| &cut.is_cut), control)?;
+    if grown.n_reached() < pieces.mesh().n_faces() {
+        return Err(Error::Layout("the surface has several components: lay out each alone".into()));
+    }
+    let cut = cut.unwrap_or_else(|| {
+        let mesh = pieces.mesh();
+        CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !grown.crossed[e]))
+    });
+    assemble(pieces, faces, grown, cut, control)
+}
+
+/// What to begin with: at a vertex of the final triangulation, or with the smallest final face.
+fn start<F: Frame>(pieces: &Pieces, faces: &Faces<F>, root: Option<VertexId>) -> Result<Start> {
+    let mesh = pieces.mesh();
+    let Some(root) = root else {
+        let size = |f: &FaceId| faces.longest(pieces.final_face(*f));
+        let smallest = mesh.faces().min_by(|f, g| size(f).total_cmp(&size(g)));
+        let piece = smallest.ok_or_else(|| Error::Layout("the surface has no face".into()))?;
+        return Ok(Start { piece, side: 0 });
+    };
+    check_vertex(faces.mesh, root)?;
+    check_vertex(mesh, root)?;
+    // The half-edge of the final triangulation that comes first at the root, so that layouts of the triangulation and of its
+    // refinement lie the same way; or any other where that belongs to no piece (on the other half of a double).
+    let first = faces.mesh.outgoing(root).find(|&h| !faces.mesh.is_outside(h));
+    let mut any = None;
+    for h in mesh.outgoing(root).filter(|&h| !mesh.is_outside(h)) {
+        let (piece, k) = place_in_face(mesh, h)?;
+        let corner = pieces.final_barycentric(piece)[k].iter().position(|&w| w == 1.0);
+        let Some(side) = corner else { continue };
+        let found = Start { piece, side };
+        if first == Some(faces.mesh.face_halfedges(pieces.final_face(piece))[side]) {
+            return Ok(found);
+        }
+        any = any.or(Some(found));
+    }
+    any.ok_or_else(|| Error::Layout(format!("vertex {root} has no face")))
+}
+
+fn assemble<F: Frame>(
+    pieces: Pieces,
+    faces: &Faces<F>,
+    grown: Development<F>,
+    cut: CutGraph,
+    control: &Control,
+) -> Result<Layout> {
+    let (mesh, space) = (pieces.mesh(), faces.space);
     let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
-    let Development { coordinates, direction, area, broken } =
-        develop(mesh, lengths, differences, &cut.is_cut, &corner_index, n_corners, control)?;
-    let at = |h: HalfedgeId| coordinates[corner_index[h] as usize];
+    let points = grown.points(&pieces, faces, &corner_index, n_corners);
+    let coordinates: Vec<[f64; 2]> = points.iter().map(|&p| flat(space, p)).collect();
     let diameter = bounding_diagonal(&coordinates);
-    if !(diameter.is_finite() && diameter > 0.0) {
+    // The south pole of a sphere has no plane coordinates.
+    let is_placed = points.as_flattened().iter().all(|x| x.is_finite()) && diameter > 0.0;
+    if !(is_placed && (diameter.is_finite() || space == Space::S2)) {
         return Err(Error::Layout("the lengths are too large or too small for doubles: rescale them".into()));
     }
-
-    let (mut worst, mut worst_local) = (0.0_f64, 0.0_f64);
-    for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
-        let ([ax, ay], [bx, by], l) = (at(h), at(mesh.next(h)), lengths[h.edge()]);
-        let off = (bx - ax - l * direction[h][0]).hypot(by - ay - l * direction[h][1]);
-        worst = worse(worst, off);
-        worst_local = worse(worst_local, off / l);
+    control.check()?;
+    let mut misses = vec![[0.0; 2]; grown.frames.len()];
+    parallel::fill(&mut misses, |patch| misses_of(&pieces, faces, &grown, &corner_index, &points, patch));
+    let [apart, local_consistency] =
+        misses.iter().fold([0.0; 2], |[a, b], m| [worse(a, m[0]), worse(b, m[1])]);
+    let (mut seams, mut disagreement) = (Vec::with_capacity(cut.segments.len()), apart);
+    for segment in &cut.segments {
+        let mut seam = Seam::new(&pieces, faces, &grown, segment)?;
+        disagreement = worse(disagreement, seam.residual);
+        if space == Space::E2 {
+            seam.residual /= diameter;
+        }
+        seams.push(seam);
     }
-
-    let fit = |segment: &Vec<_>| Seam::fit(mesh, lengths, segment, &direction, at, diameter);
-    let mut layout = Layout {
-        seams: cut.segments.iter().map(fit).collect(),
+    // A refinement with a boundary, of a closed triangulation, is the given half of a double.
+    let is_half = faces.mesh.is_closed() && !mesh.is_closed();
+    let layout = Layout {
+        space,
+        seams,
         flipped: Vec::new(),
-        broken,
-        consistency: worst / diameter,
-        local_consistency: worst_local,
+        degenerate: Vec::new(),
+        broken: mesh.faces().filter(|&f| faces.is_broken(pieces.final_face(f))).collect(),
+        disagreement,
+        local_consistency,
+        radius: points.iter().map(|&p| distance_from_origin(space, p)).fold(0.0, f64::max),
         diameter,
-        area,
-        side: seam_sides(mesh, cut),
+        area: if is_half { 0.5 } else { 1.0 } * faces.area(),
+        scale: 1.0,
+        input: None,
+        side: seam_sides(mesh, &cut),
+        n_steps: grown.frames.len(),
+        frames: if F::IS_PRECISE { grown.frames.iter().map(Frame::motion).collect() } else { Vec::new() },
+        patch: if F::IS_PRECISE { grown.patch } else { Vec::new().into() },
+        pieces,
+        cut,
         corner_index,
+        points,
         coordinates,
     };
-    layout.flipped = layout.find_flipped(mesh);
     control.check()?;
     Ok(layout)
 }
 
+/// Of one patch: the largest distance between where its face has a corner and where that lies, and the largest difference of an edge
+/// relative to the face's longest side.
+fn misses_of<F: Frame>(
+    pieces: &Pieces,
+    faces: &Faces<F>,
+    grown: &Development<F>,
+    corner_index: &PerHalfedge<u32>,
+    points: &[[f64; 3]],
+    patch: usize,
+) -> [f64; 2] {
+    let of_patch = grown.pieces_of(patch);
+    let Some(&first) = of_patch.first() else { return [0.0; 2] };
+    let placed = faces.placed(pieces.final_face(first), grown.frames[patch]);
+    let longest = faces.longest(pieces.final_face(first));
+    let (mut worst, mut worst_edge) = (0.0, 0.0);
+    for &f in of_patch {
+        let (halfedges, weights) = (pieces.mesh().face_halfedges(f), pieces.final_barycentric(f));
+        let off = [0, 1, 2].map(|k| {
+            let point = points[corner_index[halfedges[k]] as usize];
+            placed.miss(faces, point, weights[k]).map(|x| x / longest)
+        });
+        for k in 0..3 {
+            worst = worse(worst, norm2(off[k]));
+            worst_edge = worse(worst_edge, norm2(sub(off[(k + 1) % 3], off[k])));
+        }
+    }
+    [longest * worst.sqrt(), worst_edge.sqrt()]
+}
+
+impl Seam {
+    /// The isometry of the edge that is nearest to the origin, and how far those of the others are from it: a distance.
+    fn new<F: Frame>(
+        pieces: &Pieces,
+        faces: &Faces<F>,
+        grown: &Development<F>,
+        segment: &[HalfedgeId],
+    ) -> Result<Seam> {
+        let frames =
+            segment.iter().map(|&h| grown.on_both_sides(pieces, faces, h)).collect::<Result<Vec<_>>>()?;
+        let far = |sides: &[Motion<Twofold>; 2]| sides.iter().map(Motion::displacement).fold(0.0, f64::max);
+        let far: Vec<f64> = frames.iter().map(far).collect();
+        let nearest = (0..far.len()).min_by(|&i, &j| far[i].total_cmp(&far[j]));
+        let pairing = match nearest.map(|k| frames[k]) {
+            Some([left, right]) => left.compose(&right.inverse()),
+            None => Motion::identity(faces.space),
+        };
+        // By frames: products of vectors would lose e^{2r} in H², those of isometries e^r.
+        let off = |[left, right]: &[Motion<Twofold>; 2]| {
+            left.inverse().compose(&pairing).compose(right).displacement()
+        };
+        Ok(Seam { pairing, residual: frames.iter().map(off).fold(0.0, worse) })
+    }
+}
+
 impl Layout {
-    /// Coordinates of the corner at the origin of `h`, in its face.
-    pub fn corner_uv(&self, h: HalfedgeId) -> [f64; 2] {
+    /// What is laid out.
+    pub fn mesh(&self) -> &Mesh {
+        self.pieces.mesh()
+    }
+
+    /// The common refinement that is laid out; `None` where that is the metric's own triangulation.
+    pub fn refinement(&self) -> Option<&Arc<Refinement>> {
+        self.pieces.refinement()
+    }
+
+    /// Plane coordinates of the corner at the origin of `h`, in its face.
+    pub fn uv(&self, h: HalfedgeId) -> [f64; 2] {
         self.coordinates[self.corner_index[h] as usize]
     }
 
-    /// Coordinates of a face's corners, in its corner order.
-    pub fn face_uv(&self, mesh: &Mesh, f: FaceId) -> [[f64; 2]; 3] {
-        mesh.face_halfedges(f).map(|h| self.corner_uv(h))
+    /// Plane coordinates of a face's corners, in its corner order.
+    pub fn face_uv(&self, f: FaceId) -> [[f64; 2]; 3] {
+        self.mesh().face_halfedges(f).map(|h| self.uv(h))
     }
 
-    /// Change of frame from the face of `h` to the face across: carries the image of `h` in the one onto its
-    /// image in the other. The identity unless the edge is cut.
-    pub fn transition(&self, h: HalfedgeId) -> PlaneIsometry {
-        let side = self.side[h];
-        let seam = self.seams.get((side.unsigned_abs() as usize).wrapping_sub(1)).map(Seam::isometry);
-        match seam {
-            Some(g) if side > 0 => g,
-            Some(g) => g.inverse(),
-            None => PlaneIsometry::IDENTITY,
-        }
+    /// Ambient coordinates of the corner at the origin of `h`, in its face.
+    pub fn corner(&self, h: HalfedgeId) -> [f64; 3] {
+        self.points[self.corner_index[h] as usize]
     }
 
-    /// Holonomy of a walk from face to face: the composition of the transitions across `crossed`, first one
-    /// first. Each half-edge lies in the face that the walk leaves.
-    pub fn holonomy(&self, crossed: impl IntoIterator<Item = HalfedgeId>) -> PlaneIsometry {
-        let mut total = PlaneIsometry::IDENTITY;
-        for h in crossed {
-            if self.side[h] != 0 {
-                total = self.transition(h).compose(&total);
+    /// Ambient coordinates of a face's corners, in its corner order.
+    pub fn face_points(&self, f: FaceId) -> [[f64; 3]; 3] {
+        self.mesh().face_halfedges(f).map(|h| self.corner(h))
+    }
+
+    /// The layout on the faces of the surface as it came; `None` where the cut does not run along its edges.
+    pub fn on_input(&self) -> Option<OnInput> {
+        let (input, cut) = self.input.as_ref()?;
+        let (corner_index, n) = number_corners(input, &cut.is_cut);
+        let mut points = vec![0; n];
+        for f in self.mesh().faces() {
+            let face = input.face_halfedges(self.pieces.input_face(f));
+            for (h, place) in self.mesh().face_halfedges(f).into_iter().zip(self.pieces.input_barycentric(f))
+            {
+                if let Some(corner) = place.iter().position(|&w| w == 1.0) {
+                    points[corner_index[face[corner]] as usize] = self.corner_index[h];
+                }
             }
         }
-        total
+        let coordinates: Vec<_> = points.iter().map(|&k| self.coordinates[k as usize]).collect();
+        let uv = |f| input.face_halfedges(f).map(|h| coordinates[corner_index[h] as usize]);
+        let flipped = faces_where(input, |f| !is_left_turn(uv(f)));
+        Some(OnInput { corner_index, points, coordinates, flipped, cut: cut.clone() })
     }
 
-    /// Holonomy of one counterclockwise turn around an interior vertex; its rotation is the curvature there
-    /// mod 2π. `None` on the boundary.
-    pub fn vertex_holonomy(&self, mesh: &Mesh, v: VertexId) -> Option<PlaneIsometry> {
+    /// Plane coordinates of the corners of the input's own faces (F × 3 points, in its face and corner order): [`Layout::on_input`].
+    pub fn corner_uv(&self) -> Option<Vec<[[f64; 2]; 3]>> {
+        let (input, on_input) = (&self.input.as_ref()?.0, self.on_input()?);
+        let point = |h: HalfedgeId| on_input.coordinates[on_input.corner_index[h] as usize];
+        Some(input.faces().map(|f| input.face_halfedges(f).map(point)).collect())
+    }
+
+    /// The same layout on a common refinement of the triangulation that is laid out, opened where that is; O(pieces).
+    ///
+    /// Errors: [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a layout that has no frames (of
+    /// [`layout_of`]) or is one of a refinement; [`Error::Cancelled`].
+    pub fn refined(&self, r: &Arc<Refinement>, metric: &Metric, control: &Control) -> Result<Layout> {
+        let Pieces::Mesh(mesh) = &self.pieces else {
+            return Err(Error::Layout("a layout of a refinement has no other refinement".into()));
+        };
+        if self.frames.is_empty() {
+            return Err(Error::Layout(
+                "this layout has no frames of twice the digits to place pieces by".into(),
+            ));
+        }
+        let need = r.final_face.iter().map(|f| f.index() + 1).fold(0, usize::max);
+        check_size("final faces", mesh.n_faces().min(need), need)?;
+        let faces = Faces::precise(mesh, metric)?;
+        let pieces = Pieces::Refinement(r.clone());
+        let cut = pieces.cut_of_final(mesh, &self.cut)?;
+        let frame = |f: FaceId| {
+            let mut frame = self.frames[self.patch[f] as usize];
+            frame.b = frame.b.map(|x| x / self.scale.into());
+            frame
+        };
+        let grown = Development::of_frames(r, PerFace::from_fn(mesh.n_faces(), frame));
+        let mut layout = assemble(pieces, &faces, grown, cut, control)?;
+        layout.scale_by(self.scale);
+        layout.find_flat();
+        Ok(layout)
+    }
+
+    /// On which side of which seam a half-edge lies: 0 if it is not cut, k + 1 on the left side of seam k, −(k + 1) on its right side.
+    pub fn side(&self, h: HalfedgeId) -> i32 {
+        self.side[h]
+    }
+
+    /// The isometry that carries the opened surface onto its neighbour across `h`; the identity unless the edge is cut.
+    pub fn neighbour(&self, h: HalfedgeId) -> Motion<Twofold> {
+        let side = self.side[h];
+        match self.seams.get((side.unsigned_abs() as usize).wrapping_sub(1)) {
+            Some(seam) if side > 0 => seam.pairing,
+            Some(seam) => seam.pairing.inverse(),
+            None => Motion::identity(self.space),
+        }
+    }
+
+    /// Change of frame from the face of `h` to the face across: carries the image of `h` in the one onto its image in the other. The
+    /// inverse of [`Layout::neighbour`].
+    pub fn transition(&self, h: HalfedgeId) -> Motion<Twofold> {
+        self.neighbour(h.twin())
+    }
+
+    /// Holonomy of a walk from face to face: the composition of the transitions across `crossed`, first one first. Each half-edge
+    /// lies in the face that the walk leaves.
+    pub fn holonomy(&self, crossed: impl IntoIterator<Item = HalfedgeId>) -> Motion<Twofold> {
+        let cut = crossed.into_iter().filter(|&h| self.side[h] != 0);
+        cut.fold(Motion::identity(self.space), |total, h| self.transition(h).compose(&total))
+    }
+
+    /// Holonomy of one counterclockwise turn around an interior vertex; its rotation is the curvature there mod 2π. `None` on the
+    /// boundary.
+    pub fn vertex_holonomy(&self, v: VertexId) -> Option<Motion<Twofold>> {
+        let mesh = self.mesh();
         let mut turn: Vec<_> = mesh.outgoing(v).collect();
         turn.reverse();
         (!mesh.is_boundary_vertex(v)).then(|| self.holonomy(turn.into_iter().map(|h| mesh.prev(h))))
     }
 
-    /// Scale the layout so that its triangles' areas add up to `area` (finite, positive); returns the factor
-    /// on lengths.
-    pub fn scale_to_area(&mut self, mesh: &Mesh, area: f64) -> Result<f64> {
+    /// The vertices of the lift of an edge path that starts at the corner at the origin of `corner` (a half-edge of a face), in ambient
+    /// coordinates: the start, then the end of each edge, on into the copies of the layout.
+    ///
+    /// A loop that starts at [`super::DeckGroup::corner`] ends where its element carries the start.
+    /// [`Error::Argument`] for a path that is none, or does not start at that corner.
+    pub fn lift(&self, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<[f64; 3]>> {
+        let mut copy = Motion::identity(self.space);
+        let place = |copy: &Motion<Twofold>, at: HalfedgeId| {
+            copy.apply(precise_point(self.space, self.corner(at))).map(f64::from)
+        };
+        let walk = corner_walk(self.mesh(), corner, path)?;
+        let mut points = vec![place(&copy, corner)];
+        for (crossed, at) in walk {
+            copy = crossed.into_iter().fold(copy, |copy, h| copy.compose(&self.neighbour(h)));
+            points.push(place(&copy, at));
+        }
+        Ok(points)
+    }
+
+    /// Largest disagreement of the layout with the metric or of the two sides of a seam: relative to the layout's diameter in E², a
+    /// distance in H² and S².
+    pub fn consistency(&self) -> f64 {
+        if self.space == Space::E2 { self.disagreement / self.diameter } else { self.disagreement }
+    }
+
+    /// What curvature errors (the sum of their absolute values over the vertices) and rounding allow [`Layout::consistency`] to be.
+    pub fn consistency_limit(&self, curvature_errors: f64) -> f64 {
+        // A vertex with curvature error δ turns what lies beyond it by δ: in E² that moves it by at most δ of the diameter, in H² a point at
+        // distance r by sinh(r) δ.
+        let off = curvature_errors + STEP_ROUNDING * self.n_steps as f64;
+        if self.space == Space::H2 { MEETING.max(self.radius.sinh() * off) } else { off }
+    }
+
+    /// The modulus of a flat torus, `[Re τ, Im τ]` reduced ([`crate::geometry::modulus`]); `None` for another surface, or one with cones.
+    pub fn modulus(&self) -> Option<[f64; 2]> {
+        let mesh = self.mesh();
+        let is_torus = self.space == Space::E2 && mesh.is_closed() && mesh.euler() == 0;
+        let pairings: Vec<PlaneIsometry> = match is_torus {
+            true => self.seams.iter().map(Seam::isometry).collect(),
+            false => return None,
+        };
+        if pairings.iter().any(|g| g.rotation.abs() > TURNS) {
+            return None;
+        }
+        // Any two that are not parallel generate the lattice.
+        let least = LEAST_PERIOD * self.diameter;
+        let mut periods = pairings.iter().map(|g| g.translation).filter(|&t| norm(t) > least);
+        let first = periods.next()?;
+        periods.find_map(|t| modulus([first, t]))
+    }
+
+    /// Scale a layout in E² so that its area is `area` (finite, positive); returns the factor on lengths.
+    ///
+    /// Errors: [`Error::Argument`]; [`Error::Layout`] in another space, where nothing has a scale.
+    pub fn scale_to_area(&mut self, area: f64) -> Result<f64> {
+        if self.space != Space::E2 {
+            return Err(Error::Layout(format!("a layout in {} has the scale of its space", self.space)));
+        }
         let factor = (area / self.area).sqrt();
         if !(factor.is_finite() && factor > 0.0) {
             let need = "the layout's area and the one asked for must be finite and positive";
             return Err(Error::Argument { what: "area", value: area.to_string(), need });
         }
-        self.coordinates.as_flattened_mut().iter_mut().for_each(|x| *x *= factor);
-        for seam in &mut self.seams {
-            seam.translation = seam.translation.map(|x| factor * x);
-        }
-        self.diameter *= factor;
+        self.scale_by(factor);
         self.area = area;
-        self.flipped = self.find_flipped(mesh);
+        self.find_flat();
         Ok(factor)
     }
 
-    fn find_flipped(&self, mesh: &Mesh) -> Vec<FaceId> {
-        let turns_left = |f: &FaceId| {
-            let [a, b, c] = self.face_uv(mesh, *f);
-            orientation(a, b, c) == Ordering::Greater
-        };
-        mesh.faces().filter(|f| !turns_left(f)).collect()
+    fn scale_by(&mut self, factor: f64) {
+        if factor == 1.0 {
+            return;
+        }
+        self.coordinates.as_flattened_mut().iter_mut().for_each(|x| *x *= factor);
+        self.points.iter_mut().for_each(|[x, y, _]| (*x, *y) = (factor * *x, factor * *y));
+        let pairings = self.seams.iter_mut().map(|seam| &mut seam.pairing);
+        pairings.chain(&mut self.frames).for_each(|m| m.b = m.b.map(|x| x * factor.into()));
+        self.disagreement *= factor;
+        self.radius *= factor;
+        self.diameter *= factor;
+        self.scale *= factor;
+        self.area *= factor * factor;
+    }
+
+    /// Find the triangles that are flipped or degenerate.
+    pub(super) fn find_flat(&mut self) {
+        let mesh = self.pieces.mesh();
+        if self.pieces.refinement().is_none() {
+            self.flipped = match self.space {
+                Space::E2 => faces_where(mesh, |f| !is_left_turn(self.face_uv(f))),
+                _ => faces_where(mesh, |f| !is_counterclockwise(self.face_points(f))),
+            };
+            return;
+        }
+        let size = extent(&self.coordinates);
+        let mut shapes = vec![(Shape::default(), 0.0); mesh.n_faces()];
+        parallel::fill(&mut shapes, |f| self.shape(f.into(), size));
+        let faces =
+            |pick: fn(&(Shape, f64)) -> bool| mesh.faces().filter(|f| pick(&shapes[f.index()])).collect();
+        self.flipped = faces(|(shape, extent)| shape.is_flipped(*extent));
+        self.degenerate = faces(|(shape, extent)| shape.is_degenerate(*extent));
+    }
+
+    /// The shape of a triangle about its own place, where doubles are as dense as they can be, with the size of coordinates at which its own
+    /// have been rounded. `size`: that of the whole layout in E².
+    pub(super) fn shape(&self, f: FaceId, size: f64) -> (Shape, f64) {
+        if self.space == Space::E2 {
+            return (Shape::of(self.face_uv(f)), size);
+        }
+        let points = self.face_points(f);
+        let far = points.map(|[x, y, _]| x.hypot(y)).into_iter().fold(1.0, f64::max);
+        (Shape::of(self.brought_home(points).map(klein)), far)
+    }
+
+    /// Points moved by an isometry that brings the first of them to the origin.
+    pub(super) fn brought_home(&self, points: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        let home = Motion::to_origin(self.space, precise_point(self.space, points[0]));
+        points.map(|p| home.apply(precise_point(self.space, p)).map(f64::from))
+    }
+
+    /// The frame of a half-edge of a face, of a layout with frames of twice the digits ([`layout_of`]).
+    pub(super) fn frame(&self, faces: &Faces<Motion<Twofold>>, h: HalfedgeId) -> Result<Motion<Twofold>> {
+        let (f, k) = place_in_face(self.mesh(), h)?;
+        match self.frames.get(*self.patch.get(f.index()).unwrap_or(&u32::MAX) as usize) {
+            Some(&frame) => Ok(faces.around(f, 0, frame)[k]),
+            None => Err(Error::Layout(format!("face {f} has no frame of twice the digits"))),
+        }
     }
 }
 
+/// A translation by less, in diameters of the layout, is none: its seam leads to a vertex and back.
+const LEAST_PERIOD: f64 = 1e-9;
+/// A side pairing of a flat torus turns by less: cones turn by their curvature, of a flow within its tolerance of 0.
+const TURNS: f64 = 1e-6;
+
+fn faces_where(mesh: &Mesh, is_so: impl Fn(FaceId) -> bool + Sync) -> Vec<FaceId> {
+    let mut found = vec![false; mesh.n_faces()];
+    parallel::fill(&mut found, |f| is_so(f.into()));
+    mesh.faces().filter(|f| found[f.index()]).collect()
+}
+
+fn is_left_turn([a, b, c]: [[f64; 2]; 3]) -> bool {
+    orientation(a, b, c) == Ordering::Greater
+}
+
+/// Whether three points in ambient coordinates run counterclockwise, by exact arithmetic: the sign of their determinant, which in H² is
+/// the orientation of their images in the Klein disk.
+pub fn is_counterclockwise([p, q, r]: [[f64; 3]; 3]) -> bool {
+    winding(p, q, r) == Ordering::Greater
+}
+
+/// Distance of a point in ambient coordinates from the origin.
+pub fn distance_from_origin(space: Space, [x, y, w]: [f64; 3]) -> f64 {
+    let r = x.hypot(y);
+    match space {
+        Space::E2 => r,
+        Space::H2 => r.asinh(),
+        Space::S2 => r.atan2(w),
+    }
+}
+
+/// Distance of two points in ambient coordinates, near the origin in H².
+pub fn distance(space: Space, p: [f64; 3], q: [f64; 3]) -> f64 {
+    match space {
+        Space::E2 => (p[0] - q[0]).hypot(p[1] - q[1]),
+        Space::H2 => hyperbolic_distance(p, q),
+        Space::S2 => {
+            let chord = (0..3).map(|i| (p[i] - q[i]) * (p[i] - q[i])).sum::<f64>().sqrt();
+            2.0 * (0.5 * chord).min(1.0).asin()
+        }
+    }
+}
+
+fn flat(space: Space, p: [f64; 3]) -> [f64; 2] {
+    if space == Space::E2 { [p[0], p[1]] } else { poincare(p) }
+}
+
 /// Per half-edge, the seam on whose left (positive) or right side it lies: [`Layout::side`].
-pub(super) fn seam_sides(mesh: &Mesh, cut: &CutGraph) -> PerHalfedge<i32> {
+fn seam_sides(mesh: &Mesh, cut: &CutGraph) -> PerHalfedge<i32> {
     let mut side = PerHalfedge::filled(mesh.n_halfedges(), 0);
     for (k, segment) in cut.segments.iter().enumerate() {
         for &h in segment {
@@ -209,7 +662,7 @@ pub(super) fn check_cut(mesh: &Mesh, cut: &CutGraph) -> Result<()> {
 }
 
 /// Diagonal of the points' bounding box.
-pub(super) fn bounding_diagonal(points: &[[f64; 2]]) -> f64 {
+pub fn bounding_diagonal(points: &[[f64; 2]]) -> f64 {
     let extent = |k: usize| {
         let range = points
             .iter()

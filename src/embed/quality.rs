@@ -1,11 +1,14 @@
 //! Distortion of a layout: quasi-conformal dilatation and area.
 
-use super::layout::Layout;
-use super::shape::{FLAT, Shape};
+use super::layout::{Layout, distance};
+use super::shape::{LEAST_SHARE, Shape, extent};
 use super::triangle::Triangle;
 use crate::error::{Error, Result, check_size};
+use crate::geometry::Space;
+use crate::geometry::complex::{conj, cross, doubled_area, mul, norm, norm2, sub};
+use crate::geometry::triangle::area;
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace};
-use crate::metric::Refinement;
+use crate::parallel;
 use crate::topology::check_lengths;
 
 /// The dilatation of a face whose image or original has no area: doubles resolve none beyond 1/ε.
@@ -33,64 +36,87 @@ pub struct Quality {
     pub degenerate: Vec<FaceId>,
 }
 
-/// Compare the layout's triangles with those of the input's edge lengths, given on the same mesh.
-///
-/// A flipped face counts with the dilatation of its mirror image ([`Layout::flipped`] names it).
-///
-/// Errors: [`crate::Error::Size`], [`crate::Error::EdgeLength`], [`crate::Error::TriangleInequality`] of the
-/// input lengths.
-pub fn quality(mesh: &Mesh, input_lengths: &PerEdge<f64>, layout: &Layout) -> Result<Quality> {
-    check_lengths(mesh, input_lengths)?;
-    check_size("corner_index", layout.corner_index.len(), mesh.n_halfedges())?;
-    // Units in which no area over- or underflows that matters.
-    let unit = input_lengths.iter().copied().fold(0.0, f64::max);
-    let mut qc = PerFace::filled(mesh.n_faces(), DILATATION_CAP);
-    let mut areas = PerFace::filled(mesh.n_faces(), [0.0; 2]);
-    for f in mesh.faces() {
-        let sides = mesh.opposite_edges(f).map(|e| input_lengths[e] / unit);
-        let triangle = Triangle::from_sides(sides);
-        if triangle.excess > 0.0 {
-            return Err(Error::TriangleInequality { face: f.index(), excess: triangle.excess });
+impl Layout {
+    /// How the linear maps from the input's triangles, or their pieces, to those of the layout's plane coordinates distort; areas are those of
+    /// the space. `input`: the triangulation of the surface as it came (of a double: that or the surface's own) with the `lengths` of its
+    /// edges in E².
+    ///
+    /// A flipped face counts with the dilatation of its mirror image. Triangles that are degenerate on either side are named, and
+    /// left out of the mean and the extremes.
+    ///
+    /// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the input lengths.
+    pub fn quality(&self, input: &Mesh, lengths: &PerEdge<f64>) -> Result<Quality> {
+        check_lengths(input, lengths)?;
+        let (mesh, pieces) = (self.mesh(), &self.pieces);
+        let need = mesh.faces().map(|f| pieces.input_face(f).index() + 1).fold(0, usize::max);
+        check_size("input faces", input.n_faces().min(need), need)?;
+        // Units in which no area over- or underflows that matters.
+        let unit = lengths.iter().copied().fold(0.0, f64::max);
+        let given = |f: FaceId| {
+            let sides = input.opposite_edges(pieces.input_face(f)).map(|e| lengths[e] / unit);
+            Given { triangle: Triangle::from_sides(sides), sides }
+        };
+        let (mut qc, mut areas) = (vec![DILATATION_CAP; mesh.n_faces()], vec![[0.0; 2]; mesh.n_faces()]);
+        parallel::fill_both(&mut qc, &mut areas, |f| {
+            let f = FaceId::from(f);
+            let given = given(f);
+            let from = given.place(pieces.input_barycentric(f));
+            let to = self.face_uv(f).map(|p| p.map(|x| x / self.diameter));
+            let dilatation =
+                if self.can_compare(f, from, to) { dilatation(from, to) } else { DILATATION_CAP };
+            (dilatation, [0.5 * doubled_area(from).abs(), self.area_of(f, to)])
+        });
+        match mesh.faces().find(|&f| given(f).triangle.excess > 0.0) {
+            Some(f) => {
+                let (face, excess) = (pieces.input_face(f).index(), given(f).triangle.excess);
+                Err(Error::TriangleInequality { face, excess })
+            }
+            None => Ok(summary(mesh, qc.into(), &areas.into())),
         }
-        let image = layout.face_uv(mesh, f).map(|p| p.map(|x| x / layout.diameter));
-        let image_area = 0.5 * cross(minus(image[1], image[0]), minus(image[2], image[0])).abs();
-        areas[f] = [triangle.area, image_area];
-        qc[f] = dilatation(sides, &triangle, image);
     }
-    Ok(summary(mesh, qc, &areas))
+
+    /// Whether a piece and its image have a shape to compare. The triangles of a mesh always have, as far as doubles go: they come from their
+    /// lengths; the corners of a refinement's pieces are rounded.
+    fn can_compare(&self, f: FaceId, from: [[f64; 2]; 3], to: [[f64; 2]; 3]) -> bool {
+        let is_sound = || match self.space {
+            Space::E2 => !Shape::of(to).is_degenerate(extent(&to).max(1.0)),
+            _ => {
+                let (shape, far) = self.shape(f, 0.0);
+                !shape.is_degenerate(far) && !shape.is_flipped(far)
+            }
+        };
+        self.refinement().is_none() || (Shape::of(from).share > LEAST_SHARE && is_sound())
+    }
+
+    /// The area of a triangle; `to` are its coordinates in E², divided by the diameter.
+    fn area_of(&self, f: FaceId, to: [[f64; 2]; 3]) -> f64 {
+        if self.space == Space::E2 {
+            return 0.5 * doubled_area(to).abs();
+        }
+        let points = self.brought_home(self.face_points(f));
+        area(self.space, [[1, 2], [2, 0], [0, 1]].map(|[i, j]| distance(self.space, points[i], points[j])))
+    }
 }
 
-/// Compare the pieces of a refinement with their images: corners, area and whether there is anything to compare.
-pub(super) fn refined_quality(
-    r: &Refinement,
-    input: &Mesh,
-    lengths: &PerEdge<f64>,
-    image: impl Fn(FaceId) -> ([[f64; 2]; 3], f64, bool),
-) -> Result<Quality> {
-    check_lengths(input, lengths)?;
-    let need = r.input_face.iter().map(|f| f.index() + 1).fold(0, usize::max);
-    check_size("input faces", input.n_faces().min(need), need)?;
-    let unit = lengths.iter().copied().fold(0.0, f64::max);
-    let mut qc = PerFace::filled(r.mesh.n_faces(), DILATATION_CAP);
-    let mut areas = PerFace::filled(r.mesh.n_faces(), [0.0; 2]);
-    let vectors = |p: [[f64; 2]; 3]| [minus(p[1], p[0]), minus(p[2], p[0])];
-    for f in r.mesh.faces() {
-        let face = r.input_face[f];
-        let sides = input.opposite_edges(face).map(|e| lengths[e] / unit);
-        let triangle = Triangle::from_sides(sides);
-        if triangle.excess > 0.0 {
-            return Err(Error::TriangleInequality { face: face.index(), excess: triangle.excess });
-        }
-        let [first, way] = [[sides[2], 0.0], triangle.direction[0].map(|x| sides[1] * x)];
-        let from = r.input_barycentric(f).map(|[_, x, y]| [x * first[0] + y * way[0], y * way[1]]);
-        let [p, q] = vectors(from);
-        let (to, area, sound) = image(f);
-        areas[f] = [0.5 * cross(p, q).abs(), area];
-        if Shape::of(from).share > FLAT && sound {
-            qc[f] = dilatation_of_vectors(vectors(from), vectors(to));
-        }
+/// A triangle of the input.
+struct Given {
+    sides: [f64; 3],
+    triangle: Triangle,
+}
+
+impl Given {
+    /// Points of the triangle in the plane, by the weights of its corners. The corner opposite the longest side lies at the origin: there
+    /// a needle's edges are far from parallel.
+    fn place(&self, weights: [[f64; 3]; 3]) -> [[f64; 2]; 3] {
+        let k = longest_side(self.sides);
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let way = self.triangle.direction[k].map(|x| self.sides[i] * x);
+        weights.map(|w| [w[i] * self.sides[j] + w[j] * way[0], w[j] * way[1]])
     }
-    Ok(summary(&r.mesh, qc, &areas))
+}
+
+fn longest_side(sides: [f64; 3]) -> usize {
+    (0..3).fold(0, |k, i| if sides[i] > sides[k] { i } else { k })
 }
 
 /// The statistics of dilatations and of areas `[input, layout]` per face.
@@ -118,50 +144,24 @@ fn summary(mesh: &Mesh, qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality 
     }
 }
 
-/// Dilatation of the linear map from the triangle with these sides onto the triangle `image`.
+/// Dilatation of the linear map of triangles.
 ///
 /// With edge vectors P, P′ from one corner and their images Q, Q′ as complex numbers, the map is `z ↦ αz +
 /// βz̄` where `α ∝ Q P̄′ − Q′ P̄` and `β ∝ Q P′ − Q′ P`, and `K = (|α| + |β|) / ||α| − |β|| = (|α| + |β|)² /
 /// (16 A A′)`: the areas are formed directly, so nothing cancels where K is large. The corner is the one
 /// opposite the longest side, where a needle's edge vectors are far from parallel.
-fn dilatation(sides: [f64; 3], triangle: &Triangle, image: [[f64; 2]; 3]) -> f64 {
-    let k = (0..3).max_by(|&i, &j| sides[i].total_cmp(&sides[j])).unwrap_or(0);
-    let [i, j] = [(k + 1) % 3, (k + 2) % 3];
-    let [c, s] = triangle.direction[k];
-    let q = minus(image[i], image[k]).map(|x| x / sides[j]);
-    let r = minus(image[j], image[k]).map(|x| x / sides[i]);
-    // Scaled by their lengths, P = 1, P′ = c + i s, Q = q, Q′ = r.
-    let alpha = [q[0] * c + q[1] * s - r[0], q[1] * c - q[0] * s - r[1]];
-    let beta = [q[0] * c - q[1] * s - r[0], q[1] * c + q[0] * s - r[1]];
-    bounded(alpha, beta, s * cross(q, r))
-}
-
-/// Dilatation of the linear map that carries the vectors `p` to the vectors `q`.
-fn dilatation_of_vectors(p: [[f64; 2]; 2], q: [[f64; 2]; 2]) -> f64 {
-    let [[p, r], [q, s]] = [p, q];
-    // α = q r̄ − s p̄, β = q r − s p.
-    let alpha = [
-        q[0] * r[0] + q[1] * r[1] - s[0] * p[0] - s[1] * p[1],
-        q[1] * r[0] - q[0] * r[1] - s[1] * p[0] + s[0] * p[1],
-    ];
-    let beta = [
-        q[0] * r[0] - q[1] * r[1] - s[0] * p[0] + s[1] * p[1],
-        q[1] * r[0] + q[0] * r[1] - s[1] * p[0] - s[0] * p[1],
-    ];
-    bounded(alpha, beta, cross(p, r) * cross(q, s))
-}
-
-/// `(|α| + |β|)² / 4|product of the cross products|`, at least 1 and at most the cap.
-fn bounded(alpha: [f64; 2], beta: [f64; 2], product: f64) -> f64 {
-    let norm = alpha[0].hypot(alpha[1]) + beta[0].hypot(beta[1]);
-    let dilatation = norm * norm / (4.0 * product.abs());
+fn dilatation(from: [[f64; 2]; 3], to: [[f64; 2]; 3]) -> f64 {
+    let k = longest_side([[1, 2], [2, 0], [0, 1]].map(|[i, j]| norm2(sub(from[i], from[j]))));
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let vectors = |t: [[f64; 2]; 3]| [sub(t[i], t[k]), sub(t[j], t[k])];
+    let ([p, q], [p_image, q_image]) = (vectors(from), vectors(to));
+    // Scaled by their lengths: sides of very different lengths pass.
+    let (n, m) = (norm(p), norm(q));
+    let [p, q] = [p.map(|x| x / n), q.map(|x| x / m)];
+    let [p_image, q_image] = [p_image.map(|x| x / n), q_image.map(|x| x / m)];
+    let alpha = sub(mul(p_image, conj(q)), mul(q_image, conj(p)));
+    let beta = sub(mul(p_image, q), mul(q_image, p));
+    let sum = norm(alpha) + norm(beta);
+    let dilatation = sum * sum / (4.0 * (cross(p, q) * cross(p_image, q_image)).abs());
     if dilatation.is_finite() { dilatation.clamp(1.0, DILATATION_CAP) } else { DILATATION_CAP }
-}
-
-pub(super) fn minus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
-    [p[0] - q[0], p[1] - q[1]]
-}
-
-pub(super) fn cross(p: [f64; 2], q: [f64; 2]) -> f64 {
-    p[0] * q[1] - p[1] * q[0]
 }

@@ -1,14 +1,14 @@
 //! How flat a triangle in the plane is, and what rounding of its coordinates does to that.
 
 use super::overlap::Triangle;
-use super::quality::{cross, minus};
+use crate::geometry::complex::{cross, norm, norm2, sub};
 
 /// A triangle counts as flipped where its area is below −this · longest edge² and what rounding its coordinates does to it, as
-/// degenerate within that of zero.
-pub const FLAT: f64 = 1e-12;
+/// degenerate within that of zero: thinner pieces are what rounding makes of crossings that coincide.
+pub const LEAST_SHARE: f64 = 1e-12;
 
 /// A triangle in the plane.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Shape {
     /// Signed area over the square of the longest edge; 0 for a point.
     pub share: f64,
@@ -17,8 +17,13 @@ pub(super) struct Shape {
 
 impl Shape {
     pub fn of([a, b, c]: Triangle) -> Shape {
-        let edges = [minus(b, a), minus(c, b), minus(a, c)];
-        let longest = edges.iter().map(|e| e[0].hypot(e[1])).fold(0.0, f64::max);
+        let edges = [sub(b, a), sub(c, b), sub(a, c)];
+        let square = edges.into_iter().map(norm2).fold(0.0, f64::max);
+        // Squares of the smallest and the largest doubles are none.
+        let longest = match square.is_normal() {
+            true => square.sqrt(),
+            false => edges.into_iter().map(norm).fold(0.0, f64::max),
+        };
         if longest == 0.0 {
             return Shape { share: 0.0, longest };
         }
@@ -26,19 +31,19 @@ impl Shape {
         Shape { share: 0.5 * cross(p, q), longest }
     }
 
-    /// What its share must exceed to count: [`FLAT`], and what rounding coordinates of size `extent` does to it.
+    /// What its share must exceed to count: [`LEAST_SHARE`], and what rounding coordinates of size `extent` does to it.
     ///
     /// The height over the longest edge is twice the share times that edge: it must exceed two spacings of doubles at `extent`.
-    pub fn flat(&self, extent: f64) -> f64 {
-        FLAT + f64::EPSILON * extent / self.longest
+    fn least(&self, extent: f64) -> f64 {
+        LEAST_SHARE + f64::EPSILON * extent / self.longest
     }
 
     pub fn is_flipped(&self, extent: f64) -> bool {
-        self.share < -self.flat(extent)
+        self.share < -self.least(extent)
     }
 
     pub fn is_degenerate(&self, extent: f64) -> bool {
-        self.share.abs() <= self.flat(extent)
+        self.share.abs() <= self.least(extent)
     }
 }
 

@@ -161,6 +161,11 @@ impl Solution {
         self.reached.as_ref().map_or(&[], |reached| &reached.cones)
     }
 
+    /// Threads of the flow; 0 for one per core.
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
     /// Isometric flips before the flow.
     pub fn start_flips(&self) -> usize {
         self.origin.flips

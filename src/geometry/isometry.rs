@@ -1,5 +1,6 @@
 //! Orientation-preserving isometries of the plane.
 
+use super::{Motion, Twofold};
 use std::f64::consts::{PI, TAU};
 
 /// `z ↦ e^{iθ} z + t`.
@@ -68,6 +69,15 @@ impl PlaneIsometry {
         }
         let n = f64::max(n, 1.0);
         PlaneIsometry { translation: sum.map(|x| x / n), ..turn }
+    }
+}
+
+impl From<Motion<Twofold>> for PlaneIsometry {
+    /// A motion of E².
+    fn from(g: Motion<Twofold>) -> PlaneIsometry {
+        let [x, y, _] = g.origin().map(f64::from);
+        let [cos, sin] = g.a.map(f64::from);
+        PlaneIsometry::new(2.0 * sin.atan2(cos), [x, y])
     }
 }
 

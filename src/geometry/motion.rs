@@ -11,6 +11,7 @@
 //! that is, unit quaternions in S² (SU(2)), SU(1,1) in H². One text serves the three, and entries keep their *relative* accuracy
 //! far from the origin, where coordinates in the disk run out of digits.
 
+use super::complex::{add, conj, mul, norm2, scale};
 use super::{Space, Twofold};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -89,7 +90,7 @@ impl<T: Real> Motion<T> {
     /// `self ∘ first`: `first` acts first.
     pub fn compose(&self, first: &Self) -> Self {
         let sign = self.sign();
-        let a = add(mul(self.a, first.a), scaled(-sign, mul(self.b, conj(first.b))));
+        let a = add(mul(self.a, first.a), scale(-sign, mul(self.b, conj(first.b))));
         let b = add(mul(self.a, first.b), mul(self.b, conj(first.a)));
         Motion { space: self.space, a, b }
     }
@@ -102,8 +103,8 @@ impl<T: Real> Motion<T> {
     /// `self` after the translation along the x axis with these a and b: [`Motion::translation_of_chord`], at a quarter of the price.
     pub fn after_translation(&self, [cos, chord]: [T; 2]) -> Self {
         let sign = self.sign();
-        let a = add(scaled(cos, self.a), scaled(-sign * chord, self.b));
-        let b = add(scaled(chord, self.a), scaled(cos, self.b));
+        let a = add(scale(cos, self.a), scale(-sign * chord, self.b));
+        let b = add(scale(chord, self.a), scale(cos, self.b));
         Motion { space: self.space, a, b }
     }
 
@@ -123,7 +124,7 @@ impl<T: Real> Motion<T> {
         let (a, b, sign) = (self.a, self.b, self.sign());
         let p = [x, y];
         // X ↦ a² X − κ b² X̄ + 2ab w,   w ↦ (|a|² − κ|b|²) w − 2κ Re(a b̄ X)
-        let moved = add(mul(mul(a, a), p), scaled(-sign, mul(mul(b, b), conj(p))));
+        let moved = add(mul(mul(a, a), p), scale(-sign, mul(mul(b, b), conj(p))));
         let from_w = mul(a, b);
         let two = T::from(2.0);
         let height = (norm2(a) - sign * norm2(b)) * w - two * sign * mul(mul(a, conj(b)), p)[0];
@@ -155,11 +156,11 @@ impl<T: Real> Motion<T> {
         let one = T::from(1.0);
         let (a, b) = match self.space {
             Space::S2 => {
-                let scale = one / (square + moved).root();
-                (scaled(scale, self.a), scaled(scale, self.b))
+                let shrink = one / (square + moved).root();
+                (scale(shrink, self.a), scale(shrink, self.b))
             }
-            Space::E2 => (scaled(one / square.root(), self.a), self.b),
-            Space::H2 => (scaled(((one + moved) / square).root(), self.a), self.b),
+            Space::E2 => (scale(one / square.root(), self.a), self.b),
+            Space::H2 => (scale(((one + moved) / square).root(), self.a), self.b),
         };
         Motion { space: self.space, a, b }
     }
@@ -177,6 +178,28 @@ impl Motion<f64> {
 }
 
 impl Motion<Twofold> {
+    /// The isometry `z ↦ direction · z + place` of the plane; `direction` has length 1.
+    pub fn in_plane(direction: [Twofold; 2], place: [Twofold; 2]) -> Self {
+        let ([cos, sin], one) = (direction, Twofold::from(1.0));
+        // Half the angle, from the larger of 1 ± cos.
+        let half = match (cos.high >= 0.0, sin.high >= 0.0) {
+            (true, _) => [one + cos, sin],
+            (false, true) => [sin, one - cos],
+            (false, false) => [-sin, cos - one],
+        };
+        let a = scale(one / norm2(half).sqrt(), half);
+        Motion { space: Space::E2, a, b: scale(0.5.into(), mul(place, conj(a))) }
+    }
+
+    /// The one without a rotation that brings the point with these ambient coordinates to the origin.
+    pub fn to_origin(space: Space, [x, y, w]: [Twofold; 3]) -> Self {
+        let (one, two) = (Twofold::from(1.0), Twofold::from(2.0));
+        // 2ab is x + iy, with b in that direction and a real: 2a² = 1 + w.
+        let a = if space == Space::E2 { one } else { ((w + one) / two).sqrt() };
+        let b = [x, y].map(|x| x / (two * a));
+        Motion { space, a: [a, Twofold::from(0.0)], b }.normalised().inverse()
+    }
+
     /// To the digits of doubles.
     pub fn rounded(&self) -> Motion {
         Motion { space: self.space, a: self.a.map(f64::from), b: self.b.map(f64::from) }
@@ -253,8 +276,8 @@ impl Motion<Twofold> {
         let (a, b) = (near.a, near.b);
         let real = |x: f64| [Twofold::from(x), Twofold::from(0.0)];
         match self.space {
-            Space::E2 => [[mul(a, a), scaled(Twofold::from(2.0), mul(a, b))], [real(0.0), real(1.0)]],
-            _ => [[a, b], [scaled(-self.sign(), conj(b)), conj(a)]],
+            Space::E2 => [[mul(a, a), scale(Twofold::from(2.0), mul(a, b))], [real(0.0), real(1.0)]],
+            _ => [[a, b], [scale(-self.sign(), conj(b)), conj(a)]],
         }
     }
 }
@@ -272,26 +295,6 @@ pub fn precise_point(space: Space, p: [f64; 3]) -> [Twofold; 3] {
             [x / norm, y / norm, w / norm]
         }
     }
-}
-
-fn mul<T: Real>([a, b]: Complex<T>, [c, d]: Complex<T>) -> Complex<T> {
-    [a * c - b * d, a * d + b * c]
-}
-
-fn add<T: Real>([a, b]: Complex<T>, [c, d]: Complex<T>) -> Complex<T> {
-    [a + c, b + d]
-}
-
-fn conj<T: Real>([a, b]: Complex<T>) -> Complex<T> {
-    [a, -b]
-}
-
-fn scaled<T: Real>(s: T, z: Complex<T>) -> Complex<T> {
-    z.map(|x| s * x)
-}
-
-fn norm2<T: Real>([a, b]: Complex<T>) -> T {
-    a * a + b * b
 }
 
 #[cfg(test)]

@@ -19,6 +19,12 @@ impl Twofold {
         Twofold { high: sum, low: low - (sum - high) }
     }
 
+    /// The sum with a double.
+    pub fn plus(self, x: f64) -> Twofold {
+        let (high, lost) = two_sum(self.high, x);
+        Twofold::renormalised(high, lost + self.low)
+    }
+
     /// The square root of a number that is not negative (0 for one that is).
     pub fn sqrt(self) -> Twofold {
         if self.high <= 0.0 {

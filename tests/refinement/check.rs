@@ -3,10 +3,12 @@
 use crate::common::Random;
 use crate::flown::Flown;
 use ricci::Control;
-use ricci::embed::{layout_refined, refined_cut};
+use ricci::embed::unroll::CONE_TOLERANCE;
+use ricci::embed::{Layout, Source, UnrollOptions, cones_of, unroll_source};
 use ricci::geometry::Space;
 use ricci::mesh::{FaceId, Mesh, PerEdge, PerVertex, Point};
 use ricci::metric::{Refinement, curvature};
+use std::sync::Arc;
 
 #[derive(Default, Debug)]
 pub struct Worst {
@@ -125,38 +127,66 @@ pub fn check_layout(
     target: &PerVertex<f64>,
     what: &str,
 ) {
-    let cones: Vec<_> =
-        input.vertices().filter(|&v| !input.is_boundary_vertex(v) && target[v].abs() > 1e-12).collect();
-    let cut = refined_cut(r, &flown.mesh, &flown.metric, &cones, &Control::new()).unwrap();
-    let laid = layout_refined(r, &flown.mesh, &flown.metric, &cut, &Control::new()).unwrap();
-    let quality = laid.quality(r, input, lengths).unwrap();
+    let cones = Some(cones_of(input, &target.to_vec()[..input.n_vertices()], CONE_TOLERANCE).unwrap());
+    let given = Arc::new(input.clone());
+    let refinement = Some(Arc::new(r.clone()));
+    let source = Source { given: &given, mesh: &flown.mesh, metric: &flown.metric, refinement };
+    let options = UnrollOptions { cones, ..UnrollOptions::default() };
+    let laid = unroll_source(source, &options, &Control::new()).unwrap();
+    let quality = laid.quality(input, lengths).unwrap();
     println!(
         "    consistency {:.0e}, {:.0e} of a face; of {} triangles {} flipped, {} degenerate; qc mean {:.2}, max {:.0e}",
-        laid.layout.consistency,
-        laid.layout.local_consistency,
+        laid.consistency(),
+        laid.local_consistency,
         r.mesh.n_faces(),
-        laid.layout.flipped.len(),
+        laid.flipped.len(),
         laid.degenerate.len(),
         quality.qc_mean,
         quality.qc_max
     );
-    assert!(laid.layout.consistency < 1e-10, "{what}");
+    assert!(laid.consistency() < 1e-10, "{what}");
     // Where faces are so small against where they lie that doubles lose their shape, nothing can be said of their pieces.
-    if laid.layout.local_consistency < 1e-6 {
-        assert!(laid.layout.flipped.is_empty() && laid.degenerate.is_empty(), "{what}");
+    if laid.local_consistency < 1e-6 {
+        assert!(laid.flipped.is_empty() && laid.degenerate.is_empty(), "{what}");
     }
     // Where the two sides of a seam are glued by an isometry, that carries one onto the other.
-    assert!(laid.layout.seams.iter().all(|seam| seam.residual < 1e-10), "{what}");
+    assert!(laid.seams.iter().all(|seam| seam.residual < 1e-10), "{what}");
+    seams_run_along_input_edges(r, input, &laid, what);
     if input.is_closed() {
         let area =
             curvature(&flown.mesh, Space::E2, &flown.metric.lengths(&flown.mesh).unwrap()).unwrap().area;
-        assert!((laid.layout.area / area - 1.0).abs() < 1e-10, "{what}");
+        assert!((laid.area / area - 1.0).abs() < 1e-10, "{what}");
         let mut scaled = laid.clone();
-        scaled.scale_to_area(r, 2.0).unwrap();
-        let sum: f64 = r.mesh.faces().map(|f| plane_area(scaled.layout.face_uv(&r.mesh, f))).sum();
+        scaled.scale_to_area(2.0).unwrap();
+        let sum: f64 = r.mesh.faces().map(|f| plane_area(scaled.face_uv(f))).sum();
         assert!((sum - 2.0).abs() < 1e-9, "{what}: {sum}");
     }
-    assert!(laid.layout.broken.is_empty(), "{what}");
+    assert!(laid.broken.is_empty(), "{what}");
+}
+
+/// The cut is one of the input, and the input's own corners lie where the pieces have them.
+fn seams_run_along_input_edges(r: &Refinement, input: &Mesh, laid: &Layout, what: &str) {
+    let on_input = laid.on_input().unwrap();
+    for e in r.mesh.edges().filter(|&e| laid.cut.is_cut[e]) {
+        assert!(r.origin[e].input.is_some_and(|e| on_input.cut.is_cut[e]), "{what}: edge {e}");
+    }
+    assert_eq!(laid.cut.segments.len(), on_input.cut.segments.len(), "{what}");
+    let corners = laid.corner_uv().unwrap();
+    assert_eq!(corners.len(), input.n_faces());
+    for f in r.mesh.faces() {
+        for (uv, weights) in laid.face_uv(f).into_iter().zip(r.input_barycentric(f)) {
+            if let Some(corner) = weights.iter().position(|&w| w == 1.0) {
+                assert_eq!(corners[r.input_face[f].index()][corner], uv, "{what}: face {f}");
+            }
+        }
+    }
+    // Where an edge is not cut, both faces have its ends in one place.
+    let index = |h| on_input.corner_index[h];
+    for e in input.edges().filter(|&e| !input.is_boundary_edge(e)) {
+        let (h, t) = (e.halfedge(), e.halfedge().twin());
+        let joined = index(h) == index(input.next(t)) && index(input.next(h)) == index(t);
+        assert!(joined || on_input.cut.is_cut[e], "{what}: edge {e}");
+    }
 }
 
 fn plane_area([a, b, c]: [[f64; 2]; 3]) -> f64 {

@@ -66,7 +66,7 @@ fn copies_within_a_radius_are_those_of_any_word_length() {
         }
         for (i, g) in near.iter().enumerate() {
             assert!(g.motion.displacement() <= radius);
-            let off = q.deck.motion(&g.word).compose(&g.motion.inverse()).distance_from_identity();
+            let off = q.deck.motion(&g.word).unwrap().compose(&g.motion.inverse()).distance_from_identity();
             assert!(off < 1e-12 * g.motion.norm_square());
             assert!(near[..i].iter().all(|h| !q.deck.group.equal(&g.word, &h.word)), "{}", surface.name);
         }
@@ -88,12 +88,12 @@ fn shared_sides_coincide() {
         for length in [0, 1, 2, 3, 6] {
             let letters = (0..length).map(|_| Letter(random.below(2 * q.deck.group.n_generators()) as u32));
             let word = q.deck.group.reduce(&Word::from_iter(letters));
-            let gamma = q.deck.motion(&word);
+            let gamma = q.deck.motion(&word).unwrap();
             let limit = if length < 6 { 1e-8 } else { 1e-6 };
             let cut: Vec<HalfedgeId> = mesh.halfedges().filter(|&h| q.layout.side(h) != 0).collect();
             for &h in cut.iter().step_by(1 + cut.len() / 40) {
                 // The neighbour by its word, through the generators; not by the side's own isometry.
-                let neighbour = gamma.compose(&q.deck.motion(&q.basis_word(mesh, h)));
+                let neighbour = gamma.compose(&q.deck.motion(&q.basis_word(mesh, h)).unwrap());
                 let [here, other] = [h, mesh.next(h)].map(|h| moved(&[q.layout.corner(h)], &gamma)[0]);
                 let there = moved(&[q.layout.corner(mesh.next(h.twin()))], &neighbour)[0];
                 let apart = drawn(space, here, there);
@@ -198,15 +198,14 @@ fn no_two_copies_overlap() {
         let d = dirichlet_domain(&q.deck, at, q.layout.area, &Control::new()).unwrap();
         // What is near enough to touch.
         let near = elements_within(&q.deck, &d, 2.0 * q.layout.radius, 1 << 20, &Control::new()).unwrap();
-        let triangles: Vec<[[f64; 2]; 3]> =
-            mesh.faces().map(|f| q.layout.face_points(mesh, f).map(flat)).collect();
+        let triangles: Vec<[[f64; 2]; 3]> = mesh.faces().map(|f| q.layout.face_points(f).map(flat)).collect();
         let inside = |p: [f64; 2], t: &[[f64; 2]; 3]| {
             (0..3).all(|k| orientation(t[k], t[(k + 1) % 3], p) == Ordering::Greater)
         };
         for g in &near {
             for _ in 0..8 {
                 let t = mesh.faces().nth(random.below(mesh.n_faces())).unwrap();
-                let corners = q.layout.face_points(mesh, t);
+                let corners = q.layout.face_points(t);
                 let centre = [0, 1, 2].map(|i| corners.iter().map(|p| p[i]).sum::<f64>() / 3.0);
                 let p = flat(g.motion.apply(centre.map(Twofold::from)).map(f64::from));
                 let hits = triangles.iter().filter(|t| inside(p, t)).count();

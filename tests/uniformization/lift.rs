@@ -41,18 +41,18 @@ fn lifts_of_loops_end_where_their_elements_carry_the_base() {
             let end = path.last().map_or(q.basis.base, |&h| mesh.tip(h));
             let home = q.basis.tree_path(mesh, end).unwrap();
             path.extend(home.into_iter().rev().map(HalfedgeId::twin));
-            let lift = q.layout.lift(mesh, q.deck.corner, &path).unwrap();
+            let lift = q.layout.lift(q.deck.corner, &path).unwrap();
             // Isometries have about 32 digits, of which a walk to height w takes log10 w², there and back twice as many.
             if lift.iter().any(|p| p[2] > 1e6) {
                 continue;
             }
             assert_eq!(lift.len(), path.len() + 1);
             let word = q.basis.path_word(mesh, &path).unwrap();
-            let there = moved(&[base], &q.deck.motion(&word))[0];
+            let there = moved(&[base], &q.deck.motion(&word).unwrap())[0];
             let off = apart(q.layout.space, lift[path.len()], there);
             assert!(off < 1e-10, "{}, {length} steps: {off:e}", surface.name);
             path.extend(path.clone().into_iter().rev().map(HalfedgeId::twin));
-            let back = q.layout.lift(mesh, q.deck.corner, &path).unwrap();
+            let back = q.layout.lift(q.deck.corner, &path).unwrap();
             let off = apart(q.layout.space, back[path.len()], base);
             assert!(off < 1e-10, "{}, there and back: {off:e}", surface.name);
         }
@@ -68,7 +68,7 @@ fn paths_that_do_not_start_at_the_corner_are_refused() {
     for (corner, path) in
         [(q.deck.corner, vec![away]), (HalfedgeId(u32::MAX), vec![]), (away, vec![away, away])]
     {
-        let error = q.layout.lift(mesh, corner, &path).unwrap_err();
+        let error = q.layout.lift(corner, &path).unwrap_err();
         assert!(matches!(error, Error::Argument { .. }), "{error}");
     }
 }

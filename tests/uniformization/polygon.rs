@@ -34,7 +34,7 @@ fn dirichlet_domains_meet_the_conditions_of_the_polygon_theorem() {
                 far(from, d.corners[(k + 1) % n]) < digits && far(to, d.corners[k]) < digits,
                 "{name}: side {k}"
             );
-            let spelled = q.deck.motion(&side.word).compose(&side.motion.inverse());
+            let spelled = q.deck.motion(&side.word).unwrap().compose(&side.motion.inverse());
             assert!(spelled.distance_from_identity() < 1e-12 * side.motion.norm_square(), "{name}: side {k}");
             // The side lies half way to the image of the centre.
             let image = side.motion.apply(precise_point(q.layout.space, d.centre)).map(f64::from);
@@ -87,8 +87,8 @@ fn the_angles_of_the_canonical_polygon_add_up_to_a_full_turn() {
     for surface in generated().into_iter().chain(corpus()) {
         let q = surface.uniformized();
         let at = q.layout.corner(q.deck.corner);
-        let angles = q.deck.canonical_angles(at);
-        let corners = q.deck.canonical_polygon(at);
+        let angles = q.deck.canonical_angles(at).unwrap();
+        let corners = q.deck.canonical_polygon(at).unwrap();
         let genus = surface.mesh.genus();
         assert_eq!((angles.len(), corners.len()), (4 * genus, 4 * genus));
         let sum: f64 = angles.iter().sum();

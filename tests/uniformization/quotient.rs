@@ -3,7 +3,7 @@
 use crate::common::Random;
 use crate::surfaces::{Surface, corpus, generated};
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
-use ricci::embed::{dirichlet_domain, layout_refined_in_space};
+use ricci::embed::{UnrollOptions, dirichlet_domain, unroll};
 use ricci::flow::{Options, flow};
 use ricci::geometry::{Motion, Space, Twofold};
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
@@ -11,6 +11,7 @@ use ricci::metric::Scheme;
 use ricci::topology::word::{Letter, Word};
 use ricci::{Class, Control, Error, Target};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Everything that must hold of a uniformization, measured from what it returns.
 pub fn check(surface: &Surface, q: &Quotient) {
@@ -121,7 +122,7 @@ fn the_lift_of_a_loop_ends_where_its_word_says() {
             let back = q.basis.tree_path(mesh, at).unwrap();
             path.extend(back.iter().rev().map(|h| h.twin()));
             let word = q.basis.path_word(mesh, &path).unwrap();
-            let expected = q.deck.motion(&word);
+            let expected = q.deck.motion(&word).unwrap();
             let walked = walk(mesh, &lengths, &q, &path);
             let off = walked.compose(&expected.inverse()).distance_from_identity();
             let size = expected.norm_square().max(walked.norm_square());
@@ -193,7 +194,7 @@ fn contractible_loops_close() {
         assert!(q.deck.group.is_trivial(&relator));
         let conjugate =
             Word::from_iter([Letter::generator(1)]).times(&relator).times(&Word::from_iter([Letter(3)]));
-        assert!(q.deck.motion(&conjugate).distance_from_identity() < 1e-9, "{}", surface.name);
+        assert!(q.deck.motion(&conjugate).unwrap().distance_from_identity() < 1e-9, "{}", surface.name);
     }
 }
 
@@ -254,11 +255,10 @@ fn what_is_no_quotient_is_refused() {
 fn refinements_lie_in_the_layout() {
     for surface in generated().into_iter().chain(corpus()) {
         let q = surface.uniformized();
-        let r = q.metric.refinement(&Control::new()).unwrap();
-        let mesh = q.metric.mesh();
-        let refined = ricci::embed::refine_space_layout(&q.layout, &r, mesh, &Control::new()).unwrap();
+        let r = Arc::new(q.metric.refinement(&Control::new()).unwrap());
+        let refined = q.layout.refined(&r, q.metric.metric(), &Control::new()).unwrap();
         assert!(refined.flipped.is_empty(), "{}: {:?}", surface.name, refined.flipped);
-        let quality = refined.quality(&r, &surface.mesh, &surface.lengths);
+        let quality = refined.quality(&surface.mesh, &surface.lengths);
         if surface.geometry == Space::E2 {
             let quality = quality.unwrap();
             assert!(
@@ -268,9 +268,9 @@ fn refinements_lie_in_the_layout() {
                 quality.qc_mean
             );
         }
-        let corners = |f: FaceId| refined.face_points(&r, f);
+        let corners = |f: FaceId| refined.face_points(f);
         for f in r.mesh.faces() {
-            let whole = q.layout.face_points(mesh, r.final_face[f]);
+            let whole = q.layout.face_points(r.final_face[f]);
             for (p, weights) in corners(f).into_iter().zip(r.final_barycentric(f)) {
                 // On the line or in the plane of the three corners' cone: the combination, up to its length.
                 let sum = [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * whole[k][i]).sum::<f64>());
@@ -301,18 +301,21 @@ fn the_given_half_of_a_double_is_laid_out() {
         assert!(flat.converged() && flat.double().is_some(), "{name}");
         assert!(flat.report().unwrap().angle_defect.unwrap() < 1e-18, "{name}");
         let r = flat.refinement(&control).unwrap();
-        let (layout, cut) =
-            layout_refined_in_space(&r, flat.mesh(), flat.metric(), VertexId(0), None, &control).unwrap();
+        let (root, refinement) = (Some(VertexId(0)), Some(Arc::new(r.clone())));
+        let options = UnrollOptions { root, refinement, ..UnrollOptions::default() };
+        let layout = unroll(&flat, &options, &control).unwrap();
+        assert!((layout.area + 2.0 * PI * mesh.euler() as f64).abs() < 1e-9, "{name}: {}", layout.area);
+        assert!(layout.on_input().unwrap().flipped.len() * 100 < mesh.n_faces(), "{name}");
         assert!(layout.flipped.is_empty() && layout.degenerate.is_empty(), "{name}");
         assert!(layout.disagreement < 1e-12, "{name}: {:e}", layout.disagreement);
-        assert!(ricci::topology::cut::is_disk(&r.mesh, &cut.is_cut), "{name}");
+        assert!(ricci::topology::cut::is_disk(&r.mesh, &layout.cut.is_cut), "{name}");
         // Half the double's area: that of a surface of this Euler characteristic.
-        let area: f64 = r.mesh.faces().map(|f| hyperbolic_area(layout.face_points(&r, f))).sum();
+        let area: f64 = r.mesh.faces().map(|f| hyperbolic_area(layout.face_points(f))).sum();
         let expected = -2.0 * PI * mesh.euler() as f64;
         assert!((area - expected).abs() < 1e-9, "{name}: {area} {expected}");
         let mut angle = PerVertex::filled(r.mesh.n_vertices(), 0.0);
         for f in r.mesh.faces() {
-            let points = layout.face_points(&r, f);
+            let points = layout.face_points(f);
             for (k, v) in r.mesh.face_vertices(f).into_iter().enumerate() {
                 angle[v] += hyperbolic_angle(points[k], points[(k + 1) % 3], points[(k + 2) % 3]);
             }

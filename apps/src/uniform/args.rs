@@ -1,6 +1,6 @@
 //! The options of `ricci uniformize` and `ricci cover`.
 
-use crate::options::{Common, SolveArgs, SurfaceArgs, choices};
+use crate::options::{Common, OnChoice, SolveArgs, SurfaceArgs, choices};
 use crate::picture::{PictureArgs, Texture};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
@@ -54,6 +54,9 @@ pub struct CanonicalArgs {
     /// Write the opened surface with its layout as texture coordinates, .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<PathBuf>,
+    /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
+    #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
+    pub on: OnChoice,
     /// Write a sphere: the final triangulation with its vertices on the unit sphere, .obj or .glb
     #[arg(long, value_name = "S.obj")]
     pub sphere: Option<PathBuf>,

@@ -7,6 +7,7 @@ use super::model_place::ModelPlace;
 use super::quotient::Uniformized;
 use crate::failure::Failure;
 use crate::output::{Outputs, extension};
+use crate::uv::corners;
 use ricci::Control;
 use std::path::Path;
 
@@ -20,17 +21,12 @@ pub fn write(
     control: &Control,
 ) -> Result<(), Failure> {
     let laid = u.laid()?;
-    let Some(place) = laid.space() else { return Ok(()) };
     let copies = Copies {
         uniformized: u,
         elements: u.copies()?,
-        points: &place.refined.points,
+        points: &laid.layout.points,
         texcoords: laid.coordinates(),
-        faces: laid
-            .mesh
-            .faces()
-            .map(|f| laid.mesh.face_halfedges(f).map(|h| laid.corner_index()[h]))
-            .collect(),
+        faces: corners(laid.mesh(), laid.corner_index()),
         at,
         threads,
     };

@@ -19,6 +19,9 @@ pub struct UniformFigures {
     rounding_floor: Option<f64>,
     double_double: bool,
     flipped_triangles: usize,
+    /// With --on input: faces of the input that fold where the map is made linear on them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flipped_input_faces: Option<usize>,
     #[serde(flatten)]
     distortion: Distortion,
     /// Of the metric: 4π(g − 1) in H², that of the surface as given in E².
@@ -67,7 +70,7 @@ impl UniformFigures {
     /// `copies`: whether they were asked for.
     pub fn new(u: &Uniformized, copies: bool) -> UniformFigures {
         let laid = u.laid().ok();
-        let place = u.place();
+        let layout = laid.map_or(&u.layout, |laid| &laid.layout);
         let length = |path: &Vec<ricci::mesh::HalfedgeId>| path.iter().map(|h| u.lengths[h.edge()]).sum();
         UniformFigures {
             space: u.deck.space.name(),
@@ -79,11 +82,12 @@ impl UniformFigures {
             rounding_floor: u.report.rounding_floor,
             double_double: u.report.double_double,
             flipped_triangles: u.flipped().len(),
+            flipped_input_faces: laid.and_then(|l| l.on_input.as_ref()).map(|o| o.flipped.len()),
             distortion: Distortion::of(laid),
             area: u.area(),
             base: u.basis.base.0,
-            radius: place.map_or(u.layout.radius, |p| p.refined.radius),
-            disagreement: place.map_or(u.layout.disagreement, |p| p.refined.disagreement),
+            radius: layout.radius,
+            disagreement: layout.disagreement,
             word: letters(&u.deck.group, &u.deck.group.relator()),
             relation_residual: u.deck.relation_residual,
             relation_error: u.deck.relation_error,

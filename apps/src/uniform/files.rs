@@ -101,7 +101,7 @@ impl Wish<'_> {
             u.failed.attempt("metric", written)?;
         }
         if let Some(path) = &args.uv {
-            let written = u.laid().and_then(|laid| uv::write(outputs, path, input, laid, false));
+            let written = u.laid().and_then(|laid| uv::write(outputs, path, input, laid, (args.on, false)));
             if u.failed.attempt("uv", written)?.is_some() {
                 u.left_out = carry::left_out(input);
             }
@@ -113,7 +113,7 @@ impl Wish<'_> {
         }
         control.check()?;
         if let Some(path) = self.cover.and_then(|c| c.domain) {
-            let file = u.domain().map(|domain| DomainFile::new(u, domain, at));
+            let file = u.domain().and_then(|domain| Ok(DomainFile::new(u, domain, at)?));
             let written = file.and_then(|file| outputs.add_json(path, &file));
             u.failed.attempt("domain", written)?;
         }

@@ -94,7 +94,7 @@ struct PolygonFile {
 }
 
 impl DomainFile {
-    pub fn new(u: &Uniformized, domain: &DirichletDomain, at: ModelPlace) -> DomainFile {
+    pub fn new(u: &Uniformized, domain: &DirichletDomain, at: ModelPlace) -> ricci::Result<DomainFile> {
         let group = &u.deck.group;
         let points = |list: &[[f64; 3]]| list.iter().map(|&p| at.numbers(p)).collect();
         let side = |k: usize| SideFile {
@@ -103,7 +103,7 @@ impl DomainFile {
             matrix_lo: domain.sides[k].motion.mobius_remainder(),
             partner: domain.partner[k],
         };
-        DomainFile {
+        Ok(DomainFile {
             space: u.deck.space.name(),
             model: at.name(),
             centre: at.numbers(domain.centre),
@@ -112,10 +112,10 @@ impl DomainFile {
             corners: points(&domain.corners),
             sides: (0..domain.sides.len()).map(side).collect(),
             canonical_polygon: PolygonFile {
-                corners: points(&u.deck.canonical_polygon(ORIGIN)),
+                corners: points(&u.deck.canonical_polygon(ORIGIN)?),
                 sides: letters(group, &group.relator()),
             },
-        }
+        })
     }
 }
 

@@ -7,6 +7,8 @@ use crate::failure::Failure;
 pub struct Needs {
     /// The common refinement of the given triangulation and the metric's.
     pub refinement: bool,
+    /// The layout on the input's own faces.
+    pub on_input: bool,
     /// The Dirichlet domain of the base point.
     pub domain: bool,
 }

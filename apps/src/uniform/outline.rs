@@ -1,7 +1,7 @@
 //! The border of the opened surface in space, once around.
 
 use super::quotient::Uniformized;
-use ricci::embed::SpaceLayout;
+use ricci::embed::Layout;
 use ricci::mesh::{HalfedgeId, Mesh};
 use ricci::topology::FundamentalDomain;
 
@@ -39,7 +39,7 @@ pub fn sides(u: &Uniformized) -> ricci::Result<Vec<Side>> {
     Ok(domain.sides.iter().enumerate().map(side).collect())
 }
 
-fn chain(mesh: &Mesh, whole: &SpaceLayout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]> {
+fn chain(mesh: &Mesh, whole: &Layout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]> {
     let last = halfedges.last().map(|&h| whole.corner(mesh.next(h)));
     halfedges.iter().map(|&h| whole.corner(h)).chain(last).collect()
 }
@@ -57,7 +57,7 @@ pub fn loops(u: &Uniformized) -> Vec<([[f64; 3]; 2], usize)> {
 
 /// The loops of the generators on the surface as it was given: edges of the common refinement, with the loop's number.
 pub fn loops_on_surface(u: &Uniformized) -> Vec<(u32, u32, usize)> {
-    let Some(refinement) = u.laid().ok().and_then(|laid| laid.refinement.as_ref()) else { return Vec::new() };
+    let Some(refinement) = u.laid().ok().and_then(|laid| laid.refinement()) else { return Vec::new() };
     let mut of_edge = vec![None; u.metric.mesh().n_edges()];
     for (k, path) in u.basis.loops.iter().enumerate() {
         path.iter().for_each(|h| of_edge[h.edge().index()] = Some(k));

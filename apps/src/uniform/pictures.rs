@@ -11,7 +11,8 @@ use crate::picture::{
     self, Drawing, Frame, PALE, Pattern, Picture, Style, Surface, Tiles, write_drawing_svg,
 };
 use crate::show::is_svg;
-use ricci::embed::space_layout::distance_from_origin;
+use crate::uv::corners;
+use ricci::embed::layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
 use ricci::geometry::{Motion, Space, Twofold};
@@ -66,7 +67,7 @@ pub fn prepare(u: &Uniformized, shown: Shown, canvas: &Canvas<'_>) -> Result<Rea
         tiling,
         uv,
         tiles,
-        faces: laid.mesh.triangles(),
+        faces: laid.mesh().triangles(),
         loops: if with_surface { loops_on_surface(u) } else { Vec::new() },
         with_surface,
     })
@@ -98,8 +99,7 @@ impl Ready {
 
 /// The pattern: checks of one size in the metric, as far as octaves reach.
 fn pattern(u: &Uniformized, laid: &Laid) -> (Vec<[[f64; 2]; 3]>, Tiles) {
-    let corners: Vec<[u32; 3]> =
-        laid.mesh.faces().map(|f| laid.mesh.face_halfedges(f).map(|h| laid.corner_index()[h])).collect();
+    let corners = corners(laid.mesh(), laid.corner_index());
     let coordinates = laid.coordinates();
     let uv: Vec<[[f64; 2]; 3]> = corners.iter().map(|f| f.map(|c| coordinates[c as usize])).collect();
     let flat: Vec<f64> = uv.iter().map(|uv| 0.5 * picture::doubled_area(*uv).abs()).collect();
@@ -115,14 +115,9 @@ fn pattern(u: &Uniformized, laid: &Laid) -> (Vec<[[f64; 2]; 3]>, Tiles) {
 
 /// The opened surface.
 fn prototype(laid: &Laid, sides: &[Side]) -> Prototype {
-    let points = laid.space().map_or_else(Vec::new, |place| place.refined.points.clone());
     Prototype {
-        points,
-        triangles: laid
-            .mesh
-            .faces()
-            .map(|f| laid.mesh.face_halfedges(f).map(|h| laid.corner_index()[h]))
-            .collect(),
+        points: laid.layout.points.clone(),
+        triangles: corners(laid.mesh(), laid.corner_index()),
         border: sides.iter().flat_map(|s| &s.points[..s.points.len().saturating_sub(1)]).copied().collect(),
         centre: ORIGIN,
     }
@@ -170,7 +165,7 @@ fn domain(u: &Uniformized, canvas: &Canvas<'_>, named: bool) -> Result<Tiling, F
 fn polygon(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
     let sides = sides(u)?;
     let shape = prototype(u.laid()?, &sides);
-    let given = u.deck.canonical_polygon(ORIGIN);
+    let given = u.deck.canonical_polygon(ORIGIN)?;
     let middle = middle(u.deck.space, &given);
     let home = translation_to(u.deck.space, middle).inverse();
     let moved = |p: &[f64; 3]| home.apply(p.map(Twofold::from)).map(f64::from);
@@ -180,7 +175,7 @@ fn polygon(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
     let far = |k: &usize| distance_from_origin(u.deck.space, corners[*k]);
     let nearest = (0..corners.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
     let start: Word = u.deck.group.relator().letters()[..nearest].iter().copied().collect();
-    for motion in background(u, &home, &start) {
+    for motion in background(u, &home, &start)? {
         tiling.copy(&shape, &motion, PALE, Some(THIN));
     }
     let relator = u.deck.group.relator();
@@ -212,10 +207,10 @@ fn translation_to(space: Space, p: [f64; 3]) -> Motion<Twofold> {
 
 /// Copies of the layout around the origin that the group has been moved to by `home`, nearest first, as many as a picture shows.
 /// `start`: a word that leads near there.
-fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> Vec<Motion<Twofold>> {
-    let Ok(domain) = u.domain() else { return Vec::new() };
+fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> ricci::Result<Vec<Motion<Twofold>>> {
+    let Ok(domain) = u.domain() else { return Ok(Vec::new()) };
     let place = |g: &Motion<Twofold>| g.origin().map(f64::from);
-    let mut waiting = vec![home.compose(&u.deck.motion(start))];
+    let mut waiting = vec![home.compose(&u.deck.motion(start)?)];
     let mut known: Vec<[f64; 3]> = waiting.iter().map(place).collect();
     let mut found = Vec::new();
     while found.len() < BACKGROUND {
@@ -235,7 +230,7 @@ fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> Vec<Moti
         }
         found.push(g);
     }
-    found
+    Ok(found)
 }
 
 /// The Dirichlet domain over its neighbours.

@@ -2,14 +2,16 @@
 
 use super::needs::{Needs, known, told};
 use crate::failure::Failure;
-use crate::in_space::{InSpace, MEETING, consistency, consistency_limit, is_carried_back};
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
-use crate::laid::{Laid, in_space};
+use crate::laid::{Laid, is_carried_back};
 use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
 use ricci::canonical::Quotient;
-use ricci::embed::{DeckElement, DeckGroup, DirichletDomain, SpaceLayout, dirichlet_domain};
+use ricci::embed::layout::MEETING;
+use ricci::embed::{
+    DeckElement, DeckGroup, DirichletDomain, Layout, UnrollOptions, dirichlet_domain, unroll,
+};
 use ricci::flow::Report;
 use ricci::flow::Solution;
 use ricci::geometry::{Space, largest, worse};
@@ -18,6 +20,7 @@ use ricci::metric::{Curvature, Scheme};
 use ricci::topology::HomotopyBasis;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// The origin in ambient coordinates: the base point.
 pub const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
@@ -43,7 +46,7 @@ pub struct Uniformized {
     /// The curvature asked for: 0 everywhere.
     pub target: PerVertex<f64>,
     /// The layout of the metric's triangulation.
-    pub layout: SpaceLayout,
+    pub layout: Layout,
     /// The same on the surface as it was given: where an output needs it or it costs little, or why there is none.
     pub laid: Option<Result<Laid, String>>,
     /// τ of a flat torus.
@@ -80,7 +83,27 @@ impl Uniformized {
         let curvature = metric.curvature().map_err(failed)?;
         let errors = curvature.at.iter().map(|k| k.abs()).sum();
         let laid = match is_carried_back(&metric, needs.refinement) {
-            true => Some(told(in_space(input, &metric, &layout, errors, &mut seconds, control))?),
+            true => {
+                let mut on_surface = || -> ricci::Result<Laid> {
+                    let refinement = Arc::new(timed(&mut seconds.refine, || metric.refinement(control))?);
+                    timed(&mut seconds.layout, || {
+                        let refined = layout.refined(&refinement, metric.metric(), control)?;
+                        let mut laid = Laid::new(input, &metric, refined, errors)?;
+                        if needs.on_input {
+                            let (cones, root) = (Some(Vec::new()), Some(basis.base));
+                            let options = UnrollOptions {
+                                cones,
+                                root,
+                                refinement: Some(refinement),
+                                ..UnrollOptions::default()
+                            };
+                            laid.on_input = unroll(&metric, &options, control)?.on_input();
+                        }
+                        Ok(laid)
+                    })
+                };
+                Some(told(on_surface())?)
+            }
             false => None,
         };
         let form = || dirichlet_domain(&deck, ORIGIN, layout.area, control);
@@ -126,11 +149,6 @@ impl Uniformized {
         self.elements.as_deref().map_err(|why| Failure::Failed(why.clone()))
     }
 
-    /// The layout in space on the surface as it was given, if there is one.
-    pub fn place(&self) -> Option<&InSpace> {
-        self.laid().ok().and_then(Laid::space)
-    }
-
     /// Faces of the layout, of the given surface if that is laid out, that are not counterclockwise.
     pub fn flipped(&self) -> &[FaceId] {
         self.laid().map_or(&self.layout.flipped, Laid::flipped)
@@ -138,13 +156,8 @@ impl Uniformized {
 
     /// How far the corners of the layout disagree, and what curvature errors and rounding allow.
     fn consistency(&self) -> [f64; 2] {
-        if let Ok(laid) = self.laid() {
-            return [laid.consistency(), laid.consistency_limit];
-        }
-        let SpaceLayout { space, disagreement, radius, .. } = self.layout;
-        let errors = self.curvature.at.iter().map(|k| k.abs()).sum();
-        let limit = consistency_limit(space, radius, errors, self.metric.mesh().n_faces());
-        [consistency(space, disagreement, radius), limit]
+        let layout = self.laid().map_or(&self.layout, |laid| &laid.layout);
+        [layout.consistency(), layout.consistency_limit(self.curvature.at.iter().map(|k| k.abs()).sum())]
     }
 
     /// max |K| of the metric.

@@ -6,7 +6,7 @@ use super::needs::Needs;
 use super::quotient::Uniformized;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::options::{FlipsChoice, MethodChoice, SchemeChoice};
+use crate::options::{FlipsChoice, MethodChoice, OnChoice, SchemeChoice};
 use crate::output::{check_extension, check_outputs};
 use crate::picture::{PictureArgs, Texture};
 use crate::report::path_text;
@@ -79,6 +79,7 @@ impl Wish<'_> {
         let copies = self.cover.is_some_and(|c| c.cover.is_some());
         Needs {
             refinement: report || drawn || copies || self.args.uv.is_some(),
+            on_input: self.args.on == OnChoice::Input && self.args.uv.is_some(),
             domain: report || by_domain || (drawn && of_domain),
         }
     }
@@ -229,6 +230,7 @@ impl Wish<'_> {
             model: (space == Space::H2).then(|| self.place(space).name()),
             metric: text(&args.metric),
             uv: text(&args.uv),
+            on: args.on,
             sphere: text(&args.sphere),
             generators: text(&args.generators),
             picture: args.picture.clone(),
@@ -264,6 +266,7 @@ pub struct Asked {
     model: Option<&'static str>,
     metric: Option<String>,
     uv: Option<String>,
+    on: OnChoice,
     sphere: Option<String>,
     generators: Option<String>,
     #[serde(flatten)]

@@ -3,20 +3,18 @@
 use super::args::CanonicalArgs;
 use super::needs::{Needs, known, told};
 use crate::failure::Failure;
-use crate::in_space::consistency_limit;
 use crate::input::Input;
 use crate::job::GAUSS_BONNET;
 use crate::report::{Attempts, Checks, Seconds, timed};
 use ricci::Control;
 use ricci::canonical::{Sphere, SphereReport};
-use ricci::embed::layout_in_space;
+use ricci::embed::{Layout, layout_of};
 use ricci::flow::{Report, Solution, flow};
 use ricci::geometry::vector::{add, distance, dot, triangle_normal};
 use ricci::geometry::{Space, largest, worse};
 use ricci::mesh::{FaceId, PerEdge, PerVertex, Point, VertexId};
 use ricci::metric::{Curvature, Refinement, Scheme};
 use ricci::{Class, Target};
-use std::f64::consts::PI;
 
 /// Most that an angle may miss the Delaunay condition of an edge, or convexity of the plane's outline, radians: ten times the
 /// default tolerance of the flow whose curvature errors it consists of.
@@ -35,8 +33,8 @@ const POINT: f64 = 1e-12;
 pub enum Way {
     /// By a puncture, in the plane.
     Puncture(Box<SphereReport>),
-    /// By the gradient flow in S², which moves no vertex to the middle; with the layout's disagreement.
-    Flow(Box<Report>, f64),
+    /// By the gradient flow in S², which moves no vertex to the middle; with its layout.
+    Flow(Box<Report>, Box<Layout>),
 }
 
 /// A surface on the unit sphere.
@@ -79,12 +77,12 @@ pub fn flowed(
         return Err(Failure::Failed("the flow has left no report".into()));
     };
     let root = base.unwrap_or(VertexId(0));
-    let layout = layout_in_space(metric.mesh(), metric.metric(), root, None, control)?;
+    let layout = layout_of(metric.mesh(), metric.metric(), Some(root), None, control)?;
     let mut positions = PerVertex::filled(input.mesh().n_vertices(), [0.0, 0.0, 1.0]);
     for h in metric.mesh().halfedges().filter(|&h| !metric.mesh().is_outside(h)) {
         positions[metric.mesh().origin(h)] = layout.corner(h);
     }
-    Ok((Way::Flow(Box::new(report), layout.disagreement), metric, positions))
+    Ok((Way::Flow(Box::new(report), Box::new(layout)), metric, positions))
 }
 
 impl Round {
@@ -191,10 +189,9 @@ impl Round {
                 checks.add("nonconvexity", report.nonconvexity, CONVEX);
             }
         }
-        if let Way::Flow(_, disagreement) = self.way {
+        if let Way::Flow(_, layout) = &self.way {
             let errors = self.curvature.at.iter().map(|k| k.abs()).sum();
-            let limit = consistency_limit(Space::S2, PI, errors, self.metric.mesh().n_faces());
-            checks.add("layout_consistency", disagreement, limit);
+            checks.add("layout_consistency", layout.consistency(), layout.consistency_limit(errors));
         }
         checks.add("max_curvature_error", self.curvature_error(), self.tolerance);
         if let Some(refinement) = &self.refinement {

@@ -64,7 +64,7 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
     if let (true, Ok(elements)) = (copies, &u.elements) {
         let n = elements.len();
         text += &format!("cover    {}", say::count(n, "copy", "copies"));
-        text += &u.laid().map_or("\n".into(), |laid| format!(", {} triangles\n", n * laid.mesh.n_faces()));
+        text += &u.laid().map_or("\n".into(), |laid| format!(", {} triangles\n", n * laid.mesh().n_faces()));
     }
     text
 }

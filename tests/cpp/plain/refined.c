@@ -219,6 +219,36 @@ static void the_refinement_is_the_same_surface(const ricci_mesh *mesh, double wa
     arrays_free(&given);
 }
 
+/* Noise in a target makes no cones: four are joined by three seams (five where those branch), along edges of the mesh; its own faces have coordinates. */
+static void noise_makes_no_cones(const ricci_mesh *mesh) {
+    arrays given = arrays_of(mesh, 1);
+    const size_t n = given.n.n_vertices, n_faces = given.n.n_faces;
+    ricci_metric *metric = NULL, *flat = NULL;
+    ricci_layout *layout = NULL;
+    ricci_layout_summary s;
+    ricci_mesh *back = NULL;
+    ricci_mesh_summary read;
+    double *target = (double *)room(n, sizeof *target), *uv = (double *)room(6 * n_faces, sizeof *uv);
+    OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
+    OK(ricci_target_default(metric, target, n));
+    for (size_t v = 0; v < n; v++) target[v] = target[v] != 0 ? target[v] : v % 2 ? 1e-17 : -1e-17;
+    OK(ricci_flow(metric, target, n, NULL, NULL, &flat, NULL));
+    OK(ricci_layout_new(flat, target, n, NULL, &layout));
+    OK(ricci_layout_summarise(layout, &s, sizeof s));
+    CHECK(s.n_seams >= 3 && s.n_seams <= 5 && s.n_flipped == 0 && s.n_given_faces == n_faces && 50 * s.n_flipped_given < n_faces);
+    OK(ricci_layout_input_uv(layout, uv, 6 * n_faces));
+    for (size_t k = 0; k < 6 * n_faces; k++) CHECK(isfinite(uv[k]) && fabs(uv[k]) <= s.diameter);
+    FAILS(ricci_layout_input_uv(layout, uv, 6 * n_faces - 1), RICCI_BUFFER_TOO_SMALL, "uv");
+    OK(ricci_layout_write_input_obj(layout, "refined_input.obj"));
+    OK(ricci_mesh_read("refined_input.obj", &back));
+    OK(ricci_mesh_summarise(back, &read, sizeof read));
+    CHECK(read.n_vertices == n && read.n_faces == n_faces && read.n_uv == n_faces);
+    ricci_mesh_free(back), ricci_layout_free(layout);
+    ricci_metric_free(flat), ricci_metric_free(metric);
+    free(target), free(uv);
+    arrays_free(&given);
+}
+
 /* A sheared flat torus has no positions: it is unrolled, but not written. */
 static void intrinsic_surfaces_are_unrolled(void) {
     ricci_mesh *mesh = NULL, *unrolled = NULL;
@@ -256,6 +286,7 @@ int main(void) {
     the_refinement_is_the_same_surface(closed, 0, "refined_torus.obj");
     the_refinement_is_the_same_surface(open, 0, "refined_bump.obj");
     CHECK(maps_checked > 20);
+    noise_makes_no_cones(round);
     intrinsic_surfaces_are_unrolled();
     ricci_mesh_free(closed), ricci_mesh_free(open), ricci_mesh_free(round);
     torus_free(&t);

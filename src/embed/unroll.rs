@@ -1,0 +1,203 @@
+//! The layout of a flow's result on the surface as it came.
+
+use super::develop::combination;
+use super::faces::Faces;
+use super::frame::{Frame, PlaneFrame};
+use super::layout::{Layout, distance, lay_out};
+use super::pieces::Pieces;
+use crate::control::Control;
+use crate::error::{Result, check_size};
+use crate::flow::Solution;
+use crate::geometry::{Motion, Space, Twofold};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
+use crate::metric::curvature::area;
+use crate::metric::{Metric, Refinement};
+use crate::parallel::{self, Pool};
+use crate::topology::{CutGraph, central_vertex, check_vertex, cut_graph};
+use std::sync::Arc;
+
+/// Curvature up to this, in radians, is no cone: what a flow with the default tolerance leaves.
+pub const CONE_TOLERANCE: f64 = 1e-10;
+/// Shortest edge that a cut reckons with, relative to the longest.
+const SHORTEST: f64 = 1e-12;
+
+/// Lengths in a layout in E²; other spaces have a scale of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Scale {
+    /// As the metric has them.
+    AsSolved,
+    /// So that the area is that of the surface as it came, in its own geometry.
+    #[default]
+    InputArea,
+}
+
+/// What [`unroll`] can be asked.
+#[derive(Debug, Clone, Default)]
+pub struct UnrollOptions {
+    /// Vertices of the surface through which the cut has to go; those on the boundary change nothing. Default: those of the flow
+    /// ([`Solution::cones`]); of a metric that no flow has led to, those inside whose curvature is more than [`CONE_TOLERANCE`] off flat ([`cones_of`]).
+    pub cones: Option<Vec<VertexId>>,
+    /// The vertex of the surface at the origin. Default: in E² a corner of the smallest triangle, elsewhere a vertex from which none is far.
+    pub root: Option<VertexId>,
+    /// Default: [`Scale::InputArea`].
+    pub scale: Scale,
+    /// A cut of the surface as it came, in place of one that is found.
+    pub cut: Option<CutGraph>,
+    /// [`Solution::refinement`] of the result, where it has been formed before.
+    pub refinement: Option<Arc<Refinement>>,
+    /// Threads, in a pool of the call's own; default 0: as many as the flow had. The result does not depend on it.
+    pub threads: usize,
+}
+
+/// The cones of a curvature, or of a target of one: vertices inside the surface (V entries) where it is more than `tolerance` off flat.
+/// Errors: [`Error::Size`].
+pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<VertexId>> {
+    check_size("curvature", curvature.len(), mesh.n_vertices())?;
+    let is_cone = |v: &VertexId| curvature[v.index()].abs() > tolerance && !mesh.is_boundary_vertex(*v);
+    Ok(mesh.vertices().filter(is_cone).collect())
+}
+
+/// Lay a metric out in its space on the surface as it came, opened along edges of that: closed or open, on its double (the given half),
+/// with edges flipped (then the common refinement is laid out) or not.
+///
+/// The cut goes through all cones, and is short in the metric ([`cut_graph`]); without cones, in H² and S², it is where a disk that
+/// grows about the root meets itself, so that nothing lies farther out than it has to.
+///
+/// Errors: [`Error::Argument`] for a cone or root that is no vertex; [`Error::Layout`] for a sphere in E² with fewer than two cones, a cut
+/// that does not leave a disk, several components, lengths beyond what doubles can place; those of [`Solution::refinement`] and
+/// [`crate::metric::Metric::lengths`]; [`Error::Cancelled`].
+///
+/// ```
+/// use ricci::embed::{UnrollOptions, unroll};
+/// use ricci::{Control, geometry::Space, mesh::{Mesh, shapes}, metric::{Scheme, Solution, lengths_from_positions}};
+/// use std::sync::Arc;
+/// # fn main() -> ricci::Result<()> {
+/// let soup = shapes::grid(4, 3)?;
+/// let mesh = Arc::new(Mesh::from_soup(&soup)?);
+/// let lengths = Arc::new(lengths_from_positions(&mesh, &soup.positions)?);
+/// let metric = Solution::new(mesh, lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
+/// let layout = unroll(&metric, &UnrollOptions::default(), &Control::new())?;
+/// assert!(layout.flipped.is_empty() && layout.consistency() < 1e-14);
+/// # Ok(())
+/// # }
+/// ```
+pub fn unroll(result: &Solution, options: &UnrollOptions, control: &Control) -> Result<Layout> {
+    control.check()?;
+    let threads = if options.threads == 0 { result.threads() } else { options.threads };
+    Pool::new(threads)?.run(|| unroll_in_pool(result, options, control))
+}
+
+fn unroll_in_pool(result: &Solution, options: &UnrollOptions, control: &Control) -> Result<Layout> {
+    let given = result.given();
+    let refinement = match &options.refinement {
+        Some(refinement) => Some(refinement.clone()),
+        None if result.is_unflipped() => None,
+        None => Some(Arc::new(result.refinement(control)?)),
+    };
+    let source = Source { given, mesh: result.mesh(), metric: result.metric(), refinement };
+    let known = result.report().map(|_| result.cones().to_vec());
+    let cones = options.cones.clone().or(known);
+    let mut layout = laid_out(source, &UnrollOptions { cones, ..options.clone() }, control)?;
+    if options.scale == Scale::AsSolved || layout.space != Space::E2 {
+        layout.find_flat();
+    } else {
+        layout.scale_to_area(area(given, result.initial().input_geometry, result.surface().lengths())?)?;
+    }
+    Ok(layout)
+}
+
+/// A metric on a triangulation of its own, and the surface as it came.
+#[derive(Debug, Clone)]
+pub struct Source<'a> {
+    /// The surface as it came.
+    pub given: &'a Arc<Mesh>,
+    /// The triangulation that the metric lives on, of the surface or of its double.
+    pub mesh: &'a Mesh,
+    /// The metric.
+    pub metric: &'a Metric,
+    /// The common refinement of both, on the surface alone; `None` where both are one.
+    pub refinement: Option<Arc<Refinement>>,
+}
+
+/// [`unroll`] from its parts, in the metric's own scale. Errors: as there.
+pub fn unroll_source(source: Source, options: &UnrollOptions, control: &Control) -> Result<Layout> {
+    let mut layout = laid_out(source, options, control)?;
+    layout.find_flat();
+    Ok(layout)
+}
+
+fn laid_out(source: Source, options: &UnrollOptions, control: &Control) -> Result<Layout> {
+    control.check()?;
+    let Source { mesh, metric, .. } = source;
+    match metric.space {
+        Space::E2 => by::<PlaneFrame>(&Faces::in_plane(mesh, metric)?, source, options, control),
+        _ => by::<Motion<Twofold>>(&Faces::precise(mesh, metric)?, source, options, control),
+    }
+}
+
+fn by<F: Frame>(
+    faces: &Faces<F>,
+    source: Source,
+    options: &UnrollOptions,
+    control: &Control,
+) -> Result<Layout> {
+    let (given, space) = (source.given, faces.space);
+    let pieces = source.refinement.map_or_else(|| Pieces::Mesh(given.clone()), Pieces::Refinement);
+    let vertices = options.cones.iter().flatten().chain(&options.root);
+    vertices.copied().try_for_each(|v| check_vertex(given, v))?;
+    let cones = match &options.cones {
+        Some(cones) => cones.clone(),
+        // Inside the surface that of its double is its own.
+        None => {
+            let mut curvature = source.metric.curvature(source.mesh)?.at.into_vec();
+            curvature.truncate(given.n_vertices());
+            cones_of(given, &curvature, CONE_TOLERANCE)?
+        }
+    };
+    let needs_lengths = options.cut.is_none() || (options.root.is_none() && space != Space::E2);
+    let lengths = if needs_lengths { lengths_of_input(&pieces, faces, given)? } else { Vec::new().into() };
+    control.check()?;
+    let root = match options.root {
+        None if space != Space::E2 => Some(central_vertex(given, &lengths, control)?),
+        root => root,
+    };
+    let cut = match (&options.cut, root) {
+        (Some(cut), _) => cut.clone(),
+        (None, Some(root)) if space != Space::E2 && cones.is_empty() => {
+            CutGraph::about(given, &lengths, root, control)?
+        }
+        _ => cut_graph(given, &lengths, &cones, control)?,
+    };
+    // A sphere without cones closes without a cut.
+    let is_whole = cut.segments.is_empty() && given.is_closed();
+    let on_pieces = if is_whole { None } else { Some(pieces.cut_of_input(given, &cut)?) };
+    let mut layout = lay_out(pieces, faces, root, on_pieces, control)?;
+    layout.input = Some((given.clone(), cut));
+    Ok(layout)
+}
+
+/// Lengths of the input's edges in the metric, each along itself: sums over the pieces.
+fn lengths_of_input<F: Frame>(pieces: &Pieces, faces: &Faces<F>, given: &Mesh) -> Result<PerEdge<f64>> {
+    let mesh = pieces.mesh();
+    let mut parts = vec![[0.0; 3]; mesh.n_faces()];
+    parallel::fill(&mut parts, |f| {
+        let f = FaceId::from(f);
+        let corners = faces.local(pieces.final_face(f));
+        let points = pieces.final_barycentric(f).map(|w| combination(faces.space, corners, w));
+        [0, 1, 2].map(|k| distance(faces.space, points[k], points[(k + 1) % 3]))
+    });
+    let mut lengths = PerEdge::filled(given.n_edges(), 0.0);
+    // Of the two sides of an edge inside, the one with the even half-edge counts.
+    let counts = |h: HalfedgeId| h.0 & 1 == 0 || mesh.is_outside(h.twin());
+    for f in mesh.faces() {
+        for (h, part) in mesh.face_halfedges(f).into_iter().zip(parts[f.index()]).filter(|(h, _)| counts(*h))
+        {
+            if let Some(e) = pieces.input_edge(h.edge()) {
+                lengths[e] += part;
+            }
+        }
+    }
+    let least = SHORTEST * lengths.iter().copied().fold(0.0, f64::max);
+    lengths.iter_mut().for_each(|l| *l = l.max(least));
+    Ok(lengths)
+}

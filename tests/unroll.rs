@@ -1,0 +1,252 @@
+//! One call from a flow's result to its layout: every space, closed and open, flipped or not, cut along the input's edges.
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
+
+mod common;
+
+use common::flow::{euclidean, surface};
+use ricci::embed::unroll::CONE_TOLERANCE;
+use ricci::embed::{Layout, Scale, UnrollOptions, cones_of, unroll};
+use ricci::flow::{Flips, Options, Solution, auto_cones, flow};
+use ricci::geometry::{PlaneIsometry, Space};
+use ricci::mesh::io::Soup;
+use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId, shapes};
+use ricci::metric::curvature::area;
+use ricci::topology::cut::is_disk;
+use ricci::topology::cut_graph;
+use ricci::{Class, Control, Error, Target};
+use std::f64::consts::PI;
+
+fn flow_to(
+    (mesh, lengths): &(Mesh, PerEdge<f64>),
+    space: Space,
+    target: &PerVertex<f64>,
+    flips: Flips,
+) -> Solution {
+    let options = Options { flips, ..Options::default() };
+    let (class, target) = (Class::yamabe(space), Target::All(target.clone()));
+    let found = flow(euclidean(mesh, lengths), class, &target, &options, &Control::new()).unwrap();
+    assert!(found.converged() || flips == Flips::Never);
+    found
+}
+
+fn with_cones(cones: &[VertexId]) -> UnrollOptions {
+    UnrollOptions { cones: Some(cones.to_vec()), ..UnrollOptions::default() }
+}
+
+/// What holds of every layout on the surface as it came.
+fn check(mesh: &Mesh, layout: &Layout, what: &str) {
+    assert!(layout.flipped.is_empty() && layout.broken.is_empty(), "{what}: {:?}", layout.flipped);
+    assert!(layout.consistency() <= layout.consistency_limit(1e-9), "{what}: {:e}", layout.consistency());
+    let on_input = layout.on_input().unwrap();
+    assert!(layout.cut.segments.is_empty() || is_disk(mesh, &on_input.cut.is_cut), "{what}");
+    assert_eq!(on_input.cut.segments.len(), layout.seams.len(), "{what}");
+    let index = |h| on_input.corner_index[h];
+    for e in mesh.edges().filter(|&e| !mesh.is_boundary_edge(e)) {
+        let (h, t) = (e.halfedge(), e.halfedge().twin());
+        let joined = index(h) == index(mesh.next(t)) && index(mesh.next(h)) == index(t);
+        assert!(joined || on_input.cut.is_cut[e], "{what}: edge {e}");
+    }
+    if let Some(r) = layout.refinement() {
+        for e in r.mesh.edges().filter(|&e| layout.cut.is_cut[e]) {
+            assert!(r.origin[e].input.is_some_and(|e| on_input.cut.is_cut[e]), "{what}: edge {e}");
+        }
+    }
+    let corners = layout.corner_uv().unwrap();
+    assert_eq!(corners.len(), mesh.n_faces());
+    assert!(corners.as_flattened().as_flattened().iter().all(|x| x.is_finite()), "{what}");
+    // Folds are few: faces that final edges cut where they are bent most.
+    assert!(50 * on_input.flipped.len() <= mesh.n_faces(), "{what}: {} fold", on_input.flipped.len());
+    println!(
+        "{what}: {} seams, {} of {} faces fold",
+        layout.seams.len(),
+        on_input.flipped.len(),
+        mesh.n_faces()
+    );
+}
+
+/// Noise of a rounding error in a target makes no cones: eight of them on a sphere are joined by seven seams, and some more where those
+/// branch.
+#[test]
+fn noise_in_a_target_makes_no_cones() {
+    let surface = surface(&shapes::ellipsoid([1.0, 1.3, 0.8], 12).unwrap());
+    let (mesh, lengths) = &surface;
+    let cones = auto_cones(mesh, lengths, 8, &Control::new()).unwrap();
+    let mut target = cones.target.clone();
+    for v in mesh.vertices().filter(|&v| cones.target[v] == 0.0) {
+        target[v] = if v.0 % 2 == 0 { 1e-17 } else { -1e-17 };
+    }
+    let result = flow_to(&surface, Space::E2, &target, Flips::Auto);
+    for cones in [Some(cones_of(mesh, &target, CONE_TOLERANCE).unwrap()), None] {
+        let options = UnrollOptions { cones, ..UnrollOptions::default() };
+        let layout = unroll(&result, &options, &Control::new()).unwrap();
+        assert!((7..=9).contains(&layout.seams.len()), "{}", layout.seams.len());
+        check(mesh, &layout, "ellipsoid");
+    }
+}
+
+#[test]
+fn layouts_in_the_plane_are_cut_along_the_inputs_edges() {
+    let torus = shapes::torus(2.0, 0.8, 20, 12).unwrap();
+    let open = shapes::punch(&torus, 2).unwrap();
+    let surfaces: [(&str, Soup); 4] = [
+        ("torus", torus.clone()),
+        ("open torus", open),
+        ("ellipsoid", shapes::ellipsoid([1.0, 2.0, 0.5], 8).unwrap()),
+        ("genus 2", shapes::genus(2, 4).unwrap()),
+    ];
+    for (name, soup) in surfaces {
+        let surface = surface(&soup);
+        let mesh = &surface.0;
+        let given = euclidean(mesh, &surface.1);
+        let target = match mesh.euler() {
+            2 => auto_cones(mesh, &surface.1, 6, &Control::new()).unwrap().target,
+            -2 => Target::Single(VertexId(3)).values(&given, Space::E2).unwrap(),
+            _ => Target::default_for(&given, Space::E2).unwrap().values(&given, Space::E2).unwrap(),
+        };
+        for flips in [Flips::Auto, Flips::Never] {
+            if ["genus 2", "open torus"].contains(&name) && flips == Flips::Never {
+                continue;
+            }
+            let result = flow_to(&surface, Space::E2, &target, flips);
+            let cones = cones_of(mesh, &target, CONE_TOLERANCE).unwrap();
+            let layout = unroll(&result, &with_cones(&cones), &Control::new()).unwrap();
+            let what = format!("{name}, flips {flips:?}, {} of them", result.flips());
+            check(mesh, &layout, &what);
+            assert_eq!(layout.refinement().is_some(), !result.is_unflipped());
+            let given_area = area(mesh, Space::E2, &surface.1).unwrap();
+            assert!((layout.area / given_area - 1.0).abs() < 1e-12, "{what}");
+            let options = UnrollOptions { scale: Scale::AsSolved, ..with_cones(&cones) };
+            let solved = unroll(&result, &options, &Control::new()).unwrap();
+            assert_eq!(solved.scale, 1.0);
+            assert!((solved.area * layout.scale * layout.scale / given_area - 1.0).abs() < 1e-12, "{what}");
+            let quality = layout.quality(mesh, &surface.1).unwrap();
+            assert!(quality.qc_mean >= 1.0 && quality.qc_mean < 3.0, "{what}: {}", quality.qc_mean);
+        }
+    }
+}
+
+#[test]
+fn layouts_in_the_hyperbolic_plane_are_cut_along_the_inputs_edges() {
+    let torus = shapes::torus(2.0, 0.8, 20, 12).unwrap();
+    let surfaces: [(&str, Soup); 3] = [
+        ("genus 2", shapes::genus(2, 4).unwrap()),
+        ("genus 3", shapes::genus(3, 3).unwrap()),
+        ("torus with 2 holes", shapes::punch(&torus, 2).unwrap()),
+    ];
+    for (name, soup) in surfaces {
+        let surface = surface(&soup);
+        let mesh = &surface.0;
+        let result = flow_to(&surface, Space::H2, &PerVertex::filled(mesh.n_vertices(), 0.0), Flips::Auto);
+        let layout = unroll(&result, &with_cones(&[]), &Control::new()).unwrap();
+        check(mesh, &layout, name);
+        assert!((layout.area + 2.0 * PI * mesh.euler() as f64).abs() < 1e-8, "{name}: {}", layout.area);
+        // The root lies at the origin, and a cone on the cut.
+        let root = VertexId(5);
+        let options = UnrollOptions { root: Some(root), ..with_cones(&[VertexId(9)]) };
+        let other = unroll(&result, &options, &Control::new()).unwrap();
+        check(mesh, &other, name);
+        let laid = other.mesh();
+        let at_root = laid.halfedges().filter(|&h| !laid.is_outside(h) && laid.origin(h) == root);
+        assert!(at_root.into_iter().any(|h| other.uv(h)[0].hypot(other.uv(h)[1]) < 1e-15), "{name}");
+        if !mesh.is_boundary_vertex(VertexId(9)) {
+            assert!(laid.outgoing(VertexId(9)).any(|h| other.cut.is_cut[h.edge()]), "{name}");
+        }
+    }
+}
+
+/// Layouts of a refinement and of the metric's triangulation about one vertex lie the same way.
+#[test]
+fn refinements_lie_as_their_final_faces_do() {
+    let surface = surface(&shapes::genus(2, 3).unwrap());
+    let result = flow_to(&surface, Space::H2, &PerVertex::filled(surface.0.n_vertices(), 0.0), Flips::Auto);
+    let control = Control::new();
+    let root = Some(VertexId(7));
+    let whole = ricci::embed::layout_of(result.mesh(), result.metric(), root, None, &control).unwrap();
+    let layout = unroll(&result, &UnrollOptions { root, ..with_cones(&[]) }, &control).unwrap();
+    let around = |layout: &Layout| {
+        let mesh = layout.mesh();
+        let near = mesh.outgoing(VertexId(7)).map(|h| mesh.tip(h)).collect::<Vec<_>>();
+        let lies = |v: VertexId| {
+            mesh.halfedges()
+                .filter(|&h| mesh.origin(h) == v)
+                .map(|h| layout.uv(h))
+                .min_by(|p, q| p[0].hypot(p[1]).total_cmp(&q[0].hypot(q[1])))
+                .unwrap()
+        };
+        near.into_iter()
+            .filter(|v| v.index() < surface.0.n_vertices())
+            .map(|v| (v, lies(v)))
+            .collect::<Vec<_>>()
+    };
+    let known = around(&whole);
+    let mut compared = 0;
+    for (v, p) in around(&layout) {
+        for (_, q) in known.iter().filter(|(w, _)| *w == v) {
+            assert!((p[0] - q[0]).hypot(p[1] - q[1]) < 1e-12, "vertex {v}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 2);
+}
+
+#[test]
+fn a_sphere_in_its_own_space_has_no_cut_and_an_explicit_cut_is_kept() {
+    let flat = surface(&shapes::torus(2.0, 0.8, 12, 8).unwrap());
+    let (mesh, lengths) = &flat;
+    let result = flow_to(&flat, Space::E2, &PerVertex::filled(mesh.n_vertices(), 0.0), Flips::Auto);
+    let cut = cut_graph(mesh, lengths, &[VertexId(4)], &Control::new()).unwrap();
+    let options = UnrollOptions { cut: Some(cut.clone()), ..with_cones(&[]) };
+    let layout = unroll(&result, &options, &Control::new()).unwrap();
+    check(mesh, &layout, "torus");
+    assert_eq!(layout.on_input().unwrap().cut, cut);
+    assert!(layout.modulus().is_some());
+    for seam in &layout.seams {
+        assert!(PlaneIsometry::from(seam.pairing).rotation.abs() < 1e-9);
+    }
+
+    let round = surface(&shapes::icosphere(4).unwrap());
+    let (mesh, lengths) = &round;
+    let (options, control) = (Options { tolerance: 1e-8, ..Options::default() }, Control::new());
+    let class = Class::yamabe(Space::S2);
+    let found = flow(euclidean(mesh, lengths), class, &Target::Uniform, &options, &control).unwrap();
+    let layout = unroll(&found, &with_cones(&[]), &control).unwrap();
+    assert!(layout.seams.is_empty() && layout.flipped.is_empty());
+    assert!((layout.area - 4.0 * PI).abs() < 1e-6, "{}", layout.area);
+}
+
+#[test]
+fn layouts_do_not_depend_on_the_number_of_threads() {
+    let surface = surface(&shapes::genus(2, 8).unwrap());
+    let mesh = &surface.0;
+    let cone = VertexId(11);
+    let target = Target::Single(cone).values(&euclidean(mesh, &surface.1), Space::E2).unwrap();
+    let flat = flow_to(&surface, Space::E2, &target, Flips::Auto);
+    let curved = flow_to(&surface, Space::H2, &PerVertex::filled(mesh.n_vertices(), 0.0), Flips::Auto);
+    for (result, cones) in [(flat, vec![cone]), (curved, Vec::new())] {
+        let on = |threads: usize| {
+            unroll(&result, &UnrollOptions { threads, ..with_cones(&cones) }, &Control::new()).unwrap()
+        };
+        let (one, three) = (on(1), on(3));
+        assert_eq!(one, three);
+        assert_eq!(one, unroll(&result, &with_cones(&cones), &Control::new()).unwrap());
+        let quality = |layout: &Layout| layout.quality(mesh, &surface.1).unwrap();
+        assert_eq!(quality(&one), quality(&three));
+    }
+}
+
+#[test]
+fn what_cannot_be_unrolled_is_refused_by_name() {
+    let round = surface(&shapes::icosphere(3).unwrap());
+    let (mesh, lengths) = &round;
+    let cones = auto_cones(mesh, lengths, 4, &Control::new()).unwrap().target;
+    let result = flow_to(&round, Space::E2, &cones, Flips::Auto);
+    let refused = |options: &UnrollOptions| unroll(&result, options, &Control::new()).unwrap_err();
+    assert!(matches!(refused(&with_cones(&[VertexId(1)])), Error::Layout(_)));
+    let n = mesh.n_vertices() as u32;
+    assert!(matches!(refused(&with_cones(&[VertexId(n)])), Error::Argument { .. }));
+    let root = UnrollOptions { root: Some(VertexId(n)), ..UnrollOptions::default() };
+    assert!(matches!(refused(&root), Error::Argument { .. }));
+    assert!(matches!(cones_of(mesh, &[0.0], 1e-10), Err(Error::Size { .. })));
+    let mut layout = unroll(&result, &UnrollOptions::default(), &Control::new()).unwrap();
+    assert!(matches!(layout.scale_to_area(f64::NAN), Err(Error::Argument { .. })));
+}
