@@ -2,7 +2,7 @@
 
 use super::star::Punctured;
 use crate::control::Control;
-use crate::embed::layout::unroll_part;
+use crate::embed::place::unroll_part;
 use crate::error::{Error, Result};
 use crate::geometry::barycentre::conformal_barycentre;
 use crate::geometry::sphere::{SOUTH, Similarity, lift, log_density};

@@ -1,23 +1,20 @@
 //! A surface, opened along a cut, in the space of its metric.
 
 use super::corner::number_corners;
-use super::develop::{Development, Start, develop};
 use super::faces::{Faces, place_in_face};
-use super::frame::Frame;
 use super::pieces::Pieces;
 use super::shape::{Shape, extent};
-use crate::control::Control;
-use crate::error::{Error, Result, check_size};
-use crate::geometry::complex::{norm, norm2, sub};
+use crate::error::{Error, Result};
+use crate::geometry::complex::norm;
 use crate::geometry::model::{distance as hyperbolic_distance, klein, poincare};
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
 use crate::geometry::predicates::{orientation, winding};
-use crate::geometry::{Motion, PlaneIsometry, Space, Twofold, worse};
-use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
-use crate::metric::{Metric, Refinement};
+use crate::geometry::{Motion, PlaneIsometry, Space, Twofold};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, VertexId};
+use crate::metric::Refinement;
 use crate::parallel;
-use crate::topology::{CutGraph, check_lengths, check_vertex, corner_walk, cut};
+use crate::topology::{CutGraph, corner_walk};
 use std::cmp::Ordering;
 use std::sync::Arc;
 
@@ -76,13 +73,13 @@ pub struct Layout {
     /// The surface as it came and the cut on it, where the cut runs along its edges.
     pub(super) input: Option<(Arc<Mesh>, CutGraph)>,
     /// Per half-edge: 0 if not cut, k + 1 on the left side of seam k, −(k + 1) on its right side.
-    side: PerHalfedge<i32>,
+    pub(super) side: PerHalfedge<i32>,
     /// Number of final faces between the origin and the farthest piece, at most.
-    n_steps: usize,
+    pub(super) n_steps: usize,
     /// The frames of the final faces' first half-edges, with twice the digits; none where doubles were enough …
-    frames: Vec<Motion<Twofold>>,
+    pub(super) frames: Vec<Motion<Twofold>>,
     /// … and per triangle the number of its own.
-    patch: PerFace<u32>,
+    pub(super) patch: PerFace<u32>,
 }
 
 /// How the two sides of a segment of the cut lie to each other.
@@ -115,221 +112,6 @@ pub struct OnInput {
     pub flipped: Vec<FaceId>,
     /// The cut on the input.
     pub cut: CutGraph,
-}
-
-/// Lay lengths that are flat off the cut out in E², in units of the lengths, by doubles, O(E log E). A corner of the smallest triangle
-/// lies at the origin.
-///
-/// `lengths`: one per edge, flat at every vertex that is inside the opened surface; what is missing to that shows in
-/// [`Layout::consistency`] and [`Layout::broken`]. `cut` opens the surface into a disk ([`crate::topology::cut_graph`]).
-///
-/// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk, [`Error::Cancelled`].
-pub fn layout(mesh: &Arc<Mesh>, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Control) -> Result<Layout> {
-    check_lengths(mesh, lengths)?;
-    let faces = Faces::of_lengths(mesh, lengths.clone());
-    let mut layout = lay_out(Pieces::Mesh(mesh.clone()), &faces, None, Some(cut.clone()), control)?;
-    layout.find_flat();
-    Ok(layout)
-}
-
-/// Lay a metric of constant curvature out in its space, outwards from `root` (default: a corner of the smallest triangle) with
-/// twice the digits of doubles, as deck groups need them: O(E log E).
-///
-/// `cut`: where to open the surface; `None` for one without cones, whose cut is then the locus where the order of [`Layout`]'s faces, by
-/// the distance of their far corner, meets itself (nearly a Dirichlet domain: small, round about the root; no cut at all on a sphere). Cones
-/// inside have to lie on a given cut.
-///
-/// Errors: [`Error::Argument`] for a root that is no vertex; [`Error::Layout`] for a cut that does not leave a disk, a surface of several
-/// components, lengths beyond what doubles can place; those of [`Metric::lengths`]; [`Error::Cancelled`].
-pub fn layout_of(
-    mesh: &Arc<Mesh>,
-    metric: &Metric,
-    root: Option<VertexId>,
-    cut: Option<&CutGraph>,
-    control: &Control,
-) -> Result<Layout> {
-    let faces = Faces::precise(mesh, metric)?;
-    let mut layout = lay_out(Pieces::Mesh(mesh.clone()), &faces, root, cut.cloned(), control)?;
-    layout.find_flat();
-    Ok(layout)
-}
-
-/// Where the corners of the part of a flat surface lie that a cut leaves around the smallest triangle, per half-edge of a face; NaN beyond the cut.
-/// Errors: those of [`layout_of`].
-pub(crate) fn unroll_part(
-    mesh: &Arc<Mesh>,
-    metric: &Metric,
-    is_cut: &PerEdge<bool>,
-    control: &Control,
-) -> Result<PerHalfedge<[f64; 2]>> {
-    let (pieces, faces) = (Pieces::Mesh(mesh.clone()), Faces::in_plane(mesh, metric)?);
-    let grown = develop(&pieces, &faces, start(&pieces, &faces, None)?, Some(is_cut), control)?;
-    let (corner, n_corners) = number_corners(mesh, is_cut);
-    let points = grown.points(&pieces, &faces, &corner, n_corners);
-    Ok(PerHalfedge::from_fn(mesh.n_halfedges(), |h| flat(Space::E2, points[corner[h] as usize])))
-}
-
-/// Lay pieces out; what is flipped or degenerate is not yet found ([`Layout::find_flat`]). `cut`: on the pieces.
-pub(super) fn lay_out<F: Frame>(
-    pieces: Pieces,
-    faces: &Faces<F>,
-    root: Option<VertexId>,
-    cut: Option<CutGraph>,
-    control: &Control,
-) -> Result<Layout> {
-    cut.as_ref().map_or(Ok(()), |cut| check_cut(pieces.mesh(), cut))?;
-    let start = start(&pieces, faces, root)?;
-    let grown = develop(&pieces, faces, start, cut.as_ref().map(|cut| &cut.is_cut), control)?;
-    if grown.n_reached() < pieces.mesh().n_faces() {
-        return Err(Error::Layout("the surface has several components: lay out each alone".into()));
-    }
-    let cut = cut.unwrap_or_else(|| {
-        let mesh = pieces.mesh();
-        CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !grown.crossed[e]))
-    });
-    assemble(pieces, faces, grown, cut, control)
-}
-
-/// What to begin with: at a vertex of the final triangulation, or with the smallest final face.
-fn start<F: Frame>(pieces: &Pieces, faces: &Faces<F>, root: Option<VertexId>) -> Result<Start> {
-    let mesh = pieces.mesh();
-    let Some(root) = root else {
-        let size = |f: &FaceId| faces.longest(pieces.final_face(*f));
-        let smallest = mesh.faces().min_by(|f, g| size(f).total_cmp(&size(g)));
-        let piece = smallest.ok_or_else(|| Error::Layout("the surface has no face".into()))?;
-        return Ok(Start { piece, side: 0 });
-    };
-    check_vertex(faces.mesh, root)?;
-    check_vertex(mesh, root)?;
-    // The half-edge of the final triangulation that comes first at the root, so that layouts of the triangulation and of its
-    // refinement lie the same way; or any other where that belongs to no piece (on the other half of a double).
-    let first = faces.mesh.outgoing(root).find(|&h| !faces.mesh.is_outside(h));
-    let mut any = None;
-    for h in mesh.outgoing(root).filter(|&h| !mesh.is_outside(h)) {
-        let (piece, k) = place_in_face(mesh, h)?;
-        let corner = pieces.final_barycentric(piece)[k].iter().position(|&w| w == 1.0);
-        let Some(side) = corner else { continue };
-        let found = Start { piece, side };
-        if first == Some(faces.mesh.face_halfedges(pieces.final_face(piece))[side]) {
-            return Ok(found);
-        }
-        any = any.or(Some(found));
-    }
-    any.ok_or_else(|| Error::Layout(format!("vertex {root} has no face")))
-}
-
-fn assemble<F: Frame>(
-    pieces: Pieces,
-    faces: &Faces<F>,
-    grown: Development<F>,
-    cut: CutGraph,
-    control: &Control,
-) -> Result<Layout> {
-    let (mesh, space) = (pieces.mesh(), faces.space);
-    let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
-    let points = grown.points(&pieces, faces, &corner_index, n_corners);
-    let coordinates: Vec<[f64; 2]> = points.iter().map(|&p| flat(space, p)).collect();
-    let diameter = bounding_diagonal(&coordinates);
-    // The south pole of a sphere has no plane coordinates.
-    let is_placed = points.as_flattened().iter().all(|x| x.is_finite()) && diameter > 0.0;
-    if !(is_placed && (diameter.is_finite() || space == Space::S2)) {
-        return Err(Error::Layout("the lengths are too large or too small for doubles: rescale them".into()));
-    }
-    control.check()?;
-    let mut misses = vec![[0.0; 2]; grown.frames.len()];
-    parallel::fill(&mut misses, |patch| misses_of(&pieces, faces, &grown, &corner_index, &points, patch));
-    let [apart, local_consistency] =
-        misses.iter().fold([0.0; 2], |[a, b], m| [worse(a, m[0]), worse(b, m[1])]);
-    let (mut seams, mut disagreement) = (Vec::with_capacity(cut.segments.len()), apart);
-    for segment in &cut.segments {
-        let mut seam = Seam::new(&pieces, faces, &grown, segment)?;
-        disagreement = worse(disagreement, seam.residual);
-        if space == Space::E2 {
-            seam.residual /= diameter;
-        }
-        seams.push(seam);
-    }
-    // A refinement with a boundary, of a closed triangulation, is the given half of a double.
-    let is_half = faces.mesh.is_closed() && !mesh.is_closed();
-    let layout = Layout {
-        space,
-        seams,
-        flipped: Vec::new(),
-        degenerate: Vec::new(),
-        broken: mesh.faces().filter(|&f| faces.is_broken(pieces.final_face(f))).collect(),
-        disagreement,
-        local_consistency,
-        radius: points.iter().map(|&p| distance_from_origin(space, p)).fold(0.0, f64::max),
-        diameter,
-        area: if is_half { 0.5 } else { 1.0 } * faces.area(),
-        scale: 1.0,
-        input: None,
-        side: seam_sides(mesh, &cut),
-        n_steps: grown.frames.len(),
-        frames: if F::IS_PRECISE { grown.frames.iter().map(Frame::motion).collect() } else { Vec::new() },
-        patch: if F::IS_PRECISE { grown.patch } else { Vec::new().into() },
-        pieces,
-        cut,
-        corner_index,
-        points,
-        coordinates,
-    };
-    control.check()?;
-    Ok(layout)
-}
-
-/// Of one patch: the largest distance between where its face has a corner and where that lies, and the largest difference of an edge
-/// relative to the face's longest side.
-fn misses_of<F: Frame>(
-    pieces: &Pieces,
-    faces: &Faces<F>,
-    grown: &Development<F>,
-    corner_index: &PerHalfedge<u32>,
-    points: &[[f64; 3]],
-    patch: usize,
-) -> [f64; 2] {
-    let of_patch = grown.pieces_of(patch);
-    let Some(&first) = of_patch.first() else { return [0.0; 2] };
-    let placed = faces.placed(pieces.final_face(first), grown.frames[patch]);
-    let longest = faces.longest(pieces.final_face(first));
-    let (mut worst, mut worst_edge) = (0.0, 0.0);
-    for &f in of_patch {
-        let (halfedges, weights) = (pieces.mesh().face_halfedges(f), pieces.final_barycentric(f));
-        let off = [0, 1, 2].map(|k| {
-            let point = points[corner_index[halfedges[k]] as usize];
-            placed.miss(faces, point, weights[k]).map(|x| x / longest)
-        });
-        for k in 0..3 {
-            worst = worse(worst, norm2(off[k]));
-            worst_edge = worse(worst_edge, norm2(sub(off[(k + 1) % 3], off[k])));
-        }
-    }
-    [longest * worst.sqrt(), worst_edge.sqrt()]
-}
-
-impl Seam {
-    /// The isometry of the edge that is nearest to the origin, and how far those of the others are from it: a distance.
-    fn new<F: Frame>(
-        pieces: &Pieces,
-        faces: &Faces<F>,
-        grown: &Development<F>,
-        segment: &[HalfedgeId],
-    ) -> Result<Seam> {
-        let frames =
-            segment.iter().map(|&h| grown.on_both_sides(pieces, faces, h)).collect::<Result<Vec<_>>>()?;
-        let far = |sides: &[Motion<Twofold>; 2]| sides.iter().map(Motion::displacement).fold(0.0, f64::max);
-        let far: Vec<f64> = frames.iter().map(far).collect();
-        let nearest = (0..far.len()).min_by(|&i, &j| far[i].total_cmp(&far[j]));
-        let pairing = match nearest.map(|k| frames[k]) {
-            Some([left, right]) => left.compose(&right.inverse()),
-            None => Motion::identity(faces.space),
-        };
-        // By frames: products of vectors would lose e^{2r} in H², those of isometries e^r.
-        let off = |[left, right]: &[Motion<Twofold>; 2]| {
-            left.inverse().compose(&pairing).compose(right).displacement()
-        };
-        Ok(Seam { pairing, residual: frames.iter().map(off).fold(0.0, worse) })
-    }
 }
 
 impl Layout {
@@ -388,36 +170,6 @@ impl Layout {
         let (input, on_input) = (&self.input.as_ref()?.0, self.on_input()?);
         let point = |h: HalfedgeId| on_input.coordinates[on_input.corner_index[h] as usize];
         Some(input.faces().map(|f| input.face_halfedges(f).map(point)).collect())
-    }
-
-    /// The same layout on a common refinement of the triangulation that is laid out, opened where that is; O(pieces).
-    ///
-    /// Errors: [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a layout that has no frames (of
-    /// [`layout_of`]) or is one of a refinement; [`Error::Cancelled`].
-    pub fn refined(&self, r: &Arc<Refinement>, metric: &Metric, control: &Control) -> Result<Layout> {
-        let Pieces::Mesh(mesh) = &self.pieces else {
-            return Err(Error::Layout("a layout of a refinement has no other refinement".into()));
-        };
-        if self.frames.is_empty() {
-            return Err(Error::Layout(
-                "this layout has no frames of twice the digits to place pieces by".into(),
-            ));
-        }
-        let need = r.final_face.iter().map(|f| f.index() + 1).fold(0, usize::max);
-        check_size("final faces", mesh.n_faces().min(need), need)?;
-        let faces = Faces::precise(mesh, metric)?;
-        let pieces = Pieces::Refinement(r.clone());
-        let cut = pieces.cut_of_final(mesh, &self.cut)?;
-        let frame = |f: FaceId| {
-            let mut frame = self.frames[self.patch[f] as usize];
-            frame.b = frame.b.map(|x| x / self.scale.into());
-            frame
-        };
-        let grown = Development::of_frames(r, PerFace::from_fn(mesh.n_faces(), frame));
-        let mut layout = assemble(pieces, &faces, grown, cut, control)?;
-        layout.scale_by(self.scale);
-        layout.find_flat();
-        Ok(layout)
     }
 
     /// On which side of which seam a half-edge lies: 0 if it is not cut, k + 1 on the left side of seam k, −(k + 1) on its right side.
@@ -526,7 +278,7 @@ impl Layout {
         Ok(factor)
     }
 
-    fn scale_by(&mut self, factor: f64) {
+    pub(super) fn scale_by(&mut self, factor: f64) {
         if factor == 1.0 {
             return;
         }
@@ -630,35 +382,8 @@ pub fn distance(space: Space, p: [f64; 3], q: [f64; 3]) -> f64 {
     }
 }
 
-fn flat(space: Space, p: [f64; 3]) -> [f64; 2] {
+pub(super) fn flat(space: Space, p: [f64; 3]) -> [f64; 2] {
     if space == Space::E2 { [p[0], p[1]] } else { poincare(p) }
-}
-
-/// Per half-edge, the seam on whose left (positive) or right side it lies: [`Layout::side`].
-fn seam_sides(mesh: &Mesh, cut: &CutGraph) -> PerHalfedge<i32> {
-    let mut side = PerHalfedge::filled(mesh.n_halfedges(), 0);
-    for (k, segment) in cut.segments.iter().enumerate() {
-        for &h in segment {
-            (side[h], side[h.twin()]) = (k as i32 + 1, -(k as i32) - 1);
-        }
-    }
-    side
-}
-
-/// The cut opens the surface into a disk; every cut edge lies in exactly one segment, once, and inside the surface.
-pub(super) fn check_cut(mesh: &Mesh, cut: &CutGraph) -> Result<()> {
-    check_size("is_cut", cut.is_cut.len(), mesh.n_edges())?;
-    if !cut::is_disk(mesh, &cut.is_cut) {
-        return Err(Error::Layout("the cut does not open the surface into a disk".into()));
-    }
-    let mut left = cut.is_cut.clone();
-    for &h in cut.segments.iter().flatten() {
-        if h.index() >= mesh.n_halfedges() || !std::mem::replace(&mut left[h.edge()], false) {
-            return Err(Error::Layout(format!("half-edge {h} of a segment is not cut, or in two segments")));
-        }
-    }
-    let wrong = mesh.edges().find(|&e| left[e] || (cut.is_cut[e] && mesh.is_boundary_edge(e)));
-    wrong.map_or(Ok(()), |e| Err(Error::Layout(format!("cut edge {e} is in no segment, or on the boundary"))))
 }
 
 /// Diagonal of the points' bounding box.

@@ -3,8 +3,9 @@
 use super::develop::combination;
 use super::faces::Faces;
 use super::frame::{Frame, PlaneFrame};
-use super::layout::{Layout, distance, lay_out};
+use super::layout::{Layout, distance};
 use super::pieces::Pieces;
+use super::place::lay_out;
 use crate::control::Control;
 use crate::error::{Result, check_size};
 use crate::flow::Solution;
