@@ -87,7 +87,7 @@ pub unsafe extern "C" fn ricci_homotopy_new(
         let lengths = surface.lengths();
         let base = vertex_or_none("base", base)?;
         let mesh = mesh.connectivity.clone();
-        let basis = homotopy_basis(&mesh, &lengths, base, &control::of(control))?;
+        let basis = homotopy_basis(&mesh, lengths, base, &control::of(control))?;
         Ok(ricci_homotopy::new(mesh, basis))
     })
 }

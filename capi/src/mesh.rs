@@ -340,7 +340,7 @@ pub unsafe extern "C" fn ricci_mesh_lengths(
     guard::call(|door| {
         let surface = door.shared(mesh)?.surface()?;
         let values = surface.lengths();
-        copy_out("lengths", &values, lengths, capacity)
+        copy_out("lengths", values, lengths, capacity)
     })
 }
 
