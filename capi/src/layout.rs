@@ -1,13 +1,12 @@
 //! Layouts in the plane.
 
 use crate::arrays::{self, copy_out};
-use crate::choice::choose;
 use crate::control::{self, ricci_control};
 use crate::edges::copy_paths;
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, Poison, handle};
 use crate::metric::ricci_metric;
-use crate::model::{self, ricci_model};
+use crate::model;
 use crate::sized::{self, sized};
 use crate::status::ricci_status;
 use ricci::Control;
@@ -18,7 +17,6 @@ use ricci::flow::Solution;
 use ricci::geometry::{Model, PlaneIsometry, Space};
 use ricci::mesh::{Mesh, PerHalfedge, Point, VertexId};
 use ricci::metric::Refinement;
-use std::mem::MaybeUninit;
 use std::sync::Arc;
 
 /// A surface unrolled into the plane along a cut: of a flat metric (ricci_layout_new), or of a hyperbolic one in a
@@ -104,7 +102,7 @@ pub struct ricci_layout_summary {
 sized!(ricci_layout_summary, "summary");
 
 /// A layout of a metric that lives in this space, opened along edges of its mesh.
-fn unroll(
+pub(crate) fn unroll(
     metric: &ricci_metric,
     cones: Vec<VertexId>,
     space: Space,
@@ -135,7 +133,7 @@ fn unroll(
 }
 
 /// Interior vertices whose target, one of the n_vertices at `target`, is off flat by more than a flow's tolerance.
-fn cones(mesh: &Mesh, target: *const f64, n_vertices: usize) -> Outcome<Vec<VertexId>> {
+pub(crate) fn cones(mesh: &Mesh, target: *const f64, n_vertices: usize) -> Outcome<Vec<VertexId>> {
     let target = arrays::array_of("target", target, n_vertices, mesh.n_vertices())?;
     Ok(cones_of(mesh, &target, CONE_TOLERANCE)?)
 }
@@ -166,37 +164,6 @@ pub unsafe extern "C" fn ricci_layout_new(
         let metric = door.shared(metric)?;
         let cones = cones(metric.given(), target, n_vertices)?;
         unroll(metric, cones, Space::E2, Model::default(), &control::of(control))
-    })
-}
-
-/// Unroll a hyperbolic metric, of a closed surface or one with boundary, into the hyperbolic plane about its centre.
-///
-/// The surface is cut open along edges of the mesh, as little as its topology asks for, and through every interior vertex whose target is more
-/// than 1e-10 off 0; the metric should have curvature -1 at all others, and `consistency` says how far its corners are apart, as a distance.
-/// Of a metric whose edges were flipped the common refinement is unrolled. A closed surface with its deck group: ricci_quotient_from_metric.
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_ARGUMENT (RICCI_MODEL_HYPERBOLOID), RICCI_TRIANGLE_INEQUALITY,
-/// RICCI_LAYOUT (not H2; points beyond the reach of doubles), RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement),
-/// RICCI_CANCELLED.
-///
-/// @param metric      the metric, in H2.
-/// @param target      the n_vertices curvatures it was made for.
-/// @param n_vertices  number of vertices of the mesh that the metric was made from.
-/// @param model       coordinates of the points; in the Klein disk the map is projective on every piece.
-/// @param control     progress and cancellation; NULL for neither.
-/// @param layout      out: the new handle, to be released by ricci_layout_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_layout_hyperbolic(
-    metric: *const ricci_metric,
-    target: *const f64,
-    n_vertices: usize,
-    model: MaybeUninit<ricci_model>,
-    control: *const ricci_control,
-    layout: *mut *mut ricci_layout,
-) -> ricci_status {
-    guard::make("layout", layout, |door| {
-        let metric = door.shared(metric)?;
-        let cones = cones(metric.given(), target, n_vertices)?;
-        unroll(metric, cones, Space::H2, choose(model)?, &control::of(control))
     })
 }
 
@@ -303,29 +270,6 @@ pub unsafe extern "C" fn ricci_layout_uv(
     guard::with(layout, |layout| {
         let corners: Vec<[[f64; 2]; 3]> =
             layout.corners().into_iter().map(|f| f.map(|k| layout.points[k as usize])).collect();
-        copy_out("uv", &corners, uv, capacity)
-    })
-}
-
-/// The coordinates of every corner of every face of the mesh that the metric was made from. The map is made linear on each face; where that
-/// folds faces, the summary's n_flipped_given counts them.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (ricci_quotient_layout, which is cut along edges of the metric's
-/// triangulation).
-///
-/// @param layout    the layout.
-/// @param uv        out: n_given_faces x 3 x 2, in the order of ricci_mesh_faces.
-/// @param capacity  entries of `uv`, at least 6 n_given_faces.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_layout_input_uv(
-    layout: *const ricci_layout,
-    uv: *mut f64,
-    capacity: usize,
-) -> ricci_status {
-    guard::with(layout, |layout| {
-        let points = layout.input_points()?;
-        let corners: Vec<[[f64; 2]; 3]> =
-            layout.input_corners()?.into_iter().map(|f| f.map(|k| points[k as usize])).collect();
         copy_out("uv", &corners, uv, capacity)
     })
 }
@@ -470,24 +414,6 @@ impl ricci_layout {
         corners_of(self.layout.mesh(), &self.layout.corner_index)
     }
 
-    fn cut_on_input(&self) -> Outcome<&OnInput> {
-        self.on_input.as_ref().ok_or_else(|| {
-            let message = "this layout is cut along edges of the metric's triangulation, not of the mesh: take ricci_layout_new or \
-                           ricci_layout_hyperbolic";
-            Failure::new(ricci_status::RICCI_LAYOUT, message)
-        })
-    }
-
-    /// The point of every corner of every face of the given mesh.
-    pub(crate) fn input_corners(&self) -> Outcome<Vec<[u32; 3]>> {
-        Ok(corners_of(self.surface.given(), &self.cut_on_input()?.corner_index))
-    }
-
-    /// The points of the corners of the given mesh.
-    pub(crate) fn input_points(&self) -> Outcome<Vec<[f64; 2]>> {
-        Ok(self.cut_on_input()?.points.iter().map(|&k| self.points[k as usize]).collect())
-    }
-
     /// It lies in the Euclidean plane.
     pub(crate) fn check_plane(&self) -> Outcome {
         if self.layout.space == Space::E2 { Ok(()) } else { Err(not_projective()) }
@@ -503,7 +429,7 @@ impl ricci_layout {
     }
 }
 
-fn corners_of(mesh: &Mesh, index: &PerHalfedge<u32>) -> Vec<[u32; 3]> {
+pub(crate) fn corners_of(mesh: &Mesh, index: &PerHalfedge<u32>) -> Vec<[u32; 3]> {
     mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| index[h])).collect()
 }
 

@@ -69,6 +69,7 @@ pub mod report;
 
 pub mod flow;
 
+pub mod hyperbolic;
 pub mod layout;
 
 pub mod refined;

@@ -2,12 +2,13 @@
 //! triangulation.
 
 use crate::arrays::{check_buffer, copy_out};
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
 use crate::guard;
-use crate::layout::ricci_layout;
+use crate::layout::{corners_of, ricci_layout};
 use crate::mesh::{Shape, ricci_mesh};
 use crate::status::ricci_status;
 use ricci::Control;
+use ricci::embed::OnInput;
 use ricci::embed::layout::distance;
 use ricci::flow::Solution;
 use ricci::mesh::{EdgeId, FaceId, PerEdge, PerVertex};
@@ -209,6 +210,29 @@ pub unsafe extern "C" fn ricci_layout_final_crossings(
     guard::with(layout, |layout| layout.crossings(Side::Final, edges, fractions, capacity))
 }
 
+/// The coordinates of every corner of every face of the mesh that the metric was made from. The map is made linear on each face; where that
+/// folds faces, the summary's n_flipped_given counts them.
+///
+/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (ricci_quotient_layout, which is cut along edges of the metric's
+/// triangulation).
+///
+/// @param layout    the layout.
+/// @param uv        out: n_given_faces x 3 x 2, in the order of ricci_mesh_faces.
+/// @param capacity  entries of `uv`, at least 6 n_given_faces.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_layout_input_uv(
+    layout: *const ricci_layout,
+    uv: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(layout, |layout| {
+        let points = layout.input_points()?;
+        let corners: Vec<[[f64; 2]; 3]> =
+            layout.input_corners()?.into_iter().map(|f| f.map(|k| points[k as usize])).collect();
+        copy_out("uv", &corners, uv, capacity)
+    })
+}
+
 /// Homogeneous weight of every vertex of what a layout unrolls.
 pub(crate) fn weights(surface: &Solution, refinement: Option<&Arc<Refinement>>) -> Outcome<PerVertex<f64>> {
     Ok(match refinement {
@@ -218,6 +242,24 @@ pub(crate) fn weights(surface: &Solution, refinement: Option<&Arc<Refinement>>) 
 }
 
 impl ricci_layout {
+    fn cut_on_input(&self) -> Outcome<&OnInput> {
+        self.on_input.as_ref().ok_or_else(|| {
+            let message = "this layout is cut along edges of the metric's triangulation, not of the mesh: take ricci_layout_new or \
+                           ricci_layout_hyperbolic";
+            Failure::new(ricci_status::RICCI_LAYOUT, message)
+        })
+    }
+
+    /// The point of every corner of every face of the given mesh.
+    pub(crate) fn input_corners(&self) -> Outcome<Vec<[u32; 3]>> {
+        Ok(corners_of(self.surface.given(), &self.cut_on_input()?.corner_index))
+    }
+
+    /// The points of the corners of the given mesh.
+    pub(crate) fn input_points(&self) -> Outcome<Vec<[f64; 2]>> {
+        Ok(self.cut_on_input()?.points.iter().map(|&k| self.points[k as usize]).collect())
+    }
+
     fn faces_of(&self, side: Side) -> Vec<u32> {
         let of = |f: FaceId| match (self.layout.refinement(), side) {
             (Some(refinement), Side::Input) => refinement.input_face[f].0,

@@ -2295,28 +2295,6 @@ ricci_status ricci_solver_solve(ricci_solver *solver,
                                 ricci_report **report);
 
 /**
- * Unroll a Euclidean metric into the plane.
- *
- * The surface is cut open along edges of the mesh: its homology generators, and through every interior vertex whose target is more
- * than 1e-10 off 0. The metric should be flat at all others, and `consistency` says how far it is. Triangles are
- * counterclockwise where the mesh's are. Of a metric whose edges were flipped the common refinement is
- * unrolled.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_TRIANGLE_INEQUALITY, RICCI_LAYOUT (not E2),
- * RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement), RICCI_CANCELLED.
- *
- * @param metric      the metric, in E2.
- * @param target      the n_vertices curvatures it was made for.
- * @param n_vertices  number of vertices of the mesh that the metric was made from.
- * @param control     progress and cancellation; NULL for neither.
- * @param layout      out: the new handle, to be released by ricci_layout_free.
- */
-ricci_status ricci_layout_new(const ricci_metric *metric,
-                              const double *target,
-                              size_t n_vertices,
-                              const ricci_control *control,
-                              ricci_layout **layout);
-
-/**
  * Unroll a hyperbolic metric, of a closed surface or one with boundary, into the hyperbolic plane about its centre.
  *
  * The surface is cut open along edges of the mesh, as little as its topology asks for, and through every interior vertex whose target is more
@@ -2339,6 +2317,28 @@ ricci_status ricci_layout_hyperbolic(const ricci_metric *metric,
                                      ricci_model model,
                                      const ricci_control *control,
                                      ricci_layout **layout);
+
+/**
+ * Unroll a Euclidean metric into the plane.
+ *
+ * The surface is cut open along edges of the mesh: its homology generators, and through every interior vertex whose target is more
+ * than 1e-10 off 0. The metric should be flat at all others, and `consistency` says how far it is. Triangles are
+ * counterclockwise where the mesh's are. Of a metric whose edges were flipped the common refinement is
+ * unrolled.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_TRIANGLE_INEQUALITY, RICCI_LAYOUT (not E2),
+ * RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement), RICCI_CANCELLED.
+ *
+ * @param metric      the metric, in E2.
+ * @param target      the n_vertices curvatures it was made for.
+ * @param n_vertices  number of vertices of the mesh that the metric was made from.
+ * @param control     progress and cancellation; NULL for neither.
+ * @param layout      out: the new handle, to be released by ricci_layout_free.
+ */
+ricci_status ricci_layout_new(const ricci_metric *metric,
+                              const double *target,
+                              size_t n_vertices,
+                              const ricci_control *control,
+                              ricci_layout **layout);
 
 /**
  * Release a layout.
@@ -2392,21 +2392,6 @@ ricci_status ricci_layout_corners(const ricci_layout *layout, uint32_t *corners,
  * @param capacity  entries of `uv`, at least 6 n_faces.
  */
 ricci_status ricci_layout_uv(const ricci_layout *layout, double *uv, size_t capacity);
-
-/**
- * The coordinates of every corner of every face of the mesh that the metric was made from. The map is made linear on each face; where that
- * folds faces, the summary's n_flipped_given counts them.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (ricci_quotient_layout, which is cut along edges of the metric's
- * triangulation).
- *
- * @param layout    the layout.
- * @param uv        out: n_given_faces x 3 x 2, in the order of ricci_mesh_faces.
- * @param capacity  entries of `uv`, at least 6 n_given_faces.
- */
-ricci_status ricci_layout_input_uv(const ricci_layout *layout,
-                                   double *uv,
-                                   size_t capacity);
 
 /**
  * The motion of the plane that carries the left side of every seam onto its right side.
@@ -2598,6 +2583,21 @@ ricci_status ricci_layout_final_crossings(const ricci_layout *layout,
                                           uint32_t *edges,
                                           double *fractions,
                                           size_t capacity);
+
+/**
+ * The coordinates of every corner of every face of the mesh that the metric was made from. The map is made linear on each face; where that
+ * folds faces, the summary's n_flipped_given counts them.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (ricci_quotient_layout, which is cut along edges of the metric's
+ * triangulation).
+ *
+ * @param layout    the layout.
+ * @param uv        out: n_given_faces x 3 x 2, in the order of ricci_mesh_faces.
+ * @param capacity  entries of `uv`, at least 6 n_given_faces.
+ */
+ricci_status ricci_layout_input_uv(const ricci_layout *layout,
+                                   double *uv,
+                                   size_t capacity);
 
 /**
  * Carry values at the vertices of the given mesh to those of the layout: linear along the edges of the given

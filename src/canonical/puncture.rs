@@ -128,10 +128,10 @@ impl Punctured {
         let link = self.star().into_iter().map(|arc| self.mesh.tip(arc));
         let active = ActiveSet { held: link.chain([self.at]).collect(), fixed_edges: self.rim() };
         // The solver looks at the faces of the star as well: they must be triangles.
-        self.metric.u[self.at] = self.closing_u();
+        (self.metric.u[self.at], self.metric.u_low[self.at]) = (self.closing_u(), 0.0);
         let lent = Lent { mesh: &mut self.mesh, metric: &mut self.metric, followed: &mut self.followed };
         let report = solver.flow.step_within(lent, &active, max_step, solver.control);
-        self.metric.u[self.at] = 0.0;
+        (self.metric.u[self.at], self.metric.u_low[self.at]) = (0.0, 0.0);
         let report = report?;
         self.flips += report.flips;
         solver.add(&report);

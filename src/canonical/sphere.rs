@@ -8,6 +8,7 @@ use super::tries::{Flat, Tried, on_a_circle, said};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Seconds, Solution, StopReason};
+use crate::geometry::twofold::two_sum;
 use crate::geometry::{Space, largest, triangle};
 use crate::mesh::{Mesh, PerVertex, Point, VertexId};
 use crate::metric::lengths::face_lengths;
@@ -195,7 +196,10 @@ fn raised(flat: Flat, from: Solution, unit: f64, tried: &mut Tried) -> Result<Sp
         centring: off_centre(&positions, tried.weights),
     };
     metric.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
-    metric.u.iter_mut().for_each(|u| *u -= unit.ln());
+    for (u, low) in metric.u.iter_mut().zip(metric.u_low.iter_mut()) {
+        let (sum, lost) = two_sum(*u, -unit.ln());
+        (*u, *low) = two_sum(sum, lost + *low);
+    }
     let Punctured { mesh, followed, flips, .. } = surface;
     Ok(Sphere { metric: from.at(mesh, metric, followed, flips), positions, plane, report })
 }

@@ -86,7 +86,7 @@ impl Punctured {
     /// The metric with that u.
     pub fn closed(&self) -> Metric {
         let mut metric = self.metric.clone();
-        metric.u[self.at] = self.closing_u();
+        (metric.u[self.at], metric.u_low[self.at]) = (self.closing_u(), 0.0);
         metric
     }
 

@@ -14,7 +14,7 @@ use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::curvature::area;
 use crate::metric::{Metric, Refinement};
 use crate::parallel::{self, Pool};
-use crate::topology::{CutGraph, central_vertex, check_vertex, cut_graph};
+use crate::topology::{CutGraph, central_vertex, check_vertex, cut_about, cut_graph};
 use std::sync::Arc;
 
 /// Curvature up to this, in radians, is no cone: what a flow with the default tolerance leaves.
@@ -165,7 +165,7 @@ fn by<F: Frame>(
     let cut = match (&options.cut, root) {
         (Some(cut), _) => cut.clone(),
         (None, Some(root)) if space != Space::E2 && cones.is_empty() => {
-            CutGraph::about(given, &lengths, root, control)?
+            cut_about(given, &lengths, root, control)?
         }
         _ => cut_graph(given, &lengths, &cones, control)?,
     };

@@ -2,13 +2,12 @@
 
 use super::check_lengths;
 use super::shorten::{LEAST_SAVING, MOVES_PER_FACE, fan};
-use super::spanning::{Key, leftover, shortest_paths_under};
+use super::spanning::{leftover, shortest_paths_under};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerVertex, VertexId};
-use std::cmp::Reverse;
-use std::collections::{BinaryHeap, VecDeque};
+use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
+use std::collections::VecDeque;
 
 /// Interior edges whose removal leaves a disk, as chains between nodes.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,46 +32,6 @@ impl CutGraph {
         }
         cut.prune();
         cut.into_graph()
-    }
-
-    /// Where a disk that grows about a vertex, next over the face whose far corner is nearest along edges, meets itself: for a surface
-    /// without cones, a short way from everywhere to the vertex. Empty on a sphere.
-    ///
-    /// Errors: [`Error::EdgeLength`]; [`Error::Argument`] for a vertex that does not exist; [`Error::Layout`] for a surface of
-    /// several components; [`Error::Cancelled`].
-    pub(crate) fn about(
-        mesh: &Mesh,
-        lengths: &PerEdge<f64>,
-        root: VertexId,
-        control: &Control,
-    ) -> Result<CutGraph> {
-        let distance = shortest_paths_under(mesh, lengths, [root], control)?.distance;
-        let mut reached = PerFace::filled(mesh.n_faces(), false);
-        let mut closed = PerEdge::filled(mesh.n_edges(), false);
-        let mut queue = BinaryHeap::new();
-        let far = |f: FaceId| mesh.face_vertices(f).map(|v| distance[v]).into_iter().fold(0.0, f64::max);
-        let mut next = mesh.outgoing(root).find(|&h| !mesh.is_outside(h));
-        let (mut n_reached, mut is_first) = (0, true);
-        while let Some(entry) = next {
-            if let Some(f) = mesh.face(entry).filter(|&f| !std::mem::replace(&mut reached[f], true)) {
-                if usize::is_multiple_of(n_reached, VERTICES_PER_LOOK) {
-                    control.check()?;
-                }
-                n_reached += 1;
-                closed[entry.edge()] |= !std::mem::replace(&mut is_first, false);
-                for h in mesh.face_halfedges(f).map(HalfedgeId::twin) {
-                    if let Some(g) = mesh.face(h).filter(|&g| !reached[g]) {
-                        queue.push(Reverse((Key(far(g)), h)));
-                    }
-                }
-            }
-            next = queue.pop().map(|Reverse((_, h))| h);
-        }
-        if n_reached < mesh.n_faces() {
-            let message = "the surface is empty or has several components: lay out each alone";
-            return Err(Error::Layout(message.into()));
-        }
-        Ok(CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !closed[e])))
     }
 
     /// Total length of the cut.
@@ -422,29 +381,6 @@ mod tests {
             shorter += usize::from(cut.length(&lengths) < before);
         }
         assert!(shorter > 20, "only {shorter} cuts became shorter");
-    }
-
-    /// The torus opens into a disk, and every face is reached from the vertex over faces that are no farther away.
-    #[test]
-    fn a_growing_disk_meets_itself_in_a_cut() {
-        for n in [1, 2, 7, 12] {
-            let mesh = torus(n);
-            let lengths = PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| 1.0 + (e.index() % 5) as f64 / 50.0);
-            let cut = CutGraph::about(&mesh, &lengths, VertexId(0), &Control::new()).unwrap();
-            assert!(is_disk(&mesh, &cut.is_cut));
-            assert!((2..=3).contains(&cut.segments.len()), "{n}: {}", cut.segments.len());
-            let edges: usize = cut.segments.iter().map(Vec::len).sum();
-            assert_eq!(edges, cut.is_cut.iter().filter(|&&c| c).count());
-            // It runs half way round, as far away as can be.
-            let ends = |e: EdgeId| mesh.ends(e).map(|v| [v.index() % n, v.index() / n].map(|i| i.min(n - i)));
-            let near = mesh.edges().filter(|&e| cut.is_cut[e]).flat_map(ends).map(|[i, j]| i.max(j)).min();
-            assert!(near >= Some(n / 3), "{n}: {near:?}");
-        }
-        let control = Control::new();
-        control.cancel();
-        let lengths = PerEdge::filled(torus(3).n_edges(), 1.0);
-        let cancelled = CutGraph::about(&torus(3), &lengths, VertexId(0), &control);
-        assert!(matches!(cancelled, Err(Error::Cancelled)));
     }
 
     #[test]

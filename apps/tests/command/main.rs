@@ -12,6 +12,7 @@ mod flips;
 mod flow;
 mod info;
 mod make;
+mod on_input;
 mod picture;
 mod repair;
 mod run;

@@ -1,0 +1,85 @@
+//! The cut where a growing disk meets itself.
+
+use super::cut::CutGraph;
+use super::spanning::{Key, shortest_paths_under};
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, VertexId};
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Faces between two looks at the control.
+const FACES_PER_LOOK: usize = 1024;
+
+/// Where a disk that grows about a vertex, next over the face whose far corner is nearest along edges, meets itself: for a surface
+/// without cones, a short way from everywhere to the vertex. Empty on a sphere.
+///
+/// Errors: [`Error::EdgeLength`]; [`Error::Argument`] for a vertex that does not exist; [`Error::Layout`] for a surface of
+/// several components; [`Error::Cancelled`].
+pub(crate) fn cut_about(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    root: VertexId,
+    control: &Control,
+) -> Result<CutGraph> {
+    let distance = shortest_paths_under(mesh, lengths, [root], control)?.distance;
+    let mut reached = PerFace::filled(mesh.n_faces(), false);
+    let mut closed = PerEdge::filled(mesh.n_edges(), false);
+    let mut queue = BinaryHeap::new();
+    let far = |f: FaceId| mesh.face_vertices(f).map(|v| distance[v]).into_iter().fold(0.0, f64::max);
+    let mut next = mesh.outgoing(root).find(|&h| !mesh.is_outside(h));
+    let (mut n_reached, mut is_first) = (0, true);
+    while let Some(entry) = next {
+        if let Some(f) = mesh.face(entry).filter(|&f| !std::mem::replace(&mut reached[f], true)) {
+            if usize::is_multiple_of(n_reached, FACES_PER_LOOK) {
+                control.check()?;
+            }
+            n_reached += 1;
+            closed[entry.edge()] |= !std::mem::replace(&mut is_first, false);
+            for h in mesh.face_halfedges(f).map(HalfedgeId::twin) {
+                if let Some(g) = mesh.face(h).filter(|&g| !reached[g]) {
+                    queue.push(Reverse((Key(far(g)), h)));
+                }
+            }
+        }
+        next = queue.pop().map(|Reverse((_, h))| h);
+    }
+    if n_reached < mesh.n_faces() {
+        let message = "the surface is empty or has several components: lay out each alone";
+        return Err(Error::Layout(message.into()));
+    }
+    Ok(CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !closed[e])))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::mesh::{EdgeId, shapes};
+    use crate::topology::cut::is_disk;
+
+    #[test]
+    fn a_growing_disk_meets_itself_in_a_cut() {
+        for (n, m) in [(12, 8), (9, 21), (5, 4)] {
+            let mesh = Mesh::from_soup(&shapes::torus(2.0, 1.0, n, m).unwrap()).unwrap();
+            let lengths = PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| 1.0 + (e.index() % 5) as f64 / 50.0);
+            let cut = cut_about(&mesh, &lengths, VertexId(0), &Control::new()).unwrap();
+            assert!(is_disk(&mesh, &cut.is_cut));
+            assert!((2..=3).contains(&cut.segments.len()), "{n}, {m}: {}", cut.segments.len());
+            let edges: usize = cut.segments.iter().map(Vec::len).sum();
+            assert_eq!(edges, cut.is_cut.iter().filter(|&&c| c).count());
+            // It stays away from the vertex.
+            let near =
+                shortest_paths_under(&mesh, &lengths, [VertexId(0)], &Control::new()).unwrap().distance;
+            let ends = |e: EdgeId| mesh.ends(e).map(|v| near[v]);
+            let least = mesh.edges().filter(|&e| cut.is_cut[e]).flat_map(ends).fold(f64::INFINITY, f64::min);
+            assert!(least >= (n.min(m) / 3) as f64, "{n}, {m}: {least}");
+        }
+        let sphere = Mesh::from_soup(&shapes::icosphere(3).unwrap()).unwrap();
+        let lengths = PerEdge::filled(sphere.n_edges(), 1.0);
+        assert!(cut_about(&sphere, &lengths, VertexId(5), &Control::new()).unwrap().segments.is_empty());
+        let control = Control::new();
+        control.cancel();
+        assert!(matches!(cut_about(&sphere, &lengths, VertexId(0), &control), Err(Error::Cancelled)));
+    }
+}
