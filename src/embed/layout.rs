@@ -92,10 +92,16 @@ pub struct Seam {
     pub residual: f64,
 }
 
+/// Radians. A rotation below this is the rounding of numbers of twice the digits, about 1e-30 on flat tori, whose sides are paired by
+/// translations; the positions, which are doubles, tell none below 1e-16.
+const LEAST_ROTATION: f64 = 1e-24;
+
 impl Seam {
-    /// In E², the isometry `z ↦ e^{iθ} z + t` from the left side to the right side.
+    /// In E², the isometry `z ↦ e^{iθ} z + t` from the left side to the right side; a translation has θ = 0 exactly.
     pub fn isometry(&self) -> PlaneIsometry {
-        self.pairing.inverse().into()
+        let isometry = PlaneIsometry::from(self.pairing.inverse());
+        let is_translation = isometry.rotation.abs() < LEAST_ROTATION;
+        PlaneIsometry { rotation: if is_translation { 0.0 } else { isometry.rotation }, ..isometry }
     }
 }
 

@@ -70,13 +70,10 @@ pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<Ve
 ///
 /// ```
 /// use ricci::embed::{UnrollOptions, unroll};
-/// use ricci::{Control, geometry::Space, mesh::{Mesh, shapes}, metric::{Scheme, Solution, lengths_from_positions}};
-/// use std::sync::Arc;
+/// use ricci::{Class, Control, Solution, Surface, geometry::Space, mesh::shapes};
 /// # fn main() -> ricci::Result<()> {
-/// let soup = shapes::grid(4, 3)?;
-/// let mesh = Arc::new(Mesh::from_soup(&soup)?);
-/// let lengths = Arc::new(lengths_from_positions(&mesh, &soup.positions)?);
-/// let metric = Solution::new(mesh, lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
+/// let square = Surface::from_soup(&shapes::grid(4, 3)?)?;
+/// let metric = Solution::initial_of(square, Class::yamabe(Space::E2))?;
 /// let layout = unroll(&metric, &UnrollOptions::default(), &Control::new())?;
 /// assert!(layout.flipped.is_empty() && layout.consistency() < 1e-14);
 /// # Ok(())

@@ -126,6 +126,15 @@ impl Flow {
                 break StopReason::Stalled;
             }
         };
+        // A step within bounds may begin where another one has ended, at the tolerance: it has no factor yet to polish with.
+        let begins_at_end = self.is_bounded && report.iterations == 0 && at.error > self.polished();
+        if begins_at_end && report.stop_reason == StopReason::Converged {
+            let mut system = self.take_system(report)?;
+            self.assemble(&mut system, &at.state, report);
+            let factored = self.direction(&mut system, &mut at, report, control)?;
+            self.system = Some(system);
+            factored_at = factored.then_some(report.flips);
+        }
         // A factor of another triangulation is no good, and its matrix is of another pattern.
         let factored = factored_at == Some(report.flips);
         if factored && report.stop_reason != StopReason::IterationLimit && at.error > self.polished() {

@@ -78,7 +78,7 @@ impl Flown {
         (space, scheme): (Space, Scheme),
         double: Option<&Double>,
     ) -> Flown {
-        let mut surface = Triangulated { mesh: input.clone(), lengths: lengths.clone(), geometry: Space::E2 };
+        let mut surface = Triangulated { mesh: input.clone(), lengths: lengths.clone(), geometry };
         let mut normal = NormalCoordinates::new(input);
         let mut flips = 0;
         let mut record = |mesh: &Mesh, flip: Flip| {
