@@ -219,7 +219,8 @@ static void the_refinement_is_the_same_surface(const ricci_mesh *mesh, double wa
     arrays_free(&given);
 }
 
-/* Noise in a target makes no cones: four are joined by three seams (five where those branch), along edges of the mesh; its own faces have coordinates. */
+/* Noise in a target makes no cones: four are joined by three seams (five where those branch), along edges of
+ * the mesh; its own faces have coordinates. */
 static void noise_makes_no_cones(const ricci_mesh *mesh) {
     arrays given = arrays_of(mesh, 1);
     const size_t n = given.n.n_vertices, n_faces = given.n.n_faces;
@@ -235,7 +236,8 @@ static void noise_makes_no_cones(const ricci_mesh *mesh) {
     OK(ricci_flow(metric, target, n, NULL, NULL, &flat, NULL));
     OK(ricci_layout_new(flat, target, n, NULL, &layout));
     OK(ricci_layout_summarise(layout, &s, sizeof s));
-    CHECK(s.n_seams >= 3 && s.n_seams <= 5 && s.n_flipped == 0 && s.n_given_faces == n_faces && 50 * s.n_flipped_given < n_faces);
+    CHECK(s.n_seams >= 3 && s.n_seams <= 5 && s.n_flipped == 0 && s.n_given_faces == n_faces &&
+          50 * s.n_flipped_given < n_faces);
     OK(ricci_layout_input_uv(layout, uv, 6 * n_faces));
     for (size_t k = 0; k < 6 * n_faces; k++) CHECK(isfinite(uv[k]) && fabs(uv[k]) <= s.diameter);
     FAILS(ricci_layout_input_uv(layout, uv, 6 * n_faces - 1), RICCI_BUFFER_TOO_SMALL, "uv");
