@@ -51,7 +51,7 @@ pub struct UnrollOptions {
 }
 
 /// The cones of a curvature, or of a target of one: vertices inside the surface (V entries) where it is more than `tolerance` off flat.
-/// Errors: [`Error::Size`].
+/// Errors: [`crate::Error::Size`].
 pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<VertexId>> {
     check_size("curvature", curvature.len(), mesh.n_vertices())?;
     let is_cone = |v: &VertexId| curvature[v.index()].abs() > tolerance && !mesh.is_boundary_vertex(*v);
@@ -64,9 +64,9 @@ pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<Ve
 /// The cut goes through all cones, and is short in the metric ([`cut_graph`]); without cones, in H² and S², it is where a disk that
 /// grows about the root meets itself, so that nothing lies farther out than it has to.
 ///
-/// Errors: [`Error::Argument`] for a cone or root that is no vertex; [`Error::Layout`] for a sphere in E² with fewer than two cones, a cut
+/// Errors: [`crate::Error::Argument`] for a cone or root that is no vertex; [`crate::Error::Layout`] for a sphere in E² with fewer than two cones, a cut
 /// that does not leave a disk, several components, lengths beyond what doubles can place; those of [`Solution::refinement`] and
-/// [`crate::metric::Metric::lengths`]; [`Error::Cancelled`].
+/// [`crate::metric::Metric::lengths`]; [`crate::Error::Cancelled`].
 ///
 /// ```
 /// use ricci::embed::{UnrollOptions, unroll};

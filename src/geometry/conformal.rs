@@ -44,7 +44,7 @@ pub struct Vertex {
     pub d: f64,
     /// γ where ε = 1, else 0; in units of 2^`exponent`.
     pub radius: f64,
-    /// The unit of `scale` and `radius` is 2 to this power: not 0 only in E², where |u| is above [`MAX_PLAIN_U`].
+    /// The unit of `scale` and `radius` is 2 to this power: not 0 only in E², where |u| is above 177.
     pub exponent: i32,
 }
 

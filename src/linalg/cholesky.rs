@@ -27,7 +27,7 @@ pub struct Cholesky {
 pub struct NotPositiveDefinite;
 
 impl Cholesky {
-    /// Analyse a pattern: fill-reducing order (AMD [ADD96]), elimination tree, supernodes; memory for the factor.
+    /// Analyse a pattern: fill-reducing order (AMD \[ADD96\]), elimination tree, supernodes; memory for the factor.
     ///
     /// # Errors
     ///
