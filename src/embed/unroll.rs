@@ -72,8 +72,8 @@ pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<Ve
 /// use ricci::embed::{UnrollOptions, unroll};
 /// use ricci::{Class, Control, Solution, Surface, geometry::Space, mesh::shapes};
 /// # fn main() -> ricci::Result<()> {
-/// let square = Surface::from_soup(&shapes::grid(4, 3)?)?;
-/// let metric = Solution::initial_of(square, Class::yamabe(Space::E2))?;
+/// let disk = Surface::from_soup(&shapes::disk(4)?)?;
+/// let metric = Solution::initial_of(disk, Class::yamabe(Space::E2))?;
 /// let layout = unroll(&metric, &UnrollOptions::default(), &Control::new())?;
 /// assert!(layout.flipped.is_empty() && layout.consistency() < 1e-14);
 /// # Ok(())
