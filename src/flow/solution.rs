@@ -4,7 +4,6 @@ use super::origin::Origin;
 use super::report::Report;
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::geometry::Space;
 use crate::mesh::{Double, Mesh, NormalCoordinates, PerVertex, VertexId};
 use crate::metric::delaunay::boundary_fails;
 use crate::metric::{Class, Curvature, Initial, Metric, Refinement, Scheme, Surface};
@@ -224,11 +223,6 @@ impl Solution {
     /// Those of [`Refinement::new`].
     pub fn refinement(&self, control: &Control) -> Result<Refinement> {
         within(self.threads, || self.origin.refinement(&self.mesh, &self.metric, &self.followed, control))
-    }
-
-    /// Whether the metric is 0 curvature off the cones in H² or E², so that a layout exists; never in S².
-    pub fn is_laid_out(&self) -> bool {
-        self.metric.space != Space::S2
     }
 
     /// Whether flows may go on from here on the double of the surface, or on one copy that could be reflected: Delaunay along the
