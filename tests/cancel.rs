@@ -113,13 +113,14 @@ fn flips_that_are_cancelled_on_their_way_leave_the_surface() {
     assert!(start.is_ok() || m == flipped);
 
     let mut metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap().metric;
-    let u = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| (v.index() as f64).sin());
+    metric.u = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| (v.index() as f64).sin());
+    let vertices = metric.vertices();
     let (mut m, mut queue, control) = (mesh.clone(), Queue::all(&mesh, &FixedEdges::none()), Control::new());
-    let mut record = |_: &Mesh, _| control.cancel();
+    let mut record = |_: &Mesh, _: Flip<_>| control.cancel();
     is_cancelled(
         "restore_delaunay",
         ClassFlips { mesh: &mut m, metric: &mut metric, record: &mut record }
-            .restore_delaunay(&u, &mut queue, &control),
+            .restore_delaunay(&vertices, &mut queue, &control),
     );
 }
 

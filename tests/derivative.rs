@@ -92,7 +92,7 @@ fn angle_block(mesh: &Mesh, metric: &Metric, f: FaceId) -> [[f64; 3]; 3] {
     let mut dl = [[0.0; 3]; 3];
     for k in 0..3 {
         for (i, j) in [((k + 1) % 3, (k + 2) % 3), ((k + 2) % 3, (k + 1) % 3)] {
-            let cross = metric.eta[edges[k]] * (metric.u[corners[i]] + metric.u[corners[j]]).exp();
+            let cross = metric.eta[edges[k]].high * (metric.u[corners[i]] + metric.u[corners[j]]).exp();
             dl[k][i] = match space {
                 Space::E2 => (x[i] + cross) / l[k],
                 Space::H2 => {
@@ -180,7 +180,7 @@ fn automatic(mesh: &Mesh, metric: &Metric) -> Vec<Vec<f64>> {
             let ea = f64::from(metric.epsilon[a]);
             let eb = f64::from(metric.epsilon[b]);
             let (xa, xb) = ((u[a.index()] * 2.0).exp() * ea, (u[b.index()] * 2.0).exp() * eb);
-            let cross = (u[a.index()] + u[b.index()]).exp() * metric.eta[e];
+            let cross = (u[a.index()] + u[b.index()]).exp() * metric.eta[e].high;
             match metric.space {
                 Space::E2 => (cross * 2.0 + xa + xb).sqrt(),
                 Space::H2 => {

@@ -60,7 +60,7 @@ impl<'a> MetricFile<'a> {
             scheme: scheme.name(),
             faces: mesh.triangles(),
             face_edges: face_edges_of(mesh),
-            eta: per_face(&metric.eta),
+            eta: per_face(&metric.rounded_eta()),
             lengths: per_face(lengths[0]),
             lengths_lo: lengths[1].iter().any(|&lo| lo != 0.0).then(|| per_face(lengths[1])),
             u: &metric.u,

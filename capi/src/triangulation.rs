@@ -98,5 +98,5 @@ pub unsafe extern "C" fn ricci_metric_eta(
     eta: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(metric, |metric| copy_out("eta", &metric.surface.metric().eta, eta, capacity))
+    guard::with(metric, |metric| copy_out("eta", &metric.surface.metric().rounded_eta(), eta, capacity))
 }

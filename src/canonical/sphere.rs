@@ -9,7 +9,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Seconds, Solution, StopReason};
 use crate::geometry::twofold::two_sum;
-use crate::geometry::{Space, largest, triangle};
+use crate::geometry::{Space, Twofold, largest, triangle};
 use crate::mesh::{Mesh, PerVertex, Point, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Curvature, Metric, Surface};
@@ -134,7 +134,7 @@ fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> 
     let n = mesh.n_vertices();
     let mut metric = Metric { space: Space::E2, u: PerVertex::filled(n, 0.0), ..metric };
     let unit = unit(&metric);
-    metric.eta.iter_mut().for_each(|eta| *eta = *eta / unit / unit);
+    metric.eta.iter_mut().for_each(|eta| *eta = scaled_by(*eta, 1.0 / unit));
     let weights = vertex_areas(surface, unit);
     let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
     let flow = flow(options);
@@ -195,7 +195,7 @@ fn raised(flat: Flat, from: Solution, unit: f64, tried: &mut Tried) -> Result<Sp
         nonconvexity: nonconvexity(&surface.mesh, &positions),
         centring: off_centre(&positions, tried.weights),
     };
-    metric.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
+    metric.eta.iter_mut().for_each(|eta| *eta = scaled_by(*eta, unit));
     for (u, low) in metric.u.iter_mut().zip(metric.u_low.iter_mut()) {
         let (sum, lost) = two_sum(*u, -unit.ln());
         (*u, *low) = two_sum(sum, lost + *low);
@@ -225,8 +225,13 @@ fn polished(mesh: &Mesh, lifted: Metric, solver: &mut Solver) -> Result<(Metric,
 /// A power of two of about the size of the longest edge: with η over its square nothing depends on the size of the surface, and
 /// nothing is rounded.
 fn unit(metric: &Metric) -> f64 {
-    let largest = metric.eta.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let largest = metric.eta.iter().map(|eta| eta.high).fold(f64::MIN_POSITIVE, f64::max);
     2f64.powi((0.5 * largest.log2()).round() as i32)
+}
+
+/// η times the square of a unit, which is a power of two.
+fn scaled_by(eta: Twofold, unit: f64) -> Twofold {
+    Twofold { high: eta.high * unit * unit, low: eta.low * unit * unit }
 }
 
 /// One third of the area of the faces at each vertex; in E² in units of `unit²`.

@@ -11,10 +11,10 @@
 //! The bound is the Delaunay condition with the horocycle of ∞ as one of the circles: the triangulation at given u is its one.
 
 use crate::error::{Error, Result};
-use crate::geometry::Space;
 use crate::geometry::conformal::{differences, edge, in_one_unit};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::angles_from;
+use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Flip, HalfedgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::delaunay::ClassFlips;
@@ -68,13 +68,13 @@ impl Punctured {
 
     /// Least u that the tip of a half-edge may have if its origin is the puncture.
     pub fn bound(&self, arc: HalfedgeId) -> f64 {
-        -(2.0 * self.metric.eta[arc.edge()]).ln()
+        -(2.0 * self.metric.eta[arc.edge()].high).ln()
     }
 
     /// Length of an edge.
     pub fn length(&self, h: HalfedgeId) -> f64 {
         let [a, b] = self.mesh.ends(h.edge()).map(|v| self.metric.u[v]);
-        (2.0 * self.metric.eta[h.edge()]).sqrt() * (0.5 * (a + b)).exp()
+        (2.0 * self.metric.eta[h.edge()].high).sqrt() * (0.5 * (a + b)).exp()
     }
 
     /// A u of the puncture with which arcs are so long that the star's faces are triangles too.
@@ -104,7 +104,7 @@ impl Punctured {
             let (e, need) = (sides[k], "one that gives the edge a length in the range of doubles at this u");
             let eta = self.metric.eta[e];
             let made = edge(Space::E2, corners[(k + 1) % 3], corners[(k + 2) % 3], eta);
-            made.ok_or(Error::EdgeWeight { edge: e.index(), eta, need })
+            made.ok_or(Error::EdgeWeight { edge: e.index(), eta: eta.high, need })
         };
         let mut edges = [side(0)?, side(1)?, side(2)?];
         let unit = in_one_unit(&mut corners, &mut edges);
@@ -187,8 +187,9 @@ impl Punctured {
     /// Flip an edge inside the class.
     pub fn flip(&mut self, e: EdgeId) -> bool {
         let followed = &mut self.followed;
-        let mut record =
-            |mesh: &Mesh, flip: Flip| followed.iter_mut().for_each(|normal| normal.record(mesh, flip.edge));
+        let mut record = |mesh: &Mesh, flip: Flip<Twofold>| {
+            followed.iter_mut().for_each(|normal| normal.record(mesh, flip.edge))
+        };
         let flipped =
             ClassFlips { mesh: &mut self.mesh, metric: &mut self.metric, record: &mut record }.flip(e);
         self.flips += usize::from(flipped);

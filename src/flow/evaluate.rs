@@ -3,12 +3,12 @@
 use super::seconds::{Seconds, timed};
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::Space;
 use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit, weights};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles};
 use crate::geometry::twofold::two_sum;
 use crate::geometry::worse;
+use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_from_angles;
@@ -60,7 +60,7 @@ impl State {
         mesh: &mut Mesh,
         class: &mut Metric,
         fixed: &FixedEdges,
-        record: &mut dyn FnMut(&Mesh, Flip),
+        record: &mut dyn FnMut(&Mesh, Flip<Twofold>),
         seconds: &mut Seconds,
         control: &Control,
     ) -> Result<(bool, usize)> {
@@ -68,12 +68,15 @@ impl State {
         let mut touched = Vec::new();
         let flips = timed(&mut seconds.flip, || {
             let mut queue = if real { self.suspects(mesh, fixed) } else { Queue::all(mesh, fixed) };
-            let mut record = |mesh: &Mesh, flip: Flip| {
+            let mut record = |mesh: &Mesh, flip: Flip<Twofold>| {
                 touched.push(flip.edge);
                 record(mesh, flip);
             };
-            ClassFlips { mesh, metric: class, record: &mut record }
-                .restore_delaunay(&self.u, &mut queue, control)
+            ClassFlips { mesh, metric: class, record: &mut record }.restore_delaunay(
+                &self.vertices,
+                &mut queue,
+                control,
+            )
         })?;
         let real = timed(&mut seconds.assemble, || {
             let real = match flips {
@@ -226,7 +229,7 @@ fn measured_face(
 ) -> (Angles, [f64; 3]) {
     let (corners, edges, _) = face_parts(mesh, vertices, edges, f);
     let differences = differences(corners, edges);
-    let eta = mesh.opposite_edges(f).map(|e| class.eta[e]);
+    let eta = mesh.opposite_edges(f).map(|e| class.eta[e].high);
     let weights = weights(class.space, differences, edges.map(|e| e.q2), corners, eta);
     (triangle::angles_from(class.space, differences), weights)
 }

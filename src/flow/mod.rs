@@ -42,6 +42,7 @@ pub use solution::Solution;
 
 use crate::control::Control;
 use crate::error::Result;
+use crate::geometry::Twofold;
 use crate::mesh::{FixedEdges, FlipLog, Mesh, NormalCoordinates, PerVertex};
 use crate::metric::{Class, Metric, Surface, Target};
 use crate::parallel::Pool;
@@ -82,7 +83,7 @@ pub struct Flow {
     /// Told every flip.
     followed: Vec<NormalCoordinates>,
     /// The flips of the present solve, by which it is undone.
-    log: FlipLog,
+    log: FlipLog<Twofold>,
     /// All flips since the given triangulation.
     flips: usize,
     /// What the last solve was asked and did.

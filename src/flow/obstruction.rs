@@ -105,6 +105,6 @@ fn largest_angle(mesh: &Mesh, class: &Metric, h: HalfedgeId) -> f64 {
     let sides = [h, side, mesh.next(side)];
     let packing = sides
         .iter()
-        .all(|&h| class.epsilon[mesh.origin(h)] == 1 && (0.0..=1.0).contains(&class.eta[h.edge()]));
-    if packing { PI - class.eta[side.edge()].acos() } else { PI }
+        .all(|&h| class.epsilon[mesh.origin(h)] == 1 && (0.0..=1.0).contains(&class.eta[h.edge()].high));
+    if packing { PI - class.eta[side.edge()].high.acos() } else { PI }
 }

@@ -173,11 +173,12 @@ pub(super) fn unit_of_products(e: [(f64, i32); 2], epsilon: [f64; 2], eta: f64) 
 
 /// An edge; `None` when (ε, η, u) give no real positive finite length (in H² none in the range of lengths).
 #[inline]
-pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
+pub fn edge(space: Space, a: Vertex, b: Vertex, eta: impl Into<Twofold>) -> Option<Edge> {
+    let eta = eta.into();
     if space == Space::E2 {
         return plane_edge(a, b, eta);
     }
-    let q2 = squared_chord(a, b, eta) / (a.d * b.d);
+    let q2 = squared_chord(a, b, eta.high) / (a.d * b.d);
     let range = if space == Space::H2 {
         MIN_HYPERBOLIC_CHORD..=MAX_HYPERBOLIC_CHORD
     } else {
@@ -187,7 +188,7 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
         return None;
     }
     let circles = a.epsilon > 0.0 && b.epsilon > 0.0;
-    if circles && eta == 1.0 {
+    if circles && eta == 1.0.into() {
         // sin²(l/2) > 1: the circles together reach around the sphere.
         return (space != Space::S2 || q2 <= 1.0).then_some(Edge { gap: 0.0, low: 0.0, q2, exponent: 0 });
     }
@@ -200,20 +201,20 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
 }
 
 /// An edge in E², in a unit in which its length is neither tiny nor huge.
-fn plane_edge(a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
-    let plain = if a.exponent | b.exponent == 0 { squared_chord(a, b, eta) } else { f64::NAN };
+fn plane_edge(a: Vertex, b: Vertex, eta: Twofold) -> Option<Edge> {
+    let plain = if a.exponent | b.exponent == 0 { squared_chord(a, b, eta.high) } else { f64::NAN };
     let ([a, b], n) = if PLAIN_SQUARES.contains(&exponent(plain)) {
         ([a, b], plain)
     } else {
-        let ends = in_unit_of_edge(a, b, eta);
-        (ends, squared_chord(ends[0], ends[1], eta))
+        let ends = in_unit_of_edge(a, b, eta.high);
+        (ends, squared_chord(ends[0], ends[1], eta.high))
     };
     if !(n > 0.0 && n < f64::INFINITY) {
         return None;
     }
     let (q2, exponent) = (0.25 * n, a.exponent);
     let circles = a.epsilon > 0.0 && b.epsilon > 0.0;
-    if circles && eta == 1.0 {
+    if circles && eta == 1.0.into() {
         // The circles touch: l is the sum of their radii, and what it loses that of what they lose.
         let low = a.radius * a.low + b.radius * b.low;
         return Some(Edge { gap: 0.0, low, q2, exponent });
@@ -252,11 +253,11 @@ pub fn in_one_unit(corners: &mut [Vertex; 3], edges: &mut [Edge; 3]) -> i32 {
 }
 
 /// `l − γ_a − γ_b − gap` in E², to twice the digits: the angles of needles and of triangles in metrics of wide range turn on it.
-fn lost_gap(a: Vertex, b: Vertex, eta: f64, gap: f64) -> f64 {
+fn lost_gap(a: Vertex, b: Vertex, eta: Twofold, gap: f64) -> f64 {
     let (x, y) = (a.scale, b.scale);
     let (xy, xy_low) = two_product(x, y);
-    let (mut n, mut n_low) = two_product(2.0 * eta, xy);
-    n_low += 2.0 * eta * xy_low + n * (a.low + b.low);
+    let (mut n, mut n_low) = two_product(2.0 * eta.high, xy);
+    n_low += 2.0 * (eta.high * xy_low + eta.low * xy) + n * (a.low + b.low);
     for v in [a, b].into_iter().filter(|v| v.epsilon != 0.0) {
         let (square, square_low) = two_product(v.scale, v.scale);
         let (sum, lost) = two_sum(n, v.epsilon * square);
@@ -272,11 +273,11 @@ fn lost_gap(a: Vertex, b: Vertex, eta: f64, gap: f64) -> f64 {
 
 /// The half chord of an edge (l/2, sinh(l/2), sin(l/2) in E², H², S²) with twice the digits, as far as its ends have them
 /// ([`is_precise`]), and the exponent of its unit; 0 for an edge without a real length.
-pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: f64) -> (Twofold, i32) {
-    let [a, b] = if space == Space::E2 { in_unit_of_edge(a, b, eta) } else { [a, b] };
+pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> (Twofold, i32) {
+    let [a, b] = if space == Space::E2 { in_unit_of_edge(a, b, eta.high) } else { [a, b] };
     let [x, y] = [a, b].map(|v| Twofold::from(v.scale) + (v.scale * v.low).into());
     let square = |v: Vertex, x: Twofold| x * x * v.epsilon.into();
-    let n = x * y * (2.0 * eta).into() + square(a, x) + square(b, y);
+    let n = x * y * eta * 2.0.into() + square(a, x) + square(b, y);
     let q = match space {
         Space::E2 => n.sqrt() * 0.5.into(),
         _ => (n / (Twofold::from(a.d) * b.d.into())).sqrt(),
@@ -285,7 +286,7 @@ pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: f64) -> (Twofold, i32
 }
 
 /// `l − length` in H² where ε = 0, from `sinh²(l/2) = 2 η e^{u_a + u_b}` to twice the digits: `2 (q − sinh(length/2))/cosh(length/2)`.
-fn lost_length(a: Vertex, b: Vertex, eta: f64, length: f64) -> f64 {
+fn lost_length(a: Vertex, b: Vertex, eta: Twofold, length: f64) -> f64 {
     let (up, lost) = twofold::exp(0.5 * length);
     let up = Twofold::from(up) + (up * lost).into();
     let down = Twofold::from(1.0) / up;
@@ -337,8 +338,8 @@ fn squared_chord(a: Vertex, b: Vertex, eta: f64) -> f64 {
 
 /// `l − γ_a − γ_b`, given `l + γ_a + γ_b`.
 #[inline]
-fn circle_gap(space: Space, a: Vertex, b: Vertex, eta: f64, total: f64) -> f64 {
-    let product = 2.0 * (eta - 1.0) * (a.scale * b.scale);
+fn circle_gap(space: Space, a: Vertex, b: Vertex, eta: Twofold, total: f64) -> f64 {
+    let product = 2.0 * ((eta.high - 1.0) + eta.low) * (a.scale * b.scale);
     match space {
         Space::E2 => product / total,
         Space::H2 => 2.0 * (product / (a.d * b.d * (0.5 * total).sinh())).asinh(),

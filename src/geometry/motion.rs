@@ -12,10 +12,11 @@
 //! far from the origin, where coordinates in the disk run out of digits.
 
 use super::complex::{add, conj, mul, norm2, scale};
+use super::scaled::scaled;
 use super::{Space, Twofold};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What the entries of a [`Motion`] may be: doubles, or doubles with twice the digits.
+/// What the entries of a [`Motion`] and of a [`super::flip::Hinge`] may be: doubles, or doubles with twice the digits.
 pub trait Real:
     Copy
     + From<f64>
@@ -28,17 +29,27 @@ pub trait Real:
 {
     /// The square root of a number that is not negative.
     fn root(self) -> Self;
+    /// This number times 2^k: exact while the result is a normal number.
+    fn times_two_to(self, k: i32) -> Self;
 }
 
 impl Real for f64 {
     fn root(self) -> f64 {
         self.sqrt()
     }
+
+    fn times_two_to(self, k: i32) -> f64 {
+        scaled(self, k)
+    }
 }
 
 impl Real for Twofold {
     fn root(self) -> Twofold {
         self.sqrt()
+    }
+
+    fn times_two_to(self, k: i32) -> Twofold {
+        self.scaled(k)
     }
 }
 

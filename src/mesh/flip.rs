@@ -6,11 +6,11 @@ use crate::error::{Error, Result};
 
 /// A flip of an edge that carries a value: its length, or its weight η. Whoever follows flips is told it just before it is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flip {
+pub struct Flip<T = f64> {
     /// The edge. The other diagonal keeps its number.
     pub edge: EdgeId,
     /// The value of the edge before the flip.
-    pub value: f64,
+    pub value: T,
 }
 
 /// A set of edges of one surface that are not to be flipped. The default is the empty set, which fits every surface.

@@ -6,7 +6,7 @@ use super::scheme::Scheme;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{Vertex, radius};
 use crate::geometry::scaled::scaled;
-use crate::geometry::{Space, triangle, worse};
+use crate::geometry::{Space, Twofold, triangle, worse};
 use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
 use crate::topology::check_lengths;
 use std::f64::consts::PI;
@@ -127,7 +127,7 @@ impl Represented<'_> {
         let mut metric = Metric {
             space: input_geometry,
             epsilon,
-            eta: PerEdge::filled(mesh.n_edges(), 0.0),
+            eta: PerEdge::filled(mesh.n_edges(), Twofold::default()),
             u: input_u.clone(),
             u_low: PerVertex::filled(n, 0.0),
         };
@@ -138,7 +138,9 @@ impl Represented<'_> {
             let epsilon = [metric.epsilon[i], metric.epsilon[j]];
             let eta = weight_of_length(input_geometry, lengths[e], epsilon, [input_u[i], input_u[j]]);
             metric.eta[e] = match range {
-                Range::Clamp(low, high) => eta.clamp(low, high),
+                Range::Clamp(low, _) if (eta - low.into()).high < 0.0 => low.into(),
+                Range::Clamp(_, high) if (eta - high.into()).high > 0.0 => high.into(),
+                Range::Clamp(..) => eta,
                 Range::Refuse => allowed_weight(epsilon, e, eta)?,
             };
             clamped_edges += usize::from(metric.eta[e] != eta);
@@ -159,14 +161,14 @@ impl Represented<'_> {
 }
 
 /// η, if two vertices of these types can have it.
-fn allowed_weight(epsilon: [i8; 2], edge: EdgeId, eta: f64) -> Result<f64> {
+fn allowed_weight(epsilon: [i8; 2], edge: EdgeId, eta: Twofold) -> Result<Twofold> {
     let need = match epsilon {
-        [1, 1] if eta <= -1.0 => "above −1: the circles would contain each other; use smaller radii",
-        [-1, -1] if eta <= 1.0 => "above 1 between imaginary circles",
-        _ if !eta.is_finite() => "finite",
+        [1, 1] if eta.high <= -1.0 => "above −1: the circles would contain each other; use smaller radii",
+        [-1, -1] if eta.high <= 1.0 => "above 1 between imaginary circles",
+        _ if !eta.high.is_finite() => "finite",
         _ => return Ok(eta),
     };
-    Err(Error::EdgeWeight { edge: edge.index(), eta, need })
+    Err(Error::EdgeWeight { edge: edge.index(), eta: eta.high, need })
 }
 
 impl Initial {
@@ -205,18 +207,23 @@ fn log_radius(space: Space, radius: f64) -> f64 {
     }
 }
 
-/// η from a length: the length formulas solved for it.
-fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) -> f64 {
-    let [a, b] = [0, 1].map(|k| Vertex::new(space, epsilon[k], u[k]));
+/// η from a length: the length formulas solved for it. In E² the length that η gives back is the given one, to twice the digits.
+fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) -> Twofold {
+    let [a, b] = [0, 1].map(|k| Vertex::precise(space, epsilon[k], u[k], 0.0));
     // Of the larger circle, 2 to this power is the unit of length.
     let unit = a.exponent.max(b.exponent);
     let n = match space {
-        Space::E2 => scaled(length, -unit) * scaled(length, -unit),
-        Space::H2 => (0.5 * length).sinh().powi(2) * a.d * b.d,
-        Space::S2 => (0.5 * length).sin().powi(2) * a.d * b.d,
+        Space::E2 => {
+            let length = Twofold::from(scaled(length, -unit));
+            length * length
+        }
+        Space::H2 => ((0.5 * length).sinh().powi(2) * a.d * b.d).into(),
+        Space::S2 => ((0.5 * length).sin().powi(2) * a.d * b.d).into(),
     };
-    let [x, y] = [a, b].map(|v| scaled(v.scale, v.exponent - unit));
-    (n - a.epsilon * x * x - b.epsilon * y * y) / (2.0 * x * y)
+    let [x, y] =
+        [a, b].map(|v| (Twofold::from(v.scale) + (v.scale * v.low).into()).scaled(v.exponent - unit));
+    let own = |v: Vertex, x: Twofold| x * x * v.epsilon.into();
+    (n - own(a, x) - own(b, y)) / (x * y * 2.0.into())
 }
 
 pub(super) struct CornerRadii {

@@ -1,9 +1,9 @@
 //! A metric as data (ε, η, u), and its edge lengths ([`crate::geometry::conformal`]).
 
 use crate::error::{Error, Result, check_size};
-use crate::geometry::Space;
 use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit, radius};
 use crate::geometry::scaled::scaled;
+use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex, Point, VertexId};
 use crate::parallel;
 use crate::topology::check_lengths;
@@ -15,8 +15,9 @@ pub struct Metric {
     pub space: Space,
     /// Vertex type ε ∈ {−1, 0, 1}; V entries, fixed in the class.
     pub epsilon: PerVertex<i8>,
-    /// Edge weight η; E entries, fixed in the class (up to flips).
-    pub eta: PerEdge<f64>,
+    /// Edge weight η; E entries, fixed in the class (up to flips). It has twice the digits, since flips add up their rounding, and the
+    /// angles of a needle magnify it by the needle's length over its width.
+    pub eta: PerEdge<Twofold>,
     /// Conformal variable u; V entries. ε ≠ 0: `log γ`, `log tanh(γ/2)`, `log tan(γ/2)` in E², H², S².
     pub u: PerVertex<f64>,
     /// What the doubles u lose; V entries, at most half an ulp of them. 0 in a metric that no flow has made.
@@ -49,13 +50,29 @@ impl Metric {
                 need: "what the double u loses, at most an ulp of it",
             });
         }
-        match mesh.edges().find(|&e| !self.eta[e].is_finite()) {
-            Some(e) => Err(Error::EdgeWeight { edge: e.index(), eta: self.eta[e], need: "finite" }),
+        match mesh.edges().find(|&e| {
+            !self.eta[e].high.is_finite() || !(self.eta[e].low.abs() <= f64::EPSILON * self.eta[e].high.abs())
+        }) {
+            Some(e) => Err(Error::EdgeWeight {
+                edge: e.index(),
+                eta: self.eta[e].high,
+                need: "finite, with a low part of at most an ulp",
+            }),
             None => Ok(()),
         }
     }
 
-    /// The vertex quantities at variables `u`.
+    /// η as doubles (E entries).
+    pub fn rounded_eta(&self) -> PerEdge<f64> {
+        PerEdge::from_fn(self.eta.len(), |e| self.eta[e].high)
+    }
+
+    /// The quantities of all vertices (V entries).
+    pub fn vertices(&self) -> PerVertex<Vertex> {
+        PerVertex::from_fn(self.u.len(), |v| self.vertex(v))
+    }
+
+    /// The quantities of a vertex.
     pub fn vertex(&self, v: VertexId) -> Vertex {
         Vertex::precise(self.space, self.epsilon[v], self.u[v], self.u_low[v])
     }
@@ -81,7 +98,7 @@ impl Metric {
         match lengths.iter().position(|l| !l.is_normal()) {
             Some(edge) => {
                 let need = "one that gives the edge a length between 2e-308 and 2e308 at this u (angles have no such limit)";
-                Err(Error::EdgeWeight { edge, eta: self.eta[EdgeId::from(edge)], need })
+                Err(Error::EdgeWeight { edge, eta: self.eta[EdgeId::from(edge)].high, need })
             }
             None => Ok(lengths),
         }
@@ -114,7 +131,7 @@ impl Metric {
 
     pub(super) fn vertices_and_edges(&self, mesh: &Mesh) -> Result<(PerVertex<Vertex>, PerEdge<Edge>)> {
         self.check(mesh)?;
-        let vertices: PerVertex<Vertex> = PerVertex::from_fn(mesh.n_vertices(), |v| self.vertex(v));
+        let vertices = self.vertices();
         if let Some(v) = mesh.vertices().find(|&v| vertices[v].d.is_nan()) {
             let need = "u < 0 where ε has the sign of −λ, in E² between −5e5 and 5e5, in H² above −708";
             return Err(Error::Domain { vertex: v.index(), u: self.u[v], need });
@@ -128,7 +145,7 @@ impl Metric {
         match edges.iter().position(|e| e.q2 == 0.0) {
             Some(e) => {
                 let need = "one that gives the edge a real length at this u (in S² below π, in H² between 2e-140 and 300)";
-                Err(Error::EdgeWeight { edge: e, eta: self.eta[EdgeId::from(e)], need })
+                Err(Error::EdgeWeight { edge: e, eta: self.eta[EdgeId::from(e)].high, need })
             }
             None => Ok((vertices, edges.into())),
         }

@@ -52,11 +52,12 @@ impl<'a> Strips<'a> {
         let metric = result.metric;
         // Without circles (ε = 0) all vectors may be made longer or shorter alike: a power of 2 brings their products near 1.
         let scaling = metric.epsilon.iter().all(|&e| e == 0);
-        let most = metric.eta.iter().copied().fold(0.0, f64::max);
+        let most = metric.eta.iter().map(|eta| eta.high).fold(0.0, f64::max);
         let unit = if scaling && most.is_normal() { power(-(most.log2() as i32)) } else { 1.0 };
         let eta = PerEdge::from_fn(metric.eta.len(), |e| {
             let [i, j] = result.mesh.ends(e).map(|v| metric.epsilon[v]);
-            if i * j == 1 { metric.eta[e].max(1.0 + LEAST_GAP) } else { unit * metric.eta[e] }
+            let eta = metric.eta[e].high;
+            if i * j == 1 { eta.max(1.0 + LEAST_GAP) } else { unit * eta }
         });
         Strips { result, eta }
     }
