@@ -10,7 +10,6 @@
 
 use super::evaluate::State;
 use crate::error::{Error, Result};
-use crate::geometry::conformal::is_precise;
 use crate::linalg::{Pattern, Symmetric};
 use crate::mesh::{EdgeId, Mesh, VertexId};
 use crate::metric::Metric;
@@ -116,7 +115,7 @@ impl Jacobian {
     /// `Σ |∂K_i/∂u_j| δ`, term by term, for the rounding of e^u and of the lengths, where δ is an ulp of 1, or its square where these have
     /// twice the digits ([`is_precise`]); and two ulp of π for every angle, which is a double.
     pub fn rounding_floor(&self, mesh: &Mesh, class: &Metric, state: &State) -> Vec<f64> {
-        let precise = class.epsilon.iter().all(|&e| is_precise(class.space, e));
+        let precise = class.is_precise();
         let moved = if precise { f64::EPSILON * f64::EPSILON } else { f64::EPSILON };
         let mut floor = vec![0.0; mesh.n_vertices()];
         for f in mesh.faces() {

@@ -30,9 +30,9 @@ const TANGENT: f64 = 1e-13;
 pub const TOLERANCE: f64 = 1e-12;
 /// The same share where the terms have twice the digits, and so are rounded by 1e-30.
 const PRECISE_TOLERANCE: f64 = TOLERANCE * TOLERANCE;
-/// Square of the sine of an angle opposite the edge below which doubles may not tell whether the edge is Delaunay. The condition compares
-/// cosines, and angles φ and π − φ' with φ, φ' below 1e-6 have cosines that differ by less than [`TOLERANCE`], though φ may be half of φ'.
-/// At this bound, sines of 0.01, the angles are compared to 1e-10.
+/// Square of the sine of an angle opposite the edge below which cosines may not tell whether the edge is Delaunay: those of φ and π − φ'
+/// with φ, φ' below 1e-6 add up to less than [`TOLERANCE`], though φ may be half of φ'. At this bound, sines of 0.01, the cosines compare
+/// the angles to 1e-10.
 const THIN: f64 = 1e-4;
 
 /// The two triangles at an edge ij, with the opposite vertices k and l, in doubles or with twice the digits.
@@ -168,16 +168,19 @@ impl<T: Real> Hinge<T> {
         let [ij, ik, jk, il, jl] = self.product;
         // In E² the cosine of the angle opposite ij is t √d over the length of ij, in units of w.
         let length = i + j + T::from(2.0) * ij;
-        let (mut sum, mut size_of_terms, mut thinnest) = (T::from(0.0), 0.0, f64::INFINITY);
+        let (mut sum, mut cosines) = (T::from(0.0), T::from(0.0));
+        let (mut size_of_terms, mut thinnest) = (0.0, f64::INFINITY);
         for (near_i, near_j, across) in [(ik, jk, across[0]), (il, jl, across[1])] {
             let x = ((j + ij) * near_i + (i + ij) * near_j) / d;
             let above = x - T::from(1.0);
             sum = sum + above / across.root();
             size_of_terms += (size(x) + 1.0) / across.into().sqrt();
-            thinnest = size(T::from(1.0) - above * above * d / (across * length)).min(thinnest);
+            let cosine = above * (d / (across * length)).root();
+            cosines = cosines + cosine;
+            thinnest = size(T::from(1.0) - cosine * cosine).min(thinnest);
         }
         let sound = sum.into().is_finite() && size_of_terms.is_finite();
-        sound.then_some(Heights { sum: sum.into(), size: size_of_terms, thinnest })
+        sound.then_some(Heights { sum: sum.into(), size: size_of_terms, cosines: cosines.into(), thinnest })
     }
 
     /// `t_k + t_l`, up to a positive factor: positive for a Delaunay edge, 0 where the four circles have a common orthogonal circle;
@@ -194,7 +197,9 @@ struct Heights {
     sum: f64,
     /// Size of the terms of the sum.
     size: f64,
-    /// The smaller `sin²` of the two angles under which the face circles meet the edge; in E² without circles, of the opposite angles.
+    /// The sum again, as one of cosines: of the angles under which the face circles meet the edge, without circles of those opposite it.
+    cosines: f64,
+    /// The smaller `sin²` of the two angles.
     thinnest: f64,
 }
 
@@ -221,11 +226,12 @@ impl Hinge {
         self.verdict() == Some(true)
     }
 
-    /// [`Hinge::wants_flip`]; `None` where doubles cannot tell: the condition holds and fails by less than [`TOLERANCE`] in triangles so
-    /// thin that their angles may still differ widely.
+    /// [`Hinge::wants_flip`]; `None` where doubles cannot tell: the terms of the condition cancel to less than [`TOLERANCE`] of their size,
+    /// not because the angles do, but because the triangles are needles.
     pub fn verdict(&self) -> Option<bool> {
-        let Some(Heights { sum, size, thinnest }) = self.heights() else { return Some(false) };
-        let unclear = sum.abs() <= TOLERANCE * size && thinnest < THIN;
+        let Some(Heights { sum, size, cosines, thinnest }) = self.heights() else { return Some(false) };
+        let is_needle = cosines.abs() > TOLERANCE || thinnest < THIN;
+        let unclear = sum.abs() <= TOLERANCE * size && is_needle;
         (!unclear).then_some(sum < -TOLERANCE * size)
     }
 }

@@ -7,8 +7,8 @@ use super::flip_queue::{Flippable, allowance, between_faces, endless};
 use super::lengths::Metric;
 use crate::control::Control;
 use crate::error::{Result, check_size};
-use crate::geometry::conformal::{Vertex, is_precise};
-use crate::geometry::flip::{Hinge, Weight, precise_weight, weight};
+use crate::geometry::conformal::Vertex;
+use crate::geometry::flip::{Hinge, precise_weight, weight};
 use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FixedEdges, Flip, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 
@@ -20,13 +20,6 @@ pub use super::isometric::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 fn hinge_of(mesh: &Mesh, h: HalfedgeId) -> ([VertexId; 4], [HalfedgeId; 5]) {
     let [jk, ki, il, lj] = mesh.quadrilateral(h);
     ([h, h.twin(), ki, lj].map(|h| mesh.origin(h)), [h, ki, jk, il, lj])
-}
-
-/// The Delaunay hinge of half-edge h in doubles, from the `w` of its four vertices.
-fn hinge(mesh: &Mesh, h: HalfedgeId, metric: &Metric, w: impl Fn(VertexId) -> Weight) -> Hinge {
-    let (vertices, sides) = hinge_of(mesh, h);
-    let epsilon = vertices.map(|v| f64::from(metric.epsilon[v]));
-    Hinge::of_weights(epsilon, vertices.map(w), sides.map(|h| metric.eta[h.edge()].high)).0
 }
 
 /// A metric whose edges are flipped inside its conformal class: η changes on the edges flipped.
@@ -56,19 +49,17 @@ impl ClassFlips<'_> {
     ) -> Result<usize> {
         let ClassFlips { mesh, metric, record } = self;
         check_size("vertices", vertices.len(), mesh.n_vertices())?;
-        let Metric { space, epsilon, eta, .. } = &mut **metric;
-        let is_precise = epsilon.iter().all(|&epsilon| is_precise(*space, epsilon));
+        let (space, is_precise) = (metric.space, metric.is_precise());
         let decide = |mesh: &Mesh, eta: &PerEdge<Twofold>, h: HalfedgeId| {
-            let hinge = VertexHinge::new(*space, mesh, h, |v| vertices[v.index()]);
-            let flips = match hinge.rounded(eta).verdict() {
-                Some(flips) => flips,
-                None => is_precise && hinge.precise(eta).0.wants_flip(),
-            };
-            if flips { hinge.other_diagonal(eta) } else { None }
+            let hinge = VertexHinge::new(space, mesh, h, |v| vertices[v.index()]);
+            if hinge.wants_flip(eta, is_precise) { hinge.other_diagonal(eta) } else { None }
         };
         let most = allowance(mesh.n_edges());
-        let flips =
-            queue.flip_until_empty(most, &mut Flippable { mesh, values: eta, decide, record }, control)?;
+        let flips = queue.flip_until_empty(
+            most,
+            &mut Flippable { mesh, values: &mut metric.eta, decide, record },
+            control,
+        )?;
         if queue.is_empty() {
             return Ok(flips);
         }
@@ -107,10 +98,11 @@ impl VertexHinge {
         self.vertices.map(|v| v.epsilon)
     }
 
-    /// The hinge in doubles.
-    fn rounded(&self, eta: &PerEdge<Twofold>) -> Hinge {
+    /// Whether the edge fails the weighted Delaunay condition and can be flipped. `is_precise`: that of the metric, [`Metric::is_precise`].
+    fn wants_flip(&self, eta: &PerEdge<Twofold>, is_precise: bool) -> bool {
         let w = self.vertices.map(|v| weight(self.space, v));
-        Hinge::of_weights(self.epsilon(), w, self.sides.map(|h| eta[h.edge()].high)).0
+        let rounded = Hinge::of_weights(self.epsilon(), w, self.sides.map(|h| eta[h.edge()].high)).0;
+        rounded.verdict().unwrap_or_else(|| is_precise && self.precise(eta).0.wants_flip())
     }
 
     /// The hinge to twice the digits, and the product of the `w` of its left and right vertex in the hinge's unit.
@@ -127,10 +119,11 @@ impl VertexHinge {
     }
 }
 
-/// The edges that fail the weighted Delaunay condition at variables `u` (V entries) and can be flipped, ascending.
-pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> {
-    let w = weights(metric, u);
-    let fails = |h| hinge(mesh, h, metric, |v| w[v]).wants_flip();
+/// The edges that fail the weighted Delaunay condition and can be flipped, ascending.
+pub fn failing(mesh: &Mesh, metric: &Metric) -> Vec<EdgeId> {
+    let (vertices, is_precise) = (metric.vertices(), metric.is_precise());
+    let fails =
+        |h| VertexHinge::new(metric.space, mesh, h, |v| vertices[v]).wants_flip(&metric.eta, is_precise);
     Queue::where_holds(mesh, &FixedEdges::none(), fails).into_vec()
 }
 
@@ -146,9 +139,4 @@ pub fn boundary_fails(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>, fixed: &
     };
     let mut along = mesh.edges().flat_map(|e| [e.halfedge(), e.halfedge().twin()]);
     along.any(|h| mesh.is_outside(h.twin()) && !fixed.contains(h.edge()) && fails(h))
-}
-
-/// `w` of every vertex at variables `u`.
-fn weights(metric: &Metric, u: &PerVertex<f64>) -> PerVertex<Weight> {
-    PerVertex::from_fn(u.len(), |v| weight(metric.space, Vertex::new(metric.space, metric.epsilon[v], u[v])))
 }

@@ -1,7 +1,7 @@
 //! A metric as data (ε, η, u), and its edge lengths ([`crate::geometry::conformal`]).
 
 use crate::error::{Error, Result, check_size};
-use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit, radius};
+use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit, is_precise, radius};
 use crate::geometry::scaled::scaled;
 use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex, Point, VertexId};
@@ -60,6 +60,11 @@ impl Metric {
             }),
             None => Ok(()),
         }
+    }
+
+    /// Whether lengths are formed to twice the digits: [`is_precise`] of all vertices.
+    pub fn is_precise(&self) -> bool {
+        self.epsilon.iter().all(|&epsilon| is_precise(self.space, epsilon))
     }
 
     /// η as doubles (E entries).

@@ -51,8 +51,8 @@ pub fn flow(
         let s = f64::from(step) / 20.0;
         let u = PerVertex::from_fn(from.len(), |v: VertexId| (1.0 - s) * from[v] + s * to[v]);
         let mut queue = Queue::new(mesh.n_edges(), &FixedEdges::none());
-        failing(mesh, metric, &u).into_iter().for_each(|e| queue.push(e));
         metric.u = u;
+        failing(mesh, metric).into_iter().for_each(|e| queue.push(e));
         let vertices = metric.vertices();
         ClassFlips { mesh, metric, record: &mut record }
             .restore_delaunay(&vertices, &mut queue, &Control::new())
