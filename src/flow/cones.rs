@@ -146,7 +146,7 @@ impl<'a> Placing<'a> {
         intrinsic_delaunay(&mut surface, IntrinsicOptions::default(), &mut |_, _| {}, control)?;
         let Triangulated { mesh, lengths, .. } = surface;
         let metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?.metric;
-        let mut state = State::new(&mesh, &metric.u, &metric.u_low);
+        let mut state = State::new(&metric.u, &metric.u_low);
         if !state.evaluate(&mesh, &metric) {
             return Err(factorisation(0, "an edge without length"));
         }

@@ -34,7 +34,7 @@ impl Flow {
             let mut error = largest(&residual);
             let mut fixed = pinned.clone();
             fixed[0] |= free_scale;
-            let mut state = State::new(mesh, &metric.u, &metric.u_low);
+            let mut state = State::new(&metric.u, &metric.u_low);
             if error <= FLOOR || !state.evaluate(mesh, metric) {
                 return Ok(error);
             }
@@ -57,7 +57,7 @@ impl Flow {
                 return Ok(error);
             }
             let mut step = vec![0.0; residual.len()];
-            let mut next = State::new(mesh, &metric.u, &metric.u_low);
+            let mut next = State::new(&metric.u, &metric.u_low);
             for _ in 0..STEPS {
                 control.check()?;
                 if error <= FLOOR || !system.solve(&residual, 0.0, &mut step) {

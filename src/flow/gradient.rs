@@ -41,7 +41,7 @@ impl Flow {
         };
         let [mut direction, next_direction] = [(); 2].map(|()| vec![0.0; self.mesh.n_vertices()]);
         let mut error = state.residual(&self.target, &self.pinned, &mut direction);
-        let trial = State::new(&self.mesh, &self.start, &self.start_low);
+        let trial = State::new(&self.start, &self.start_low);
         let mut leg = Leg { state, trial, direction, next_direction };
         let (first, mut energy, mut step) = (error, 0.0, 0.0);
         report.trace.push(self.row(&leg.state, [energy, error, step], 0));

@@ -15,6 +15,7 @@ use crate::geometry::conformal::is_precise;
 use crate::mesh::{Mesh, PerVertex, VertexId};
 use crate::metric::Target;
 use crate::metric::curvature::gauss_bonnet;
+use crate::metric::delaunay::ClassFlips;
 use crate::metric::target::{check_total, check_upper, settle_total};
 
 /// How a method came to its end.
@@ -194,7 +195,7 @@ impl Flow {
 
     /// The flow by its method, from the start to the end that the report tells.
     pub(super) fn flow(&mut self, report: &mut Report, control: &Control) -> Result<End> {
-        let mut state = State::new(&self.mesh, &self.start, &self.start_low);
+        let mut state = State::new(&self.start, &self.start_low);
         let keeps_area = self.options.method == Method::Gradient && self.options.gradient.area_normalised;
         if self.free_scale() && !keeps_area {
             state.center();
@@ -291,14 +292,8 @@ impl Flow {
         }
         let (log, followed) = (&mut self.log, &mut self.followed);
         let mut record = |mesh: &Mesh, flip| log.record(mesh, flip, followed);
-        let (real, flips) = state.evaluate_delaunay(
-            &mut self.mesh,
-            &mut self.metric,
-            &self.fixed,
-            &mut record,
-            &mut report.seconds,
-            control,
-        )?;
+        let surface = ClassFlips { mesh: &mut self.mesh, metric: &mut self.metric, record: &mut record };
+        let (real, flips) = state.evaluate_delaunay(surface, &self.fixed, &mut report.seconds, control)?;
         report.flips += flips;
         self.unseen_flips += flips;
         Ok(real)

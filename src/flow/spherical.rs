@@ -32,7 +32,7 @@ impl Flow {
     ) -> Result<State> {
         let n = self.mesh.n_vertices();
         let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
-        let mut trial = State::new(&self.mesh, &self.start, &self.start_low);
+        let mut trial = State::new(&self.start, &self.start_low);
         let area = (!self.has_pins()).then(|| self.spherical_area());
         if !self.settle(&mut state, area) {
             return Ok(self.without_a_start(report));
@@ -83,7 +83,7 @@ impl Flow {
 
     /// The start as it is, where no shift of it has the area of the target.
     fn without_a_start(&self, report: &mut Report) -> State {
-        let mut state = State::new(&self.mesh, &self.start, &self.start_low);
+        let mut state = State::new(&self.start, &self.start_low);
         state.evaluate(&self.mesh, &self.metric);
         let mut residual = vec![0.0; self.mesh.n_vertices()];
         report.stop_reason = StopReason::Stalled;
