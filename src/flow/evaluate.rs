@@ -183,6 +183,16 @@ impl State {
         scaled(triangle::area_from(space, r), 2 * unit)
     }
 
+    /// Per vertex a third of the area of the faces around it, divided by `unit`.
+    pub fn vertex_areas(&self, mesh: &Mesh, space: Space, unit: f64) -> Vec<f64> {
+        let mut areas = vec![0.0; mesh.n_vertices()];
+        for f in mesh.faces() {
+            let third = self.face_area(mesh, space, f) / (3.0 * unit);
+            mesh.face_vertices(f).into_iter().for_each(|v| areas[v.index()] += third);
+        }
+        areas
+    }
+
     /// Number of faces that break the triangle inequality.
     pub fn broken(&self) -> usize {
         self.angles.iter().filter(|a| a.broken()).count()
