@@ -92,7 +92,7 @@ impl Flow {
         control.step(Stage::Flow, 0.0)?;
         let Some(reason) = self.iterate(&mut at, report, control)? else {
             report.max_curvature_error = at.error;
-            return Ok(End::AtBoundary(at.state));
+            return Ok(End { state: at.state, left: true });
         };
         report.stop_reason = reason;
         // A step within bounds may begin where another one has ended, at the tolerance: it has no factor yet to polish with.
@@ -114,7 +114,7 @@ impl Flow {
         if report.stop_reason == StopReason::Stalled {
             report.stop_reason = self.stalled(&mut at, report)?;
         }
-        Ok(End::Stopped(at.state))
+        Ok(End { state: at.state, left: false })
     }
 
     /// Steps until there is a reason to stop, or none where the flow leaves the one copy of a surface with boundary.
