@@ -15,7 +15,6 @@ use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, intrinsic_del
 use ricci::metric::{Scheme, Triangulated, delaunay_start, initial_metric};
 use ricci::topology::cut_graph;
 use ricci::{Class, Control, Error, Flow, Result, Target};
-use std::sync::Arc;
 use std::time::Duration;
 
 /// A torus whose triangulation is far from Delaunay.
@@ -200,7 +199,7 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
     }
     made.solve(&Target::Uniform, &free).unwrap();
     let cut = cut_graph(made.mesh(), &made.metric().lengths(made.mesh()).unwrap(), &[], &free).unwrap();
-    let layout = layout_of(&Arc::new(made.mesh().clone()), made.metric(), None, Some(&cut), &free).unwrap();
+    let layout = layout_of(made.mesh(), made.metric(), None, Some(&cut), &free).unwrap();
     let uv = |h| layout.uv(h);
     interrupt("charts", one, |c| charts(made.mesh(), uv, &ChartOptions::default(), c).map(drop));
     let triangles: Vec<_> = made.mesh().faces().map(|f| layout.face_uv(f)).collect();

@@ -155,7 +155,7 @@ impl Jacobian {
 /// contributes nothing.
 pub fn curvature_derivative(mesh: &Mesh, metric: &Metric) -> Result<Vec<(VertexId, VertexId, f64)>> {
     metric.check(mesh)?;
-    let mut state = State::new(mesh, &metric.u, &metric.u_low);
+    let mut state = State::new(&metric.u, &metric.u_low);
     if !state.evaluate(mesh, metric) {
         // The first edge without a length is named by this call.
         metric.check_domain(mesh)?;

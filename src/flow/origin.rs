@@ -1,8 +1,8 @@
 //! What all metrics that flow from one start share: the surface, its triangulation at the start, and the initial metric there.
 
 use crate::control::Control;
-use crate::error::{Result, check_size};
-use crate::mesh::{Double, EdgeId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex};
+use crate::error::Result;
+use crate::mesh::{Double, EdgeId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge};
 use crate::metric::delaunay::{Triangulated, boundary_fails};
 use crate::metric::refinement::{Final, Input, Intrinsic, Triangulations};
 use crate::metric::{Class, Initial, Metric, Refinement, StartOptions, Surface, delaunay_start};
@@ -43,17 +43,7 @@ impl Origin {
     /// The initial metric on the given triangulation, whose edges stay.
     pub fn rigid(surface: Surface, class: Class) -> Result<Origin> {
         let initial = surface.initial(class)?;
-        Ok(Origin {
-            surface,
-            class: Some(class),
-            double: None,
-            initial,
-            flips: 0,
-            flipped: None,
-            fixed: FixedEdges::none(),
-            follows: false,
-            is_half: false,
-        })
+        Ok(Origin { class: Some(class), ..Origin::unflipped(surface, initial) })
     }
 
     /// A metric as it is, on its triangulation; `follows`: edges may be flipped from there on.
@@ -61,7 +51,11 @@ impl Origin {
         let lengths = metric.lengths(&mesh)?;
         let initial = Initial::of_metric(metric.clone())?;
         let surface = Surface::intrinsic(mesh, lengths, metric.space)?;
-        Ok(Origin {
+        Ok(Origin { follows, ..Origin::unflipped(surface, initial) })
+    }
+
+    fn unflipped(surface: Surface, initial: Initial) -> Origin {
+        Origin {
             surface,
             class: None,
             double: None,
@@ -69,9 +63,9 @@ impl Origin {
             flips: 0,
             flipped: None,
             fixed: FixedEdges::none(),
-            follows,
+            follows: false,
             is_half: false,
-        })
+        }
     }
 
     /// The initial metric on the (weighted) Delaunay triangulation, of the surface or, if it is `doubled`, of its double:
@@ -111,30 +105,14 @@ impl Origin {
     /// The triangulation at the start, and what is followed through flips from there: the given edges, and those of the start if
     /// they are others.
     pub fn start(&self) -> (Arc<Mesh>, Vec<NormalCoordinates>) {
-        let unflipped = || match &self.double {
-            Some(double) => Arc::new(double.mesh.clone()),
-            None => self.surface.mesh().clone(),
+        let mesh = match (&self.flipped, &self.double) {
+            (Some(flipped), _) => flipped.mesh.clone(),
+            (None, Some(double)) => Arc::new(double.mesh.clone()),
+            (None, None) => self.surface.mesh().clone(),
         };
-        match &self.flipped {
-            Some(flipped) => {
-                (flipped.mesh.clone(), vec![flipped.given.clone(), NormalCoordinates::new(&flipped.mesh)])
-            }
-            None if self.follows => {
-                let mesh = unflipped();
-                let normal = NormalCoordinates::new(&mesh);
-                (mesh, vec![normal])
-            }
-            None => (unflipped(), Vec::new()),
-        }
-    }
-
-    /// A target on the given surface as one on what flows: on a double, curvature on both sides of the boundary adds up.
-    pub fn spread_target(&self, target: &PerVertex<f64>) -> Result<PerVertex<f64>> {
-        check_size("target", target.len(), self.surface.mesh().n_vertices())?;
-        match &self.double {
-            Some(double) => Ok(double.target(target)?.into()),
-            None => Ok(target.clone()),
-        }
+        let given = self.flipped.as_ref().map(|flipped| flipped.given.clone());
+        let own = self.follows.then(|| NormalCoordinates::new(&mesh));
+        (mesh, given.into_iter().chain(own).collect())
     }
 
     /// The common refinement of the given triangulation with that of a metric.

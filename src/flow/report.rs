@@ -1,6 +1,5 @@
 //! What a flow did.
 
-use super::obstruction::Obstruction;
 use super::seconds::Seconds;
 use crate::mesh::{Double, VertexId};
 use std::collections::BTreeSet;
@@ -69,6 +68,21 @@ pub struct TraceRow {
 
 /// Vertices named in [`Report::worst`].
 pub const WORST: usize = 8;
+
+/// A set I of vertices that proves a target out of reach: every metric of the class on this triangulation has `Σ_I K > least`, and the target asks for `Σ_I K̄ = curvature ≤ least`.
+///
+/// A triangle with two or three corners in I has angles of at most π there; one with a single corner has less than
+/// `π − arccos η` of the opposite edge in a circle packing (all η in [0, 1]: Thurston's inequality, \[Thu80, chapter
+/// 13\], \[CL03\]), less than π in the other schemes. `least` is 2π per vertex of I (π on the boundary) minus these.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Obstruction {
+    /// The vertices of I, ascending.
+    pub vertices: Vec<VertexId>,
+    /// Σ K̄ over I, radians.
+    pub curvature: f64,
+    /// The bound, not attained, radians. (Both sums are formed in doubles.)
+    pub least: f64,
+}
 
 /// Result of a flow, with everything needed to judge it.
 #[derive(Debug, Clone, PartialEq)]

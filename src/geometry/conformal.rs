@@ -386,6 +386,9 @@ pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], et
     if r.iter().any(|&x| x <= 0.0) {
         return [0.0; 3];
     }
+    if space == Space::E2 && corners.iter().all(|v| v.epsilon == 0.0) {
+        return cotangents(r).map(|cotangent| 0.5 * cotangent);
+    }
     // In units of the longest chord no product under- or overflows.
     let unit = 0.5 / q2.into_iter().fold(0.0, f64::max).sqrt();
     let f = |x: f64| unit * super::triangle::sine(space, x);
@@ -420,4 +423,15 @@ pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], et
     let w = [weight(0), weight(1), weight(2)];
     // Where a triangle is so thin that its area underflows, the quotients are no numbers: it is treated as a broken one.
     if w.iter().all(|w| w.is_finite()) { w } else { [0.0; 3] }
+}
+
+/// The cotangents of the angles of a triangle in E² with half-perimeter differences r, from `tan²(θ_k/2) = r_i r_j/(s r_k)`; 0 where the
+/// triangle is so thin that they are no numbers.
+fn cotangents(r: [f64; 3]) -> [f64; 3] {
+    // In units of the half-perimeter, which is 1 then, no product over- or underflows.
+    let s = r[0] + r[1] + r[2];
+    let r = r.map(|x| x / s);
+    let area = r[0].sqrt() * r[1].sqrt() * r[2].sqrt();
+    let all = [0, 1, 2].map(|k| (r[k] - r[(k + 1) % 3] * r[(k + 2) % 3]) / (2.0 * area));
+    if all.iter().all(|x| x.is_finite()) { all } else { [0.0; 3] }
 }

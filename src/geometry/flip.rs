@@ -28,8 +28,6 @@ const TANGENT: f64 = 1e-13;
 /// Share of its terms by which the Delaunay condition must fail for an edge to be flipped. The terms are rounded by about 1e-15; shares
 /// from 0 to 1e-10 give the same results on the corpus.
 pub const TOLERANCE: f64 = 1e-12;
-/// The same share where the terms have twice the digits, and so are rounded by 1e-30.
-const PRECISE_TOLERANCE: f64 = TOLERANCE * TOLERANCE;
 /// Square of the sine of an angle opposite the edge below which cosines may not tell whether the edge is Delaunay: those of φ and π − φ'
 /// with φ, φ' below 1e-6 add up to less than [`TOLERANCE`], though φ may be half of φ'. At this bound, sines of 0.01, the cosines compare
 /// the angles to 1e-10.
@@ -161,26 +159,24 @@ impl<T: Real> Hinge<T> {
     }
 
     /// What the Delaunay condition compares, where the edge can be flipped.
-    fn heights(&self) -> Option<Heights> {
+    fn heights(&self) -> Option<Heights<T>> {
         let d = self.determinant()?;
         let across = self.sides(d)?;
         let [i, j, ..] = self.square;
         let [ij, ik, jk, il, jl] = self.product;
-        // In E² the cosine of the angle opposite ij is t √d over the length of ij, in units of w.
-        let length = i + j + T::from(2.0) * ij;
-        let (mut sum, mut cosines) = (T::from(0.0), T::from(0.0));
-        let (mut size_of_terms, mut thinnest) = (0.0, f64::INFINITY);
-        for (near_i, near_j, across) in [(ik, jk, across[0]), (il, jl, across[1])] {
+        let (mut sum, mut size_of_terms) = (T::from(0.0), 0.0);
+        let heights = [(ik, jk, across[0]), (il, jl, across[1])].map(|(near_i, near_j, across)| {
             let x = ((j + ij) * near_i + (i + ij) * near_j) / d;
-            let above = x - T::from(1.0);
-            sum = sum + above / across.root();
+            let height = (x - T::from(1.0)) / across.root();
+            sum = sum + height;
             size_of_terms += (size(x) + 1.0) / across.into().sqrt();
-            let cosine = above * (d / (across * length)).root();
-            cosines = cosines + cosine;
-            thinnest = size(T::from(1.0) - cosine * cosine).min(thinnest);
-        }
+            height
+        });
+        // √D over the length of ij, in units of w.
+        let unit = (d / (i + j + T::from(2.0) * ij)).root();
         let sound = sum.into().is_finite() && size_of_terms.is_finite();
-        sound.then_some(Heights { sum: sum.into(), size: size_of_terms, cosines: cosines.into(), thinnest })
+        let cosines = heights.map(|height| height * unit);
+        sound.then_some(Heights { sum: sum.into(), size: size_of_terms, cosines })
     }
 
     /// `t_k + t_l`, up to a positive factor: positive for a Delaunay edge, 0 where the four circles have a common orthogonal circle;
@@ -192,15 +188,14 @@ impl<T: Real> Hinge<T> {
 
 /// Heights t_k, t_l of the centres of the two face circles over an edge, up to a positive factor that both have: the edge is weighted
 /// Delaunay where `t_k + t_l ≥ 0`. They are defined also where the triangle inequality breaks.
-struct Heights {
+struct Heights<T> {
     /// `t_k + t_l`.
     sum: f64,
     /// Size of the terms of the sum.
     size: f64,
-    /// The sum again, as one of cosines: of the angles under which the face circles meet the edge, without circles of those opposite it.
-    cosines: f64,
-    /// The smaller `sin²` of the two angles.
-    thinnest: f64,
+    /// The heights in E² as cosines of the angles under which the face circles meet the edge, which without circles are the angles opposite
+    /// it; beyond ±1 in a broken triangle.
+    cosines: [T; 2],
 }
 
 impl Hinge {
@@ -229,17 +224,23 @@ impl Hinge {
     /// [`Hinge::wants_flip`]; `None` where doubles cannot tell: the terms of the condition cancel to less than [`TOLERANCE`] of their size,
     /// not because the angles do, but because the triangles are needles.
     pub fn verdict(&self) -> Option<bool> {
-        let Some(Heights { sum, size, cosines, thinnest }) = self.heights() else { return Some(false) };
-        let is_needle = cosines.abs() > TOLERANCE || thinnest < THIN;
+        let Some(Heights { sum, size, cosines: [k, l] }) = self.heights() else { return Some(false) };
+        let is_thin = |cosine: f64| (1.0 - cosine * cosine).abs() < THIN;
+        let is_needle = (k + l).abs() > TOLERANCE || is_thin(k) || is_thin(l);
         let unclear = sum.abs() <= TOLERANCE * size && is_needle;
         (!unclear).then_some(sum < -TOLERANCE * size)
     }
 }
 
 impl Hinge<Twofold> {
-    /// Whether the edge fails the weighted Delaunay condition by more than the rounding of 32 digits and can be flipped.
+    /// Whether the edge fails the weighted Delaunay condition and can be flipped, where [`Hinge::verdict`] cannot tell: the angles α, β that
+    /// the condition compares add up to more than π, `sin(α + β) < 0`, by more than [`TOLERANCE`] of `sin α + sin β`.
     pub fn wants_flip(&self) -> bool {
-        self.heights().is_some_and(|Heights { sum, size, .. }| sum < -PRECISE_TOLERANCE * size)
+        let Some(Heights { cosines: [k, l], .. }) = self.heights() else { return false };
+        // 0 in a broken triangle, whose angles are 0 and π.
+        let [sin_k, sin_l] = [k, l].map(|cosine| (Twofold::from(1.0) - cosine * cosine).sqrt());
+        let sines = (sin_k + sin_l).high;
+        if sines == 0.0 { (k + l).high < 0.0 } else { (sin_k * l + k * sin_l).high < -TOLERANCE * sines }
     }
 }
 

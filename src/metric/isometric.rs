@@ -68,74 +68,99 @@ pub fn intrinsic_delaunay(
     control: &Control,
 ) -> Result<usize> {
     control.check()?;
-    let Triangulated { mesh, lengths, geometry } = surface;
+    let Triangulated { mesh, lengths, geometry } = &*surface;
     check_lengths(mesh, lengths)?;
     if let Some(radii) = options.circles {
         check_size("radii", radii.len(), mesh.n_vertices())?;
     }
-    let condition = Condition { geometry: *geometry, circles: options.circles };
-    let mut queue = Queue::where_holds(mesh, options.fixed, |h| condition.fails(mesh, lengths, h));
-    if queue.is_empty() {
-        return Ok(0);
-    }
-    let mut log = FlipLog::default();
-    let mut logged = |mesh: &Mesh, flip: Flip| {
-        log.record(mesh, flip, &mut []);
-        record(mesh, flip);
-    };
-    let flips = flip_to_the_end(mesh, lengths, &mut queue, condition, &mut logged, control);
-    if flips.is_err() {
-        log.undo(mesh, lengths, &mut [])?;
-    }
-    flips
-}
-
-/// [`Queue::flip_until_empty`] with isometric flips, for as long as the sum of cotangents falls.
-fn flip_to_the_end(
-    mesh: &mut Mesh,
-    lengths: &mut PerEdge<f64>,
-    queue: &mut Queue,
-    condition: Condition,
-    record: &mut dyn FnMut(&Mesh, Flip),
-    control: &Control,
-) -> Result<usize> {
     let most = allowance(mesh.n_edges());
-    let mut lowest = condition.cotangents(mesh, lengths);
-    let mut flips = 0;
-    loop {
-        let decide = |mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId| {
-            if condition.fails(mesh, lengths, h) { condition.flipped(mesh, lengths, h) } else { None }
-        };
-        let mut surface = Flippable { mesh, values: lengths, decide, record };
-        flips += queue.flip_until_empty(most, &mut surface, control)?;
-        if queue.is_empty() {
-            return Ok(flips);
-        }
-        let now = condition.cotangents(mesh, lengths);
-        if now >= (1.0 - PROGRESS) * lowest {
-            return Err(endless(
-                "isometric flips towards Delaunay do not end: 100 per edge and a million have not lowered the sum of \
-                 cotangents; its triangles are too thin for doubles",
-            ));
-        }
-        lowest = now;
-    }
+    let flips = IsometricFlips { geometry: *geometry, circles: options.circles, most };
+    flips.make(surface, options.fixed, record, control)
 }
 
-/// The condition that an edge of a surface is tested for.
+/// Flips of the edges that fail a Delaunay condition.
 #[derive(Clone, Copy)]
-struct Condition<'a> {
+struct IsometricFlips<'a> {
     geometry: Space,
+    /// Radii of the circles that weight the condition.
     circles: Option<&'a PerVertex<f64>>,
+    /// Number of flips after which the sum of cotangents must have fallen.
+    most: usize,
 }
 
-impl Condition<'_> {
-    /// Whether the edge of a half-edge between two faces fails it.
+impl IsometricFlips<'_> {
+    /// Flip until no edge fails; where that is an error, the surface is put back.
+    fn make(
+        self,
+        surface: &mut Triangulated,
+        fixed: &FixedEdges,
+        record: &mut dyn FnMut(&Mesh, Flip),
+        control: &Control,
+    ) -> Result<usize> {
+        let Triangulated { mesh, lengths, .. } = surface;
+        let mut queue = Queue::where_holds(mesh, fixed, |h| self.fails(mesh, lengths, h));
+        if queue.is_empty() {
+            return Ok(0);
+        }
+        let mut log = FlipLog::default();
+        let mut logged = |mesh: &Mesh, flip: Flip| {
+            log.record(mesh, flip, &mut []);
+            record(mesh, flip);
+        };
+        let flips = self.flip(surface, &mut queue, &mut logged, control);
+        if flips.is_err() {
+            log.undo(&mut surface.mesh, &mut surface.lengths, &mut [])?;
+        }
+        flips
+    }
+
+    /// [`Queue::flip_until_empty`], for as long as the sum of cotangents falls.
+    fn flip(
+        self,
+        Triangulated { mesh, lengths, .. }: &mut Triangulated,
+        queue: &mut Queue,
+        record: &mut dyn FnMut(&Mesh, Flip),
+        control: &Control,
+    ) -> Result<usize> {
+        let mut lowest = self.cotangents(mesh, lengths);
+        let mut flips = 0;
+        loop {
+            let decide = |mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId| {
+                if self.fails(mesh, lengths, h) { self.flipped(mesh, lengths, h) } else { None }
+            };
+            let mut surface = Flippable { mesh, values: lengths, decide, record };
+            flips += queue.flip_until_empty(self.most, &mut surface, control)?;
+            if queue.is_empty() {
+                return Ok(flips);
+            }
+            let now = self.cotangents(mesh, lengths);
+            if now >= (1.0 - PROGRESS) * lowest {
+                return Err(endless(
+                    "isometric flips towards Delaunay do not end: 100 per edge and a million have not lowered the sum of \
+                     cotangents; its triangles are too thin for doubles",
+                ));
+            }
+            lowest = now;
+        }
+    }
+
+    /// Whether the edge of a half-edge between two faces fails the condition.
     fn fails(self, mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> bool {
         match self.circles {
             None => is_obtuse(self.geometry, sides(mesh, lengths, h)),
-            Some(radii) => weighted_hinge(mesh, lengths, radii, self.geometry, h).wants_flip(),
+            Some(radii) => self.hinge(mesh, lengths, radii, h).wants_flip(),
         }
+    }
+
+    /// The hinge of an edge with circles of these radii around its four vertices, whose w are γ, tanh γ, tan γ.
+    fn hinge(self, mesh: &Mesh, lengths: &PerEdge<f64>, radii: &PerVertex<f64>, h: HalfedgeId) -> Hinge {
+        let [jk, ki, il, lj] = mesh.quadrilateral(h);
+        let vertices = [h, h.twin(), ki, lj].map(|h| mesh.origin(h));
+        let product = |e: HalfedgeId| {
+            circle_product(self.geometry, lengths[e.edge()], mesh.ends(e.edge()).map(|v| radii[v]))
+        };
+        let squares = vertices.map(|v| circle_square(self.geometry, radii[v]));
+        Hinge::from_products(squares, [h, ki, jk, il, lj].map(product))
     }
 
     /// Length of the other diagonal, if there is one and both triangles at it have an area in doubles.
@@ -200,20 +225,38 @@ fn is_obtuse(geometry: Space, sides: [[f64; 3]; 2]) -> bool {
     sin_k * cos_l + cos_k * sin_l < -TOLERANCE
 }
 
-/// The hinge of an edge with circles of these radii around its four vertices, whose w are γ, tanh γ, tan γ.
-fn weighted_hinge(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
-    radii: &PerVertex<f64>,
-    geometry: Space,
-    h: HalfedgeId,
-) -> Hinge {
-    let [jk, ki, il, lj] = mesh.quadrilateral(h);
-    let vertices = [h, h.twin(), ki, lj].map(|h| mesh.origin(h));
-    let product = |e: HalfedgeId| {
-        let radii = mesh.ends(e.edge()).map(|v| radii[v]);
-        circle_product(geometry, lengths[e.edge()], radii)
-    };
-    let squares = vertices.map(|v| circle_square(geometry, radii[v]));
-    Hinge::from_products(squares, [h, ki, jk, il, lj].map(product))
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::error::Error;
+
+    /// A square of side 1 and its diagonal from vertex 0 to vertex 2, which is Delaunay, but no longer with a circle around vertex 1.
+    fn square() -> (Triangulated, PerVertex<f64>) {
+        let mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+        let is_diagonal = |e| mesh.ends(e).iter().all(|v| v.0 % 2 == 0);
+        let lengths = PerEdge::from_fn(mesh.n_edges(), |e| if is_diagonal(e) { 2f64.sqrt() } else { 1.0 });
+        (Triangulated { mesh, lengths, geometry: Space::E2 }, vec![0.0, 0.3, 0.0, 0.0].into())
+    }
+
+    /// Both diagonals of a square give the same sum of cotangents, so one flip is no progress. After two flips, or after one and a
+    /// look at the sides, the queue is empty.
+    #[test]
+    fn flips_without_progress_are_an_error_that_leaves_the_surface_as_it_was() {
+        let (square, radii) = square();
+        for (most, ends) in [(1, false), (2, true)] {
+            let mut surface = square.clone();
+            let flips = IsometricFlips { geometry: Space::E2, circles: Some(&radii), most };
+            let mut told = 0;
+            let made = flips.make(&mut surface, &NO_EDGES, &mut |_, _| told += 1, &Control::new());
+            assert_eq!(told, 1);
+            match made {
+                Ok(n) => assert!(ends && n == 1 && surface != square),
+                Err(Error::Connectivity { element: "mesh", message, .. }) => {
+                    assert!(!ends && surface == square && message.contains("do not end"), "{message}");
+                }
+                Err(other) => panic!("{other}"),
+            }
+        }
+    }
 }

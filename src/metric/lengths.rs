@@ -1,7 +1,7 @@
 //! A metric as data (ε, η, u), and its edge lengths ([`crate::geometry::conformal`]).
 
 use crate::error::{Error, Result, check_size};
-use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit, is_precise, radius};
+use crate::geometry::conformal::{self, Edge, Vertex, differences, in_one_unit, is_precise, radius};
 use crate::geometry::scaled::scaled;
 use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex, Point, VertexId};
@@ -142,11 +142,7 @@ impl Metric {
             return Err(Error::Domain { vertex: v.index(), u: self.u[v], need });
         }
         let mut edges = vec![Edge::default(); mesh.n_edges()];
-        parallel::fill(&mut edges, |e| {
-            let e = EdgeId::from(e);
-            let [i, j] = mesh.ends(e);
-            edge(self.space, vertices[i], vertices[j], self.eta[e]).unwrap_or_default()
-        });
+        parallel::fill(&mut edges, |e| self.edge(mesh, &vertices, e.into()));
         match edges.iter().position(|e| e.q2 == 0.0) {
             Some(e) => {
                 let need = "one that gives the edge a real length at this u (in S² below π, in H² between 2e-140 and 300)";
@@ -154,6 +150,12 @@ impl Metric {
             }
             None => Ok((vertices, edges.into())),
         }
+    }
+
+    /// An edge from the vertex quantities; one without a real length is the default, whose `q2` is 0.
+    pub(crate) fn edge(&self, mesh: &Mesh, vertices: &[Vertex], e: EdgeId) -> Edge {
+        let [a, b] = mesh.ends(e).map(|v| vertices[v.index()]);
+        conformal::edge(self.space, a, b, self.eta[e]).unwrap_or_default()
     }
 
     /// Circle radii γ from u (ε = 0: e^u): [`radius`].
@@ -172,16 +174,27 @@ impl Metric {
     }
 }
 
-/// Half-perimeter differences of a face, and the exponent of their unit.
-pub(super) fn face_differences(
+/// The corners of a face and the edges opposite them, in one unit of length, and the exponent of that unit.
+pub(crate) fn face_parts(
     mesh: &Mesh,
-    vertices: &PerVertex<Vertex>,
-    edges: &PerEdge<Edge>,
+    vertices: &[Vertex],
+    edges: &[Edge],
+    f: FaceId,
+) -> ([Vertex; 3], [Edge; 3], i32) {
+    let mut corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
+    let mut sides = mesh.opposite_edges(f).map(|e| edges[e.index()]);
+    let unit = in_one_unit(&mut corners, &mut sides);
+    (corners, sides, unit)
+}
+
+/// The half-perimeter differences of a face, and the exponent of their unit.
+pub(crate) fn face_differences(
+    mesh: &Mesh,
+    vertices: &[Vertex],
+    edges: &[Edge],
     f: FaceId,
 ) -> ([f64; 3], i32) {
-    let mut corners = mesh.face_vertices(f).map(|v| vertices[v]);
-    let mut sides = mesh.opposite_edges(f).map(|e| edges[e]);
-    let unit = in_one_unit(&mut corners, &mut sides);
+    let (corners, sides, unit) = face_parts(mesh, vertices, edges, f);
     (differences(corners, sides), unit)
 }
 

@@ -209,16 +209,22 @@ pub fn settle_total(mesh: &Mesh, space: Space, target: &mut PerVertex<f64>) {
     }
 }
 
+/// Length of the boundary edges at each vertex.
+pub(crate) fn boundary_lengths(mesh: &Mesh, lengths: &PerEdge<f64>) -> PerVertex<f64> {
+    let mut sum = PerVertex::filled(mesh.n_vertices(), 0.0);
+    for h in mesh.boundary_loops().into_iter().flatten() {
+        sum[mesh.origin(h)] += lengths[h.edge()];
+        sum[mesh.tip(h)] += lengths[h.edge()];
+    }
+    sum
+}
+
 /// 2πχ over the boundary vertices in proportion to the boundary length adjacent to each.
 fn boundary_target(mesh: &Mesh, lengths: &PerEdge<f64>) -> PerVertex<f64> {
     let total = 2.0 * PI * mesh.euler() as f64;
-    let mut share = PerVertex::filled(mesh.n_vertices(), 0.0);
-    let mut boundary = Vec::new();
-    for h in mesh.boundary_loops().into_iter().flatten() {
-        share[mesh.origin(h)] += lengths[h.edge()];
-        share[mesh.tip(h)] += lengths[h.edge()];
-        boundary.push(mesh.origin(h));
-    }
+    let mut share = boundary_lengths(mesh, lengths);
+    let boundary: Vec<VertexId> =
+        mesh.boundary_loops().into_iter().flatten().map(|h| mesh.origin(h)).collect();
     let length: f64 = boundary.iter().map(|&v| share[v]).sum();
     let largest = boundary.iter().map(|&v| share[v]).fold(0.0, f64::max);
     let equal = total * largest / length >= PI;

@@ -1,7 +1,7 @@
 //! From pieces to a refinement: what was kept gets numbers without gaps.
 
-use super::pieces::{Corner, Pieces, torn};
-use super::{Crossing, OnFace, Refinement};
+use super::parts::{Crossing, OnFace, Refinement, torn};
+use super::pieces::{Corner, Pieces};
 use crate::error::Result;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace};
 
@@ -61,19 +61,14 @@ fn faces_of(
     meshes: [&Mesh; 2],
 ) -> Result<(Vec<[[OnFace; 2]; 3]>, [PerFace<FaceId>; 2])> {
     let lies_on = |mesh: &Mesh, h: HalfedgeId| {
-        let (face, corner) = mesh.corner(h).ok_or_else(torn)?;
-        Ok((face, OnFace { corner: corner as u8, backward: h.0 & 1 == 1 }))
+        let (face, corner) = mesh.corner(h)?;
+        Some((face, OnFace { corner: corner as u8, backward: h.0 & 1 == 1 }))
     };
+    let of = |c: Corner| lies_on(meshes[0], c.input).zip(lies_on(meshes[1], c.result));
     let mut places = Vec::with_capacity(all.len());
     let mut faces = [Vec::with_capacity(all.len()), Vec::with_capacity(all.len())];
     for corners in all {
-        let mut of_triangle = [None; 3];
-        for (corner, place) in corners.iter().zip(&mut of_triangle) {
-            let halfedges = [corner.input, corner.result];
-            let [a, b] = [lies_on(meshes[0], halfedges[0])?, lies_on(meshes[1], halfedges[1])?];
-            *place = Some((a, b));
-        }
-        let [Some(first), Some(second), Some(third)] = of_triangle else { return Err(torn()) };
+        let [Some(first), Some(second), Some(third)] = corners.map(of) else { return Err(torn()) };
         faces[0].push(first.0.0);
         faces[1].push(first.1.0);
         places.push([first, second, third].map(|(a, b)| [a.1, b.1]));

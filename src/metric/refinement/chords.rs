@@ -15,9 +15,10 @@
 //!       0——C———B——1
 //! ```
 
-use super::Crossing;
 use super::geodesic::place;
 use super::order::{OnEdge, TIP, before, between};
+use super::parts::Crossing;
+use crate::geometry::vector::{cross, dot};
 use crate::mesh::normal::Strands;
 use crate::mesh::{Curves, FaceId, HalfedgeId, Mesh};
 
@@ -184,7 +185,5 @@ impl Passing {
 }
 
 fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    a[0] * (b[1] * c[2] - b[2] * c[1])
-        + a[1] * (b[2] * c[0] - b[0] * c[2])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    dot(a, cross(b, c))
 }

@@ -15,8 +15,8 @@
 //! The error is that of a chain of triangles whose sides and angles are rounded: a few ulp of the length of
 //! the edge, which is what rounding of the intrinsic lengths does too.
 
-use super::Intrinsic;
 use super::order::{OnEdge, restore_order, restore_order_across};
+use super::triangulations::Intrinsic;
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Curves, EdgeId, HalfedgeId, PerEdge, PerHalfedge};
 use crate::parallel;

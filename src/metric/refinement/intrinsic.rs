@@ -12,29 +12,16 @@
 //! and around its ends. What is left may be out of order along either edge, there or by rounding: it is
 //! pooled ([`restore_order`]). The order of the crossings along both edges is all that a bijection takes.
 
-use super::Crossing;
 use super::chords::{Border, Chords, Passing, Station};
-use super::crossings::Lines;
 use super::geodesic::{Straight, straight};
+use super::lines::Lines;
 use super::order::{ORIGIN, OnEdge, TIP, restore_order, restore_order_across};
-use super::pieces::torn;
+use super::parts::{Crossing, torn};
+use super::triangulations::Intrinsic;
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::normal_trace::CurveCrossing;
-use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates, PerEdge};
-
-/// Another triangulation of the same surface, which a flow starts from.
-#[derive(Debug, Clone, Copy)]
-pub struct Intrinsic<'a> {
-    /// The triangulation.
-    pub mesh: &'a Mesh,
-    /// Lengths of its edges, in the geometry of the input.
-    pub lengths: &'a PerEdge<f64>,
-    /// The input's edges on it.
-    pub given: &'a NormalCoordinates,
-    /// Its edges on the final triangulation.
-    pub normal: &'a NormalCoordinates,
-}
+use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh, PerEdge};
 
 /// Where crossings are to be placed.
 pub(super) struct Placement<'a> {

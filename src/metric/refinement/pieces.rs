@@ -9,9 +9,10 @@
 //!       0——\———/——1
 //! ```
 
-use super::Final;
+use super::parts::{Origin, torn};
+use super::triangulations::Final;
 use crate::control::{Control, Stage};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::mesh::normal::Strands;
 use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh};
 
@@ -45,15 +46,6 @@ pub(super) struct Corner {
     pub vertex: u32,
     pub input: HalfedgeId,
     pub result: HalfedgeId,
-}
-
-/// Which edges an edge of the refinement is part of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Origin {
-    /// The edge of the input.
-    pub input: Option<EdgeId>,
-    /// The edge of the final triangulation.
-    pub result: Option<EdgeId>,
 }
 
 /// Two triangulations of a surface, one drawn on the other.
@@ -316,9 +308,4 @@ fn running_sum(counts: impl Iterator<Item = u32>) -> Vec<u32> {
         sum
     });
     std::iter::once(0).chain(sums.collect::<Vec<_>>()).collect()
-}
-
-pub(super) fn torn() -> Error {
-    let message = "its faces and those of the final triangulation do not overlap as the flips say";
-    Error::Connectivity { element: "mesh", index: 0, message }
 }

@@ -11,7 +11,7 @@
 //!         i₀———i₃———i₅
 //! ```
 
-use super::Final;
+use super::triangulations::Final;
 use crate::error::{Error, Result};
 use crate::geometry::flip::{Hinge, Meeting};
 use crate::mesh::normal_trace::CurveCrossing;
