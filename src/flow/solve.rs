@@ -78,7 +78,7 @@ impl Flow {
         Ok(&reached.report)
     }
 
-    /// Layouts in H² magnify what is left of the curvature by e^distance.
+    /// Whether a flow to this target ends with [`Flow::flatten`]: layouts in H² magnify what is left of the curvature by e^distance.
     fn is_to_be_flattened(&self, target: &PerVertex<f64>) -> bool {
         self.metric.space == Space::H2 && self.mesh.is_closed() && target.iter().all(|&k| k == 0.0)
     }

@@ -1,7 +1,21 @@
 //! Weighted Delaunay triangulations of a metric, by edge flips inside its conformal class.
 //!
-//! Vertices keep their vectors in Lorentz space ([`crate::geometry::flip`]), and the surface changes wherever a flipped edge was not
-//! weighted Delaunay. Flips that leave the surface as it is are in [`super::isometric`].
+//! A flip keeps the vectors of the vertices in Lorentz space ([`crate::geometry::flip`]), and with them the conformal class. It changes
+//! the surface unless the edge is cocircular. Flips that leave the surface as it is are in [`super::isometric`].
+//!
+//! ```
+//! use ricci::metric::delaunay::{ClassFlips, Queue, failing};
+//! use ricci::{Class, Control, Surface, geometry::Space, mesh::{FixedEdges, Mesh, shapes}};
+//!
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let mut mesh = Mesh::clone(torus.mesh());
+//! let mut metric = torus.initial(Class::yamabe(Space::E2))?.metric;
+//! let (u, mut queue) = (metric.u.clone(), Queue::all(&mesh, &FixedEdges::none()));
+//! let mut flips = ClassFlips { mesh: &mut mesh, metric: &mut metric, record: &mut |_, _| {} };
+//! flips.restore_delaunay(&u, &mut queue, &Control::new())?;
+//! assert!(failing(&mesh, &metric, &u).is_empty());
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::flip_queue::{Flippable, allowance, between_faces, endless};
 use super::lengths::Metric;
@@ -21,7 +35,8 @@ fn hinge_of(mesh: &Mesh, h: HalfedgeId) -> ([VertexId; 4], [HalfedgeId; 5]) {
     ([h, h.twin(), ki, lj].map(|h| mesh.origin(h)), [h, ki, jk, il, lj])
 }
 
-/// The Delaunay hinge of half-edge h, `w` per vertex, and the product of the `w` of its left and right vertex in the hinge's unit.
+/// The Delaunay hinge of half-edge h, with `w` per vertex of the mesh, and the product of the `w` of its left and right vertex in the
+/// hinge's unit.
 fn hinge(
     mesh: &Mesh,
     h: HalfedgeId,
@@ -98,14 +113,18 @@ impl ClassFlips<'_> {
     }
 }
 
-/// The edges that fail the weighted Delaunay condition at variables `u` (V entries) and can be flipped, ascending.
+/// The edges between two faces that fail the weighted Delaunay condition at variables `u` (V entries), ascending.
+///
+/// # Panics
+/// If `u` does not have an entry per vertex.
 pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> {
     let w = weights(metric, u);
     let fails = |h| hinge(mesh, h, &metric.epsilon, &metric.eta, &w).0.wants_flip();
     Queue::where_holds(mesh, &FixedEdges::none(), fails).into_vec()
 }
 
-/// Whether a boundary edge would be flipped on the surface's double, where its face meets its mirror image; `fixed` ones would not.
+/// Whether some boundary edge would be flipped on the surface's double, where its face meets the mirror image of that face. `fixed`
+/// edges would not be.
 pub fn boundary_fails(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>, fixed: &FixedEdges) -> bool {
     let fails = |h: HalfedgeId| {
         let [jk, ki] = [mesh.next(h), mesh.prev(h)];

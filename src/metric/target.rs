@@ -1,4 +1,13 @@
 //! Target curvatures and their admissibility.
+//!
+//! ```
+//! # use ricci::{Class, Surface, Target, geometry::Space, mesh::{VertexId, shapes}};
+//! let sphere = Surface::from_soup(&shapes::icosphere(4)?)?;
+//! let cones = Target::Cones((0..8).map(|v| (VertexId(v), std::f64::consts::FRAC_PI_2)).collect());
+//! let target = cones.resolve(&sphere, Class::yamabe(Space::E2))?;
+//! assert_eq!(target.iter().filter(|k| **k != 0.0).count(), 8);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::class::Class;
 use super::scheme::Scheme;
@@ -130,6 +139,9 @@ impl Target {
 
 /// Necessary conditions on a target: [`check_vertices`] and [`check_total`]; for vertex scaling and inversive distance with
 /// flips they are sufficient.
+///
+/// # Errors
+/// Those of [`check_vertices`] and [`check_total`].
 pub fn check_admissible(mesh: &Mesh, class: Class, target: &PerVertex<f64>) -> Result<()> {
     check_vertices(mesh, class.scheme, target)?;
     check_total(mesh, class.space, target)
@@ -143,7 +155,7 @@ pub fn check_admissible(mesh: &Mesh, class: Class, target: &PerVertex<f64>) -> R
 /// Those of [`check_upper`]; [`Error::TargetBelow`].
 pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> Result<()> {
     check_upper(mesh, target)?;
-    if !matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
+    if !scheme.is_packing() {
         return Ok(());
     }
     for v in mesh.vertices() {
@@ -183,6 +195,9 @@ fn upper_limit(mesh: &Mesh, v: VertexId) -> f64 {
 }
 
 /// Gauss–Bonnet: `Σ K̄ = 2πχ` in E², `> 2πχ` in H², `< 2πχ` in S² (to [`TOTAL_TOLERANCE`]).
+///
+/// # Errors
+/// [`Error::TargetTotal`].
 pub fn check_total(mesh: &Mesh, space: Space, target: &PerVertex<f64>) -> Result<()> {
     let sum: f64 = target.iter().sum();
     let scale = 2.0 * PI + target.iter().map(|k| k.abs()).sum::<f64>();
@@ -199,8 +214,8 @@ pub fn check_total(mesh: &Mesh, space: Space, target: &PerVertex<f64>) -> Result
     Err(Error::TargetTotal { sum, need, miss })
 }
 
-/// In E², where the total must be 2πχ exactly: share what a target misses by rounding equally over the vertices that are not
-/// flat. Without this all of it would remain at whichever vertex the solver holds.
+/// Give a target in E², whose total misses 2πχ by no more than rounding, that total: the difference is shared equally over the vertices
+/// that are not flat. Otherwise all of it would remain at the one vertex that the solver holds. Other targets stay as they are.
 pub fn settle_total(mesh: &Mesh, space: Space, target: &mut PerVertex<f64>) {
     let miss = target.iter().sum::<f64>() - 2.0 * PI * mesh.euler() as f64;
     if space == Space::E2 && check_total(mesh, space, target).is_ok() {
