@@ -281,20 +281,16 @@ impl Flow {
     /// Take the system for the present unknowns and triangulation: analysed now, or kept. It is put back by the caller.
     pub(super) fn take_system(&mut self, report: &mut Report) -> Result<System> {
         let flips = std::mem::take(&mut self.unseen_flips);
-        let kept = self.system.take();
-        let fixed = || {
-            let mut fixed =
-                if self.is_bounded { vec![false; self.pinned.len()] } else { self.pinned.clone() };
-            fixed[0] |= self.free_scale();
-            fixed
-        };
-        let system = match kept {
+        let system = match self.system.take() {
             Some(kept) if flips == 0 => kept,
-            Some(kept) => timed(&mut report.seconds.analyse, || {
-                kept.flipped(&self.mesh, &fixed(), self.mirror.as_deref(), flips)
-            })?,
-            None => timed(&mut report.seconds.analyse, || {
-                System::new(&self.mesh, &fixed(), self.mirror.as_deref())
+            kept => timed(&mut report.seconds.analyse, || {
+                let mut fixed =
+                    if self.is_bounded { vec![false; self.pinned.len()] } else { self.pinned.clone() };
+                fixed[0] |= self.free_scale();
+                match kept {
+                    Some(kept) => kept.flipped(&self.mesh, &fixed, self.mirror.as_deref(), flips),
+                    None => System::new(&self.mesh, &fixed, self.mirror.as_deref()),
+                }
             })?,
         };
         report.unknowns = system.unknowns();

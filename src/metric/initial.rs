@@ -60,8 +60,10 @@ pub fn initial_metric(
     let epsilon = PerVertex::filled(mesh.n_vertices(), scheme.epsilon());
     let radii = match scheme {
         Scheme::Yamabe => PerVertex::filled(mesh.n_vertices(), 1.0),
-        Scheme::Tangential | Scheme::Thurston => corner_radii(mesh, lengths).mean,
-        Scheme::Inversive | Scheme::Virtual => corner_radii(mesh, lengths).min,
+        _ => {
+            let [mean, min] = corner_radii(mesh, lengths);
+            if scheme.is_packing() { mean } else { min }
+        }
     };
     let range = match scheme {
         Scheme::Thurston => Range::Clamp(0.0, 1.0),
@@ -223,13 +225,8 @@ fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) ->
     (n - a.epsilon * x * x - b.epsilon * y * y) / (2.0 * x * y)
 }
 
-pub(super) struct CornerRadii {
-    pub mean: PerVertex<f64>,
-    pub min: PerVertex<f64>,
-}
-
-/// Mean and minimum over the corners of each vertex of the tangent length `(l_ij + l_ki − l_jk)/2`.
-pub(super) fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> CornerRadii {
+/// Mean and minimum, in this order, over the corners of each vertex of the tangent length `(l_ij + l_ki − l_jk)/2`.
+pub(super) fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> [PerVertex<f64>; 2] {
     let n = mesh.n_vertices();
     let (mut mean, mut min) = (PerVertex::filled(n, 0.0), PerVertex::filled(n, f64::INFINITY));
     let mut corners = PerVertex::filled(n, 0u32);
@@ -244,7 +241,7 @@ pub(super) fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> CornerRadii {
     for v in mesh.vertices() {
         mean[v] /= f64::from(corners[v]);
     }
-    CornerRadii { mean, min }
+    [mean, min]
 }
 
 /// Largest half chord, of the longest edge, that a flow starts with in a curved space, so that it starts from a moderate metric (in S²

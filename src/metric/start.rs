@@ -72,7 +72,7 @@ pub fn delaunay_start(
         return initial_metric(&surface.mesh, &surface.lengths, surface.geometry, scheme, space);
     }
     check_triangles(&surface.mesh, &surface.lengths, surface.geometry)?;
-    let mut radii = corner_radii(&surface.mesh, &surface.lengths).min;
+    let [_, mut radii] = corner_radii(&surface.mesh, &surface.lengths);
     if let Some(double) = double {
         check_size("vertices of the double", double.mesh.n_vertices(), radii.len())?;
         radii = PerVertex::from_fn(radii.len(), |v| radii[v].min(radii[double.mirror(v)]));

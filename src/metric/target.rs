@@ -160,7 +160,7 @@ pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> R
     }
     for v in mesh.vertices() {
         let corners = mesh.outgoing(v).filter(|&h| !mesh.is_outside(h)).count();
-        let limit = upper_limit(mesh, v) - PI * corners as f64;
+        let limit = full_angle(mesh, v) - PI * corners as f64;
         if target[v] <= limit {
             let (curvature, excess) = (target[v], limit - target[v]);
             return Err(Error::TargetBelow { vertex: v.index(), curvature, limit, excess });
@@ -176,7 +176,7 @@ pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> R
 pub fn check_upper(mesh: &Mesh, target: &PerVertex<f64>) -> Result<()> {
     check_size("target", target.len(), mesh.n_vertices())?;
     for v in mesh.vertices() {
-        let (curvature, limit) = (target[v], upper_limit(mesh, v));
+        let (curvature, limit) = (target[v], full_angle(mesh, v));
         if !curvature.is_finite() {
             let value = format!("{curvature} at vertex {v}");
             return Err(Error::Argument { what: "target curvature", value, need: "finite everywhere" });
@@ -189,8 +189,8 @@ pub fn check_upper(mesh: &Mesh, target: &PerVertex<f64>) -> Result<()> {
     Ok(())
 }
 
-/// 2π inside, π on the boundary.
-fn upper_limit(mesh: &Mesh, v: VertexId) -> f64 {
+/// Least upper bound of the curvature of a vertex: 2π inside, π on the boundary.
+pub(crate) fn full_angle(mesh: &Mesh, v: VertexId) -> f64 {
     if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI }
 }
 
