@@ -21,16 +21,16 @@ use crate::metric::target::boundary_lengths;
 use crate::metric::{Metric, Scheme, initial_metric};
 use std::f64::consts::PI;
 
-/// More cones than this are not a few: their dense equations would take longer than the surface.
+/// Most cones that are placed: the dense equations of more would take longer than the sparse ones of the surface.
 pub const MAX_AUTO_CONES: usize = 256;
 /// The least angle around a cone that is placed (half of it at the boundary): near a cone of angle θ lengths grow like the power
 /// θ/2π of the distance, so narrower ones squeeze a whole neighbourhood into nothing. Three such cones still close a sphere.
 pub const LEAST_ANGLE: f64 = PI / 6.0;
 /// Times each cone is taken away and placed anew. Few move in the second round.
 const SWEEPS: usize = 2;
-/// A move must lower E by this fraction: less is rounding, and would only make ties depend on it.
+/// A cone is moved only if that lowers E by this fraction: a smaller change is rounding, which is not to decide between equal places.
 const WORTH_MOVING: f64 = 1e-6;
-/// What a linear solution may leave, for right-hand sides of order 1.
+/// Residual that a linear solution may leave, for right-hand sides of order 1.
 const ENOUGH: f64 = 1e-11;
 /// Shift of the Laplacian, relative to its mean diagonal, where rounding leaves it without a factor.
 const SHIFT: f64 = 1e-12;

@@ -40,17 +40,17 @@ const POLISH_TO: f64 = 1e-13;
 const POLISH_STEPS: usize = 3;
 
 /// What a Newton solve carries from step to step.
-struct Iterate {
-    state: State,
+pub(super) struct Iterate {
+    pub state: State,
     /// The state at the end of a step that is tried.
-    trial: State,
+    pub trial: State,
     /// K̄ − K at `state`.
-    residual: Vec<f64>,
-    step: Vec<f64>,
+    pub residual: Vec<f64>,
+    pub step: Vec<f64>,
     /// Largest residual.
-    error: f64,
+    pub error: f64,
     /// What the last matrix was shifted by.
-    shift: f64,
+    pub shift: f64,
     /// Least error so far, but for the last tenth, and the steps since.
     best: f64,
     since_best: usize,
@@ -67,7 +67,7 @@ enum Next {
 }
 
 impl Iterate {
-    fn new(flow: &Flow, state: State) -> Iterate {
+    pub fn new(flow: &Flow, state: State) -> Iterate {
         let [mut residual, step] = [(); 2].map(|()| vec![0.0; flow.mesh.n_vertices()]);
         let error = state.residual(&flow.target, &flow.pinned, &mut residual);
         let trial = State::new(&flow.start, &flow.start_low);
