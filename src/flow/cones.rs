@@ -18,7 +18,7 @@ use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use crate::metric::target::boundary_lengths;
-use crate::metric::{Metric, Scheme, initial_metric};
+use crate::metric::{Class, Metric, initial_metric};
 use std::f64::consts::PI;
 
 /// Most cones that are placed: the dense equations of more would take longer than the sparse ones of the surface.
@@ -341,12 +341,12 @@ impl<'a> Placing<'a> {
 /// A surface on its intrinsic Delaunay triangulation, measured at u = 0.
 fn measured(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<(Mesh, Metric, State)> {
     // An input that is no surface is refused with the names of its own elements.
-    initial_metric(mesh, lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
+    initial_metric(mesh, lengths, Space::E2, Class::yamabe(Space::E2))?;
     control.check()?;
     let mut surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
     intrinsic_delaunay(&mut surface, IntrinsicOptions::default(), &mut |_, _| {}, control)?;
     let Triangulated { mesh, lengths, .. } = surface;
-    let metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?.metric;
+    let metric = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2))?.metric;
     let mut state = State::new(&metric.u, &metric.u_low);
     if !state.evaluate(&mesh, &metric) {
         return Err(factorisation(0, "an edge without length"));

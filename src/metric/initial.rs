@@ -9,6 +9,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+use super::class::Class;
 use super::curvature::area;
 use super::lengths::{Metric, face_lengths};
 use super::scheme::Scheme;
@@ -37,7 +38,7 @@ pub struct Initial {
     pub max_length_change: f64,
 }
 
-/// The initial metric of `scheme` for input `lengths` (E entries, read in `input_geometry`), carried into `space`.
+/// The initial metric of a class for input `lengths` (E entries, read in `input_geometry`), carried into the space of the class.
 ///
 /// η is computed once, in the geometry of the input. Radii come from the corners' tangent lengths
 /// `γ_i^{jk} = (l_ij + l_ki − l_jk)/2` \[JKLLG08, §4.1\]: their mean for Thurston's and tangential packings, their
@@ -53,9 +54,9 @@ pub fn initial_metric(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     input_geometry: Space,
-    scheme: Scheme,
-    space: Space,
+    class: Class,
 ) -> Result<Initial> {
+    let Class { scheme, space } = class;
     check_triangles(mesh, lengths, input_geometry)?;
     let epsilon = PerVertex::filled(mesh.n_vertices(), scheme.epsilon());
     let radii = match scheme {

@@ -69,7 +69,7 @@ pub fn delaunay_start(
         intrinsic_delaunay(surface, plain, record, control)?;
     }
     if scheme.is_packing() || scheme == Scheme::Yamabe {
-        return initial_metric(&surface.mesh, &surface.lengths, surface.geometry, scheme, space);
+        return initial_metric(&surface.mesh, &surface.lengths, surface.geometry, options.class);
     }
     check_triangles(&surface.mesh, &surface.lengths, surface.geometry)?;
     let [_, mut radii] = corner_radii(&surface.mesh, &surface.lengths);
