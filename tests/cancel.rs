@@ -111,7 +111,7 @@ fn flips_that_are_cancelled_on_their_way_leave_the_surface() {
     assert!(matches!(start, Ok(_) | Err(Error::Cancelled)));
     assert!(start.is_ok() || m == flipped);
 
-    let mut metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap().metric;
+    let mut metric = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2)).unwrap().metric;
     metric.u = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| (v.index() as f64).sin());
     let vertices = metric.vertices();
     let (mut m, mut queue, control) = (mesh.clone(), Queue::all(&mesh, &FixedEdges::none()), Control::new());

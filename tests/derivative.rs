@@ -11,7 +11,7 @@ use ricci::flow::curvature_derivative;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::{FaceId, Mesh, PerEdge, PerVertex};
 use ricci::metric::initial::{MixedClass, initial_mixed};
-use ricci::metric::{Metric, Scheme, curvature, initial_metric};
+use ricci::metric::{Class, Metric, Scheme, curvature, initial_metric};
 
 const SPACES: [Space; 3] = [Space::E2, Space::H2, Space::S2];
 
@@ -33,7 +33,7 @@ fn random_metric(mesh: &Mesh, space: Space, scheme: Option<Scheme>, random: &mut
     let size = if space == Space::S2 { 0.5 } else { 0.8 };
     let lengths = PerEdge::from_fn(mesh.n_edges(), |_| size * (1.0 + 0.1 * random.symmetric()));
     let mut metric = match scheme {
-        Some(scheme) => initial_metric(mesh, &lengths, space, scheme, space).unwrap().metric,
+        Some(scheme) => initial_metric(mesh, &lengths, space, Class::new(scheme, space)).unwrap().metric,
         None => {
             let epsilon = PerVertex::from_fn(mesh.n_vertices(), |_| (3.0 * random.unit()) as i8 - 1);
             let radii = PerVertex::from_fn(mesh.n_vertices(), |_| size * (0.2 + 0.2 * random.unit()));

@@ -120,7 +120,7 @@ fn a_cancelled_flow_leaves_everything_as_it_was() {
 #[test]
 fn without_flips_the_triangulation_stays() {
     let (mesh, lengths) = surface(&shapes::genus(2, 3).unwrap());
-    let start = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap().metric;
+    let start = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2)).unwrap().metric;
     let target = Target::Single(VertexId(7)).values(&euclidean(&mesh, &lengths), Space::E2).unwrap();
     let options = |flips| Options { flips, ..Options::default() };
     let mut rigid = Flow::from_metric(mesh.clone(), start.clone(), &options(Flips::Never)).unwrap();

@@ -18,19 +18,19 @@ use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use crate::metric::target::boundary_lengths;
-use crate::metric::{Metric, Scheme, initial_metric};
+use crate::metric::{Class, Metric, initial_metric};
 use std::f64::consts::PI;
 
-/// More cones than this are not a few: their dense equations would take longer than the surface.
+/// Most cones that are placed: the dense equations of more would take longer than the sparse ones of the surface.
 pub const MAX_AUTO_CONES: usize = 256;
 /// The least angle around a cone that is placed (half of it at the boundary): near a cone of angle θ lengths grow like the power
 /// θ/2π of the distance, so narrower ones squeeze a whole neighbourhood into nothing. Three such cones still close a sphere.
 pub const LEAST_ANGLE: f64 = PI / 6.0;
 /// Times each cone is taken away and placed anew. Few move in the second round.
 const SWEEPS: usize = 2;
-/// A move must lower E by this fraction: less is rounding, and would only make ties depend on it.
+/// A cone is moved only if that lowers E by this fraction: a smaller change is rounding, which is not to decide between equal places.
 const WORTH_MOVING: f64 = 1e-6;
-/// What a linear solution may leave, for right-hand sides of order 1.
+/// Residual that a linear solution may leave, for right-hand sides of order 1.
 const ENOUGH: f64 = 1e-11;
 /// Shift of the Laplacian, relative to its mean diagonal, where rounding leaves it without a factor.
 const SHIFT: f64 = 1e-12;
@@ -341,12 +341,12 @@ impl<'a> Placing<'a> {
 /// A surface on its intrinsic Delaunay triangulation, measured at u = 0.
 fn measured(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<(Mesh, Metric, State)> {
     // An input that is no surface is refused with the names of its own elements.
-    initial_metric(mesh, lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
+    initial_metric(mesh, lengths, Space::E2, Class::yamabe(Space::E2))?;
     control.check()?;
     let mut surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
     intrinsic_delaunay(&mut surface, IntrinsicOptions::default(), &mut |_, _| {}, control)?;
     let Triangulated { mesh, lengths, .. } = surface;
-    let metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?.metric;
+    let metric = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2))?.metric;
     let mut state = State::new(&metric.u, &metric.u_low);
     if !state.evaluate(&mesh, &metric) {
         return Err(factorisation(0, "an edge without length"));

@@ -15,9 +15,9 @@ const GROWTH: f64 = 10.0;
 /// Halvings before the flow counts as stalled.
 const HALVINGS: usize = 60;
 
-/// Steps of the area's fixed point: one in E², where it is exact; linear convergence in S².
+/// Rescalings, at most, until a metric has the area that is kept: one is exact in E², and in S² they converge linearly.
 const RESCALINGS: usize = 20;
-/// Half the relative error of the area after them that a metric may have: far below what the flow's tolerance sees of it.
+/// Half the relative error of the area that is accepted after the last rescaling: far below the tolerance of flows.
 const AREA_REACHED: f64 = 1e-12;
 
 /// A step of the flow: where it starts, and where it leads.
@@ -136,7 +136,7 @@ impl Flow {
                 return true;
             }
             state.shift(shift);
-            // Near the largest spherical metric of the class the area grows faster: come back half the way.
+            // Near the largest spherical metric of the class the area grows faster, and there may be no metric: go back half the way.
             while !state.evaluate(&self.mesh, &self.metric) {
                 shift *= 0.5;
                 if shift.abs() <= 4.0 * f64::EPSILON {

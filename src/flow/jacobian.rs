@@ -14,7 +14,7 @@ use crate::linalg::{Pattern, Symmetric};
 use crate::mesh::{EdgeId, Mesh, VertexId};
 use crate::metric::Metric;
 
-/// No unknown, no entry.
+/// Stands where there is no unknown or no entry.
 const NONE: u32 = u32::MAX;
 
 /// The matrix over the vertices that are not fixed.
@@ -56,7 +56,7 @@ impl Jacobian {
         })
     }
 
-    /// Fill at a state.
+    /// Fill the matrix with the derivative at a state.
     pub fn assemble(&mut self, mesh: &Mesh, class: &Metric, state: &State) {
         self.values.fill(0.0);
         for f in mesh.faces() {
@@ -153,6 +153,9 @@ impl Jacobian {
 ///
 /// Off-diagonal entries are minus the edge weights ([`crate::geometry::conformal::weights`]). A broken triangle
 /// contributes nothing.
+///
+/// # Errors
+/// Those of [`Metric::check_domain`].
 pub fn curvature_derivative(mesh: &Mesh, metric: &Metric) -> Result<Vec<(VertexId, VertexId, f64)>> {
     metric.check(mesh)?;
     let mut state = State::new(&metric.u, &metric.u_low);

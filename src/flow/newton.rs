@@ -22,11 +22,11 @@ const RESTARTS: usize = 20;
 const FIRST_SHIFT: f64 = 1e-12;
 /// Factor from one shift to the next: [`SHIFTS`] of them reach the diagonal's own size and beyond.
 const SHIFT_GROWTH: f64 = 100.0;
-/// Shifts that are tried for one step.
+/// Shifts that are tried for one step, at most.
 const SHIFTS: usize = 12;
-/// The floor estimate counts every rounding once; a stalled residual within this factor of it is at the floor.
+/// A stalled residual within this factor of the estimated rounding floor is at the floor: the estimate counts every rounding once.
 const FLOOR_SLACK: f64 = 8.0;
-/// Radians. A floor above this is no floor but a degenerating triangle.
+/// Radians. A larger estimate of the rounding floor comes from a degenerating triangle and is not accepted.
 const MAX_FLOOR: f64 = 1e-7;
 /// Iterations without a new best residual (by a tenth) after which a residual below [`QUADRATIC`] counts as stalled: Newton converges
 /// quadratically there, and what does not is rounding. (Farther out the maximum norm proves nothing.)
@@ -36,21 +36,21 @@ const QUADRATIC: f64 = 1e-8;
 /// Radians. Once converged, the last factor is reused to bring the error down to this, each step at least halving it; in H², whose
 /// layouts magnify errors by e^distance, as far as it goes.
 const POLISH_TO: f64 = 1e-13;
-/// Steps of that at most: each costs a solution, and the error falls to rounding in one or two.
+/// Such steps at most: each costs a solution, and the error falls to rounding in one or two.
 const POLISH_STEPS: usize = 3;
 
 /// What a Newton solve carries from step to step.
-struct Iterate {
-    state: State,
+pub(super) struct Iterate {
+    pub state: State,
     /// The state at the end of a step that is tried.
-    trial: State,
+    pub trial: State,
     /// K̄ − K at `state`.
-    residual: Vec<f64>,
-    step: Vec<f64>,
+    pub residual: Vec<f64>,
+    pub step: Vec<f64>,
     /// Largest residual.
-    error: f64,
+    pub error: f64,
     /// What the last matrix was shifted by.
-    shift: f64,
+    pub shift: f64,
     /// Least error so far, but for the last tenth, and the steps since.
     best: f64,
     since_best: usize,
@@ -67,7 +67,7 @@ enum Next {
 }
 
 impl Iterate {
-    fn new(flow: &Flow, state: State) -> Iterate {
+    pub fn new(flow: &Flow, state: State) -> Iterate {
         let [mut residual, step] = [(); 2].map(|()| vec![0.0; flow.mesh.n_vertices()]);
         let error = state.residual(&flow.target, &flow.pinned, &mut residual);
         let trial = State::new(&flow.start, &flow.start_low);

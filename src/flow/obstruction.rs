@@ -4,7 +4,8 @@ use super::Flow;
 use super::evaluate::State;
 use super::report::Obstruction;
 use crate::geometry::Space;
-use crate::mesh::{FaceId, HalfedgeId, Mesh, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::metric::target::full_angle;
 use std::f64::consts::PI;
 
 impl Flow {
@@ -76,9 +77,4 @@ impl Flow {
             |h: HalfedgeId| self.metric.epsilon[self.mesh.origin(h)] == 1 && (0.0..=1.0).contains(&eta(h));
         if [h, side, self.mesh.next(side)].into_iter().all(is_packing) { PI - eta(side).acos() } else { PI }
     }
-}
-
-/// 2π inside, π on the boundary.
-fn full_angle(mesh: &Mesh, v: VertexId) -> f64 {
-    if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI }
 }

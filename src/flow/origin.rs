@@ -19,13 +19,13 @@ pub(super) struct Origin {
     pub initial: Initial,
     /// Isometric flips from the given triangulation to that of `initial`.
     pub flips: usize,
-    /// The latter, if that is another one.
+    /// The triangulation of `initial`, if isometric flips have made one.
     pub flipped: Option<Flipped>,
     /// Given edges that are not flipped.
     pub fixed: FixedEdges,
     /// Whether edges may be flipped from here on.
     pub follows: bool,
-    /// Whether this start, of one copy, is half of what its double's is: there no boundary edge would be flipped.
+    /// Whether this start on one copy is one half of the start on the double, as it is where no boundary edge would be flipped there.
     pub is_half: bool,
 }
 
@@ -41,6 +41,9 @@ pub(super) struct Flipped {
 
 impl Origin {
     /// The initial metric on the given triangulation, whose edges stay.
+    ///
+    /// # Errors
+    /// Those of [`Surface::initial`].
     pub fn rigid(surface: Surface, class: Class) -> Result<Origin> {
         let initial = surface.initial(class)?;
         Ok(Origin { class: Some(class), ..Origin::unflipped(surface, initial) })
@@ -102,8 +105,8 @@ impl Origin {
         Ok(Origin { surface, class, double, initial, flips, flipped, fixed, follows: true, is_half })
     }
 
-    /// The triangulation at the start, and what is followed through flips from there: the given edges, and those of the start if
-    /// they are others.
+    /// The triangulation at the start, and the edges that are followed from there through flips: the given ones, and those of the
+    /// start if they are others.
     pub fn start(&self) -> (Arc<Mesh>, Vec<NormalCoordinates>) {
         let mesh = match (&self.flipped, &self.double) {
             (Some(flipped), _) => flipped.mesh.clone(),

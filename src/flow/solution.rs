@@ -47,6 +47,9 @@ impl Solution {
     }
 
     /// The initial metric of a closed surface on its (weighted) Delaunay triangulation.
+    ///
+    /// # Errors
+    /// Those of [`crate::metric::delaunay_start`].
     pub(crate) fn delaunay(surface: Surface, class: Class, control: &Control) -> Result<Solution> {
         Ok(Solution::start(Origin::delaunay(surface, class, false, &[], control)?))
     }
@@ -56,7 +59,7 @@ impl Solution {
         (Mesh::clone(&self.mesh), self.metric.clone(), self.followed.clone())
     }
 
-    /// What the metric has become `flips` flips later.
+    /// The same surface with another metric, to whose triangulation `flips` more flips have led.
     pub(crate) fn at(
         self,
         mesh: Mesh,

@@ -78,7 +78,7 @@ impl Flow {
         Ok(&reached.report)
     }
 
-    /// Layouts in H² magnify what is left of the curvature by e^distance.
+    /// Whether a flow to this target ends with [`Flow::flatten`]: layouts in H² magnify what is left of the curvature by e^distance.
     fn is_to_be_flattened(&self, target: &PerVertex<f64>) -> bool {
         self.metric.space == Space::H2 && self.mesh.is_closed() && target.iter().all(|&k| k == 0.0)
     }
@@ -281,20 +281,16 @@ impl Flow {
     /// Take the system for the present unknowns and triangulation: analysed now, or kept. It is put back by the caller.
     pub(super) fn take_system(&mut self, report: &mut Report) -> Result<System> {
         let flips = std::mem::take(&mut self.unseen_flips);
-        let kept = self.system.take();
-        let fixed = || {
-            let mut fixed =
-                if self.is_bounded { vec![false; self.pinned.len()] } else { self.pinned.clone() };
-            fixed[0] |= self.free_scale();
-            fixed
-        };
-        let system = match kept {
+        let system = match self.system.take() {
             Some(kept) if flips == 0 => kept,
-            Some(kept) => timed(&mut report.seconds.analyse, || {
-                kept.flipped(&self.mesh, &fixed(), self.mirror.as_deref(), flips)
-            })?,
-            None => timed(&mut report.seconds.analyse, || {
-                System::new(&self.mesh, &fixed(), self.mirror.as_deref())
+            kept => timed(&mut report.seconds.analyse, || {
+                let mut fixed =
+                    if self.is_bounded { vec![false; self.pinned.len()] } else { self.pinned.clone() };
+                fixed[0] |= self.free_scale();
+                match kept {
+                    Some(kept) => kept.flipped(&self.mesh, &fixed, self.mirror.as_deref(), flips),
+                    None => System::new(&self.mesh, &fixed, self.mirror.as_deref()),
+                }
             })?,
         };
         report.unknowns = system.unknowns();
@@ -317,4 +313,43 @@ impl Flow {
 pub(super) fn center(x: &mut [f64]) {
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     x.iter_mut().for_each(|x| *x -= mean);
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::flow::Options;
+    use crate::mesh::EdgeId;
+    use crate::mesh::shapes::{self, SplitMix64};
+    use crate::metric::{Class, Surface};
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_solve_that_cannot_go_on_in_the_double_leaves_the_flow_as_it_was() {
+        let disk = Surface::from_soup(&shapes::disk(6).unwrap()).unwrap();
+        let (n, control, mut random) = (disk.mesh().n_vertices(), Control::new(), SplitMix64::new(4));
+        let mut flipped = 0;
+        for _ in 0..6 {
+            let class = Class::inversive(Space::E2);
+            let start = || Flow::new(disk.clone(), class, &Options::default(), &control).unwrap();
+            let mut target = PerVertex::from_fn(n, |_: VertexId| 3.0 * (random.unit() - 0.5));
+            let miss = (TAU - target.iter().sum::<f64>()) / n as f64;
+            target.iter_mut().for_each(|k| *k += miss);
+            let (report, left) = start().run(&target, &control).unwrap();
+            if left {
+                flipped += report.flips;
+                let mut flow = start();
+                let before = (flow.solution(), flow.start.clone(), flow.start_low.clone());
+                // With these options the double cannot be made.
+                flow.options.fixed_edges = vec![EdgeId(u32::MAX)];
+                assert!(flow.reach(&target, &control).is_err());
+                let (Solution { mesh, metric, followed, flips, .. }, u, u_low) = before;
+                assert!(flow.mesh == mesh && flow.metric == metric && flow.followed == followed);
+                assert!(flow.flips == flips && flow.start == u && flow.start_low == u_low);
+                assert!(flow.report().is_none());
+            }
+        }
+        assert!(flipped > 0, "no flow has left its copy after a flip");
+    }
 }

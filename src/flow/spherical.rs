@@ -6,7 +6,7 @@
 
 use super::Flow;
 use super::evaluate::State;
-use super::newton::progress;
+use super::newton::{Iterate, progress};
 use super::report::{Report, StopReason};
 use super::seconds::timed;
 use super::system::System;
@@ -22,20 +22,6 @@ const MAX_DAMPING: f64 = 1e15;
 /// Factor by which the damping grows after a step that was refused.
 const DAMPING_GROWTH: f64 = 4.0;
 
-/// What damped Newton carries from step to step.
-struct Damped {
-    state: State,
-    /// The state at the end of a step that is tried.
-    trial: State,
-    /// K̄ − K at `state`.
-    residual: Vec<f64>,
-    step: Vec<f64>,
-    /// μ.
-    damping: f64,
-    /// The total area that is kept; none where pinned vertices fix the scale.
-    area: Option<f64>,
-}
-
 impl Flow {
     /// Area that Gauss–Bonnet gives the target.
     pub(super) fn spherical_area(&self) -> f64 {
@@ -48,48 +34,53 @@ impl Flow {
         report: &mut Report,
         control: &Control,
     ) -> Result<State> {
-        let [mut residual, step] = [(); 2].map(|()| vec![0.0; self.mesh.n_vertices()]);
-        let trial = State::new(&self.start, &self.start_low);
         let area = (!self.has_pins()).then(|| self.spherical_area());
         if !self.settle(&mut state, area) {
             return Ok(self.without_a_start(report));
         }
-        let mut error = state.residual(&self.target, &self.pinned, &mut residual);
-        let first = error;
-        let mut at = Damped { state, trial, residual, step, damping: MIN_DAMPING, area };
-        report.residuals.push(error);
+        let mut at = Iterate::new(self, state);
+        let first = at.error;
+        at.shift = MIN_DAMPING;
+        report.residuals.push(at.error);
         let mut system = self.take_system(report)?;
         report.stop_reason = loop {
-            if error <= report.tolerance {
+            if at.error <= report.tolerance {
                 break StopReason::Converged;
             }
             if report.iterations >= self.options.iteration_limit() {
                 break StopReason::IterationLimit;
             }
-            if at.damping > MAX_DAMPING {
+            if at.shift > MAX_DAMPING {
                 break StopReason::Stalled;
             }
-            control.step(Stage::Flow, progress(first, error, report.tolerance))?;
+            control.step(Stage::Flow, progress(first, at.error, report.tolerance))?;
             report.iterations += 1;
-            if self.damped_step(&mut system, &mut at, report) {
-                error = at.state.residual(&self.target, &self.pinned, &mut at.residual);
-                report.residuals.push(error);
-                at.damping = (0.5 * at.damping).max(MIN_DAMPING);
+            if self.damped_step(&mut system, &mut at, area, report) {
+                at.error = at.state.residual(&self.target, &self.pinned, &mut at.residual);
+                report.residuals.push(at.error);
+                at.shift = (0.5 * at.shift).max(MIN_DAMPING);
             } else {
-                at.damping *= DAMPING_GROWTH;
+                at.shift *= DAMPING_GROWTH;
             }
         };
         self.system = Some(system);
-        report.max_curvature_error = error;
+        report.max_curvature_error = at.error;
         Ok(at.state)
     }
 
-    /// One step with the present damping; false, and `at.state` as it was, where there is none that lowers the norm of the residual.
-    fn damped_step(&self, system: &mut System, at: &mut Damped, report: &mut Report) -> bool {
+    /// One step with the damping μ = `at.shift`, at the total area `area` if there is one; false, and `at.state` as it was, where that
+    /// does not lower the norm of the residual.
+    fn damped_step(
+        &self,
+        system: &mut System,
+        at: &mut Iterate,
+        area: Option<f64>,
+        report: &mut Report,
+    ) -> bool {
         timed(&mut report.seconds.assemble, || {
             let mass = at.state.vertex_areas(&self.mesh, self.metric.space, 1.0);
             system.jacobian.assemble(&self.mesh, &self.metric, &at.state);
-            system.jacobian.add_diagonal(|v| at.damping * mass[v]);
+            system.jacobian.add_diagonal(|v| at.shift * mass[v]);
         });
         let enough = self.enough();
         let solved = timed(&mut report.seconds.factor, || system.factor()).is_ok()
@@ -97,9 +88,9 @@ impl Flow {
         if !solved || largest(&at.step) > self.options.max_step {
             return false;
         }
-        let Damped { state, trial, step, area, .. } = at;
+        let Iterate { state, trial, step, .. } = at;
         trial.set_step(state, 1.0, step);
-        let inside = timed(&mut report.seconds.assemble, || self.settle(trial, *area));
+        let inside = timed(&mut report.seconds.assemble, || self.settle(trial, area));
         let is_better = inside && self.norm_at(trial) < self.norm_at(state);
         if is_better {
             std::mem::swap(state, trial);

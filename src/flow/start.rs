@@ -8,7 +8,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::mesh::{FixedEdges, FlipLog, Mesh, PerVertex, VertexId};
-use crate::metric::{Class, Metric, Scheme, Surface};
+use crate::metric::{Class, Metric, Surface};
 use crate::parallel::Pool;
 use std::sync::Arc;
 
@@ -198,6 +198,5 @@ fn may_flip(options: &Options, space: Space) -> bool {
 
 /// Whether edges stay as they are: flips have no part in S² and for packings that are Delaunay on any triangulation.
 fn is_rigid(geometry: Space, class: Class, options: &Options) -> bool {
-    let packing = matches!(class.scheme, Scheme::Thurston | Scheme::Tangential);
-    !may_flip(options, class.space) || geometry == Space::S2 || packing
+    !may_flip(options, class.space) || geometry == Space::S2 || class.scheme.is_packing()
 }

@@ -1,7 +1,21 @@
 //! Weighted Delaunay triangulations of a metric, by edge flips inside its conformal class.
 //!
-//! Vertices keep their vectors in Lorentz space ([`crate::geometry::flip`]), and the surface changes wherever a flipped edge was not
-//! weighted Delaunay. Flips that leave the surface as it is are in [`super::isometric`].
+//! A flip keeps the vectors of the vertices in Lorentz space ([`crate::geometry::flip`]), and with them the conformal class. It changes
+//! the surface unless the edge is cocircular. Flips that leave the surface as it is are in [`super::isometric`].
+//!
+//! ```
+//! use ricci::metric::delaunay::{ClassFlips, Queue, failing};
+//! use ricci::{Class, Control, Surface, geometry::Space, mesh::{FixedEdges, Mesh, shapes}};
+//!
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let mut mesh = Mesh::clone(torus.mesh());
+//! let mut metric = torus.initial(Class::yamabe(Space::E2))?.metric;
+//! let (vertices, mut queue) = (metric.vertices(), Queue::all(&mesh, &FixedEdges::none()));
+//! let mut flips = ClassFlips { mesh: &mut mesh, metric: &mut metric, record: &mut |_, _| {} };
+//! flips.restore_delaunay(&vertices, &mut queue, &Control::new())?;
+//! assert!(failing(&mesh, &metric).is_empty());
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::flip_queue::{Flippable, allowance, between_faces, endless};
 use super::lengths::Metric;
@@ -127,7 +141,8 @@ pub fn failing(mesh: &Mesh, metric: &Metric) -> Vec<EdgeId> {
     Queue::where_holds(mesh, &FixedEdges::none(), fails).into_vec()
 }
 
-/// Whether a boundary edge would be flipped on the surface's double, where its face meets its mirror image; `fixed` ones would not.
+/// Whether some boundary edge would be flipped on the surface's double, where its face meets the mirror image of that face. `fixed`
+/// edges would not be.
 pub fn boundary_fails(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>, fixed: &FixedEdges) -> bool {
     let fails = |h: HalfedgeId| {
         let [jk, ki] = [mesh.next(h), mesh.prev(h)];

@@ -2,6 +2,20 @@
 //!
 //! The surface stays as it is: an edge is replaced by the geodesic across its two triangles. The triangulation may be weighted by
 //! circles around the vertices; it depends on the surface and the circles alone, up to ties.
+//!
+//! ```
+//! use ricci::metric::isometric::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
+//! use ricci::{Control, geometry::Space, mesh::{Mesh, PerEdge}};
+//!
+//! // A rhombus with its long diagonal, from vertex 0 to vertex 2.
+//! let mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]])?;
+//! let is_diagonal = |e| mesh.ends(e).iter().all(|v| v.0 % 2 == 0);
+//! let lengths = PerEdge::from_fn(mesh.n_edges(), |e| if is_diagonal(e) { 1.6 } else { 1.0 });
+//! let mut rhombus = Triangulated { mesh, lengths, geometry: Space::E2 };
+//! let flips = intrinsic_delaunay(&mut rhombus, IntrinsicOptions::default(), &mut |_, _| {}, &Control::new())?;
+//! assert!(flips == 1 && rhombus.lengths.iter().any(|l| (l - 1.2).abs() < 1e-15));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::flip_queue::{Flippable, Queue, allowance, endless};
 use super::lengths::face_lengths;
@@ -41,19 +55,20 @@ impl Default for IntrinsicOptions<'_> {
     }
 }
 
-/// Two angles whose cosines add up to more than this add up to less than π, and to more where the sum is below minus this. The cosines
-/// are rounded by a few 1e-16 only, but near π, where one angle is near π and the other near 0, they say nothing of the sum.
+/// Where the cosines of two angles add up to more than this, the angles add up to less than π; where they add up to less than minus
+/// this, to more. Rounding of the cosines is a few 1e-16, far less. Nearer to 0 one angle may be near π and the other near 0, where
+/// cosines do not tell a sum from π.
 const DECISIVE: f64 = 1e-3;
 
 /// Share by which the sum of all cotangents must have fallen for a series of flips to count as progress. The sum has about 16 digits,
-/// of which rounding of the lengths of thin triangles spoils some.
+/// of which the rounded lengths of thin triangles leave fewer.
 const PROGRESS: f64 = 1e-6;
 
-/// Isometric flips until every edge of the triangulation is Delaunay, but the fixed ones and those whose flip would make a triangle
-/// too thin for doubles. Returns the number of flips; `record` is told each flip (the edge with its length) just before it is made.
+/// Isometric flips until every edge of the triangulation is Delaunay, except for fixed edges and those whose flip would make a triangle
+/// too thin for doubles. Returns the number of flips. `record` is told each flip (the edge with its length) just before it is made.
 ///
-/// Every flip towards the plain Delaunay triangulation lowers the sum of all cotangents \[Musin97\]. Rounding could make flips go in
-/// circles on triangles that are nearly degenerate; then the sum does not fall.
+/// Every flip towards the plain Delaunay triangulation lowers the sum of all cotangents \[Musin97\]. On triangles that are nearly
+/// degenerate rounding could repeat the same flips without end; then the sum does not fall.
 ///
 /// # Errors
 /// The surface is left as it was, bit for bit, whatever `record` was told.
@@ -163,11 +178,11 @@ impl IsometricFlips<'_> {
         Hinge::from_products(squares, [h, ki, jk, il, lj].map(product))
     }
 
-    /// Length of the other diagonal, if there is one and both triangles at it have an area in doubles.
+    /// Length of the other diagonal, if there is one and both triangles that it makes have an area in doubles.
     fn flipped(self, mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> Option<f64> {
         let sides = sides(mesh, lengths, h);
         let [left, right] = sides.map(|l| triangle::angles(self.geometry, l));
-        // Angle at the origin of h: corner 0 on the left; on the right its twin starts at the other end.
+        // The angle at the origin of h is at corner 0 on the left, and at corner 1 on the right, where the twin of h starts at the tip.
         let at_origin = left.at[0] + right.at[1];
         let at_tip = left.at[1] + right.at[0];
         if left.broken() || right.broken() || at_origin >= PI || at_tip >= PI {
@@ -192,12 +207,12 @@ impl IsometricFlips<'_> {
     }
 }
 
-/// Whether doubles hold these lengths apart from those of a triangle without area.
+/// Whether these lengths are, in doubles, those of a triangle with an area.
 fn has_area(l: &[f64; 3]) -> bool {
     triangle::half_differences(*l).into_iter().all(|r| r > 0.0)
 }
 
-/// l, sinh(l/2), sin(l/2).
+/// The half chord of an edge, up to a factor: l, sinh(l/2), sin(l/2).
 fn half_chord(geometry: Space, length: f64) -> f64 {
     match geometry {
         Space::E2 => length,
@@ -206,7 +221,7 @@ fn half_chord(geometry: Space, length: f64) -> f64 {
     }
 }
 
-/// Sides of the faces left and right of h, in the order opposite, next, previous of the corner at the origin of h, of its twin.
+/// Sides of the faces left and right of h, each from the side opposite to the origin of h, or of its twin, to h itself.
 fn sides(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> [[f64; 3]; 2] {
     [h, h.twin()].map(|h| [mesh.next(h), mesh.prev(h), h].map(|side| lengths[side.edge()]))
 }

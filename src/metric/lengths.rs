@@ -1,4 +1,14 @@
 //! A metric as data (ε, η, u), and its edge lengths ([`crate::geometry::conformal`]).
+//!
+//! ```
+//! # use ricci::{Class, Surface, geometry::Space, mesh::shapes};
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let mut metric = torus.initial(Class::yamabe(Space::E2))?.metric;
+//! metric.u.iter_mut().for_each(|u| *u += 2f64.ln());
+//! let lengths = metric.lengths(torus.mesh())?;
+//! assert!(lengths.iter().zip(torus.lengths().iter()).all(|(a, b)| (a / b - 2.0).abs() < 1e-14));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{self, Edge, Vertex, differences, in_one_unit, is_precise, radius};
@@ -27,7 +37,8 @@ pub struct Metric {
 impl Metric {
     /// Number of vertices, edges agree with the mesh; ε is −1, 0 or 1; η and u are finite, and `u_low` is at most an ulp of u.
     ///
-    /// Errors: [`Error::Size`], [`Error::Argument`] (ε, `u_low`), [`Error::Domain`] (u), [`Error::EdgeWeight`] (η).
+    /// # Errors
+    /// [`Error::Size`], [`Error::Argument`] (ε, `u_low`), [`Error::Domain`] (u), [`Error::EdgeWeight`] (η).
     pub fn check(&self, mesh: &Mesh) -> Result<()> {
         check_size("epsilon", self.epsilon.len(), mesh.n_vertices())?;
         check_size("eta", self.eta.len(), mesh.n_edges())?;
@@ -40,7 +51,7 @@ impl Metric {
         if let Some(v) = mesh.vertices().find(|&v| !self.u[v].is_finite()) {
             return Err(Error::Domain { vertex: v.index(), u: self.u[v], need: "finite" });
         }
-        // An ulp of u is between ε|u|/2 and ε|u|. NaN compares with nothing.
+        // An ulp of u is between ε|u|/2 and ε|u|. The comparison is false where `u_low` is NaN.
         let is_ulp = |v: VertexId| self.u_low[v].abs() <= f64::EPSILON * self.u[v].abs();
         if let Some(v) = mesh.vertices().find(|&v| !is_ulp(v)) {
             let value = format!("{} at vertex {v}, where u is {}", self.u_low[v], self.u[v]);
@@ -84,7 +95,8 @@ impl Metric {
 
     /// Whether this is a metric: every edge has a real positive length, whether doubles hold it or not.
     ///
-    /// Errors: those of [`Metric::check`]; [`Error::Domain`] where u is outside the domain of its vertex type (in E² beyond ±5e5),
+    /// # Errors
+    /// Those of [`Metric::check`]; [`Error::Domain`] where u is outside the domain of its vertex type (in E² beyond ±5e5),
     /// [`Error::EdgeWeight`] for the first edge without a length (in H² without one between 2e-140 and 300).
     pub fn check_domain(&self, mesh: &Mesh) -> Result<()> {
         self.vertices_and_edges(mesh).map(|_| ())
@@ -92,7 +104,8 @@ impl Metric {
 
     /// The edge lengths.
     ///
-    /// Errors: those of [`Metric::check_domain`]; [`Error::EdgeWeight`] for the first edge whose length no double holds, below 2e-308
+    /// # Errors
+    /// Those of [`Metric::check_domain`]; [`Error::EdgeWeight`] for the first edge whose length no double holds, below 2e-308
     /// or above 2e308, which happens in E² alone. Angles, curvature and the flow have no such limit.
     pub fn lengths(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
         self.lengths_of(&self.vertices_and_edges(mesh)?.1)
@@ -111,8 +124,10 @@ impl Metric {
 
     /// The half-perimeter differences `r_k = s − l_k` of every face, in corner order (F entries, `s = Σ r`).
     ///
-    /// They have their full relative accuracy also where circles of very different sizes meet, which the lengths, once
-    /// rounded, have not. Errors: as [`Metric::lengths`].
+    /// They have their full relative accuracy also where circles of very different sizes meet. Differences of rounded lengths do not.
+    ///
+    /// # Errors
+    /// As [`Metric::lengths`].
     pub fn differences(&self, mesh: &Mesh) -> Result<PerFace<[f64; 3]>> {
         let (vertices, edges) = self.vertices_and_edges(mesh)?;
         self.lengths_of(&edges)?;
@@ -124,7 +139,10 @@ impl Metric {
 
     /// What the doubles of [`Metric::lengths`] lose, per edge: `l` to twice the digits is `length + remainder`.
     ///
-    /// It matters where circles of very different sizes meet, and far out in H². Where ε is 0 at both ends: in E² and H², 0 in S². Errors: as [`Metric::lengths`].
+    /// It matters where circles of very different sizes meet, and far out in H². It is 0 in S² on edges with ε = 0 at both ends.
+    ///
+    /// # Errors
+    /// As [`Metric::lengths`].
     pub fn length_remainders(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
         let (vertices, edges) = self.vertices_and_edges(mesh)?;
         let lengths = self.lengths_of(&edges)?;
@@ -160,7 +178,8 @@ impl Metric {
 
     /// Circle radii γ from u (ε = 0: e^u): [`radius`].
     ///
-    /// Errors: [`Error::Domain`] for the first vertex whose radius is no positive number that a double holds.
+    /// # Errors
+    /// [`Error::Domain`] for the first vertex whose radius is no positive number that a double holds.
     pub fn radii(&self) -> Result<PerVertex<f64>> {
         let radii: PerVertex<f64> =
             PerVertex::from_fn(self.u.len(), |v| radius(self.space, self.epsilon[v], self.u[v]));
@@ -198,7 +217,10 @@ pub(crate) fn face_differences(
     (differences(corners, sides), unit)
 }
 
-/// Euclidean edge lengths of a mesh in space; an edge of zero or non-finite length is an error that names it.
+/// Euclidean edge lengths of a mesh with a position per vertex (V entries).
+///
+/// # Errors
+/// [`Error::Size`]; [`Error::EdgeLength`] for an edge of zero or non-finite length.
 pub fn lengths_from_positions(mesh: &Mesh, positions: &[Point]) -> Result<PerEdge<f64>> {
     check_size("positions", positions.len(), mesh.n_vertices())?;
     let length = |e: EdgeId| {

@@ -1,4 +1,13 @@
 //! Target curvatures and their admissibility.
+//!
+//! ```
+//! # use ricci::{Class, Surface, Target, geometry::Space, mesh::{VertexId, shapes}};
+//! let sphere = Surface::from_soup(&shapes::icosphere(4)?)?;
+//! let cones = Target::Cones((0..8).map(|v| (VertexId(v), std::f64::consts::FRAC_PI_2)).collect());
+//! let target = cones.resolve(&sphere, Class::yamabe(Space::E2))?;
+//! assert_eq!(target.iter().filter(|k| **k != 0.0).count(), 8);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::class::Class;
 use super::scheme::Scheme;
@@ -130,6 +139,9 @@ impl Target {
 
 /// Necessary conditions on a target: [`check_vertices`] and [`check_total`]; for vertex scaling and inversive distance with
 /// flips they are sufficient.
+///
+/// # Errors
+/// Those of [`check_vertices`] and [`check_total`].
 pub fn check_admissible(mesh: &Mesh, class: Class, target: &PerVertex<f64>) -> Result<()> {
     check_vertices(mesh, class.scheme, target)?;
     check_total(mesh, class.space, target)
@@ -143,12 +155,12 @@ pub fn check_admissible(mesh: &Mesh, class: Class, target: &PerVertex<f64>) -> R
 /// Those of [`check_upper`]; [`Error::TargetBelow`].
 pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> Result<()> {
     check_upper(mesh, target)?;
-    if !matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
+    if !scheme.is_packing() {
         return Ok(());
     }
     for v in mesh.vertices() {
         let corners = mesh.outgoing(v).filter(|&h| !mesh.is_outside(h)).count();
-        let limit = upper_limit(mesh, v) - PI * corners as f64;
+        let limit = full_angle(mesh, v) - PI * corners as f64;
         if target[v] <= limit {
             let (curvature, excess) = (target[v], limit - target[v]);
             return Err(Error::TargetBelow { vertex: v.index(), curvature, limit, excess });
@@ -164,7 +176,7 @@ pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> R
 pub fn check_upper(mesh: &Mesh, target: &PerVertex<f64>) -> Result<()> {
     check_size("target", target.len(), mesh.n_vertices())?;
     for v in mesh.vertices() {
-        let (curvature, limit) = (target[v], upper_limit(mesh, v));
+        let (curvature, limit) = (target[v], full_angle(mesh, v));
         if !curvature.is_finite() {
             let value = format!("{curvature} at vertex {v}");
             return Err(Error::Argument { what: "target curvature", value, need: "finite everywhere" });
@@ -177,12 +189,15 @@ pub fn check_upper(mesh: &Mesh, target: &PerVertex<f64>) -> Result<()> {
     Ok(())
 }
 
-/// 2π inside, π on the boundary.
-fn upper_limit(mesh: &Mesh, v: VertexId) -> f64 {
+/// Least upper bound of the curvature of a vertex: 2π inside, π on the boundary.
+pub(crate) fn full_angle(mesh: &Mesh, v: VertexId) -> f64 {
     if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI }
 }
 
 /// Gauss–Bonnet: `Σ K̄ = 2πχ` in E², `> 2πχ` in H², `< 2πχ` in S² (to [`TOTAL_TOLERANCE`]).
+///
+/// # Errors
+/// [`Error::TargetTotal`].
 pub fn check_total(mesh: &Mesh, space: Space, target: &PerVertex<f64>) -> Result<()> {
     let sum: f64 = target.iter().sum();
     let scale = 2.0 * PI + target.iter().map(|k| k.abs()).sum::<f64>();
@@ -199,8 +214,8 @@ pub fn check_total(mesh: &Mesh, space: Space, target: &PerVertex<f64>) -> Result
     Err(Error::TargetTotal { sum, need, miss })
 }
 
-/// In E², where the total must be 2πχ exactly: share what a target misses by rounding equally over the vertices that are not
-/// flat. Without this all of it would remain at whichever vertex the solver holds.
+/// Give a target in E², whose total misses 2πχ by no more than rounding, that total: the difference is shared equally over the vertices
+/// that are not flat. Otherwise all of it would remain at the one vertex that the solver holds. Other targets stay as they are.
 pub fn settle_total(mesh: &Mesh, space: Space, target: &mut PerVertex<f64>) {
     let miss = target.iter().sum::<f64>() - 2.0 * PI * mesh.euler() as f64;
     if space == Space::E2 && check_total(mesh, space, target).is_ok() {

@@ -8,7 +8,7 @@ use ricci::geometry::flip::Hinge;
 use ricci::geometry::{Space, Twofold};
 use ricci::mesh::{EdgeId, FaceId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::refinement::{Final, Input, Triangulations};
-use ricci::metric::{Metric, Refinement, Scheme, initial_metric, lengths_from_positions};
+use ricci::metric::{Class, Metric, Refinement, Scheme, initial_metric, lengths_from_positions};
 use std::f64::consts::PI;
 
 #[test]
@@ -16,7 +16,7 @@ fn without_flips_the_refinement_is_the_input() {
     let soup = shapes::genus(2, 3).unwrap();
     let mesh = Mesh::from_soup(&soup).unwrap();
     let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap();
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Class::inversive(Space::E2)).unwrap();
     let normal = NormalCoordinates::new(&mesh);
     let mut metric = initial.metric;
     metric.u.iter_mut().for_each(|u| *u += 0.5);
@@ -290,7 +290,7 @@ fn any_number_of_threads_gives_the_same_and_a_cancelled_call_says_so() {
     let soup = shapes::icosphere(16).unwrap();
     let mesh = Mesh::from_soup(&soup).unwrap();
     let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2)).unwrap();
     let (mut after, mut metric, mut normal) = (mesh.clone(), initial.metric, NormalCoordinates::new(&mesh));
     shuffle(&mut after, &mut metric, &mut normal, 2 * mesh.n_edges(), 2);
     let refine = |control: &Control| {

@@ -1,11 +1,11 @@
-//! From pieces to a refinement: what was kept gets numbers without gaps.
+//! From pieces to a refinement: the vertices and edges that were kept are numbered without gaps.
 
 use super::parts::{Crossing, OnFace, Refinement, torn};
 use super::pieces::{Corner, Pieces};
 use crate::error::Result;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace};
 
-/// "Not in any piece that is kept".
+/// Marks a vertex or edge that is in no piece that is kept.
 const UNUSED: u32 = u32::MAX;
 
 /// New numbers of the elements that are not [`UNUSED`], in order, and how many these are.
@@ -18,7 +18,10 @@ fn numbered(mut all: Vec<u32>) -> (Vec<u32>, usize) {
     (all, n as usize)
 }
 
-/// The refinement of these pieces. `crossings` and `weight` are those of all faces, kept or not.
+/// The refinement of these pieces. `crossings` and `weight` are those of all faces, also of those that are not kept.
+///
+/// # Errors
+/// [`crate::Error::Connectivity`] where a corner of a piece lies outside the input or the final triangulation.
 pub(super) fn assemble(pieces: Pieces, crossings: Vec<Crossing>, weight: Vec<f64>) -> Result<Refinement> {
     let [input, result] = [pieces.overlay.input, pieces.overlay.result.mesh];
     let mut vertex = vec![UNUSED; weight.len()];

@@ -14,13 +14,16 @@ pub(super) struct Drawn {
     pub crossings: Vec<Crossing>,
     /// Homogeneous weights of the input's vertices, then of the crossings.
     pub weight: Vec<f64>,
-    /// Per crossing, whether it lies elsewhere than in the class's straight line; empty where no edge does.
+    /// Per crossing, whether it lies off the straight line of the class; empty where the flow started from the input's triangulation.
     pub moved: Vec<bool>,
 }
 
 impl Drawn {
     /// Draw the edges of the input on the final triangulation, on which they are `curves`: straight in the class, or straight on the
-    /// surface where the start was another triangulation of it. Errors: those of [`super::Refinement::new`].
+    /// surface where the start was another triangulation of it.
+    ///
+    /// # Errors
+    /// Those of [`super::Refinement::new`].
     pub fn new(all: &Triangulations, lines: &Lines, curves: &Curves, control: &Control) -> Result<Drawn> {
         let (input, result) = (all.input.mesh, all.result);
         let mut placed = lines.crossings(input, curves)?;

@@ -18,7 +18,8 @@ pub(super) struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    /// Errors: [`Error::Domain`] at a vertex outside the domain of either metric.
+    /// # Errors
+    /// [`Error::Domain`] at a vertex outside the domain of either metric.
     pub fn new(input: Input, result: &'a Final<'a>) -> Result<Lines<'a>> {
         let scales = Scales::new(input, *result)?;
         Ok(Lines { geometry: input.geometry, result, strips: Strips::new(result), scales })
@@ -30,7 +31,10 @@ impl<'a> Lines<'a> {
     }
 
     /// The crossings of the edges of a triangulation, which are `curves` on the final one, drawn straight in the class; each with its
-    /// homogeneous weight. Errors: [`Error::EdgeWeight`] where imaginary circles leave no straight line.
+    /// homogeneous weight.
+    ///
+    /// # Errors
+    /// [`Error::EdgeWeight`] where imaginary circles leave no straight line.
     pub fn crossings(&self, mesh: &Mesh, curves: &Curves) -> Result<Vec<(Crossing, f64)>> {
         let ends: Vec<_> = mesh.edges().map(|e| mesh.ends(e)).collect();
         let raw = self.strips.crossings(&ends, curves)?;
@@ -44,7 +48,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// `log s` per vertex, in the input and in the final metric: s v stands for the position of the vertex whose vector is v.
+/// `log s` per vertex, in the input and in the final metric, where the vector s v stands for the position of the vertex of vector v.
 struct Scales {
     input: Vec<f64>,
     result: Vec<f64>,
@@ -79,7 +83,7 @@ impl Scales {
         at: HalfedgeId,
         mesh: &Mesh,
     ) -> (Crossing, f64) {
-        // Weights of positions, as w · exp(top).
+        // From weights of vectors those of positions, divided by their sum, and the logarithm of that sum.
         let positions = |w: [f64; 2], exponent: [i32; 2], ends: [VertexId; 2], scale: &[f64]| {
             let log = [0, 1].map(|k| {
                 w[k].ln() + f64::from(exponent[k]) * std::f64::consts::LN_2 - scale[ends[k].index()]

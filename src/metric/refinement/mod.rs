@@ -14,8 +14,20 @@
 //! two sums is the homogeneous weight of the point, the `q` of a projective texture coordinate: q · (final position) is linear in the
 //! input position, as vectors.
 //!
-//! Where isometric flips come before those inside the class ([`Intrinsic`]), edges of the input are drawn straight on the
-//! surface; in the class they are straight otherwise.
+//! Where the flow has started from another triangulation of the same surface, made by isometric flips ([`Intrinsic`]), edges of the
+//! input are drawn straight on the surface. Otherwise they are drawn straight in the class, that is as straight lines of Lorentz space.
+//!
+//! ```
+//! # use ricci::{Class, Control, Flow, Surface, Target, flow::Options, geometry::Space};
+//! # use ricci::mesh::{FaceId, shapes};
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let mut flow = Flow::new(torus, Class::yamabe(Space::E2), &Options::default(), &Control::new())?;
+//! let flat = flow.solve(&Target::Uniform, &Control::new())?;
+//! let refinement = flat.refinement(&Control::new())?;
+//! let (face, barycentric) = refinement.forward().image(FaceId(0), [1.0, 0.0, 0.0]).unwrap();
+//! assert!(face.index() < flat.mesh().n_faces() && barycentric.iter().any(|b| (b - 1.0).abs() < 1e-12));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 mod assemble;
 mod chords;

@@ -119,7 +119,7 @@ impl Refinement {
     }
 
     /// The crossing that a vertex is, if it is none of the input's.
-    pub fn crossing(&self, v: VertexId) -> Option<&Crossing> {
+    fn crossing(&self, v: VertexId) -> Option<&Crossing> {
         self.crossings.get(v.index().wrapping_sub(self.n_input_vertices))
     }
 
