@@ -193,7 +193,7 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
     }
     let length = length(space, q2);
     let sum = a.radius + b.radius;
-    let gap = if circles { circle_gap(space, a, b, eta, length + sum) } else { length - sum };
+    let gap = if circles { circle_gap(space, [a, b], eta, length + sum) } else { length - sum };
     let precise = space == Space::H2 && a.epsilon == 0.0 && b.epsilon == 0.0;
     let low = if precise { lost_length(a, b, eta, gap) } else { 0.0 };
     (gap.is_finite() && low.is_finite()).then_some(Edge { gap, low, q2, exponent: 0 })
@@ -220,7 +220,7 @@ fn plane_edge(a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
     }
     let length = 2.0 * q2.sqrt();
     let sum = a.radius + b.radius;
-    let gap = if circles { circle_gap(Space::E2, a, b, eta, length + sum) } else { length - sum };
+    let gap = if circles { circle_gap(Space::E2, [a, b], eta, length + sum) } else { length - sum };
     let low = lost_gap(a, b, eta, gap);
     (gap.is_finite() && low.is_finite()).then_some(Edge { gap, low, q2, exponent })
 }
@@ -335,15 +335,15 @@ fn squared_chord(a: Vertex, b: Vertex, eta: f64) -> f64 {
     }
 }
 
-/// `l − γ_a − γ_b`, given `l + γ_a + γ_b`.
+/// `l − γ_a − γ_b` of two circles, given `total = l + γ_a + γ_b`.
 #[inline]
-fn circle_gap(space: Space, a: Vertex, b: Vertex, eta: f64, total: f64) -> f64 {
+fn circle_gap(space: Space, [a, b]: [Vertex; 2], eta: f64, total: f64) -> f64 {
     let product = 2.0 * (eta - 1.0) * (a.scale * b.scale);
     match space {
         Space::E2 => product / total,
         Space::H2 => 2.0 * (product / (a.d * b.d * (0.5 * total).sinh())).asinh(),
         Space::S2 if total < PI => 2.0 * (product / (a.d * b.d * (0.5 * total).sin())).asin(),
-        // Circles about as large as the sphere: nothing small is left over.
+        // The circles are about as large as the sphere, and the gap is not small: the plain difference loses no digits.
         Space::S2 => total - 2.0 * (a.radius + b.radius),
     }
 }
