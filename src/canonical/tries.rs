@@ -5,8 +5,7 @@ use super::star::{FLAT_POLYHEDRON, NEARLY_FLAT, Punctured};
 use crate::error::{Error, Result};
 use crate::geometry::worse;
 use crate::mesh::{Mesh, PerVertex, VertexId};
-use crate::topology::farthest_vertices;
-use crate::topology::spanning::shortest_paths_under;
+use crate::topology::{farthest_vertices, shortest_paths};
 
 /// The first plane only tells from which vertex the plane is best: its outline may turn the wrong way a little.
 const FIRST_PLANE: Goal = Goal { straight: 1e-4, slivers: false };
@@ -72,7 +71,7 @@ impl<'a> Tried<'a> {
             Err(error) if self.is_flat || error == Error::Cancelled => return Err(error),
             known => {
                 let lengths = begin.metric.lengths(&begin.mesh)?;
-                let others = farthest_vertices(&begin.mesh, &lengths, widest, TRIES)?;
+                let others = farthest_vertices(&begin.mesh, &lengths, widest, TRIES, self.solver.control)?;
                 self.guessed(begin, &others[1..], known.ok().as_ref())?
             }
         };
@@ -96,7 +95,7 @@ impl<'a> Tried<'a> {
     fn guessed(&mut self, begin: &Punctured, vertices: &[VertexId], known: Option<&Flat>) -> Result<Flat> {
         let (lengths, control) = (begin.metric.lengths(&begin.mesh)?, self.solver.control);
         let guess = |&v: &VertexId| {
-            let distance = shortest_paths_under(&begin.mesh, &lengths, [v], control)?.distance;
+            let distance = shortest_paths(&begin.mesh, &lengths, [v], control)?.distance;
             let mut surface = Punctured { at: v, ..begin.clone() };
             let u = |i| if i == v { 0.0 } else { -2.0 * distance[i].ln() };
             surface.metric.u = PerVertex::from_fn(distance.len(), u);

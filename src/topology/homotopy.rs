@@ -48,8 +48,8 @@ pub struct HomotopyBasis {
     places: Places,
 }
 
-/// The loops of several starts of reading the polygon are pulled straight, to choose among them: as many as
-/// together have this number of edges per edge of the mesh.
+/// The polygon's word is read from several starts, whose loops are pulled straight, until these have had this number of edges
+/// together per edge of the mesh: a bound on the time, in which a few starts are compared on a fine mesh and all on a coarse one.
 const WORK_PER_EDGE: usize = 8;
 
 /// A canonical homotopy basis of a connected surface, with short loops.
@@ -81,9 +81,8 @@ pub fn homotopy_basis(
         }
         None => RootedTree::central(mesh, lengths, control)?,
     };
-    let polygon = Polygon::new(mesh, &rooted);
-    let (NormalForm { ends, prefixes, .. }, pairs) =
-        shortest_handles(mesh, lengths, &rooted, &polygon, control)?;
+    let polygon = Polygon::new(mesh, rooted);
+    let (NormalForm { ends, prefixes, .. }, pairs) = shortest_handles(mesh, lengths, &polygon, control)?;
     let mut loops = Vec::with_capacity(2 * pairs.len() + ends.len());
     let mut products = Vec::with_capacity(pairs.len());
     for (i, pair) in pairs.into_iter().enumerate() {
@@ -93,15 +92,15 @@ pub fn homotopy_basis(
         loops.extend(handle.loops);
     }
     for &end in &ends {
-        let path = letter_loop(mesh, &rooted.tree, &polygon, end);
+        let path = polygon.letter_loop(mesh, end);
         loops.push(shorten(mesh, lengths, path.into_iter(), control)?);
     }
     Ok(HomotopyBasis {
-        base: rooted.root,
+        base: polygon.rooted.root,
         group: SurfaceGroup { genus: products.len(), boundaries: ends.len() },
         loops,
         rims: ends.iter().map(|end| polygon.halfedges[end.index()]).collect(),
-        tree: rooted.tree,
+        tree: polygon.rooted.tree,
         place: polygon.place,
         places: Places::new(prefixes, products),
     })
@@ -112,14 +111,13 @@ pub fn homotopy_basis(
 fn shortest_handles(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
-    rooted: &RootedTree,
     polygon: &Polygon,
     control: &Control,
 ) -> Result<(NormalForm, Vec<LoopPair>)> {
-    let cost: Vec<_> = polygon.halfedges.iter().map(|h| rooted.arc(mesh, lengths, h.edge())).collect();
+    let cost: Vec<_> =
+        polygon.halfedges.iter().map(|h| polygon.rooted.arc(mesh, lengths, h.edge())).collect();
     let path = |word: &Word| -> Vec<HalfedgeId> {
-        let letters = word.letters().iter();
-        letters.flat_map(|&letter| letter_loop(mesh, &rooted.tree, polygon, letter)).collect()
+        word.letters().iter().flat_map(|&letter| polygon.letter_loop(mesh, letter)).collect()
     };
     let read_from = |start: usize| -> Result<_> {
         let form = normal_form(&polygon.letters, &cost, start);
@@ -146,17 +144,6 @@ fn shortest_handles(
     Ok(best)
 }
 
-/// The loop of a polygon letter: from the base to its edge, along it, and back.
-fn letter_loop(mesh: &Mesh, tree: &Forest, polygon: &Polygon, letter: Letter) -> Vec<HalfedgeId> {
-    let h = polygon.halfedges[letter.index()];
-    let h = if letter.is_inverse() { h.twin() } else { h };
-    let mut path: Vec<_> = tree.path(mesh, mesh.origin(h)).collect();
-    path.reverse();
-    path.push(h);
-    path.extend(tree.path(mesh, mesh.tip(h)).map(HalfedgeId::twin));
-    path
-}
-
 impl HomotopyBasis {
     /// Total length of the loops.
     pub fn length(&self, lengths: &PerEdge<f64>) -> f64 {
@@ -171,9 +158,7 @@ impl HomotopyBasis {
     pub fn tree_path(&self, mesh: &Mesh, v: VertexId) -> Result<Vec<HalfedgeId>> {
         self.check_fits(mesh)?;
         check_vertex(mesh, v)?;
-        let mut path: Vec<_> = self.tree.path(mesh, v).collect();
-        path.reverse();
-        Ok(path)
+        Ok(self.tree.path_down(mesh, v))
     }
 
     /// The lift of a face's corner: the corner at the origin v of `h`, a half-edge of a face, is the place `γ
@@ -207,7 +192,7 @@ impl HomotopyBasis {
         self.check_fits(mesh)?;
         check_path(mesh, path)?;
         let mut reduction = Reduction::new(self.group);
-        path.iter().for_each(|&h| reduction.extend(self.halfedge_letters(mesh, h)));
+        path.iter().for_each(|&h| self.advance(mesh, &mut reduction, h));
         Ok(reduction.word())
     }
 
@@ -241,8 +226,7 @@ impl HomotopyBasis {
         check_size("vertices of the basis", self.tree.parent.len(), mesh.n_vertices())
     }
 
-    /// The reduction of a product in this group, letter by letter, with the element of `h` multiplied to its
-    /// right.
+    /// Multiply a product by the element of `h` from the right.
     pub(super) fn advance(&self, mesh: &Mesh, reduction: &mut Reduction, h: HalfedgeId) {
         reduction.extend(self.halfedge_letters(mesh, h));
     }

@@ -23,7 +23,7 @@ pub struct LiftedPath<'a> {
     mesh: &'a Mesh,
     basis: &'a HomotopyBasis,
     reduction: Reduction,
-    /// The vertex to give next, and the edges from there on.
+    /// The vertex of the next item, and the edges from there on.
     at: Option<VertexId>,
     path: &'a [HalfedgeId],
 }
@@ -33,8 +33,12 @@ impl HomotopyBasis {
     /// the word.
     ///
     /// A loop's lift closes exactly if the loop is contractible; the lift from p̃ of a loop at the base ends
-    /// at `γ p̃`, γ being the loop's element. [`Error::Argument`] for a path that is none or does not start
-    /// at a vertex below `start`.
+    /// at `γ p̃`, γ being the loop's element.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Size`] for another mesh; [`Error::Argument`] for half-edges that are no path, or a path that does not start at the
+    /// vertex below `start`.
     pub fn lift<'a>(
         &'a self,
         mesh: &'a Mesh,
@@ -45,11 +49,8 @@ impl HomotopyBasis {
         check_path(mesh, path)?;
         check_vertex(mesh, start.vertex)?;
         if let Some(&h) = path.first().filter(|&&h| mesh.origin(h) != start.vertex) {
-            return Err(Error::Argument {
-                what: "path to lift",
-                value: format!("a path from half-edge {h}"),
-                need: "its first half-edge must leave the vertex below the lift it starts at",
-            });
+            let need = "its first half-edge must leave the vertex below the lift it starts at";
+            return Err(Error::argument("path to lift", format!("a path from half-edge {h}"), need));
         }
         let mut reduction = Reduction::new(self.group);
         reduction.extend(start.element.letters().iter().copied());

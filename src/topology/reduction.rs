@@ -66,11 +66,6 @@ impl Reduction {
         self.stack.iter().map(|entry| entry.letter).chain((0..2).flat_map(power)).collect()
     }
 
-    /// Whether the product is the identity.
-    pub fn is_identity(&self) -> bool {
-        self.stack.is_empty() && self.exponents == [0; 2]
-    }
-
     /// Multiply by letters from the right, one after the other.
     pub fn extend(&mut self, letters: impl IntoIterator<Item = Letter>) {
         letters.into_iter().for_each(|letter| self.push(letter));
