@@ -69,6 +69,10 @@ impl Pool {
 }
 
 /// Run `work` inside a pool: the one that the caller is in, else one of `threads` threads ([`Pool::new`]) for this call alone.
+///
+/// # Errors
+///
+/// Those of `work` and [`Pool::new`].
 pub fn within<R: Send>(threads: usize, work: impl FnOnce() -> Result<R> + Send) -> Result<R> {
     if rayon::current_thread_index().is_some() { work() } else { Pool::new(threads)?.run(work) }
 }

@@ -3,9 +3,9 @@
 
 mod surfaces;
 
-use ricci::{Control, Error};
 use ricci::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
 use ricci::topology::{CutGraph, cut_graph, homology_generators};
+use ricci::{Control, Error};
 use surfaces::*;
 
 /// Poincaré dual cochain of a closed loop: how often each half-edge crosses the loop, pushed to its left,

@@ -1,29 +1,30 @@
 //! Which vertex to send to infinity.
 //!
-//! The plane seen from one vertex tells what it is from any other: an inversion away, on the same triangulation. With u of the centred
-//! sphere, `u' = u_i + u_v − 2 log(|x_i − x_v|/2)` in the plane seen from v. The neighbours of v come to lie at −log(2 η),
-//! whatever u; the far side at about u_i + u_v ≥ min u + u_v; what lies deep beyond v, in a finger whose tip is crowded on the
-//! sphere, at u_i − u_v. So the best v has long edges, and lies half way down the deepest finger. One vertex for each depth is looked at.
+//! The planes seen from two vertices differ by an inversion, on the same triangulation. With u of the centred sphere, the plane seen
+//! from v has `u' = u_i + u_v − 2 log(|x_i − x_v|/2)`. This is −log(2 η) at the neighbours of v, whatever u; about u_i + u_v on the far
+//! side of the sphere; and about u_i − u_v in a long finger of the surface beyond v, whose vertices are crowded on the sphere. So the
+//! range of u' is smallest for a vertex with long edges half way down the deepest finger. The depth of a vertex is the largest u minus
+//! its own, and one vertex of each depth is tried.
 //!
-//! Where the angles at an arc from v add up to nearly π, the outline seen from v is nearly straight there, and whether the arc
-//! belongs there turns on rounding: its angle's logarithm is as good as digits of u.
+//! Where the angles at an edge of v add up to nearly π, the outline seen from v is nearly straight there, and rounding decides which
+//! way it turns. The logarithm of that small angle is counted as lost digits of u.
 
 use super::star::Punctured;
 use crate::error::Result;
 use crate::mesh::{PerVertex, VertexId};
 
-/// Depths, in steps of 1 of u, at each of which the best vertex is looked at: u of surfaces in doubles has a smaller range.
+/// Number of depths, in steps of 1 of u, at each of which the best vertex is tried. The range of u of surfaces in doubles is smaller.
 const DEPTHS: usize = 64;
-/// So many of the best vertices are looked at, whatever their depth.
+/// Number of the best vertices that are tried whatever their depth: enough to make up for the estimate that ranks them.
 const BEST_ANYWHERE: usize = 8;
-/// Radians. Angles below this are all rounding, so one is as bad as the other.
+/// Radians. Smaller angles count as this one: they consist of rounding.
 const LEAST_ANGLE: f64 = 1e-12;
 
 impl Punctured {
     /// Vertices to puncture, the best one first: by the range of u in the plane seen from them, and the digits lost in narrow angles.
     /// `plane` is the present layout, `u` that of the centred sphere.
     pub fn candidates(&self, plane: &PerVertex<[f64; 2]>, u: &PerVertex<f64>) -> Result<Vec<VertexId>> {
-        // Least exterior angle of the polyhedron at the edges of a vertex.
+        // Per vertex, the least exterior angle of the polyhedron at its edges.
         let mut narrow = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
         let mut note = |v: VertexId, angle: f64| narrow[v] = narrow[v].min(angle);
         let excess = self.excess()?;

@@ -7,13 +7,14 @@ use crate::geometry::worse;
 use crate::mesh::{Mesh, PerVertex, VertexId};
 use crate::topology::{farthest_vertices, shortest_paths};
 
-/// The first plane only tells from which vertex the plane is best: its outline may turn the wrong way a little.
+/// The first plane is only used to find the vertex from which the plane is best, so that its outline may turn the wrong way a little.
 const FIRST_PLANE: Goal = Goal { straight: 1e-4, slivers: false };
 /// The last plane: its outline is convex but for rounding.
 const LAST_PLANE: Goal = Goal { straight: 1e-12, slivers: true };
-/// Vertices that are tried, until the flow from one ends well: first from a guess, then from the plane that was found.
+/// Most vertices that are tried, first from a guess, then from the plane that was found. A flow from one of the first two usually ends
+/// well.
 const TRIES: usize = 8;
-/// Newton steps from the first plane to the plane seen from another vertex. It takes 1, and some more where angles are narrow.
+/// Most Newton steps from the first plane to the plane seen from another vertex. One is usual; narrow angles take some more.
 const STEPS_FROM_A_PLANE: usize = 60;
 
 /// A punctured surface, its plane, and how it was found.
@@ -40,7 +41,7 @@ impl Flat {
     }
 }
 
-/// What was done so far, and with what.
+/// The flows that were started so far, and what they need.
 pub(super) struct Tried<'a> {
     /// Flows that were started.
     pub flows: usize,
@@ -104,8 +105,11 @@ impl<'a> Tried<'a> {
         self.first_good(vertices.iter().map(guess), known, FIRST_PLANE)
     }
 
-    /// The first flow that ends well, or the one of them and of what was `known` that is least off. Errors: [`Error::Layout`] where all
-    /// vertices lie on one circle, or no flow came to a plane; [`Error::Cancelled`].
+    /// The result of the first flow that ends well; if none does, the one with the least error, `known` included.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Layout`] where all vertices lie on one circle, or no flow came to a plane; [`Error::Cancelled`].
     fn first_good(
         &mut self,
         surfaces: impl IntoIterator<Item = Result<Punctured>>,

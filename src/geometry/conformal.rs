@@ -22,6 +22,16 @@
 //! together: so the lengths of one metric may range over e^±5e5. Powers of two are exact: where nothing over- or underflows, the digits
 //! are those of plain doubles. H² and S² have a size of their own, and no such units: lengths in H² lie between
 //! [`MIN_HYPERBOLIC_CHORD`] and [`MAX_HYPERBOLIC_CHORD`].
+//!
+//! ```
+//! use ricci::geometry::Space;
+//! use ricci::geometry::conformal::{Vertex, edge};
+//! // Circles of radius 1 and 2 that touch (ε = 1, η = 1).
+//! let [a, b] = [1.0f64, 2.0].map(|radius| Vertex::new(Space::E2, 1, radius.ln()));
+//! let touching = edge(Space::E2, a, b, 1.0).unwrap();
+//! assert_eq!(touching.gap, 0.0);
+//! assert!((touching.length(Space::E2) - 3.0).abs() < 1e-15);
+//! ```
 
 use super::Space;
 use super::scaled::{exponent, scaled};
@@ -318,7 +328,7 @@ pub fn length(space: Space, q2: f64) -> f64 {
     }
 }
 
-/// `N`, with squares completed where signs differ.
+/// `N`. Where its terms have different signs the squares are completed, so that nothing cancels.
 #[inline]
 fn squared_chord(a: Vertex, b: Vertex, eta: f64) -> f64 {
     let (x, y) = (a.scale, b.scale);

@@ -1,4 +1,14 @@
 //! Cut graphs: edges along which a surface opens into a disk.
+//!
+//! ```
+//! use ricci::mesh::{VertexId, shapes};
+//! use ricci::{Control, topology::cut_graph};
+//! let (sphere, lengths) = shapes::two_triangle_sphere().build()?;
+//! let cones = [VertexId(0), VertexId(1), VertexId(2)];
+//! let cut = cut_graph(&sphere, &lengths, &cones, &Control::new())?;
+//! assert_eq!(cut.length(&lengths), 2.0); // two of the three edges join the cones
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::check_lengths;
 use super::shorten::{LEAST_SAVING, MOVES_PER_FACE, fan};

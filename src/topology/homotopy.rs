@@ -1,4 +1,14 @@
 //! Canonical homotopy bases, and the group element of any edge path.
+//!
+//! ```
+//! use ricci::topology::homotopy_basis;
+//! use ricci::{Control, mesh::shapes};
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let basis = homotopy_basis(&mesh, &lengths, None, &Control::new())?;
+//! let both = [&basis.loops[0][..], &basis.loops[1]].concat();
+//! assert_eq!(basis.group.text(&basis.path_word(&mesh, &both)?), "a1 b1");
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::brahana::{NormalForm, best_starts, normal_form};
 use super::group::SurfaceGroup;

@@ -1,4 +1,13 @@
 //! Algebraic intersection numbers of closed edge paths.
+//!
+//! ```
+//! use ricci::topology::{homology_generators, intersection_number};
+//! use ricci::{Control, mesh::shapes};
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let loops = homology_generators(&mesh, &lengths, &Control::new())?;
+//! assert_eq!(intersection_number(&mesh, &loops[0], &loops[1])?.abs(), 1);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::check_loop;
 use crate::error::Result;

@@ -1,4 +1,15 @@
 //! Lifts of edge paths to the universal cover.
+//!
+//! ```
+//! use ricci::topology::homotopy_basis;
+//! use ricci::{Control, mesh::shapes};
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let basis = homotopy_basis(&mesh, &lengths, None, &Control::new())?;
+//! let start = basis.tree_lift(basis.base);
+//! let end = basis.lift(&mesh, &start, &basis.loops[0])?.last().unwrap();
+//! assert_eq!((end.vertex, basis.group.text(&end.element)), (basis.base, "a1".into()));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::homotopy::HomotopyBasis;
 use super::reduction::Reduction;

@@ -1,4 +1,12 @@
 //! Reduction of words in surface groups, letter by letter.
+//!
+//! ```
+//! use ricci::topology::SurfaceGroup;
+//! let group = SurfaceGroup { genus: 2, boundaries: 0 };
+//! assert!(group.is_trivial(&group.relator()));
+//! assert!(!group.equal(&group.parse("a1 b1")?, &group.parse("b1 a1")?));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::group::SurfaceGroup;
 use super::word::{Letter, Word, inverse};

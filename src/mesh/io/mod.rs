@@ -105,7 +105,11 @@ pub fn read(path: &Path) -> Result<Soup> {
     parse(&content(path)?, &path.display().to_string())
 }
 
-/// Read an STL file, whatever its name, and weld it within a distance: [`parse_stl_welded`].
+/// Read an STL file, whatever its name, and weld it within a distance.
+///
+/// # Errors
+///
+/// Those of [`parse_stl_welded`]; [`Error::Io`].
 pub fn read_stl(path: &Path, weld: f64) -> Result<Soup> {
     parse_stl_welded(&content(path)?, &path.display().to_string(), weld)
 }
@@ -139,13 +143,21 @@ impl Format {
     }
 }
 
-/// Write a mesh file by its extension: [`write_as`] the format of that.
+/// Write a mesh file in the format that its extension names.
+///
+/// # Errors
+///
+/// Those of [`Format::of`] and [`write_as`].
 pub fn write(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     write_as(path, Format::of(path)?, soup)
 }
 
+/// Write binary glTF with a texture over the texture coordinates of a mesh.
+///
+/// # Errors
+///
+/// Those of [`write_glb`].
 #[cfg(feature = "gltf")]
-/// Write binary glTF with a texture over the texture coordinates of a mesh: [`write_glb`].
 pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Result<()> {
     textured::with_textured(soup, |data| write_glb(path, data, Some(texture))).map(drop)
 }

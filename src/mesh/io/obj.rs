@@ -1,5 +1,4 @@
-//! Wavefront OBJ. Our own reader, because the contract needs the file's vertex numbering, which the OBJ
-//! crates replace by one of their own.
+//! Wavefront OBJ. This reader keeps the file's vertex numbering, which the readers of other crates replace by one of their own.
 
 use super::budget::Budget;
 use super::polygon::Polygons;
@@ -16,6 +15,10 @@ use std::path::Path;
 ///
 /// Normals are those of the vertices where all corners of each vertex name equal ones, else those of the corners. What is missing,
 /// or no number, has the default of [`Attributes`].
+///
+/// # Errors
+///
+/// [`crate::Error::Parse`] with the line.
 pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
     let text = String::from_utf8_lossy(bytes);
     let mut file = File::default();
@@ -64,7 +67,7 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
     file.soup(Budget::of(bytes), Location::whole(path))
 }
 
-/// In a list of entries that corners name: this corner names none.
+/// The entry of a corner that names no texture coordinate or no normal.
 const NO_ENTRY: u32 = u32::MAX;
 
 /// What has been read so far.
@@ -102,7 +105,7 @@ impl File {
                 corner_normals = Some(triangles.iter().map(of).collect());
             }
         }
-        let faces = triangles.iter().map(|&t| self.polygons.face(t)).collect();
+        let faces = self.polygons.faces(&triangles);
         let colors = (!self.colors.is_empty()).then(|| {
             self.colors.resize(self.positions.len(), WHITE);
             self.colors
@@ -121,7 +124,7 @@ impl File {
         for &corner in triangles.as_flattened() {
             let Some(normal) = normal(corner) else { continue };
             normals.resize(self.positions.len(), None);
-            // A vertex that does not exist has no entry; the diagnosis finds it.
+            // The diagnosis finds corners that name a vertex which does not exist.
             if let Some(slot) = normals.get_mut(self.polygons.corners[corner] as usize)
                 && *slot.get_or_insert(normal) != normal
             {

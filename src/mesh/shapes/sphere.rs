@@ -9,6 +9,10 @@ use std::collections::HashMap;
 
 /// The unit sphere: each face of the icosahedron cut into n² triangles, radially projected. 10n² + 2
 /// vertices, 20n² faces; the icosahedron's twelve corners come first. n ≥ 1.
+///
+/// # Errors
+///
+/// [`Error::Argument`] for n out of range.
 pub fn icosphere(n: usize) -> Result<Soup> {
     check_count("frequency", n, 1, 10.0 * (n as f64).powi(2))?;
     let golden = 0.5 * (1.0 + 5.0f64.sqrt());
@@ -67,8 +71,7 @@ pub fn ellipsoid(axes: [f64; 3], n: usize) -> Result<Soup> {
     for (what, axis) in ["first half axis", "second half axis", "third half axis"].into_iter().zip(axes) {
         check_size(what, axis)?;
         if axes.iter().any(|&other| axis < THIN * other) {
-            let value = format!("{axis:e}");
-            return Err(Error::Argument { what, value, need: "at least 1e-12 of the longest" });
+            return Err(Error::argument(what, format!("{axis:e}"), "at least 1e-12 of the longest"));
         }
     }
     let mut soup = icosphere(n)?;
