@@ -16,8 +16,8 @@ use crate::error::{Error, Result};
 use rayon::prelude::*;
 use std::thread::JoinHandle;
 
-/// Elements that a thread takes at a time: their work takes long beside the microsecond of handing them over. The number is fixed,
-/// so that the division of an array does not depend on the number of threads.
+/// Elements that a thread takes at a time: enough that handing them over costs little. The number is fixed, so that the division of an
+/// array does not depend on the number of threads.
 const CHUNK: usize = 1024;
 
 /// Most threads of a pool. No step of the library is divided finely enough for more to be of use.

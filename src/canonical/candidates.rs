@@ -12,10 +12,11 @@
 use super::star::Punctured;
 use crate::error::Result;
 use crate::mesh::{PerVertex, VertexId};
+use crate::topology::spanning::Key;
 
 /// Number of depths, in steps of 1 of u, at each of which the best vertex is tried. The range of u of surfaces in doubles is smaller.
 const DEPTHS: usize = 64;
-/// Number of the best vertices that are tried whatever their depth: enough to make up for the estimate that ranks them.
+/// Number of the best vertices that are tried whatever their depth.
 const BEST_ANYWHERE: usize = 8;
 /// Radians. Smaller angles count as this one: they consist of rounding.
 const LEAST_ANGLE: f64 = 1e-12;
@@ -37,20 +38,16 @@ impl Punctured {
         let lost = |v: VertexId| -narrow[v].max(LEAST_ANGLE).ln();
         let top = u.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let depth = |v: VertexId| ((top - u[v]) as usize).min(DEPTHS - 1);
-        let mut all: Vec<(f64, VertexId)> =
-            self.mesh.vertices().map(|v| (self.height(v) + lost(v), v)).collect();
-        all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let all = ranked(self.mesh.vertices().map(|v| (Key(self.height(v) + lost(v)), v)));
         let mut seen = [false; DEPTHS];
         let mut chosen: Vec<VertexId> = Vec::new();
-        for (rank, &(_, v)) in all.iter().enumerate() {
+        for (rank, v) in all.into_iter().enumerate() {
             if !std::mem::replace(&mut seen[depth(v)], true) || rank < BEST_ANYWHERE {
                 chosen.push(v);
             }
         }
-        let cost = |v| (range(&self.seen_from(v, plane), v) + lost(v), v);
-        let mut ranked: Vec<(f64, VertexId)> = chosen.into_iter().map(cost).collect();
-        ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Ok(ranked.into_iter().map(|(_, v)| v).collect())
+        let cost = |v| (Key(range(&self.seen_from(v, plane), v) + lost(v)), v);
+        Ok(ranked(chosen.into_iter().map(cost)))
     }
 
     /// The vertex whose shortest edge is the longest.
@@ -64,6 +61,13 @@ impl Punctured {
     fn height(&self, v: VertexId) -> f64 {
         self.mesh.outgoing(v).map(|arc| self.bound(arc)).fold(f64::NEG_INFINITY, f64::max)
     }
+}
+
+/// Vertices in the order of their costs, and of their numbers where these are equal.
+fn ranked(costs: impl Iterator<Item = (Key, VertexId)>) -> Vec<VertexId> {
+    let mut costs: Vec<_> = costs.collect();
+    costs.sort_unstable();
+    costs.into_iter().map(|(_, v)| v).collect()
 }
 
 /// Largest minus smallest u of all vertices but the puncture.

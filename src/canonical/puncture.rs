@@ -18,7 +18,8 @@ use crate::mesh::{HalfedgeId, PerVertex};
 
 /// Radians. Vertices may leave the link once the largest |K| inside is below this; before, the outline is far from its final shape.
 const SETTLED: f64 = 0.5;
-/// Radians. Largest angle of the triangle that is made where a vertex leaves the link: the step is linear in the lengths around it.
+/// Radians. Largest angle of the triangle that is made where a vertex leaves the link: the metric around it is only known near the
+/// present u.
 const WIDEST_OPENING: f64 = 0.5;
 /// Radians. Below this largest |K| Newton's method converges quadratically, so that a step which raises the error was too long.
 const QUADRATIC: f64 = 1e-3;

@@ -28,7 +28,7 @@ const MOST_FLIPS_PER_EDGE: usize = 100;
 /// Rounding of η (of relative size ε) changes an angle π − φ by a few ε/φ. An edge is not flipped where the angles opposite it exceed π
 /// by less than this multiple of ε/φ.
 const ANGLE_ROUNDINGS: f64 = 32.0;
-/// Radians. An edge is not flipped either where the angles exceed π by less than this: for wide angles φ rounding is that large.
+/// Radians. An edge is not flipped either where the angles exceed π by less than this: rounding is that large whatever φ is.
 const LEAST_EXCESS: f64 = 1e-12;
 /// Radians. A polyhedron whose dihedral angles are all this close to 0 and π is flat: where they are within δ, rounding leaves the
 /// spherical metric |K| up to 6e-15/δ (measured), which is above the default tolerance of 1e-10 here.

@@ -11,8 +11,7 @@ use crate::topology::{farthest_vertices, shortest_paths};
 const FIRST_PLANE: Goal = Goal { straight: 1e-4, slivers: false };
 /// The last plane: its outline is convex but for rounding.
 const LAST_PLANE: Goal = Goal { straight: 1e-12, slivers: true };
-/// Most vertices that are tried, first from a guess, then from the plane that was found. A flow from one of the first two usually ends
-/// well.
+/// Most vertices that are tried, first from a guess, then from the plane that was found, until the flow from one ends well.
 const TRIES: usize = 8;
 /// Most Newton steps from the first plane to the plane seen from another vertex. One is usual; narrow angles take some more.
 const STEPS_FROM_A_PLANE: usize = 60;

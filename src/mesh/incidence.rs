@@ -32,13 +32,8 @@ impl Incidence {
         }
         keyed.sort_unstable();
         let mut group = vec![0];
-        for i in 1..keyed.len() {
-            if keyed[i].0 != keyed[i - 1].0 {
-                group.push(i as u32);
-            }
-        }
-        if !keyed.is_empty() {
-            group.push(keyed.len() as u32);
+        for edge in keyed.chunk_by(|a, b| a.0 == b.0) {
+            group.push(group[group.len() - 1] + edge.len() as u32);
         }
         Incidence { n_vertices, triangle, sides: keyed.into_iter().map(|(_, side)| side).collect(), group }
     }

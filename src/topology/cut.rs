@@ -347,23 +347,12 @@ fn fixed_vertices(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Re
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::shapes;
 
-    /// An n × n grid of squares with diagonals, opposite sides glued: a torus, legal down to n = 1.
+    /// An n × n grid of squares with diagonals, opposite sides glued. Edge 3 (i + n j) + k leaves vertex (i, j) along the row (k = 0),
+    /// the column or the diagonal.
     fn torus(n: usize) -> Mesh {
-        let vertex = |i: usize, j: usize| (i % n + n * (j % n)) as u32;
-        let half = |kind: u32, i: usize, j: usize| 2 * (3 * vertex(i, j) + kind);
-        let (mut origin, mut sides) = (vec![0; 6 * n * n], Vec::new());
-        for j in 0..n {
-            for i in 0..n {
-                for (kind, tip) in [(0, vertex(i + 1, j)), (1, vertex(i, j + 1)), (2, vertex(i + 1, j + 1))] {
-                    let h = half(kind, i, j) as usize;
-                    (origin[h], origin[h + 1]) = (vertex(i, j), tip);
-                }
-                sides.push([half(0, i, j), half(1, i + 1, j), half(2, i, j) + 1]);
-                sides.push([half(2, i, j), half(0, i, j + 1) + 1, half(1, i, j) + 1]);
-            }
-        }
-        Mesh::assemble(n * n, origin, &sides).unwrap()
+        shapes::flat_torus([0.0, 1.0], n, n).unwrap().build().unwrap().0
     }
 
     #[test]

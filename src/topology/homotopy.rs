@@ -58,8 +58,8 @@ pub struct HomotopyBasis {
     places: Places,
 }
 
-/// The polygon's word is read from several starts, whose loops are pulled straight, until these have had this number of edges
-/// together per edge of the mesh: a bound on the time, in which a few starts are compared on a fine mesh and all on a coarse one.
+/// The polygon's word is read from several starts, whose loops are pulled straight and compared, until these loops have had this number
+/// of edges together per edge of the mesh, which bounds the time.
 const WORK_PER_EDGE: usize = 8;
 
 /// A canonical homotopy basis of a connected surface, with short loops.
@@ -112,7 +112,7 @@ pub fn homotopy_basis(
         rims: ends.iter().map(|end| polygon.halfedges[end.index()]).collect(),
         tree: polygon.rooted.tree,
         place: polygon.place,
-        places: Places::new(prefixes, products),
+        places: Places { prefixes, products },
     })
 }
 
@@ -125,7 +125,7 @@ fn shortest_handles(
     control: &Control,
 ) -> Result<(NormalForm, Vec<LoopPair>)> {
     let cost: Vec<_> =
-        polygon.halfedges.iter().map(|h| polygon.rooted.arc(mesh, lengths, h.edge())).collect();
+        polygon.halfedges.iter().map(|h| polygon.rooted.tree.arc(mesh, lengths, h.edge())).collect();
     let path = |word: &Word| -> Vec<HalfedgeId> {
         word.letters().iter().flat_map(|&letter| polygon.letter_loop(mesh, letter)).collect()
     };

@@ -55,7 +55,7 @@ impl RootedTree {
             }
         }
         for _ in 0..MAX_MOVES {
-            let arc = |e: &EdgeId| Key(best.arc(mesh, lengths, *e));
+            let arc = |e: &EdgeId| Key(best.tree.arc(mesh, lengths, *e));
             let Some(shortest) = best.left.iter().copied().min_by_key(arc) else { break };
             let next = RootedTree::new(mesh, lengths, mesh.tip(shortest.halfedge()), control)?;
             if next.total(mesh, lengths) >= best.total(mesh, lengths) {
@@ -66,14 +66,9 @@ impl RootedTree {
         Ok(best)
     }
 
-    /// Length of an edge's loop: from the root to one end, along the edge, and back from the other.
-    pub fn arc(&self, mesh: &Mesh, lengths: &PerEdge<f64>, e: EdgeId) -> f64 {
-        let [u, v] = mesh.ends(e);
-        self.tree.distance[u] + self.tree.distance[v] + lengths[e]
-    }
-
+    /// Total length of the loops of the edges left over.
     fn total(&self, mesh: &Mesh, lengths: &PerEdge<f64>) -> f64 {
-        self.left.iter().fold(0.0, |sum, &e| sum + self.arc(mesh, lengths, e))
+        self.left.iter().fold(0.0, |sum, &e| sum + self.tree.arc(mesh, lengths, e))
     }
 }
 

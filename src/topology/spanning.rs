@@ -51,6 +51,12 @@ impl Forest {
         std::iter::successors(self.parent[v], |&h| self.parent[mesh.origin(h)])
     }
 
+    /// Length of an edge's arc: from a source to one end, along the edge, and from the other end to a source.
+    pub(super) fn arc(&self, mesh: &Mesh, lengths: &PerEdge<f64>, e: EdgeId) -> f64 {
+        let [u, v] = mesh.ends(e);
+        self.distance[u] + self.distance[v] + lengths[e]
+    }
+
     /// The path from the source of `v` down to it.
     pub(super) fn path_down(&self, mesh: &Mesh, v: VertexId) -> Vec<HalfedgeId> {
         let mut path: Vec<_> = self.path(mesh, v).collect();
@@ -148,13 +154,10 @@ pub(crate) fn leftover(
     for h in forest.parent.iter().flatten() {
         in_forest[h.edge()] = true;
     }
-    let arc = |e: EdgeId| {
-        let [u, v] = mesh.ends(e);
-        forest.distance[u] + forest.distance[v] + lengths[e]
-    };
-    let mut arcs: Vec<(Key, EdgeId)> =
-        mesh.edges().filter(|&e| !in_forest[e] && !wall(e)).map(|e| (Key(arc(e)), e)).collect();
+    let free = mesh.edges().filter(|&e| !in_forest[e] && !wall(e));
+    let mut arcs: Vec<(Key, EdgeId)> = free.map(|e| (Key(forest.arc(mesh, lengths, e)), e)).collect();
     arcs.sort_unstable_by(|a, b| b.cmp(a));
+    // In the dual graph the outside is one more node.
     let outside = mesh.n_faces() as u32;
     let node = |h: HalfedgeId| mesh.face(h).map_or(outside, |f| f.0);
     let mut joined = UnionFind::new(mesh.n_faces() + 1);

@@ -44,7 +44,7 @@ pub use textured::Textured;
 use crate::error::{Error, Result};
 use std::path::Path;
 
-/// What reads a file of each extension: bytes and, for errors, the path.
+/// The reader of files of each extension, which takes the bytes and, for errors, the path.
 const READERS: &[(&str, fn(&[u8], &str) -> Result<Soup>)] = &[
     ("obj", parse_obj),
     ("off", parse_off),
@@ -67,8 +67,9 @@ const WRITERS: &[(&str, Format)] = &[
     ("glb", Format::Glb),
 ];
 
-/// Extensions whose readers, and those whose writers, need a cargo feature, with its name.
+/// Extensions whose readers need a cargo feature, with its name.
 const READER_FEATURES: &[(&str, &str)] = &[("glb", "gltf"), ("gltf", "gltf"), ("gii", "gifti")];
+/// Extensions whose writers need a cargo feature, with its name.
 const WRITER_FEATURES: &[(&str, &str)] = &[("glb", "gltf")];
 
 /// The entry of `table` for the extension of a path (case does not matter), or the error that names the extensions of the table or

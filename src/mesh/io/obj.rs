@@ -95,16 +95,14 @@ impl File {
         let uv = |t: &[usize; 3]| t.map(|corner| texcoord(corner).unwrap_or(NO_TEXCOORD));
         let uv = any.then(|| triangles.iter().map(uv).collect());
         let normal = |corner: usize| of(&self.normals, &self.corner_normals, corner);
-        let (mut normals, mut corner_normals) = (None, None);
-        match self.vertex_normals(&triangles, normal) {
-            VertexNormals::None => {}
-            VertexNormals::Single(list) => normals = Some(list),
-            VertexNormals::Several => {
-                budget.take(triangles.len(), size_of::<[Point; 3]>(), "normals", place)?;
-                let of = |t: &[usize; 3]| t.map(|corner| normal(corner).unwrap_or(NO_NORMAL));
-                corner_normals = Some(triangles.iter().map(of).collect());
-            }
+        let mut corner_normals = None;
+        let normals = self.vertex_normals(&triangles, normal);
+        if normals.is_none() {
+            budget.take(triangles.len(), size_of::<[Point; 3]>(), "normals", place)?;
+            let of = |t: &[usize; 3]| t.map(|corner| normal(corner).unwrap_or(NO_NORMAL));
+            corner_normals = Some(triangles.iter().map(of).collect());
         }
+        let normals = normals.filter(|normals| !normals.is_empty());
         let faces = self.polygons.faces(&triangles);
         let colors = (!self.colors.is_empty()).then(|| {
             self.colors.resize(self.positions.len(), WHITE);
@@ -114,12 +112,12 @@ impl File {
         Ok(Soup { positions: self.positions, faces, attributes })
     }
 
-    /// What the corners of each vertex say of its normal.
+    /// The normals of the vertices, empty if corners name none; `None` where corners of a vertex name different ones.
     fn vertex_normals(
         &self,
         triangles: &[[usize; 3]],
         normal: impl Fn(usize) -> Option<Point>,
-    ) -> VertexNormals {
+    ) -> Option<Vec<Point>> {
         let mut normals: Vec<Option<Point>> = Vec::new();
         for &corner in triangles.as_flattened() {
             let Some(normal) = normal(corner) else { continue };
@@ -128,23 +126,11 @@ impl File {
             if let Some(slot) = normals.get_mut(self.polygons.corners[corner] as usize)
                 && *slot.get_or_insert(normal) != normal
             {
-                return VertexNormals::Several;
+                return None;
             }
         }
-        if normals.is_empty() {
-            return VertexNormals::None;
-        }
-        VertexNormals::Single(normals.into_iter().map(|n| n.unwrap_or(NO_NORMAL)).collect())
+        Some(normals.into_iter().map(|n| n.unwrap_or(NO_NORMAL)).collect())
     }
-}
-
-enum VertexNormals {
-    /// There are none.
-    None,
-    /// One per vertex.
-    Single(Vec<Point>),
-    /// Some vertex has more than one.
-    Several,
 }
 
 /// The colour behind the three coordinates of a vertex: red, green, blue and perhaps opacity (a fourth coordinate alone is a

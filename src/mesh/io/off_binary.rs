@@ -18,9 +18,9 @@ struct Dialect {
     color: usize,
 }
 
-/// As Geomview's manual defines the format.
+/// The layout that Geomview's manual defines.
 const GEOMVIEW: Dialect = Dialect { big_endian: true, face_colors: true, color: 4 };
-/// As programs write it that copy their memory to the file.
+/// The layout that programs write by copying their memory to the file.
 const COPIED: Dialect = Dialect { big_endian: false, face_colors: false, color: 4 };
 
 /// Parse the data that begin at `start`: three `i32` counts, `columns` `f32` per vertex of which the first

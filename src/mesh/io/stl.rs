@@ -36,8 +36,8 @@ pub fn parse_stl(bytes: &[u8], path: &str) -> Result<Soup> {
     }
 }
 
-/// Whether there are no control characters but those of text at the beginning: the number of triangles has them, or what
-/// fills up the 80 bytes before it, or the first numbers.
+/// Whether the beginning has no control characters but those of text. A binary file has others in the filling of its first 80 bytes, in
+/// the number of triangles or in the first coordinates.
 fn is_text(bytes: &[u8]) -> bool {
     const BEGINNING: usize = 1024;
     let of_text = |b: &u8| *b >= b' ' || b.is_ascii_whitespace() || matches!(*b, 0x0b | 0x1a);

@@ -129,8 +129,8 @@ pub fn slivers(soup: &mut Soup, kind: Sliver, count: usize, angle: f64, seed: u6
     Ok(())
 }
 
-/// Least angle of a sliver, radians. The sides of a cap with this angle exceed its base by a few ulps together, `2 (1 − cos 1e-7) =
-/// 1e-14` of it; of a thinner one the lengths say that it has no area.
+/// Least angle of a sliver, radians. Two sides of a cap with this angle together exceed its base by `2 (1 − cos 1e-7) = 1e-14` of it, a
+/// few ulps; by its lengths in doubles a thinner cap may have no area.
 const THINNEST: f64 = 1e-7;
 
 /// Above the middle of pq, seen from p and q under `angle`.

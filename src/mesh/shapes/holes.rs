@@ -121,12 +121,9 @@ impl<'a> Surface<'a> {
     /// The surface without the faces around some vertices, each the farthest from those before it and from the boundary.
     fn stars(&self, count: usize) -> Option<Soup> {
         let mut state = State::new(self.mesh, self.positions);
-        let mut free = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
-        // On a hole's rim or on the boundary.
+        let mut free = self.off_boundary();
+        // Whether a vertex lies on a hole's rim or on the boundary.
         let mut taken = PerVertex::from_fn(self.mesh.n_vertices(), |v| self.mesh.is_boundary_vertex(v));
-        for v in self.mesh.vertices().filter(|&v| self.mesh.is_boundary_vertex(v)) {
-            self.keep_off(&mut free, self.at(v));
-        }
         let ring = |v: VertexId| self.mesh.outgoing(v).map(|h| self.mesh.tip(h));
         for _ in 0..count {
             let open = |v: &VertexId| !taken[*v] && ring(*v).all(|w| !taken[w]);
@@ -147,7 +144,16 @@ impl<'a> Surface<'a> {
         Mesh::from_soup(rest).is_ok_and(right)
     }
 
-    /// Take the distance to a point into account.
+    /// Per vertex, the distance to the boundary.
+    fn off_boundary(&self) -> PerVertex<f64> {
+        let mut free = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
+        for v in self.mesh.vertices().filter(|&v| self.mesh.is_boundary_vertex(v)) {
+            self.keep_off(&mut free, self.at(v));
+        }
+        free
+    }
+
+    /// Lower distances to those from one more point.
     fn keep_off(&self, free: &mut PerVertex<f64>, p: Point) {
         for v in self.mesh.vertices() {
             free[v] = free[v].min(distance(self.at(v), p));
@@ -156,10 +162,7 @@ impl<'a> Surface<'a> {
 
     /// Farthest-point centres, and the least distance among them and to the boundary.
     fn centres(&self, count: usize) -> Option<(Vec<VertexId>, f64)> {
-        let mut free = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
-        for v in self.mesh.vertices().filter(|&v| self.mesh.is_boundary_vertex(v)) {
-            self.keep_off(&mut free, self.at(v));
-        }
+        let mut free = self.off_boundary();
         let flat: Vec<VertexId> = self.mesh.vertices().filter(|&v| self.is_flat(v)).collect();
         let farthest =
             |free: &PerVertex<f64>| flat.iter().copied().max_by(|&v, &w| free[v].total_cmp(&free[w]));

@@ -10,8 +10,8 @@ use crate::mesh::io::Soup;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge, PerVertex, VertexId};
 use num_complex::Complex64;
 
-/// Rounds of smoothing after vertices have been moved onto the branch points: the dent of a move is then spread over about as many
-/// rings of vertices.
+/// Rounds of smoothing after vertices have been moved onto the branch points. Each spreads the dent of a move to one more ring of
+/// vertices.
 const SMOOTHING_ROUNDS: usize = 10;
 
 /// The Riemann surface of `y² = Π (x − e_j)` as the double cover of the round sphere, branched over the points `e_j` and,

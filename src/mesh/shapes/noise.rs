@@ -2,6 +2,7 @@
 
 use super::check_corners;
 use crate::error::{Error, Result};
+use crate::geometry::vector::distance;
 use crate::mesh::io::Soup;
 
 /// SplitMix64 \[SLF14\]: a small generator whose sequence is part of its definition.
@@ -41,7 +42,7 @@ pub fn noise(soup: &mut Soup, amplitude: f64, seed: u64) -> Result<()> {
     let (mut total, mut count) = (0.0, 0usize);
     for [a, b, c] in soup.faces.iter().map(|f| f.map(|v| soup.positions[v as usize])) {
         for (p, q) in [(a, b), (b, c), (c, a)] {
-            total += (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
+            total += distance(p, q);
             count += 1;
         }
     }

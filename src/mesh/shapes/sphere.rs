@@ -2,7 +2,7 @@
 
 use super::{THIN, check_count, check_size};
 use crate::error::{Error, Result};
-use crate::geometry::vector::{cross, dot};
+use crate::geometry::vector::{cross, distance, dot, norm};
 use crate::mesh::Point;
 use crate::mesh::io::Soup;
 use std::collections::HashMap;
@@ -55,7 +55,7 @@ pub fn icosphere(n: usize) -> Result<Soup> {
         }
     }
     for p in &mut positions {
-        let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let length = norm(*p);
         p.iter_mut().for_each(|x| *x /= length);
     }
     Ok(Soup::new(positions, faces))
@@ -83,7 +83,8 @@ pub fn ellipsoid(axes: [f64; 3], n: usize) -> Result<Soup> {
 
 /// The twenty faces: triples of corners at the least distance, counterclockwise from outside.
 fn icosahedron_faces(p: &[Point]) -> Vec<[u32; 3]> {
-    let near = |a: usize, b: usize| (0..3).map(|k| (p[a][k] - p[b][k]).powi(2)).sum::<f64>() < 5.0;
+    // Corners of an edge are 2 apart, others at least 3.2.
+    let near = |a: usize, b: usize| distance(p[a], p[b]) < 2.5;
     let mut faces = Vec::new();
     for a in 0..12 {
         for b in a + 1..12 {

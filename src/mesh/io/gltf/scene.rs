@@ -217,7 +217,7 @@ impl Collected<'_> {
         budget.take(count, 2 * size_of::<[u32; 3]>(), "faces", place)?;
         let face = |f: usize| match mode {
             TRIANGLES => [at[3 * f], at[3 * f + 1], at[3 * f + 2]],
-            STRIP if f % 2 == 0 => [at[f], at[f + 1], at[f + 2]],
+            STRIP if f.is_multiple_of(2) => [at[f], at[f + 1], at[f + 2]],
             STRIP => [at[f + 1], at[f], at[f + 2]],
             _ => [at[0], at[f + 1], at[f + 2]],
         };
