@@ -91,7 +91,8 @@ struct Read<'a> {
     fill: f64,
 }
 
-/// Elements are appended behind the `first` ones of earlier primitives; the list is filled up if these lacked the attribute.
+/// Appends the elements of a primitive to a list in which `first` elements of earlier primitives come before them. If these lacked the
+/// attribute, the list is filled up with defaults.
 struct Append<'a> {
     budget: &'a mut Budget,
     place: Location<'a>,
@@ -141,14 +142,13 @@ impl Collected<'_> {
         if first.checked_add(n).is_none_or(|end| end > u32::MAX as usize) {
             return Err(Error::TooLarge { what: "vertices", count: first.saturating_add(n) });
         }
-        let mut positions: Vec<Point> =
-            self.attribute(named.position, n, Read { what: "POSITION", shapes: &[Shape::Vec3], fill: 0.0 })?;
+        let three = |what| Read { what, shapes: &[Shape::Vec3], fill: 0.0 };
+        let mut positions: Vec<Point> = self.attribute(named.position, n, three("POSITION"))?;
         if *map != Affine::IDENTITY {
             positions.iter_mut().for_each(|p| *p = map.apply(*p));
         }
         let (turn, mirrors) = map.of_normals();
-        let mut normals: Vec<Point> =
-            self.attribute(named.normal, n, Read { what: "NORMAL", shapes: &[Shape::Vec3], fill: 0.0 })?;
+        let mut normals: Vec<Point> = self.attribute(named.normal, n, three("NORMAL"))?;
         if map.linear != Affine::IDENTITY.linear {
             normals.iter_mut().for_each(|x| *x = unit(turn.apply(*x)));
         }
@@ -173,11 +173,8 @@ impl Collected<'_> {
             let at = |v: u32| [texcoords[v as usize][0], 1.0 - texcoords[v as usize][1]];
             let uv = faces.iter().map(|face| face.map(at)).collect();
             let first = self.soup.faces.len();
-            Append { budget: &mut self.budget, place: file.whole(), first }.to(
-                &mut self.uv,
-                uv,
-                [NO_TEXCOORD; 3],
-            )?;
+            let mut append = Append { budget: &mut self.budget, place: file.whole(), first };
+            append.to(&mut self.uv, uv, [NO_TEXCOORD; 3])?;
         }
         self.soup.faces.extend(faces.into_iter().map(|face| face.map(|v| first as u32 + v)));
         Ok(())
@@ -246,7 +243,7 @@ impl Collected<'_> {
             corner_normals = Some(soup.faces.iter().map(|f| f.map(|v| normals[v as usize])).collect());
             normals.clear();
         }
-        // From here on a vertex that is the first of its kind has its final number in `first`, and the others that of theirs.
+        // `first` becomes the final number of each vertex: that of a first vertex is the number of first vertices before it.
         let mut kept = 0;
         for v in 0..n {
             if first[v] as usize == v {
