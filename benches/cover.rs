@@ -50,7 +50,7 @@ fn round(mesh: &Arc<Mesh>, given: &Quotient, flat: &Solution) -> [f64; 7] {
         job += 1;
         *lap = Instant::now();
     };
-    shortest_paths(mesh, &lengths, [base]).unwrap();
+    shortest_paths(mesh, &lengths, [base], &control).unwrap();
     done(&mut lap);
     let layout = layout_of(mesh, metric.metric(), Some(base), None, &control).unwrap();
     done(&mut lap);

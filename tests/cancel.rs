@@ -13,7 +13,7 @@ use ricci::geometry::Space;
 use ricci::mesh::{Curves, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, intrinsic_delaunay};
 use ricci::metric::{Scheme, Triangulated, delaunay_start, initial_metric};
-use ricci::topology::cut_graph;
+use ricci::topology::{cut_graph, farthest_vertices, homology_generators, shortest_paths};
 use ricci::{Class, Control, Error, Flow, Result, Target};
 use std::time::Duration;
 
@@ -59,6 +59,9 @@ fn a_cancelled_control_stops_every_stage() {
     is_cancelled("Curves::trace", Curves::trace(mesh, &normal, &stop));
     let cones = [VertexId(3), VertexId(700)];
     is_cancelled("cut_graph", cut_graph(mesh, lengths, &cones, &stop));
+    is_cancelled("shortest_paths", shortest_paths(mesh, lengths, cones, &stop));
+    is_cancelled("farthest_vertices", farthest_vertices(mesh, lengths, VertexId(0), 4, &stop));
+    is_cancelled("homology_generators", homology_generators(mesh, lengths, &stop));
     let options = UnrollOptions { cones: Some(cones.to_vec()), ..UnrollOptions::default() };
     is_cancelled("unroll", unroll(&now, &options, &stop));
     let layout = unroll(&now, &options, &free).unwrap();
@@ -178,6 +181,8 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
     delaunay_start(&mut flat, Class::yamabe(Space::E2).into(), &mut record, &free).unwrap();
     interrupt("Curves::trace", one, |c| Curves::trace(&flat.mesh, &normal, c).map(drop));
     interrupt("cut_graph", one, |c| cut_graph(mesh, lengths, &[], c).map(drop));
+    interrupt("homology_generators", one, |c| homology_generators(mesh, lengths, c).map(drop));
+    interrupt("farthest_vertices", one, |c| farthest_vertices(mesh, lengths, VertexId(0), 8, c).map(drop));
     interrupt("auto_cones", one, |c| auto_cones(mesh, lengths, 6, c).map(drop));
     let class = Class::yamabe(Space::E2);
     let mut made = Flow::new(euclidean(mesh, lengths), class, &Options::default(), &free).unwrap();

@@ -22,6 +22,16 @@
 //! together: so the lengths of one metric may range over e^±5e5. Powers of two are exact: where nothing over- or underflows, the digits
 //! are those of plain doubles. H² and S² have a size of their own, and no such units: lengths in H² lie between
 //! [`MIN_HYPERBOLIC_CHORD`] and [`MAX_HYPERBOLIC_CHORD`].
+//!
+//! ```
+//! use ricci::geometry::Space;
+//! use ricci::geometry::conformal::{Vertex, edge};
+//! // Circles of radius 1 and 2 that touch (ε = 1, η = 1).
+//! let [a, b] = [1.0f64, 2.0].map(|radius| Vertex::new(Space::E2, 1, radius.ln()));
+//! let touching = edge(Space::E2, a, b, 1.0).unwrap();
+//! assert_eq!(touching.gap, 0.0);
+//! assert!((touching.length(Space::E2) - 3.0).abs() < 1e-15);
+//! ```
 
 use super::Space;
 use super::scaled::{exponent, scaled};
@@ -194,7 +204,7 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: impl Into<Twofold>) -> Opti
     }
     let length = length(space, q2);
     let sum = a.radius + b.radius;
-    let gap = if circles { circle_gap(space, a, b, eta, length + sum) } else { length - sum };
+    let gap = if circles { circle_gap(space, [a, b], eta, length + sum) } else { length - sum };
     let precise = space == Space::H2 && a.epsilon == 0.0 && b.epsilon == 0.0;
     let low = if precise { lost_length(a, b, eta, gap) } else { 0.0 };
     (gap.is_finite() && low.is_finite()).then_some(Edge { gap, low, q2, exponent: 0 })
@@ -221,7 +231,7 @@ fn plane_edge(a: Vertex, b: Vertex, eta: Twofold) -> Option<Edge> {
     }
     let length = 2.0 * q2.sqrt();
     let sum = a.radius + b.radius;
-    let gap = if circles { circle_gap(Space::E2, a, b, eta, length + sum) } else { length - sum };
+    let gap = if circles { circle_gap(Space::E2, [a, b], eta, length + sum) } else { length - sum };
     let low = lost_gap(a, b, eta, gap);
     (gap.is_finite() && low.is_finite()).then_some(Edge { gap, low, q2, exponent })
 }
@@ -319,7 +329,7 @@ pub fn length(space: Space, q2: f64) -> f64 {
     }
 }
 
-/// `N`, with squares completed where signs differ.
+/// `N`. Where its terms have different signs the squares are completed, so that nothing cancels.
 #[inline]
 fn squared_chord(a: Vertex, b: Vertex, eta: f64) -> f64 {
     let (x, y) = (a.scale, b.scale);
@@ -336,15 +346,15 @@ fn squared_chord(a: Vertex, b: Vertex, eta: f64) -> f64 {
     }
 }
 
-/// `l − γ_a − γ_b`, given `l + γ_a + γ_b`.
+/// `l − γ_a − γ_b` of two circles, given `total = l + γ_a + γ_b`.
 #[inline]
-fn circle_gap(space: Space, a: Vertex, b: Vertex, eta: Twofold, total: f64) -> f64 {
+fn circle_gap(space: Space, [a, b]: [Vertex; 2], eta: Twofold, total: f64) -> f64 {
     let product = 2.0 * ((eta.high - 1.0) + eta.low) * (a.scale * b.scale);
     match space {
         Space::E2 => product / total,
         Space::H2 => 2.0 * (product / (a.d * b.d * (0.5 * total).sinh())).asinh(),
         Space::S2 if total < PI => 2.0 * (product / (a.d * b.d * (0.5 * total).sin())).asin(),
-        // Circles about as large as the sphere: nothing small is left over.
+        // The circles are about as large as the sphere, and the gap is not small: the plain difference loses no digits.
         Space::S2 => total - 2.0 * (a.radius + b.radius),
     }
 }

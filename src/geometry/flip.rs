@@ -1,5 +1,14 @@
 //! Flips inside a conformal class, and the weighted Delaunay condition.
 //!
+//! ```
+//! use ricci::geometry::flip::Hinge;
+//! // A unit square cut by a diagonal: its four corners lie on one circle, and the other diagonal is as long.
+//! let (side, diagonal) = (0.5, 1.0); // η = l²/2 where ε = 0 and u = 0
+//! let hinge = Hinge::new([0.0; 4], [1.0; 4], [diagonal, side, side, side, side]);
+//! assert_eq!(hinge.flipped(), Some(1.0));
+//! assert!(!hinge.wants_flip());
+//! ```
+//!
 //! Vertices are vectors v of Lorentz space with `⟨v_i, v_i⟩ = ε_i`, `⟨v_i, v_j⟩ = −η_ij`, and `l_ij = |e^{u_i} v_i − e^{u_j} v_j|`
 //! in E² \[BL23\]. The triangulation of two triangles ijk, jil may be changed without changing the vectors: what it takes is the
 //! product of v_k and v_l, on different sides of the plane through v_i and v_j.
@@ -22,11 +31,11 @@ use super::conformal::{Vertex, unit_of_products};
 use super::motion::Real;
 use super::{Space, Twofold};
 
-/// Least `D/η_ij²` of an edge that can be flipped. Where it is smaller, circles i and j touch to the rounding of η (1e-16, with room),
-/// and the plane of their vectors has no direction across.
+/// Least `D/η_ij²` of an edge that can be flipped. Where it is smaller, the circles i and j touch within the rounding of η (1e-16; the
+/// factor of 1000 leaves room), and nothing is perpendicular to the plane of their vectors.
 const TANGENT: f64 = 1e-13;
-/// Share of its terms by which the Delaunay condition must fail for an edge to be flipped. The terms are rounded by about 1e-15; shares
-/// from 0 to 1e-10 give the same results on the corpus.
+/// An edge is flipped where the Delaunay condition fails by more than this share of its terms. The terms are rounded by about 1e-15;
+/// shares from 0 to 1e-10 give the same results on the corpus.
 pub const TOLERANCE: f64 = 1e-12;
 /// Square of the sine of an angle opposite the edge below which cosines may not tell whether the edge is Delaunay: those of φ and π − φ'
 /// with φ, φ' below 1e-6 add up to less than [`TOLERANCE`], though φ may be half of φ'. At this bound, sines of 0.01, the cosines compare
@@ -118,39 +127,29 @@ impl<T: Real> Hinge<T> {
         Hinge { square: square.map(scaled), product: product.map(scaled), unit }
     }
 
-    /// D, if the edge can be flipped at all.
-    fn determinant(&self) -> Option<T> {
-        let [i, j, ..] = self.square;
-        let ij = self.product[0];
-        let (own, double) = ((i * j).into(), ij.into());
-        let d = if own > 0.0 {
+    /// D, and a of k and l; `None` where the edge cannot be flipped.
+    fn across(&self) -> Option<(T, [T; 2])> {
+        let [i, j, k, l] = self.square;
+        let [ij, ik, jk, il, jl] = self.product;
+        let d = if (i * j).into() > 0.0 {
             // Both circles, or both imaginary: a product of differences.
             let mean = (i * j).root();
             (ij - mean) * (ij + mean)
         } else {
             ij * ij - i * j
         };
-        (double > 0.0 && d.into() > TANGENT * double * double).then_some(d)
-    }
-
-    /// a of the vertex with this square and these products with i and j.
-    fn across(&self, own: T, [ik, jk]: [T; 2], d: T) -> T {
-        let [i, j, ..] = self.square;
-        own + (j * ik * ik + T::from(2.0) * self.product[0] * ik * jk + i * jk * jk) / d
-    }
-
-    fn sides(&self, d: T) -> Option<[T; 2]> {
-        let [_, _, k, l] = self.square;
-        let [_, ik, jk, il, jl] = self.product;
-        let across = [self.across(k, [ik, jk], d), self.across(l, [il, jl], d)];
-        across.iter().all(|&a| a.into() > 0.0 && a.into() < f64::INFINITY).then_some(across)
+        let two = T::from(2.0);
+        let part = |own: T, ik: T, jk: T| own + (j * ik * ik + two * ij * ik * jk + i * jk * jk) / d;
+        let across = [part(k, ik, jk), part(l, il, jl)];
+        let is_positive = |a: &T| (*a).into() > 0.0 && (*a).into() < f64::INFINITY;
+        let has_direction = ij.into() > 0.0 && d.into() > TANGENT * ij.into() * ij.into();
+        (has_direction && across.iter().all(is_positive)).then_some((d, across))
     }
 
     /// `η w w` of the other diagonal kl; `None` where there is none (tangent circles i and j, a vertex whose vector is not
     /// space-like across their plane).
     pub fn flipped(&self) -> Option<T> {
-        let d = self.determinant()?;
-        let [across_k, across_l] = self.sides(d)?;
+        let (d, [across_k, across_l]) = self.across()?;
         let [i, j, ..] = self.square;
         let [ij, ik, jk, il, jl] = self.product;
         let within = (j * ik * il + ij * (ik * jl + jk * il) + i * jk * jl) / d;
@@ -160,8 +159,7 @@ impl<T: Real> Hinge<T> {
 
     /// What the Delaunay condition compares, where the edge can be flipped.
     fn heights(&self) -> Option<Heights<T>> {
-        let d = self.determinant()?;
-        let across = self.sides(d)?;
+        let (d, across) = self.across()?;
         let [i, j, ..] = self.square;
         let [ij, ik, jk, il, jl] = self.product;
         let (mut sum, mut size_of_terms) = (T::from(0.0), 0.0);
@@ -203,8 +201,8 @@ impl Hinge {
     ///
     /// With `v_k = p_k + √a_k n`, `v_l = p_l − √a_l n` and p in span(v_i, v_j): `√a_l v_k + √a_k v_l = √a_l p_k + √a_k p_l`.
     pub fn meeting(&self) -> Option<Meeting> {
-        let d = self.determinant()?;
-        let [k, l] = self.sides(d)?.map(f64::sqrt);
+        let (d, across) = self.across()?;
+        let [k, l] = across.map(f64::sqrt);
         let [i, j, ..] = self.square;
         let [ij, ik, jk, il, jl] = self.product;
         let edge = [

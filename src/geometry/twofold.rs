@@ -1,4 +1,10 @@
-//! Doubles with what they lose: sums, products and e^x; numbers of twice the digits.
+//! Numbers with twice the digits of doubles, and the rounding errors of sums, products and e^x.
+//!
+//! ```
+//! use ricci::geometry::Twofold;
+//! let third = Twofold::from(1.0) / 3.0.into();
+//! assert!(f64::from(third * 3.0.into() - 1.0.into()).abs() < 1e-31);
+//! ```
 
 use super::scaled::scaled;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -36,9 +42,7 @@ impl Twofold {
         let rest = ((self.high - square) - lost) + self.low;
         Twofold::renormalised(root, rest / (2.0 * root))
     }
-}
 
-impl Twofold {
     /// This number times 2^k: exact while both parts stay normal numbers.
     pub(crate) fn scaled(self, k: i32) -> Twofold {
         Twofold { high: scaled(self.high, k), low: scaled(self.low, k) }
@@ -67,7 +71,7 @@ impl Neg for Twofold {
 impl Add for Twofold {
     type Output = Twofold;
     fn add(self, other: Twofold) -> Twofold {
-        // Both parts by exact sums: where the high parts cancel, the low ones are all there is.
+        // Both parts are added exactly: where the high parts cancel, the result consists of the low ones.
         let (high, lost) = two_sum(self.high, other.high);
         let (low, more) = two_sum(self.low, other.low);
         let first = Twofold::renormalised(high, lost + low);
@@ -124,7 +128,7 @@ pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
 pub(crate) const MAX_EXPONENT: f64 = 5e5;
 /// log 2 in three parts; the first has 33 binary digits, so that its products with integers below 2^20 are exact.
 const LN_2: [f64; 3] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10, 1.161_222_722_936_253_2e-26];
-/// e^x − 1 is formed at x/2^HALVINGS, where all but three terms of its series are below 1e-10 and need no second part, and squared out.
+/// e^x − 1 is formed at x/2^6 and squared six times: there all but three terms of its series are below 1e-10 and need no second part.
 const HALVINGS: i32 = 6;
 /// 1/k! from k = 4 on: at the end of the series its terms are below 1e-29.
 const FACTORIALS: [f64; 7] =

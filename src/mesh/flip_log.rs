@@ -1,7 +1,7 @@
 //! A log of flips, by which they are undone.
 //!
-//! A solve that fails must leave its surface as it was. A log costs 16 bytes per flip of lengths, 32 per flip of η (and 24 for each set of curves that follows the
-//! flips), where a copy of the surface costs as much for every edge, flipped or not.
+//! A solve that fails must leave its surface as it was. A log takes 16 bytes per flip of a length, 24 per flip of an η, and 24 for each set
+//! of curves that follows the flips; a copy of the surface would take as much for every edge, whether it is flipped or not.
 
 use super::attribute::PerEdge;
 use super::flip::{Flip, Unflip};

@@ -12,6 +12,7 @@
 use super::class::Class;
 use super::scheme::Scheme;
 use super::surface::Surface;
+use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
@@ -51,7 +52,8 @@ impl Target {
             Space::H2 | Space::S2 => Target::Uniform,
             Space::E2 if !mesh.is_closed() => Target::Boundary,
             Space::E2 if mesh.euler() == 2 && mesh.n_vertices() >= 4 => {
-                let cones = topology::farthest_vertices(mesh, surface.lengths(), VertexId(0), 4)?;
+                let free = Control::new();
+                let cones = topology::farthest_vertices(mesh, surface.lengths(), VertexId(0), 4, &free)?;
                 Target::Cones(cones.into_iter().map(|v| (v, PI)).collect())
             }
             Space::E2 => Target::Uniform,
