@@ -26,10 +26,6 @@ const FLOORS: &[&[&str]] = &[
 const EXCEPTION: (&str, &str) = ("error", "mesh::check::Diagnosis");
 /// Modules of src that still import one another.
 const IN_CIRCLES: &[&str] = &[
-    "embed::deck",
-    "embed::dirichlet",
-    "embed::quality",
-    "embed::shape",
     "metric::refinement",
     "metric::refinement::assemble",
     "metric::refinement::chords",
