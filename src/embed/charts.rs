@@ -19,6 +19,7 @@ use super::shape::{Shape, extent};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::PlaneIsometry;
+use crate::geometry::complex::{distance, doubled_area};
 use crate::geometry::predicates::orientation;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge};
 use std::cmp::Ordering;
@@ -109,92 +110,139 @@ pub fn charts(
     if !(0.0..1.0).contains(&margin) {
         return Err(Error::Argument { what: "margin", value: margin.to_string(), need: "in [0, 1)" });
     }
-    let triangles: Vec<Triangle> = mesh.faces().map(|f| mesh.face_halfedges(f).map(&uv)).collect();
-    if let Some(f) = triangles.iter().position(|t| !t.as_flattened().iter().all(|x| x.is_finite())) {
+    let layout: Vec<Triangle> = mesh.faces().map(|f| mesh.face_halfedges(f).map(&uv)).collect();
+    if let Some(f) = layout.iter().position(|t| !t.as_flattened().iter().all(|x| x.is_finite())) {
         return Err(Error::Layout(format!("face {f} has coordinates that are not finite")));
     }
-    let area: f64 = triangles.iter().map(|t| doubled_area(t).abs()).sum::<f64>() * 0.5;
+    let area: f64 = layout.iter().map(|&t| doubled_area(t).abs()).sum::<f64>() * 0.5;
     if !(area > 0.0 && area.is_finite()) {
         return Err(Error::Layout("the layout has no area, or more than doubles hold".into()));
     }
-    let size = extent(&triangles.concat());
-    let mut lie = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
-        let shape = Shape::of(triangles[f.index()]);
-        match (shape.is_degenerate(size), shape.is_flipped(size)) {
-            (true, _) => Lie::Degenerate,
-            (_, true) => Lie::Flipped,
-            _ => Lie::Solid,
+    let mut sheet = Sheet::new(mesh, layout);
+    let own_seam = sheet.seams();
+    let mut cut = partition(&sheet, &sheet.layout, [0.0, 0.4], control)?;
+    let packed = loop {
+        sheet.separate(&cut.chart);
+        let packed = sheet.pack(&cut, margin, control)?;
+        let placed = packed.triangles(mesh);
+        sheet.mark_degenerate(&placed);
+        // Rounding may have made charts overlap themselves: then they are cut once more.
+        let again = partition(&sheet, &placed, [0.5, 0.4], control)?;
+        if again.count == cut.count {
+            break packed;
         }
-    });
-    let continuous = |e: EdgeId| {
-        let (h, t) = (e.halfedge(), e.halfedge().twin());
-        let faces = [h, t].map(|h| mesh.face(h).is_some_and(|f| lie[f] != Lie::Flipped));
-        faces == [true; 2] && uv(h) == uv(mesh.next(t)) && uv(mesh.next(h)) == uv(t)
+        cut = again;
     };
-    let mut joined = PerEdge::from_fn(mesh.n_edges(), continuous);
-    let areas = PerFace::from_fn(mesh.n_faces(), |f: FaceId| doubled_area(&triangles[f.index()]).abs());
-    let own_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
-    let cut = |triangles: &[Triangle], lie: &PerFace<Lie>, joined: &PerEdge<bool>, stage: [f64; 2]| {
-        let sheet = Sheet { mesh, triangles, lie, joined, area: &areas };
-        partition(&sheet, stage, control)
-    };
-    let Partition { mut chart, mut count } = cut(&triangles, &lie, &joined, [0.0, 0.4])?;
-
-    let (corner_index, points, scale, motions) = loop {
-        for e in mesh.edges() {
-            let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).map(|f| chart[f]));
-            joined[e] &= f == g;
-        }
-        let is_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
-        let (corner_index, n_points) = number_corners(mesh, &is_seam);
-        let mut points = vec![[0.0; 2]; n_points];
-        let mut point_chart = vec![0u32; n_points];
-        for f in mesh.faces() {
-            for h in mesh.face_halfedges(f) {
-                let k = corner_index[h] as usize;
-                (points[k], point_chart[k]) = (uv(h), chart[f]);
-            }
-        }
-        let (scale, motions) = arrange(&mut points, &point_chart, count, margin, control)?;
-        let placed: Vec<Triangle> =
-            mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| points[corner_index[h] as usize])).collect();
-        for f in mesh.faces() {
-            let [a, b, c] = placed[f.index()];
-            let flat =
-                || orientation(a, b, c) != Ordering::Greater || Shape::of([a, b, c]).is_degenerate(1.0);
-            if lie[f] == Lie::Solid && flat() {
-                lie[f] = Lie::Degenerate;
-            }
-        }
-        let again = cut(&placed, &lie, &joined, [0.5, 0.4])?;
-        if again.count == count {
-            break (corner_index, points, scale, motions);
-        }
-        (chart, count) = (again.chart, again.count);
-    };
-    let is_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
-    let length = |h: HalfedgeId| {
-        let (p, q) = (uv(h), uv(mesh.next(h)));
-        (p[0] - q[0]).hypot(p[1] - q[1])
-    };
-    let total = |seam: &dyn Fn(EdgeId) -> bool| -> f64 {
-        let sides = mesh.edges().filter(|&e| seam(e)).map(|e| [e.halfedge(), e.halfedge().twin()]);
-        sides.map(|[h, t]| 0.5 * (length(h) + length(t))).sum()
-    };
-    let seam_length = [&own_seam, &is_seam].map(|is_seam| total(&|e| is_seam[e]));
-    let that = |what: Lie| mesh.faces().filter(|&f| lie[f] == what).collect();
+    let is_seam = sheet.seams();
     Ok(Charts {
-        chart,
-        corner_index,
-        coordinates: points,
-        motions,
-        scale,
-        efficiency: area * scale * scale,
+        chart: cut.chart,
+        corner_index: packed.corner_index,
+        coordinates: packed.points,
+        motions: packed.motions,
+        scale: packed.scale,
+        efficiency: area * packed.scale * packed.scale,
+        seam_length: [&own_seam, &is_seam].map(|seams| sheet.length(seams)),
         is_seam,
-        seam_length,
-        flipped: that(Lie::Flipped),
-        degenerate: that(Lie::Degenerate),
+        flipped: sheet.faces_that_lie(Lie::Flipped),
+        degenerate: sheet.faces_that_lie(Lie::Degenerate),
     })
+}
+
+/// Charts in the unit square, not yet looked at for overlap.
+struct Packed {
+    corner_index: PerHalfedge<u32>,
+    points: Vec<[f64; 2]>,
+    scale: f64,
+    motions: Vec<PlaneIsometry>,
+}
+
+impl Packed {
+    fn triangles(&self, mesh: &Mesh) -> Vec<Triangle> {
+        let point = |h: HalfedgeId| self.points[self.corner_index[h] as usize];
+        mesh.faces().map(|f| mesh.face_halfedges(f).map(point)).collect()
+    }
+}
+
+impl<'a> Sheet<'a> {
+    /// A layout with finite coordinates. Faces hang together across an edge where both give its ends the same coordinates.
+    fn new(mesh: &'a Mesh, layout: Vec<Triangle>) -> Self {
+        let size = extent(layout.as_flattened());
+        let lie = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
+            let shape = Shape::of(layout[f.index()]);
+            match (shape.is_degenerate(size), shape.is_flipped(size)) {
+                (true, _) => Lie::Degenerate,
+                (_, true) => Lie::Flipped,
+                _ => Lie::Solid,
+            }
+        });
+        let area = PerFace::from_fn(mesh.n_faces(), |f: FaceId| doubled_area(layout[f.index()]).abs());
+        let mut sheet = Sheet { mesh, layout, lie, joined: PerEdge::filled(mesh.n_edges(), false), area };
+        sheet.joined = PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| {
+            let solid = |f| sheet.lie[f] != Lie::Flipped;
+            let [left, right] = [e.halfedge(), e.halfedge().twin()];
+            match (sheet.side(left), sheet.side(right)) {
+                (Some((f, [p, q])), Some((g, [r, s]))) => solid(f) && solid(g) && p == s && q == r,
+                _ => false,
+            }
+        });
+        sheet
+    }
+
+    /// The face of a half-edge, and the half-edge's ends in the layout as this face has them; none outside the surface.
+    fn side(&self, h: HalfedgeId) -> Option<(FaceId, [[f64; 2]; 2])> {
+        let (f, k) = self.mesh.corner(h)?;
+        let corners = self.layout[f.index()];
+        Some((f, [corners[k], corners[(k + 1) % 3]]))
+    }
+
+    /// The edges inside the surface that are not joined.
+    fn seams(&self) -> PerEdge<bool> {
+        PerEdge::from_fn(self.mesh.n_edges(), |e| !self.mesh.is_boundary_edge(e) && !self.joined[e])
+    }
+
+    /// The total length of some edges inside the surface; where the two faces of an edge differ, the mean.
+    fn length(&self, edges: &PerEdge<bool>) -> f64 {
+        let length = |h| self.side(h).map_or(0.0, |(_, [p, q])| distance(p, q));
+        let seams = self.mesh.edges().filter(|&e| edges[e]).map(EdgeId::halfedge);
+        seams.map(|h| 0.5 * (length(h) + length(h.twin()))).sum()
+    }
+
+    /// Keeps faces of different charts apart from now on.
+    fn separate(&mut self, chart: &PerFace<u32>) {
+        for e in self.mesh.edges() {
+            let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| self.mesh.face(h).map(|f| chart[f]));
+            self.joined[e] &= f == g;
+        }
+    }
+
+    /// The charts of a partition, opened along the seams and moved into the unit square.
+    fn pack(&self, cut: &Partition, margin: f64, control: &Control) -> Result<Packed> {
+        let (corner_index, n_points) = number_corners(self.mesh, &self.seams());
+        let (mut points, mut chart) = (vec![[0.0; 2]; n_points], vec![0; n_points]);
+        for f in self.mesh.faces() {
+            for (h, p) in self.mesh.face_halfedges(f).into_iter().zip(self.layout[f.index()]) {
+                let k = corner_index[h] as usize;
+                (points[k], chart[k]) = (p, cut.chart[f]);
+            }
+        }
+        let (scale, motions) = arrange(&mut points, &chart, cut.count, margin, control)?;
+        Ok(Packed { corner_index, points, scale, motions })
+    }
+
+    /// Takes solid faces that rounding to the unit square has left no area for degenerate ones.
+    fn mark_degenerate(&mut self, placed: &[Triangle]) {
+        for (lie, &[a, b, c]) in self.lie.iter_mut().zip(placed) {
+            let is_flat =
+                || orientation(a, b, c) != Ordering::Greater || Shape::of([a, b, c]).is_degenerate(1.0);
+            if *lie == Lie::Solid && is_flat() {
+                *lie = Lie::Degenerate;
+            }
+        }
+    }
+
+    fn faces_that_lie(&self, lie: Lie) -> Vec<FaceId> {
+        self.mesh.faces().filter(|&f| self.lie[f] == lie).collect()
+    }
 }
 
 /// Turn, scale and move the points of all charts into the unit square.
@@ -241,8 +289,4 @@ fn arrange(
     }
     let motion = |c: usize| PlaneIsometry::new(angle(c), [0, 1].map(|k| places[c].at[k] - low[c][k]));
     Ok((scale, (0..count).map(motion).collect()))
-}
-
-fn doubled_area(&[a, b, c]: &Triangle) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
