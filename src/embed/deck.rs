@@ -1,6 +1,6 @@
 //! The deck group of a surface of constant curvature: its fundamental group as isometries of the model space.
 
-use super::faces::Faces;
+use super::faces::{Faces, corner_of};
 use super::layout::Layout;
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -214,15 +214,15 @@ fn transport(
     crossed: &[HalfedgeId],
 ) -> Result<Motion<Twofold>> {
     let mut frame = Motion::identity(faces.space);
-    let (mut face, mut k) = faces.place_of(corner)?;
+    let (mut face, mut k) = corner_of(faces.mesh, corner)?;
     for &h in crossed {
-        let (same, side) = faces.place_of(h)?;
+        let (same, side) = corner_of(faces.mesh, h)?;
         if same != face {
             return Err(Error::Layout(format!("half-edge {h} is no side of face {face}, where a walk is")));
         }
         frame = faces.across(faces.around(face, k, frame)[side], h);
-        (face, k) = faces.place_of(h.twin())?;
+        (face, k) = corner_of(faces.mesh, h.twin())?;
     }
-    let (_, side) = faces.place_of(corner)?;
+    let (_, side) = corner_of(faces.mesh, corner)?;
     Ok(faces.around(face, k, frame)[side])
 }

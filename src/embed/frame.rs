@@ -1,8 +1,11 @@
 //! Where a half-edge lies: its origin and its direction there.
 
-use crate::geometry::complex::{conj, mul, norm2, sub};
+use crate::geometry::complex::{mul, norm2, sub};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
+
+/// The origin in ambient coordinates.
+pub(super) const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// The frame of a half-edge, by which its face is placed: the isometry that brings the half-edge from the origin, along the x axis, to
 /// where it lies.
@@ -34,9 +37,12 @@ pub(super) trait Frame: Copy + Send + Sync {
     /// The distance from the origin of the third corner of a triangle on this half-edge, whose angle here and whose last side are given:
     /// by doubles, or any number that grows with it.
     fn distance_of_apex(&self, angle: Self::Angle, last: Self::Side) -> f64;
+    /// Where the half-edge starts, in ambient coordinates.
+    fn origin(&self) -> [f64; 3];
     /// Where it carries a point in ambient coordinates.
     fn apply(&self, p: [f64; 3]) -> [f64; 3];
-    /// By how much a point misses the place where the frame carries `local`: a vector at the frame's origin.
+    /// By how much a point misses the place where the frame carries `local`: a vector of the plane in E², elsewhere one at the frame's
+    /// origin.
     fn miss(&self, point: [f64; 3], local: [f64; 3]) -> [f64; 2];
     /// The isometry.
     fn motion(&self) -> Motion<Twofold>;
@@ -91,6 +97,10 @@ impl Frame for PlaneFrame {
         x.hypot(y)
     }
 
+    fn origin(&self) -> [f64; 3] {
+        [self.place[0].high, self.place[1].high, 1.0]
+    }
+
     fn apply(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {
         let way = mul(self.direction, [x, y]);
         [self.place[0].plus(way[0]).high, self.place[1].plus(way[1]).high, 1.0]
@@ -98,7 +108,7 @@ impl Frame for PlaneFrame {
 
     fn miss(&self, [x, y, _]: [f64; 3], local: [f64; 3]) -> [f64; 2] {
         let from = [self.place[0].plus(-x), self.place[1].plus(-y)].map(|d| -d.high);
-        sub(mul(from, conj(self.direction)), [local[0], local[1]])
+        sub(from, mul(self.direction, [local[0], local[1]]))
     }
 
     fn motion(&self) -> Motion<Twofold> {
@@ -142,6 +152,10 @@ impl Frame for Motion<Twofold> {
         let far =
             self.rounded().after_rotation(half_angle.map(f64::from)).after_translation(last.map(f64::from));
         far.b[0].hypot(far.b[1])
+    }
+
+    fn origin(&self) -> [f64; 3] {
+        Motion::origin(self).map(f64::from)
     }
 
     fn apply(&self, p: [f64; 3]) -> [f64; 3] {

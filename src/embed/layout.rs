@@ -1,7 +1,7 @@
 //! A surface, opened along a cut, in the space of its metric.
 
 use super::corner::number_corners;
-use super::faces::{Faces, place_in_face};
+use super::faces::{Faces, corner_of};
 use super::pieces::Pieces;
 use super::shape::{Shape, extent};
 use crate::error::{Error, Result};
@@ -337,7 +337,7 @@ impl Layout {
 
     /// The frame of a half-edge of a face, of a layout with frames of twice the digits ([`layout_of`]).
     pub(super) fn frame(&self, faces: &Faces<Motion<Twofold>>, h: HalfedgeId) -> Result<Motion<Twofold>> {
-        let (f, k) = place_in_face(self.mesh(), h)?;
+        let (f, k) = corner_of(self.mesh(), h)?;
         match self.frames.get(*self.patch.get(f.index()).unwrap_or(&u32::MAX) as usize) {
             Some(&frame) => Ok(faces.around(f, 0, frame)[k]),
             None => Err(Error::Layout(format!("face {f} has no frame of twice the digits"))),

@@ -1,7 +1,6 @@
 //! The layout of a flow's result on the surface as it came.
 
-use super::develop::combination;
-use super::faces::Faces;
+use super::faces::{Faces, combination};
 use super::frame::{Frame, PlaneFrame};
 use super::layout::{Layout, distance};
 use super::pieces::Pieces;
