@@ -1,14 +1,14 @@
 //! Finite pieces of the universal cover.
 
 use super::deck::{DeckElement, DeckGroup};
-use super::dirichlet::{DirichletDomain, identity};
+use super::dirichlet::DirichletDomain;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::parallel;
 use crate::topology::SurfaceGroup;
-use crate::topology::word::{Letter, Word};
+use crate::topology::word::Letter;
 use std::collections::HashMap;
 
 /// Elements between two looks at the control.
@@ -28,7 +28,7 @@ pub fn elements_to_depth(
 ) -> Result<Vec<DeckElement>> {
     let letters = (0..deck.group.n_generators())
         .flat_map(|k| [Letter::generator(k), Letter::generator(k).inverse()])
-        .map(|letter| Ok(DeckElement { word: Word::from_iter([letter]), motion: deck.letter(letter)? }))
+        .map(|letter| deck.element(letter))
         .collect::<Result<Vec<_>>>()?;
     let mut found = Found::new(deck, limit);
     let mut level = 0..1;
@@ -95,7 +95,7 @@ impl Found {
             limit: limit.max(1),
             same: if deck.space == Space::E2 && longest > 0.0 { SAME * longest } else { SAME },
         };
-        let one = identity(deck.space);
+        let one = DeckElement::identity(deck.space);
         let key = found.key(&one);
         found.insert(one, key);
         found

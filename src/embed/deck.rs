@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, worse};
-use crate::mesh::{HalfedgeId, Mesh};
+use crate::mesh::HalfedgeId;
 use crate::metric::Metric;
 use crate::topology::word::{Letter, Word};
 use crate::topology::{FundamentalDomain, HomotopyBasis, Side, SurfaceGroup, crossed_halfedges};
@@ -20,6 +20,23 @@ pub struct DeckElement {
     pub word: Word,
     /// As an isometry.
     pub motion: Motion<Twofold>,
+}
+
+impl DeckElement {
+    /// The identity.
+    pub fn identity(space: Space) -> DeckElement {
+        DeckElement { word: Word::identity(), motion: Motion::identity(space) }
+    }
+
+    /// The inverse.
+    pub fn inverse(&self) -> DeckElement {
+        DeckElement { word: self.word.inverse(), motion: self.motion.inverse() }
+    }
+
+    /// The conjugate `to ∘ self ∘ to⁻¹` as an isometry, under the same word.
+    pub(super) fn conjugated_by(&self, to: &Motion<Twofold>) -> DeckElement {
+        DeckElement { word: self.word.clone(), motion: self.motion.conjugated_by(to) }
+    }
 }
 
 /// The group of deck transformations of the universal cover of a layout, acting from the left: M(γ) carries the base lift to the end of
@@ -49,27 +66,28 @@ pub struct DeckGroup {
 }
 
 impl DeckGroup {
-    /// The deck group of a layout without cones of this metric, with the generators of a homotopy basis of the same mesh.
+    /// The deck group of a layout without cones of this metric, with the generators of a homotopy basis of the mesh that is laid out: the
+    /// metric's own triangulation.
     ///
-    /// Errors: [`crate::Error::Layout`], [`crate::Error::Size`] for a layout or basis of another mesh, or where the opened surface is no disk;
-    /// [`crate::Error::Cancelled`].
+    /// # Errors
+    /// [`Error::Layout`], [`Error::Size`] for a metric or basis of another mesh, or where the opened surface is no disk;
+    /// [`Error::Cancelled`].
     pub fn new(
-        mesh: &Mesh,
         metric: &Metric,
         layout: &Layout,
         basis: &HomotopyBasis,
         control: &Control,
     ) -> Result<DeckGroup> {
         control.check()?;
+        let mesh = layout.mesh();
+        let corner = mesh.outgoing(basis.base).find(|&h| !mesh.is_outside(h));
+        let no_face = || Error::Layout(format!("the base, vertex {}, has no face", basis.base));
         let mut deck = DeckGroup {
             space: layout.space,
             group: basis.group,
             generators: Vec::new(),
             sides: Vec::new(),
-            corner: mesh
-                .outgoing(basis.base)
-                .find(|&h| !mesh.is_outside(h))
-                .ok_or_else(|| Error::Layout(format!("the base, vertex {}, has no face", basis.base)))?,
+            corner: corner.ok_or_else(no_face)?,
             relation_residual: 0.0,
             relation_error: 0.0,
             side_residual: 0.0,
@@ -84,28 +102,17 @@ impl DeckGroup {
             None => Err(Error::Layout("a side of the fundamental domain has no edges".into())),
         };
         let pairings: Vec<_> = domain.sides.iter().map(pairing).collect::<Result<_>>()?;
-        let faces = match layout.space {
-            Space::H2 => Some(Faces::precise(mesh, metric)?),
-            _ => None,
-        };
-        for path in &basis.loops {
-            control.check()?;
-            // Products of pairings lead from one copy's middle to the next one's, in H² far from the loop, which costs e^{3 radius} of the
-            // digits; from face to face along the loop nothing leads farther than the loop. In E², where the layout has a scale
-            // of its own, they cost none.
-            let whole = match &faces {
-                Some(faces) => {
-                    let crossed = crossed_halfedges(mesh, deck.corner, path)?;
-                    let home = layout.frame(faces, deck.corner)?;
-                    transport(faces, deck.corner, &crossed)?.conjugated_by(&home)
-                }
-                None => {
+        deck.generators = match layout.space {
+            Space::H2 => along_loops(&Faces::precise(mesh, metric)?, layout, (deck.corner, basis), control)?,
+            space => {
+                let product = |path| {
                     let crossed = domain.crossings(mesh, deck.corner, path)?;
-                    crossed.iter().fold(Motion::identity(layout.space), |m, &k| m.compose(&pairings[k]))
-                }
-            };
-            deck.generators.push(whole.normalised());
-        }
+                    let all = crossed.iter().fold(Motion::identity(space), |m, &k| m.compose(&pairings[k]));
+                    Ok(all.normalised())
+                };
+                basis.loops.iter().map(|path| product(path)).collect::<Result<_>>()?
+            }
+        };
         for (side, motion) in domain.sides.iter().zip(pairings).filter(|(side, _)| side.partner.is_some()) {
             let word = side.element.clone();
             let spelled = deck.motion(&word)?.compose(&motion.inverse());
@@ -117,6 +124,14 @@ impl DeckGroup {
         deck.relation_error = whole.distance_from_identity().min(f64::MAX);
         deck.relation_residual = deck.residual(&relator, &whole)?;
         Ok(deck)
+    }
+
+    /// The element of a generator or its inverse.
+    ///
+    /// # Errors
+    /// As [`DeckGroup::letter`].
+    pub fn element(&self, letter: Letter) -> Result<DeckElement> {
+        Ok(DeckElement { word: Word::from_iter([letter]), motion: self.letter(letter)? })
     }
 
     /// The isometry of a generator or its inverse. Errors: [`Error::Argument`] for a generator that the group has not.
@@ -205,6 +220,26 @@ impl DeckGroup {
         };
         (0..n).map(angle).collect()
     }
+}
+
+/// The isometries of a basis's loops, which start at `corner`, from face to face along each loop.
+///
+/// Products of the layout's side pairings lead from the middle of one copy to that of the next, in H² far from the loop, which costs
+/// e^{3 radius} of the digits; from face to face nothing leads farther than the loop. In E², where the layout has a scale of its own, the
+/// products cost none.
+fn along_loops(
+    faces: &Faces<Motion<Twofold>>,
+    layout: &Layout,
+    (corner, basis): (HalfedgeId, &HomotopyBasis),
+    control: &Control,
+) -> Result<Vec<Motion<Twofold>>> {
+    let home = layout.frame(faces, corner)?;
+    let along = |path| {
+        control.check()?;
+        let crossed = crossed_halfedges(faces.mesh, corner, path)?;
+        Ok(transport(faces, corner, &crossed)?.conjugated_by(&home).normalised())
+    };
+    basis.loops.iter().map(|path| along(path)).collect()
 }
 
 /// What a walk from a half-edge and back to it does to a frame: through the half-edges `crossed`, each of the face one is in.

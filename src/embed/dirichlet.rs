@@ -5,7 +5,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, triangle};
-use crate::topology::word::{Letter, Word};
+use crate::topology::word::Letter;
 use std::f64::consts::PI;
 
 /// A side counts, and a corner is cut off, where that moves the border by more than the first of these for which the sides can be paired:
@@ -67,29 +67,22 @@ pub fn dirichlet_domain(
             "the isometries of the sides are {off:.1e} away from those of their words"
         )));
     }
-    // Everything about the origin: the base point is carried there.
+    // The base point is carried to the origin, and everything with it.
     let home = Motion::to_origin(deck.space, precise_point(deck.space, centre));
-    let about = |g: &DeckElement| DeckElement { word: g.word.clone(), motion: g.motion.conjugated_by(&home) };
-    // The surface is covered by what the neighbours' centres are about: nothing nearest to the centre is farther out than all of them
-    // together.
-    let reach = deck.sides.iter().map(about).map(|g| g.motion.displacement()).sum();
-    // The generators, too: on a surface of few vertices they are shorter than the sides.
-    let generators = (0..deck.generators.len()).map(|k| {
-        let letter = Letter::generator(k);
-        Ok(DeckElement { word: Word::from_iter([letter]), motion: deck.letter(letter)? })
-    });
-    let sides = deck.sides.iter().cloned().map(Ok);
-    let factors = sides.chain(generators).map(|g| g.map(|g| about(&g))).collect::<Result<Vec<_>>>()?;
-    // Lengths of the plane are in units of the longest pairing, those of H² as they are.
-    let unit = if deck.space == Space::E2 {
-        factors.iter().map(|g| g.motion.displacement()).fold(0.0, f64::max)
-    } else {
-        1.0
-    };
-    // That of a disk of this area: no polygon of it lies in a smaller one.
-    let least = match deck.space {
-        Space::H2 => 2.0 * (area / (4.0 * PI)).sqrt().asinh(),
-        _ => (area / PI).sqrt(),
+    let sides = deck.sides.iter().map(|g| g.conjugated_by(&home));
+    // The images of the centre under the side pairings lie within the sum of their distances: no point that is nearest to the centre is
+    // farther out.
+    let reach = sides.clone().map(|g| g.motion.displacement()).sum();
+    // The generators are factors too: on a surface of few vertices they are shorter than the sides.
+    let generator = |k| Ok(deck.element(Letter::generator(k))?.conjugated_by(&home));
+    let generators = (0..deck.generators.len()).map(generator);
+    let factors = sides.map(Ok).chain(generators).collect::<Result<Vec<_>>>()?;
+    // Lengths of the plane are in units of the longest factor, those of H² as they are.
+    let longest = || factors.iter().map(|g| g.motion.displacement()).fold(0.0, f64::max);
+    // The radius of a disk of this area: a polygon of that area reaches farther.
+    let (unit, least) = match deck.space {
+        Space::H2 => (1.0, 2.0 * (area / (4.0 * PI)).sqrt().asinh()),
+        _ => (longest(), (area / PI).sqrt()),
     };
     let (mut nearest, mut left) = (None, MOST_PRODUCTS);
     for tolerance in TOLERANCES {
@@ -127,7 +120,7 @@ fn shortest_products(
     same: f64,
     control: &Control,
 ) -> Result<Vec<DeckElement>> {
-    let identity = identity(deck.space);
+    let identity = DeckElement::identity(deck.space);
     let mut pairs = Vec::with_capacity(all.len() * (all.len() + 1));
     for (i, g) in all.iter().enumerate() {
         control.check()?;
@@ -153,10 +146,6 @@ fn shortest_products(
         }
     }
     Ok(found)
-}
-
-fn inverse(g: &DeckElement) -> DeckElement {
-    DeckElement { word: g.word.inverse(), motion: g.motion.inverse() }
 }
 
 /// A convex polygon about the origin in the plane or in the Klein disk. Corners are vectors `[x, y, w]` of height 1, with twice the digits:
@@ -238,7 +227,7 @@ impl Polygon {
         control: &Control,
     ) -> Result<()> {
         // They generate the group, and stay.
-        let given: Vec<_> = factors.iter().flat_map(|g| [g.clone(), inverse(g)]).collect();
+        let given: Vec<_> = factors.iter().flat_map(|g| [g.clone(), g.inverse()]).collect();
         let mut factors = given.clone();
         for _ in 0..ROUNDS {
             factors.iter().for_each(|g| {
@@ -277,7 +266,7 @@ impl Polygon {
     /// Cut by the bisectors of an element and of its inverse: they belong together.
     fn cut_by_both(&mut self, g: &DeckElement) -> bool {
         let first = self.cut(g);
-        self.cut(&inverse(g)) || first
+        self.cut(&g.inverse()) || first
     }
 
     fn elements(&self) -> Vec<DeckElement> {
@@ -380,11 +369,10 @@ impl Polygon {
             }
         };
         let area = (0..n).map(sector).sum();
-        let place = |g: DeckElement| DeckElement { motion: g.motion.conjugated_by(back), word: g.word };
         Some(DirichletDomain {
             centre,
             corners: points.iter().map(|&p| back.apply(p).map(f64::from)).collect(),
-            sides: elements.into_iter().map(place).collect(),
+            sides: elements.iter().map(|g| g.conjugated_by(back)).collect(),
             partner: partner?,
             area,
             radius,
@@ -427,9 +415,4 @@ fn on_hyperboloid(space: Space, [x, y, w]: [Twofold; 3]) -> [Twofold; 3] {
     }
     let scale = Twofold::from(1.0) / (Twofold::from(1.0) - x * x - y * y).sqrt();
     [x * scale, y * scale, scale]
-}
-
-/// The identity as an element.
-pub(super) fn identity(space: Space) -> DeckElement {
-    DeckElement { word: Word::identity(), motion: Motion::identity(space) }
 }
