@@ -10,7 +10,7 @@ use std::collections::{BTreeSet, BinaryHeap};
 
 /// Faces between two looks at the control.
 const FACES_PER_STEP: usize = 4096;
-/// No chart.
+/// The chart number of a face that no chart has yet.
 const NONE: u32 = u32::MAX;
 
 /// How a face lies in the plane.
@@ -18,7 +18,7 @@ const NONE: u32 = u32::MAX;
 pub(super) enum Lie {
     /// Counterclockwise, with more area than rounding could have given it.
     Solid,
-    /// No area beyond rounding: it overlaps nothing, and goes with the chart that reaches it first.
+    /// Without an area that rounding could not have given it: it overlaps nothing, and belongs to the chart that reaches it first.
     Degenerate,
     /// Clockwise: a chart of its own.
     Flipped,
@@ -78,12 +78,12 @@ impl<'a> Growth<'a> {
         Ok(Growth { sheet, triangles, chart, members, tree: BoxTree::new(triangles, control)? })
     }
 
-    /// A face that is in the way of others, and they of it.
+    /// Whether a face counts for overlap.
     fn is_solid(&self, f: FaceId) -> bool {
         self.sheet.lie[f] == Lie::Solid
     }
 
-    /// Whether a face overlaps what is in the tree.
+    /// Whether a face overlaps one in the tree.
     fn is_refused(&self, f: FaceId) -> bool {
         self.is_solid(f) && self.tree.meeting(f.index()).is_some()
     }
@@ -111,7 +111,7 @@ impl<'a> Growth<'a> {
         [0, 1].map(|k| a[k] / 3.0 + b[k] / 3.0 + c[k] / 3.0)
     }
 
-    /// Grow charts until every face is in one.
+    /// Grows charts until every face is in one.
     fn grow(&mut self, [before, share]: [f64; 2], control: &Control) -> Result<()> {
         let mut seeds: Vec<FaceId> = self.sheet.mesh.faces().filter(|&f| self.chart[f] == NONE).collect();
         let sheet = self.sheet;
@@ -137,7 +137,7 @@ impl<'a> Growth<'a> {
                     control.step(Stage::Layout, before + share * part)?;
                 }
                 if self.is_refused(f) {
-                    // The chart only grows: what overlaps it now always will.
+                    // The chart only grows, so that a face that overlaps it now always will.
                     refused[f] = number;
                     continue;
                 }
@@ -158,7 +158,7 @@ impl<'a> Growth<'a> {
         Ok(())
     }
 
-    /// Join charts that hang together and do not overlap: each, from the largest down, with its neighbours, the largest first.
+    /// Joins charts that hang together and do not overlap: each, from the largest down, with its neighbours, the largest first.
     fn join(&mut self, control: &Control) -> Result<()> {
         let size = |g: &Self, c: u32| -> f64 { g.members[c as usize].iter().map(|f| g.sheet.area[*f]).sum() };
         let mut order: Vec<(Key, Reverse<u32>)> =

@@ -1,15 +1,28 @@
-//! Charts: a layout that overlaps itself, cut into pieces that do not and packed into the unit square.
+//! Charts: a layout that overlaps itself is cut into pieces that do not, and these are packed into the unit square.
 //!
 //! Charts grow face by face around a seed, in the order of the distance from it; a face whose image would overlap the chart stays
-//! outside. Overlap is decided exactly ([`super::overlap`]). Seeds are the largest faces that are left. A layout that is injective
+//! outside. Overlap is decided exactly ([`super::overlap`]). Each seed is the largest face that has no chart yet. An injective layout
 //! grows into one chart. At the end charts that fit together are joined.
 //!
-//! Packed, the charts are looked at again: scaling and moving rounds coordinates to those of the unit square, and a vertex that
-//! nearly touched another face may then lie inside it. Such charts are cut once more and all are packed anew, until what comes out
-//! does not overlap. A chart once cut stays cut, so that this ends.
+//! Packed charts are tested for overlap again: scaling and moving rounds coordinates to those of the unit square, and a vertex that
+//! nearly touched another face may then lie inside it. Such charts are cut once more and all are packed anew, until none overlaps itself.
+//! Charts are never joined again on the way, so that this ends.
 //!
-//! Faces that are smaller than doubles resolve are no obstacle to others: where scales span more than 1e16, as around a single
+//! Faces that are smaller than doubles resolve do not keep others out: where scales span more than 1e16, as around a single
 //! cone on a surface of high genus, whole regions shrink to a point. They stay in the chart around them.
+//!
+//! ```
+//! use ricci::embed::{ChartOptions, charts, layout};
+//! use ricci::{Control, Surface, mesh::shapes, topology::cut_graph};
+//! # fn main() -> ricci::Result<()> {
+//! let disk = Surface::from_soup(&shapes::disk(4)?)?;
+//! let cut = cut_graph(disk.mesh(), disk.lengths(), &[], &Control::new())?;
+//! let flat = layout(disk.mesh(), disk.lengths(), &cut, &Control::new())?;
+//! let charts = charts(disk.mesh(), |h| flat.uv(h), &ChartOptions::default(), &Control::new())?;
+//! assert!(charts.count() == 1 && charts.efficiency > 0.7);
+//! # Ok(())
+//! # }
+//! ```
 
 use super::chart_growth::{Lie, Partition, Sheet, partition};
 use super::corner::number_corners;
@@ -25,10 +38,10 @@ use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedg
 use std::cmp::Ordering;
 use std::f64::consts::FRAC_PI_2;
 
-/// Coordinates in the unit square are multiples of 1/this, the spacing of doubles in its far half: everywhere the same, and no
-/// difference of two of them is rounded.
+/// Coordinates in the unit square are multiples of the inverse of this number: of the spacing of doubles between 1/2 and 1. So no difference of
+/// two coordinates is rounded.
 const GRID: f64 = (1u64 << 53) as f64;
-/// Charts keep at least this distance, so that rounding lets none touch another: many steps of the grid.
+/// Least distance of two charts, in sides of the unit square: so many steps of the grid that rounding lets no chart touch another.
 const ROOM: f64 = 64.0 / GRID;
 
 /// Options of [`charts`].
@@ -67,7 +80,7 @@ pub struct Charts {
     /// Faces whose image is clockwise, by more than what makes it degenerate. Each is a chart of its own: no motion of the plane
     /// mends it.
     pub flipped: Vec<FaceId>,
-    /// Faces without area to speak of, in the layout or in the unit square: within [`super::shape::LEAST_SHARE`] · longest edge² of zero,
+    /// Faces with an area that rounding can explain, in the layout or in the unit square: within [`super::shape::LEAST_SHARE`] · longest edge² of zero,
     /// or lower than two steps of the coordinates. They lie in the charts of their neighbours, and may overlap what is around them
     /// by as much as their own size.
     pub degenerate: Vec<FaceId>,
@@ -90,7 +103,7 @@ impl Charts {
     }
 }
 
-/// Cut a layout into charts that do not overlap themselves, and pack them.
+/// Cuts a layout into charts that do not overlap themselves, and packs them.
 ///
 /// `uv(h)`: plane coordinates of the corner at the origin of h, in its face (h inside the surface). Faces hang together across an
 /// edge where both give its ends exactly the same coordinates. Every chart is connected. In the layout and, exactly, in the
@@ -98,7 +111,8 @@ impl Charts {
 ///
 /// Deterministic. O(F log F) for layouts of bounded overlap, each time that rounding makes it necessary to cut again.
 ///
-/// Errors: [`Error::Layout`] for coordinates that are not finite or a layout without area; [`Error::Argument`] for a margin that is
+/// # Errors
+/// [`Error::Layout`] for coordinates that are not finite or a layout without area; [`Error::Argument`] for a margin that is
 /// negative or leaves no room; [`Error::Cancelled`].
 pub fn charts(
     mesh: &Mesh,
@@ -245,7 +259,8 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Turn, scale and move the points of all charts into the unit square.
+/// Turns, scales and moves the points of all charts into the unit square; `chart` is the chart of each point. Returns the scale and, per
+/// chart, the motion that follows it.
 fn arrange(
     points: &mut [[f64; 2]],
     chart: &[u32],
@@ -264,7 +279,7 @@ fn arrange(
         let need = "small enough to leave room between the charts";
         Error::Argument { what: "margin", value: format!("{margin} with {count} charts"), need }
     })?;
-    // Where the largest chart alone sets the scale, its least square counts, not its least rectangle.
+    // Where the largest chart alone limits the scale, it does so by its least square, not by its least rectangle.
     let square = least_square(&of_chart[0]);
     let first = std::mem::replace(&mut rectangles[0], square);
     match pack(&sides(&rectangles), margin, control)? {

@@ -1,4 +1,17 @@
 //! The deck group of a surface of constant curvature: its fundamental group as isometries of the model space.
+//!
+//! ```
+//! use ricci::canonical::{QuotientOptions, uniformize_quotient};
+//! use ricci::{Control, Surface, mesh::shapes};
+//! # fn main() -> ricci::Result<()> {
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 8, 8)?)?;
+//! let flat = uniformize_quotient(&torus, &QuotientOptions::default(), &Control::new())?;
+//! // The deck group of a torus consists of translations that commute.
+//! assert_eq!(flat.deck.generators.len(), 2);
+//! assert!(flat.deck.relation_residual < 1e-12);
+//! # Ok(())
+//! # }
+//! ```
 
 use super::faces::{Faces, corner_of};
 use super::layout::Layout;
@@ -42,8 +55,7 @@ impl DeckElement {
 /// The group of deck transformations of the universal cover of a layout, acting from the left: M(γ) carries the base lift to the end of
 /// γ's lift, `M(γδ) = M(γ) M(δ)`.
 ///
-/// Isometries are carried to twice the digits of doubles: what a product of far translations loses is then below what the side pairings
-/// are known to.
+/// Isometries have twice the digits of doubles: products of far translations then lose less than the errors of the side pairings.
 #[derive(Debug, Clone)]
 pub struct DeckGroup {
     /// The space it acts on.
@@ -59,7 +71,7 @@ pub struct DeckGroup {
     /// `‖R − I‖_F / max_k ‖P_k‖²` of the relator's matrix R over its partial products P_k (Frobenius norms of 2×2 matrices, R with the
     /// nearer sign). 0 without a relation.
     pub relation_residual: f64,
-    /// `‖R − I‖_F` itself: what the rounding of far products has left of the relation near the base.
+    /// `‖R − I‖_F` itself: the error of the relation near the base.
     pub relation_error: f64,
     /// As `relation_residual`, for each side: how far its pairing is from its word's isometry; the largest.
     pub side_residual: f64,
@@ -134,7 +146,10 @@ impl DeckGroup {
         Ok(DeckElement { word: Word::from_iter([letter]), motion: self.letter(letter)? })
     }
 
-    /// The isometry of a generator or its inverse. Errors: [`Error::Argument`] for a generator that the group has not.
+    /// The isometry of a generator or its inverse.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a generator that the group has not.
     pub fn letter(&self, letter: Letter) -> Result<Motion<Twofold>> {
         match self.generators.get(letter.index()) {
             Some(g) if letter.is_inverse() => Ok(g.inverse()),
@@ -146,7 +161,10 @@ impl DeckGroup {
         }
     }
 
-    /// The isometry of a word. Errors: as [`DeckGroup::letter`].
+    /// The isometry of a word.
+    ///
+    /// # Errors
+    /// As [`DeckGroup::letter`].
     pub fn motion(&self, word: &Word) -> Result<Motion<Twofold>> {
         let letters = word.letters().iter();
         letters.map(|&l| self.letter(l)).try_fold(Motion::identity(self.space), |m, g| Ok(m.compose(&g?)))
@@ -161,7 +179,7 @@ impl DeckGroup {
             largest = largest.max(product.norm_square());
         }
         let residual = rest.distance_from_identity() / largest;
-        // Products beyond the range of doubles say nothing.
+        // A product beyond the range of doubles gives NaN.
         Ok(if residual.is_nan() { f64::MAX } else { residual })
     }
 
@@ -187,7 +205,10 @@ impl DeckGroup {
     /// lift at `base` under its prefixes, in ambient coordinates; 4g + b of them.
     ///
     /// It is a fundamental domain of a closed surface: the geodesic loops of the generators meet in the base alone. Its corners need
-    /// not be convex. Errors: as [`DeckGroup::letter`].
+    /// not be convex.
+    ///
+    /// # Errors
+    /// As [`DeckGroup::letter`].
     pub fn canonical_polygon(&self, base: [f64; 3]) -> Result<Vec<[f64; 3]>> {
         let mut product = Motion::identity(self.space);
         let base = precise_point(self.space, base);
@@ -204,7 +225,10 @@ impl DeckGroup {
     /// point of it.
     ///
     /// Each is formed at the base: seen from corner P_k, the neighbours are where the last letter came from and where the next one
-    /// leads. Errors: as [`DeckGroup::letter`].
+    /// leads.
+    ///
+    /// # Errors
+    /// As [`DeckGroup::letter`].
     pub fn canonical_angles(&self, base: [f64; 3]) -> Result<Vec<f64>> {
         let home = Motion::to_origin(self.space, precise_point(self.space, base));
         let direction = |g: Motion<Twofold>| {
@@ -242,7 +266,8 @@ fn along_loops(
     basis.loops.iter().map(|path| along(path)).collect()
 }
 
-/// What a walk from a half-edge and back to it does to a frame: through the half-edges `crossed`, each of the face one is in.
+/// The isometry by which a walk from a half-edge and back to it moves a frame. The walk leads through the half-edges `crossed`, each of the
+/// face that the walk is in.
 fn transport(
     faces: &Faces<Motion<Twofold>>,
     corner: HalfedgeId,

@@ -33,8 +33,11 @@ impl<'a> Faces<'a, PlaneFrame> {
         Self::of_triangles(mesh, lengths, &differences)
     }
 
-    /// Of a metric in E², by doubles: triangles keep their shape where circles of very different sizes meet, which rounded lengths
-    /// do not. Errors: those of [`Metric::lengths`]; [`Error::Layout`] in another space.
+    /// Of a metric in E², by doubles. Triangles keep their shape where circles of very different sizes meet, since they come from
+    /// [`Metric::differences`]: rounded lengths would lose it.
+    ///
+    /// # Errors
+    /// Those of [`Metric::lengths`]; [`Error::Layout`] in another space.
     pub fn in_plane(mesh: &'a Mesh, metric: &Metric) -> Result<Self> {
         if metric.space != Space::E2 {
             return Err(Error::Layout(format!("a metric in {} has no layout in the plane", metric.space)));
@@ -55,7 +58,10 @@ impl<'a> Faces<'a, PlaneFrame> {
 }
 
 impl<'a> Faces<'a, Motion<Twofold>> {
-    /// Of a metric in any space, with twice the digits of doubles. Errors: those of [`Metric::lengths`].
+    /// Of a metric in any space, with twice the digits of doubles.
+    ///
+    /// # Errors
+    /// Those of [`Metric::lengths`].
     pub fn precise(mesh: &'a Mesh, metric: &Metric) -> Result<Self> {
         let differences = metric.differences(mesh)?;
         let chords = metric.scaled_chords(mesh);
@@ -103,7 +109,7 @@ impl<F: Frame> Faces<'_, F> {
         let mut frames = [frame; 3];
         frames[next] = frame.forward(sides[k]).turned_onwards(angles[next]);
         frames[last] = frames[next].forward(sides[next]).turned_onwards(angles[last]);
-        // From the nearer end: the step is rounded to doubles of its size.
+        // The last corner is placed from its nearer neighbour, since a step is rounded to doubles of its size.
         if F::size(sides[last]) < F::size(sides[next]) {
             frames[last] = frames[last].ending_at(&frame, sides[last]);
         }
@@ -181,7 +187,7 @@ pub(super) fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3
         return corners[corner];
     }
     let [x, y, w] = [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * corners[k][i]).sum::<f64>());
-    // −⟨P, P⟩ = Σ w_i² + Σ 2 w_i w_j cosh d_ij, and cosh d − 1 is half the square of the difference.
+    // In H² −⟨P, P⟩ = Σ w_i² + Σ 2 w_i w_j cosh d_ij = (Σ w_i)² + Σ 4 w_i w_j sinh²(d_ij/2), which does not cancel.
     let norm = match space {
         Space::E2 => w,
         Space::S2 => (x * x + y * y + w * w).sqrt(),
@@ -195,7 +201,7 @@ pub(super) fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3
         }
     };
     let (x, y) = (x / norm, y / norm);
-    // On the hyperboloid to the last digit.
+    // So that the point is on the hyperboloid to the last digit.
     let w = if space == Space::H2 { 1.0f64.hypot(x.hypot(y)) } else { w / norm };
     [x, y, w]
 }

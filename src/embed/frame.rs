@@ -10,8 +10,8 @@ pub(super) const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
 /// The frame of a half-edge, by which its face is placed: the isometry that brings the half-edge from the origin, along the x axis, to
 /// where it lies.
 ///
-/// Frames of H² and S² are [`Motion`]s with twice the digits of doubles, since what they lose is magnified by e^distance in H². In E² a
-/// [`PlaneFrame`] of doubles does, which takes a tenth of the time.
+/// Frames of H² and S² are [`Motion`]s with twice the digits of doubles, since their errors are magnified by e^distance in H². In E² a
+/// [`PlaneFrame`] of doubles is enough, and takes a tenth of the time.
 pub(super) trait Frame: Copy + Send + Sync {
     /// The length of a side, as walks along it take it.
     type Side: Copy + Send + Sync;
@@ -31,11 +31,11 @@ pub(super) trait Frame: Copy + Send + Sync {
     fn turned_onwards(&self, angle: Self::Angle) -> Self;
     /// After a turn by π.
     fn turned_round(&self) -> Self;
-    /// In the same direction, but so that the half-edge, of this length, ends at the place of another frame. A frame of twice the digits is
-    /// that already.
+    /// In the same direction, but moved so that the half-edge, of this length, ends at the place of another frame. A frame of twice the digits
+    /// stays as it is: it ends there to all digits that a layout has.
     fn ending_at(&self, end: &Self, side: Self::Side) -> Self;
-    /// The distance from the origin of the third corner of a triangle on this half-edge, whose angle here and whose last side are given:
-    /// by doubles, or any number that grows with it.
+    /// The distance from the origin of the third corner of a triangle on this half-edge, by its angle here and its last side; or a number that
+    /// grows with that distance. Doubles are enough, since it only decides the order of faces.
     fn distance_of_apex(&self, angle: Self::Angle, last: Self::Side) -> f64;
     /// Where the half-edge starts, in ambient coordinates.
     fn origin(&self) -> [f64; 3];
@@ -78,7 +78,7 @@ impl Frame for PlaneFrame {
 
     fn turned_onwards(&self, [cos, sin]: [f64; 2]) -> Self {
         let direction = mul(self.direction, [-cos, sin]);
-        // One step of Newton's method for 1/|direction|, from 1: that is off by a few roundings.
+        // One step of Newton's method for 1/|direction| from 1, where the length is off by a few roundings.
         let correction = 1.5 - 0.5 * norm2(direction);
         PlaneFrame { direction: direction.map(|x| correction * x), place: self.place }
     }
@@ -148,7 +148,7 @@ impl Frame for Motion<Twofold> {
     }
 
     fn distance_of_apex(&self, half_angle: [Twofold; 2], last: [Twofold; 2]) -> f64 {
-        // Half the distance, its hyperbolic sine or its sine; the order of faces needs no more than doubles.
+        // |b| is half the distance in E², its hyperbolic sine in H², its sine in S².
         let far =
             self.rounded().after_rotation(half_angle.map(f64::from)).after_translation(last.map(f64::from));
         far.b[0].hypot(far.b[1])

@@ -1,4 +1,16 @@
-//! Placing pieces in the space of their metric: what a layout is made from.
+//! From a development of pieces to a layout.
+//!
+//! ```
+//! use ricci::embed::layout_of;
+//! use ricci::{Class, Control, Solution, Surface, geometry::Space, mesh::shapes};
+//! # fn main() -> ricci::Result<()> {
+//! let disk = Surface::from_soup(&shapes::disk(4)?)?;
+//! let flat = Solution::initial_of(disk, Class::yamabe(Space::E2))?;
+//! let layout = layout_of(flat.mesh(), flat.metric(), None, None, &Control::new())?;
+//! assert!(layout.seams.is_empty() && layout.consistency() < 1e-14);
+//! # Ok(())
+//! # }
+//! ```
 
 use super::corner::number_corners;
 use super::develop::Development;
@@ -16,13 +28,14 @@ use crate::parallel;
 use crate::topology::{CutGraph, check_lengths, cut};
 use std::sync::Arc;
 
-/// Lay lengths that are flat off the cut out in E², in units of the lengths, by doubles, O(E log E). A corner of the smallest triangle
+/// Lays lengths that are flat off the cut out in E², in units of the lengths, by doubles, O(E log E). A corner of the smallest triangle
 /// lies at the origin.
 ///
-/// `lengths`: one per edge, flat at every vertex that is inside the opened surface; what is missing to that shows in
+/// `lengths`: one per edge, flat at every vertex inside the opened surface; how far they are from that shows in
 /// [`Layout::consistency`] and [`Layout::broken`]. `cut` opens the surface into a disk ([`crate::topology::cut_graph`]).
 ///
-/// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk, [`Error::Cancelled`].
+/// # Errors
+/// [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk, [`Error::Cancelled`].
 pub fn layout(mesh: &Arc<Mesh>, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Control) -> Result<Layout> {
     check_lengths(mesh, lengths)?;
     let faces = Faces::of_lengths(mesh, lengths.clone());
@@ -31,14 +44,15 @@ pub fn layout(mesh: &Arc<Mesh>, lengths: &PerEdge<f64>, cut: &CutGraph, control:
     Ok(layout)
 }
 
-/// Lay a metric of constant curvature out in its space, outwards from `root` (default: a corner of the smallest triangle) with
+/// Lays a metric of constant curvature out in its space, outwards from `root` (default: a corner of the smallest triangle), with
 /// twice the digits of doubles, as deck groups need them: O(E log E).
 ///
-/// `cut`: where to open the surface; `None` for one without cones, whose cut is then the locus where the order of [`Layout`]'s faces, by
-/// the distance of their far corner, meets itself (nearly a Dirichlet domain: small, round about the root; no cut at all on a sphere). Cones
-/// inside have to lie on a given cut.
+/// `cut`: where to open the surface; cones inside have to lie on it. `None`, for a surface without cones: faces are added by the distance of
+/// their far corner from the root, and the surface is opened where this growing disk meets itself. It is nearly a Dirichlet domain: small, and
+/// round about the root. A sphere is then not cut at all.
 ///
-/// Errors: [`Error::Argument`] for a root that is no vertex; [`Error::Layout`] for a cut that does not leave a disk, a surface of several
+/// # Errors
+/// [`Error::Argument`] for a root that is no vertex; [`Error::Layout`] for a cut that does not leave a disk, a surface of several
 /// components, lengths beyond what doubles can place; those of [`Metric::lengths`]; [`Error::Cancelled`].
 pub fn layout_of(
     mesh: &Arc<Mesh>,
@@ -53,8 +67,11 @@ pub fn layout_of(
     Ok(layout)
 }
 
-/// Where the corners of the part of a flat surface lie that a cut leaves around the smallest triangle, per half-edge of a face; NaN beyond the cut.
-/// Errors: those of [`layout_of`].
+/// Lays out the part of a flat surface that a cut leaves around the smallest triangle: the coordinates of the corner at the origin of each
+/// half-edge of a face, NaN beyond the cut.
+///
+/// # Errors
+/// Those of [`layout_of`].
 pub(crate) fn unroll_part(
     mesh: &Arc<Mesh>,
     metric: &Metric,
@@ -68,7 +85,7 @@ pub(crate) fn unroll_part(
     Ok(PerHalfedge::from_fn(mesh.n_halfedges(), |h| flat(Space::E2, points[corner[h] as usize])))
 }
 
-/// Lay pieces out; what is flipped or degenerate is not yet found ([`Layout::find_flat`]). `cut`: on the pieces.
+/// Lays pieces out along a cut of them; flipped and degenerate triangles are found later ([`Layout::find_flat`]).
 pub(super) fn lay_out<F: Frame>(
     pieces: Pieces,
     faces: &Faces<F>,
@@ -173,7 +190,7 @@ impl<F: Frame> Development<'_, F> {
             Some([left, right]) => left.compose(&right.inverse()),
             None => Motion::identity(self.faces.space),
         };
-        // By frames: products of vectors would lose e^{2r} in H², those of isometries e^r.
+        // The distance of isometries loses a factor e^r of the digits in H²; that of vectors would lose e^{2r}.
         let off = |[left, right]: &[Motion<Twofold>; 2]| {
             left.inverse().compose(&pairing).compose(right).displacement()
         };
@@ -184,7 +201,8 @@ impl<F: Frame> Development<'_, F> {
 impl Layout {
     /// The same layout on a common refinement of the triangulation that is laid out, opened where that is; O(pieces).
     ///
-    /// Errors: [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a layout that has no frames (of
+    /// # Errors
+    /// [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a layout that has no frames (of
     /// [`layout_of`]) or is one of a refinement; [`Error::Cancelled`].
     pub fn refined(&self, r: &Arc<Refinement>, metric: &Metric, control: &Control) -> Result<Layout> {
         let Pieces::Mesh(mesh) = &self.pieces else {
@@ -224,7 +242,7 @@ fn seam_sides(mesh: &Mesh, cut: &CutGraph) -> PerHalfedge<i32> {
     side
 }
 
-/// The cut opens the surface into a disk; every cut edge lies in exactly one segment, once, and inside the surface.
+/// Checks that a cut opens the surface into a disk, and that every cut edge lies inside the surface and in exactly one segment, once.
 pub(super) fn check_cut(mesh: &Mesh, cut: &CutGraph) -> Result<()> {
     check_size("is_cut", cut.is_cut.len(), mesh.n_edges())?;
     if !cut::is_disk(mesh, &cut.is_cut) {
