@@ -135,46 +135,24 @@ pub fn charts(
     let mut sheet = Sheet::new(mesh, layout);
     let own_seam = sheet.seams();
     let mut cut = partition(&sheet, &sheet.layout, [0.0, 0.4], control)?;
-    let packed = loop {
+    let charts = loop {
         sheet.separate(&cut.chart);
-        let packed = sheet.pack(&cut, margin, control)?;
-        let placed = packed.triangles(mesh);
+        let charts = sheet.pack(cut, margin, control)?;
+        let placed: Vec<Triangle> = mesh.faces().map(|f| charts.face_uv(mesh, f)).collect();
         sheet.mark_degenerate(&placed);
         // Rounding may have made charts overlap themselves: then they are cut once more.
-        let again = partition(&sheet, &placed, [0.5, 0.4], control)?;
-        if again.count == cut.count {
-            break packed;
+        cut = partition(&sheet, &placed, [0.5, 0.4], control)?;
+        if cut.count == charts.count() {
+            break charts;
         }
-        cut = again;
     };
-    let is_seam = sheet.seams();
     Ok(Charts {
-        chart: cut.chart,
-        corner_index: packed.corner_index,
-        coordinates: packed.points,
-        motions: packed.motions,
-        scale: packed.scale,
-        efficiency: area * packed.scale * packed.scale,
-        seam_length: [&own_seam, &is_seam].map(|seams| sheet.length(seams)),
-        is_seam,
+        efficiency: area * charts.scale * charts.scale,
+        seam_length: [&own_seam, &charts.is_seam].map(|seams| sheet.length(seams)),
         flipped: sheet.faces_that_lie(Lie::Flipped),
         degenerate: sheet.faces_that_lie(Lie::Degenerate),
+        ..charts
     })
-}
-
-/// Charts in the unit square, not yet looked at for overlap.
-struct Packed {
-    corner_index: PerHalfedge<u32>,
-    points: Vec<[f64; 2]>,
-    scale: f64,
-    motions: Vec<PlaneIsometry>,
-}
-
-impl Packed {
-    fn triangles(&self, mesh: &Mesh) -> Vec<Triangle> {
-        let point = |h: HalfedgeId| self.points[self.corner_index[h] as usize];
-        mesh.faces().map(|f| mesh.face_halfedges(f).map(point)).collect()
-    }
 }
 
 impl<'a> Sheet<'a> {
@@ -229,18 +207,32 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// The charts of a partition, opened along the seams and moved into the unit square.
-    fn pack(&self, cut: &Partition, margin: f64, control: &Control) -> Result<Packed> {
-        let (corner_index, n_points) = number_corners(self.mesh, &self.seams());
-        let (mut points, mut chart) = (vec![[0.0; 2]; n_points], vec![0; n_points]);
+    /// The charts of a partition, opened along the seams and moved into the unit square; nothing is measured yet.
+    fn pack(&self, cut: Partition, margin: f64, control: &Control) -> Result<Charts> {
+        let is_seam = self.seams();
+        let (corner_index, n_points) = number_corners(self.mesh, &is_seam);
+        let (mut coordinates, mut chart) = (vec![[0.0; 2]; n_points], vec![0; n_points]);
         for f in self.mesh.faces() {
             for (h, p) in self.mesh.face_halfedges(f).into_iter().zip(self.layout[f.index()]) {
                 let k = corner_index[h] as usize;
-                (points[k], chart[k]) = (p, cut.chart[f]);
+                (coordinates[k], chart[k]) = (p, cut.chart[f]);
             }
         }
-        let (scale, motions) = arrange(&mut points, &chart, cut.count, margin, control)?;
-        Ok(Packed { corner_index, points, scale, motions })
+        let (scale, motions) = arrange(&mut coordinates, &chart, cut.count, margin, control)?;
+        let (chart, efficiency, seam_length) = (cut.chart, 0.0, [0.0; 2]);
+        let (flipped, degenerate) = (Vec::new(), Vec::new());
+        Ok(Charts {
+            chart,
+            corner_index,
+            coordinates,
+            motions,
+            scale,
+            efficiency,
+            is_seam,
+            seam_length,
+            flipped,
+            degenerate,
+        })
     }
 
     /// Takes solid faces that rounding to the unit square has left no area for degenerate ones.

@@ -324,7 +324,11 @@ impl Layout {
         if self.pieces.refinement().is_none() {
             self.flipped = match self.space {
                 Space::E2 => faces_where(mesh, |f| !is_left_turn(self.face_uv(f))),
-                _ => faces_where(mesh, |f| !is_counterclockwise(self.face_points(f))),
+                // The sign of the determinant is in H² the orientation in the Klein disk.
+                _ => faces_where(mesh, |f| {
+                    let [p, q, r] = self.face_points(f);
+                    winding(p, q, r) != Ordering::Greater
+                }),
             };
             return;
         }
@@ -379,12 +383,6 @@ fn faces_where(mesh: &Mesh, is_so: impl Fn(FaceId) -> bool + Sync) -> Vec<FaceId
 
 fn is_left_turn([a, b, c]: [[f64; 2]; 3]) -> bool {
     orientation(a, b, c) == Ordering::Greater
-}
-
-/// Whether three points in ambient coordinates run counterclockwise, by exact arithmetic: the sign of their determinant, which in H² is
-/// the orientation of their images in the Klein disk.
-pub fn is_counterclockwise([p, q, r]: [[f64; 3]; 3]) -> bool {
-    winding(p, q, r) == Ordering::Greater
 }
 
 /// Distance of a point in ambient coordinates from the origin.
