@@ -99,6 +99,7 @@ impl<'a, F: Frame> Development<'a, F> {
         let (mesh, faces) = (self.pieces.mesh(), self.faces);
         let (number, face) = (self.sides.len() as u32, self.pieces.final_face(entry.piece));
         let sides = faces.around(face, entry.side, entry.frame);
+        // Formed from the first half-edge, whose frame is all that a layout keeps of a face.
         self.sides.push(if entry.side == 0 { sides } else { faces.around(face, 0, sides[0]) });
         let (mut done, mut distance) = (self.order.len(), [None; 3]);
         self.starts.push(done as u32);

@@ -163,7 +163,12 @@ impl Frame for Motion<Twofold> {
     }
 
     fn miss(&self, point: [f64; 3], local: [f64; 3]) -> [f64; 2] {
-        let [x, y, _] = Motion::apply(&self.inverse(), precise_point(self.space, point)).map(f64::from);
+        let point = precise_point(self.space, point);
+        if self.space == Space::E2 {
+            let place = Motion::apply(self, precise_point(self.space, local));
+            return [0, 1].map(|k| f64::from(point[k] - place[k]));
+        }
+        let [x, y, _] = Motion::apply(&self.inverse(), point).map(f64::from);
         sub([x, y], [local[0], local[1]])
     }
 
@@ -200,8 +205,9 @@ mod tests {
                 assert!(off[0].hypot(off[1]) < 1e-12, "{k}: {off:?}");
             }
             let other = [p[0] + 3.0, p[1] - 4.0, 1.0];
-            let off = plane.miss(other, local);
-            assert!((off[0].hypot(off[1]) - 5.0).abs() < 1e-12);
+            for off in [plane.miss(other, local), motion.miss(other, local)] {
+                assert!((off[0] - 3.0).hypot(off[1] + 4.0) < 1e-12, "{k}: {off:?}");
+            }
         }
     }
 }
