@@ -135,7 +135,7 @@ fn finish(mut flow: Flow, options: &QuotientOptions, control: &Control) -> Resul
             }
         }
         let basis = homotopy_basis(&mesh, &lengths, Some(base), control)?;
-        let deck = DeckGroup::new(&mesh, metric.metric(), &layout, &basis, control)?;
+        let deck = DeckGroup::new(metric.metric(), &layout, &basis, control)?;
         Ok(Quotient { report, angle_defect, metric, layout, basis, deck })
     })
 }

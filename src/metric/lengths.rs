@@ -129,12 +129,19 @@ impl Metric {
     /// # Errors
     /// As [`Metric::lengths`].
     pub fn differences(&self, mesh: &Mesh) -> Result<PerFace<[f64; 3]>> {
+        Ok(self.lengths_and_differences(mesh)?.1)
+    }
+
+    /// [`Metric::lengths`] and [`Metric::differences`] of the same edges, which are formed once.
+    pub(crate) fn lengths_and_differences(&self, mesh: &Mesh) -> Result<(PerEdge<f64>, PerFace<[f64; 3]>)> {
         let (vertices, edges) = self.vertices_and_edges(mesh)?;
-        self.lengths_of(&edges)?;
-        Ok(PerFace::from_fn(mesh.n_faces(), |f| {
-            let (r, unit) = face_differences(mesh, &vertices, &edges, f);
+        let lengths = self.lengths_of(&edges)?;
+        let mut differences = vec![[0.0; 3]; mesh.n_faces()];
+        parallel::fill(&mut differences, |f| {
+            let (r, unit) = face_differences(mesh, &vertices, &edges, f.into());
             r.map(|r| scaled(r, unit))
-        }))
+        });
+        Ok((lengths, differences.into()))
     }
 
     /// What the doubles of [`Metric::lengths`] lose, per edge: `l` to twice the digits is `length + remainder`.

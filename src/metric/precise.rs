@@ -19,26 +19,18 @@ use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex};
 use crate::parallel;
 
 impl Metric {
-    /// The half chords of the edges: l/2, sinh(l/2), sin(l/2) in E², H², S². To 20 digits where lengths are precise
-    /// ([`crate::geometry::conformal::is_precise`]), else to those of doubles.
-    ///
-    /// # Errors
-    /// As [`Metric::lengths`].
-    pub fn half_chords(&self, mesh: &Mesh) -> Result<PerEdge<Twofold>> {
-        self.lengths(mesh)?;
-        Ok(self.scaled_chords(mesh)?.iter().map(|(q, unit)| q.scaled(*unit)).collect::<Vec<_>>().into())
-    }
-
-    /// The half chords in units of their own, with the exponents of these.
-    pub(crate) fn scaled_chords(&self, mesh: &Mesh) -> Result<PerEdge<(Twofold, i32)>> {
-        let vertices = self.vertices_and_edges(mesh)?.0;
+    /// The half chords of the edges, l/2, sinh(l/2), sin(l/2) in E², H², S², in units of their own, with the exponents of these. To 20 digits where
+    /// lengths are precise ([`crate::geometry::conformal::is_precise`]), else to those of doubles. It needs a metric in its domain:
+    /// [`Metric::check_domain`].
+    pub(crate) fn scaled_chords(&self, mesh: &Mesh) -> PerEdge<(Twofold, i32)> {
+        let vertices = self.vertices();
         let mut chords = vec![(Twofold::default(), 0); mesh.n_edges()];
         parallel::fill(&mut chords, |e| {
             let e = EdgeId::from(e);
             let [a, b] = mesh.ends(e).map(|v| vertices[v]);
             half_chord(self.space, a, b, self.eta[e])
         });
-        Ok(chords.into())
+        chords.into()
     }
 
     /// By how much the angles around each vertex inside miss 2π, in (−2π, 2π], to twice the digits; 0 on the boundary. It is the
@@ -49,7 +41,8 @@ impl Metric {
     /// # Errors
     /// Those of [`Metric::check_domain`].
     pub fn angle_defects(&self, mesh: &Mesh) -> Result<PerVertex<f64>> {
-        let half_angles = half_angles(self, mesh, &self.scaled_chords(mesh)?);
+        self.check_domain(mesh)?;
+        let half_angles = half_angles(self, mesh, &self.scaled_chords(mesh));
         let mut turn: PerVertex<[Twofold; 2]> =
             PerVertex::filled(mesh.n_vertices(), [1.0.into(), 0.0.into()]);
         for f in mesh.faces() {
