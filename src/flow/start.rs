@@ -150,7 +150,7 @@ impl Flow {
         Ok(())
     }
 
-    /// Set u per vertex of [`Flow::mesh`]: the start of the next solves, and the values held at pinned vertices.
+    /// Set u per vertex of [`Solution::mesh`]: the start of the next solves, and the values held at pinned vertices.
     ///
     /// # Errors
     /// Those of [`Metric::lengths`] there; nothing has changed then.
