@@ -1,10 +1,10 @@
 //! The options of `ricci flow`.
 
-use crate::options::{Common, OnChoice, SolveArgs, SurfaceArgs, distance};
+use crate::options::{FileName, MetricArgs, distance};
 use crate::picture::FlowPictureArgs;
 use clap::{Args, ValueEnum};
 use ricci::geometry::Space;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -27,55 +27,47 @@ Files
     --circles C.json           vertex circles and the circles orthogonal to them, in the layout's coordinates
     --trace T.csv              step,energy,max_curvature_error,area,step_size (gradient flow)";
 
-#[derive(Args, Debug)]
+#[derive(Args, Serialize, Debug)]
 pub struct FlowArgs {
     #[command(flatten)]
-    pub surface: SurfaceArgs,
+    #[serde(flatten)]
+    pub to: MetricArgs,
     /// Background geometry; auto is h2 on closed surfaces of genus ≥ 2 and e2 elsewhere
     #[arg(long, value_enum, default_value_t = SpaceChoice::Auto)]
+    #[serde(skip)]
     pub space: SpaceChoice,
     /// Curvature: uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
     #[arg(long, value_name = "TARGET", long_help = TARGET_HELP)]
+    #[serde(skip)]
     pub target: Option<TargetChoice>,
-    #[command(flatten)]
-    pub solve: SolveArgs,
     /// Keep the total area during the gradient flow (E²)
     #[arg(long)]
     pub area_normalised: bool,
     /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,…
     #[arg(long, value_name = "VERTICES")]
+    #[serde(skip)]
     pub pin: Option<PinChoice>,
     /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex
     #[arg(long, value_name = "E.csv")]
-    pub keep_edges: Option<PathBuf>,
-    /// Write the metric
-    #[arg(long, value_name = "M.json")]
-    pub metric: Option<PathBuf>,
-    /// Write the surface with its layout as texture coordinates (E²; H² of closed surfaces), .obj or .glb
-    #[arg(long, value_name = "OUT.obj")]
-    pub uv: Option<PathBuf>,
-    /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
-    #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
-    pub on: OnChoice,
+    pub keep_edges: Option<FileName>,
     /// Write homogeneous texture coordinates to --uv, `vt qx qy q`: the projective map of each piece is linear in them
     #[arg(long, requires = "uv")]
     pub homogeneous: bool,
     /// Write the vertex circles and dual circles of the layout (circle schemes, E²)
     #[arg(long, value_name = "C.json")]
-    pub circles: Option<PathBuf>,
+    pub circles: Option<FileName>,
     #[command(flatten)]
+    #[serde(flatten)]
     pub picture: FlowPictureArgs,
     /// Write the steps of the gradient flow
     #[arg(long, value_name = "T.csv")]
-    pub trace: Option<PathBuf>,
+    pub trace: Option<FileName>,
     /// Cut a layout that overlaps itself into charts that do not, packed into the unit square (--uv, --picture)
     #[arg(long)]
     pub charts: bool,
     /// Least distance of two charts, in sides of the unit square
     #[arg(long, value_name = "DISTANCE", default_value_t = 1.0 / 256.0, value_parser = distance, requires = "charts")]
     pub margin: f64,
-    #[command(flatten)]
-    pub common: Common,
 }
 
 const TARGET_HELP: &str = "\
@@ -170,12 +162,6 @@ impl FromStr for PinChoice {
         }
         let vertex = |v: &str| v.trim().parse().map_err(|_| format!("`{v}` is not a vertex number"));
         text.split(',').map(vertex).collect::<Result<_, _>>().map(PinChoice::Vertices)
-    }
-}
-
-impl Serialize for TargetChoice {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::job::Outcome;
 use crate::laid::Laid;
 use crate::report::Done;
-use crate::say::{count, ending, lines, modulus, slivers, surface, tolerance};
+use crate::say::{count, ending, lines, modulus, surface, tolerance};
 use ricci::flow::StopReason;
 use ricci::mesh::VertexId;
 
@@ -14,8 +14,8 @@ pub fn say(done: &Done<Outcome>) {
     let mut text = surface(&done.input);
     text += &format!(
         "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}{}\n",
-        outcome.metric.space,
-        outcome.scheme,
+        outcome.solved.solution.metric().space,
+        outcome.solved.scheme,
         outcome.rule.name(),
         report.stop_reason,
         count(report.iterations, "step", "steps"),
@@ -33,9 +33,7 @@ pub fn say(done: &Done<Outcome>) {
         Ok(laid) => format!("layout   {}\n", layout(laid)),
         Err(why) => format!("layout   none: {why}\n"),
     };
-    text += &slivers(&done.input, &done.checks);
-    text += &ending(&outcome.left_out, &outcome.failed, &done.checks, &done.files, done.seconds);
-    lines(&text);
+    lines(&(text + &ending(done, &outcome.solved)));
 }
 
 /// The quality of a layout.
@@ -66,7 +64,7 @@ fn why(outcome: &Outcome) -> String {
     if report.stop_reason == StopReason::BrokenTriangles {
         return format!(
             "no metric of the scheme on this triangulation: its energy is least with broken {}",
-            named("face", "faces", &outcome.curvature.broken)
+            named("face", "faces", &outcome.solved.curvature.broken)
         );
     }
     if let Some(o) = &report.obstruction {

@@ -1,10 +1,10 @@
 //! The surface that a command works on.
 
 use crate::failure::Failure;
-use crate::metric_file::{self, Intrinsic};
-use crate::options::SurfaceArgs;
+use crate::metric_file;
+use crate::options::MeshArgs;
 use crate::output::extension;
-use crate::timing::timed;
+use crate::timing::{Seconds, timed};
 use ricci::Control;
 use ricci::Surface;
 use ricci::control::Stage;
@@ -19,37 +19,35 @@ pub struct Input {
     pub surface: Surface,
     /// What else the mesh file says of vertices and corners.
     pub attributes: Attributes,
-    pub seconds_read: f64,
-    pub seconds_build: f64,
+    /// Those of reading and building.
+    pub seconds: Seconds,
 }
 
-/// Read a mesh file ([`read_soup`]) or, from a name that ends in `.json`, an intrinsic metric.
-pub fn read(args: &SurfaceArgs, control: &Control) -> Result<Input, Failure> {
-    let (path, weld) = (args.mesh.as_path(), args.weld);
-    let (mut seconds_read, mut seconds_build) = (0.0, 0.0);
+/// Read a mesh file ([`read_soup`]) or, from a name that ends in `.json`, an intrinsic metric; its lengths in a `geometry` other than
+/// the file's if one is given.
+pub fn read(file: &MeshArgs, geometry: Option<Space>, control: &Control) -> Result<Input, Failure> {
+    let path = &file.mesh;
+    let mut seconds = Seconds::default();
     control.step(Stage::Read, 0.0)?;
-    let geometry = args.input_geometry.map(Space::from);
-    let (surface, attributes) = if extension(path) == "json" && weld.is_none() {
-        let text = timed(&mut seconds_read, || read_text(path))?;
-        let build = || -> Result<_, Failure> {
-            let Intrinsic { mesh, lengths, geometry: written } = metric_file::parse(path, &text)?;
-            Ok(Surface::intrinsic(mesh, lengths, geometry.unwrap_or(written))?)
-        };
-        (timed(&mut seconds_build, build)?, Attributes::default())
+    let (surface, attributes) = if file.is_intrinsic() {
+        let text = timed(&mut seconds.read, || read_text(path))?;
+        let surface = timed(&mut seconds.build, || metric_file::parse(path, &text, geometry))?;
+        (surface, Attributes::default())
     } else {
-        let soup = timed(&mut seconds_read, || read_soup(path, weld))?;
+        let soup = timed(&mut seconds.read, || read_soup(file))?;
         control.step(Stage::Build, 0.0)?;
-        let build = || -> Result<_, Failure> {
-            let surface = Surface::from_soup(&soup)?;
-            Ok(match geometry {
-                Some(geometry) => surface.read_in(geometry),
-                None => surface,
-            })
-        };
-        (timed(&mut seconds_build, build)?, soup.attributes)
+        let surface = timed(&mut seconds.build, || Surface::from_soup(&soup))?;
+        (geometry.into_iter().fold(surface, Surface::read_in), soup.attributes)
     };
     control.check()?;
-    Ok(Input { path: path.into(), surface, attributes, seconds_read, seconds_build })
+    Ok(Input { path: path.clone(), surface, attributes, seconds })
+}
+
+impl MeshArgs {
+    /// Whether the file holds edge lengths in place of positions.
+    pub fn is_intrinsic(&self) -> bool {
+        extension(&self.mesh) == "json" && self.weld.is_none()
+    }
 }
 
 impl Input {
@@ -63,11 +61,11 @@ impl Input {
     }
 }
 
-/// Read a mesh file; the corners of an STL file are one vertex within the distance `weld`.
-pub fn read_soup(path: &Path, weld: Option<f64>) -> Result<Soup, Failure> {
-    match weld {
-        None => Ok(io::read(path)?),
-        Some(weld) if extension(path) == "stl" => Ok(io::read_stl(path, weld)?),
+/// Read a mesh file.
+pub fn read_soup(file: &MeshArgs) -> Result<Soup, Failure> {
+    match file.weld {
+        None => Ok(io::read(&file.mesh)?),
+        Some(weld) if extension(&file.mesh) == "stl" => Ok(io::read_stl(&file.mesh, weld)?),
         Some(_) => Err(Failure::Usage(
             "--weld: only an STL file has no vertices of its own; ricci repair welds".into(),
         )),

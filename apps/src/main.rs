@@ -30,6 +30,7 @@ mod say;
 mod shape;
 mod shape_quality;
 mod show;
+mod solved;
 mod timing;
 mod uniform;
 mod uv;

@@ -58,6 +58,11 @@ impl Outputs {
         Ok(())
     }
 
+    /// Write these bytes.
+    pub fn add_bytes(&mut self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+        self.add(path, |out| out.write_all(bytes))
+    }
+
     /// Let the library write a file by name.
     pub fn add_named<T>(
         &mut self,

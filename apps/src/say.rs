@@ -1,8 +1,9 @@
 //! What commands say on stdout: a few lines for people. All numbers are in the report.
 
 use crate::input::Input;
-use crate::report::{Attempts, Checks};
+use crate::report::{Checks, Done};
 use crate::shape_quality::thinnest;
+use crate::solved::Solved;
 use ricci::flow::Options;
 use std::io::{self, Write};
 
@@ -51,8 +52,8 @@ pub fn surface(input: &Input) -> String {
 }
 
 /// Where a check fails: whether the surface has slivers, which cost digits.
-pub fn slivers(input: &Input, checks: &Checks) -> String {
-    let thinnest = || thinnest(input.mesh(), input.surface.geometry(), input.surface.lengths());
+fn slivers(input: &Input, checks: &Checks) -> String {
+    let thinnest = || thinnest(&input.surface);
     match (!checks.failed().is_empty()).then(thinnest).flatten() {
         Some((face, angle)) if angle < SLIVER => format!(
             "slivers  face {face} is the thinnest, with an angle of {angle:.1e} degrees: remesh there, or allow flips\n"
@@ -62,14 +63,10 @@ pub fn slivers(input: &Input, checks: &Checks) -> String {
 }
 
 /// The last lines of a summary: what is not there, whether the checks hold, the files, the time.
-pub fn ending(
-    left_out: &[&str],
-    failed: &Attempts,
-    checks: &Checks,
-    files: &[String],
-    seconds: f64,
-) -> String {
-    let mut text = String::new();
+pub fn ending<T>(done: &Done<T>, solved: &Solved) -> String {
+    let Done { checks, files, seconds, .. } = done;
+    let Solved { failed, left_out, .. } = solved;
+    let mut text = slivers(&done.input, checks);
     for what in left_out {
         text += &format!("left out {what}\n");
     }

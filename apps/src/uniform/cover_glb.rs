@@ -5,7 +5,6 @@ use super::copies::Copies;
 use super::tiling::tint;
 use crate::checkerboard;
 use crate::picture::{TINTS, tint_color};
-use ricci::Control;
 use serde_json::{Value, json};
 use std::io::{self, Seek, SeekFrom, Write};
 
@@ -16,7 +15,7 @@ const BOUND: usize = 26;
 const MOST: u64 = u32::MAX as u64;
 
 /// Write the copies; coordinates are single precision, as glTF has them.
-pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>, control: &Control) -> io::Result<()> {
+pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>) -> io::Result<()> {
     let (shared, views) = shared(copies)?;
     let (n, copy) = (copies.elements.len(), 12 * copies.points.len());
     let binary = shared.len() as u64 + n as u64 * copy as u64;
@@ -40,7 +39,6 @@ pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>, control: &Co
     out.write_all(&shared)?;
     let mut bounds = Vec::with_capacity(n);
     copies.each(
-        control,
         |k| positions(copies, k),
         |(bound, bytes)| {
             bounds.push(bound);

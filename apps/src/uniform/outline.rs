@@ -18,7 +18,7 @@ pub struct Side {
 /// The sides of the opened surface, counterclockwise.
 pub fn sides(u: &Uniformized) -> ricci::Result<Vec<Side>> {
     let whole = &u.layout;
-    let mesh = &**u.metric.mesh();
+    let mesh = &**u.solved.solution.mesh();
     let domain = FundamentalDomain::new(mesh, &whole.cut.is_cut, &u.basis)?;
     let mut pair = vec![usize::MAX; domain.sides.len()];
     let mut n_pairs = 0;
@@ -47,7 +47,7 @@ fn chain(mesh: &Mesh, whole: &Layout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]>
 /// The loops of the generators in the opened surface: the two ends of each edge in each of its places, with the loop's number.
 pub fn loops(u: &Uniformized) -> Vec<([[f64; 3]; 2], usize)> {
     let whole = &u.layout;
-    let mesh = u.metric.mesh();
+    let mesh = u.solved.solution.mesh();
     let ends = |h: HalfedgeId| [whole.corner(h), whole.corner(mesh.next(h))];
     let of = |(k, path): (usize, &Vec<HalfedgeId>)| -> Vec<_> {
         path.iter().flat_map(|h| [*h, h.twin()]).map(|h| (ends(h), k)).collect()
@@ -58,7 +58,7 @@ pub fn loops(u: &Uniformized) -> Vec<([[f64; 3]; 2], usize)> {
 /// The loops of the generators on the surface as it was given: edges of the common refinement, with the loop's number.
 pub fn loops_on_surface(u: &Uniformized) -> Vec<(u32, u32, usize)> {
     let Some(refinement) = u.laid().ok().and_then(|laid| laid.refinement()) else { return Vec::new() };
-    let mut of_edge = vec![None; u.metric.mesh().n_edges()];
+    let mut of_edge = vec![None; u.solved.solution.mesh().n_edges()];
     for (k, path) in u.basis.loops.iter().enumerate() {
         path.iter().for_each(|h| of_edge[h.edge().index()] = Some(k));
     }

@@ -31,17 +31,17 @@ fn the_written_metric_has_the_target_curvature_in_every_space_and_scheme() {
     }
 }
 
-#[test]
-fn the_report_has_the_fields_of_the_contract() {
+fn reported() -> Value {
     let place = Place::new();
     place.put("torus.obj", &torus(12, 8).obj());
     place.expect(0, "flow torus.obj --report r.json --uv o.obj --quiet --threads 1");
-    let report = place.json("r.json");
-    let text = |at: &Value| assert!(at.is_string(), "{at}");
-    let number = |at: &Value| assert!(at.is_f64() || at.is_u64() || at.is_i64(), "{at}");
-    for key in ["ricci", "command"] {
-        text(&report[key]);
-    }
+    place.json("r.json")
+}
+
+#[test]
+fn the_report_names_the_input_and_the_options() {
+    let report = reported();
+    assert!(report["ricci"].is_string());
     assert_eq!(report["command"], "flow");
     assert_eq!(report["input"]["path"], "torus.obj");
     for (key, value) in [
@@ -67,6 +67,12 @@ fn the_report_has_the_fields_of_the_contract() {
     }
     assert_eq!(report["options"]["tolerance"], 1e-10);
     assert_eq!(report["options"]["threads"], 1);
+}
+
+#[test]
+fn the_report_has_the_fields_of_the_contract() {
+    let report = reported();
+    let number = |at: &Value| assert!(at.is_f64() || at.is_u64() || at.is_i64(), "{at}");
     let result = &report["result"];
     for (key, value) in [("space", "e2"), ("scheme", "yamabe"), ("stop_reason", "converged")] {
         assert_eq!(result[key], value);
