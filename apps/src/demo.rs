@@ -69,16 +69,16 @@ pub fn run(args: &DemoArgs, control: &Control) -> Result<u8, Failure> {
         checks.add(name, done.checks.failed().len() as f64, 0.0);
         runs.push(json!({"name": name, "command": line, "input": input, "result": figures}));
     }
+    let mut outputs = Outputs::default();
     if let Some(path) = &args.common.report {
         let asked = json!({"out": path_text(out), "threads": args.common.threads});
         let seconds = Seconds { total: start.elapsed().as_secs_f64(), ..Seconds::default() };
         let report = Report::new("demo", None, asked, json!({"runs": runs})).finished(checks, seconds);
-        let mut outputs = Outputs::default();
         outputs.add_report(path, &report)?;
-        outputs.commit()?;
     }
+    let files = outputs.commit()?;
     if !args.common.quiet {
-        say::lines(&format!("{table}{notes}"));
+        say::lines(&format!("{table}{notes}"), &files)?;
     }
     Ok(exit_code)
 }

@@ -1,6 +1,5 @@
 //! `ricci flow`.
 
-use crate::carry;
 use crate::charts;
 use crate::circles::circles;
 use crate::csv;
@@ -13,7 +12,7 @@ use crate::job::{self, Job, Outcome, default_space};
 use crate::options::{MethodChoice, OnChoice};
 use crate::output::{self, Outputs, check_extension};
 use crate::picture::ColorChoice;
-use crate::progress::Progress;
+use crate::progress::{Progress, doing};
 use crate::report::{Done, Figures, InputSummary, Report, Seconds, path_text};
 use crate::show;
 use crate::uv;
@@ -31,7 +30,7 @@ use std::time::Instant;
 pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
     let done = execute(args, control)?;
     if !args.to.common.quiet {
-        flow_summary::say(&done);
+        flow_summary::say(&done)?;
     }
     Ok(done.exit_code)
 }
@@ -48,15 +47,13 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done<Outcome>, Fail
     check_surface(args, &input, space)?;
     let mut outcome = job::run(&input, job(args, &input, space, control)?, control)?;
     if args.charts {
-        let cut = charts::cut(&mut outcome, args.margin, control);
+        let cut = doing("cutting", || charts::cut(&mut outcome, args.margin, control));
         outcome.solved.failed.attempt("charts", cut)?;
     }
     let (files, figures) = write(args, &input, &mut outcome, control, start)?;
     drop(progress);
     let checks = outcome.checks();
-    let svg = args.picture.base.is_svg();
-    let missing = outcome.layout.is_err() && (args.to.uv.is_some() || args.circles.is_some() || svg);
-    let exit_code = if missing || !outcome.solved.failed.0.is_empty() { 1 } else { checks.exit_code() };
+    let exit_code = if outcome.solved.failed.0.is_empty() { checks.exit_code() } else { 1 };
     let seconds = start.elapsed().as_secs_f64();
     Ok(Done { input, result: outcome, figures, checks, files, seconds, exit_code })
 }
@@ -67,15 +64,41 @@ fn job(args: &FlowArgs, input: &Input, space: Space, control: &Control) -> Resul
         Some(path) => csv::read_edges(path, input.mesh())?,
         None => Vec::new(),
     };
+    if args.pin == Some(PinChoice::Boundary) && input.mesh().is_closed() {
+        return Err(Failure::Usage("--pin boundary: a closed surface has none; name vertices".into()));
+    }
     let pinned = args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, input.mesh()));
+    let usual = usual_target(args, input, space);
+    let chosen = args.target.as_ref().or(usual.as_ref());
+    let target_name = match &usual {
+        Some(usual) => Some(format!(
+            "{usual} (the default of open surfaces with handles; --target boundary bends the boundary alone)"
+        )),
+        None => args.target.as_ref().map(ToString::to_string),
+    };
     let of_layout = [&args.to.uv, &args.circles, &args.picture.base.picture, &args.to.common.report];
     Ok(Job {
         space,
         scheme: args.to.solve.scheme.into(),
-        target: args.target.as_ref().map(|t| target(t, input, space, control)).transpose()?,
+        target: chosen.map(|t| target(t, input, space, control)).transpose()?,
+        target_name,
         options: Options { fixed_edges, pinned, ..options(args) },
         laid_out: args.charts || of_layout.iter().any(|path| path.is_some()),
     })
+}
+
+/// Most cones that are placed by default, each of which costs a few solutions of a linear system; and the least number.
+const USUAL_CONES: [i64; 2] = [4, 64];
+
+/// The target of an open surface with handles in E², where none is asked for: cones. Its boundary alone would have to bend by 2πχ,
+/// which few boundaries can.
+fn usual_target(args: &FlowArgs, input: &Input, space: Space) -> Option<TargetChoice> {
+    let (mesh, plane) = (input.mesh(), space == Space::E2 && input.surface.geometry() == Space::E2);
+    let inside = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)).count();
+    let cones = mesh.euler().abs().clamp(USUAL_CONES[0], USUAL_CONES[1]) as usize;
+    let wanted =
+        plane && args.target.is_none() && args.pin.is_none() && !mesh.is_closed() && mesh.genus() > 0;
+    (wanted && inside > 0).then(|| TargetChoice::Auto(cones.min(inside)))
 }
 
 fn options(args: &FlowArgs) -> Options {
@@ -96,6 +119,10 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
         (
             on_input && (args.charts || args.homogeneous),
             "--on input: charts and homogeneous coordinates belong to the refinement; leave --on, or them, out",
+        ),
+        (
+            args.picture.base.is_svg() && args.picture.base.is_turned(),
+            "--view, --up: an SVG shows the layout alone; use .png, or leave them out",
         ),
         (args.margin >= 1.0, "--margin: a share of the unit square's side, in [0, 1)"),
         (
@@ -119,7 +146,7 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
         Some(TargetChoice::Cones(path) | TargetChoice::File(path)) => Some(path.as_path()),
         _ => None,
     };
-    let files = [&to.metric, &to.uv, &args.circles, &args.trace, &to.common.report];
+    let files = [&to.metric, &to.uv, &to.xref, &args.circles, &args.trace, &to.common.report];
     let files: Vec<Option<&Path>> = files.map(|path| path.as_deref()).into_iter().chain([picture]).collect();
     output::check_outputs(&[Some(&to.file.mesh), args.keep_edges.as_deref(), table], &files)
 }
@@ -205,23 +232,35 @@ fn write(
         outcome.solved.failed.attempt("trace", written)?;
     }
     control.check()?;
-    if let (Some(path), Ok(laid)) = (&args.to.uv, &outcome.layout) {
-        let written = uv::write(&mut outputs, path, input, laid, (args.to.on, args.homogeneous));
-        if outcome.solved.failed.attempt("uv", written)?.is_some() {
-            outcome.solved.left_out = carry::left_out(input);
+    match &outcome.layout {
+        Ok(laid) => {
+            let solved = &mut outcome.solved;
+            uv::write_asked(&mut outputs, input, laid, (&args.to, args.homogeneous), solved)?;
+            if let Some(path) = &args.circles {
+                let all = circles(solved, laid).ok_or(Failure::Failed("the metric has no circles".into()));
+                let written = all.and_then(|all| outputs.add_json(path, &all));
+                solved.failed.attempt("circles", written)?;
+            }
+        }
+        Err(why) => {
+            let of_layout = [
+                ("uv", args.to.uv.is_some()),
+                ("xref", args.to.xref.is_some()),
+                ("circles", args.circles.is_some()),
+                ("charts", args.charts),
+                ("picture", args.picture.base.is_svg()),
+            ];
+            let missing = of_layout.into_iter().filter(|(_, asked)| *asked);
+            outcome.solved.failed.0.extend(missing.map(|(wish, _)| (wish, why.clone())));
         }
     }
     control.check()?;
     let drawable = outcome.layout.is_ok() || !args.picture.base.is_svg();
     if let Some(path) = args.picture.base.picture.as_ref().filter(|_| drawable) {
-        let drawn = show::draw(input, outcome, &args.picture, args.to.common.threads);
+        let draw = || show::draw(input, outcome, &args.picture, args.to.common.threads);
+        let drawn = doing("drawing", draw);
         let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
         outcome.solved.failed.attempt("picture", written)?;
-    }
-    let all = outcome.layout.as_ref().ok().and_then(|laid| circles(&outcome.solved, laid));
-    if let (Some(path), Some(all)) = (&args.circles, all) {
-        let written = outputs.add_json(path, &all);
-        outcome.solved.failed.attempt("circles", written)?;
     }
     outcome.solved.seconds.write += begin.elapsed().as_secs_f64();
     control.step(Stage::Write, 0.5)?;

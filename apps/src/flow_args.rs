@@ -16,7 +16,7 @@ Example: eight cones, and charts in the unit square
     ricci flow torus.obj --target auto:8 --charts --uv atlas.obj --picture atlas.svg
 
 Files
-    --target cones:FILE.csv    rows `vertex,curvature` in radians; 0 at every vertex that is not named
+    --target cones:FILE.csv    rows `vertex,curvature`, vertices numbered from 0, radians; 0 where none is named
     --metric M.json            faces, lengths, eta (per face, opposite the corners: bc, ca, ab), u,
                                conformal_factor, epsilon, target, boundary; `input_geometry` is the
                                geometry that `lengths` are in, so the file can be read back as a MESH
@@ -43,11 +43,11 @@ pub struct FlowArgs {
     /// Keep the total area during the gradient flow (E²)
     #[arg(long)]
     pub area_normalised: bool,
-    /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,…
+    /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,… (numbered from 0)
     #[arg(long, value_name = "VERTICES")]
     #[serde(skip)]
     pub pin: Option<PinChoice>,
-    /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex
+    /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex (numbered from 0)
     #[arg(long, value_name = "E.csv")]
     pub keep_edges: Option<FileName>,
     /// Write homogeneous texture coordinates to --uv, `vt qx qy q`: the projective map of each piece is linear in them
@@ -74,11 +74,11 @@ const TARGET_HELP: &str = "\
 Prescribed curvature in radians:
   uniform         2πχ/V at every vertex of a closed surface in E²; 0 everywhere in H² and S²
   boundary        0 inside, 2πχ shared over the boundary in proportion to its length (E², open surfaces)
-  single:V        all of 2πχ at vertex V, 0 elsewhere (E²)
+  single:V        all of 2πχ at vertex V (numbered from 0), 0 elsewhere (E²)
   auto:N          N cones where they lower the distortion of area most, 0 elsewhere inside (E²)
   cones:FILE.csv  the curvatures of the file's rows `vertex,curvature`, 0 elsewhere
   file:FILE.csv   the curvature of every vertex
-[default: boundary on open surfaces in E²; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
+[default: boundary on open surfaces of genus 0 in E², auto:N on those with handles, N = |χ| from 4 to 64; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
 with --pin 0 at every vertex that is not pinned]";
 
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]

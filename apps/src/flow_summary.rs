@@ -1,5 +1,6 @@
 //! What `ricci flow` says on stdout.
 
+use crate::failure::Failure;
 use crate::job::Outcome;
 use crate::laid::Laid;
 use crate::report::Done;
@@ -8,7 +9,7 @@ use ricci::flow::StopReason;
 use ricci::mesh::VertexId;
 
 /// The summary of a flow.
-pub fn say(done: &Done<Outcome>) {
+pub fn say(done: &Done<Outcome>) -> Result<(), Failure> {
     let outcome = &done.result;
     let report = &outcome.report;
     let mut text = surface(&done.input);
@@ -16,7 +17,7 @@ pub fn say(done: &Done<Outcome>) {
         "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}{}\n",
         outcome.solved.solution.metric().space,
         outcome.solved.scheme,
-        outcome.rule.name(),
+        outcome.rule_name,
         report.stop_reason,
         count(report.iterations, "step", "steps"),
         report.max_curvature_error,
@@ -33,7 +34,7 @@ pub fn say(done: &Done<Outcome>) {
         Ok(laid) => format!("layout   {}\n", layout(laid)),
         Err(why) => format!("layout   none: {why}\n"),
     };
-    lines(&(text + &ending(done, &outcome.solved)));
+    lines(&(text + &ending(done, &outcome.solved)), &done.files)
 }
 
 /// The quality of a layout.

@@ -1,9 +1,9 @@
 //! `ricci gallery`: one picture per kind of surface and of picture, each by the command line that is written beside it.
 
 use crate::cli::{Command, GalleryArgs};
+use crate::csv::read_text;
 use crate::demo::{execute, make_directory, parse};
 use crate::failure::Failure;
-use crate::input::read_text;
 use crate::output::Outputs;
 use crate::report::path_text;
 use crate::{info, make, say};
@@ -85,7 +85,7 @@ pub fn run(args: &GalleryArgs, control: &Control) -> Result<u8, Failure> {
             };
             page += &format!("| {image} | **{name}**: {about}{credit} | {shown} |\n");
             if !args.common.quiet {
-                say::lines(&format!("{name}: {shown}\n"));
+                say::lines(&format!("{name}: {shown}\n"), say::NO_FILES)?;
             }
         }
     }

@@ -1,22 +1,25 @@
 //! `ricci info`.
 
 use crate::failure::Failure;
-use crate::input::{self, Input};
+use crate::input::{self, Content};
+use crate::metric_file;
 use crate::options::{Common, MeshArgs};
 use crate::output::{Outputs, check_extension, check_outputs};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{Checks, Counts, InputSummary, Report, Seconds, timed};
-use crate::say::{self, count};
+use crate::say::{self, count, size};
 use crate::shape_quality::{self, ShapeQuality};
 use crate::show;
 use clap::Args;
 use ricci::Control;
 use ricci::Surface;
+use ricci::control::Stage;
 use ricci::geometry::triangle;
 use ricci::mesh::check::{Defect, Diagnosis, diagnose};
 use ricci::mesh::io::Soup;
 use ricci::mesh::{FaceId, Mesh};
 use serde::Serialize;
+use std::path::Path;
 use std::time::Instant;
 
 pub const HELP: &str = "\
@@ -87,47 +90,57 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     let picture = args.picture.base.picture.as_deref();
     check_outputs(&[Some(&args.file.mesh)], &[args.common.report.as_deref(), picture])?;
     check_extension("--picture", picture, &["png"])?;
-    if picture.is_some() && args.file.is_intrinsic() {
-        return Err(Failure::Usage("--picture: an intrinsic metric has no positions in space".into()));
-    }
     let (mut outputs, mut seconds) = (Outputs::default(), Seconds::default());
-    let (counts, info) = if args.file.is_intrinsic() {
-        of_metric(args, &mut seconds, control)?
-    } else {
-        let soup = timed(&mut seconds.read, || input::read_soup(&args.file))?;
-        if let Some(path) = picture {
-            let draw = || show::draw_surface(&soup, &args.picture, args.common.threads);
-            outputs.add_bytes(path, &timed(&mut seconds.write, draw)?)?;
+    control.step(Stage::Read, 0.0)?;
+    let content = timed(&mut seconds.read, || input::content(&args.file))?;
+    control.step(Stage::Build, 0.0)?;
+    let (counts, info) = match &content {
+        Content::Lengths(_) if picture.is_some() => {
+            return Err(Failure::Usage("--picture: an intrinsic metric has no positions in space".into()));
         }
-        timed(&mut seconds.build, || of_soup(&soup))
+        Content::Lengths(text) => timed(&mut seconds.build, || of_metric(&args.file.mesh, text))?,
+        Content::Triangles(soup) => timed(&mut seconds.build, || of_soup(soup)),
     };
-    let summary = InputSummary::new(&args.file.mesh, counts);
-    if !args.common.quiet {
-        say::lines(&text(&summary, &info));
+    if let (Content::Triangles(soup), Some(path)) = (&content, picture) {
+        let draw = || show::draw_surface(soup, &args.picture, args.common.threads);
+        outputs.add_bytes(path, &timed(&mut seconds.write, draw)?)?;
     }
+    let summary = InputSummary::new(&args.file.mesh, counts);
+    let text = text(&summary, &info);
     if let Some(path) = &args.common.report {
         seconds.total = start.elapsed().as_secs_f64();
         let report = Report::new("info", summary, args, info).finished(Checks::default(), seconds);
         outputs.add_report(path, &report)?;
     }
-    outputs.commit()?;
+    let files = outputs.commit()?;
+    if !args.common.quiet {
+        say::lines(&text, &files)?;
+    }
     Ok(0)
 }
 
 /// What a list of triangles is.
 fn of_soup(soup: &Soup) -> (Counts, Info) {
     let diagnosis = diagnose(&soup.positions, &soup.faces);
+    if let Some(message) = input::out_of_range(soup) {
+        // Angles and areas of such faces say nothing.
+        let mut info = Info::new(&diagnosis, shape_quality::of_triangles(&[], &[]));
+        let code = "coordinate_out_of_range";
+        info.defects.retain(|defect| defect.code != "zero_area_face");
+        info.defect_counts.retain(|kind| kind.code != "zero_area_face");
+        let remedy = "scale the mesh, or give the vertex its place";
+        info.defects.push(DefectFigures { code, message, vertices: Vec::new(), faces: Vec::new(), remedy });
+        info.defect_counts.push(DefectCount { code, count: 1 });
+        return (Counts::from(&diagnosis), Info { admissible: false, ..info });
+    }
     let quality = || shape_quality::of_triangles(&soup.positions, &soup.faces);
     (Counts::from(&diagnosis), Info::new(&diagnosis, shape_of(soup).unwrap_or_else(quality)))
 }
 
 /// What an intrinsic metric is.
-fn of_metric(args: &InfoArgs, seconds: &mut Seconds, control: &Control) -> Result<(Counts, Info), Failure> {
-    match input::read(&args.file, None, control) {
-        Ok(input) => {
-            *seconds = input.seconds;
-            Ok((Counts::from(input.mesh()), Info::of_metric(&input)))
-        }
+fn of_metric(path: &Path, text: &str) -> Result<(Counts, Info), Failure> {
+    match metric_file::parse(path, text, None) {
+        Ok(surface) => Ok((Counts::from(&**surface.mesh()), Info::of_metric(&surface))),
         Err(Failure::Defects(diagnosis) | Failure::Unglued(diagnosis)) => {
             let quality = shape_quality::of_triangles(&[], &[]);
             Ok((Counts::from(&*diagnosis), Info::new(&diagnosis, quality)))
@@ -138,8 +151,7 @@ fn of_metric(args: &InfoArgs, seconds: &mut Seconds, control: &Control) -> Resul
 
 impl Info {
     /// An intrinsic metric is a surface already; its lengths may still form no triangles.
-    fn of_metric(surface: &Input) -> Self {
-        let surface = &surface.surface;
+    fn of_metric(surface: &Surface) -> Self {
         let (mesh, lengths, geometry) = (surface.mesh(), surface.lengths(), surface.geometry());
         let broken =
             |f: &FaceId| triangle::angles(geometry, mesh.opposite_edges(*f).map(|e| lengths[e])).broken();
@@ -193,10 +205,10 @@ fn text(summary: &InputSummary, info: &Info) -> String {
     );
     let q = &info.quality;
     text += &format!(
-        "area {:.6e}, smallest angle {}, longest over shortest edge {}\nobtuse faces {}, non-Delaunay edges {}\n",
-        q.area,
+        "area {}, smallest angle {}, longest over shortest edge {}\nobtuse faces {}, non-Delaunay edges {}\n",
+        size(q.area, 6),
         q.min_angle_degrees.map_or("undefined".into(), |x| format!("{x:.4}°")),
-        q.edge_ratio.map_or("undefined".into(), |x| format!("{x:.4}")),
+        q.edge_ratio.map_or("undefined".into(), |x| size(x, 4)),
         percent(q.obtuse_fraction),
         percent(q.non_delaunay_fraction),
     );

@@ -1,9 +1,10 @@
 //! The surface that a command works on.
 
+use crate::csv::read_text;
 use crate::failure::Failure;
 use crate::metric_file;
 use crate::options::MeshArgs;
-use crate::output::extension;
+use crate::output::{STANDARD, extension};
 use crate::timing::{Seconds, timed};
 use ricci::Control;
 use ricci::Surface;
@@ -11,6 +12,7 @@ use ricci::control::Stage;
 use ricci::geometry::Space;
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::{Mesh, Point};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// A connected oriented surface with edge lengths.
@@ -23,31 +25,112 @@ pub struct Input {
     pub seconds: Seconds,
 }
 
-/// Read a mesh file ([`read_soup`]) or, from a name that ends in `.json`, an intrinsic metric; its lengths in a `geometry` other than
-/// the file's if one is given.
-pub fn read(file: &MeshArgs, geometry: Option<Space>, control: &Control) -> Result<Input, Failure> {
-    let path = &file.mesh;
-    let mut seconds = Seconds::default();
-    control.step(Stage::Read, 0.0)?;
-    let (surface, attributes) = if file.is_intrinsic() {
-        let text = timed(&mut seconds.read, || read_text(path))?;
-        let surface = timed(&mut seconds.build, || metric_file::parse(path, &text, geometry))?;
-        (surface, Attributes::default())
-    } else {
-        let soup = timed(&mut seconds.read, || read_soup(file))?;
-        control.step(Stage::Build, 0.0)?;
-        let surface = timed(&mut seconds.build, || Surface::from_soup(&soup))?;
-        (geometry.into_iter().fold(surface, Surface::read_in), soup.attributes)
-    };
-    control.check()?;
-    Ok(Input { path: path.clone(), surface, attributes, seconds })
+/// What a file holds.
+pub enum Content {
+    /// The text of an intrinsic metric.
+    Lengths(String),
+    Triangles(Soup),
 }
 
-impl MeshArgs {
-    /// Whether the file holds edge lengths in place of positions.
-    pub fn is_intrinsic(&self) -> bool {
-        extension(&self.mesh) == "json" && self.weld.is_none()
+/// Read a mesh file or, from a name that ends in `.json`, the text of an intrinsic metric; what kind of file stdin is, is seen from its
+/// first bytes.
+pub fn content(file: &MeshArgs) -> Result<Content, Failure> {
+    let path = &file.mesh;
+    if path == Path::new(STANDARD) {
+        return from_stdin(file.weld);
     }
+    let kind = extension(path);
+    match file.weld {
+        None if kind == "json" => Ok(Content::Lengths(read_text(path)?)),
+        None => Ok(Content::Triangles(io::read(path)?)),
+        Some(weld) if kind == "stl" => Ok(Content::Triangles(io::read_stl(path, weld)?)),
+        Some(_) => Err(Failure::Usage(WELD_ELSEWHERE.into())),
+    }
+}
+
+const WELD_ELSEWHERE: &str = "--weld: only an STL file has no vertices of its own; ricci repair welds";
+
+fn from_stdin(weld: Option<f64>) -> Result<Content, Failure> {
+    let mut bytes = Vec::new();
+    std::io::stdin().lock().read_to_end(&mut bytes).map_err(|e| Failure::Input(format!("stdin: {e}")))?;
+    let kind = kind_of(&bytes);
+    let name = "stdin";
+    Ok(Content::Triangles(match (kind, weld) {
+        ("stl", Some(weld)) => io::parse_stl_welded(&bytes, name, weld)?,
+        (_, Some(_)) => return Err(Failure::Usage(WELD_ELSEWHERE.into())),
+        ("json", _) => return Ok(Content::Lengths(String::from_utf8_lossy(&bytes).into_owned())),
+        ("stl", _) => io::parse_stl(&bytes, name)?,
+        ("ply", _) => io::parse_ply(&bytes, name)?,
+        ("off", _) => io::parse_off(&bytes, name)?,
+        ("glb", _) => io::parse_glb(&bytes, name)?,
+        ("gii", _) => io::parse_gifti(&bytes, name)?,
+        _ => io::parse_obj(&bytes, name)?,
+    }))
+}
+
+/// The extension of files that begin like this; that of OBJ, which has no beginning of its own, for all others.
+fn kind_of(bytes: &[u8]) -> &'static str {
+    let text = bytes.trim_ascii_start();
+    let first = text.split(|b| b.is_ascii_whitespace()).next().unwrap_or_default();
+    let has = |word: &[u8]| text.windows(word.len()).any(|w| w == word);
+    let count = bytes.get(80..84).and_then(|n| n.try_into().ok()).map(u32::from_le_bytes);
+    match first {
+        _ if bytes.starts_with(b"glTF") => "glb",
+        _ if count.is_some_and(|n| bytes.len() as u64 == 84 + 50 * u64::from(n)) => "stl",
+        b"ply" => "ply",
+        b"solid" => "stl",
+        _ if first.ends_with(b"OFF") => "off",
+        _ if text.starts_with(b"<") => "gii",
+        _ if text.starts_with(b"{") && has(b"\"asset\"") => "glb",
+        _ if text.starts_with(b"{") => "json",
+        _ => "obj",
+    }
+}
+
+/// Read a mesh file that is to hold triangles.
+pub fn read_triangles(path: &Path) -> Result<Soup, Failure> {
+    match content(&MeshArgs { mesh: path.into(), weld: None })? {
+        Content::Triangles(soup) => Ok(soup),
+        Content::Lengths(_) => {
+            Err(Failure::Input(format!("{}: an intrinsic metric has no triangles in space", path.display())))
+        }
+    }
+}
+
+/// Largest coordinate, and least length, whose products with others doubles hold.
+const RANGE: [f64; 2] = [1e-150, 1e150];
+
+/// The first coordinate that is too large to compute with, if there is one.
+pub fn out_of_range(soup: &Soup) -> Option<String> {
+    let coordinates = soup.positions.iter().enumerate().flat_map(|(v, p)| p.iter().map(move |x| (v, *x)));
+    let (v, x) = coordinates.into_iter().find(|(_, x)| x.is_finite() && x.abs() > RANGE[1])?;
+    let [least, most] = RANGE;
+    Some(format!(
+        "vertex {v}: the coordinate {x:e} is outside the range: lengths between {least:e} and {most:e} (rescale)"
+    ))
+}
+
+/// Read a surface; its lengths in a `geometry` other than the file's if one is given.
+pub fn read(file: &MeshArgs, geometry: Option<Space>, control: &Control) -> Result<Input, Failure> {
+    let path = file.mesh.clone();
+    let mut seconds = Seconds::default();
+    control.step(Stage::Read, 0.0)?;
+    let content = timed(&mut seconds.read, || content(file))?;
+    control.step(Stage::Build, 0.0)?;
+    let (surface, attributes) = timed(&mut seconds.build, || -> Result<_, Failure> {
+        Ok(match content {
+            Content::Lengths(text) => (metric_file::parse(&path, &text, geometry)?, Attributes::default()),
+            Content::Triangles(soup) => {
+                if let Some(why) = out_of_range(&soup) {
+                    return Err(Failure::Input(format!("{}: {why}", path.display())));
+                }
+                let surface = Surface::from_soup(&soup)?;
+                (geometry.into_iter().fold(surface, Surface::read_in), soup.attributes)
+            }
+        })
+    })?;
+    control.check()?;
+    Ok(Input { path, surface, attributes, seconds })
 }
 
 impl Input {
@@ -59,20 +142,4 @@ impl Input {
     pub fn positions(&self) -> Option<&[Point]> {
         self.surface.positions().map(|positions| positions.as_slice())
     }
-}
-
-/// Read a mesh file.
-pub fn read_soup(file: &MeshArgs) -> Result<Soup, Failure> {
-    match file.weld {
-        None => Ok(io::read(&file.mesh)?),
-        Some(weld) if extension(&file.mesh) == "stl" => Ok(io::read_stl(&file.mesh, weld)?),
-        Some(_) => Err(Failure::Usage(
-            "--weld: only an STL file has no vertices of its own; ricci repair welds".into(),
-        )),
-    }
-}
-
-/// The text of a file, with the file's name in the error.
-pub fn read_text(path: &Path) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|e| Failure::Input(format!("{}: {e}", path.display())))
 }

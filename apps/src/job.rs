@@ -19,6 +19,8 @@ pub struct Job {
     pub scheme: Scheme,
     /// `None`: the default of the surface's topology.
     pub target: Option<Target>,
+    /// What the summary calls the target, where that is not the name of its rule.
+    pub target_name: Option<String>,
     pub options: flow::Options,
     /// Whether an output needs the layout.
     pub laid_out: bool,
@@ -28,6 +30,8 @@ pub struct Job {
 pub struct Outcome {
     /// The rule that gave the target.
     pub rule: Target,
+    /// What it is called in the summary.
+    pub rule_name: String,
     /// Vertices whose conformal factor was held.
     pub pinned: Vec<VertexId>,
     pub report: flow::Report,
@@ -53,11 +57,13 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     let mut seconds = Seconds::new(input, &report.seconds);
     seconds.flip += start;
     let mut solved = Solved::new(solution, target, seconds)?;
+    solved.may_flip = job.options.flips != flow::Flips::Never;
     let layout = match no_layout(&solved, job.laid_out) {
         Some(why) => Err(why),
         None => told(laid::lay_out(input, &mut solved, control))?,
     };
-    Ok(Outcome { rule, pinned: job.options.pinned, report, solved, layout })
+    let rule_name = job.target_name.unwrap_or_else(|| rule.name().into());
+    Ok(Outcome { rule, rule_name, pinned: job.options.pinned, report, solved, layout })
 }
 
 /// Why a metric is not laid out; `needed`: by an output.

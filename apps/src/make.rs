@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
 use crate::options::Common;
-use crate::output::{Outputs, check_extension, check_outputs, extension};
+use crate::output::{Outputs, check_extension, check_outputs, extension, format_of};
 use crate::report::{Checks, Counts, InputSummary, Report, Seconds};
 use crate::say::{self, count};
 use crate::shape::{Shape, ToMesh, ToMetric};
@@ -12,7 +12,7 @@ use crate::show;
 use clap::Args;
 use ricci::Surface;
 use ricci::geometry::hyperelliptic::period_matrix;
-use ricci::mesh::io::{self, Format, Soup};
+use ricci::mesh::io::{self, Soup};
 use ricci::mesh::shapes::{self, Intrinsic, TorusKnot};
 use serde::Serialize;
 use std::path::Path;
@@ -106,7 +106,7 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Inst
     if extension(&to.out) == "json" {
         write_lengths(&mut outputs, &to.out, &surface)?;
     } else {
-        let format = Format::of(&to.out)?;
+        let format = format_of(&to.out)?;
         outputs.add_named(&to.out, |path| io::write_as(path, format, &soup))?;
     }
     if let Some(path) = picture {
@@ -121,12 +121,8 @@ fn write_metric(
     shape: &Shape,
     start: Instant,
 ) -> Result<u8, Failure> {
-    if extension(&to.out) != "json" {
-        let out = to.out.display();
-        return Err(Failure::Usage(format!(
-            "-o {out}: this surface has no positions; write its lengths, .json"
-        )));
-    }
+    let name = "-o (this surface has no positions; its lengths are written)";
+    check_extension(name, Some(&to.out), &["json"])?;
     check_outputs(&[], &[Some(&to.out), to.common.report.as_deref()])?;
     let given = surface?;
     let (mesh, lengths) = given.build()?;
@@ -184,9 +180,9 @@ impl Made<'_> {
             let report = Report::new("make", summary, shape, result).finished(Checks::default(), seconds);
             self.outputs.add_report(path, &report)?;
         }
-        self.outputs.commit()?;
+        let files = self.outputs.commit()?;
         if !common.quiet {
-            say::lines(&text);
+            say::lines(&text, &files)?;
         }
         Ok(0)
     }

@@ -58,7 +58,7 @@ fn threads() -> impl TypedValueParser<Value = usize> {
 /// A mesh file, and how it is read.
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct MeshArgs {
-    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json: `faces` and `lengths` suffice)
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json: `faces` and `lengths` suffice); - for stdin
     #[serde(skip)]
     pub mesh: PathBuf,
     /// STL: corners within this distance are one vertex; 0: those in exactly the same place
@@ -88,6 +88,10 @@ pub struct MetricArgs {
     /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
     #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
     pub on: OnChoice,
+    /// Write where the faces and vertices of --uv lie in the input's: rows output_face,source_face, then
+    /// output_vertex,source_face,b0,b1,b2
+    #[arg(long, value_name = "X.csv", requires = "uv")]
+    pub xref: Option<FileName>,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,

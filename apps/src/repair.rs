@@ -2,8 +2,9 @@
 
 use crate::failure::Failure;
 use crate::info::{DefectCount, DefectFigures};
+use crate::input::read_triangles;
 use crate::options::{Common, FileName, distance};
-use crate::output::{Outputs, check_extension, check_outputs, extension};
+use crate::output::{Outputs, check_extension, check_outputs, extension, format_of};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{Checks, Counts, Figures, InputSummary, Report, Seconds, timed};
 use crate::say::{self, count};
@@ -12,7 +13,7 @@ use clap::Args;
 use ricci::Control;
 use ricci::control::Stage;
 use ricci::mesh::check::diagnose;
-use ricci::mesh::io::{self, Format};
+use ricci::mesh::io;
 use ricci::mesh::repair::{RefusedWeld, Repair, Repaired, repair};
 use serde::Serialize;
 use serde_json::json;
@@ -86,7 +87,7 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     check_outputs(&[Some(&args.mesh)], &files)?;
     let mut seconds = Seconds::default();
     control.step(Stage::Read, 0.0)?;
-    let soup = timed(&mut seconds.read, || io::read(&args.mesh))?;
+    let soup = timed(&mut seconds.read, || read_triangles(&args.mesh))?;
     control.step(Stage::Build, 0.0)?;
     let weld = (!args.no_weld).then_some(args.weld);
     let options = Repair { weld, cut_non_manifold_edges: args.cut_edges, component: args.component };
@@ -95,9 +96,7 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     let mut outputs = Outputs::default();
     let left_out = timed(&mut seconds.write, || write(args, &done, &mut outputs))?;
     let defects = &done.diagnosis.defects;
-    if !args.common.quiet {
-        say::lines(&text(args, &done, &left_out));
-    }
+    let text = text(args, &done, &left_out);
     if let Some(path) = &args.common.report {
         let input = InputSummary::new(&args.mesh, &diagnose(&soup.positions, &soup.faces));
         let mut checks = Checks::default();
@@ -107,13 +106,16 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
         outputs.add_report(path, &report.finished(checks, seconds))?;
     }
     control.check()?;
-    outputs.commit()?;
+    let files = outputs.commit()?;
+    if !args.common.quiet {
+        say::lines(&text, &files)?;
+    }
     Ok(u8::from(!defects.is_empty()))
 }
 
 /// Write the surface, the map back and the picture; returns what the surface's format leaves out.
 fn write(args: &RepairArgs, done: &Repaired, outputs: &mut Outputs) -> Result<Vec<&'static str>, Failure> {
-    let (format, soup) = (Format::of(&args.out)?, &done.soup);
+    let (format, soup) = (format_of(&args.out)?, &done.soup);
     let left_out = outputs.add_named(&args.out, |path| io::write_as(path, format, soup))?;
     if let Some(path) = &args.map {
         let map = MapFile { vertex_origin: &done.vertex_origin, face_origin: &done.face_origin };
@@ -171,7 +173,11 @@ fn text(args: &RepairArgs, repaired: &Repaired, left_out: &[&str]) -> String {
     let mut text = format!(
         "{}: {}\n{}: {}, {}, {}, {}\n",
         args.mesh.display(),
-        if done.is_empty() { "nothing to mend".into() } else { done.join(", ") },
+        match done.is_empty() {
+            true if result.vertices == 0 => "the file is empty: it has neither vertices nor faces".into(),
+            true => "nothing to mend".into(),
+            false => done.join(", "),
+        },
         args.out.display(),
         count(result.vertices, "vertex", "vertices"),
         count(result.faces, "face", "faces"),

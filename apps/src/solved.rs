@@ -25,6 +25,10 @@ pub struct Solved {
     /// The curvature asked for, per vertex of that triangulation.
     pub target: PerVertex<f64>,
     pub failed: Attempts,
+    /// Whether edges were allowed to be flipped.
+    pub may_flip: bool,
+    /// Vertices and faces of the layout's file beyond those of the input.
+    pub added: [usize; 2],
     /// What the input's file holds and the layout's file does not.
     pub left_out: Vec<&'static str>,
     pub seconds: Seconds,
@@ -49,6 +53,8 @@ impl Solved {
             target: target.unwrap_or_else(|| PerVertex::filled(mesh.n_vertices(), 0.0)),
             solution,
             failed: Attempts::default(),
+            may_flip: true,
+            added: [0; 2],
             left_out: Vec::new(),
             seconds,
         })

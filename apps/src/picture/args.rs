@@ -60,7 +60,7 @@ pub struct FlowPictureArgs {
     #[arg(long, value_enum, value_name = "QUANTITY", requires = "picture")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<ColorChoice>,
-    /// Show the surroundings of a vertex, so many times larger
+    /// Show the surroundings of a vertex (numbered from 0), so many times larger
     #[arg(long, value_name = "VERTEX,FACTOR", requires = "picture", value_parser = zoom)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub zoom: Option<Zoom>,
@@ -139,6 +139,11 @@ impl PictureArgs {
     /// Whether the picture is asked for as the drawing of a layout alone.
     pub fn is_svg(&self) -> bool {
         self.picture.as_ref().is_some_and(|path| extension(path) == "svg")
+    }
+
+    /// Whether it is said from where a surface is looked at.
+    pub fn is_turned(&self) -> bool {
+        self.view.is_some() || self.up.is_some()
     }
 
     pub fn style(&self, texture: Texture, threads: usize) -> Style {

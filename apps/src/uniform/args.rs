@@ -27,7 +27,7 @@ Files
 pub const COVER_HELP: &str = "\
 Example: a piece of the hyperbolic plane, tiled by copies of a surface of genus 2
     ricci make genus -o two.obj
-    ricci cover two.obj --depth 3 --cover tiles.obj --domain domain.json --picture tiles.png
+    ricci cover two.obj --cover tiles.obj --domain domain.json --picture tiles.png
 
 Copies are named by their deck transformation as a word in the generators, a1.b1^-1 for a1 after the inverse of b1.
 
@@ -42,7 +42,7 @@ pub struct CanonicalArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub to: MetricArgs,
-    /// The vertex at the origin, where the loops of the generators meet [default: one from which no vertex is far]; of a sphere, the one
+    /// The vertex (numbered from 0) at the origin, where the loops of the generators meet [default: one from which no vertex is far]; of a sphere, the one
     /// that is sent to infinity on the way [default: one from which sizes differ least]
     #[arg(long, value_name = "VERTEX")]
     #[serde(skip)]
@@ -78,7 +78,7 @@ pub struct UniformizeArgs {
 pub struct CoverArgs {
     #[command(flatten)]
     pub canonical: CanonicalArgs,
-    /// Copies of word length N at most [default: 2]
+    /// Copies of word length N at most [default: every copy that touches the domain]
     #[arg(long, value_name = "N", conflicts_with = "radius", value_parser = clap::value_parser!(u16).range(0..=64))]
     pub depth: Option<u16>,
     /// Instead: copies whose base point is this far from the base point at most

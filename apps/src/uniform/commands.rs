@@ -22,7 +22,7 @@ use std::time::Instant;
 pub fn uniformize(args: &UniformizeArgs, control: &Control) -> Result<u8, Failure> {
     let done = execute_uniformize(args, control)?;
     if !args.canonical.to.common.quiet {
-        summary::say(&done, false);
+        summary::say(&done, false)?;
     }
     Ok(done.exit_code)
 }
@@ -31,7 +31,7 @@ pub fn uniformize(args: &UniformizeArgs, control: &Control) -> Result<u8, Failur
 pub fn cover(args: &CoverArgs, control: &Control) -> Result<u8, Failure> {
     let done = execute_cover(args, control)?;
     if !args.canonical.to.common.quiet {
-        summary::say(&done, true);
+        summary::say(&done, true)?;
     }
     Ok(done.exit_code)
 }

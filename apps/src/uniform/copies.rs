@@ -4,6 +4,7 @@ use super::group_file::name;
 use super::model_place::ModelPlace;
 use super::quotient::Uniformized;
 use crate::failure::Failure;
+use crate::options::Common;
 use crate::picture::in_parallel;
 use crate::uv::corners;
 use ricci::Control;
@@ -23,6 +24,7 @@ pub struct Copies<'a> {
     pub faces: Vec<[u32; 3]>,
     at: ModelPlace,
     threads: usize,
+    pub quiet: bool,
     pub control: &'a Control,
 }
 
@@ -30,13 +32,25 @@ impl<'a> Copies<'a> {
     pub fn new(
         u: &'a Uniformized,
         at: ModelPlace,
-        threads: usize,
+        common: &Common,
         control: &'a Control,
     ) -> Result<Copies<'a>, Failure> {
         let laid = u.laid()?;
         let (points, texcoords) = (&laid.layout.points[..], laid.coordinates());
         let faces = corners(laid.mesh(), laid.corner_index());
-        Ok(Copies { uniformized: u, elements: u.copies()?, points, texcoords, faces, at, threads, control })
+        let (elements, threads, quiet) = (u.copies()?, common.threads, common.quiet);
+        Ok(Copies { uniformized: u, elements, points, texcoords, faces, at, threads, quiet, control })
+    }
+
+    /// About how large a file of all copies is.
+    pub fn bytes(&self, binary: bool) -> usize {
+        let (points, faces, n) = (self.points.len(), self.faces.len(), self.elements.len());
+        match binary {
+            true if self.at == ModelPlace::Plane => 20 * points + 12 * faces,
+            true => (12 * n + 8) * points + 12 * faces,
+            // A vertex has two numbers of 23 characters; a face three of a vertex and three of a point.
+            false => n * (50 * points + 40 * faces),
+        }
     }
 
     /// The name of a copy.
@@ -50,13 +64,13 @@ impl<'a> Copies<'a> {
         moved(self.points, motion).into_iter().map(|p| self.at.coordinates(p)).collect()
     }
 
-    /// Work on copies in parallel and hand over what comes of each, in order.
+    /// Work on the first `n` copies in parallel and hand over what comes of each, in order.
     pub fn each<T: Send>(
         &self,
+        n: usize,
         work: impl Fn(usize) -> T + Sync,
         mut take: impl FnMut(T) -> io::Result<()>,
     ) -> io::Result<()> {
-        let n = self.elements.len();
         let mut batch: Vec<Option<T>> = Vec::new();
         for first in (0..n).step_by(self.threads.max(1)) {
             self.control.check().map_err(io::Error::other)?;
@@ -91,6 +105,6 @@ impl<'a> Copies<'a> {
             }
             text
         };
-        self.each(text, |text| out.write_all(text.as_bytes()))
+        self.each(self.elements.len(), text, |text| out.write_all(text.as_bytes()))
     }
 }

@@ -13,15 +13,16 @@ use super::shape::Shape;
 use super::sphere::Round;
 use super::sphere_figures::of_sphere;
 use super::sphere_picture;
-use crate::carry;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{Outputs, extension};
 use crate::picture::{Style, Texture};
+use crate::progress::doing;
 use crate::report::{Figures, InputSummary, Report, path_text};
 use crate::uv;
 use ricci::control::Stage;
 use ricci::mesh::io::{self, Textured};
+use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
@@ -78,12 +79,16 @@ impl Wish<'_> {
         shown: Shown,
     ) -> Result<(), Failure> {
         let (args, at) = (self.args, self.place(u.deck.space));
-        if let Some(path) = &args.to.uv {
-            let on = (args.to.on, false);
-            let written = u.laid().and_then(|laid| uv::write(outputs, path, task.input, laid, on));
-            if u.solved.failed.attempt("uv", written)?.is_some() {
-                u.solved.left_out = carry::left_out(task.input);
+        match &u.laid {
+            Some(Ok(laid)) => {
+                uv::write_asked(outputs, task.input, laid, (&args.to, false), &mut u.solved)?;
             }
+            Some(Err(why)) => {
+                let of_layout = [("uv", args.to.uv.is_some()), ("xref", args.to.xref.is_some())];
+                let missing = of_layout.into_iter().filter(|(_, asked)| *asked);
+                u.solved.failed.0.extend(missing.map(|(wish, _)| (wish, why.clone())));
+            }
+            None => {}
         }
         if let Some(path) = &args.generators {
             let file = GroupFile::new(u).map_err(Failure::from);
@@ -98,13 +103,13 @@ impl Wish<'_> {
         }
         if let Some(path) = &args.picture.picture {
             let canvas = pictures::Canvas { at: self.drawn_place(u.deck.space), style: self.style() };
-            let drawn = pictures::draw(u, shown, &canvas, args.picture.is_svg());
+            let drawn = doing("drawing", || pictures::draw(u, shown, &canvas, args.picture.is_svg()));
             let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
             u.solved.failed.attempt("picture", written)?;
         }
         task.control.step(Stage::Write, 0.3)?;
         if let Some(path) = self.cover.and_then(|c| c.cover) {
-            let copies = Copies::new(u, at, args.to.common.threads, task.control);
+            let copies = Copies::new(u, at, &args.to.common, task.control);
             let written = copies.and_then(|copies| write_copies(outputs, path, &copies));
             u.solved.failed.attempt("cover", written)?;
         }
@@ -131,7 +136,7 @@ impl Wish<'_> {
         }
         if let Some(path) = &args.picture.picture {
             let beside = matches!(shown, Shown::Uniform(ShowChoice::Both));
-            let drawn = sphere_picture::draw(input, s, &self.style(), beside);
+            let drawn = doing("drawing", || sphere_picture::draw(input, s, &self.style(), beside));
             let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
             s.solved.failed.attempt("picture", written)?;
         }
@@ -139,8 +144,17 @@ impl Wish<'_> {
     }
 }
 
+/// Size in megabytes from which on a file of copies is announced.
+const LARGE: usize = 20;
+
 /// All copies of a cover, as OBJ or, from a name that ends in `.glb`, binary glTF.
 fn write_copies(outputs: &mut Outputs, path: &Path, copies: &Copies<'_>) -> Result<(), Failure> {
+    let binary = extension(path) == "glb";
+    let megabytes = copies.bytes(binary) / 1_000_000;
+    if megabytes >= LARGE && !copies.quiet {
+        let (path, n) = (path.display(), copies.elements.len());
+        let _ = writeln!(std::io::stderr(), "ricci: --cover {path}: {n} copies, about {megabytes} MB");
+    }
     let written = match extension(path).as_str() {
         "glb" => outputs.add(path, |out| write_glb(out, copies)),
         _ => outputs.add(path, |out| copies.write_obj(out)),

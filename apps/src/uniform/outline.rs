@@ -1,7 +1,10 @@
 //! The border of the opened surface in space, once around.
 
 use super::quotient::Uniformized;
-use ricci::embed::Layout;
+use ricci::Control;
+use ricci::embed::cover::elements_reached;
+use ricci::embed::{DeckElement, Layout};
+use ricci::geometry::{Motion, Twofold};
 use ricci::mesh::{HalfedgeId, Mesh};
 use ricci::topology::FundamentalDomain;
 
@@ -37,6 +40,25 @@ pub fn sides(u: &Uniformized) -> ricci::Result<Vec<Side>> {
         word: u.deck.sides.get(k).map_or_else(String::new, |g| u.deck.group.text(&g.word)),
     };
     Ok(domain.sides.iter().enumerate().map(side).collect())
+}
+
+/// Corners of two copies are one up to this, relative to how far they are from the base point: layouts agree to much less.
+const SAME: f64 = 1e-6;
+
+/// The deck elements whose copies of the opened surface touch the surface itself, and the identity: those that have a corner in common
+/// with it, which are reached over sides.
+pub fn touching(u: &Uniformized, limit: usize, control: &Control) -> ricci::Result<Vec<DeckElement>> {
+    let corners: Vec<[f64; 3]> = sides(u)?.iter().filter_map(|side| side.points.first().copied()).collect();
+    // In the plane the third coordinate is 1, and lengths have the size of the surface.
+    let scale = corners.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
+    let touches = |g: &Motion<Twofold>| {
+        corners.iter().any(|p| {
+            let p = g.apply(p.map(Twofold::from)).map(f64::from);
+            let same = |q: &[f64; 3]| (0..2).all(|k| (p[k] - q[k]).abs() <= SAME * scale.max(q[2]));
+            corners.iter().any(same)
+        })
+    };
+    elements_reached(&u.deck, &u.deck.sides, touches, limit, control)
 }
 
 fn chain(mesh: &Mesh, whole: &Layout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]> {

@@ -3,6 +3,7 @@
 use super::args::{CanonicalArgs, CoverArgs, ModelChoice, ShowChoice, Shown, TilesChoice};
 use super::model_place::ModelPlace;
 use super::needs::Needs;
+use super::outline::touching;
 use super::quotient::Uniformized;
 use crate::failure::Failure;
 use crate::input::Input;
@@ -18,16 +19,13 @@ use serde::Serialize;
 /// Copies to make, and where they are written.
 #[derive(Serialize, Clone, Copy)]
 pub struct CoverWish<'a> {
-    /// None where the radius says how many copies are made.
+    /// None, as the radius is: every copy that touches the domain.
     pub depth: Option<u16>,
     pub radius: Option<f64>,
     pub limit: u32,
     pub cover: Option<&'a FileName>,
     pub domain: Option<&'a FileName>,
 }
-
-/// Word length of the copies that are made where nothing else is asked for.
-const USUAL_DEPTH: u16 = 2;
 
 /// What is common to both commands.
 pub struct Wish<'a> {
@@ -40,21 +38,21 @@ pub struct Wish<'a> {
 
 impl CoverWish<'_> {
     pub fn new(args: &CoverArgs) -> CoverWish<'_> {
-        let CoverArgs { radius, limit, .. } = *args;
-        let depth = if radius.is_some() { None } else { args.depth.or(Some(USUAL_DEPTH)) };
+        let CoverArgs { depth, radius, limit, .. } = *args;
         CoverWish { depth, radius, limit, cover: args.cover.as_ref(), domain: args.domain.as_ref() }
     }
 
     /// Find the copies that are asked for. Where there are too many, or no domain to find them by, files that show none are written all
     /// the same. Errors: [`Failure::Cancelled`] alone.
     pub fn find(&self, u: &mut Uniformized, control: &Control) -> Result<(), Failure> {
-        let (limit, depth) = (self.limit as usize, self.depth.unwrap_or(USUAL_DEPTH));
-        let found = match self.radius.map(|radius| (radius, u.domain())) {
-            None => elements_to_depth(&u.deck, depth.into(), limit, control),
-            Some((radius, Ok(domain))) => elements_within(&u.deck, domain, radius, limit, control),
-            Some((_, Err(why))) => Err(ricci::Error::Layout(format!("{why}; use --depth"))),
+        let limit = self.limit as usize;
+        let found = match (self.depth, self.radius.map(|radius| (radius, u.domain()))) {
+            (Some(depth), _) => elements_to_depth(&u.deck, depth.into(), limit, control),
+            (None, None) => touching(u, limit, control),
+            (_, Some((radius, Ok(domain)))) => elements_within(&u.deck, domain, radius, limit, control),
+            (_, Some((_, Err(why)))) => Err(ricci::Error::Layout(format!("{why}; use --depth"))),
         };
-        let option = if self.radius.is_some() { "radius" } else { "depth" };
+        let option = if self.depth.is_some() { "depth" } else { "radius" };
         u.elements = match found {
             Ok(elements) => Ok(elements),
             Err(ricci::Error::Cancelled) => return Err(Failure::Cancelled),
@@ -106,9 +104,15 @@ impl Wish<'_> {
                 "--picture: an SVG shows no surface in space; use .png, or --show domain".into(),
             ));
         }
+        if args.picture.is_svg() && args.picture.is_turned() {
+            return Err(Failure::Usage(
+                "--view, --up: an SVG shows no surface in space; use .png, or leave them out".into(),
+            ));
+        }
         let files = [
             args.to.metric.as_deref(),
             args.to.uv.as_deref(),
+            args.to.xref.as_deref(),
             args.sphere.as_deref(),
             args.generators.as_deref(),
             picture,

@@ -3,18 +3,19 @@
 use super::quotient::Uniformized;
 use super::shape::Shape;
 use super::sphere_figures;
+use crate::failure::Failure;
 use crate::flow_summary;
 use crate::report::Done;
 use crate::say;
 
 /// The summary of a run; `copies`: whether a cover was asked for.
-pub fn say(done: &Done<Shape>, copies: bool) {
+pub fn say(done: &Done<Shape>, copies: bool) -> Result<(), Failure> {
     let mut text = say::surface(&done.input);
     text += &match &done.result {
         Shape::Quotient(u) => quotient(u, copies),
         Shape::Sphere(s) => sphere_figures::text(s, copies),
     };
-    say::lines(&(text + &say::ending(done, done.result.solved())));
+    say::lines(&(text + &say::ending(done, done.result.solved())), &done.files)
 }
 
 fn quotient(u: &Uniformized, copies: bool) -> String {
