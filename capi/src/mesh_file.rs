@@ -285,7 +285,7 @@ pub unsafe extern "C" fn ricci_mesh_write_textured(
                 ricci_mesh_attributes::read(attributes, soup.positions.len(), soup.faces.len())?;
         }
         present("uv", &soup.attributes.uv)?;
-        io::write_glb_textured(&path, &soup, Texture { png: &png, wrap })?;
+        io::write_glb_textured(&path, &soup, Texture { png: &png, wrap, repeat: 1.0 })?;
         Ok(())
     })
 }

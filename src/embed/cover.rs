@@ -71,7 +71,6 @@ pub fn elements_within(
     limit: usize,
     control: &Control,
 ) -> Result<Vec<DeckElement>> {
-    let mut found = Found::new(deck, limit);
     let home = Motion::to_origin(deck.space, precise_point(deck.space, domain.centre));
     let moved = |g: &Motion<Twofold>| g.conjugated_by(&home).displacement();
     // The centre is as far from γ D as γ⁻¹ of the centre is from D.
@@ -80,17 +79,33 @@ pub fn elements_within(
         let centre = g.inverse().conjugated_by(&home).origin();
         !lines.keep_off(deck.space, centre, radius)
     };
-    let mut next = 0;
-    while next < found.elements.len() {
-        found.grow(next, &domain.sides, meets, control)?;
-        next += 1;
-    }
+    let found = elements_reached(deck, &domain.sides, meets, limit, control)?;
     let mut near: Vec<(f64, DeckElement)> =
-        found.elements.into_iter().map(|g| (moved(&g.motion), g)).filter(|(d, _)| *d <= radius).collect();
+        found.into_iter().map(|g| (moved(&g.motion), g)).filter(|(d, _)| *d <= radius).collect();
     near.sort_by(|(a, g), (b, h)| {
         a.total_cmp(b).then_with(|| g.word.len().cmp(&h.word.len())).then_with(|| g.word.cmp(&h.word))
     });
     Ok(near.into_iter().map(|(_, g)| g).collect())
+}
+
+/// The deck elements that are reached from the identity over `sides`, by way of wanted elements alone, each once.
+///
+/// # Errors
+/// Those of [`elements_to_depth`].
+pub fn elements_reached(
+    deck: &DeckGroup,
+    sides: &[DeckElement],
+    wanted: impl Fn(&Motion<Twofold>) -> bool,
+    limit: usize,
+    control: &Control,
+) -> Result<Vec<DeckElement>> {
+    let mut found = Found::new(deck, limit);
+    let mut next = 0;
+    while next < found.elements.len() {
+        found.grow(next, sides, &wanted, control)?;
+        next += 1;
+    }
+    Ok(found.elements)
 }
 
 /// Elements that were found, arranged by two properties in which equal elements agree.

@@ -18,6 +18,9 @@ pub struct Texture<'a> {
     pub png: &'a [u8],
     /// What is outside the unit square.
     pub wrap: Wrap,
+    /// How often the picture is there along a unit of the texture coordinates: 1 but where the file is to say another number, by the
+    /// extension KHR_texture_transform.
+    pub repeat: f64,
 }
 
 /// How a texture goes on outside the unit square.
@@ -232,7 +235,7 @@ struct Parts {
     attributes: serde_json::Map<String, Value>,
     indices: Option<usize>,
     /// Sampler and buffer view of the texture.
-    texture: Option<(Value, usize)>,
+    texture: Option<(Value, usize, f64)>,
 }
 
 impl Parts {
@@ -288,7 +291,7 @@ impl Parts {
         let view = self.view(texture.png.iter().copied(), None);
         let wrap = texture.wrap.code();
         let sampler = json!({"magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap});
-        self.texture = Some((sampler, view));
+        self.texture = Some((sampler, view, texture.repeat));
     }
 
     /// The JSON and the binary chunk. Without faces the vertices are points; glTF has no mesh without vertices.
@@ -302,8 +305,13 @@ impl Parts {
             "doubleSided": true,
             "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.8}
         });
-        if let Some((sampler, view)) = self.texture {
-            material["pbrMetallicRoughness"]["baseColorTexture"] = json!({"index": 0});
+        if let Some((sampler, view, repeat)) = self.texture {
+            let base = &mut material["pbrMetallicRoughness"]["baseColorTexture"];
+            *base = json!({"index": 0});
+            if repeat != 1.0 {
+                base["extensions"] = json!({"KHR_texture_transform": {"scale": [repeat, repeat]}});
+                document["extensionsUsed"] = json!(["KHR_texture_transform"]);
+            }
             document["textures"] = json!([{"source": 0, "sampler": 0}]);
             document["samplers"] = json!([sampler]);
             document["images"] = json!([{"bufferView": view, "mimeType": "image/png"}]);
