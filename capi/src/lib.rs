@@ -22,6 +22,7 @@
 // The comments are the header's: brackets there are C's arrays.
 #![allow(rustdoc::broken_intra_doc_links)]
 #![allow(clippy::missing_safety_doc)]
+#![warn(clippy::too_many_lines)]
 
 mod arrays;
 mod choice;

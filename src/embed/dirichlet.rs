@@ -102,10 +102,10 @@ pub fn dirichlet_domain(
         Space::H2 => (1.0, 2.0 * (area / (4.0 * PI)).sqrt().asinh()),
         _ => (longest(), (area / PI).sqrt()),
     };
-    let (mut nearest, mut left) = (None, MOST_PRODUCTS);
+    let (mut nearest, mut limits) = (None, Limits { least, left: MOST_PRODUCTS });
     for tolerance in TOLERANCES {
         let mut polygon = Polygon::around(deck.space, reach, [tolerance * unit, SAME * unit]);
-        polygon.close(deck, &factors, least, &mut left, control)?;
+        polygon.close(deck, &factors, &mut limits, control)?;
         if !polygon.is_bounded() {
             break;
         }
@@ -165,6 +165,14 @@ fn shortest_products(
         }
     }
     Ok(found)
+}
+
+/// Where the search for a polygon gives up.
+struct Limits {
+    /// Radius below which no polygon has room for the surface.
+    least: f64,
+    /// Products of elements that may still be formed, for all polygons together.
+    left: usize,
 }
 
 /// A convex polygon about the origin in the plane or in the Klein disk. Corners are vectors `[x, y, w]` of height 1, with twice the digits:
@@ -236,13 +244,12 @@ impl Polygon {
 
     /// Cuts by the bisectors of `factors` and of their inverses, then of products of the elements of its sides, until none cuts anything off.
     /// Where the factors move the centre so far that their bisectors do not bound the polygon, short products are added to them. It ends early
-    /// where the radius is below `least` or no products are `left`, which wrong elements bring about.
+    /// at the `limits`, which wrong elements bring about.
     fn close(
         &mut self,
         deck: &DeckGroup,
         factors: &[DeckElement],
-        least: f64,
-        left: &mut usize,
+        limits: &mut Limits,
         control: &Control,
     ) -> Result<()> {
         // These generate the group, so that they stay among the factors.
@@ -256,10 +263,10 @@ impl Polygon {
             let mut changed = false;
             for g in sides.iter().chain(&factors) {
                 control.check()?;
-                if self.radius < least || *left == 0 {
+                if self.radius < limits.least || limits.left == 0 {
                     return Ok(());
                 }
-                *left = left.saturating_sub(sides.len());
+                limits.left = limits.left.saturating_sub(sides.len());
                 for h in &sides {
                     let motion = g.motion.compose(&h.motion);
                     if self.is_cut_by(&motion) || self.is_cut_by(&motion.inverse()) {
@@ -273,7 +280,7 @@ impl Polygon {
                 // This round has cut nothing off, and no more products may be added.
                 false if !changed && factors.len() > MOST_FACTORS => break,
                 false => {
-                    *left = left.saturating_sub(factors.len() * factors.len());
+                    limits.left = limits.left.saturating_sub(factors.len() * factors.len());
                     factors = shortest_products(deck, &factors, self.same, control)?;
                     factors.extend_from_slice(&given);
                 }

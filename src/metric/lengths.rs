@@ -35,7 +35,7 @@ pub struct Metric {
 }
 
 impl Metric {
-    /// Number of vertices, edges agree with the mesh; ε is −1, 0 or 1; η and u are finite, and `u_low` is at most an ulp of u.
+    /// Number of vertices, edges agree with the mesh; ε is −1, 0 or 1; η and u are finite, and their low parts at most an ulp of them.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::Argument`] (ε, `u_low`), [`Error::Domain`] (u), [`Error::EdgeWeight`] (η).
@@ -61,9 +61,11 @@ impl Metric {
                 need: "what the double u loses, at most an ulp of it",
             });
         }
-        match mesh.edges().find(|&e| {
-            !self.eta[e].high.is_finite() || !(self.eta[e].low.abs() <= f64::EPSILON * self.eta[e].high.abs())
-        }) {
+        let is_sound = |e: EdgeId| {
+            let Twofold { high, low } = self.eta[e];
+            high.is_finite() && low.abs() <= f64::EPSILON * high.abs()
+        };
+        match mesh.edges().find(|&e| !is_sound(e)) {
             Some(e) => Err(Error::EdgeWeight {
                 edge: e.index(),
                 eta: self.eta[e].high,
