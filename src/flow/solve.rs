@@ -314,3 +314,37 @@ pub(super) fn center(x: &mut [f64]) {
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     x.iter_mut().for_each(|x| *x -= mean);
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::flow::Options;
+    use crate::mesh::EdgeId;
+    use crate::mesh::shapes::{self, SplitMix64};
+    use crate::metric::{Class, Surface};
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_solve_that_cannot_go_on_in_the_double_leaves_the_flow_as_it_was() {
+        let disk = Surface::from_soup(&shapes::disk(6).unwrap()).unwrap();
+        let (n, control, mut random) = (disk.mesh().n_vertices(), Control::new(), SplitMix64::new(4));
+        let mut target = PerVertex::from_fn(n, |_: VertexId| 4.0 * (random.unit() - 0.5));
+        let miss = (TAU - target.iter().sum::<f64>()) / n as f64;
+        target.iter_mut().for_each(|k| *k += miss);
+        for class in [Class::yamabe(Space::E2), Class::inversive(Space::E2)] {
+            let start = || Flow::new(disk.clone(), class, &Options::default(), &control).unwrap();
+            let (report, left) = start().run(&target, &control).unwrap();
+            assert!(left && report.flips > 0);
+            let mut flow = start();
+            let before = (flow.solution(), flow.start.clone(), flow.start_low.clone());
+            // With these options the double cannot be made.
+            flow.options.fixed_edges = vec![EdgeId(u32::MAX)];
+            assert!(flow.reach(&target, &control).is_err());
+            let (Solution { mesh, metric, followed, flips, .. }, u, u_low) = before;
+            assert!(flow.mesh == mesh && flow.metric == metric && flow.followed == followed);
+            assert!(flow.flips == flips && flow.start == u && flow.start_low == u_low);
+            assert!(flow.report().is_none());
+        }
+    }
+}
