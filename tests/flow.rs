@@ -25,14 +25,12 @@ fn run(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     geometry: Space,
-    scheme: Scheme,
-    space: Space,
+    class: Class,
     target: Option<Target>,
 ) -> (Initial, Metric, Report) {
-    let (surface, class) =
-        (Surface::intrinsic(mesh.clone(), lengths.clone(), geometry).unwrap(), Class::new(scheme, space));
+    let surface = Surface::intrinsic(mesh.clone(), lengths.clone(), geometry).unwrap();
     let initial = surface.initial(class).unwrap();
-    let target = target.unwrap_or_else(|| Target::default_for(&surface, space).unwrap());
+    let target = target.unwrap_or_else(|| Target::default_for(&surface, class.space).unwrap());
     let target = target.resolve(&surface, class).unwrap();
     let (metric, report) = solve(mesh, &initial.metric, &target, &rigid());
     (initial, metric, report)
@@ -46,7 +44,7 @@ fn constant_curvature_metrics_are_fixed_points() {
         let (mesh, lengths) = surface.build().unwrap();
         for scheme in EXACT {
             let (initial, metric, report) =
-                run(&mesh, &lengths, surface.geometry, scheme, surface.geometry, None);
+                run(&mesh, &lengths, surface.geometry, Class::new(scheme, surface.geometry), None);
             converged(&report);
             assert_eq!(report.iterations, 0, "{scheme}");
             let moved = metric.lengths(&mesh).unwrap();
@@ -66,7 +64,7 @@ fn round_sphere_is_a_fixed_point_of_the_spherical_flow() {
     let (mesh, chords) = surface(&soup);
     let arcs = PerEdge::from_fn(mesh.n_edges(), |e| 2.0 * (0.5 * chords[e]).asin());
     for scheme in EXACT {
-        let (_, metric, report) = run(&mesh, &arcs, Space::S2, scheme, Space::S2, None);
+        let (_, metric, report) = run(&mesh, &arcs, Space::S2, Class::new(scheme, Space::S2), None);
         converged(&report);
         assert_eq!(report.iterations, 0);
         assert!(distance(&metric.lengths(&mesh).unwrap(), &arcs) < 1e-13);
@@ -115,7 +113,8 @@ fn modulus_of_the_torus_of_revolution_converges_quadratically() {
     let exact = exact.max(1.0 / exact);
     let error = |n: usize| {
         let (mesh, lengths) = surface(&shapes::torus(big, small, 2 * n, n).unwrap());
-        let (_, metric, report) = run(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2, None);
+        let (_, metric, report) =
+            run(&mesh, &lengths, Space::E2, Class::new(Scheme::Yamabe, Space::E2), None);
         converged(&report);
         let tau = modulus_of(&mesh, &metric.lengths(&mesh).unwrap());
         (tau[0].hypot(tau[1] - exact)).abs()
@@ -141,7 +140,8 @@ fn modulus_of_an_elliptic_curve_converges_to_its_periods() {
         let exact = modulus([[1.0, 0.0], [tau.re, tau.im]]).unwrap();
         let error = |n: usize| {
             let (mesh, lengths) = shapes::hyperelliptic(&points, n).unwrap().build().unwrap();
-            let (_, metric, report) = run(&mesh, &lengths, Space::S2, Scheme::Yamabe, Space::E2, None);
+            let (_, metric, report) =
+                run(&mesh, &lengths, Space::S2, Class::new(Scheme::Yamabe, Space::E2), None);
             converged(&report);
             let tau = modulus_of(&mesh, &metric.lengths(&mesh).unwrap());
             (tau[0] - exact[0]).hypot(tau[1] - exact[1])
@@ -159,7 +159,7 @@ fn scaling_the_input_leaves_the_result_unchanged() {
     for (space, scheme) in [Space::E2, Space::H2].into_iter().flat_map(|s| EXACT.map(|c| (s, c))) {
         let result = |factor: f64| {
             let lengths = PerEdge::from_fn(mesh.n_edges(), |e| factor * lengths[e]);
-            let (_, metric, report) = run(&mesh, &lengths, Space::E2, scheme, space, None);
+            let (_, metric, report) = run(&mesh, &lengths, Space::E2, Class::new(scheme, space), None);
             converged(&report);
             metric.lengths(&mesh).unwrap()
         };
@@ -189,9 +189,9 @@ fn relabelling_and_reflection_leave_the_result_unchanged() {
     for (space, scheme) in
         [(Space::E2, Scheme::Inversive), (Space::H2, Scheme::Yamabe), (Space::H2, Scheme::Thurston)]
     {
-        let (_, a, report) = run(&mesh, &lengths, Space::E2, scheme, space, None);
+        let (_, a, report) = run(&mesh, &lengths, Space::E2, Class::new(scheme, space), None);
         converged(&report);
-        let (_, b, report) = run(&mesh2, &lengths2, Space::E2, scheme, space, None);
+        let (_, b, report) = run(&mesh2, &lengths2, Space::E2, Class::new(scheme, space), None);
         converged(&report);
         for v in 0..n {
             let there = VertexId(label[v]);
