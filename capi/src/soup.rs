@@ -155,7 +155,7 @@ pub unsafe extern "C" fn ricci_soup_summarise(
         let Diagnosis { components, euler, boundary_loops, genus, edges, defects, .. } =
             &list.found().diagnosis;
         let [n_normals, n_colors, n_uv, n_corner_normals] = count(&list.soup.attributes);
-        let steps = list.origin.as_ref().map_or_else(Steps::default, |done| done.steps.clone());
+        let steps = list.origin.as_ref().map_or_else(Steps::default, |done| done.steps);
         let refused = list.origin.as_ref().map_or(&[][..], |done| &done.weld_refused);
         let figures = ricci_soup_summary {
             size,
