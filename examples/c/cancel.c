@@ -23,7 +23,8 @@ static ricci_mesh *make_torus(size_t n, size_t m) {
     uint32_t *faces = malloc(6 * n * m * sizeof *faces);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < m; j++) {
-            const double a = turn * (double)i / (double)n, b = turn * (double)j / (double)m, r = 2 + cos(b) + 0.2 * sin(5 * a) * sin(3 * b);
+            const double a = turn * (double)i / (double)n, b = turn * (double)j / (double)m,
+                         r = 2 + cos(b) + 0.2 * sin(5 * a) * sin(3 * b);
             const size_t v = i * m + j, right = (i + 1) % n * m + j;
             const size_t up = i * m + (j + 1) % m, across = (i + 1) % n * m + (j + 1) % m;
             const double point[3] = {r * cos(a), r * sin(a), sin(b)};

@@ -66,7 +66,8 @@ int main(int argc, char **argv) {
     for (size_t g = 0; g < copies.n_elements; g++) {
         check(ricci_deck_apply(cover, g, points, n, moved, 3 * n));
         for (size_t i = 0; i < n; i++) {
-            if (figures.space == RICCI_SPACE_H2) ricci_from_hyperboloid(RICCI_MODEL_POINCARE, moved + 3 * i, moved + 3 * i);
+            if (figures.space == RICCI_SPACE_H2)
+                ricci_from_hyperboloid(RICCI_MODEL_POINCARE, moved + 3 * i, moved + 3 * i);
             fprintf(file, "v %.17g %.17g 0\n", moved[3 * i], moved[3 * i + 1]);
         }
         for (size_t f = 0; f < n_faces; f++)

@@ -20,7 +20,10 @@
 extern "C" {
 #endif
 
-/** A triangle list with attributes, whatever its defects, and where it came from if it was repaired. It never changes. */
+/**
+ * A triangle list with attributes, whatever its defects, and where it came from if it was repaired. It
+ * never changes.
+ */
 typedef struct ricci_soup ricci_soup;
 
 /** Counts of a triangle list, and what its repair did. */
@@ -37,7 +40,10 @@ typedef struct ricci_soup_summary {
     size_t n_defects;
     /** Connected pieces. */
     size_t n_components;
-    /** Boundary loops, as connected pieces of the edges with one face (where the surface is no manifold, too). */
+    /**
+     * Boundary loops, as connected pieces of the edges with one face (where the surface is no manifold,
+     * too).
+     */
     size_t n_boundary_loops;
     /** V - E + F over the vertices in use. */
     int64_t euler;
@@ -94,15 +100,16 @@ typedef struct ricci_defect {
 } ricci_defect;
 
 /**
- * What a repair may do beyond what is always done: dropping faces that use a vertex twice or repeat a face, giving each fan of
- * faces a vertex of its own, turning faces until neighbours agree, dropping isolated vertices. Zeroed by ricci_init: the defaults.
+ * What a repair may do beyond what is always done: dropping faces that use a vertex twice or repeat a face,
+ * giving each fan of faces a vertex of its own, turning faces until neighbours agree, dropping isolated
+ * vertices. Zeroed by ricci_init: the defaults.
  */
 typedef struct ricci_repair_options {
     /** sizeof(ricci_repair_options). */
     size_t size;
     /**
-     * Vertices within this distance become one; 0: those in exactly the same place, where their faces
-     * are then connected through edges, but not in edges in which more than two faces would meet
+     * Vertices within this distance become one; 0: those in exactly the same place, where their faces are
+     * then connected through edges, but not in edges in which more than two faces would meet
      * (ricci_soup_refused); negative: no welding.
      */
     double weld;
@@ -126,13 +133,14 @@ typedef struct ricci_repair_options {
  * @param n_faces     number of triangles.
  * @param soup        out: the new handle, to be released by ricci_soup_free.
  */
-RICCI_API ricci_status ricci_soup_from_arrays(const double *positions, size_t stride, size_t n_vertices, const uint32_t *faces,
-                                              size_t n_faces, ricci_soup **soup);
+RICCI_API ricci_status ricci_soup_from_arrays(const double *positions, size_t stride, size_t n_vertices,
+                                              const uint32_t *faces, size_t n_faces, ricci_soup **soup);
 
 /**
  * A triangle list from a mesh file, with its attributes, in the file's numbers.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not UTF-8), RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not UTF-8), RICCI_IO, RICCI_PARSE,
+ * RICCI_UNKNOWN_FORMAT.
  *
  * @param path  file name in UTF-8, ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii.
  * @param soup  out: the new handle, to be released by ricci_soup_free.
@@ -147,7 +155,8 @@ RICCI_API ricci_status ricci_soup_read(const char *path, ricci_soup **soup);
 RICCI_API_VOID void ricci_soup_free(ricci_soup *soup);
 
 /**
- * Counts of the triangle list, the number of its defects, and what a repair did. The first question diagnoses it.
+ * Counts of the triangle list, the number of its defects, and what a repair did. The first question
+ * diagnoses it.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
  *
@@ -167,7 +176,8 @@ RICCI_API ricci_status ricci_soup_summarise(const ricci_soup *soup, ricci_soup_s
  * @param values    out: the numbers, in the shape that the constant says.
  * @param capacity  entries of `values`.
  */
-RICCI_API ricci_status ricci_soup_values(const ricci_soup *soup, uint32_t which, double *values, size_t capacity);
+RICCI_API ricci_status ricci_soup_values(const ricci_soup *soup, uint32_t which, double *values,
+                                         size_t capacity);
 
 /**
  * The vertices of every face.
@@ -190,7 +200,8 @@ RICCI_API ricci_status ricci_soup_faces(const ricci_soup *soup, uint32_t *faces,
  * @param defect  out: the defect.
  * @param size    sizeof *defect.
  */
-RICCI_API ricci_status ricci_soup_defect(const ricci_soup *soup, size_t index, ricci_defect *defect, size_t size);
+RICCI_API ricci_status ricci_soup_defect(const ricci_soup *soup, size_t index, ricci_defect *defect,
+                                         size_t size);
 
 /**
  * The mesh of a triangle list without defects, with its attributes.
@@ -203,11 +214,13 @@ RICCI_API ricci_status ricci_soup_defect(const ricci_soup *soup, size_t index, r
 RICCI_API ricci_status ricci_soup_mesh(const ricci_soup *soup, ricci_mesh **mesh);
 
 /**
- * Write a triangle list, whatever defects it has, in the format that the file's name says, with its attributes; what the format
- * has no place for is left out, with a warning to the callback of ricci_log_set.
+ * Write a triangle list, whatever defects it has, in the format that the file's name says, with its
+ * attributes; what the format has no place for is left out, with a warning to the callback of
+ * ricci_log_set.
  *
  * A file of that name is replaced only once the new one is complete.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (an attribute is not finite), RICCI_TOO_LARGE.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (an attribute is not
+ * finite), RICCI_TOO_LARGE.
  *
  * @param soup  the triangle list.
  * @param path  file name in UTF-8, ending in .obj, .off, .ply or .glb.
@@ -218,14 +231,15 @@ RICCI_API ricci_status ricci_soup_write(const ricci_soup *soup, const char *path
  * Mend what can be mended without a guess. Defects that are left are a result, not an error.
  *
  * Elements keep their order, and attributes stay with their elements.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (options, no such component), RICCI_TOO_LARGE, RICCI_STRUCT_SIZE, RICCI_DEFECTS (a
- * face that names no vertex or one without finite coordinates).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (options, no such component), RICCI_TOO_LARGE,
+ * RICCI_STRUCT_SIZE, RICCI_DEFECTS (a face that names no vertex or one without finite coordinates).
  *
  * @param soup      the triangle list.
  * @param options   what may be done, or NULL for the defaults.
  * @param repaired  out: the new handle, to be released by ricci_soup_free.
  */
-RICCI_API ricci_status ricci_soup_repair(const ricci_soup *soup, const ricci_repair_options *options, ricci_soup **repaired);
+RICCI_API ricci_status ricci_soup_repair(const ricci_soup *soup, const ricci_repair_options *options,
+                                         ricci_soup **repaired);
 
 /**
  * Where the elements of a repaired list came from.
@@ -238,8 +252,8 @@ RICCI_API ricci_status ricci_soup_repair(const ricci_soup *soup, const ricci_rep
  * @param faces              out: n_faces faces of that list.
  * @param faces_capacity     entries of `faces`.
  */
-RICCI_API ricci_status ricci_soup_origins(const ricci_soup *repaired, uint32_t *vertices, size_t vertices_capacity,
-                                          uint32_t *faces, size_t faces_capacity);
+RICCI_API ricci_status ricci_soup_origins(const ricci_soup *repaired, uint32_t *vertices,
+                                          size_t vertices_capacity, uint32_t *faces, size_t faces_capacity);
 
 /**
  * The edges that kept vertices in exactly the same place from being welded throughout.
@@ -247,15 +261,18 @@ RICCI_API ricci_status ricci_soup_origins(const ricci_soup *repaired, uint32_t *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it was not repaired).
  *
  * @param repaired           what ricci_soup_repair has made.
- * @param vertices           out: refused_edges x 2 vertices of the list that was repaired: the first in the place of either end.
+ * @param vertices           out: refused_edges x 2 vertices of the list that was repaired: the first in the
+ *                           place of either end.
  * @param vertices_capacity  entries of `vertices`.
  * @param faces              out: the refused_faces faces of that list that would meet, edge by edge.
  * @param faces_capacity     entries of `faces`.
- * @param starts             out: refused_edges + 1 entries: where each edge's faces start in `faces`, and their end.
+ * @param starts             out: refused_edges + 1 entries: where each edge's faces start in `faces`, and
+ *                           their end.
  * @param starts_capacity    entries of `starts`.
  */
-RICCI_API ricci_status ricci_soup_refused(const ricci_soup *repaired, uint32_t *vertices, size_t vertices_capacity,
-                                          uint32_t *faces, size_t faces_capacity, size_t *starts, size_t starts_capacity);
+RICCI_API ricci_status ricci_soup_refused(const ricci_soup *repaired, uint32_t *vertices,
+                                          size_t vertices_capacity, uint32_t *faces, size_t faces_capacity,
+                                          size_t *starts, size_t starts_capacity);
 
 #ifdef __cplusplus
 }

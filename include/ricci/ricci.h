@@ -16,35 +16,41 @@
  *
  * and the handles are freed: ricci_layout_free, ricci_metric_free (twice), ricci_mesh_free, in any order.
  *
- * Beside this header: ricci/repair.h (triangle lists with defects), ricci/uniformize.h (canonical shapes, groups, covers, charts),
- * ricci/shapes.h (sample surfaces); for C++ ricci/ricci.hpp and the adapters openmesh.hpp, cgal.hpp, eigen.hpp.
+ * Beside this header: ricci/repair.h (triangle lists with defects), ricci/uniformize.h (canonical shapes,
+ * groups, covers, charts), ricci/shapes.h (sample surfaces); for C++ ricci/ricci.hpp and the adapters
+ * openmesh.hpp, cgal.hpp, eigen.hpp.
  *
  * Conventions
- *   - Every fallible call returns a ricci_status. ricci_last_error() has this thread's message, ricci_last_failure the element and
- *     the amount as numbers. Outputs are written only on success. A NULL that a call does not allow is RICCI_NULL_POINTER.
- *   - Handles are opaque: what a call hands out is released by the _free of its type; _free(NULL) does nothing.
- *     A `const T *` may be used by several threads at once, a `T *` is exclusive to one.
- *     A handle keeps alive whatever it was made from: handles may be freed in any order.
- *   - Indices are 0-based uint32_t; faces are m x 3, positions n x 3, plane points n x 2, row by row. Faces of int32_t may be cast:
- *     a negative index is refused by face and corner. Counts are numbers of rows.
- *   - An output array is given with its capacity, in entries: too small is RICCI_BUFFER_TOO_SMALL. NULL with capacity 0 asks for the
- *     number of entries: it is `needed` of ricci_last_failure, or comes in a last size_t * where there is one.
- *   - Vertices keep their numbers through flows with edge flips and their layouts; new ones come behind. Edges and faces are those
- *     of what `on` names: RICCI_ON_INPUT the caller's mesh, RICCI_ON_METRIC the metric's triangulation, RICCI_ON_REFINEMENT both
- *     laid over each other.
+ *   - Every fallible call returns a ricci_status. ricci_last_error() has this thread's message,
+ *     ricci_last_failure the element and the amount as numbers. Outputs are written only on success. A NULL
+ *     that a call does not allow is RICCI_NULL_POINTER.
+ *   - Handles are opaque: what a call hands out is released by the _free of its type; _free(NULL) does
+ *     nothing. A `const T *` may be used by several threads at once, a `T *` is exclusive to one. A handle
+ *     keeps alive whatever it was made from: handles may be freed in any order.
+ *   - Indices are 0-based uint32_t; faces are m x 3, positions n x 3, plane points n x 2, row by row. Faces
+ *     of int32_t may be cast: a negative index is refused by face and corner. Counts are numbers of rows.
+ *   - An output array is given with its capacity, in entries: too small is RICCI_BUFFER_TOO_SMALL. NULL
+ *     with capacity 0 asks for the number of entries: it is `needed` of ricci_last_failure, or comes in a
+ *     last size_t * where there is one.
+ *   - Vertices keep their numbers through flows with edge flips and their layouts; new ones come behind.
+ *     Edges and faces are those of what `on` names: RICCI_ON_INPUT the caller's mesh, RICCI_ON_METRIC the
+ *     metric's triangulation, RICCI_ON_REFINEMENT both laid over each other.
  *   - An edge path is an int32_t array of 1-based edge numbers, negative against the edge.
- *   - Structs begin with their size. ricci_init zeroes one and writes its size; zero is the default of every field. Summaries are
- *     given with sizeof, and their `size` says how many bytes were filled.
- *   - Angles are radians; a curvature is the angle defect of a vertex: 2 pi minus its angles inside, pi minus them on the boundary.
+ *   - Structs begin with their size. ricci_init zeroes one and writes its size; zero is the default of
+ *     every field. Summaries are given with sizeof, and their `size` says how many bytes were filled.
+ *   - Angles are radians; a curvature is the angle defect of a vertex: 2 pi minus its angles inside, pi
+ *     minus them on the boundary.
  *   - Paths and texts are UTF-8, NUL-terminated.
- *   - No call unwinds into C: an internal error is RICCI_PANIC. What was read stays good; a ricci_solver that was being changed
- *     answers RICCI_POISONED from then on, and can only be freed.
- *   - Arrays that do not fit into memory are RICCI_NO_MEMORY, and handles are as they were. What cannot be caught: a few kilobytes
- *     that the system refuses end the program (abort), as does a thread's stack that cannot grow.
- *   - Calls compute under the default floating-point environment and give the caller its own back: the host's
- *     floating-point traps, rounding mode and flush-to-zero neither disturb a call nor change its result.
- *   - Results are identical bit for bit for any number of threads. Threads are the call's own and have ended when
- *     it returns (a ricci_solver keeps its threads until it is freed). Nothing is printed.
+ *   - No call unwinds into C: an internal error is RICCI_PANIC. What was read stays good; a ricci_solver
+ *     that was being changed answers RICCI_POISONED from then on, and can only be freed.
+ *   - Arrays that do not fit into memory are RICCI_NO_MEMORY, and handles are as they were. What cannot be
+ *     caught: a few kilobytes that the system refuses end the program (abort), as does a thread's stack
+ *     that cannot grow.
+ *   - Calls compute under the default floating-point environment and give the caller its own back: the
+ *     host's floating-point traps, rounding mode and flush-to-zero neither disturb a call nor change its
+ *     result.
+ *   - Results are identical bit for bit for any number of threads. Threads are the call's own and have
+ *     ended when it returns (a ricci_solver keeps its threads until it is freed). Nothing is printed.
  *   - Platforms: 64-bit Linux (tested on x86-64, glibc); written for macOS too, not tested there.
  */
 
@@ -74,11 +80,14 @@
 extern "C" {
 #endif
 
-/* -------------------------------------------------------------------------------------------------------------------------------
+/* ---------------------------------------------------------------------------------------------------------
  * Versions and failures
  */
 
-/** Version of this header. Until 1.0 a new minor version is incompatible: the shared library is libricci.so.0.MINOR. */
+/**
+ * Version of this header. Until 1.0 a new minor version is incompatible: the shared library is
+ * libricci.so.0.MINOR.
+ */
 #define RICCI_VERSION_MAJOR 0
 #define RICCI_VERSION_MINOR 1
 #define RICCI_VERSION_PATCH 0
@@ -119,7 +128,10 @@ enum {
     RICCI_PARSE = 101,
     /** No reader or writer for this file name. */
     RICCI_UNKNOWN_FORMAT = 102,
-    /** The faces do not form a connected oriented surface; ricci_soup_defect of ricci/repair.h lists every defect. */
+    /**
+     * The faces do not form a connected oriented surface; ricci_soup_defect of ricci/repair.h lists every
+     * defect.
+     */
     RICCI_DEFECTS = 200,
     /** The gluing of an intrinsic surface is inconsistent. */
     RICCI_GLUING = 201,
@@ -127,7 +139,10 @@ enum {
     RICCI_CONNECTIVITY = 202,
     /** An edge length is not finite and positive; amount: the length. */
     RICCI_EDGE_LENGTH = 300,
-    /** Edge lengths break the triangle inequality; amount: by how much the longest side exceeds the other two, relative to it. */
+    /**
+     * Edge lengths break the triangle inequality; amount: by how much the longest side exceeds the other
+     * two, relative to it.
+     */
     RICCI_TRIANGLE_INEQUALITY = 301,
     /** The scheme cannot represent the metric on an edge; amount: the weight eta. */
     RICCI_EDGE_WEIGHT = 302,
@@ -210,8 +225,9 @@ RICCI_API const char *ricci_status_text(ricci_status status);
 /**
  * The message of the last call of this thread that failed: which element, by how much, what to do.
  *
- * The address is the same for the whole life of the thread, so that it may stand beside the call in one expression, whatever is
- * evaluated first; the next failure of this thread writes over the text. Empty if no call has failed. At most 1023 bytes.
+ * The address is the same for the whole life of the thread, so that it may stand beside the call in one
+ * expression, whatever is evaluated first; the next failure of this thread writes over the text. Empty if
+ * no call has failed. At most 1023 bytes.
  * @return a NUL-terminated UTF-8 string; not to be freed.
  */
 RICCI_API const char *ricci_last_error(void);
@@ -227,9 +243,11 @@ RICCI_API const char *ricci_last_error(void);
 RICCI_API ricci_status ricci_last_failure(ricci_failure *failure, size_t size);
 
 /**
- * Zero a struct of the caller's and write its size into its first member: the start of all options and specs.
+ * Zero a struct of the caller's and write its size into its first member: the start of all options and
+ * specs.
  *
- * The size stays the caller's. A library that is older refuses a later field with RICCI_STRUCT_SIZE unless it is zero.
+ * The size stays the caller's. A library that is older refuses a later field with RICCI_STRUCT_SIZE unless
+ * it is zero.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
  *
  * @param options  out: the struct, one that begins with `size_t size`.
@@ -254,8 +272,8 @@ enum {
 };
 
 /**
- * Receives one message, of a level RICCI_LOG_*. May be called from any thread, by several at once; it must not call into the
- * library. `message` is NUL-terminated UTF-8 and valid during the call only.
+ * Receives one message, of a level RICCI_LOG_*. May be called from any thread, by several at once; it must
+ * not call into the library. `message` is NUL-terminated UTF-8 and valid during the call only.
  */
 typedef void (*ricci_log_callback)(uint32_t level, const char *message, void *user_data);
 
@@ -272,7 +290,7 @@ typedef void (*ricci_log_callback)(uint32_t level, const char *message, void *us
  */
 RICCI_API ricci_status ricci_log_set(ricci_log_callback callback, void *user_data, uint32_t level);
 
-/* -------------------------------------------------------------------------------------------------------------------------------
+/* ---------------------------------------------------------------------------------------------------------
  * Progress and cancelling
  */
 
@@ -333,13 +351,13 @@ RICCI_API ricci_status ricci_control_cancel(const ricci_control *control);
  * @param control       the handle the call was given.
  * @param stage         out: RICCI_STAGE_*, what it is doing.
  * @param fraction      out: the part of this stage that is done, in [0, 1].
- * @param since_cancel  out: seconds since the first ricci_control_cancel, -1 if there was none; NULL if not wanted. Asked right
- *                      after a call has returned RICCI_CANCELLED it is the latency.
+ * @param since_cancel  out: seconds since the first ricci_control_cancel, -1 if there was none; NULL if not
+ *                      wanted. Asked right after a call has returned RICCI_CANCELLED it is the latency.
  */
 RICCI_API ricci_status ricci_control_progress(const ricci_control *control, uint32_t *stage, double *fraction,
                                               double *since_cancel);
 
-/* -------------------------------------------------------------------------------------------------------------------------------
+/* ---------------------------------------------------------------------------------------------------------
  * Meshes
  */
 
@@ -413,8 +431,8 @@ typedef struct ricci_gluing {
     /** n_faces x 3 vertex indices (a, b, c). */
     const uint32_t *faces;
     /**
-     * n_faces x 3 edge numbers (bc, ca, ab): 1-based, negative where the face runs against the edge's direction; each edge once with
-     * either sign, or once only (boundary).
+     * n_faces x 3 edge numbers (bc, ca, ab): 1-based, negative where the face runs against the edge's
+     * direction; each edge once with either sign, or once only (boundary).
      */
     const int32_t *face_edges;
     /** Number of triangles, at least 1. */
@@ -465,25 +483,27 @@ enum {
  * A mesh from positions and faces.
  *
  * Both arrays are copied; vertices, faces and corners keep their order and numbers.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride; a negative index), RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_DEFECTS
- * (ricci_soup_from_arrays and ricci_soup_defect of ricci/repair.h list them).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride; a negative index), RICCI_TOO_LARGE,
+ * RICCI_NO_MEMORY, RICCI_DEFECTS (ricci_soup_from_arrays and ricci_soup_defect of ricci/repair.h list
+ * them).
  *
  * @param positions   n_vertices points: x, y, z as double; finite.
- * @param stride      bytes from one point to the next, at least 24; 0 means 24. Need not be a multiple of 8.
+ * @param stride      bytes from one point to the next, at least 24; 0 means 24. Need not be a multiple of
+ *                    8.
  * @param n_vertices  number of points.
  * @param faces       n_faces x 3 vertex indices, 0-based, consistently oriented.
  * @param n_faces     number of triangles, at least 1.
  * @param mesh        out: the new handle, to be released by ricci_mesh_free.
  */
-RICCI_API ricci_status ricci_mesh_from_arrays(const double *positions, size_t stride, size_t n_vertices, const uint32_t *faces,
-                                              size_t n_faces, ricci_mesh **mesh);
+RICCI_API ricci_status ricci_mesh_from_arrays(const double *positions, size_t stride, size_t n_vertices,
+                                              const uint32_t *faces, size_t n_faces, ricci_mesh **mesh);
 
 /**
  * An intrinsic surface: triangles glued along numbered edges, and a length for every edge.
  *
  * Two vertices may share several edges, an edge may be a loop, a face may be glued to itself.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_WRONG_SIZE (`n_edges` is not the number of edges),
- * RICCI_GLUING, RICCI_DEFECTS, RICCI_EDGE_LENGTH, RICCI_ARGUMENT, RICCI_TOO_LARGE, RICCI_NO_MEMORY.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_WRONG_SIZE (`n_edges` is not the number of
+ * edges), RICCI_GLUING, RICCI_DEFECTS, RICCI_EDGE_LENGTH, RICCI_ARGUMENT, RICCI_TOO_LARGE, RICCI_NO_MEMORY.
  *
  * @param gluing  the triangles and lengths.
  * @param mesh    out: the new handle, to be released by ricci_mesh_free.
@@ -491,9 +511,11 @@ RICCI_API ricci_status ricci_mesh_from_arrays(const double *positions, size_t st
 RICCI_API ricci_status ricci_mesh_from_gluing(const ricci_gluing *gluing, ricci_mesh **mesh);
 
 /**
- * The same mesh with lengths of the caller's in place of its own. Positions, if it has any, then only serve to draw and write.
+ * The same mesh with lengths of the caller's in place of its own. Positions, if it has any, then only serve
+ * to draw and write.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_EDGE_LENGTH, RICCI_ARGUMENT, RICCI_NO_MEMORY.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE, RICCI_EDGE_LENGTH, RICCI_ARGUMENT,
+ * RICCI_NO_MEMORY.
  *
  * @param mesh      the mesh.
  * @param lengths   n_edges lengths, finite and positive, in the order of ricci_mesh_edges.
@@ -501,15 +523,16 @@ RICCI_API ricci_status ricci_mesh_from_gluing(const ricci_gluing *gluing, ricci_
  * @param geometry  RICCI_SPACE_*: the geometry in which the lengths are meant.
  * @param result    out: the new handle, to be released by ricci_mesh_free.
  */
-RICCI_API ricci_status ricci_mesh_with_lengths(const ricci_mesh *mesh, const double *lengths, size_t n_edges, uint32_t geometry,
-                                               ricci_mesh **result);
+RICCI_API ricci_status ricci_mesh_with_lengths(const ricci_mesh *mesh, const double *lengths, size_t n_edges,
+                                               uint32_t geometry, ricci_mesh **result);
 
 /**
  * A mesh from a file, with the attributes that it has.
  *
- * Vertices and faces have the file's numbers; polygons are cut into triangles. Corners of an STL file in exactly the same place
- * are one vertex. Files with defects: ricci_soup_read of ricci/repair.h.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not UTF-8), RICCI_IO, RICCI_PARSE, RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS.
+ * Vertices and faces have the file's numbers; polygons are cut into triangles. Corners of an STL file in
+ * exactly the same place are one vertex. Files with defects: ricci_soup_read of ricci/repair.h.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not UTF-8), RICCI_IO, RICCI_PARSE,
+ * RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS.
  *
  * @param path  file name in UTF-8, ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii.
  * @param mesh  out: the new handle, to be released by ricci_mesh_free.
@@ -519,18 +542,21 @@ RICCI_API ricci_status ricci_mesh_read(const char *path, ricci_mesh **mesh);
 /**
  * Write a mesh in the format that the file's name says, with the attributes that the format has.
  *
- * OBJ and OFF are text with 17 significant digits, PLY is binary, and positions read back as they are; GLB has 24 bits of the
- * distance from the centre of the mesh, and writes a vertex with several texture coordinates once for each. What the format has no
- * place for (in PLY and OFF, several normals at a vertex; in OFF, several texture coordinates) is left out, with a warning to the
- * callback of ricci_log_set. A file of that name is replaced only once the new one is complete.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (the mesh is
- * intrinsic, a number is not finite, the texture is no PNG file or has no uv), RICCI_TOO_LARGE, RICCI_NO_MEMORY.
+ * OBJ and OFF are text with 17 significant digits, PLY is binary, and positions read back as they are; GLB
+ * has 24 bits of the distance from the centre of the mesh, and writes a vertex with several texture
+ * coordinates once for each. What the format has no place for (in PLY and OFF, several normals at a vertex;
+ * in OFF, several texture coordinates) is left out, with a warning to the callback of ricci_log_set. A file
+ * of that name is replaced only once the new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_STRUCT_SIZE, RICCI_ARGUMENT
+ * (the mesh is intrinsic, a number is not finite, the texture is no PNG file or has no uv),
+ * RICCI_TOO_LARGE, RICCI_NO_MEMORY.
  *
  * @param mesh        the mesh.
  * @param attributes  what to write beside positions and faces, or NULL for what the mesh was read with.
  * @param path        file name in UTF-8, ending in .obj, .off, .ply or .glb.
  */
-RICCI_API ricci_status ricci_mesh_write(const ricci_mesh *mesh, const ricci_attributes *attributes, const char *path);
+RICCI_API ricci_status ricci_mesh_write(const ricci_mesh *mesh, const ricci_attributes *attributes,
+                                        const char *path);
 
 /**
  * Release a mesh. Metrics made from it live on.
@@ -540,7 +566,8 @@ RICCI_API ricci_status ricci_mesh_write(const ricci_mesh *mesh, const ricci_attr
 RICCI_API_VOID void ricci_mesh_free(ricci_mesh *mesh);
 
 /**
- * Counts, Euler characteristic, genus, boundary loops, and which attributes there are. Counted once per handle.
+ * Counts, Euler characteristic, genus, boundary loops, and which attributes there are. Counted once per
+ * handle.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
  *
@@ -553,15 +580,17 @@ RICCI_API ricci_status ricci_mesh_summarise(const ricci_mesh *mesh, ricci_mesh_s
 /**
  * Positions, lengths, or an attribute that the mesh was read with.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none), RICCI_EDGE_LENGTH (two positions
- * coincide).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none),
+ * RICCI_EDGE_LENGTH (two positions coincide).
  *
  * @param mesh      the mesh.
- * @param which     RICCI_POSITIONS, RICCI_LENGTHS, RICCI_NORMALS, RICCI_COLORS, RICCI_UV or RICCI_CORNER_NORMALS.
+ * @param which     RICCI_POSITIONS, RICCI_LENGTHS, RICCI_NORMALS, RICCI_COLORS, RICCI_UV or
+ *                  RICCI_CORNER_NORMALS.
  * @param values    out: the numbers, in the shape that the constant says.
  * @param capacity  entries of `values`.
  */
-RICCI_API ricci_status ricci_mesh_values(const ricci_mesh *mesh, uint32_t which, double *values, size_t capacity);
+RICCI_API ricci_status ricci_mesh_values(const ricci_mesh *mesh, uint32_t which, double *values,
+                                         size_t capacity);
 
 /**
  * The vertices of every face, in corner order.
@@ -586,8 +615,8 @@ RICCI_API ricci_status ricci_mesh_faces(const ricci_mesh *mesh, uint32_t *faces,
 RICCI_API ricci_status ricci_mesh_edges(const ricci_mesh *mesh, uint32_t *edges, size_t capacity);
 
 /**
- * The edges opposite the corners of every face: how the triangles are glued, and where in a per-edge array a
- * face finds its sides.
+ * The edges opposite the corners of every face: how the triangles are glued, and where in a per-edge array
+ * a face finds its sides.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
@@ -606,27 +635,30 @@ RICCI_API ricci_status ricci_mesh_face_edges(const ricci_mesh *mesh, int32_t *fa
  * @param mesh               the mesh.
  * @param vertices           out: n_boundary_vertices vertex indices, loop after loop.
  * @param vertices_capacity  entries of `vertices`.
- * @param starts             out: n_boundary_loops + 1 offsets: loop i is vertices[starts[i] .. starts[i + 1]).
+ * @param starts             out: n_boundary_loops + 1 offsets: loop i is vertices[starts[i] .. starts[i +
+ *                           1]).
  * @param starts_capacity    entries of `starts`.
  */
-RICCI_API ricci_status ricci_mesh_boundary(const ricci_mesh *mesh, uint32_t *vertices, size_t vertices_capacity, size_t *starts,
-                                           size_t starts_capacity);
+RICCI_API ricci_status ricci_mesh_boundary(const ricci_mesh *mesh, uint32_t *vertices,
+                                           size_t vertices_capacity, size_t *starts, size_t starts_capacity);
 
-/* -------------------------------------------------------------------------------------------------------------------------------
+/* ---------------------------------------------------------------------------------------------------------
  * Metrics
  *
- * A conformal class has a type epsilon per vertex and a weight eta per edge; a metric of the class has one variable u per vertex. With
- * e_i = exp(u_i) and d_i = 1 + lambda epsilon_i e_i^2,
+ * A conformal class has a type epsilon per vertex and a weight eta per edge; a metric of the class has one
+ * variable u per vertex. With e_i = exp(u_i) and d_i = 1 + lambda epsilon_i e_i^2,
  *
  *     N_ij = 2 eta_ij e_i e_j + epsilon_i e_i^2 + epsilon_j e_j^2
- *     l_ij^2 = N_ij (E2),   sinh^2(l_ij / 2) = N_ij / (d_i d_j) (H2),   sin^2(l_ij / 2) = N_ij / (d_i d_j) (S2).
+ *     l_ij^2 = N_ij (E2),   sinh^2(l_ij / 2) = N_ij / (d_i d_j) (H2),   sin^2(l_ij / 2) = N_ij / (d_i d_j)
+ * (S2).
  */
 
 /**
- * A metric of a surface in a conformal class, and what led to it. It never changes; the flow makes a new one.
+ * A metric of a surface in a conformal class, and what led to it. It never changes; the flow makes a new
+ * one.
  *
- * A flow that flips edges leads to another triangulation, on which edges and faces have numbers of their own
- * (ricci_metric_mesh), and of a surface with boundary to one of its double; layouts and maps lead back.
+ * A flow that flips edges leads to another triangulation, on which edges and faces have numbers of their
+ * own (ricci_metric_mesh), and of a surface with boundary to one of its double; layouts and maps lead back.
  */
 typedef struct ricci_metric ricci_metric;
 
@@ -636,7 +668,10 @@ enum {
     RICCI_SCHEME_YAMABE = 0,
     /** Inversive distance circle packing, epsilon = 1; represents any input metric exactly. */
     RICCI_SCHEME_INVERSIVE = 1,
-    /** Thurston's circle packing: circles meet at angles in [0, pi/2], eta is their cosine; changes lengths at the start. */
+    /**
+     * Thurston's circle packing: circles meet at angles in [0, pi/2], eta is their cosine; changes lengths
+     * at the start.
+     */
     RICCI_SCHEME_THURSTON = 2,
     /** Tangential (combinatorial) circle packing, eta = 1: ignores lengths but for the initial radii. */
     RICCI_SCHEME_TANGENTIAL = 3,
@@ -650,16 +685,20 @@ enum {
     RICCI_ON_INPUT = 0,
     /** The triangulation that the metric lives on (ricci_metric_mesh). */
     RICCI_ON_METRIC = 1,
-    /** Their common refinement: faces that are parts of faces of both (ricci_map). Both are one if no edge was flipped. */
+    /**
+     * Their common refinement: faces that are parts of faces of both (ricci_map). Both are one if no edge
+     * was flipped.
+     */
     RICCI_ON_REFINEMENT = 2
 };
 
 /** Numbers of a metric. */
 enum {
     /**
-     * n_vertices: the conformal factor f against the input. Vertex scaling: the change of u, so that where no edge was flipped
-     * l_ij = exp((f_i + f_j) / 2) l0_ij in E2 from E2 lengths (sinh(l/2) for l in H2, sin(l/2) in S2), and areas near vertex i change by
-     * about exp(2 f_i). Circle packings: log of new radius over old.
+     * n_vertices: the conformal factor f against the input. Vertex scaling: the change of u, so that where
+     * no edge was flipped l_ij = exp((f_i + f_j) / 2) l0_ij in E2 from E2 lengths (sinh(l/2) for l in H2,
+     * sin(l/2) in S2), and areas near vertex i change by about exp(2 f_i). Circle packings: log of new
+     * radius over old.
      */
     RICCI_METRIC_FACTOR = 0,
     /** n_vertices: curvatures, radians. */
@@ -690,7 +729,10 @@ typedef struct ricci_metric_summary {
     uint32_t doubled;
     /** V of the mesh it was made from, the entries of per-vertex arrays. */
     size_t n_vertices;
-    /** V of its triangulation: those of the mesh, and of a double the mirror images of interior vertices behind them. */
+    /**
+     * V of its triangulation: those of the mesh, and of a double the mirror images of interior vertices
+     * behind them.
+     */
     size_t n_mesh_vertices;
     /** E of its triangulation, the entries of per-edge arrays. */
     size_t n_edges;
@@ -723,7 +765,8 @@ typedef struct ricci_metric_summary {
  * @param space   RICCI_SPACE_*: the geometry in which the metric will live.
  * @param metric  out: the new handle, to be released by ricci_metric_free.
  */
-RICCI_API ricci_status ricci_metric_new(const ricci_mesh *mesh, uint32_t scheme, uint32_t space, ricci_metric **metric);
+RICCI_API ricci_status ricci_metric_new(const ricci_mesh *mesh, uint32_t scheme, uint32_t space,
+                                        ricci_metric **metric);
 
 /**
  * Release a metric.
@@ -741,7 +784,8 @@ RICCI_API_VOID void ricci_metric_free(ricci_metric *metric);
  * @param summary  out: the figures.
  * @param size     sizeof *summary.
  */
-RICCI_API ricci_status ricci_metric_summarise(const ricci_metric *metric, ricci_metric_summary *summary, size_t size);
+RICCI_API ricci_status ricci_metric_summarise(const ricci_metric *metric, ricci_metric_summary *summary,
+                                              size_t size);
 
 /**
  * The numbers of a metric at vertices or edges.
@@ -753,15 +797,16 @@ RICCI_API ricci_status ricci_metric_summarise(const ricci_metric *metric, ricci_
  * @param values    out: the numbers, as many as the constant says.
  * @param capacity  entries of `values`.
  */
-RICCI_API ricci_status ricci_metric_values(const ricci_metric *metric, uint32_t which, double *values, size_t capacity);
+RICCI_API ricci_status ricci_metric_values(const ricci_metric *metric, uint32_t which, double *values,
+                                           size_t capacity);
 
 /**
  * The triangulation of a metric as an intrinsic mesh with the metric's lengths.
  *
- * It is that of the mesh that the metric was made from until a flow flips edges. Two vertices may then share
- * several edges, and an edge may be a loop. The triangulation of a double (`doubled` of the summary) is
- * closed; its first vertices are the given ones, and its edges may run from one copy of the surface to the
- * other.
+ * It is that of the mesh that the metric was made from until a flow flips edges. Two vertices may then
+ * share several edges, and an edge may be a loop. The triangulation of a double (`doubled` of the summary)
+ * is closed; its first vertices are the given ones, and its edges may run from one copy of the surface to
+ * the other.
  * @return RICCI_OK, RICCI_NULL_POINTER.
  *
  * @param metric  the metric.
@@ -780,11 +825,11 @@ RICCI_API ricci_status ricci_metric_mesh(const ricci_metric *metric, ricci_mesh 
  */
 RICCI_API ricci_status ricci_metric_mirror(const ricci_metric *metric, uint32_t *mirror, size_t capacity);
 
-/* -------------------------------------------------------------------------------------------------------------------------------
+/* ---------------------------------------------------------------------------------------------------------
  * Targets and flows
  *
- * A target is admissible if every curvature is below 2 pi (pi on the boundary) and they add up to 2 pi chi - lambda area: in E2 to 2 pi chi,
- * in H2 to more, in S2 to less.
+ * A target is admissible if every curvature is below 2 pi (pi on the boundary) and they add up to 2 pi chi
+ * - lambda area: in E2 to 2 pi chi, in H2 to more, in S2 to less.
  */
 
 /** Rules for a target. */
@@ -800,9 +845,10 @@ enum {
     /** `curvatures` at the n `vertices`, 0 at every other one. */
     RICCI_TARGET_CONES = 4,
     /**
-     * n cones (at most 256) placed by the library: interior vertices, and their curvatures, such that a conformal map that is flat
-     * elsewhere changes areas as little as it finds. On an open surface the boundary keeps its conformal factor, and has the curvature
-     * that follows. E2, from E2 lengths. Closed surfaces of genus 0 need 3 cones, of genus 1 none or 2, of higher genus 1.
+     * n cones (at most 256) placed by the library: interior vertices, and their curvatures, such that a
+     * conformal map that is flat elsewhere changes areas as little as it finds. On an open surface the
+     * boundary keeps its conformal factor, and has the curvature that follows. E2, from E2 lengths. Closed
+     * surfaces of genus 0 need 3 cones, of genus 1 none or 2, of higher genus 1.
      */
     RICCI_TARGET_AUTO = 5,
     /** `curvatures` of all n = n_vertices vertices. */
@@ -838,8 +884,9 @@ enum {
     /**
      * As often as needed, so that every admissible target is reached: the flow starts from the intrinsic
      * Delaunay triangulation and keeps it (weighted) Delaunay; a surface with boundary flows on its double
-     * as soon as an edge is to be flipped across the boundary, unless vertices are pinned. Applies to Newton's method in E2 and H2
-     * with vertex scaling, inversive distance and virtual radius; else edges stay as they are.
+     * as soon as an edge is to be flipped across the boundary, unless vertices are pinned. Applies to
+     * Newton's method in E2 and H2 with vertex scaling, inversive distance and virtual radius; else edges
+     * stay as they are.
      */
     RICCI_FLIPS_AUTO = 0,
     /** The triangulation of the metric stays as it is. */
@@ -873,8 +920,8 @@ typedef struct ricci_flow_options {
     /** Largest change of any u in one Newton step, positive; 0: 3. */
     double max_step;
     /**
-     * Edges that are not flipped, such as seams and feature lines: rows of ricci_mesh_edges of the mesh that
-     * the metric was made from. Targets that only their flips would reach are then out of reach.
+     * Edges that are not flipped, such as seams and feature lines: rows of ricci_mesh_edges of the mesh
+     * that the metric was made from. Targets that only their flips would reach are then out of reach.
      */
     const uint32_t *fixed_edges;
     /** Entries of `fixed_edges`. */
@@ -896,9 +943,9 @@ typedef struct ricci_solver ricci_solver;
 /**
  * The curvature that a target has at every vertex, admissible or refused.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (kind, no such vertex),
- * RICCI_WRONG_SIZE, RICCI_TARGET_KIND, RICCI_TARGET_AT_VERTEX, RICCI_TARGET_BELOW, RICCI_TARGET_TOTAL, RICCI_FACTORISATION,
- * RICCI_CANCELLED.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (kind, no
+ * such vertex), RICCI_WRONG_SIZE, RICCI_TARGET_KIND, RICCI_TARGET_AT_VERTEX, RICCI_TARGET_BELOW,
+ * RICCI_TARGET_TOTAL, RICCI_FACTORISATION, RICCI_CANCELLED.
  *
  * @param metric      the metric that will flow.
  * @param target      the target; NULL for the default.
@@ -906,41 +953,45 @@ typedef struct ricci_solver ricci_solver;
  * @param curvatures  out: n_vertices curvatures, radians.
  * @param capacity    entries of `curvatures`.
  */
-RICCI_API ricci_status ricci_target_fill(const ricci_metric *metric, const ricci_target *target, const ricci_control *control,
-                                         double *curvatures, size_t capacity);
+RICCI_API ricci_status ricci_target_fill(const ricci_metric *metric, const ricci_target *target,
+                                         const ricci_control *control, double *curvatures, size_t capacity);
 
 /**
  * Deform a metric in its conformal class to a prescribed curvature.
  *
  * With flips the result lives on a triangulation of its own, and of a surface with boundary on its double
- * (ricci_metric_mesh); vertices keep their numbers, and layouts lead back. A result that flows
- * again goes on from where it is; if it came of a flow without flips, or with other fixed edges, and edges
- * may be flipped now, it begins at the given lengths.
+ * (ricci_metric_mesh); vertices keep their numbers, and layouts lead back. A result that flows again goes
+ * on from where it is; if it came of a flow without flips, or with other fixed edges, and edges may be
+ * flipped now, it begins at the given lengths.
  *
  * Whether it came that far is in the report: a flow that stops early is RICCI_OK and `converged` is 0.
  * Inputs are never changed.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT, RICCI_STRUCT_SIZE, RICCI_NO_MEMORY, RICCI_FACTORISATION, RICCI_CANCELLED, and
- * those of ricci_target_fill.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT, RICCI_STRUCT_SIZE, RICCI_NO_MEMORY,
+ * RICCI_FACTORISATION, RICCI_CANCELLED, and those of ricci_target_fill.
  *
  * @param metric   where the flow starts.
  * @param target   the target; NULL for the default.
  * @param options  how; NULL for the defaults.
  * @param control  progress and cancellation; NULL for neither.
- * @param result   out: the metric at the end, to be released by ricci_metric_free; its report says how it went.
+ * @param result   out: the metric at the end, to be released by ricci_metric_free; its report says how it
+ *                 went.
  */
-RICCI_API ricci_status ricci_flow(const ricci_metric *metric, const ricci_target *target, const ricci_flow_options *options,
-                                  const ricci_control *control, ricci_metric **result);
+RICCI_API ricci_status ricci_flow(const ricci_metric *metric, const ricci_target *target,
+                                  const ricci_flow_options *options, const ricci_control *control,
+                                  ricci_metric **result);
 
 /**
  * A solver for many targets.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT, RICCI_STRUCT_SIZE, RICCI_NO_MEMORY, RICCI_FACTORISATION.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT, RICCI_STRUCT_SIZE, RICCI_NO_MEMORY,
+ * RICCI_FACTORISATION.
  *
  * @param metric   where the first solve starts; it is copied.
  * @param options  how; NULL for the defaults.
  * @param solver   out: the new handle, to be released by ricci_solver_free.
  */
-RICCI_API ricci_status ricci_solver_new(const ricci_metric *metric, const ricci_flow_options *options, ricci_solver **solver);
+RICCI_API ricci_status ricci_solver_new(const ricci_metric *metric, const ricci_flow_options *options,
+                                        ricci_solver **solver);
 
 /**
  * Release a solver.
@@ -953,8 +1004,8 @@ RICCI_API_VOID void ricci_solver_free(ricci_solver *solver);
  * Hold u fixed at some vertices in the following solves; their curvature is then free.
  *
  * Replaces the vertices that were pinned before. A surface with boundary flows on its double if edges are
- * flipped across the boundary and no vertex is pinned: there the first pin, and the release of all, begin the
- * flow anew from the given lengths.
+ * flipped across the boundary and no vertex is pinned: there the first pin, and the release of all, begin
+ * the flow anew from the given lengths.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_POISONED, RICCI_ARGUMENT (no such vertex).
  *
  * @param solver    the solver.
@@ -974,13 +1025,14 @@ RICCI_API ricci_status ricci_solver_pin(ricci_solver *solver, const uint32_t *pi
  * @param control  progress and cancellation; NULL for neither.
  * @param result   out: the metric at the end, to be released by ricci_metric_free.
  */
-RICCI_API ricci_status ricci_solver_solve(ricci_solver *solver, const ricci_target *target, const ricci_control *control,
-                                          ricci_metric **result);
+RICCI_API ricci_status ricci_solver_solve(ricci_solver *solver, const ricci_target *target,
+                                          const ricci_control *control, ricci_metric **result);
 
-/* -------------------------------------------------------------------------------------------------------------------------------
+/* ---------------------------------------------------------------------------------------------------------
  * Reports: what the flow did that led to a metric
  *
- * Errors at boundary vertices of a surface that was doubled count both copies: they are twice those of the surface.
+ * Errors at boundary vertices of a surface that was doubled count both copies: they are twice those of the
+ * surface.
  */
 
 /** Why a flow stopped. */
@@ -998,7 +1050,8 @@ enum {
     /** The iteration limit came first. */
     RICCI_STOP_ITERATION_LIMIT = 5,
     /**
-     * No metric of the class on this triangulation has the target curvature: the vertices of RICCI_REPORT_OBSTRUCTION prove it.
+     * No metric of the class on this triangulation has the target curvature: the vertices of
+     * RICCI_REPORT_OBSTRUCTION prove it.
      */
     RICCI_STOP_INFEASIBLE = 6
 };
@@ -1017,8 +1070,10 @@ enum {
 
 /** Vertices of a report. */
 enum {
-    /** n_cones: interior vertices that the target names as cones, or whose curvature it sets off 0 by more than the tolerance. A
-     * layout is cut open through them. */
+    /**
+     * n_cones: interior vertices that the target names as cones, or whose curvature it sets off 0 by more
+     * than the tolerance. A layout is cut open through them.
+     */
     RICCI_REPORT_CONES = 0,
     /** n_worst: the vertices that are farthest from their target, farthest first. */
     RICCI_REPORT_WORST = 1,
@@ -1046,7 +1101,10 @@ typedef struct ricci_report_summary {
     double max_curvature_error;
     /** The tolerance that was asked for, radians. */
     double tolerance;
-    /** Largest curvature error that rounding can cause at the final metric, radians; determined where a flow stalls, else 0. */
+    /**
+     * Largest curvature error that rounding can cause at the final metric, radians; determined where a flow
+     * stalls, else 0.
+     */
     double rounding_floor;
     /** |sum of curvatures + lambda area - 2 pi chi| of the result. */
     double gauss_bonnet;
@@ -1072,9 +1130,15 @@ typedef struct ricci_report_summary {
     size_t n_worst;
     /** Entries of RICCI_REPORT_OBSTRUCTION; 0 unless the stop reason is RICCI_STOP_INFEASIBLE. */
     size_t n_obstruction;
-    /** Total target curvature at the vertices of the obstruction, radians; of a double, with their mirror images. */
+    /**
+     * Total target curvature at the vertices of the obstruction, radians; of a double, with their mirror
+     * images.
+     */
     double obstruction_target;
-    /** Every metric of the class on this triangulation has a total curvature above this at the vertices of the obstruction, radians. */
+    /**
+     * Every metric of the class on this triangulation has a total curvature above this at the vertices of
+     * the obstruction, radians.
+     */
     double obstruction_above;
     /** 1 if u, lengths and curvature were carried to twice the digits of a double (Newton in E2), else 0. */
     uint32_t double_double;
@@ -1091,7 +1155,8 @@ typedef struct ricci_report_summary {
  * @param summary  out: the figures.
  * @param size     sizeof *summary.
  */
-RICCI_API ricci_status ricci_report_summarise(const ricci_metric *metric, ricci_report_summary *summary, size_t size);
+RICCI_API ricci_status ricci_report_summarise(const ricci_metric *metric, ricci_report_summary *summary,
+                                              size_t size);
 
 /**
  * The target that was asked for, or the course of the flow.
@@ -1103,7 +1168,8 @@ RICCI_API ricci_status ricci_report_summarise(const ricci_metric *metric, ricci_
  * @param values    out: the numbers, in the shape that the constant says.
  * @param capacity  entries of `values`.
  */
-RICCI_API ricci_status ricci_report_values(const ricci_metric *metric, uint32_t which, double *values, size_t capacity);
+RICCI_API ricci_status ricci_report_values(const ricci_metric *metric, uint32_t which, double *values,
+                                           size_t capacity);
 
 /**
  * The cones, or the vertices where it is worst.
@@ -1115,25 +1181,33 @@ RICCI_API ricci_status ricci_report_values(const ricci_metric *metric, uint32_t 
  * @param vertices  out: the vertices, as many as the constant says.
  * @param capacity  entries of `vertices`.
  */
-RICCI_API ricci_status ricci_report_vertices(const ricci_metric *metric, uint32_t which, uint32_t *vertices, size_t capacity);
+RICCI_API ricci_status ricci_report_vertices(const ricci_metric *metric, uint32_t which, uint32_t *vertices,
+                                             size_t capacity);
 
-/* -------------------------------------------------------------------------------------------------------------------------------
+/* ---------------------------------------------------------------------------------------------------------
  * Layouts
  */
 
 /**
  * A surface, opened along a cut, in the space of its metric.
  *
- * What is laid out is the mesh that the metric was made from. If edges were flipped its faces are cut by the
- * edges of the metric's triangulation: the common refinement, whose faces are parts of faces of both, and
- * whose vertices are those of the mesh, with their numbers, then the crossings of edges of both (ricci_map says where they lie).
- * The map is projective on every piece; RICCI_ON_INPUT makes it linear on the faces of the mesh itself.
+ * What is laid out is the mesh that the metric was made from. If edges were flipped its faces are cut by
+ * the edges of the metric's triangulation: the common refinement, whose faces are parts of faces of both,
+ * and whose vertices are those of the mesh, with their numbers, then the crossings of edges of both
+ * (ricci_map says where they lie). The map is projective on every piece; RICCI_ON_INPUT makes it linear on
+ * the faces of the mesh itself.
  */
 typedef struct ricci_layout ricci_layout;
 
-/** Coordinates. The plane is (x, y, 1), the hyperbolic plane x^2 + y^2 - w^2 = -1 with w > 0, the sphere x^2 + y^2 + w^2 = 1. */
+/**
+ * Coordinates. The plane is (x, y, 1), the hyperbolic plane x^2 + y^2 - w^2 = -1 with w > 0, the sphere x^2
+ * + y^2 + w^2 = 1.
+ */
 enum {
-    /** H2: the unit disk, conformal: (x + i y)/(1 + w). S2: the plane seen from the south pole: (x + i y)/(1 + w). E2: (x, y). */
+    /**
+     * H2: the unit disk, conformal: (x + i y)/(1 + w). S2: the plane seen from the south pole: (x + i y)/(1
+     * + w). E2: (x, y).
+     */
     RICCI_MODEL_POINCARE = 0,
     /** H2: the unit disk in which geodesics are straight: (x + i y)/w. Else as POINCARE. */
     RICCI_MODEL_KLEIN = 1,
@@ -1160,13 +1234,17 @@ typedef struct ricci_layout_options {
     /** RICCI_SCALE_*. */
     uint32_t scale;
     /**
-     * Vertices through which the cut has to go; those on the boundary change nothing. NULL with n_cones 0: those of the flow
-     * (RICCI_REPORT_CONES), and of a metric without a flow those whose curvature is more than 1e-10 off flat. Not NULL with n_cones 0: none.
+     * Vertices through which the cut has to go; those on the boundary change nothing. NULL with n_cones 0:
+     * those of the flow (RICCI_REPORT_CONES), and of a metric without a flow those whose curvature is more
+     * than 1e-10 off flat. Not NULL with n_cones 0: none.
      */
     const uint32_t *cones;
     /** Entries of `cones`. */
     size_t n_cones;
-    /** The vertex at the origin; NULL: in E2 a corner of the smallest triangle, elsewhere a vertex from which none is far. */
+    /**
+     * The vertex at the origin; NULL: in E2 a corner of the smallest triangle, elsewhere a vertex from
+     * which none is far.
+     */
     const uint32_t *root;
     /** Threads; 0: as many as the flow had. The result does not depend on it. */
     size_t threads;
@@ -1196,13 +1274,25 @@ typedef struct ricci_layout_summary {
     size_t n_seams;
     /** Number of edges on all seams, on what is laid out. */
     size_t n_seam_edges;
-    /** Faces that are not counterclockwise: by exact arithmetic; of a refinement, those that are clockwise by more than rounding. */
+    /**
+     * Faces that are not counterclockwise: by exact arithmetic; of a refinement, those that are clockwise
+     * by more than rounding.
+     */
     size_t n_flipped;
-    /** Faces of the mesh that are not counterclockwise where the map is made linear on them (RICCI_ON_INPUT): there it folds. */
+    /**
+     * Faces of the mesh that are not counterclockwise where the map is made linear on them
+     * (RICCI_ON_INPUT): there it folds.
+     */
     size_t n_flipped_input;
-    /** Faces without area in the input or the layout, but for rounding; the distortions below leave them out. */
+    /**
+     * Faces without area in the input or the layout, but for rounding; the distortions below leave them
+     * out.
+     */
     size_t n_degenerate;
-    /** Largest disagreement of an edge vector with the placed points: relative to `diameter` in E2, elsewhere a distance. */
+    /**
+     * Largest disagreement of an edge vector with the placed points: relative to `diameter` in E2,
+     * elsewhere a distance.
+     */
     double consistency;
     /** Lengths in the layout over lengths in the metric. */
     double scale;
@@ -1212,7 +1302,10 @@ typedef struct ricci_layout_summary {
     double diameter;
     /** Largest distance of a point from the origin, in the space. */
     double radius;
-    /** Quasi-conformal dilatation, at least 1: mean over the input's area. NaN, as all below, on the metric's own triangulation. */
+    /**
+     * Quasi-conformal dilatation, at least 1: mean over the input's area. NaN, as all below, on the
+     * metric's own triangulation.
+     */
     double qc_mean;
     /** Largest quasi-conformal dilatation. */
     double qc_max;
@@ -1225,12 +1318,14 @@ typedef struct ricci_layout_summary {
 /**
  * Lay a metric out in its space.
  *
- * The surface is cut open along edges of the mesh: as little as its topology asks for, and through all cones. The metric should have
- * curvature 0 (E2), -1 (H2) or 1 (S2) at all other vertices, and `consistency` says how far it is. Triangles are counterclockwise where
- * the mesh's are. A closed surface with its deck group: ricci/uniformize.h.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no such vertex; RICCI_MODEL_AMBIENT),
- * RICCI_TRIANGLE_INEQUALITY, RICCI_LAYOUT (a sphere in E2 with fewer than two cones; points beyond the reach of doubles), RICCI_DOMAIN,
- * RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement), RICCI_NO_MEMORY, RICCI_CANCELLED.
+ * The surface is cut open along edges of the mesh: as little as its topology asks for, and through all
+ * cones. The metric should have curvature 0 (E2), -1 (H2) or 1 (S2) at all other vertices, and
+ * `consistency` says how far it is. Triangles are counterclockwise where the mesh's are. A closed surface
+ * with its deck group: ricci/uniformize.h.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no such vertex;
+ * RICCI_MODEL_AMBIENT), RICCI_TRIANGLE_INEQUALITY, RICCI_LAYOUT (a sphere in E2 with fewer than two cones;
+ * points beyond the reach of doubles), RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement),
+ * RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param metric   the metric.
  * @param options  how; NULL for the defaults.
@@ -1256,7 +1351,8 @@ RICCI_API_VOID void ricci_layout_free(ricci_layout *layout);
  * @param summary  out: the figures.
  * @param size     sizeof *summary.
  */
-RICCI_API ricci_status ricci_layout_summarise(const ricci_layout *layout, ricci_layout_summary *summary, size_t size);
+RICCI_API ricci_status ricci_layout_summarise(const ricci_layout *layout, ricci_layout_summary *summary,
+                                              size_t size);
 
 /**
  * The points of the layout.
@@ -1268,43 +1364,49 @@ RICCI_API ricci_status ricci_layout_summarise(const ricci_layout *layout, ricci_
  * @param points    out: n_points x 2; n_points x 3 for RICCI_MODEL_AMBIENT.
  * @param capacity  entries of `points`.
  */
-RICCI_API ricci_status ricci_layout_points(const ricci_layout *layout, uint32_t model, double *points, size_t capacity);
+RICCI_API ricci_status ricci_layout_points(const ricci_layout *layout, uint32_t model, double *points,
+                                           size_t capacity);
 
 /**
  * The point of every corner of every face: as OBJ's `vt` indices, but 0-based.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (RICCI_ON_INPUT of ricci_uniform_layout,
- * which is cut along edges of the metric's triangulation).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT
+ * (RICCI_ON_INPUT of ricci_uniform_layout, which is cut along edges of the metric's triangulation).
  *
  * @param layout    the layout.
  * @param on        RICCI_ON_INPUT: the faces of the mesh; else those of what is laid out.
  * @param corners   out: n_input_faces x 3 or n_faces x 3 indices of points.
  * @param capacity  entries of `corners`.
  */
-RICCI_API ricci_status ricci_layout_corners(const ricci_layout *layout, uint32_t on, uint32_t *corners, size_t capacity);
+RICCI_API ricci_status ricci_layout_corners(const ricci_layout *layout, uint32_t on, uint32_t *corners,
+                                            size_t capacity);
 
 /**
  * The coordinates of every corner of every face, in the layout's model.
  *
- * On the input the map is made linear on each face; where that folds faces, the summary's n_flipped_input counts them.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (as of ricci_layout_corners).
+ * On the input the map is made linear on each face; where that folds faces, the summary's n_flipped_input
+ * counts them.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (as of
+ * ricci_layout_corners).
  *
  * @param layout    the layout.
- * @param on        RICCI_ON_INPUT: the corners of the mesh, in the order of its faces; else those of what is laid out.
+ * @param on        RICCI_ON_INPUT: the corners of the mesh, in the order of its faces; else those of what
+ *                  is laid out.
  * @param uv        out: n_input_faces x 3 x 2 or n_faces x 3 x 2.
  * @param capacity  entries of `uv`.
  */
 RICCI_API ricci_status ricci_layout_uv(const ricci_layout *layout, uint32_t on, double *uv, size_t capacity);
 
 /**
- * The isometry that carries the left side of every seam onto its right side, as a Moebius transformation z -> (a z + b)/(c z + d): in the
- * plane (E2: a = exp(i theta), b the translation, c = 0, d = 1), the Poincare disk or the plane under the sphere.
+ * The isometry that carries the left side of every seam onto its right side, as a Moebius transformation z
+ * -> (a z + b)/(c z + d): in the plane (E2: a = exp(i theta), b the translation, c = 0, d = 1), the
+ * Poincare disk or the plane under the sphere.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
  * @param layout    the layout.
- * @param seams     out: n_seams x 9: real and imaginary parts of a, b, c, d, and how far the edges of the seam are from it: relative to the
- *                  diameter in E2, elsewhere a distance.
+ * @param seams     out: n_seams x 9: real and imaginary parts of a, b, c, d, and how far the edges of the
+ *                  seam are from it: relative to the diameter in E2, elsewhere a distance.
  * @param capacity  entries of `seams`, at least 9 n_seams.
  */
 RICCI_API ricci_status ricci_layout_seams(const ricci_layout *layout, double *seams, size_t capacity);
@@ -1312,42 +1414,47 @@ RICCI_API ricci_status ricci_layout_seams(const ricci_layout *layout, double *se
 /**
  * The edges of every seam, in order.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (as of ricci_layout_corners).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (as of
+ * ricci_layout_corners).
  *
  * @param layout           the layout.
  * @param on               RICCI_ON_INPUT: edges of the mesh; else of what is laid out.
- * @param edges            out: edge numbers, 1-based, negative where the seam runs against the edge's direction; seam after seam. On what
- *                         is laid out n_seam_edges.
+ * @param edges            out: edge numbers, 1-based, negative where the seam runs against the edge's
+ *                         direction; seam after seam. On what is laid out n_seam_edges.
  * @param edges_capacity   entries of `edges`.
  * @param starts           out: n_seams + 1 offsets: seam i is edges[starts[i] .. starts[i + 1]).
  * @param starts_capacity  entries of `starts`.
  */
-RICCI_API ricci_status ricci_layout_seam_edges(const ricci_layout *layout, uint32_t on, int32_t *edges, size_t edges_capacity,
-                                               size_t *starts, size_t starts_capacity);
+RICCI_API ricci_status ricci_layout_seam_edges(const ricci_layout *layout, uint32_t on, int32_t *edges,
+                                               size_t edges_capacity, size_t *starts, size_t starts_capacity);
 
 /**
  * The faces that are not counterclockwise, as n_flipped_input and n_flipped count them.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (as of ricci_layout_corners).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (as of
+ * ricci_layout_corners).
  *
  * @param layout    the layout.
  * @param on        RICCI_ON_INPUT: faces of the mesh; else of what is laid out.
  * @param faces     out: face indices, ascending.
  * @param capacity  entries of `faces`.
  */
-RICCI_API ricci_status ricci_layout_flipped(const ricci_layout *layout, uint32_t on, uint32_t *faces, size_t capacity);
+RICCI_API ricci_status ricci_layout_flipped(const ricci_layout *layout, uint32_t on, uint32_t *faces,
+                                            size_t capacity);
 
 /**
  * How every face of what is laid out is distorted.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (the metric's own triangulation).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (the metric's own
+ * triangulation).
  *
  * @param layout      the layout.
  * @param qc          out: n_faces quasi-conformal dilatations, at least 1: 1 is conformal.
  * @param area_ratio  out: n_faces shares of the layout's area over shares of the input's.
  * @param capacity    entries of `qc` and of `area_ratio`.
  */
-RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, double *qc, double *area_ratio, size_t capacity);
+RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, double *qc, double *area_ratio,
+                                               size_t capacity);
 
 /**
  * What is laid out as a mesh: the mesh that the metric was made from, or the common refinement.
@@ -1365,28 +1472,33 @@ RICCI_API ricci_status ricci_layout_mesh(const ricci_layout *layout, ricci_mesh 
 /**
  * Write a mesh with the layout as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
  *
- * On the input: its own vertices and faces, in order; seams run along its edges only. On the refinement the `v` of the mesh come first,
- * unchanged, then the crossings. A file of that name is replaced only once the new one is complete.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN, RICCI_LAYOUT (as of
- * ricci_layout_corners; a model that is not projective).
+ * On the input: its own vertices and faces, in order; seams run along its edges only. On the refinement the
+ * `v` of the mesh come first, unchanged, then the crossings. A file of that name is replaced only once the
+ * new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN,
+ * RICCI_LAYOUT (as of ricci_layout_corners; a model that is not projective).
  *
  * @param layout       the layout.
  * @param on           RICCI_ON_INPUT: the mesh; else what is laid out.
- * @param homogeneous  1: `vt qx qy q` with the q of ricci_map_weights: the projective map of every piece is linear in these three, and
- *                     divided by the third; in H2 in the Klein disk alone, not on the input. 0: `vt x y`.
+ * @param homogeneous  1: `vt qx qy q` with the q of ricci_map_weights: the projective map of every piece is
+ *                     linear in these three, and divided by the third; in H2 in the Klein disk alone, not
+ *                     on the input. 0: `vt x y`.
  * @param path         file name in UTF-8.
  */
-RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t on, uint32_t homogeneous, const char *path);
+RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t on, uint32_t homogeneous,
+                                          const char *path);
 
-/* -------------------------------------------------------------------------------------------------------------------------------
+/* ---------------------------------------------------------------------------------------------------------
  * Maps: the common refinement of the mesh and the metric's triangulation, and what is carried over it
  */
 
 /**
- * The way between the mesh that a metric was made from and the metric's triangulation, as their common refinement.
+ * The way between the mesh that a metric was made from and the metric's triangulation, as their common
+ * refinement.
  *
- * Its faces are parts of faces of both; its vertices are those of the mesh, with their numbers, then the crossings of edges. If no edge
- * was flipped it is the mesh itself. Layouts of the metric have its vertices and faces.
+ * Its faces are parts of faces of both; its vertices are those of the mesh, with their numbers, then the
+ * crossings of edges. If no edge was flipped it is the mesh itself. Layouts of the metric have its vertices
+ * and faces.
  */
 typedef struct ricci_map ricci_map;
 
@@ -1394,7 +1506,10 @@ typedef struct ricci_map ricci_map;
 enum {
     /** One row per vertex; linear along edges. */
     RICCI_AT_VERTICES = 0,
-    /** Three rows per face, one for each corner; linear in every face: texture coordinates, normals with creases. */
+    /**
+     * Three rows per face, one for each corner; linear in every face: texture coordinates, normals with
+     * creases.
+     */
     RICCI_AT_CORNERS = 1
 };
 
@@ -1408,9 +1523,15 @@ typedef struct ricci_map_summary {
     size_t n_edges;
     /** F of the refinement. */
     size_t n_faces;
-    /** Vertices where an edge of the mesh and one of the metric's triangulation cross; 0 if no edge was flipped. */
+    /**
+     * Vertices where an edge of the mesh and one of the metric's triangulation cross; 0 if no edge was
+     * flipped.
+     */
     size_t n_crossings;
-    /** Number of pieces: a piece is what a face of the mesh and one of the metric's triangulation have in common, cut into triangles. */
+    /**
+     * Number of pieces: a piece is what a face of the mesh and one of the metric's triangulation have in
+     * common, cut into triangles.
+     */
     size_t n_pieces;
 } ricci_map_summary;
 
@@ -1433,13 +1554,15 @@ typedef struct ricci_carried {
 /**
  * The map of a metric.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_CANCELLED.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE, RICCI_NO_MEMORY,
+ * RICCI_CANCELLED.
  *
  * @param metric   the metric.
  * @param control  progress and cancellation; NULL for neither.
  * @param map      out: the new handle, to be released by ricci_map_free.
  */
-RICCI_API ricci_status ricci_map_new(const ricci_metric *metric, const ricci_control *control, ricci_map **map);
+RICCI_API ricci_status ricci_map_new(const ricci_metric *metric, const ricci_control *control,
+                                     ricci_map **map);
 
 /**
  * Release a map.
@@ -1460,7 +1583,8 @@ RICCI_API_VOID void ricci_map_free(ricci_map *map);
 RICCI_API ricci_status ricci_map_summarise(const ricci_map *map, ricci_map_summary *summary, size_t size);
 
 /**
- * The refinement in space: the given vertices first, where they were, then the crossings on the edges of the given mesh.
+ * The refinement in space: the given vertices first, where they were, then the crossings on the edges of
+ * the given mesh.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (the given mesh is intrinsic: ricci_layout_mesh).
  *
@@ -1475,25 +1599,28 @@ RICCI_API ricci_status ricci_map_mesh(const ricci_map *map, ricci_mesh **mesh);
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
  *
  * @param map       the map.
- * @param on        RICCI_ON_INPUT: faces of the mesh; RICCI_ON_METRIC: of ricci_metric_mesh; RICCI_ON_REFINEMENT: pieces, from 0. Faces of
- *                  a piece have consecutive numbers and one projective map.
+ * @param on        RICCI_ON_INPUT: faces of the mesh; RICCI_ON_METRIC: of ricci_metric_mesh;
+ *                  RICCI_ON_REFINEMENT: pieces, from 0. Faces of a piece have consecutive numbers and one
+ *                  projective map.
  * @param faces     out: n_faces face indices.
  * @param capacity  entries of `faces`.
  */
 RICCI_API ricci_status ricci_map_faces(const ricci_map *map, uint32_t on, uint32_t *faces, size_t capacity);
 
 /**
- * Where the corners of every face of the refinement lie in its face: values at the corners of that face, added up with these weights,
- * are the values there.
+ * Where the corners of every face of the refinement lie in its face: values at the corners of that face,
+ * added up with these weights, are the values there.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
  *
  * @param map       the map.
- * @param on        RICCI_ON_INPUT: in its face of the mesh; RICCI_ON_METRIC: of the metric's triangulation, with its lengths.
+ * @param on        RICCI_ON_INPUT: in its face of the mesh; RICCI_ON_METRIC: of the metric's triangulation,
+ *                  with its lengths.
  * @param weights   out: n_faces x 3 x 3 barycentric coordinates [face, corner, corner of the other face].
  * @param capacity  entries of `weights`, at least 9 n_faces.
  */
-RICCI_API ricci_status ricci_map_barycentric(const ricci_map *map, uint32_t on, double *weights, size_t capacity);
+RICCI_API ricci_status ricci_map_barycentric(const ricci_map *map, uint32_t on, double *weights,
+                                             size_t capacity);
 
 /**
  * Where the crossings lie: vertex n_vertices of the mesh + k lies at end 0 (1 - t) + end 1 t of its edge.
@@ -1501,39 +1628,43 @@ RICCI_API ricci_status ricci_map_barycentric(const ricci_map *map, uint32_t on, 
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
  *
  * @param map        the map.
- * @param on         RICCI_ON_INPUT: on edges of the mesh; RICCI_ON_METRIC: of the metric's triangulation, with its lengths.
+ * @param on         RICCI_ON_INPUT: on edges of the mesh; RICCI_ON_METRIC: of the metric's triangulation,
+ *                   with its lengths.
  * @param edges      out: n_crossings rows of ricci_mesh_edges of that mesh.
  * @param fractions  out: n_crossings numbers t, from 0 to 1.
  * @param capacity   entries of `edges` and of `fractions`.
  */
-RICCI_API ricci_status ricci_map_crossings(const ricci_map *map, uint32_t on, uint32_t *edges, double *fractions, size_t capacity);
+RICCI_API ricci_status ricci_map_crossings(const ricci_map *map, uint32_t on, uint32_t *edges,
+                                           double *fractions, size_t capacity);
 
 /**
- * The homogeneous weight q of every vertex of the refinement. In a piece the map from the mesh to a layout in the plane is projective, and
- * with (x, y) the point of a corner it is (q x, q y, q) that is linear: as texture coordinates of three components.
+ * The homogeneous weight q of every vertex of the refinement. In a piece the map from the mesh to a layout
+ * in the plane is projective, and with (x, y) the point of a corner it is (q x, q y, q) that is linear: as
+ * texture coordinates of three components.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_DOMAIN.
  *
  * @param map       the map.
- * @param weights   out: n_vertices weights, positive; only their quotients in a piece mean anything. In H2 and S2 it is q times ambient
- *                  coordinates that is linear.
+ * @param weights   out: n_vertices weights, positive; only their quotients in a piece mean anything. In H2
+ *                  and S2 it is q times ambient coordinates that is linear.
  * @param capacity  entries of `weights`.
  */
 RICCI_API ricci_status ricci_map_weights(const ricci_map *map, double *weights, size_t capacity);
 
 /**
- * Carry values at vertices or corners, of the mesh or of the metric's triangulation, to those of the refinement. At given vertices they
- * stay as they are.
+ * Carry values at vertices or corners, of the mesh or of the metric's triangulation, to those of the
+ * refinement. At given vertices they stay as they are.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not finite), RICCI_TOO_LARGE,
- * RICCI_NO_MEMORY, RICCI_BUFFER_TOO_SMALL.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not
+ * finite), RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_BUFFER_TOO_SMALL.
  *
  * @param map       the map.
  * @param values    the values.
  * @param carried   out: n_vertices x n_components or n_faces x 3 x n_components.
  * @param capacity  entries of `carried`.
  */
-RICCI_API ricci_status ricci_map_carry(const ricci_map *map, const ricci_carried *values, double *carried, size_t capacity);
+RICCI_API ricci_status ricci_map_carry(const ricci_map *map, const ricci_carried *values, double *carried,
+                                       size_t capacity);
 
 #ifdef __cplusplus
 }

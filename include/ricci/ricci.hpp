@@ -1,12 +1,13 @@
-// C++ ownership and errors for the C face: handles that free themselves, failures that throw, queries that return vectors.
+// C++ ownership and errors for the C face: handles that free themselves, failures that throw, queries that
+// return vectors.
 //
 //     const auto mesh = ricci::mesh::read("bunny.obj");
 //     const auto flat = ricci::flow(ricci::metric(mesh), ricci::target::automatic(8));
 //     const ricci::layout layout(flat);
 //     const std::vector<double> uv = layout.uv(), factor = flat.factor();
 //
-// C++11; nothing is hidden: every function of the C headers takes the handles by .get(), and ricci::make, ricci::values and
-// ricci::rows call those that have no method here. Objects are moved, not copied.
+// C++11; nothing is hidden: every function of the C headers takes the handles by .get(), and ricci::make,
+// ricci::values and ricci::rows call those that have no method here. Objects are moved, not copied.
 //
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #ifndef RICCI_HPP
@@ -104,7 +105,8 @@ protected:
 };
 
 // The handle that a function hands out through its last parameter.
-template <class Handle, class Function, class... Arguments> Handle *make(Function function, Arguments... arguments) {
+template <class Handle, class Function, class... Arguments>
+Handle *make(Function function, Arguments... arguments) {
     Handle *handle = nullptr;
     check(function(arguments..., &handle));
     return handle;
@@ -147,7 +149,8 @@ template <class Value, class Function, class... Arguments>
 lists<Value> rows(std::size_t n, Function function, Arguments... arguments) {
     lists<Value> filled;
     filled.starts.resize(n + 1);
-    const ricci_status asked = function(arguments..., static_cast<Value *>(nullptr), std::size_t(0), filled.starts.data(), n + 1);
+    const ricci_status asked =
+        function(arguments..., static_cast<Value *>(nullptr), std::size_t(0), filled.starts.data(), n + 1);
     if (asked == RICCI_OK) return filled;
     const error why;
     if (asked != RICCI_BUFFER_TOO_SMALL) throw why;
@@ -184,27 +187,36 @@ public:
         static_assert(std::is_integral<Index>::value && sizeof(Index) == 4, "indices of 32 bits");
         if (positions.size() % 3 != 0 || faces.size() % 3 != 0)
             throw std::invalid_argument("positions and faces come in threes");
-        return mesh(make<ricci_mesh>(ricci_mesh_from_arrays, positions.data(), std::size_t(0), positions.size() / 3,
-                                     reinterpret_cast<const std::uint32_t *>(faces.data()), faces.size() / 3));
+        return mesh(
+            make<ricci_mesh>(ricci_mesh_from_arrays, positions.data(), std::size_t(0), positions.size() / 3,
+                             reinterpret_cast<const std::uint32_t *>(faces.data()), faces.size() / 3));
     }
-    template <class Index> static mesh from(const std::vector<double> &positions, const std::vector<Index> &faces) {
+    template <class Index>
+    static mesh from(const std::vector<double> &positions, const std::vector<Index> &faces) {
         return from(span<double>(positions), span<Index>(faces));
     }
-    static mesh read(const std::string &path) { return mesh(make<ricci_mesh>(ricci_mesh_read, path.c_str())); }
+    static mesh read(const std::string &path) {
+        return mesh(make<ricci_mesh>(ricci_mesh_read, path.c_str()));
+    }
     static mesh made(const ricci_shape &shape) { return mesh(make<ricci_mesh>(ricci_make, &shape)); }
     mesh with_lengths(span<double> lengths, std::uint32_t geometry = RICCI_SPACE_E2) const {
-        return mesh(make<ricci_mesh>(ricci_mesh_with_lengths, get(), lengths.data(), lengths.size(), geometry));
+        return mesh(
+            make<ricci_mesh>(ricci_mesh_with_lengths, get(), lengths.data(), lengths.size(), geometry));
     }
     void write(const std::string &path, const ricci_attributes *attributes = nullptr) const {
         check(ricci_mesh_write(handle_, attributes, path.c_str()));
     }
     ricci_mesh_summary summary() const { return ricci::summary(ricci_mesh_summarise, get()); }
-    std::vector<double> values(std::uint32_t which) const { return ricci::values<double>(ricci_mesh_values, get(), which); }
+    std::vector<double> values(std::uint32_t which) const {
+        return ricci::values<double>(ricci_mesh_values, get(), which);
+    }
     std::vector<double> positions() const { return values(RICCI_POSITIONS); }
     std::vector<double> lengths() const { return values(RICCI_LENGTHS); }
     std::vector<std::uint32_t> faces() const { return ricci::values<std::uint32_t>(ricci_mesh_faces, get()); }
     std::vector<std::uint32_t> edges() const { return ricci::values<std::uint32_t>(ricci_mesh_edges, get()); }
-    std::vector<std::int32_t> face_edges() const { return ricci::values<std::int32_t>(ricci_mesh_face_edges, get()); }
+    std::vector<std::int32_t> face_edges() const {
+        return ricci::values<std::int32_t>(ricci_mesh_face_edges, get());
+    }
     lists<std::uint32_t> boundary() const {
         return rows<std::uint32_t>(summary().n_boundary_loops, ricci_mesh_boundary, get());
     }
@@ -223,7 +235,8 @@ public:
         return all;
     }
     static target cones(span<std::uint32_t> vertices, span<double> curvatures) {
-        if (vertices.size() != curvatures.size()) throw std::invalid_argument("as many curvatures as vertices");
+        if (vertices.size() != curvatures.size())
+            throw std::invalid_argument("as many curvatures as vertices");
         target all(RICCI_TARGET_CONES, vertices.size());
         all.vertices_.assign(vertices.data(), vertices.data() + vertices.size());
         all.curvatures_.assign(curvatures.data(), curvatures.data() + curvatures.size());
@@ -254,14 +267,19 @@ using metric_handle = owned<ricci_metric, ricci_metric_free>;
 class metric : public metric_handle {
 public:
     using metric_handle::metric_handle;
-    explicit metric(const mesh &on, std::uint32_t scheme = RICCI_SCHEME_YAMABE, std::uint32_t space = RICCI_SPACE_E2)
+    explicit metric(const mesh &on, std::uint32_t scheme = RICCI_SCHEME_YAMABE,
+                    std::uint32_t space = RICCI_SPACE_E2)
         : metric_handle(make<ricci_metric>(ricci_metric_new, on.get(), scheme, space)) {}
     ricci_metric_summary summary() const { return ricci::summary(ricci_metric_summarise, get()); }
-    std::vector<double> values(std::uint32_t which) const { return ricci::values<double>(ricci_metric_values, get(), which); }
+    std::vector<double> values(std::uint32_t which) const {
+        return ricci::values<double>(ricci_metric_values, get(), which);
+    }
     std::vector<double> factor() const { return values(RICCI_METRIC_FACTOR); }
     std::vector<double> curvature() const { return values(RICCI_METRIC_CURVATURE); }
     std::vector<double> lengths() const { return values(RICCI_METRIC_LENGTH); }
-    std::vector<std::uint32_t> mirror() const { return ricci::values<std::uint32_t>(ricci_metric_mirror, get()); }
+    std::vector<std::uint32_t> mirror() const {
+        return ricci::values<std::uint32_t>(ricci_metric_mirror, get());
+    }
     ricci::mesh triangulation() const { return ricci::mesh(make<ricci_mesh>(ricci_metric_mesh, get())); }
     std::vector<double> resolve(const target &asked, const control *watched = nullptr) const {
         const ricci_target all = asked.get();
@@ -278,7 +296,8 @@ public:
     std::vector<std::uint32_t> cones() const { return report_vertices(RICCI_REPORT_CONES); }
 };
 
-inline metric flow(const metric &start, const target &asked = target(), const ricci_flow_options &options = init<ricci_flow_options>(),
+inline metric flow(const metric &start, const target &asked = target(),
+                   const ricci_flow_options &options = init<ricci_flow_options>(),
                    const control *watched = nullptr) {
     const ricci_target all = asked.get();
     return metric(make<ricci_metric>(ricci_flow, start.get(), &all, &options, of(watched)));
@@ -290,7 +309,9 @@ class solver : public solver_handle {
 public:
     explicit solver(const metric &start, const ricci_flow_options &options = init<ricci_flow_options>())
         : solver_handle(make<ricci_solver>(ricci_solver_new, start.get(), &options)) {}
-    void pin(span<std::uint32_t> vertices) { check(ricci_solver_pin(handle_, vertices.data(), vertices.size())); }
+    void pin(span<std::uint32_t> vertices) {
+        check(ricci_solver_pin(handle_, vertices.data(), vertices.size()));
+    }
     metric solve(const target &asked, const control *watched = nullptr) {
         const ricci_target all = asked.get();
         return metric(make<ricci_metric>(ricci_solver_solve, get(), &all, of(watched)));
@@ -307,11 +328,15 @@ public:
         : layout_handle(make<ricci_layout>(ricci_layout_new, flat.get(), &options, of(watched))) {}
     ricci_layout_summary summary() const { return ricci::summary(ricci_layout_summarise, get()); }
     // u, v of every corner of every face: of the caller's mesh, by default.
-    std::vector<double> uv(std::uint32_t on = RICCI_ON_INPUT) const { return values<double>(ricci_layout_uv, get(), on); }
+    std::vector<double> uv(std::uint32_t on = RICCI_ON_INPUT) const {
+        return values<double>(ricci_layout_uv, get(), on);
+    }
     std::vector<std::uint32_t> corners(std::uint32_t on = RICCI_ON_INPUT) const {
         return values<std::uint32_t>(ricci_layout_corners, get(), on);
     }
-    std::vector<double> points(std::uint32_t model) const { return values<double>(ricci_layout_points, get(), model); }
+    std::vector<double> points(std::uint32_t model) const {
+        return values<double>(ricci_layout_points, get(), model);
+    }
     std::vector<double> seams() const { return values<double>(ricci_layout_seams, get()); }
     lists<std::int32_t> seam_edges(std::uint32_t on = RICCI_ON_INPUT) const {
         return rows<std::int32_t>(summary().n_seams, ricci_layout_seam_edges, get(), on);
@@ -322,12 +347,14 @@ public:
     // Dilatations and area ratios of the faces of what is laid out.
     std::pair<std::vector<double>, std::vector<double>> distortion() const {
         const std::size_t n = summary().n_faces;
-        std::pair<std::vector<double>, std::vector<double>> both{std::vector<double>(n), std::vector<double>(n)};
+        std::pair<std::vector<double>, std::vector<double>> both{std::vector<double>(n),
+                                                                 std::vector<double>(n)};
         check(ricci_layout_distortion(handle_, both.first.data(), both.second.data(), n));
         return both;
     }
     ricci::mesh laid_out() const { return ricci::mesh(make<ricci_mesh>(ricci_layout_mesh, get())); }
-    void write(const std::string &path, std::uint32_t on = RICCI_ON_REFINEMENT, bool homogeneous = false) const {
+    void write(const std::string &path, std::uint32_t on = RICCI_ON_REFINEMENT,
+               bool homogeneous = false) const {
         check(ricci_layout_write(handle_, on, homogeneous ? 1 : 0, path.c_str()));
     }
 };
@@ -340,10 +367,16 @@ public:
         : map_handle(make<ricci_map>(ricci_map_new, flat.get(), of(watched))) {}
     ricci_map_summary summary() const { return ricci::summary(ricci_map_summarise, get()); }
     ricci::mesh refinement() const { return ricci::mesh(make<ricci_mesh>(ricci_map_mesh, get())); }
-    std::vector<std::uint32_t> faces(std::uint32_t on) const { return values<std::uint32_t>(ricci_map_faces, get(), on); }
-    std::vector<double> barycentric(std::uint32_t on) const { return values<double>(ricci_map_barycentric, get(), on); }
+    std::vector<std::uint32_t> faces(std::uint32_t on) const {
+        return values<std::uint32_t>(ricci_map_faces, get(), on);
+    }
+    std::vector<double> barycentric(std::uint32_t on) const {
+        return values<double>(ricci_map_barycentric, get(), on);
+    }
     std::vector<double> weights() const { return values<double>(ricci_map_weights, get()); }
-    std::vector<double> carry(const ricci_carried &given) const { return values<double>(ricci_map_carry, get(), &given); }
+    std::vector<double> carry(const ricci_carried &given) const {
+        return values<double>(ricci_map_carry, get(), &given);
+    }
 };
 
 using soup_handle = owned<ricci_soup, ricci_soup_free>;
@@ -352,10 +385,12 @@ using soup_handle = owned<ricci_soup, ricci_soup_free>;
 class soup : public soup_handle {
 public:
     using soup_handle::soup_handle;
-    static soup read(const std::string &path) { return soup(make<ricci_soup>(ricci_soup_read, path.c_str())); }
+    static soup read(const std::string &path) {
+        return soup(make<ricci_soup>(ricci_soup_read, path.c_str()));
+    }
     static soup from(span<double> positions, span<std::uint32_t> faces) {
-        return soup(make<ricci_soup>(ricci_soup_from_arrays, positions.data(), std::size_t(0), positions.size() / 3, faces.data(),
-                                     faces.size() / 3));
+        return soup(make<ricci_soup>(ricci_soup_from_arrays, positions.data(), std::size_t(0),
+                                     positions.size() / 3, faces.data(), faces.size() / 3));
     }
     ricci_soup_summary summary() const { return ricci::summary(ricci_soup_summarise, get()); }
     ricci_defect defect(std::size_t index) const {
@@ -363,7 +398,9 @@ public:
         check(ricci_soup_defect(handle_, index, &one, sizeof one));
         return one;
     }
-    std::vector<double> values(std::uint32_t which) const { return ricci::values<double>(ricci_soup_values, get(), which); }
+    std::vector<double> values(std::uint32_t which) const {
+        return ricci::values<double>(ricci_soup_values, get(), which);
+    }
     std::vector<std::uint32_t> faces() const { return ricci::values<std::uint32_t>(ricci_soup_faces, get()); }
     soup repaired(const ricci_repair_options &options = init<ricci_repair_options>()) const {
         return soup(make<ricci_soup>(ricci_soup_repair, get(), &options));
@@ -371,9 +408,10 @@ public:
     // Vertices and faces of the list that was repaired.
     std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> origins() const {
         const ricci_soup_summary n = summary();
-        std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> both{std::vector<std::uint32_t>(n.n_vertices),
-                                                                               std::vector<std::uint32_t>(n.n_faces)};
-        check(ricci_soup_origins(handle_, both.first.data(), both.first.size(), both.second.data(), both.second.size()));
+        std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> both{
+            std::vector<std::uint32_t>(n.n_vertices), std::vector<std::uint32_t>(n.n_faces)};
+        check(ricci_soup_origins(handle_, both.first.data(), both.first.size(), both.second.data(),
+                                 both.second.size()));
         return both;
     }
     ricci::mesh build() const { return ricci::mesh(make<ricci_mesh>(ricci_soup_mesh, get())); }
@@ -388,7 +426,9 @@ public:
     explicit homotopy(const mesh &on, const std::uint32_t *base = nullptr, const control *watched = nullptr)
         : homotopy_handle(make<ricci_homotopy>(ricci_homotopy_new, on.get(), base, of(watched))) {}
     ricci_homotopy_summary summary() const { return ricci::summary(ricci_homotopy_summarise, get()); }
-    lists<std::int32_t> loops() const { return rows<std::int32_t>(summary().n_generators, ricci_homotopy_loops, get()); }
+    lists<std::int32_t> loops() const {
+        return rows<std::int32_t>(summary().n_generators, ricci_homotopy_loops, get());
+    }
     std::vector<std::int32_t> reduced(span<std::int32_t> word) const {
         std::vector<std::int32_t> shorter(word.size());
         std::size_t n = 0;
@@ -404,8 +444,12 @@ class deck : public deck_handle {
 public:
     using deck_handle::deck_handle;
     ricci_deck_summary summary() const { return ricci::summary(ricci_deck_summarise, get()); }
-    lists<std::int32_t> words() const { return rows<std::int32_t>(summary().n_elements, ricci_deck_words, get()); }
-    std::vector<double> values(std::uint32_t which) const { return ricci::values<double>(ricci_deck_values, get(), which); }
+    lists<std::int32_t> words() const {
+        return rows<std::int32_t>(summary().n_elements, ricci_deck_words, get());
+    }
+    std::vector<double> values(std::uint32_t which) const {
+        return ricci::values<double>(ricci_deck_values, get(), which);
+    }
     // Points in ambient coordinates, moved by one element.
     std::vector<double> moved(std::size_t element, span<double> points) const {
         return ricci::values<double>(ricci_deck_apply, get(), element, points.data(), points.size() / 3);
@@ -419,7 +463,9 @@ public:
     using dirichlet_handle::dirichlet_handle;
     ricci_dirichlet_summary summary() const { return ricci::summary(ricci_dirichlet_summarise, get()); }
     std::vector<double> corners() const { return values<double>(ricci_dirichlet_corners, get()); }
-    std::vector<std::int32_t> partners() const { return values<std::int32_t>(ricci_dirichlet_partners, get()); }
+    std::vector<std::int32_t> partners() const {
+        return values<std::int32_t>(ricci_dirichlet_partners, get());
+    }
 };
 
 using uniform_handle = owned<ricci_uniform, ricci_uniform_free>;
@@ -432,11 +478,15 @@ public:
         : uniform_handle(make<ricci_uniform>(ricci_uniformize, on.get(), &options, of(watched))) {}
     ricci_uniform_summary summary() const { return ricci::summary(ricci_uniform_summarise, get()); }
     ricci::metric metric() const { return ricci::metric(make<ricci_metric>(ricci_uniform_metric, get())); }
-    ricci::homotopy homotopy() const { return ricci::homotopy(make<ricci_homotopy>(ricci_uniform_homotopy, get())); }
-    ricci::layout layout(std::uint32_t on = RICCI_ON_REFINEMENT, std::uint32_t model = RICCI_MODEL_POINCARE) const {
+    ricci::homotopy homotopy() const {
+        return ricci::homotopy(make<ricci_homotopy>(ricci_uniform_homotopy, get()));
+    }
+    ricci::layout layout(std::uint32_t on = RICCI_ON_REFINEMENT,
+                         std::uint32_t model = RICCI_MODEL_POINCARE) const {
         return ricci::layout(make<ricci_layout>(ricci_uniform_layout, get(), on, model, of(nullptr)));
     }
-    ricci::deck deck(const ricci_deck_spec &spec = init<ricci_deck_spec>(), const control *watched = nullptr) const {
+    ricci::deck deck(const ricci_deck_spec &spec = init<ricci_deck_spec>(),
+                     const control *watched = nullptr) const {
         return ricci::deck(make<ricci_deck>(ricci_deck_new, get(), &spec, of(watched)));
     }
     ricci::dirichlet dirichlet(const double *centre = nullptr) const {

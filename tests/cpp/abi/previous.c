@@ -1,4 +1,5 @@
-/* A job compiled with the header of an earlier version, whose structs may be smaller, runs with the library of this one. */
+/* A job compiled with the header of an earlier version, whose structs may be smaller, runs with the library
+ * of this one. */
 #include <ricci/ricci.h>
 #include <stdio.h>
 
@@ -29,5 +30,6 @@ int main(void) {
     OK(ricci_metric_values(flat, RICCI_METRIC_FACTOR, factor, 5));
     ricci_layout_free(layout), ricci_metric_free(flat), ricci_metric_free(metric), ricci_mesh_free(mesh);
     return !(counts.n_boundary_loops == 1 && counts.euler == 1 && report.converged && plane.n_flipped == 0 &&
-             report.tolerance == 1e-11 && plane.n_input_faces == 4 && ricci_version_number() >= RICCI_VERSION);
+             report.tolerance == 1e-11 && plane.n_input_faces == 4 &&
+             ricci_version_number() >= RICCI_VERSION);
 }

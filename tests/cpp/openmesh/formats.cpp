@@ -73,8 +73,10 @@ Content content_of(const ricci_mesh *mesh) {
     content.faces.resize(size.n_faces);
     OK(ricci_mesh_values(mesh, RICCI_POSITIONS, content.positions.data()->data(), 3 * size.n_vertices));
     OK(ricci_mesh_faces(mesh, content.faces.data()->data(), 3 * size.n_faces));
-    if (size.n_normals) OK(ricci_mesh_values(mesh, RICCI_NORMALS, content.normals.data()->data(), 3 * size.n_normals));
-    if (size.n_colors) OK(ricci_mesh_values(mesh, RICCI_COLORS, content.colors.data()->data(), 4 * size.n_colors));
+    if (size.n_normals)
+        OK(ricci_mesh_values(mesh, RICCI_NORMALS, content.normals.data()->data(), 3 * size.n_normals));
+    if (size.n_colors)
+        OK(ricci_mesh_values(mesh, RICCI_COLORS, content.colors.data()->data(), 4 * size.n_colors));
     if (size.n_uv) OK(ricci_mesh_values(mesh, RICCI_UV, content.uv.data()->data(), 6 * size.n_uv));
     return content;
 }

@@ -156,7 +156,8 @@ void check_layout(const Mesh &input, const ricci_metric *end, const Surface &sur
     std::vector<int32_t> edges(summary.n_seam_edges);
     std::vector<std::size_t> starts(summary.n_seams + 1);
     OK(ricci_layout_seams(layout, seams.data(), seams.size()));
-    OK(ricci_layout_seam_edges(layout, RICCI_ON_REFINEMENT, edges.data(), edges.size(), starts.data(), starts.size()));
+    OK(ricci_layout_seam_edges(layout, RICCI_ON_REFINEMENT, edges.data(), edges.size(), starts.data(),
+                               starts.size()));
     std::vector<std::size_t> side(2 * surface.n_edges); // face and opposite corner of +e and of -e
     for (std::size_t f = 0; f < surface.n_faces; f++)
         for (int k = 0; k < 3; k++) {

@@ -103,8 +103,8 @@ void check(const std::string &name, const Mesh &input, uint32_t scheme) {
     const auto metric = end.summary();
     std::printf("%s, scheme %u: %zu + %zu vertices, %zu flips, %zu faces, %zu without area; area within "
                 "%.1Le, in the plane %.1Le\n",
-                name.c_str(), scheme, n, counts.n_crossings, metric.n_flips, plane.n_faces, plane.n_degenerate,
-                std::abs(sum - whole) / whole, std::abs(flat - whole) / whole);
+                name.c_str(), scheme, n, counts.n_crossings, metric.n_flips, plane.n_faces,
+                plane.n_degenerate, std::abs(sum - whole) / whole, std::abs(flat - whole) / whole);
 }
 
 void check_generated(uint32_t scheme) {

@@ -60,7 +60,8 @@ static void impossible_counts_are_errors(const torus *t) {
 static void numbers_that_are_no_enum_are_errors(const torus *t) {
     ricci_mesh *mesh = torus_mesh(t);
     ricci_metric *metric = NULL;
-    FAILS(ricci_metric_new(mesh, (uint32_t)77, RICCI_SPACE_E2, &metric), RICCI_ARGUMENT, "scheme is 77: known are RICCI_SCHEME_YAMABE, ");
+    FAILS(ricci_metric_new(mesh, (uint32_t)77, RICCI_SPACE_E2, &metric), RICCI_ARGUMENT,
+          "scheme is 77: known are RICCI_SCHEME_YAMABE, ");
     FAILS(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, (uint32_t)-1, &metric), RICCI_ARGUMENT,
           "space is 4294967295");
     CHECK(strcmp(ricci_status_text((ricci_status)-5), "unknown status") == 0);
@@ -175,15 +176,12 @@ static void options_out_of_range_are_errors(const torus *t) {
     OK(fill(metric, target_of(RICCI_TARGET_UNIFORM, NULL, NULL, 0), target, t->n_vertices));
     INIT(options);
     options.method = (uint32_t)5;
-    FAILS(flow_to(metric, target, t->n_vertices, &options, NULL, &flat), RICCI_ARGUMENT,
-          "method is 5");
+    FAILS(flow_to(metric, target, t->n_vertices, &options, NULL, &flat), RICCI_ARGUMENT, "method is 5");
     options.method = RICCI_METHOD_NEWTON;
     options.tolerance = -1;
-    FAILS(flow_to(metric, target, t->n_vertices, &options, NULL, &flat), RICCI_ARGUMENT,
-          "tolerance");
+    FAILS(flow_to(metric, target, t->n_vertices, &options, NULL, &flat), RICCI_ARGUMENT, "tolerance");
     options.tolerance = NAN;
-    FAILS(flow_to(metric, target, t->n_vertices, &options, NULL, &flat), RICCI_ARGUMENT,
-          "tolerance");
+    FAILS(flow_to(metric, target, t->n_vertices, &options, NULL, &flat), RICCI_ARGUMENT, "tolerance");
     FAILS(flow_to(metric, target, t->n_vertices - 1, NULL, NULL, &flat), RICCI_WRONG_SIZE, "curvatures");
     CHECK(flat == NULL);
     ricci_metric_free(metric);
@@ -210,9 +208,12 @@ static void inadmissible_targets_say_where_and_by_how_much(const torus *t) {
     FAILS(check_target(metric, target, t->n_vertices), RICCI_TARGET_TOTAL, "2.5000e-1");
     OK(ricci_last_failure(&failure, sizeof failure));
     CHECK(failure.index == -1 && fabs(failure.amount - 0.25) < 1e-12);
-    FAILS(fill(metric, target_of(RICCI_TARGET_BOUNDARY, NULL, NULL, 0), target, t->n_vertices), RICCI_TARGET_KIND, "boundary");
-    FAILS(fill(metric, target_of(RICCI_TARGET_SINGLE, beyond + 1, NULL, 1), target, t->n_vertices), RICCI_ARGUMENT, "100000");
-    FAILS(fill(metric, target_of(RICCI_TARGET_CONES, beyond, cones, 2), target, t->n_vertices), RICCI_ARGUMENT, "100000");
+    FAILS(fill(metric, target_of(RICCI_TARGET_BOUNDARY, NULL, NULL, 0), target, t->n_vertices),
+          RICCI_TARGET_KIND, "boundary");
+    FAILS(fill(metric, target_of(RICCI_TARGET_SINGLE, beyond + 1, NULL, 1), target, t->n_vertices),
+          RICCI_ARGUMENT, "100000");
+    FAILS(fill(metric, target_of(RICCI_TARGET_CONES, beyond, cones, 2), target, t->n_vertices),
+          RICCI_ARGUMENT, "100000");
     CHECK(target[5] == 0.25);
     OK(fill(metric, target_of(RICCI_TARGET_CONES, vertices, cones, 2), target, t->n_vertices));
     CHECK(target[3] == 1.5 && target[11] == -1.5 && target[5] == 0);
@@ -244,8 +245,7 @@ static void a_diagnosis_names_the_elements_of_every_defect(void) {
                 defect.n_vertices == 2 && defect.n_faces == 2 && defect.vertices[0] + defect.vertices[1] == 1;
     }
     CHECK(isolated == 1 && turned == 1);
-    FAILS(ricci_soup_defect(soup, summary.n_defects, &defect, sizeof defect), RICCI_ARGUMENT,
-          "defect");
+    FAILS(ricci_soup_defect(soup, summary.n_defects, &defect, sizeof defect), RICCI_ARGUMENT, "defect");
     ricci_soup_free(soup);
     OK(ricci_soup_from_arrays(positions[0], 0, 3, sound[0], 1, &soup));
     OK(ricci_soup_summarise(soup, &summary, sizeof summary));

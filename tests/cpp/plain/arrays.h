@@ -37,7 +37,6 @@ typedef struct {
     double *lengths, *positions;
 } arrays;
 
-
 static inline arrays arrays_of(const ricci_mesh *mesh, int in_space) {
     arrays a = {0};
     OK(ricci_mesh_summarise(mesh, &a.n, sizeof a.n));

@@ -28,8 +28,10 @@ int main(void) {
     CHECK(cones == 6 && fabs(sum) < 1e-12);
     FAILS(fill(metric, target_of(RICCI_TARGET_AUTO, NULL, NULL, 1), target, n), RICCI_TARGET_KIND, "torus");
     FAILS(fill(metric, target_of(RICCI_TARGET_AUTO, NULL, NULL, 257), target, n), RICCI_TARGET_KIND, "256");
-    FAILS(fill(metric, target_of(RICCI_TARGET_AUTO, NULL, NULL, n + 1), target, n), RICCI_TARGET_KIND, "interior");
-    FAILS(fill(metric, target_of(RICCI_TARGET_AUTO, NULL, NULL, 6), target, n - 1), RICCI_BUFFER_TOO_SMALL, "curvatures");
+    FAILS(fill(metric, target_of(RICCI_TARGET_AUTO, NULL, NULL, n + 1), target, n), RICCI_TARGET_KIND,
+          "interior");
+    FAILS(fill(metric, target_of(RICCI_TARGET_AUTO, NULL, NULL, 6), target, n - 1), RICCI_BUFFER_TOO_SMALL,
+          "curvatures");
     FAILS(fill(NULL, target_of(RICCI_TARGET_AUTO, NULL, NULL, 6), target, n), RICCI_NULL_POINTER, "metric");
     OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_H2, &curved));
     FAILS(fill(curved, target_of(RICCI_TARGET_AUTO, NULL, NULL, 6), target, n), RICCI_TARGET_KIND, "e2");
@@ -45,8 +47,8 @@ int main(void) {
     OK(ricci_layout_uv(layout, RICCI_ON_REFINEMENT, uv, 6 * plane.n_faces));
     ricci_layout_free(layout); /* charts live on */
     OK(ricci_atlas_summarise(charts, &summary, sizeof summary));
-    CHECK(summary.n_faces == plane.n_faces && plane.n_vertices > plane.n_input_vertices && summary.n_flipped == 0 &&
-          summary.n_charts >= 1);
+    CHECK(summary.n_faces == plane.n_faces && plane.n_vertices > plane.n_input_vertices &&
+          summary.n_flipped == 0 && summary.n_charts >= 1);
     CHECK(summary.efficiency > 0.05 && summary.efficiency < 1 && summary.chart_seams >= summary.layout_seams);
 
     const size_t n_faces = summary.n_faces;

@@ -25,7 +25,8 @@ static inline void *room(size_t n, size_t size) {
     return p;
 }
 
-static inline ricci_target target_of(uint32_t kind, const uint32_t *vertices, const double *curvatures, size_t n) {
+static inline ricci_target target_of(uint32_t kind, const uint32_t *vertices, const double *curvatures,
+                                     size_t n) {
     ricci_target target;
     INIT(target);
     target.kind = kind, target.vertices = vertices, target.curvatures = curvatures, target.n = n;
@@ -33,7 +34,8 @@ static inline ricci_target target_of(uint32_t kind, const uint32_t *vertices, co
 }
 
 /* The curvatures of a target by rule, at n_vertices vertices. */
-static inline ricci_status fill(const ricci_metric *metric, ricci_target target, double *curvatures, size_t n_vertices) {
+static inline ricci_status fill(const ricci_metric *metric, ricci_target target, double *curvatures,
+                                size_t n_vertices) {
     return ricci_target_fill(metric, &target, NULL, curvatures, n_vertices);
 }
 
@@ -53,7 +55,8 @@ static inline ricci_status flow_to(const ricci_metric *metric, const double *cur
     return ricci_flow(metric, &target, options, control, result);
 }
 
-static inline ricci_status solve_to(ricci_solver *solver, const double *curvatures, size_t n, ricci_metric **result) {
+static inline ricci_status solve_to(ricci_solver *solver, const double *curvatures, size_t n,
+                                    ricci_metric **result) {
     const ricci_target target = target_of(RICCI_TARGET_GIVEN, NULL, curvatures, n);
     return ricci_solver_solve(solver, &target, NULL, result);
 }

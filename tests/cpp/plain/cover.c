@@ -192,8 +192,7 @@ static void what_does_not_exist_is_refused(void) {
     FAILS(to_depth(quotient, 3, 1000, control, &deck), RICCI_CANCELLED, "");
     FAILS(to_depth(NULL, 3, 1000, NULL, &deck), RICCI_NULL_POINTER, "uniform");
     FAILS(to_depth(quotient, 3, 1000, NULL, NULL), RICCI_NULL_POINTER, "deck");
-    FAILS(within(quotient, dirichlet, HUGE_VAL - HUGE_VAL, 10, &deck), RICCI_ARGUMENT,
-          "not a number");
+    FAILS(within(quotient, dirichlet, HUGE_VAL - HUGE_VAL, 10, &deck), RICCI_ARGUMENT, "not a number");
     FAILS(within(quotient, dirichlet, HUGE_VAL, 10, &deck), RICCI_TOO_LARGE, "11");
     FAILS(words_of(quotient, letters, 3, starts, 2, &deck), RICCI_ARGUMENT, "letters[2] is 9");
     FAILS(words_of(quotient, good, 3, wrong, 2, &deck), RICCI_ARGUMENT, "starts");

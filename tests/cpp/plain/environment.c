@@ -36,7 +36,8 @@ static long extremes(const torus *t) {
             OK(ricci_mesh_values(mesh, RICCI_LENGTHS, lengths, 3 * t->n_vertices));
             for (size_t e = 0; e < 3 * t->n_vertices; e++) lengths[e] *= scales[i];
             ricci_mesh *scaled = NULL;
-            ricci_status status = ricci_mesh_with_lengths(mesh, lengths, 3 * t->n_vertices, spaces[k], &scaled);
+            ricci_status status =
+                ricci_mesh_with_lengths(mesh, lengths, 3 * t->n_vertices, spaces[k], &scaled);
             if (status == RICCI_OK)
                 status = ricci_metric_new(scaled, RICCI_SCHEME_INVERSIVE, spaces[k], &metric);
             ricci_mesh_free(scaled);

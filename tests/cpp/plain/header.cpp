@@ -1,4 +1,5 @@
-// The headers are clean C++; handles free themselves, failures throw with status, element, amount and message.
+// The headers are clean C++; handles free themselves, failures throw with status, element, amount and
+// message.
 #include <ricci/ricci.hpp>
 
 #include <cmath>
@@ -14,7 +15,9 @@ const std::vector<int> faces = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
 int whole_job() {
     const auto mesh = ricci::mesh::from(positions, faces);
     const auto counts = mesh.summary();
-    if (counts.euler != 2 || counts.n_edges != 6 || mesh.positions() != positions || mesh.faces().size() != 12) return 1;
+    if (counts.euler != 2 || counts.n_edges != 6 || mesh.positions() != positions ||
+        mesh.faces().size() != 12)
+        return 1;
     ricci::metric start(mesh, RICCI_SCHEME_TANGENTIAL);
     const auto target = ricci::target::given(std::vector<double>(4, 3.14159265358979323846));
     const ricci::metric end = ricci::flow(start, target);
@@ -42,7 +45,8 @@ int uniformization() {
     ricci_shape shape = ricci::init<ricci_shape>();
     shape.shape = RICCI_SHAPE_SPHERE, shape.n = 2;
     const ricci::uniform ball(ricci::mesh::made(shape));
-    if (ball.summary().space != RICCI_SPACE_S2 || ball.summary().converged != 1 || ball.sphere_points().size() != 126)
+    if (ball.summary().space != RICCI_SPACE_S2 || ball.summary().converged != 1 ||
+        ball.sphere_points().size() != 126)
         return 11;
     shape.shape = RICCI_SHAPE_BOLZA, shape.n = 1;
     const std::uint32_t base = 0;
@@ -71,7 +75,9 @@ int failures() {
         ricci::mesh::read("no such file.obj");
         return 21;
     } catch (const ricci::error &error) {
-        if (error.status() != RICCI_IO || !std::strstr(error.what(), "no such file.obj") || error.index() != -1) return 22;
+        if (error.status() != RICCI_IO || !std::strstr(error.what(), "no such file.obj") ||
+            error.index() != -1)
+            return 22;
     }
     try {
         const ricci::metric start(ricci::mesh::from(positions, faces));
@@ -79,7 +85,8 @@ int failures() {
         return 23;
     } catch (const ricci::error &error) {
         const bool told = error.status() == RICCI_TARGET_AT_VERTEX && error.element() == RICCI_ELEMENT_VERTEX;
-        return told && error.index() == 2 && std::abs(error.amount() - (7 - 8 * std::atan(1.0))) < 1e-12 ? 0 : 24;
+        return told && error.index() == 2 && std::abs(error.amount() - (7 - 8 * std::atan(1.0))) < 1e-12 ? 0
+                                                                                                         : 24;
     }
 }
 

@@ -46,7 +46,8 @@ static int32_t *relator_of(const ricci_homotopy_summary *s) {
         relator[4 * i] = a, relator[4 * i + 1] = a + 1;
         relator[4 * i + 2] = -a, relator[4 * i + 3] = -a - 1;
     }
-    for (size_t j = 0; j < s->n_boundary_loops; j++) relator[4 * s->genus + j] = (int32_t)(2 * s->genus + j) + 1;
+    for (size_t j = 0; j < s->n_boundary_loops; j++)
+        relator[4 * s->genus + j] = (int32_t)(2 * s->genus + j) + 1;
     return relator;
 }
 
@@ -143,7 +144,8 @@ static void check_lifts(const ricci_homotopy *basis, const rows *loops, const ri
     const int32_t from[1] = {-1};
     ricci_lift lift;
     INIT(lift);
-    lift.vertex = (uint32_t)s.base, lift.element = from, lift.n_element = 1, lift.path = path, lift.n_path = n;
+    lift.vertex = (uint32_t)s.base, lift.element = from, lift.n_element = 1, lift.path = path,
+    lift.n_path = n;
     OK(ricci_homotopy_lift(basis, &lift, NULL, 0, starts, n + 2));
     int32_t *letters = (int32_t *)room(starts[n + 1], sizeof *letters), word = 0;
     OK(ricci_homotopy_lift(basis, &lift, letters, starts[n + 1], starts, n + 2));

@@ -96,7 +96,8 @@ static void unroll(ricci_mesh *mesh, const double *target, double area, size_t n
     double *q = (double *)room(s.n_faces * 3, sizeof *q);
     OK(ricci_layout_write(klein, RICCI_ON_REFINEMENT, 1, "hyperbolic_klein.obj"));
     FAILS(ricci_layout_write(disk, RICCI_ON_REFINEMENT, 1, "hyperbolic_disk.obj"), RICCI_LAYOUT, "KLEIN");
-    /* Seams are isometries of the disk, which carry the middle of an edge's left side to that of its right side. */
+    /* Seams are isometries of the disk, which carry the middle of an edge's left side to that of its right
+     * side. */
     double *seams = (double *)room(9 * s.n_seams, sizeof *seams);
     OK(ricci_layout_seams(disk, seams, 9 * s.n_seams));
     for (size_t i = 0; i < s.n_seams; i++) {

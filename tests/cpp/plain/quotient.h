@@ -15,16 +15,16 @@ static inline ricci_status uniformize_at(const ricci_mesh *mesh, uint32_t base, 
 }
 
 /* ricci_deck_new of one kind without further fields, of words, and of a piece of the cover. */
-static inline ricci_status deck_of(const ricci_uniform *uniform, uint32_t kind, const ricci_dirichlet *dirichlet,
-                                   ricci_deck **deck) {
+static inline ricci_status deck_of(const ricci_uniform *uniform, uint32_t kind,
+                                   const ricci_dirichlet *dirichlet, ricci_deck **deck) {
     ricci_deck_spec spec;
     INIT(spec);
     spec.kind = kind, spec.dirichlet = dirichlet;
     return ricci_deck_new(uniform, &spec, NULL, deck);
 }
 
-static inline ricci_status words_of(const ricci_uniform *uniform, const int32_t *letters, size_t n, const size_t *starts,
-                                    size_t n_words, ricci_deck **deck) {
+static inline ricci_status words_of(const ricci_uniform *uniform, const int32_t *letters, size_t n,
+                                    const size_t *starts, size_t n_words, ricci_deck **deck) {
     ricci_deck_spec spec;
     INIT(spec);
     spec.kind = RICCI_DECK_WORDS, spec.letters = letters, spec.n_letters = n, spec.starts = starts;
@@ -40,8 +40,8 @@ static inline ricci_status to_depth(const ricci_uniform *uniform, size_t depth, 
     return ricci_deck_new(uniform, &spec, control, deck);
 }
 
-static inline ricci_status within(const ricci_uniform *uniform, const ricci_dirichlet *dirichlet, double radius,
-                                  size_t limit, ricci_deck **deck) {
+static inline ricci_status within(const ricci_uniform *uniform, const ricci_dirichlet *dirichlet,
+                                  double radius, size_t limit, ricci_deck **deck) {
     ricci_deck_spec spec;
     INIT(spec);
     spec.kind = RICCI_DECK_WITHIN, spec.dirichlet = dirichlet, spec.radius = radius, spec.limit = limit;

@@ -27,9 +27,9 @@ static double determinant(const double *a, const double *b, const double *c) {
 
 /* In a piece (q x, q y, q) is linear: what holds of the corners of one triangle holds of the fourth corner of
  * its neighbour. */
-static size_t check_projective(const ricci_layout *layout, const ricci_map *map, const ricci_layout_summary *s,
-                               const arrays *refined, const double *uv, const double *bary,
-                               const uint32_t *pieces) {
+static size_t check_projective(const ricci_layout *layout, const ricci_map *map,
+                               const ricci_layout_summary *s, const arrays *refined, const double *uv,
+                               const double *bary, const uint32_t *pieces) {
     uint32_t *corners = (uint32_t *)room(3 * s->n_faces, sizeof *corners);
     double *q = (double *)room(s->n_vertices, sizeof *q);
     size_t checked = 0;
@@ -111,7 +111,8 @@ static void check_layout(const arrays *given, const ricci_metric *metric, const 
     }
     OK(ricci_map_crossings(map, RICCI_ON_METRIC, edges, t, c.n_crossings));
     for (size_t k = 0; k < c.n_crossings; k++) CHECK(edges[k] < m.n_edges && t[k] >= 0 && t[k] <= 1);
-    FAILS(ricci_map_crossings(map, RICCI_ON_INPUT, edges, NULL, c.n_crossings), RICCI_NULL_POINTER, "fractions");
+    FAILS(ricci_map_crossings(map, RICCI_ON_INPUT, edges, NULL, c.n_crossings), RICCI_NULL_POINTER,
+          "fractions");
     FAILS(ricci_map_crossings(map, RICCI_ON_METRIC, edges, t, c.n_crossings - 1), RICCI_BUFFER_TOO_SMALL,
           "fractions");
 
@@ -178,10 +179,12 @@ static void check_layout(const arrays *given, const ricci_metric *metric, const 
                 CHECK(fabs(x - r.positions[3 * r.faces[3 * f + k] + i]) < 1e-14 * size);
             }
     maps_checked += check_projective(layout, map, &s, &r, uv, b, pieces);
-    FAILS(ricci_map_barycentric(map, RICCI_ON_INPUT, b, 9 * s.n_faces - 1), RICCI_BUFFER_TOO_SMALL, "weights");
+    FAILS(ricci_map_barycentric(map, RICCI_ON_INPUT, b, 9 * s.n_faces - 1), RICCI_BUFFER_TOO_SMALL,
+          "weights");
     FAILS(ricci_map_weights(map, b, s.n_vertices - 1), RICCI_BUFFER_TOO_SMALL, "weights");
     FAILS(ricci_map_faces(NULL, RICCI_ON_INPUT, in, s.n_faces), RICCI_NULL_POINTER, "map");
-    FAILS(ricci_map_crossings(map, RICCI_ON_REFINEMENT, edges, t, c.n_crossings), RICCI_ARGUMENT, "REFINEMENT");
+    FAILS(ricci_map_crossings(map, RICCI_ON_REFINEMENT, edges, t, c.n_crossings), RICCI_ARGUMENT,
+          "REFINEMENT");
     FAILS(ricci_map_faces(map, RICCI_ON_METRIC, NULL, s.n_faces), RICCI_NULL_POINTER, "faces");
     FAILS(ricci_layout_mesh(layout, NULL), RICCI_NULL_POINTER, "mesh");
 

@@ -165,22 +165,18 @@ int main(void) {
     repair = NULL;
 
     options.component = 1000000;
-    FAILS(mend(positions, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT,
-          "component");
+    FAILS(mend(positions, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT, "component");
     options.component = 0;
     options.weld = NAN;
-    FAILS(mend(positions, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT,
-          "weld");
+    FAILS(mend(positions, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT, "weld");
     options.weld = 0;
     options.cut_non_manifold_edges = 7;
     FAILS(mend(positions, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT,
           "cut_non_manifold_edges");
     faces[0] = 4000000;
-    FAILS(mend(positions, n_vertices, faces, t.n_faces, NULL, &repair), RICCI_DEFECTS,
-          "4000000");
+    FAILS(mend(positions, n_vertices, faces, t.n_faces, NULL, &repair), RICCI_DEFECTS, "4000000");
     FAILS(ricci_soup_read("no such file.obj", &repair), RICCI_IO, "no such file.obj");
-    FAILS(mend(positions, n_vertices, faces, t.n_faces, NULL, NULL), RICCI_NULL_POINTER,
-          "soup");
+    FAILS(mend(positions, n_vertices, faces, t.n_faces, NULL, NULL), RICCI_NULL_POINTER, "soup");
     CHECK(repair == NULL);
     ricci_soup_free(NULL);
     free(positions);

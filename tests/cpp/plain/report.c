@@ -25,7 +25,8 @@ int main(void) {
     CHECK(fabs(summary.obstruction_above + 6 * pi) < 1e-12);
     OK(ricci_report_vertices(result, RICCI_REPORT_OBSTRUCTION, vertices, 2));
     CHECK(vertices[0] == 0 && vertices[1] == 1);
-    FAILS(ricci_report_vertices(result, RICCI_REPORT_OBSTRUCTION, vertices, 1), RICCI_BUFFER_TOO_SMALL, "vertices");
+    FAILS(ricci_report_vertices(result, RICCI_REPORT_OBSTRUCTION, vertices, 1), RICCI_BUFFER_TOO_SMALL,
+          "vertices");
     FAILS(ricci_report_vertices(result, RICCI_REPORT_OBSTRUCTION, NULL, 2), RICCI_NULL_POINTER, "vertices");
     CHECK(summary.n_worst > 1 && summary.n_worst <= 96);
     OK(ricci_report_vertices(result, RICCI_REPORT_WORST, vertices, 96));
@@ -33,7 +34,8 @@ int main(void) {
     CHECK(fabs(errors[0]) == summary.max_curvature_error);
     for (size_t i = 1; i < summary.n_worst; i++) CHECK(fabs(errors[i]) <= fabs(errors[i - 1]));
     FAILS(ricci_report_values(result, RICCI_REPORT_WORST_ERRORS, NULL, 96), RICCI_NULL_POINTER, "values");
-    FAILS(ricci_report_values(result, RICCI_REPORT_WORST_ERRORS, errors, 0), RICCI_BUFFER_TOO_SMALL, "values");
+    FAILS(ricci_report_values(result, RICCI_REPORT_WORST_ERRORS, errors, 0), RICCI_BUFFER_TOO_SMALL,
+          "values");
     /* The target comes back, and its cones with it. */
     double *asked = (double *)room(t.n_vertices, sizeof *asked);
     OK(ricci_report_values(result, RICCI_REPORT_TARGET, asked, t.n_vertices));
@@ -47,8 +49,7 @@ int main(void) {
     /* Below the bound of a single vertex: refused at once, with the vertex and the amount. */
     target[0] = -4.5 * pi;
     target[1] = -1.7 * pi;
-    FAILS(flow_to(metric, target, t.n_vertices, NULL, NULL, &result), RICCI_TARGET_BELOW,
-          "vertex 0");
+    FAILS(flow_to(metric, target, t.n_vertices, NULL, NULL, &result), RICCI_TARGET_BELOW, "vertex 0");
     CHECK(strstr(ricci_last_error(), "too small by 1.5708") && result == NULL);
     ricci_metric_free(metric);
     ricci_mesh_free(mesh);

@@ -5,7 +5,8 @@
 #include "check.h"
 #include <ricci/shapes.h>
 
-static inline ricci_status make(uint32_t kind, size_t genus, size_t n, size_t m, const double sizes[3], ricci_mesh **mesh) {
+static inline ricci_status make(uint32_t kind, size_t genus, size_t n, size_t m, const double sizes[3],
+                                ricci_mesh **mesh) {
     ricci_shape shape;
     INIT(shape);
     shape.shape = kind, shape.genus = genus, shape.n = n, shape.m = m;
@@ -13,7 +14,8 @@ static inline ricci_status make(uint32_t kind, size_t genus, size_t n, size_t m,
     return ricci_make(&shape, mesh);
 }
 
-static inline ricci_status make_sized(uint32_t kind, size_t n, size_t m, double a, double b, double c, ricci_mesh **mesh) {
+static inline ricci_status make_sized(uint32_t kind, size_t n, size_t m, double a, double b, double c,
+                                      ricci_mesh **mesh) {
     const double sizes[3] = {a, b, c};
     return make(kind, 0, n, m, sizes, mesh);
 }
@@ -36,15 +38,16 @@ static inline ricci_status make_glued(uint32_t kind, size_t genus, ricci_mesh **
     return make(kind, genus, 0, 0, sizes, mesh);
 }
 
-static inline ricci_status change(const ricci_mesh *mesh, uint32_t kind, size_t count, double amount, uint32_t vertex,
-                                  ricci_mesh **result) {
+static inline ricci_status change(const ricci_mesh *mesh, uint32_t kind, size_t count, double amount,
+                                  uint32_t vertex, ricci_mesh **result) {
     ricci_change_spec spec;
     INIT(spec);
     spec.change = kind, spec.count = count, spec.amount = amount, spec.vertex = vertex, spec.seed = 1;
     return ricci_change(mesh, &spec, result);
 }
 
-static inline ricci_status invert(const ricci_mesh *mesh, const double *centre, double radius, ricci_mesh **result) {
+static inline ricci_status invert(const ricci_mesh *mesh, const double *centre, double radius,
+                                  ricci_mesh **result) {
     ricci_change_spec spec;
     INIT(spec);
     spec.change = RICCI_CHANGE_INVERT, spec.amount = radius;

@@ -63,7 +63,8 @@ int main(void) {
     OK(ricci_make(&shape, &mesh)), check(mesh, 1, 0), ricci_mesh_free(mesh);
     shape.q = 4;
     FAILS(ricci_make(&shape, &mesh), RICCI_ARGUMENT, "coprime");
-    OK(make_sized(RICCI_SHAPE_FLAT_TORUS, 4, 4, 0.3, 1.2, 0, &mesh)), check(mesh, 1, 0), ricci_mesh_free(mesh);
+    OK(make_sized(RICCI_SHAPE_FLAT_TORUS, 4, 4, 0.3, 1.2, 0, &mesh)), check(mesh, 1, 0),
+        ricci_mesh_free(mesh);
     OK(make_bolza(1, &mesh)), check(mesh, 2, 0), ricci_mesh_free(mesh);
     OK(make_glued(RICCI_SHAPE_ONE_VERTEX, 2, &mesh)), check(mesh, 2, 0), ricci_mesh_free(mesh);
     OK(make_glued(RICCI_SHAPE_TWO_VERTEX, 2, &mesh)), check(mesh, 2, 0);

@@ -185,7 +185,8 @@ static void what_is_no_sphere_is_refused(void) {
     for (int v = 1; v < 4; v++) CHECK(fabs(apart(y, y + 3 * v) - sqrt(8.0 / 3)) < 1e-10);
     OK(ricci_sphere_mesh(sphere, RICCI_ON_REFINEMENT, NULL, &two));
     FAILS(ricci_sphere_mesh(sphere, RICCI_ON_INPUT, NULL, &none_mesh), RICCI_LAYOUT, "RICCI_ON_METRIC");
-    FAILS(ricci_uniform_layout(sphere, RICCI_ON_METRIC, RICCI_MODEL_KLEIN, NULL, &layout), RICCI_LAYOUT, "sphere");
+    FAILS(ricci_uniform_layout(sphere, RICCI_ON_METRIC, RICCI_MODEL_KLEIN, NULL, &layout), RICCI_LAYOUT,
+          "sphere");
     FAILS(ricci_sphere_points(sphere, RICCI_MODEL_AMBIENT, x, 3), RICCI_BUFFER_TOO_SMALL, "12 entries");
     FAILS(ricci_sphere_points(sphere, RICCI_MODEL_POINCARE, NULL, 8), RICCI_NULL_POINTER, "points");
     FAILS(ricci_uniform_summarise(sphere, &s, 4), RICCI_STRUCT_SIZE, "size 4");
@@ -194,7 +195,8 @@ static void what_is_no_sphere_is_refused(void) {
     const uint32_t sides[4][3] = {{0, 1, 2}, {0, 2, 3}, {1, 0, 3}, {1, 3, 2}};
     ricci_mesh *square = NULL;
     OK(ricci_mesh_from_arrays(corners[0], 0, 4, sides[0], 4, &square));
-    FAILS(ricci_uniformize(square, NULL, NULL, &none), RICCI_LAYOUT, "all 4 vertices come to lie on one circle");
+    FAILS(ricci_uniformize(square, NULL, NULL, &none), RICCI_LAYOUT,
+          "all 4 vertices come to lie on one circle");
     ricci_mesh_free(square);
     free(y), ricci_uniform_free(sphere), ricci_control_free(control);
     ricci_mesh_free(ball), ricci_mesh_free(three), ricci_mesh_free(two), ricci_mesh_free(tetrahedron);

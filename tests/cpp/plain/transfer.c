@@ -12,8 +12,8 @@ static double *values(size_t n) {
 }
 
 /* ricci_map_carry from `on`, values at vertices or corners. */
-static ricci_status carry(const ricci_map *map, uint32_t on, uint32_t at, const double *x, size_t n, size_t components,
-                          double *y, size_t capacity) {
+static ricci_status carry(const ricci_map *map, uint32_t on, uint32_t at, const double *x, size_t n,
+                          size_t components, double *y, size_t capacity) {
     ricci_carried values;
     INIT(values);
     values.on = on, values.at = at, values.values = x, values.n_values = n, values.n_components = components;
@@ -21,8 +21,10 @@ static ricci_status carry(const ricci_map *map, uint32_t on, uint32_t at, const 
 }
 
 /* Values at vertices are linear along the edges of the triangulation that they come from. */
-static void check_vertices(const ricci_map *map, const ricci_map_summary *s, const arrays *from, uint32_t on) {
-    const size_t n = from->n.n_vertices, all = COMPONENTS * s->n_vertices, given = s->n_vertices - s->n_crossings;
+static void check_vertices(const ricci_map *map, const ricci_map_summary *s, const arrays *from,
+                           uint32_t on) {
+    const size_t n = from->n.n_vertices, all = COMPONENTS * s->n_vertices,
+                 given = s->n_vertices - s->n_crossings;
     double *x = values(COMPONENTS * n), *y = (double *)room(all, sizeof *y);
     double *t = (double *)room(s->n_crossings, sizeof *t);
     uint32_t *edges = (uint32_t *)room(s->n_crossings, sizeof *edges);

@@ -177,7 +177,8 @@ static void the_way_back_is_a_layout_like_others(const ricci_uniform *quotient, 
         }
     if (hyperbolic) {
         FAILS(ricci_layout_seams(disk, motions, 9 * s.n_seams - 1), RICCI_BUFFER_TOO_SMALL, "seams");
-        FAILS(ricci_layout_write(disk, RICCI_ON_REFINEMENT, 1, "never.obj"), RICCI_LAYOUT, "RICCI_MODEL_KLEIN");
+        FAILS(ricci_layout_write(disk, RICCI_ON_REFINEMENT, 1, "never.obj"), RICCI_LAYOUT,
+              "RICCI_MODEL_KLEIN");
     } else {
         /* Left sides are carried onto right sides: the start of an edge is the tip of its twin. */
         uint32_t *corners = (uint32_t *)room(3 * s.n_faces, sizeof *corners);
@@ -195,7 +196,8 @@ static void the_way_back_is_a_layout_like_others(const ricci_uniform *quotient, 
                 const double *left = z + 2 * origin[halfedge(edges[j])],
                              *right = z + 2 * tip[halfedge(-edges[j])];
                 const double x = left[0] + motions[9 * i + 2], y = left[1] + motions[9 * i + 3];
-                CHECK(motions[9 * i] == 1 && motions[9 * i + 1] == 0 && hypot(x - right[0], y - right[1]) < 1e-12 * s.diameter);
+                CHECK(motions[9 * i] == 1 && motions[9 * i + 1] == 0 &&
+                      hypot(x - right[0], y - right[1]) < 1e-12 * s.diameter);
             }
         free(corners), free(origin), free(tip);
     }
@@ -209,7 +211,8 @@ static void the_way_back_is_a_layout_like_others(const ricci_uniform *quotient, 
     ricci_atlas_free(charts);
     FAILS(ricci_uniform_layout(quotient, RICCI_ON_METRIC, RICCI_MODEL_AMBIENT, NULL, &klein), RICCI_ARGUMENT,
           "two coordinates");
-    FAILS(ricci_uniform_layout(quotient, RICCI_ON_INPUT, RICCI_MODEL_KLEIN, NULL, &klein), RICCI_LAYOUT, "REFINEMENT");
+    FAILS(ricci_uniform_layout(quotient, RICCI_ON_INPUT, RICCI_MODEL_KLEIN, NULL, &klein), RICCI_LAYOUT,
+          "REFINEMENT");
     printf("genus %zu: %zu + %zu vertices, qc mean %.3f max %.3f\n", q.genus, s.n_input_vertices,
            c.n_crossings, s.qc_mean, s.qc_max);
     free(z), free(k), free(edges), free(starts), free(motions);
@@ -315,7 +318,8 @@ static void one_call_takes_every_closed_surface(void) {
         double x[3];
         OK(ricci_uniformize(meshes[i], NULL, NULL, &uniform));
         OK(ricci_uniform_summarise(uniform, &s, sizeof s));
-        CHECK(s.converged && s.genus == i && s.space == spaces[i] && strcmp(s.stop_reason_text, "converged") == 0);
+        CHECK(s.converged && s.genus == i && s.space == spaces[i] &&
+              strcmp(s.stop_reason_text, "converged") == 0);
         if (i == 0) {
             FAILS(ricci_uniform_homotopy(uniform, &basis), RICCI_LAYOUT, "sphere");
         } else {

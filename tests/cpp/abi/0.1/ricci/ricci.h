@@ -1,4 +1,5 @@
-/* ricci/ricci.h as programs of version 0.1 were compiled with it, without its comments. It is never changed. */
+/* ricci/ricci.h as programs of version 0.1 were compiled with it, without its comments. It is never changed.
+ */
 #ifndef RICCI_H
 #define RICCI_H
 #include <stddef.h>
@@ -102,11 +103,7 @@ RICCI_API ricci_status ricci_control_cancel(const ricci_control *control);
 RICCI_API ricci_status ricci_control_progress(const ricci_control *control, uint32_t *stage, double *fraction,
                                               double *since_cancel);
 typedef struct ricci_mesh ricci_mesh;
-enum {
-    RICCI_SPACE_E2 = 0,
-    RICCI_SPACE_H2 = 1,
-    RICCI_SPACE_S2 = 2
-};
+enum { RICCI_SPACE_E2 = 0, RICCI_SPACE_H2 = 1, RICCI_SPACE_S2 = 2 };
 enum {
     RICCI_POSITIONS = 0,
     RICCI_LENGTHS = 1,
@@ -153,26 +150,24 @@ typedef struct ricci_attributes {
     uint32_t wrap;
     uint32_t reserved;
 } ricci_attributes;
-enum {
-    RICCI_WRAP_REPEAT = 0,
-    RICCI_WRAP_MIRROR = 1,
-    RICCI_WRAP_CLAMP = 2
-};
-RICCI_API ricci_status ricci_mesh_from_arrays(const double *positions, size_t stride, size_t n_vertices, const uint32_t *faces,
-                                              size_t n_faces, ricci_mesh **mesh);
+enum { RICCI_WRAP_REPEAT = 0, RICCI_WRAP_MIRROR = 1, RICCI_WRAP_CLAMP = 2 };
+RICCI_API ricci_status ricci_mesh_from_arrays(const double *positions, size_t stride, size_t n_vertices,
+                                              const uint32_t *faces, size_t n_faces, ricci_mesh **mesh);
 RICCI_API ricci_status ricci_mesh_from_gluing(const ricci_gluing *gluing, ricci_mesh **mesh);
-RICCI_API ricci_status ricci_mesh_with_lengths(const ricci_mesh *mesh, const double *lengths, size_t n_edges, uint32_t geometry,
-                                               ricci_mesh **result);
+RICCI_API ricci_status ricci_mesh_with_lengths(const ricci_mesh *mesh, const double *lengths, size_t n_edges,
+                                               uint32_t geometry, ricci_mesh **result);
 RICCI_API ricci_status ricci_mesh_read(const char *path, ricci_mesh **mesh);
-RICCI_API ricci_status ricci_mesh_write(const ricci_mesh *mesh, const ricci_attributes *attributes, const char *path);
+RICCI_API ricci_status ricci_mesh_write(const ricci_mesh *mesh, const ricci_attributes *attributes,
+                                        const char *path);
 RICCI_API_VOID void ricci_mesh_free(ricci_mesh *mesh);
 RICCI_API ricci_status ricci_mesh_summarise(const ricci_mesh *mesh, ricci_mesh_summary *summary, size_t size);
-RICCI_API ricci_status ricci_mesh_values(const ricci_mesh *mesh, uint32_t which, double *values, size_t capacity);
+RICCI_API ricci_status ricci_mesh_values(const ricci_mesh *mesh, uint32_t which, double *values,
+                                         size_t capacity);
 RICCI_API ricci_status ricci_mesh_faces(const ricci_mesh *mesh, uint32_t *faces, size_t capacity);
 RICCI_API ricci_status ricci_mesh_edges(const ricci_mesh *mesh, uint32_t *edges, size_t capacity);
 RICCI_API ricci_status ricci_mesh_face_edges(const ricci_mesh *mesh, int32_t *face_edges, size_t capacity);
-RICCI_API ricci_status ricci_mesh_boundary(const ricci_mesh *mesh, uint32_t *vertices, size_t vertices_capacity, size_t *starts,
-                                           size_t starts_capacity);
+RICCI_API ricci_status ricci_mesh_boundary(const ricci_mesh *mesh, uint32_t *vertices,
+                                           size_t vertices_capacity, size_t *starts, size_t starts_capacity);
 typedef struct ricci_metric ricci_metric;
 enum {
     RICCI_SCHEME_YAMABE = 0,
@@ -181,11 +176,7 @@ enum {
     RICCI_SCHEME_TANGENTIAL = 3,
     RICCI_SCHEME_VIRTUAL = 4
 };
-enum {
-    RICCI_ON_INPUT = 0,
-    RICCI_ON_METRIC = 1,
-    RICCI_ON_REFINEMENT = 2
-};
+enum { RICCI_ON_INPUT = 0, RICCI_ON_METRIC = 1, RICCI_ON_REFINEMENT = 2 };
 enum {
     RICCI_METRIC_FACTOR = 0,
     RICCI_METRIC_CURVATURE = 1,
@@ -213,10 +204,13 @@ typedef struct ricci_metric_summary {
     size_t n_flips;
     size_t n_start_flips;
 } ricci_metric_summary;
-RICCI_API ricci_status ricci_metric_new(const ricci_mesh *mesh, uint32_t scheme, uint32_t space, ricci_metric **metric);
+RICCI_API ricci_status ricci_metric_new(const ricci_mesh *mesh, uint32_t scheme, uint32_t space,
+                                        ricci_metric **metric);
 RICCI_API_VOID void ricci_metric_free(ricci_metric *metric);
-RICCI_API ricci_status ricci_metric_summarise(const ricci_metric *metric, ricci_metric_summary *summary, size_t size);
-RICCI_API ricci_status ricci_metric_values(const ricci_metric *metric, uint32_t which, double *values, size_t capacity);
+RICCI_API ricci_status ricci_metric_summarise(const ricci_metric *metric, ricci_metric_summary *summary,
+                                              size_t size);
+RICCI_API ricci_status ricci_metric_values(const ricci_metric *metric, uint32_t which, double *values,
+                                           size_t capacity);
 RICCI_API ricci_status ricci_metric_mesh(const ricci_metric *metric, ricci_mesh **mesh);
 RICCI_API ricci_status ricci_metric_mirror(const ricci_metric *metric, uint32_t *mirror, size_t capacity);
 enum {
@@ -236,19 +230,9 @@ typedef struct ricci_target {
     const uint32_t *vertices;
     const double *curvatures;
 } ricci_target;
-enum {
-    RICCI_METHOD_NEWTON = 0,
-    RICCI_METHOD_GRADIENT = 1
-};
-enum {
-    RICCI_FLIPS_AUTO = 0,
-    RICCI_FLIPS_NEVER = 1
-};
-enum {
-    RICCI_STEP_BARZILAI_BORWEIN = 0,
-    RICCI_STEP_STABLE = 1,
-    RICCI_STEP_FIXED = 2
-};
+enum { RICCI_METHOD_NEWTON = 0, RICCI_METHOD_GRADIENT = 1 };
+enum { RICCI_FLIPS_AUTO = 0, RICCI_FLIPS_NEVER = 1 };
+enum { RICCI_STEP_BARZILAI_BORWEIN = 0, RICCI_STEP_STABLE = 1, RICCI_STEP_FIXED = 2 };
 typedef struct ricci_flow_options {
     size_t size;
     uint32_t method;
@@ -264,15 +248,17 @@ typedef struct ricci_flow_options {
     double step_size;
 } ricci_flow_options;
 typedef struct ricci_solver ricci_solver;
-RICCI_API ricci_status ricci_target_fill(const ricci_metric *metric, const ricci_target *target, const ricci_control *control,
-                                         double *curvatures, size_t capacity);
-RICCI_API ricci_status ricci_flow(const ricci_metric *metric, const ricci_target *target, const ricci_flow_options *options,
-                                  const ricci_control *control, ricci_metric **result);
-RICCI_API ricci_status ricci_solver_new(const ricci_metric *metric, const ricci_flow_options *options, ricci_solver **solver);
+RICCI_API ricci_status ricci_target_fill(const ricci_metric *metric, const ricci_target *target,
+                                         const ricci_control *control, double *curvatures, size_t capacity);
+RICCI_API ricci_status ricci_flow(const ricci_metric *metric, const ricci_target *target,
+                                  const ricci_flow_options *options, const ricci_control *control,
+                                  ricci_metric **result);
+RICCI_API ricci_status ricci_solver_new(const ricci_metric *metric, const ricci_flow_options *options,
+                                        ricci_solver **solver);
 RICCI_API_VOID void ricci_solver_free(ricci_solver *solver);
 RICCI_API ricci_status ricci_solver_pin(ricci_solver *solver, const uint32_t *pinned, size_t n_pinned);
-RICCI_API ricci_status ricci_solver_solve(ricci_solver *solver, const ricci_target *target, const ricci_control *control,
-                                          ricci_metric **result);
+RICCI_API ricci_status ricci_solver_solve(ricci_solver *solver, const ricci_target *target,
+                                          const ricci_control *control, ricci_metric **result);
 enum {
     RICCI_STOP_CONVERGED = 0,
     RICCI_STOP_ROUNDING_FLOOR = 1,
@@ -288,11 +274,7 @@ enum {
     RICCI_REPORT_TRACE = 2,
     RICCI_REPORT_WORST_ERRORS = 3
 };
-enum {
-    RICCI_REPORT_CONES = 0,
-    RICCI_REPORT_WORST = 1,
-    RICCI_REPORT_OBSTRUCTION = 2
-};
+enum { RICCI_REPORT_CONES = 0, RICCI_REPORT_WORST = 1, RICCI_REPORT_OBSTRUCTION = 2 };
 typedef struct ricci_report_summary {
     size_t size;
     uint32_t converged;
@@ -321,20 +303,15 @@ typedef struct ricci_report_summary {
     uint32_t double_double;
     uint32_t reserved;
 } ricci_report_summary;
-RICCI_API ricci_status ricci_report_summarise(const ricci_metric *metric, ricci_report_summary *summary, size_t size);
-RICCI_API ricci_status ricci_report_values(const ricci_metric *metric, uint32_t which, double *values, size_t capacity);
-RICCI_API ricci_status ricci_report_vertices(const ricci_metric *metric, uint32_t which, uint32_t *vertices, size_t capacity);
+RICCI_API ricci_status ricci_report_summarise(const ricci_metric *metric, ricci_report_summary *summary,
+                                              size_t size);
+RICCI_API ricci_status ricci_report_values(const ricci_metric *metric, uint32_t which, double *values,
+                                           size_t capacity);
+RICCI_API ricci_status ricci_report_vertices(const ricci_metric *metric, uint32_t which, uint32_t *vertices,
+                                             size_t capacity);
 typedef struct ricci_layout ricci_layout;
-enum {
-    RICCI_MODEL_POINCARE = 0,
-    RICCI_MODEL_KLEIN = 1,
-    RICCI_MODEL_HALF_PLANE = 2,
-    RICCI_MODEL_AMBIENT = 3
-};
-enum {
-    RICCI_SCALE_INPUT_AREA = 0,
-    RICCI_SCALE_AS_SOLVED = 1
-};
+enum { RICCI_MODEL_POINCARE = 0, RICCI_MODEL_KLEIN = 1, RICCI_MODEL_HALF_PLANE = 2, RICCI_MODEL_AMBIENT = 3 };
+enum { RICCI_SCALE_INPUT_AREA = 0, RICCI_SCALE_AS_SOLVED = 1 };
 typedef struct ricci_layout_options {
     size_t size;
     uint32_t model;
@@ -372,22 +349,25 @@ typedef struct ricci_layout_summary {
 RICCI_API ricci_status ricci_layout_new(const ricci_metric *metric, const ricci_layout_options *options,
                                         const ricci_control *control, ricci_layout **layout);
 RICCI_API_VOID void ricci_layout_free(ricci_layout *layout);
-RICCI_API ricci_status ricci_layout_summarise(const ricci_layout *layout, ricci_layout_summary *summary, size_t size);
-RICCI_API ricci_status ricci_layout_points(const ricci_layout *layout, uint32_t model, double *points, size_t capacity);
-RICCI_API ricci_status ricci_layout_corners(const ricci_layout *layout, uint32_t on, uint32_t *corners, size_t capacity);
+RICCI_API ricci_status ricci_layout_summarise(const ricci_layout *layout, ricci_layout_summary *summary,
+                                              size_t size);
+RICCI_API ricci_status ricci_layout_points(const ricci_layout *layout, uint32_t model, double *points,
+                                           size_t capacity);
+RICCI_API ricci_status ricci_layout_corners(const ricci_layout *layout, uint32_t on, uint32_t *corners,
+                                            size_t capacity);
 RICCI_API ricci_status ricci_layout_uv(const ricci_layout *layout, uint32_t on, double *uv, size_t capacity);
 RICCI_API ricci_status ricci_layout_seams(const ricci_layout *layout, double *seams, size_t capacity);
-RICCI_API ricci_status ricci_layout_seam_edges(const ricci_layout *layout, uint32_t on, int32_t *edges, size_t edges_capacity,
-                                               size_t *starts, size_t starts_capacity);
-RICCI_API ricci_status ricci_layout_flipped(const ricci_layout *layout, uint32_t on, uint32_t *faces, size_t capacity);
-RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, double *qc, double *area_ratio, size_t capacity);
+RICCI_API ricci_status ricci_layout_seam_edges(const ricci_layout *layout, uint32_t on, int32_t *edges,
+                                               size_t edges_capacity, size_t *starts, size_t starts_capacity);
+RICCI_API ricci_status ricci_layout_flipped(const ricci_layout *layout, uint32_t on, uint32_t *faces,
+                                            size_t capacity);
+RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, double *qc, double *area_ratio,
+                                               size_t capacity);
 RICCI_API ricci_status ricci_layout_mesh(const ricci_layout *layout, ricci_mesh **mesh);
-RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t on, uint32_t homogeneous, const char *path);
+RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t on, uint32_t homogeneous,
+                                          const char *path);
 typedef struct ricci_map ricci_map;
-enum {
-    RICCI_AT_VERTICES = 0,
-    RICCI_AT_CORNERS = 1
-};
+enum { RICCI_AT_VERTICES = 0, RICCI_AT_CORNERS = 1 };
 typedef struct ricci_map_summary {
     size_t size;
     size_t n_vertices;
@@ -404,15 +384,19 @@ typedef struct ricci_carried {
     size_t n_values;
     size_t n_components;
 } ricci_carried;
-RICCI_API ricci_status ricci_map_new(const ricci_metric *metric, const ricci_control *control, ricci_map **map);
+RICCI_API ricci_status ricci_map_new(const ricci_metric *metric, const ricci_control *control,
+                                     ricci_map **map);
 RICCI_API_VOID void ricci_map_free(ricci_map *map);
 RICCI_API ricci_status ricci_map_summarise(const ricci_map *map, ricci_map_summary *summary, size_t size);
 RICCI_API ricci_status ricci_map_mesh(const ricci_map *map, ricci_mesh **mesh);
 RICCI_API ricci_status ricci_map_faces(const ricci_map *map, uint32_t on, uint32_t *faces, size_t capacity);
-RICCI_API ricci_status ricci_map_barycentric(const ricci_map *map, uint32_t on, double *weights, size_t capacity);
-RICCI_API ricci_status ricci_map_crossings(const ricci_map *map, uint32_t on, uint32_t *edges, double *fractions, size_t capacity);
+RICCI_API ricci_status ricci_map_barycentric(const ricci_map *map, uint32_t on, double *weights,
+                                             size_t capacity);
+RICCI_API ricci_status ricci_map_crossings(const ricci_map *map, uint32_t on, uint32_t *edges,
+                                           double *fractions, size_t capacity);
 RICCI_API ricci_status ricci_map_weights(const ricci_map *map, double *weights, size_t capacity);
-RICCI_API ricci_status ricci_map_carry(const ricci_map *map, const ricci_carried *values, double *carried, size_t capacity);
+RICCI_API ricci_status ricci_map_carry(const ricci_map *map, const ricci_carried *values, double *carried,
+                                       size_t capacity);
 #ifdef __cplusplus
 }
 #endif
