@@ -1,4 +1,5 @@
-/* Sample surfaces through the C face: topology, known figures, and what is refused. */
+/* Sample surfaces through the C face: topology, known figures, and what is refused. Writes cones.obj, which
+ * other tests read. */
 #include "samples.h"
 #include <math.h>
 
@@ -92,5 +93,9 @@ int main(void) {
     FAILS(ricci_make(NULL, &mesh), RICCI_NULL_POINTER, "shape");
     FAILS(make_genus(0, 2, 1, &mesh), RICCI_ARGUMENT, "genus");
     FAILS(make_sphere(4, NULL), RICCI_NULL_POINTER, "mesh");
+    /* A mesh for the examples. */
+    OK(make_sized(RICCI_SHAPE_ELLIPSOID, 12, 0, 1, 0.7, 1.6, &mesh));
+    OK(ricci_mesh_write(mesh, NULL, "cones.obj"));
+    ricci_mesh_free(mesh);
     return 0;
 }
