@@ -5,6 +5,7 @@ use crate::control::{self, ricci_control};
 use crate::failure::Failure;
 use crate::guard::{self, handle, shared};
 use crate::layout::{corners_of, ricci_layout};
+use crate::memory;
 use crate::metric::State;
 use crate::status::*;
 use crate::structs::{self, sized};
@@ -57,6 +58,7 @@ pub unsafe extern "C" fn ricci_atlas_new(
     guard::make(atlas, || {
         let handle = shared(layout)?;
         let ricci_layout { layout, points, state, .. } = handle;
+        let _reserve = memory::work(layout.mesh().n_vertices(), memory::LAYOUT)?;
         let uv = |h| points[layout.corner_index[h] as usize];
         let charts = charts(layout.mesh(), uv, &ChartOptions { margin }, &control::of(control))?;
         let positions = handle.positions()?;

@@ -2,6 +2,7 @@
 
 use crate::status::*;
 use ricci::{At, Error};
+use std::borrow::Cow;
 
 /// What the body of an entry point returns.
 pub type Outcome<T = ()> = Result<T, Failure>;
@@ -26,7 +27,7 @@ pub enum Element {
 #[derive(Debug, Default)]
 pub struct Failure {
     pub status: ricci_status,
-    pub message: String,
+    pub message: Cow<'static, str>,
     pub at: (Element, usize),
     pub amount: f64,
     pub needed: usize,
@@ -35,7 +36,7 @@ pub struct Failure {
 }
 
 impl Failure {
-    pub fn new(status: ricci_status, message: impl Into<String>) -> Failure {
+    pub fn new(status: ricci_status, message: impl Into<Cow<'static, str>>) -> Failure {
         Failure { status, message: message.into(), ..Failure::default() }
     }
 
@@ -43,7 +44,7 @@ impl Failure {
         Failure::new(RICCI_NULL_POINTER, format!("{what} is NULL"))
     }
 
-    pub fn argument(message: impl Into<String>) -> Failure {
+    pub fn argument(message: impl Into<Cow<'static, str>>) -> Failure {
         Failure::new(RICCI_ARGUMENT, message)
     }
 
@@ -68,6 +69,10 @@ impl From<Error> for Failure {
         let failure = Failure::new(error.code(), error.to_string());
         let (at, amount) = match &error {
             Error::Size { expected, .. } => return failure.needs(*expected),
+            // Threads that the system cannot start.
+            Error::Argument { what: "threads", .. } => {
+                return Failure { status: RICCI_NO_MEMORY, ..failure };
+            }
             Error::Parse { at: At::Line(line), .. } => ((Element::Line, *line), 0.0),
             Error::Parse { at: At::Byte(byte), .. } => ((Element::Byte, *byte), 0.0),
             Error::TooLarge { count, .. } => ((Element::None, 0), *count as f64),

@@ -5,6 +5,7 @@ use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::failure::Outcome;
 use crate::guard::{self, Mutable, handle, shared};
+use crate::memory;
 use crate::metric::ricci_metric;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
@@ -101,6 +102,7 @@ pub unsafe extern "C" fn ricci_flow(
 ) -> ricci_status {
     guard::make(result, || {
         let solution = &shared(metric)?.0.solution;
+        let _reserve = memory::work(solution.mesh().n_vertices(), memory::FLOW)?;
         let (surface, space, control) = (solution.surface(), solution.metric().space, control::of(control));
         let options = read_options(options)?;
         let target = target_of(target, surface, space, &control)?;
@@ -128,7 +130,9 @@ pub unsafe extern "C" fn ricci_solver_new(
     solver: *mut *mut ricci_solver,
 ) -> ricci_status {
     guard::make(solver, || {
-        let flow = Flow::resume(&shared(metric)?.0.solution, &read_options(options)?, &Control::new())?;
+        let solution = &shared(metric)?.0.solution;
+        let _reserve = memory::work(solution.mesh().n_vertices(), memory::FLOW)?;
+        let flow = Flow::resume(solution, &read_options(options)?, &Control::new())?;
         Ok(ricci_solver { poisoned: false, flow })
     })
 }
@@ -161,6 +165,7 @@ pub unsafe extern "C" fn ricci_solver_solve(
     guard::make(result, || {
         let control = control::of(control);
         guard::change(solver, |ricci_solver { flow, .. }| {
+            let _reserve = memory::work(flow.mesh().n_vertices(), memory::FLOW)?;
             let target = target_of(target, flow.surface(), flow.metric().space, &control)?;
             advance(flow, &target, &control)
         })

@@ -6,6 +6,7 @@
 use crate::environment::Environment;
 use crate::failure::{Failure, Outcome};
 use crate::kept;
+use crate::memory;
 use crate::status::*;
 use std::any::Any;
 use std::cell::Cell;
@@ -52,7 +53,7 @@ pub fn output<T>(what: &str, place: *mut T) -> Outcome<Output<T>> {
 /// Run the body of an entry point.
 pub fn call(body: impl FnOnce() -> Outcome) -> ricci_status {
     let _host = Environment::enter();
-    let failure = match guarded(body) {
+    let failure = match guarded(|| memory::little().and_then(|()| body())) {
         Ok(Ok(())) => return RICCI_OK,
         Ok(Err(failure)) => {
             if !failure.is_question {

@@ -3,6 +3,7 @@
 use crate::arrays::{check_buffer, copy_counted, copy_out, text};
 use crate::control::{self, ricci_control};
 use crate::guard::{self, handle, shared};
+use crate::memory;
 use crate::mesh::ricci_mesh;
 use crate::paths::{copy_paths, copy_word, halfedges, letters, read_word, signed_edge, vertex_or_none};
 use crate::status::ricci_status;
@@ -41,6 +42,7 @@ pub unsafe extern "C" fn ricci_homotopy_new(
 ) -> ricci_status {
     guard::make(homotopy, || {
         let mesh = shared(mesh)?;
+        let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::MESH)?;
         let (lengths, base) = (mesh.surface()?.lengths(), vertex_or_none(base)?);
         let mesh = mesh.connectivity.clone();
         let basis = homotopy_basis(&mesh, lengths, base, &control::of(control))?;

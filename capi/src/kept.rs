@@ -25,16 +25,16 @@ thread_local! {
 
 const NOTHING: Numbers = Numbers { status: RICCI_OK, at: (Element::None, 0), amount: 0.0, needed: 0 };
 
-/// Keep a failure for this thread. A NUL inside the message, from a caller's path, would cut it short, so it is replaced.
+/// Keep a failure for this thread. A NUL inside the message, from a caller's path, would cut it short, so it becomes a question mark.
 pub fn keep(failure: &Failure) {
-    let text = failure.message.replace('\0', "\u{fffd}");
+    let text = &failure.message;
     let most = text.len().min(TEXT_BYTES - 1);
     let end = (0..=most).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0);
     let _ = TEXT.try_with(|buffer| {
         // SAFETY: no reference into the buffer lives on; C reads it through a pointer on this thread only.
         let buffer = unsafe { &mut *buffer.get() };
-        buffer[..end].copy_from_slice(&text.as_bytes()[..end]);
-        buffer[end] = 0;
+        let kept = text.as_bytes()[..end].iter().map(|&byte| if byte == 0 { b'?' } else { byte });
+        buffer.iter_mut().zip(kept.chain([0])).for_each(|(place, byte)| *place = byte);
     });
     let &Failure { status, at, amount, needed, .. } = failure;
     let _ = NUMBERS.try_with(|last| last.set(Numbers { status, at, amount, needed }));

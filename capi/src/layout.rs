@@ -5,6 +5,7 @@ use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
+use crate::memory;
 use crate::mesh::{SPACES, ricci_mesh};
 use crate::metric::{ON, On, State, ricci_metric};
 use crate::paths::{copy_paths, vertex_or_none};
@@ -88,7 +89,7 @@ pub struct ricci_layout_summary {
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_layout_summary, "summary");
 
-fn not_here(message: &str) -> Failure {
+fn not_here(message: &'static str) -> Failure {
     Failure::new(RICCI_LAYOUT, message)
 }
 
@@ -180,6 +181,7 @@ pub unsafe extern "C" fn ricci_layout_new(
     guard::make(layout, || {
         let (state, control) = (&shared(metric)?.0, control::of(control));
         let given = structs::read(options)?;
+        let _reserve = memory::work(state.solution.mesh().n_vertices(), memory::LAYOUT)?;
         let surface = state.solution.surface();
         let cones = match given.cones.is_null() && given.n_cones == 0 {
             true => None,

@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `guard` | nothing unwinds into C; a handle that was being changed is poisoned by a panic |
 //! | `environment` | the host's floating-point environment |
+//! | `memory` | what the system refuses is asked for before the work |
 //! | `arrays`, `structs`, `choice`, `paths` | arrays, structs, enum values, edge paths and words from and to C |
 //! | `failure`, `kept`, `status` | what went wrong, last on every thread |
 //!
@@ -29,6 +30,7 @@ mod environment;
 mod failure;
 mod guard;
 mod kept;
+mod memory;
 mod paths;
 mod structs;
 mod texture;

@@ -5,6 +5,7 @@ use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::failure::{Element, Failure, Outcome};
 use crate::guard::{self, handle, shared};
+use crate::memory;
 use crate::mesh::ricci_mesh;
 use crate::metric::{ON, On, State, ricci_metric};
 use crate::status::*;
@@ -95,6 +96,7 @@ pub unsafe extern "C" fn ricci_map_new(
 ) -> ricci_status {
     guard::make(map, || {
         let state = shared(metric)?.0.clone();
+        let _reserve = memory::work(state.solution.mesh().n_vertices(), memory::LAYOUT)?;
         let refinement = state.refinement(&control::of(control))?.cloned();
         Ok(ricci_map { state, refinement })
     })

@@ -4,6 +4,7 @@ use crate::arrays::{self, copy_each, copy_out, copy_rows};
 use crate::choice::choices;
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
+use crate::memory;
 use crate::paths::signed_edge;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
@@ -76,6 +77,7 @@ impl ricci_mesh {
     }
 
     pub(crate) fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {
+        let _reserve = memory::work(soup.positions.len().max(soup.faces.len()), memory::MESH)?;
         let connectivity = Arc::new(Mesh::from_soup(&soup)?);
         let Soup { positions, attributes, .. } = soup;
         Ok(ricci_mesh { attributes, ..ricci_mesh::in_space(connectivity, Arc::new(positions)) })

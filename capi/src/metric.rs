@@ -4,6 +4,7 @@ use crate::arrays::{copy_each, copy_out};
 use crate::choice::choices;
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
+use crate::memory;
 use crate::mesh::{SPACES, ricci_mesh};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
@@ -143,7 +144,9 @@ pub unsafe extern "C" fn ricci_metric_new(
 ) -> ricci_status {
     guard::make(metric, || {
         let class = Class::new(SCHEMES.choose(scheme)?, SPACES.choose(space)?);
-        let metric = Solution::initial_of(shared(mesh)?.surface()?.clone(), class)?;
+        let mesh = shared(mesh)?;
+        let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::MESH)?;
+        let metric = Solution::initial_of(mesh.surface()?.clone(), class)?;
         let initial = metric.initial();
         if initial.clamped_edges > 0 {
             log::info!(

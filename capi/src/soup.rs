@@ -3,6 +3,7 @@
 use crate::arrays::{self, check_buffer, copy_out, copy_rows};
 use crate::failure::{Element, Failure, Outcome, no_such};
 use crate::guard::{self, handle, shared};
+use crate::memory;
 use crate::mesh::{VALUES, Value, copy_attribute, count, ricci_mesh, write_soup};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
@@ -262,7 +263,9 @@ pub unsafe extern "C" fn ricci_soup_repair(
         // NaN is no tolerance, which the library says.
         let weld = (given.weld.is_nan() || given.weld >= 0.0).then_some(given.weld);
         let component = given.component.checked_sub(1);
-        let mut done = repair(&shared(soup)?.soup, &Repair { weld, cut_non_manifold_edges, component })?;
+        let soup = &shared(soup)?.soup;
+        let _reserve = memory::work(soup.positions.len().max(soup.faces.len()), memory::MESH)?;
+        let mut done = repair(soup, &Repair { weld, cut_non_manifold_edges, component })?;
         let result = std::mem::take(&mut done.soup);
         Ok(ricci_soup { origin: Some(done), ..ricci_soup::new(result) })
     })

@@ -8,6 +8,7 @@ use crate::flow::{read_options, ricci_flow_options};
 use crate::guard::{self, handle, shared};
 use crate::homotopy::ricci_homotopy;
 use crate::layout::{MODELS, ricci_layout};
+use crate::memory;
 use crate::mesh::{SPACES, ricci_mesh};
 use crate::metric::{ON, On, SCHEMES, ricci_metric};
 use crate::paths::{halfedges, vertex_or_none};
@@ -113,9 +114,13 @@ pub unsafe extern "C" fn ricci_uniformize(
             flow: read_options(given.flow)?,
         };
         if !given.start.is_null() {
-            return of_quotient(quotient_of(&shared(given.start)?.0.solution, &options, &control)?);
+            let start = &shared(given.start)?.0.solution;
+            let _reserve = memory::work(start.mesh().n_vertices(), memory::UNIFORM)?;
+            return of_quotient(quotient_of(start, &options, &control)?);
         }
-        match uniformize(shared(mesh)?.surface()?, &options, &control)? {
+        let mesh = shared(mesh)?;
+        let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::UNIFORM)?;
+        match uniformize(mesh.surface()?, &options, &control)? {
             Uniformization::Quotient(quotient) => of_quotient(*quotient),
             Uniformization::Sphere(sphere) => {
                 let report = &sphere.report;
@@ -268,6 +273,7 @@ pub unsafe extern "C" fn ricci_uniform_layout(
 ) -> ricci_status {
     guard::make(layout, || {
         let (uniform, control) = (shared(uniform)?, control::of(control));
+        let _reserve = memory::work(uniform.metric.0.solution.mesh().n_vertices(), memory::LAYOUT)?;
         let (quotient, state) = (uniform.quotient()?, &uniform.metric.0);
         let laid = match ON.choose(on)? {
             On::Metric => quotient.layout.clone(),

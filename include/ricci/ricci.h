@@ -43,9 +43,11 @@
  *   - Paths and texts are UTF-8, NUL-terminated.
  *   - No call unwinds into C: an internal error is RICCI_PANIC. What was read stays good; a ricci_solver
  *     that was being changed answers RICCI_POISONED from then on, and can only be freed.
- *   - Arrays that do not fit into memory are RICCI_NO_MEMORY, and handles are as they were. What cannot be
- *     caught: a few kilobytes that the system refuses end the program (abort), as does a thread's stack
- *     that cannot grow.
+ *   - Memory is asked for before the work, as much as the work is known to take: if the system refuses it,
+ *     RICCI_NO_MEMORY, and handles are as they were. It is held in reserve and released when the system
+ *     refuses anything later. What cannot be caught ends the program (abort, with a line on stderr): work
+ *     that takes more than the reserve while memory stays refused; the 48 bytes of a thread's handle; a
+ *     stack that cannot grow.
  *   - Calls compute under the default floating-point environment and give the caller its own back: the
  *     host's floating-point traps, rounding mode and flush-to-zero neither disturb a call nor change its
  *     result.
