@@ -26,7 +26,11 @@ if(RICCI_CARGO_PROFILE STREQUAL "dev")
 endif()
 
 # Names in the build tree are those of an installation.
+# Until 1.0 a new minor version is a new ABI (capi/build.rs says the same to the linker).
 set(_soversion ${PROJECT_VERSION_MAJOR})
+if(_soversion EQUAL 0)
+  set(_soversion 0.${PROJECT_VERSION_MINOR})
+endif()
 if(APPLE)
   set(_built libricci_c.dylib)
   set(RICCI_SHARED libricci.${PROJECT_VERSION}.dylib)
