@@ -9,16 +9,12 @@ const PIXELS: u32 = 64;
 const LIGHT: u8 = 235;
 const DARK: u8 = 70;
 
-/// Texture coordinates for squares of equal size in the layout.
-pub fn coordinates(layout: &[[f64; 2]]) -> Vec<[f64; 2]> {
+/// How often the texture, which is two squares wide, is there along a unit of the layout.
+pub fn repeat(layout: &[[f64; 2]]) -> f64 {
     let bound =
         |k: usize, pick: fn(f64, f64) -> f64, start: f64| layout.iter().map(|p| p[k]).fold(start, pick);
-    let low = [0, 1].map(|k| bound(k, f64::min, f64::INFINITY));
-    let high = [0, 1].map(|k| bound(k, f64::max, f64::NEG_INFINITY));
-    let extent = (high[0] - low[0]).max(high[1] - low[1]).max(f64::MIN_POSITIVE);
-    // The texture is two squares wide.
-    let coordinate = |p: &[f64; 2]| [0, 1].map(|k| (p[k] - low[k]) * SQUARES / (2.0 * extent));
-    layout.iter().map(coordinate).collect()
+    let [x, y] = [0, 1].map(|k| bound(k, f64::max, f64::NEG_INFINITY) - bound(k, f64::min, f64::INFINITY));
+    SQUARES / (2.0 * x.max(y).max(f64::MIN_POSITIVE))
 }
 
 /// A PNG of 2 × 2 squares.

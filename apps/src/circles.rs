@@ -5,11 +5,11 @@
 //! null where that is negative.
 
 use crate::laid::Laid;
+use crate::solved::Solved;
 use ricci::embed::Layout;
 use ricci::geometry::Space;
 use ricci::geometry::circle::power_circle;
-use ricci::mesh::{FaceId, Mesh};
-use ricci::metric::Metric;
+use ricci::mesh::FaceId;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -42,9 +42,9 @@ pub struct Circles {
     pub dual_circles: Vec<DualCircle>,
 }
 
-/// The circles of a Euclidean metric laid out in the plane; `mesh` is the triangulation of the metric.
-pub fn circles(mesh: &Mesh, metric: &Metric, scheme: &'static str, laid: &Laid) -> Option<Circles> {
-    let layout = &laid.layout;
+/// The circles of a Euclidean metric laid out in the plane.
+pub fn circles(solved: &Solved, laid: &Laid) -> Option<Circles> {
+    let (mesh, metric, layout) = (solved.solution.mesh(), solved.solution.metric(), &laid.layout);
     if layout.space != Space::E2 {
         return None;
     }
@@ -67,7 +67,7 @@ pub fn circles(mesh: &Mesh, metric: &Metric, scheme: &'static str, laid: &Laid) 
     };
     Some(Circles {
         space: metric.space.name(),
-        scheme,
+        scheme: solved.scheme.name(),
         vertex_circles: vertex_of.into_iter().enumerate().filter_map(vertex_circle).collect(),
         dual_circles: final_faces(laid, layout).into_iter().filter_map(dual_circle).collect(),
     })

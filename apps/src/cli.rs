@@ -1,12 +1,17 @@
 //! The command line.
 
+use crate::failure::Failure;
 use crate::flow_args::FlowArgs;
-use crate::info::InfoArgs;
+use crate::info::{DefectFigures, InfoArgs};
 use crate::options::Common;
+use crate::output::{self, Outputs};
 use crate::repair::RepairArgs;
+use crate::report::{Checks, Figures, InputSummary, Report, Seconds};
 use crate::uniform::{CoverArgs, UniformizeArgs};
 use clap::{Args, Parser, Subcommand};
-use std::path::PathBuf;
+use serde::Serialize;
+use serde_json::json;
+use std::path::{Path, PathBuf};
 
 /// Conformal metrics of prescribed curvature on triangle meshes, by discrete surface Ricci flow.
 #[derive(Parser, Debug)]
@@ -17,8 +22,10 @@ pub struct Cli {
 }
 
 const EXIT_CODES: &str = "\
-Exit codes: 0 done and every check of the report holds; 1 not converged or a check failed (the files are still
-written, the report says what failed); 2 usage; 3 bad input; 4 cancelled.
+Exit codes: 0 done and every check of the report holds; 1 not converged, a check failed or a file could not be made (what there is
+is written, summary and report name the rest); 2 usage; 3 bad input (the report says why); 4 cancelled.
+
+Vertices and faces are numbered from 0. A file name - is stdin or stdout.
 
 `ricci help COMMAND` shows the options of a command and an example.";
 
@@ -54,6 +61,50 @@ pub enum Command {
         #[arg(value_enum)]
         shell: clap_complete::Shell,
     },
+}
+
+impl Command {
+    /// Write the report of a command whose input is not what it needs, or that cannot deliver, if a report was asked for.
+    pub fn report_failure(&self, failure: &Failure) -> Result<(), Failure> {
+        match self {
+            Command::Flow(args) => report_failure("flow", &args.to.file.mesh, &args.to.common, args, failure),
+            Command::Info(args) => report_failure("info", &args.file.mesh, &args.common, args, failure),
+            Command::Repair(args) => report_failure("repair", &args.mesh, &args.common, args, failure),
+            Command::Uniformize(UniformizeArgs { canonical: args, .. }) => {
+                report_failure("uniformize", &args.to.file.mesh, &args.to.common, args, failure)
+            }
+            Command::Cover(CoverArgs { canonical: args, .. }) => {
+                report_failure("cover", &args.to.file.mesh, &args.to.common, args, failure)
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The report of a failure has no result, but `error`: the message, the exit code, and the defects of the input.
+fn report_failure(
+    command: &'static str,
+    mesh: &Path,
+    common: &Common,
+    asked: impl Serialize,
+    failure: &Failure,
+) -> Result<(), Failure> {
+    let wanted = matches!(failure.exit_code(), 1 | 3) && !output::in_place();
+    let Some(path) = common.report.as_ref().filter(|_| wanted) else {
+        return Ok(());
+    };
+    let (input, defects) = match failure {
+        Failure::Defects(found) | Failure::Unglued(found) => {
+            let defects: Vec<_> = found.defects.iter().map(DefectFigures::from).collect();
+            (Some(InputSummary::new(mesh, &**found)), defects)
+        }
+        _ => (None, Vec::new()),
+    };
+    let error = json!({"message": failure.to_string(), "exit_code": failure.exit_code(), "defects": defects});
+    let report = Report::new(command, input, asked, Figures::default().with("error", error));
+    let mut outputs = Outputs::default();
+    outputs.add_report(path, &report.finished(Checks::default(), Seconds::default()))?;
+    outputs.commit().map(drop)
 }
 
 const DEMO_EXAMPLE: &str = "\

@@ -6,6 +6,11 @@ use ricci::mesh::{EdgeId, Mesh, PerVertex, VertexId};
 use std::io::{self, Write};
 use std::path::Path;
 
+/// The text of a file, with the file's name in the error.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|e| Failure::Input(format!("{}: {e}", path.display())))
+}
+
 /// Read `vertex,curvature` rows (radians): each vertex below `n_vertices` and at most once.
 ///
 /// Empty lines, lines that begin with `#` and a first line `vertex,curvature` are passed over.
@@ -50,10 +55,10 @@ fn refuse(path: &Path, line: usize, why: String) -> Failure {
 
 /// Rows of two fields with their line numbers; a first row `names` is a header.
 fn pairs(path: &Path, names: [&str; 2]) -> Result<Vec<(usize, [String; 2])>, Failure> {
-    let text =
-        std::fs::read_to_string(path).map_err(|e| Failure::Input(format!("{}: {e}", path.display())))?;
+    let text = read_text(path)?;
     let mut rows = Vec::new();
-    let lines = text.lines().enumerate().map(|(i, l)| (i + 1, l.trim()));
+    // Spreadsheets write a byte order mark.
+    let lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(i, l)| (i + 1, l.trim()));
     for (i, row) in lines.filter(|(_, l)| !l.is_empty() && !l.starts_with('#')) {
         let fields: Vec<_> = row.split(',').map(str::trim).collect();
         match fields.as_slice() {
@@ -70,7 +75,7 @@ fn vertex_of(path: &Path, line: usize, text: &str, n_vertices: usize) -> Result<
         text.parse().map_err(|_| refuse(path, line, format!("`{text}` is not a vertex number")))?;
     if v >= n_vertices {
         let last = n_vertices.saturating_sub(1);
-        let why = format!("vertex {v} does not exist, the surface has vertices 0 to {last}");
+        let why = format!("vertex {v} does not exist: vertices are numbered from 0, these are 0 to {last}");
         return Err(refuse(path, line, why));
     }
     Ok(VertexId::from(v))

@@ -1,21 +1,19 @@
 //! `ricci flow`.
 
-use crate::carry;
 use crate::charts;
 use crate::circles::circles;
 use crate::csv;
 use crate::failure::Failure;
-use crate::figures::FlowResult;
+use crate::figures;
 use crate::flow_args::{FlowArgs, PinChoice, TargetChoice};
 use crate::flow_summary;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
-use crate::metric_file::MetricFile;
-use crate::options::{FlipsChoice, MethodChoice, OnChoice, SchemeChoice};
-use crate::output::{self, Outputs, check_extension, extension};
-use crate::picture::{ColorChoice, FlowPictureArgs};
-use crate::progress::Progress;
-use crate::report::{Done, InputSummary, Report, Seconds, path_text};
+use crate::options::{MethodChoice, OnChoice};
+use crate::output::{self, Outputs, check_extension};
+use crate::picture::ColorChoice;
+use crate::progress::{Progress, doing};
+use crate::report::{Done, Figures, InputSummary, Report, Seconds, path_text};
 use crate::show;
 use crate::uv;
 use ricci::Control;
@@ -25,14 +23,14 @@ use ricci::geometry::Space;
 use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::{Scheme, Target};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 /// Run the command and say what came out.
 pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
     let done = execute(args, control)?;
-    if !args.common.quiet {
-        flow_summary::say(&done);
+    if !args.to.common.quiet {
+        flow_summary::say(&done)?;
     }
     Ok(done.exit_code)
 }
@@ -41,146 +39,161 @@ pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
 pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done<Outcome>, Failure> {
     let start = Instant::now();
     check_request(args)?;
-    let progress = Progress::watch(control, args.common.quiet);
-    let input = input::read(&args.surface, control)?;
+    let progress = Progress::watch(control, args.to.common.quiet);
+    let input = input::read(&args.to.file, args.to.input_geometry.map(Space::from), control)?;
     // Placed cones exist in E² alone.
-    let automatic = if matches!(args.target, Some(TargetChoice::Auto(_))) { Some(Space::E2) } else { None };
+    let automatic = matches!(args.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
     let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
-    check_outputs(args, &input, space)?;
-    let job = Job {
-        space,
-        scheme: args.solve.scheme.into(),
-        target: args.target.as_ref().map(|t| target(t, &input, space, control)).transpose()?,
-        options: Options {
-            fixed_edges: match &args.keep_edges {
-                Some(path) => csv::read_edges(path, input.mesh())?,
-                None => Vec::new(),
-            },
-            pinned: args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, input.mesh())),
-            ..options(args)
-        },
-        laid_out: args.charts
-            || [&args.uv, &args.circles, &args.picture.base.picture, &args.common.report]
-                .iter()
-                .any(|path| path.is_some()),
-    };
-    let mut outcome = job::run(&input, job, control)?;
+    check_surface(args, &input, space)?;
+    let mut outcome = job::run(&input, job(args, &input, space, control)?, control)?;
     if args.charts {
-        let cut = charts::cut(&mut outcome, args.margin, control);
-        outcome.failed.attempt("charts", cut)?;
+        let cut = doing("cutting", || charts::cut(&mut outcome, args.margin, control));
+        outcome.solved.failed.attempt("charts", cut)?;
     }
-    let files = write(args, &input, &mut outcome, control, start)?;
+    let (files, figures) = write(args, &input, &mut outcome, control, start)?;
     drop(progress);
     let checks = outcome.checks();
-    let svg = args.picture.base.picture.as_ref().is_some_and(|p| show::is_svg(p));
-    let missing = outcome.layout.is_err() && (args.uv.is_some() || args.circles.is_some() || svg);
-    let exit_code = if missing || !outcome.failed.0.is_empty() { 1 } else { checks.exit_code() };
-    Ok(Done { input, result: outcome, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
+    let exit_code = if outcome.solved.failed.0.is_empty() { checks.exit_code() } else { 1 };
+    let seconds = start.elapsed().as_secs_f64();
+    Ok(Done { input, result: outcome, figures, checks, files, seconds, exit_code })
+}
+
+/// What is computed.
+fn job(args: &FlowArgs, input: &Input, space: Space, control: &Control) -> Result<Job, Failure> {
+    let fixed_edges = match &args.keep_edges {
+        Some(path) => csv::read_edges(path, input.mesh())?,
+        None => Vec::new(),
+    };
+    if args.pin == Some(PinChoice::Boundary) && input.mesh().is_closed() {
+        return Err(Failure::Usage("--pin boundary: a closed surface has none; name vertices".into()));
+    }
+    let pinned = args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, input.mesh()));
+    let usual = usual_target(args, input, space);
+    let chosen = args.target.as_ref().or(usual.as_ref());
+    let target_name = match &usual {
+        Some(usual) => Some(format!(
+            "{usual} (the default of open surfaces with handles; --target boundary bends the boundary alone)"
+        )),
+        None => args.target.as_ref().map(ToString::to_string),
+    };
+    let of_layout = [&args.to.uv, &args.circles, &args.picture.base.picture, &args.to.common.report];
+    Ok(Job {
+        space,
+        scheme: args.to.solve.scheme.into(),
+        target: chosen.map(|t| target(t, input, space, control)).transpose()?,
+        target_name,
+        options: Options { fixed_edges, pinned, ..options(args) },
+        laid_out: args.charts || of_layout.iter().any(|path| path.is_some()),
+    })
+}
+
+/// Most cones that are placed by default, each of which costs a few solutions of a linear system; and the least number.
+const USUAL_CONES: [i64; 2] = [4, 64];
+
+/// The target of an open surface with handles in E², where none is asked for: cones. Its boundary alone would have to bend by 2πχ,
+/// which few boundaries can.
+fn usual_target(args: &FlowArgs, input: &Input, space: Space) -> Option<TargetChoice> {
+    let (mesh, plane) = (input.mesh(), space == Space::E2 && input.surface.geometry() == Space::E2);
+    let inside = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)).count();
+    let cones = mesh.euler().abs().clamp(USUAL_CONES[0], USUAL_CONES[1]) as usize;
+    let wanted =
+        plane && args.target.is_none() && args.pin.is_none() && !mesh.is_closed() && mesh.genus() > 0;
+    (wanted && inside > 0).then(|| TargetChoice::Auto(cones.min(inside)))
 }
 
 fn options(args: &FlowArgs) -> Options {
-    Options {
-        gradient: Gradient { area_normalised: args.area_normalised, ..Gradient::default() },
-        ..args.solve.options(args.common.threads())
-    }
+    let gradient = Gradient { area_normalised: args.area_normalised, ..Gradient::default() };
+    Options { gradient, ..args.to.options() }
 }
 
 /// What can be refused before anything is read.
 fn check_request(args: &FlowArgs) -> Result<(), Failure> {
-    let usage = |message: &str| Err(Failure::Usage(message.into()));
-    if args.charts && args.circles.is_some() {
-        return usage("--circles: circles belong to the layout as a whole; leave --charts or --circles out");
-    }
-    if args.on == OnChoice::Input && (args.charts || args.homogeneous) {
-        return usage(
+    let newton = args.to.solve.method != MethodChoice::Gradient;
+    let on_input = args.to.on == OnChoice::Input;
+    let placed = matches!(args.target, Some(TargetChoice::Auto(_)));
+    let refused = [
+        (
+            args.charts && args.circles.is_some(),
+            "--circles: circles belong to the layout as a whole; leave --charts or --circles out",
+        ),
+        (
+            on_input && (args.charts || args.homogeneous),
             "--on input: charts and homogeneous coordinates belong to the refinement; leave --on, or them, out",
-        );
-    }
-    if args.margin >= 1.0 {
-        return usage("--margin: a share of the unit square's side, in [0, 1)");
-    }
-    if args.pin.is_some() && matches!(args.target, Some(TargetChoice::Auto(_))) {
-        return usage("--target auto chooses every curvature, --pin leaves some free; leave one out");
-    }
-    if args.trace.is_some() && args.solve.method != MethodChoice::Gradient {
-        return usage("--trace records the gradient flow; add --method gradient");
-    }
-    if args.area_normalised && args.solve.method != MethodChoice::Gradient {
-        return usage("--area-normalised is a variant of the gradient flow; add --method gradient");
+        ),
+        (
+            args.picture.base.is_svg() && args.picture.base.is_turned(),
+            "--view, --up: an SVG shows the layout alone; use .png, or leave them out",
+        ),
+        (args.margin >= 1.0, "--margin: a share of the unit square's side, in [0, 1)"),
+        (
+            args.pin.is_some() && placed,
+            "--target auto chooses every curvature, --pin leaves some free; leave one out",
+        ),
+        (args.trace.is_some() && newton, "--trace records the gradient flow; add --method gradient"),
+        (
+            args.area_normalised && newton,
+            "--area-normalised is a variant of the gradient flow; add --method gradient",
+        ),
+    ];
+    if let Some((_, why)) = refused.into_iter().find(|(refused, _)| *refused) {
+        return Err(Failure::Usage(why.into()));
     }
     let written: &[&str] = if args.homogeneous { &["obj"] } else { &["obj", "glb"] };
-    check_extension("--uv", args.uv.as_deref(), written)?;
-    check_extension("--picture", args.picture.base.picture.as_deref(), &["png", "svg"])?;
+    let (to, picture) = (&args.to, args.picture.base.picture.as_deref());
+    check_extension("--uv", to.uv.as_deref(), written)?;
+    check_extension("--picture", picture, &["png", "svg"])?;
     let table = match &args.target {
         Some(TargetChoice::Cones(path) | TargetChoice::File(path)) => Some(path.as_path()),
         _ => None,
     };
-    let files =
-        [&args.metric, &args.uv, &args.circles, &args.picture.base.picture, &args.trace, &args.common.report];
-    output::check_outputs(
-        &[Some(&args.surface.mesh), args.keep_edges.as_deref(), table],
-        &files.map(|path| path.as_deref()),
-    )
+    let files = [&to.metric, &to.uv, &to.xref, &args.circles, &args.trace, &to.common.report];
+    let files: Vec<Option<&Path>> = files.map(|path| path.as_deref()).into_iter().chain([picture]).collect();
+    output::check_outputs(&[Some(&to.file.mesh), args.keep_edges.as_deref(), table], &files)
 }
 
 /// What can be refused once the surface is known.
-fn check_outputs(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
-    let laid_out = space != Space::S2;
-    let missing = |option: &str| {
-        let why = "ricci uniformize lays spheres out; use it, or --space e2";
-        Err(Failure::Usage(format!("{option}: {why}")))
-    };
-    for (option, wanted) in [("--uv", args.uv.is_some()), ("--zoom", args.picture.zoom.is_some())] {
-        if wanted && !laid_out {
-            return missing(option);
-        }
+fn check_surface(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
+    let refuse = |why: String| Err(Failure::Usage(why));
+    let scheme: Scheme = args.to.solve.scheme.into();
+    let (on_sphere, in_space) = (space == Space::S2, input.positions().is_some());
+    let picture = args.picture.base.picture.is_some();
+    let color = args.picture.color().and_then(ColorChoice::of_layout).map(|name| format!("--color {name}"));
+    let of_layout = [
+        (args.to.uv.is_some(), "--uv"),
+        (args.picture.zoom.is_some(), "--zoom"),
+        (color.is_some(), color.as_deref().unwrap_or_default()),
+        (picture && args.picture.base.is_svg(), "--picture: an SVG shows the layout alone"),
+        (picture && !in_space, "--picture: an intrinsic metric has no positions in space"),
+    ];
+    if let Some((_, option)) = of_layout.into_iter().find(|(wanted, _)| *wanted && on_sphere) {
+        return refuse(format!("{option}: ricci uniformize lays spheres out; use it, or --space e2"));
     }
     let in_plane = [
-        ("--circles", args.circles.is_some()),
-        ("--charts", args.charts),
-        ("--homogeneous", args.homogeneous),
+        (args.circles.is_some(), "--circles"),
+        (args.charts, "--charts"),
+        (args.homogeneous, "--homogeneous"),
     ];
-    for (option, wanted) in in_plane {
-        if wanted && space != Space::E2 {
-            return Err(Failure::Usage(format!(
-                "{option}: layouts in {space} have none; use --space e2 (with --target single:V or cones:FILE.csv \
-                 where the surface needs cones)"
-            )));
-        }
+    if let Some((_, option)) = in_plane.into_iter().find(|(wanted, _)| *wanted && space != Space::E2) {
+        return refuse(format!(
+            "{option}: layouts in {space} have none; use --space e2 (with --target single:V or cones:FILE.csv where \
+             the surface needs cones)"
+        ));
     }
-    let scheme: Scheme = args.solve.scheme.into();
     if args.circles.is_some() && scheme.epsilon() == 0 {
-        return Err(Failure::Usage(format!(
+        return refuse(format!(
             "--circles: scheme {scheme} has no circles; use inversive, thurston, tangential or virtual"
-        )));
+        ));
     }
-    if args.uv.is_some() && input.positions().is_none() {
-        return Err(Failure::Usage("--uv: an intrinsic metric has no positions in space".into()));
+    if args.to.uv.is_some() && !in_space {
+        return refuse("--uv: an intrinsic metric has no positions in space".into());
     }
-    if let Some(name) = args.picture.color().filter(|_| !laid_out).and_then(ColorChoice::of_layout) {
-        return missing(&format!("--color {name}"));
-    }
-    if let Some(zoom) = args.picture.zoom {
-        let n = input.mesh().n_vertices();
-        if zoom.vertex as usize >= n {
-            return Err(Failure::Usage(format!(
-                "--zoom: there is no vertex {}, they are 0 to {}",
-                zoom.vertex,
-                n - 1
-            )));
+    let n = input.mesh().n_vertices();
+    match args.picture.zoom {
+        Some(zoom) if zoom.vertex as usize >= n => {
+            refuse(format!("--zoom: there is no vertex {}, they are 0 to {}", zoom.vertex, n - 1))
         }
+        _ => Ok(()),
     }
-    if let Some(path) = args.picture.base.picture.as_ref().filter(|_| !laid_out) {
-        let nothing = if extension(path) == "svg" {
-            "an SVG shows the layout alone"
-        } else if input.positions().is_none() {
-            "an intrinsic metric has no positions in space"
-        } else {
-            return Ok(());
-        };
-        return missing(&format!("--picture: {nothing}"));
-    }
-    Ok(())
 }
 
 fn target(choice: &TargetChoice, input: &Input, space: Space, control: &Control) -> Result<Target, Failure> {
@@ -202,121 +215,88 @@ fn pinned(choice: &PinChoice, mesh: &Mesh) -> Vec<VertexId> {
     }
 }
 
-/// Write every file that was asked for, the report last; returns their names. One that cannot be made keeps none of the others back.
+/// Write every file that was asked for, the report last; returns their names and the figures. One that cannot be made keeps none of the others back.
 fn write(
     args: &FlowArgs,
     input: &Input,
     outcome: &mut Outcome,
     control: &Control,
     start: Instant,
-) -> Result<Vec<String>, Failure> {
+) -> Result<(Vec<String>, Figures), Failure> {
     control.step(Stage::Write, 0.0)?;
     let mut outputs = Outputs::default();
     let begin = Instant::now();
-    if let Some(path) = &args.metric {
-        let written = write_metric(&mut outputs, path, outcome);
-        outcome.failed.attempt("metric", written)?;
-    }
+    outcome.solved.write_metric(&mut outputs, args.to.metric.as_deref())?;
     if let Some(path) = &args.trace {
         let written = outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace));
-        outcome.failed.attempt("trace", written)?;
+        outcome.solved.failed.attempt("trace", written)?;
     }
     control.check()?;
-    if let (Some(path), Ok(laid)) = (&args.uv, &outcome.layout) {
-        let written = uv::write(&mut outputs, path, input, laid, (args.on, args.homogeneous));
-        if outcome.failed.attempt("uv", written)?.is_some() {
-            outcome.left_out = carry::left_out(input);
+    match &outcome.layout {
+        Ok(laid) => {
+            let solved = &mut outcome.solved;
+            uv::write_asked(&mut outputs, input, laid, (&args.to, args.homogeneous), solved)?;
+            if let Some(path) = &args.circles {
+                let all = circles(solved, laid).ok_or(Failure::Failed("the metric has no circles".into()));
+                let written = all.and_then(|all| outputs.add_json(path, &all));
+                solved.failed.attempt("circles", written)?;
+            }
+        }
+        Err(why) => {
+            let of_layout = [
+                ("uv", args.to.uv.is_some()),
+                ("xref", args.to.xref.is_some()),
+                ("circles", args.circles.is_some()),
+                ("charts", args.charts),
+                ("picture", args.picture.base.is_svg()),
+            ];
+            let missing = of_layout.into_iter().filter(|(_, asked)| *asked);
+            outcome.solved.failed.0.extend(missing.map(|(wish, _)| (wish, why.clone())));
         }
     }
     control.check()?;
-    let drawable = |path: &&PathBuf| outcome.layout.is_ok() || !show::is_svg(path);
-    if let Some(path) = args.picture.base.picture.as_ref().filter(drawable) {
-        let threads = args.common.threads();
-        let written = outputs.add(path, |out| show::draw(out, path, input, outcome, &args.picture, threads));
-        outcome.failed.attempt("picture", written)?;
+    let drawable = outcome.layout.is_ok() || !args.picture.base.is_svg();
+    if let Some(path) = args.picture.base.picture.as_ref().filter(|_| drawable) {
+        let draw = || show::draw(input, outcome, &args.picture, args.to.common.threads);
+        let drawn = doing("drawing", draw);
+        let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
+        outcome.solved.failed.attempt("picture", written)?;
     }
-    let Outcome { mesh, metric, scheme, .. } = &*outcome;
-    let all = outcome.layout.as_ref().ok().and_then(|laid| circles(mesh, metric, scheme.name(), laid));
-    if let (Some(path), Some(all)) = (&args.circles, all) {
-        let written = outputs.add_json(path, &all);
-        outcome.failed.attempt("circles", written)?;
-    }
-    outcome.seconds.write += begin.elapsed().as_secs_f64();
+    outcome.solved.seconds.write += begin.elapsed().as_secs_f64();
     control.step(Stage::Write, 0.5)?;
-    let mut report_failed = Ok(());
-    if let Some(path) = &args.common.report {
-        let seconds = Seconds { total: start.elapsed().as_secs_f64(), ..outcome.seconds };
+    let (mut report_failed, figures) = (Ok(()), figures::of_flow(input, outcome));
+    if let Some(path) = &args.to.common.report {
+        let seconds = Seconds { total: start.elapsed().as_secs_f64(), ..outcome.solved.seconds };
         let asked = Asked::new(args, input, outcome);
-        report_failed = outputs.add_report(path, &report(input, outcome, asked, seconds));
+        let report = Report::new("flow", InputSummary::of(input), asked, figures.clone());
+        report_failed = outputs.add_report(path, &report.finished(outcome.checks(), seconds));
     }
     control.check()?;
     let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
-    report_failed.map(|()| files)
-}
-
-fn write_metric(outputs: &mut Outputs, path: &Path, outcome: &Outcome) -> Result<(), Failure> {
-    let Outcome { mesh, scheme, metric, lengths, final_target, mirror, .. } = outcome;
-    let factor = outcome.initial.conformal_factor(metric)?;
-    let lost = metric.length_remainders(mesh)?;
-    let file =
-        MetricFile::new(mesh, *scheme, metric, [lengths, &lost], &factor, final_target, mirror.as_deref());
-    outputs.add_json(path, &file)
+    report_failed.map(|()| (files, figures))
 }
 
 /// What was asked, defaults put in: a run with these options is this run.
 #[derive(Serialize)]
-pub struct Asked {
-    weld: Option<f64>,
+struct Asked<'a> {
     space: &'static str,
-    scheme: SchemeChoice,
-    target: String,
-    method: MethodChoice,
-    area_normalised: bool,
-    pin: Vec<u32>,
-    flips: FlipsChoice,
-    keep_edges: Option<String>,
-    tolerance: f64,
-    max_iterations: usize,
     input_geometry: &'static str,
-    threads: usize,
-    metric: Option<String>,
-    uv: Option<String>,
-    on: OnChoice,
-    circles: Option<String>,
+    target: String,
+    pin: Vec<u32>,
+    max_iterations: usize,
     #[serde(flatten)]
-    picture: FlowPictureArgs,
-    homogeneous: bool,
-    charts: bool,
-    margin: f64,
-    trace: Option<String>,
+    args: &'a FlowArgs,
 }
 
-impl Asked {
-    fn new(args: &FlowArgs, input: &Input, outcome: &Outcome) -> Self {
-        let text = |path: &Option<PathBuf>| path.as_deref().map(path_text);
+impl Asked<'_> {
+    fn new<'a>(args: &'a FlowArgs, input: &Input, outcome: &Outcome) -> Asked<'a> {
         Asked {
-            weld: args.surface.weld,
-            space: outcome.metric.space.name(),
-            scheme: args.solve.scheme,
-            target: args.target.as_ref().map_or_else(|| rule_text(&outcome.rule), ToString::to_string),
-            method: args.solve.method,
-            area_normalised: args.area_normalised,
-            pin: outcome.pinned.iter().map(|v| v.0).collect(),
-            flips: args.solve.flips,
-            keep_edges: text(&args.keep_edges),
-            tolerance: args.solve.tolerance,
-            max_iterations: options(args).iteration_limit(),
+            space: outcome.solved.solution.metric().space.name(),
             input_geometry: input.surface.geometry().name(),
-            threads: args.common.threads(),
-            metric: text(&args.metric),
-            uv: text(&args.uv),
-            on: args.on,
-            circles: text(&args.circles),
-            picture: args.picture.clone(),
-            homogeneous: args.homogeneous,
-            charts: args.charts,
-            margin: args.margin,
-            trace: text(&args.trace),
+            target: args.target.as_ref().map_or_else(|| rule_text(&outcome.rule), ToString::to_string),
+            pin: outcome.pinned.iter().map(|v| v.0).collect(),
+            max_iterations: options(args).iteration_limit(),
+            args,
         }
     }
 }
@@ -330,15 +310,4 @@ fn rule_text(rule: &Target) -> String {
         }
         rule => rule.name().into(),
     }
-}
-
-/// The report of a flow.
-pub fn report<O: Serialize>(
-    input: &Input,
-    outcome: &Outcome,
-    asked: O,
-    seconds: Seconds,
-) -> Report<O, FlowResult> {
-    Report::new("flow", InputSummary::of(input), asked, FlowResult::new(input, outcome))
-        .finished(outcome.checks(), seconds)
 }

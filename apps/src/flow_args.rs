@@ -1,10 +1,10 @@
 //! The options of `ricci flow`.
 
-use crate::options::{Common, OnChoice, SolveArgs, SurfaceArgs, distance};
+use crate::options::{FileName, MetricArgs, distance};
 use crate::picture::FlowPictureArgs;
 use clap::{Args, ValueEnum};
 use ricci::geometry::Space;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -16,7 +16,7 @@ Example: eight cones, and charts in the unit square
     ricci flow torus.obj --target auto:8 --charts --uv atlas.obj --picture atlas.svg
 
 Files
-    --target cones:FILE.csv    rows `vertex,curvature` in radians; 0 at every vertex that is not named
+    --target cones:FILE.csv    rows `vertex,curvature`, vertices numbered from 0, radians; 0 where none is named
     --metric M.json            faces, lengths, eta (per face, opposite the corners: bc, ca, ab), u,
                                conformal_factor, epsilon, target, boundary; `input_geometry` is the
                                geometry that `lengths` are in, so the file can be read back as a MESH
@@ -27,66 +27,58 @@ Files
     --circles C.json           vertex circles and the circles orthogonal to them, in the layout's coordinates
     --trace T.csv              step,energy,max_curvature_error,area,step_size (gradient flow)";
 
-#[derive(Args, Debug)]
+#[derive(Args, Serialize, Debug)]
 pub struct FlowArgs {
     #[command(flatten)]
-    pub surface: SurfaceArgs,
+    #[serde(flatten)]
+    pub to: MetricArgs,
     /// Background geometry; auto is h2 on closed surfaces of genus ≥ 2 and e2 elsewhere
     #[arg(long, value_enum, default_value_t = SpaceChoice::Auto)]
+    #[serde(skip)]
     pub space: SpaceChoice,
     /// Curvature: uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
     #[arg(long, value_name = "TARGET", long_help = TARGET_HELP)]
+    #[serde(skip)]
     pub target: Option<TargetChoice>,
-    #[command(flatten)]
-    pub solve: SolveArgs,
     /// Keep the total area during the gradient flow (E²)
     #[arg(long)]
     pub area_normalised: bool,
-    /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,…
+    /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,… (numbered from 0)
     #[arg(long, value_name = "VERTICES")]
+    #[serde(skip)]
     pub pin: Option<PinChoice>,
-    /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex
+    /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex (numbered from 0)
     #[arg(long, value_name = "E.csv")]
-    pub keep_edges: Option<PathBuf>,
-    /// Write the metric
-    #[arg(long, value_name = "M.json")]
-    pub metric: Option<PathBuf>,
-    /// Write the surface with its layout as texture coordinates (E²; H² of closed surfaces), .obj or .glb
-    #[arg(long, value_name = "OUT.obj")]
-    pub uv: Option<PathBuf>,
-    /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
-    #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
-    pub on: OnChoice,
+    pub keep_edges: Option<FileName>,
     /// Write homogeneous texture coordinates to --uv, `vt qx qy q`: the projective map of each piece is linear in them
     #[arg(long, requires = "uv")]
     pub homogeneous: bool,
     /// Write the vertex circles and dual circles of the layout (circle schemes, E²)
     #[arg(long, value_name = "C.json")]
-    pub circles: Option<PathBuf>,
+    pub circles: Option<FileName>,
     #[command(flatten)]
+    #[serde(flatten)]
     pub picture: FlowPictureArgs,
     /// Write the steps of the gradient flow
     #[arg(long, value_name = "T.csv")]
-    pub trace: Option<PathBuf>,
+    pub trace: Option<FileName>,
     /// Cut a layout that overlaps itself into charts that do not, packed into the unit square (--uv, --picture)
     #[arg(long)]
     pub charts: bool,
     /// Least distance of two charts, in sides of the unit square
     #[arg(long, value_name = "DISTANCE", default_value_t = 1.0 / 256.0, value_parser = distance, requires = "charts")]
     pub margin: f64,
-    #[command(flatten)]
-    pub common: Common,
 }
 
 const TARGET_HELP: &str = "\
 Prescribed curvature in radians:
   uniform         2πχ/V at every vertex of a closed surface in E²; 0 everywhere in H² and S²
   boundary        0 inside, 2πχ shared over the boundary in proportion to its length (E², open surfaces)
-  single:V        all of 2πχ at vertex V, 0 elsewhere (E²)
+  single:V        all of 2πχ at vertex V (numbered from 0), 0 elsewhere (E²)
   auto:N          N cones where they lower the distortion of area most, 0 elsewhere inside (E²)
   cones:FILE.csv  the curvatures of the file's rows `vertex,curvature`, 0 elsewhere
   file:FILE.csv   the curvature of every vertex
-[default: boundary on open surfaces in E²; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
+[default: boundary on open surfaces of genus 0 in E², auto:N on those with handles, N = |χ| from 4 to 64; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
 with --pin 0 at every vertex that is not pinned]";
 
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
@@ -170,12 +162,6 @@ impl FromStr for PinChoice {
         }
         let vertex = |v: &str| v.trim().parse().map_err(|_| format!("`{v}` is not a vertex number"));
         text.split(',').map(vertex).collect::<Result<_, _>>().map(PinChoice::Vertices)
-    }
-}
-
-impl Serialize for TargetChoice {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
     }
 }
 

@@ -1,22 +1,23 @@
 //! What `ricci flow` says on stdout.
 
+use crate::failure::Failure;
 use crate::job::Outcome;
 use crate::laid::Laid;
 use crate::report::Done;
-use crate::say::{count, ending, lines, modulus, slivers, surface, tolerance};
+use crate::say::{count, ending, lines, modulus, surface, tolerance};
 use ricci::flow::StopReason;
 use ricci::mesh::VertexId;
 
 /// The summary of a flow.
-pub fn say(done: &Done<Outcome>) {
+pub fn say(done: &Done<Outcome>) -> Result<(), Failure> {
     let outcome = &done.result;
     let report = &outcome.report;
     let mut text = surface(&done.input);
     text += &format!(
         "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}{}\n",
-        outcome.metric.space,
-        outcome.scheme,
-        outcome.rule.name(),
+        outcome.solved.solution.metric().space,
+        outcome.solved.scheme,
+        outcome.rule_name,
         report.stop_reason,
         count(report.iterations, "step", "steps"),
         report.max_curvature_error,
@@ -33,9 +34,7 @@ pub fn say(done: &Done<Outcome>) {
         Ok(laid) => format!("layout   {}\n", layout(laid)),
         Err(why) => format!("layout   none: {why}\n"),
     };
-    text += &slivers(&done.input, &done.checks);
-    text += &ending(&outcome.left_out, &outcome.failed, &done.checks, &done.files, done.seconds);
-    lines(&text);
+    lines(&(text + &ending(done, &outcome.solved)), &done.files)
 }
 
 /// The quality of a layout.
@@ -66,7 +65,7 @@ fn why(outcome: &Outcome) -> String {
     if report.stop_reason == StopReason::BrokenTriangles {
         return format!(
             "no metric of the scheme on this triangulation: its energy is least with broken {}",
-            named("face", "faces", &outcome.curvature.broken)
+            named("face", "faces", &outcome.solved.curvature.broken)
         );
     }
     if let Some(o) = &report.obstruction {

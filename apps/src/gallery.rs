@@ -1,14 +1,13 @@
 //! `ricci gallery`: one picture per kind of surface and of picture, each by the command line that is written beside it.
 
 use crate::cli::{Command, GalleryArgs};
-use crate::demo::parse;
+use crate::csv::read_text;
+use crate::demo::{execute, make_directory, parse};
 use crate::failure::Failure;
-use crate::input::read_text;
 use crate::output::Outputs;
-use crate::report::Checks;
-use crate::{flow, info, make, say, uniform};
+use crate::report::path_text;
+use crate::{info, make, say};
 use ricci::Control;
-use std::io::Write;
 use std::path::Path;
 
 /// The pictures, a line each.
@@ -56,14 +55,13 @@ const SIZE: u32 = 320;
 
 /// Run the command; a picture that cannot be made is left out, with the reason in the table, and gives exit code 1.
 pub fn run(args: &GalleryArgs, control: &Control) -> Result<u8, Failure> {
-    let out = &args.out;
-    std::fs::create_dir_all(out)
-        .map_err(|e| Failure::Usage(format!("{}: cannot be made: {e}", out.display())))?;
+    make_directory(&args.out)?;
     let meshes = args.meshes.as_deref();
     let index = meshes.map_or(Ok(String::new()), |folder| read_text(&folder.join("good/INDEX.csv")))?;
     let mut page = PREFACE.to_string();
     let mut exit_code = 0;
     let scratch = tempfile::tempdir().map_err(|e| Failure::Failed(format!("no temporary directory: {e}")))?;
+    let studio = Studio { args, scratch: scratch.path(), control };
     for (title, mut rows) in sections() {
         rows.retain(|row| meshes.is_some() || !matches!(row.source, Corpus(_)));
         if rows.is_empty() {
@@ -72,9 +70,8 @@ pub fn run(args: &GalleryArgs, control: &Control) -> Result<u8, Failure> {
         page += &format!("\n## {title}\n\n| picture | what it is | by |\n|---|---|---|\n");
         for row in &rows {
             control.check()?;
-            let (shown, result) = draw(row, out, scratch.path(), meshes, args, control);
-            let Row { name, about, .. } = row;
-            let image = match result {
+            let (Row { name, about, .. }, shown) = (row, row.shown());
+            let image = match studio.draw(row) {
                 Ok(()) => format!("![{name}]({name}.png)"),
                 Err(Failure::Cancelled) => return Err(Failure::Cancelled),
                 Err(failure) => {
@@ -88,12 +85,12 @@ pub fn run(args: &GalleryArgs, control: &Control) -> Result<u8, Failure> {
             };
             page += &format!("| {image} | **{name}**: {about}{credit} | {shown} |\n");
             if !args.common.quiet {
-                say::lines(&format!("{name}: {shown}\n"));
+                say::lines(&format!("{name}: {shown}\n"), say::NO_FILES)?;
             }
         }
     }
     let mut outputs = Outputs::default();
-    outputs.add(&out.join("README.md"), |file| file.write_all(page.as_bytes()))?;
+    outputs.add_bytes(&args.out.join("README.md"), page.as_bytes())?;
     outputs.commit()?;
     Ok(exit_code)
 }
@@ -125,71 +122,74 @@ copy that the others are moved images of is blue. Every picture is made by the c
 beside it (with `--size 320 --palette`).
 ";
 
-/// Draw a row; returns the command lines as a reader would type them.
-fn draw(
-    row: &Row,
-    out: &Path,
-    scratch: &Path,
-    meshes: Option<&Path>,
-    args: &GalleryArgs,
-    control: &Control,
-) -> (String, Result<(), Failure>) {
-    let mut shown = Vec::new();
-    let (make, file) = match row.source {
-        Made(line, extension) => (Some(line), format!("{}.{extension}", row.name)),
-        Corpus(name) => (None, format!("{name}.obj")),
-    };
-    let path = match meshes {
-        Some(folder) if make.is_none() => folder.join("good").join(&file),
-        _ => scratch.join(&file),
-    };
-    let picture = out.join(format!("{}.png", row.name));
-    let small = format!("--size={SIZE} --palette");
-    let quiet = format!("--quiet --threads={}", args.common.threads());
-    let words = |line: &str| -> Vec<String> {
-        let to = |word: &str| match word {
-            "{}" => path.to_string_lossy().into_owned(),
-            "PICTURE" => picture.to_string_lossy().into_owned(),
-            word => word.into(),
+impl Row {
+    /// The surface's file.
+    fn file(&self) -> String {
+        match self.source {
+            Made(_, extension) => format!("{}.{extension}", self.name),
+            Corpus(name) => format!("{name}.obj"),
+        }
+    }
+
+    /// The command lines as a reader would type them.
+    fn shown(&self) -> String {
+        let (file, picture) = (self.file(), format!(" --picture {}.png", self.name));
+        let make = match self.source {
+            Made(line, _) => {
+                let own = if self.draw.is_empty() { picture.as_str() } else { "" };
+                Some(format!("`ricci make {line} -o {file}{own}`"))
+            }
+            Corpus(_) => None,
         };
-        line.split_whitespace().map(to).collect()
-    };
-    let drawing = format!("--picture PICTURE {small} {quiet}");
-    let run = || -> Result<(), Failure> {
-        if let Some(line) = make {
-            let own = if row.draw.is_empty() { drawing.as_str() } else { quiet.as_str() };
-            if let Command::Make(args) = parse(words(&format!("make {line} -o {{}} {own}")))? {
+        let draw = self.draw.replace("{}", &file);
+        let draw = (!draw.is_empty()).then(|| format!("`ricci {draw}{picture}`"));
+        make.into_iter().chain(draw).collect::<Vec<_>>().join("<br>")
+    }
+}
+
+/// Where pictures are made.
+struct Studio<'a> {
+    args: &'a GalleryArgs,
+    /// A directory for surfaces.
+    scratch: &'a Path,
+    control: &'a Control,
+}
+
+impl Studio<'_> {
+    /// Make the picture of a row.
+    fn draw(&self, row: &Row) -> Result<(), Failure> {
+        let GalleryArgs { out, meshes, common } = self.args;
+        let surface = match (&row.source, meshes) {
+            (Corpus(_), Some(folder)) => folder.join("good").join(row.file()),
+            _ => self.scratch.join(row.file()),
+        };
+        let words = |line: String| -> Vec<String> {
+            let to = |word: &str| match word {
+                "{}" => path_text(&surface),
+                "PICTURE" => path_text(&out.join(format!("{}.png", row.name))),
+                word => word.into(),
+            };
+            line.split_whitespace().map(to).collect()
+        };
+        let quiet = format!("--quiet --threads={}", common.threads);
+        let drawing = format!("--picture PICTURE --size={SIZE} --palette {quiet}");
+        if let Made(line, _) = row.source {
+            let own = if row.draw.is_empty() { &drawing } else { &quiet };
+            if let Command::Make(args) = parse(words(format!("make {line} -o {{}} {own}")))? {
                 make::run(&args)?;
             }
         }
-        match row.draw {
-            "" => Ok(()),
-            line => match parse(words(&format!("{line} {drawing}")))? {
-                Command::Flow(args) => held(&flow::execute(&args, control)?.checks),
-                Command::Uniformize(args) => held(&uniform::execute_uniformize(&args, control)?.checks),
-                Command::Cover(args) => held(&uniform::execute_cover(&args, control)?.checks),
-                Command::Info(args) => info::run(&args, control).map(|_| ()),
-                other => Err(Failure::Failed(format!("{other:?} draws nothing"))),
-            },
+        if row.draw.is_empty() {
+            return Ok(());
         }
-    };
-    let result = run();
-    let name = format!("--picture {}.png", row.name);
-    if let Some(line) = make {
-        let own = if row.draw.is_empty() { format!(" {name}") } else { String::new() };
-        shown.push(format!("`ricci make {line} -o {file}{own}`"));
-    }
-    if !row.draw.is_empty() {
-        shown.push(format!("`ricci {} {name}`", row.draw.replace("{}", &file)));
-    }
-    (shown.join("<br>"), result)
-}
-
-/// A failure if a check does not hold.
-fn held(checks: &Checks) -> Result<(), Failure> {
-    match checks.failed().as_slice() {
-        [] => Ok(()),
-        failed => Err(Failure::Failed(format!("these checks fail: {failed:?}"))),
+        let command = parse(words(format!("{} {drawing}", row.draw)))?;
+        if let Command::Info(args) = &command {
+            return info::run(args, self.control).map(|_| ());
+        }
+        match execute(command, self.control)?.checks.failed().as_slice() {
+            [] => Ok(()),
+            failed => Err(Failure::Failed(format!("these checks fail: {failed:?}"))),
+        }
     }
 }
 

@@ -1,39 +1,41 @@
 //! `ricci info`.
 
 use crate::failure::Failure;
-use crate::input::{self, Input};
-use crate::options::{Common, SurfaceArgs, distance};
-use crate::output::{Outputs, check_extension, check_outputs, extension};
+use crate::input::{self, Content};
+use crate::metric_file;
+use crate::options::{Common, MeshArgs};
+use crate::output::{Outputs, check_extension, check_outputs};
 use crate::picture::SurfacePictureArgs;
-use crate::report::{Checks, InputSummary, Report, Seconds, path_text, timed};
-use crate::say::{self, count};
+use crate::report::{Checks, Counts, InputSummary, Report, Seconds, timed};
+use crate::say::{self, count, size};
 use crate::shape_quality::{self, ShapeQuality};
 use crate::show;
 use clap::Args;
 use ricci::Control;
-use ricci::geometry::{Space, triangle};
+use ricci::Surface;
+use ricci::control::Stage;
+use ricci::geometry::triangle;
 use ricci::mesh::check::{Defect, Diagnosis, diagnose};
 use ricci::mesh::io::Soup;
 use ricci::mesh::{FaceId, Mesh};
-use ricci::metric::lengths_from_positions;
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::Path;
 use std::time::Instant;
 
 pub const HELP: &str = "\
 Example: every defect of a scan, machine-readable
     ricci info scan.obj --report scan.json";
 
-#[derive(Args, Debug)]
+#[derive(Args, Serialize, Debug)]
 pub struct InfoArgs {
-    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json)
-    pub mesh: PathBuf,
-    /// STL: corners within this distance are one vertex; 0: those in exactly the same place
-    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
-    pub weld: Option<f64>,
     #[command(flatten)]
+    #[serde(flatten)]
+    pub file: MeshArgs,
+    #[command(flatten)]
+    #[serde(flatten)]
     pub picture: SurfacePictureArgs,
     #[command(flatten)]
+    #[serde(flatten)]
     pub common: Common,
 }
 
@@ -82,76 +84,74 @@ impl From<&Defect> for DefectFigures {
     }
 }
 
-#[derive(Serialize)]
-struct Asked {
-    weld: Option<f64>,
-    #[serde(flatten)]
-    picture: SurfacePictureArgs,
-    threads: usize,
-}
-
 /// Run the command: 0 on every file that can be read, whatever its defects.
 pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
-    let files = [&args.common.report, &args.picture.base.picture];
-    check_outputs(&[Some(&args.mesh)], &files.map(|path| path.as_deref()))?;
     let picture = args.picture.base.picture.as_deref();
+    check_outputs(&[Some(&args.file.mesh)], &[args.common.report.as_deref(), picture])?;
     check_extension("--picture", picture, &["png"])?;
-    let intrinsic = extension(&args.mesh) == "json" && args.weld.is_none();
-    if picture.is_some() && intrinsic {
-        return Err(Failure::Usage("--picture: an intrinsic metric has no positions in space".into()));
-    }
-    let mut outputs = Outputs::default();
-    let mut seconds = Seconds::default();
-    let (summary, info) = if intrinsic {
-        let surface = SurfaceArgs { mesh: args.mesh.clone(), weld: None, input_geometry: None };
-        match input::read(&surface, control) {
-            Ok(surface) => {
-                (seconds.read, seconds.build) = (surface.seconds_read, surface.seconds_build);
-                (InputSummary::of(&surface), Info::of_metric(&surface))
-            }
-            Err(Failure::Defects(diagnosis) | Failure::Unglued(diagnosis)) => {
-                let quality = shape_quality::of_triangles(&[], &[]);
-                (summary_of(&diagnosis, path_text(&args.mesh)), Info::new(&diagnosis, quality))
-            }
-            Err(failure) => return Err(failure),
+    let (mut outputs, mut seconds) = (Outputs::default(), Seconds::default());
+    control.step(Stage::Read, 0.0)?;
+    let content = timed(&mut seconds.read, || input::content(&args.file))?;
+    control.step(Stage::Build, 0.0)?;
+    let (counts, info) = match &content {
+        Content::Lengths(_) if picture.is_some() => {
+            return Err(Failure::Usage("--picture: an intrinsic metric has no positions in space".into()));
         }
-    } else {
-        let soup = timed(&mut seconds.read, || input::read_soup(&args.mesh, args.weld))?;
-        let (diagnosis, quality) = timed(&mut seconds.build, || {
-            let quality =
-                shape_of(&soup).unwrap_or_else(|| shape_quality::of_triangles(&soup.positions, &soup.faces));
-            (diagnose(&soup.positions, &soup.faces), quality)
-        });
-        if let Some(path) = picture {
-            let draw = || {
-                outputs.add(path, |out| {
-                    let threads = args.common.threads();
-                    show::draw_surface(out, &soup.positions, &soup.faces, &args.picture, threads)
-                })
-            };
-            timed(&mut seconds.write, draw)?;
-        }
-        (summary_of(&diagnosis, path_text(&args.mesh)), Info::new(&diagnosis, quality))
+        Content::Lengths(text) => timed(&mut seconds.build, || of_metric(&args.file.mesh, text))?,
+        Content::Triangles(soup) => timed(&mut seconds.build, || of_soup(soup)),
     };
-    if !args.common.quiet {
-        say::lines(&text(&summary, &info));
+    if let (Content::Triangles(soup), Some(path)) = (&content, picture) {
+        let draw = || show::draw_surface(soup, &args.picture, args.common.threads);
+        outputs.add_bytes(path, &timed(&mut seconds.write, draw)?)?;
     }
+    let summary = InputSummary::new(&args.file.mesh, counts);
+    let text = text(&summary, &info);
     if let Some(path) = &args.common.report {
-        let picture = args.picture.clone();
-        let asked = Asked { weld: args.weld, picture, threads: args.common.threads() };
         seconds.total = start.elapsed().as_secs_f64();
-        let report = Report::new("info", summary, asked, info).finished(Checks::default(), seconds);
+        let report = Report::new("info", summary, args, info).finished(Checks::default(), seconds);
         outputs.add_report(path, &report)?;
     }
-    outputs.commit()?;
+    let files = outputs.commit()?;
+    if !args.common.quiet {
+        say::lines(&text, &files)?;
+    }
     Ok(0)
+}
+
+/// What a list of triangles is.
+fn of_soup(soup: &Soup) -> (Counts, Info) {
+    let diagnosis = diagnose(&soup.positions, &soup.faces);
+    if let Some(message) = input::out_of_range(soup) {
+        // Angles and areas of such faces say nothing.
+        let mut info = Info::new(&diagnosis, shape_quality::of_triangles(&[], &[]));
+        let code = "coordinate_out_of_range";
+        info.defects.retain(|defect| defect.code != "zero_area_face");
+        info.defect_counts.retain(|kind| kind.code != "zero_area_face");
+        let remedy = "scale the mesh, or give the vertex its place";
+        info.defects.push(DefectFigures { code, message, vertices: Vec::new(), faces: Vec::new(), remedy });
+        info.defect_counts.push(DefectCount { code, count: 1 });
+        return (Counts::from(&diagnosis), Info { admissible: false, ..info });
+    }
+    let quality = || shape_quality::of_triangles(&soup.positions, &soup.faces);
+    (Counts::from(&diagnosis), Info::new(&diagnosis, shape_of(soup).unwrap_or_else(quality)))
+}
+
+/// What an intrinsic metric is.
+fn of_metric(path: &Path, text: &str) -> Result<(Counts, Info), Failure> {
+    match metric_file::parse(path, text, None) {
+        Ok(surface) => Ok((Counts::from(&**surface.mesh()), Info::of_metric(&surface))),
+        Err(Failure::Defects(diagnosis) | Failure::Unglued(diagnosis)) => {
+            let quality = shape_quality::of_triangles(&[], &[]);
+            Ok((Counts::from(&*diagnosis), Info::new(&diagnosis, quality)))
+        }
+        Err(failure) => Err(failure),
+    }
 }
 
 impl Info {
     /// An intrinsic metric is a surface already; its lengths may still form no triangles.
-    fn of_metric(surface: &Input) -> Self {
-        let surface = &surface.surface;
+    fn of_metric(surface: &Surface) -> Self {
         let (mesh, lengths, geometry) = (surface.mesh(), surface.lengths(), surface.geometry());
         let broken =
             |f: &FaceId| triangle::angles(geometry, mesh.opposite_edges(*f).map(|e| lengths[e])).broken();
@@ -167,7 +167,7 @@ impl Info {
             .then_some(DefectCount { code: "triangle_inequality", count: defects.len() });
         Info {
             admissible: defects.is_empty(),
-            quality: shape_quality::of_surface(mesh, geometry, lengths),
+            quality: shape_quality::of_surface(surface),
             defect_counts: counted.into_iter().collect(),
             defects,
         }
@@ -186,44 +186,29 @@ impl Info {
 /// Quality of a triangle list that is a surface.
 fn shape_of(soup: &Soup) -> Option<ShapeQuality> {
     let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces).ok()?;
-    let lengths = lengths_from_positions(&mesh, &soup.positions).ok()?;
-    Some(shape_quality::of_surface(&mesh, Space::E2, &lengths))
-}
-
-pub fn summary_of(diagnosis: &Diagnosis, path: String) -> InputSummary {
-    InputSummary {
-        path,
-        vertices: diagnosis.vertices,
-        edges: diagnosis.edges,
-        faces: diagnosis.faces,
-        components: diagnosis.components,
-        euler: diagnosis.euler,
-        genus: diagnosis.genus,
-        boundary_loops: diagnosis.boundary_loops,
-    }
+    Some(shape_quality::of_surface(&Surface::in_space(mesh, soup.positions.clone()).ok()?))
 }
 
 /// Defects of one kind that are printed one by one; the report has them all.
 const PRINTED: usize = 8;
 
 fn text(summary: &InputSummary, info: &Info) -> String {
+    let Counts { vertices, edges, faces, components, euler, genus, boundary_loops } = summary.counts;
     let mut text = format!(
-        "{}\n{}, {}, {}, {}\nEuler characteristic {}, genus {}, boundary loops {}\n",
+        "{}\n{}, {}, {}, {}\nEuler characteristic {euler}, genus {}, boundary loops {boundary_loops}\n",
         summary.path,
-        count(summary.vertices, "vertex", "vertices"),
-        count(summary.edges, "edge", "edges"),
-        count(summary.faces, "face", "faces"),
-        count(summary.components, "component", "components"),
-        summary.euler,
-        summary.genus.map_or("undefined".into(), |n| n.to_string()),
-        summary.boundary_loops,
+        count(vertices, "vertex", "vertices"),
+        count(edges, "edge", "edges"),
+        count(faces, "face", "faces"),
+        count(components, "component", "components"),
+        genus.map_or("undefined".into(), |n| n.to_string()),
     );
     let q = &info.quality;
     text += &format!(
-        "area {:.6e}, smallest angle {}, longest over shortest edge {}\nobtuse faces {}, non-Delaunay edges {}\n",
-        q.area,
+        "area {}, smallest angle {}, longest over shortest edge {}\nobtuse faces {}, non-Delaunay edges {}\n",
+        size(q.area, 6),
         q.min_angle_degrees.map_or("undefined".into(), |x| format!("{x:.4}°")),
-        q.edge_ratio.map_or("undefined".into(), |x| format!("{x:.4}")),
+        q.edge_ratio.map_or("undefined".into(), |x| size(x, 4)),
         percent(q.obtuse_fraction),
         percent(q.non_delaunay_fraction),
     );

@@ -1,16 +1,18 @@
 //! The surface that a command works on.
 
+use crate::csv::read_text;
 use crate::failure::Failure;
-use crate::metric_file::{self, Intrinsic};
-use crate::options::SurfaceArgs;
-use crate::output::extension;
-use crate::timing::timed;
+use crate::metric_file;
+use crate::options::MeshArgs;
+use crate::output::{STANDARD, extension};
+use crate::timing::{Seconds, timed};
 use ricci::Control;
 use ricci::Surface;
 use ricci::control::Stage;
 use ricci::geometry::Space;
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::{Mesh, Point};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// A connected oriented surface with edge lengths.
@@ -19,37 +21,116 @@ pub struct Input {
     pub surface: Surface,
     /// What else the mesh file says of vertices and corners.
     pub attributes: Attributes,
-    pub seconds_read: f64,
-    pub seconds_build: f64,
+    /// Those of reading and building.
+    pub seconds: Seconds,
 }
 
-/// Read a mesh file ([`read_soup`]) or, from a name that ends in `.json`, an intrinsic metric.
-pub fn read(args: &SurfaceArgs, control: &Control) -> Result<Input, Failure> {
-    let (path, weld) = (args.mesh.as_path(), args.weld);
-    let (mut seconds_read, mut seconds_build) = (0.0, 0.0);
+/// What a file holds.
+pub enum Content {
+    /// The text of an intrinsic metric.
+    Lengths(String),
+    Triangles(Soup),
+}
+
+/// Read a mesh file or, from a name that ends in `.json`, the text of an intrinsic metric; what kind of file stdin is, is seen from its
+/// first bytes.
+pub fn content(file: &MeshArgs) -> Result<Content, Failure> {
+    let path = &file.mesh;
+    if path == Path::new(STANDARD) {
+        return from_stdin(file.weld);
+    }
+    let kind = extension(path);
+    match file.weld {
+        None if kind == "json" => Ok(Content::Lengths(read_text(path)?)),
+        None => Ok(Content::Triangles(io::read(path)?)),
+        Some(weld) if kind == "stl" => Ok(Content::Triangles(io::read_stl(path, weld)?)),
+        Some(_) => Err(Failure::Usage(WELD_ELSEWHERE.into())),
+    }
+}
+
+const WELD_ELSEWHERE: &str = "--weld: only an STL file has no vertices of its own; ricci repair welds";
+
+fn from_stdin(weld: Option<f64>) -> Result<Content, Failure> {
+    let mut bytes = Vec::new();
+    std::io::stdin().lock().read_to_end(&mut bytes).map_err(|e| Failure::Input(format!("stdin: {e}")))?;
+    let kind = kind_of(&bytes);
+    let name = "stdin";
+    Ok(Content::Triangles(match (kind, weld) {
+        ("stl", Some(weld)) => io::parse_stl_welded(&bytes, name, weld)?,
+        (_, Some(_)) => return Err(Failure::Usage(WELD_ELSEWHERE.into())),
+        ("json", _) => return Ok(Content::Lengths(String::from_utf8_lossy(&bytes).into_owned())),
+        ("stl", _) => io::parse_stl(&bytes, name)?,
+        ("ply", _) => io::parse_ply(&bytes, name)?,
+        ("off", _) => io::parse_off(&bytes, name)?,
+        ("glb", _) => io::parse_glb(&bytes, name)?,
+        ("gii", _) => io::parse_gifti(&bytes, name)?,
+        _ => io::parse_obj(&bytes, name)?,
+    }))
+}
+
+/// The extension of files that begin like this; that of OBJ, which has no beginning of its own, for all others.
+fn kind_of(bytes: &[u8]) -> &'static str {
+    let text = bytes.trim_ascii_start();
+    let first = text.split(|b| b.is_ascii_whitespace()).next().unwrap_or_default();
+    let has = |word: &[u8]| text.windows(word.len()).any(|w| w == word);
+    let count = bytes.get(80..84).and_then(|n| n.try_into().ok()).map(u32::from_le_bytes);
+    match first {
+        _ if bytes.starts_with(b"glTF") => "glb",
+        _ if count.is_some_and(|n| bytes.len() as u64 == 84 + 50 * u64::from(n)) => "stl",
+        b"ply" => "ply",
+        b"solid" => "stl",
+        _ if first.ends_with(b"OFF") => "off",
+        _ if text.starts_with(b"<") => "gii",
+        _ if text.starts_with(b"{") && has(b"\"asset\"") => "glb",
+        _ if text.starts_with(b"{") => "json",
+        _ => "obj",
+    }
+}
+
+/// Read a mesh file that is to hold triangles.
+pub fn read_triangles(path: &Path) -> Result<Soup, Failure> {
+    match content(&MeshArgs { mesh: path.into(), weld: None })? {
+        Content::Triangles(soup) => Ok(soup),
+        Content::Lengths(_) => {
+            Err(Failure::Input(format!("{}: an intrinsic metric has no triangles in space", path.display())))
+        }
+    }
+}
+
+/// Largest coordinate, and least length, whose products with others doubles hold.
+const RANGE: [f64; 2] = [1e-150, 1e150];
+
+/// The first coordinate that is too large to compute with, if there is one.
+pub fn out_of_range(soup: &Soup) -> Option<String> {
+    let coordinates = soup.positions.iter().enumerate().flat_map(|(v, p)| p.iter().map(move |x| (v, *x)));
+    let (v, x) = coordinates.into_iter().find(|(_, x)| x.is_finite() && x.abs() > RANGE[1])?;
+    let [least, most] = RANGE;
+    Some(format!(
+        "vertex {v}: the coordinate {x:e} is outside the range: lengths between {least:e} and {most:e} (rescale)"
+    ))
+}
+
+/// Read a surface; its lengths in a `geometry` other than the file's if one is given.
+pub fn read(file: &MeshArgs, geometry: Option<Space>, control: &Control) -> Result<Input, Failure> {
+    let path = file.mesh.clone();
+    let mut seconds = Seconds::default();
     control.step(Stage::Read, 0.0)?;
-    let geometry = args.input_geometry.map(Space::from);
-    let (surface, attributes) = if extension(path) == "json" && weld.is_none() {
-        let text = timed(&mut seconds_read, || read_text(path))?;
-        let build = || -> Result<_, Failure> {
-            let Intrinsic { mesh, lengths, geometry: written } = metric_file::parse(path, &text)?;
-            Ok(Surface::intrinsic(mesh, lengths, geometry.unwrap_or(written))?)
-        };
-        (timed(&mut seconds_build, build)?, Attributes::default())
-    } else {
-        let soup = timed(&mut seconds_read, || read_soup(path, weld))?;
-        control.step(Stage::Build, 0.0)?;
-        let build = || -> Result<_, Failure> {
-            let surface = Surface::from_soup(&soup)?;
-            Ok(match geometry {
-                Some(geometry) => surface.read_in(geometry),
-                None => surface,
-            })
-        };
-        (timed(&mut seconds_build, build)?, soup.attributes)
-    };
+    let content = timed(&mut seconds.read, || content(file))?;
+    control.step(Stage::Build, 0.0)?;
+    let (surface, attributes) = timed(&mut seconds.build, || -> Result<_, Failure> {
+        Ok(match content {
+            Content::Lengths(text) => (metric_file::parse(&path, &text, geometry)?, Attributes::default()),
+            Content::Triangles(soup) => {
+                if let Some(why) = out_of_range(&soup) {
+                    return Err(Failure::Input(format!("{}: {why}", path.display())));
+                }
+                let surface = Surface::from_soup(&soup)?;
+                (geometry.into_iter().fold(surface, Surface::read_in), soup.attributes)
+            }
+        })
+    })?;
     control.check()?;
-    Ok(Input { path: path.into(), surface, attributes, seconds_read, seconds_build })
+    Ok(Input { path, surface, attributes, seconds })
 }
 
 impl Input {
@@ -61,20 +142,4 @@ impl Input {
     pub fn positions(&self) -> Option<&[Point]> {
         self.surface.positions().map(|positions| positions.as_slice())
     }
-}
-
-/// Read a mesh file; the corners of an STL file are one vertex within the distance `weld`.
-pub fn read_soup(path: &Path, weld: Option<f64>) -> Result<Soup, Failure> {
-    match weld {
-        None => Ok(io::read(path)?),
-        Some(weld) if extension(path) == "stl" => Ok(io::read_stl(path, weld)?),
-        Some(_) => Err(Failure::Usage(
-            "--weld: only an STL file has no vertices of its own; ricci repair welds".into(),
-        )),
-    }
-}
-
-/// The text of a file, with the file's name in the error.
-pub fn read_text(path: &Path) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|e| Failure::Input(format!("{}: {e}", path.display())))
 }

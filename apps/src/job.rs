@@ -1,15 +1,16 @@
 //! One flow from input to layout: what `ricci flow` and `ricci demo` run.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 use crate::input::Input;
-use crate::laid::{self, Laid};
-use crate::report::{Attempts, Checks, Seconds, timed};
+use crate::laid::{self, Laid, is_carried_back};
+use crate::report::{Checks, Seconds, timed};
+use crate::solved::Solved;
 use ricci::Control;
 use ricci::flow;
 use ricci::geometry::{Space, worse};
-use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use ricci::mesh::{Mesh, VertexId};
+use ricci::metric::Scheme;
 use ricci::metric::target::check_vertices;
-use ricci::metric::{Curvature, Initial, Metric, Scheme};
 use ricci::{Class, Flow, Target};
 
 /// What to compute.
@@ -18,6 +19,8 @@ pub struct Job {
     pub scheme: Scheme,
     /// `None`: the default of the surface's topology.
     pub target: Option<Target>,
+    /// What the summary calls the target, where that is not the name of its rule.
+    pub target_name: Option<String>,
     pub options: flow::Options,
     /// Whether an output needs the layout.
     pub laid_out: bool,
@@ -25,34 +28,16 @@ pub struct Job {
 
 /// The metric that a flow reached, with its layout where it has one.
 pub struct Outcome {
-    pub scheme: Scheme,
     /// The rule that gave the target.
     pub rule: Target,
-    /// The curvature asked for, per given vertex; at pinned vertices what came out.
-    pub target: PerVertex<f64>,
-    /// The same per vertex of `mesh`.
-    pub final_target: PerVertex<f64>,
+    /// What it is called in the summary.
+    pub rule_name: String,
     /// Vertices whose conformal factor was held.
     pub pinned: Vec<VertexId>,
-    /// Where the flow started, on the Delaunay triangulation if edges were flipped.
-    pub initial: Initial,
-    /// Isometric flips before the flow.
-    pub start_flips: usize,
-    /// Per vertex of `mesh` its mirror image, if that is the double of the given surface.
-    pub mirror: Option<Vec<u32>>,
-    /// The final triangulation, of the given surface or of its double.
-    pub mesh: Mesh,
-    pub metric: Metric,
-    pub lengths: PerEdge<f64>,
-    pub curvature: Curvature,
     pub report: flow::Report,
+    pub solved: Solved,
     /// The layout, or why there is none.
     pub layout: Result<Laid, String>,
-    /// Wishes that the flow was no obstacle to but something else was.
-    pub failed: Attempts,
-    /// What the input's file holds and the layout's file does not.
-    pub left_out: Vec<&'static str>,
-    pub seconds: Seconds,
 }
 
 /// The space of a surface when none is asked for.
@@ -66,39 +51,34 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     let mut start = 0.0;
     let mut flow = timed(&mut start, || Flow::new(input.surface.clone(), class, &job.options, control))?;
     let solution = flow.solve(&rule, control)?;
-
-    // What goes wrong from here on is no fault of the input.
-    let failed = |error: ricci::Error| Failure::Failed(error.to_string());
-    let (mesh, metric) = (solution.mesh(), solution.metric());
-    let lengths = metric.lengths(mesh).map_err(failed)?;
-    let curvature = metric.curvature(mesh).map_err(failed)?;
-    let (Some(report), Some(target), Some(final_target)) =
-        (solution.report().cloned(), solution.target().cloned(), solution.final_target()?)
-    else {
+    let (Some(report), target) = (solution.report().cloned(), solution.final_target()?) else {
         return Err(Failure::Failed("the flow has left no report".into()));
     };
     let mut seconds = Seconds::new(input, &report.seconds);
     seconds.flip += start;
-    let layout = laid::lay_out(input, &solution, &curvature, job.laid_out, &mut seconds, control)?;
-    Ok(Outcome {
-        scheme: job.scheme,
-        rule,
-        final_target,
-        target,
-        pinned: job.options.pinned,
-        initial: solution.initial().clone(),
-        start_flips: solution.start_flips(),
-        mirror: solution.double().map(|double| mesh.vertices().map(|v| double.mirror(v).0).collect()),
-        mesh: Mesh::clone(mesh),
-        metric: metric.clone(),
-        lengths,
-        curvature,
-        report,
-        layout,
-        failed: Attempts::default(),
-        left_out: Vec::new(),
-        seconds,
-    })
+    let mut solved = Solved::new(solution, target, seconds)?;
+    solved.may_flip = job.options.flips != flow::Flips::Never;
+    let layout = match no_layout(&solved, job.laid_out) {
+        Some(why) => Err(why),
+        None => told(laid::lay_out(input, &mut solved, control))?,
+    };
+    let rule_name = job.target_name.unwrap_or_else(|| rule.name().into());
+    Ok(Outcome { rule, rule_name, pinned: job.options.pinned, report, solved, layout })
+}
+
+/// Why a metric is not laid out; `needed`: by an output.
+fn no_layout(solved: &Solved, needed: bool) -> Option<String> {
+    let broken = &solved.curvature.broken;
+    if solved.solution.metric().space == Space::S2 {
+        Some("ricci uniformize lays spheres out".into())
+    } else if let Some(first) = broken.first() {
+        let n = broken.len();
+        Some(format!("{n} triangles break the triangle inequality (the first is face {first})"))
+    } else if !is_carried_back(&solved.solution, needed) {
+        Some("edge flips led far away, and no output needs the way back to the given triangulation".into())
+    } else {
+        None
+    }
 }
 
 /// The target that was asked for or is the default of the surface. What is asked for must be possible on the given triangulation; a
@@ -118,33 +98,32 @@ fn rule(input: &Input, job: &Job) -> Result<Target, Failure> {
     Ok(rule.clone())
 }
 
-/// Gauss–Bonnet must hold to this. Each of the 3F angles is off by a few ulp, which add up like a random walk: 1e-12 for a
-/// million faces.
-pub const GAUSS_BONNET: f64 = 1e-10;
-
 /// u at mirror images may differ by this: what rounding does where edges were flipped in another order.
 const MIRROR: f64 = 1e-8;
 
 impl Outcome {
-    /// max |K − K̄| of the metric as it is written.
-    pub fn curvature_error(&self) -> f64 {
-        self.curvature.at.iter().zip(&self.final_target).fold(0.0, |m, (k, t)| worse(m, (k - t).abs()))
+    /// The curvature asked for, per given vertex; at pinned vertices what came out.
+    pub fn target(&self, v: VertexId) -> f64 {
+        self.solved.solution.target().map_or(0.0, |target| target[v])
+    }
+
+    /// Interior vertices that a list of cones names, with their curvature.
+    pub fn named_cones(&self, input: &Input) -> Option<Vec<(VertexId, f64)>> {
+        let Target::Cones(cones) = &self.rule else { return None };
+        Some(cones.iter().filter(|c| !input.mesh().is_boundary_vertex(c.0)).copied().collect())
     }
 
     /// What the result is held against.
     pub fn checks(&self) -> Checks {
-        let mut checks = Checks::default();
-        checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET);
-        checks.add("max_curvature_error", self.curvature_error(), self.report.allowed_error());
-        if let Some(mirror) = &self.mirror {
-            let u = &self.metric.u;
-            let differs = |(v, &image): (VertexId, &u32)| (u[v] - u[VertexId(image)]).abs();
-            let most = self.mesh.vertices().zip(mirror).map(differs).fold(0.0, worse);
-            checks.add("mirror_symmetry", most, MIRROR);
+        let mut checks = self.solved.checks(self.report.allowed_error());
+        let solution = &self.solved.solution;
+        if let Some(double) = solution.double() {
+            let u = &solution.metric().u;
+            let differs = |v: VertexId| (u[v] - u[double.mirror(v)]).abs();
+            checks.add("mirror_symmetry", solution.mesh().vertices().map(differs).fold(0.0, worse), MIRROR);
         }
-        checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
         if let Ok(laid) = &self.layout {
-            checks.add("layout_consistency", laid.consistency(), laid.consistency_limit);
+            checks.add("layout_consistency", laid.layout.consistency(), laid.consistency_limit);
             if let Some(packed) = &laid.packed {
                 checks.add("overlapping_in_charts", packed.overlapping as f64, 0.0);
             }

@@ -1,15 +1,15 @@
 //! The layout of a flow's metric with what is said about it.
 
-use crate::failure::Failure;
 use crate::input::Input;
-use crate::report::{Seconds, timed};
+use crate::report::timed;
+use crate::solved::Solved;
 use ricci::Control;
 use ricci::control::Stage;
 use ricci::embed::{Charts, Layout, OnInput, Quality, UnrollOptions, unroll};
 use ricci::flow::Solution;
-use ricci::geometry::Space;
-use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
-use ricci::metric::{Curvature, Refinement};
+use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, Point, VertexId};
+use ricci::metric::Refinement;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Crossings per edge up to which the common refinement is formed for the summary alone: it then costs no more than the flow.
@@ -50,51 +50,26 @@ pub struct Laid {
     pub consistency_limit: f64,
 }
 
-/// Lay the metric of a flow out on the given surface, or say why it has no layout. `needed`: by an output.
-pub fn lay_out(
-    input: &Input,
-    flow: &Solution,
-    curvature: &Curvature,
-    needed: bool,
-    seconds: &mut Seconds,
-    control: &Control,
-) -> Result<Result<Laid, String>, Failure> {
-    if flow.metric().space == Space::S2 {
-        return Ok(Err("ricci uniformize lays spheres out".into()));
-    }
-    if let Some(first) = curvature.broken.first() {
-        let n = curvature.broken.len();
-        return Ok(Err(format!("{n} triangles break the triangle inequality (the first is face {first})")));
-    }
-    if !is_carried_back(flow, needed) {
-        let why = "edge flips led far away, and no output needs the way back to the given triangulation";
-        return Ok(Err(why.into()));
-    }
+/// Lay the metric of a flow out on the given surface.
+pub fn lay_out(input: &Input, solved: &mut Solved, control: &Control) -> ricci::Result<Laid> {
     control.step(Stage::Layout, 0.0)?;
-    let sum = |wanted: PerVertex<f64>| -> f64 {
-        curvature.at.iter().zip(wanted.iter()).map(|(k, t)| (k - t).abs()).sum()
+    let mut seconds = solved.seconds;
+    let solution = &solved.solution;
+    let refinement = match solution.is_unflipped() {
+        true => None,
+        false => Some(Arc::new(timed(&mut seconds.refine, || solution.refinement(control))?)),
     };
-    let errors = flow.final_target()?.map_or(0.0, sum);
-    let mut unrolled = || -> ricci::Result<Laid> {
-        let refinement = match flow.is_unflipped() {
-            true => None,
-            false => Some(Arc::new(timed(&mut seconds.refine, || flow.refinement(control))?)),
-        };
-        timed(&mut seconds.layout, || {
-            let options = UnrollOptions { refinement, ..UnrollOptions::default() };
-            Laid::new(input, flow, unroll(flow, &options, control)?, errors)
-        })
-    };
-    match unrolled() {
-        Ok(laid) => Ok(Ok(laid)),
-        Err(ricci::Error::Cancelled) => Err(Failure::Cancelled),
-        Err(error) => Ok(Err(error.to_string())),
-    }
+    let laid = timed(&mut seconds.layout, || {
+        let options = UnrollOptions { refinement, ..UnrollOptions::default() };
+        Laid::new(input, solved, unroll(solution, &options, control)?)
+    });
+    solved.seconds = seconds;
+    laid
 }
 
 impl Laid {
-    /// A layout of a metric of the input. `errors`: the sum of |K − K̄| over the vertices.
-    pub fn new(input: &Input, result: &Solution, layout: Layout, errors: f64) -> ricci::Result<Laid> {
+    /// A layout of a metric of the input.
+    pub fn new(input: &Input, solved: &Solved, layout: Layout) -> ricci::Result<Laid> {
         let quality = layout.quality(input.mesh(), input.surface.lengths())?;
         let given = input.positions();
         let (weight, positions, degenerate) = match layout.refinement() {
@@ -103,7 +78,7 @@ impl Laid {
                 (r.weight.clone(), positions, layout.degenerate.clone())
             }
             None => {
-                let (before, after) = (&result.initial().input_u, &result.metric().u);
+                let (before, after) = (&solved.solution.initial().input_u, &solved.solution.metric().u);
                 let weight = PerVertex::from_fn(after.len(), |v: VertexId| (before[v] - after[v]).exp());
                 (weight, given.map(<[Point]>::to_vec), quality.degenerate.clone())
             }
@@ -115,7 +90,7 @@ impl Laid {
             packed: None,
             degenerate,
             modulus: layout.modulus(),
-            consistency_limit: layout.consistency_limit(errors),
+            consistency_limit: layout.consistency_limit(solved.total_error()),
             quality,
             layout,
         })
@@ -145,15 +120,39 @@ impl Laid {
         &self.layout.flipped
     }
 
-    /// Half-edges on the left side of the cut, with the number of their seam.
-    pub fn seams(&self) -> Vec<(HalfedgeId, usize)> {
-        let segments = self.layout.cut.segments.iter().enumerate();
-        segments.flat_map(|(k, segment)| segment.iter().map(move |&h| (h, k))).collect()
+    /// The points of the layout as it is written and drawn: in charts where it was cut into them.
+    pub fn coordinates(&self) -> &[[f64; 2]] {
+        self.packed.as_ref().map_or(&self.layout.coordinates, |packed| &packed.charts.coordinates)
     }
 
-    /// Largest disagreement between the layout and the metric or between the two sides of a seam: relative to the layout's diameter in E²,
-    /// a distance in H².
-    pub fn consistency(&self) -> f64 {
-        self.layout.consistency()
+    /// The point of the corner at each half-edge's origin.
+    pub fn corner_index(&self) -> &PerHalfedge<u32> {
+        self.packed.as_ref().map_or(&self.layout.corner_index, |packed| &packed.charts.corner_index)
+    }
+
+    pub fn corner_uv(&self, h: HalfedgeId) -> [f64; 2] {
+        self.coordinates()[self.corner_index()[h] as usize]
+    }
+
+    pub fn face_uv(&self, f: FaceId) -> [[f64; 2]; 3] {
+        self.mesh().face_halfedges(f).map(|h| self.corner_uv(h))
+    }
+
+    /// Half-edges on the left side of the cut with the number of their seam; beyond these, one number for each pair of charts.
+    pub fn seams(&self) -> Vec<(HalfedgeId, usize)> {
+        let (mesh, segments) = (self.mesh(), &self.layout.cut.segments);
+        let of_segment =
+            |(k, segment): (usize, &Vec<HalfedgeId>)| -> Vec<_> { segment.iter().map(|&h| (h, k)).collect() };
+        let mut numbered: Vec<_> = segments.iter().enumerate().flat_map(of_segment).collect();
+        let Some(packed) = &self.packed else { return numbered };
+        let mut between = packed.charts.is_seam.clone();
+        numbered.iter().for_each(|(h, _)| between[h.edge()] = false);
+        let mut pairs = BTreeMap::new();
+        for h in mesh.edges().filter(|&e| between[e]).map(|e| e.halfedge()) {
+            let [a, b] = [h, h.twin()].map(|h| mesh.face(h).map(|f| packed.charts.chart[f]));
+            let next = segments.len() + pairs.len();
+            numbered.push((h, *pairs.entry([a.min(b), a.max(b)]).or_insert(next)));
+        }
+        numbered
     }
 }

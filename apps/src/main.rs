@@ -1,5 +1,7 @@
 //! The `ricci` command.
 
+#![warn(clippy::too_many_lines)]
+
 mod carry;
 mod charts;
 mod checkerboard;
@@ -30,6 +32,7 @@ mod say;
 mod shape;
 mod shape_quality;
 mod show;
+mod solved;
 mod timing;
 mod uniform;
 mod uv;
@@ -45,6 +48,10 @@ fn main() -> ExitCode {
     match run(&cli.command) {
         Ok(code) => ExitCode::from(code),
         Err(failure) => {
+            let told = cli.command.report_failure(&failure);
+            if let Err(why) = told {
+                let _ = writeln!(std::io::stderr(), "ricci: {why}");
+            }
             let _ = writeln!(std::io::stderr(), "ricci: {failure}");
             ExitCode::from(failure.exit_code())
         }
@@ -65,8 +72,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "ricci", &mut script);
-            say::lines(&String::from_utf8_lossy(&script));
-            Ok(0)
+            say::lines(&String::from_utf8_lossy(&script), say::NO_FILES).map(|()| 0)
         }
     }
 }

@@ -3,19 +3,17 @@
 use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
 use crate::options::Common;
-use crate::output::{Outputs, check_extension, check_outputs, extension};
-use crate::report::{Checks, InputSummary, Report, Seconds};
+use crate::output::{Outputs, check_extension, check_outputs, extension, format_of};
+use crate::report::{Checks, Counts, InputSummary, Report, Seconds};
 use crate::say::{self, count};
 use crate::shape::{Shape, ToMesh, ToMetric};
 use crate::shape_quality::{self, ShapeQuality};
 use crate::show;
 use clap::Args;
-use ricci::geometry::Space;
+use ricci::Surface;
 use ricci::geometry::hyperelliptic::period_matrix;
-use ricci::mesh::io::{self, Format, Soup};
+use ricci::mesh::io::{self, Soup};
 use ricci::mesh::shapes::{self, Intrinsic, TorusKnot};
-use ricci::mesh::{Mesh, PerEdge};
-use ricci::metric::lengths_from_positions;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
@@ -103,22 +101,18 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Inst
     check_extension("--picture", picture, &["png"])?;
     check_outputs(&[], &[Some(&to.out), report, picture])?;
     let soup = to.spoil.apply(soup?)?;
-    let mesh = Mesh::from_soup(&soup)?;
-    let Soup { positions, faces, .. } = &soup;
-    let lengths = lengths_from_positions(&mesh, positions)?;
+    let surface = Surface::from_soup(&soup)?;
     let mut outputs = Outputs::default();
     if extension(&to.out) == "json" {
-        outputs.add_json(&to.out, &LengthsFile::new(&mesh, Space::E2, &lengths))?;
+        write_lengths(&mut outputs, &to.out, &surface)?;
     } else {
-        let format = Format::of(&to.out)?;
+        let format = format_of(&to.out)?;
         outputs.add_named(&to.out, |path| io::write_as(path, format, &soup))?;
     }
-    if let Some(path) = &to.picture.base.picture {
-        outputs
-            .add(path, |out| show::draw_surface(out, positions, faces, &to.picture, to.common.threads()))?;
+    if let Some(path) = picture {
+        outputs.add_bytes(path, &show::draw_surface(&soup, &to.picture, to.common.threads)?)?;
     }
-    let made = Made { out: &to.out, mesh: &mesh, geometry: Space::E2, lengths: &lengths };
-    made.finish(outputs, shape, &to.common, start)
+    Made { out: &to.out, surface, outputs, start }.finish(shape, &to.common)
 }
 
 fn write_metric(
@@ -127,19 +121,19 @@ fn write_metric(
     shape: &Shape,
     start: Instant,
 ) -> Result<u8, Failure> {
-    if extension(&to.out) != "json" {
-        let out = to.out.display();
-        return Err(Failure::Usage(format!(
-            "-o {out}: this surface has no positions; write its lengths, .json"
-        )));
-    }
+    let name = "-o (this surface has no positions; its lengths are written)";
+    check_extension(name, Some(&to.out), &["json"])?;
     check_outputs(&[], &[Some(&to.out), to.common.report.as_deref()])?;
-    let surface = surface?;
-    let (mesh, lengths) = surface.build()?;
+    let given = surface?;
+    let (mesh, lengths) = given.build()?;
+    let surface = Surface::intrinsic(mesh, lengths, given.geometry)?;
     let mut outputs = Outputs::default();
-    outputs.add_json(&to.out, &LengthsFile::new(&mesh, surface.geometry, &lengths))?;
-    let made = Made { out: &to.out, mesh: &mesh, geometry: surface.geometry, lengths: &lengths };
-    made.finish(outputs, shape, &to.common, start)
+    write_lengths(&mut outputs, &to.out, &surface)?;
+    Made { out: &to.out, surface, outputs, start }.finish(shape, &to.common)
+}
+
+fn write_lengths(outputs: &mut Outputs, path: &Path, surface: &Surface) -> Result<(), Failure> {
+    outputs.add_json(path, &LengthsFile::new(surface.mesh(), surface.geometry(), surface.lengths()))
 }
 
 /// What the report says of the surface.
@@ -158,42 +152,37 @@ fn known_periods(shape: &Shape) -> ricci::Result<Option<Vec<Vec<[f64; 2]>>>> {
     Ok(Some(tau.iter().map(|row| row.iter().map(|z| [z.re, z.im]).collect()).collect()))
 }
 
-/// The surface that was made.
+/// A surface that was made, with its files.
 struct Made<'a> {
     out: &'a Path,
-    mesh: &'a Mesh,
-    geometry: Space,
-    lengths: &'a PerEdge<f64>,
+    surface: Surface,
+    outputs: Outputs,
+    start: Instant,
 }
 
 impl Made<'_> {
     /// Write the report, put the files in place, say what was made.
-    fn finish(
-        self,
-        mut outputs: Outputs,
-        shape: &Shape,
-        common: &Common,
-        start: Instant,
-    ) -> Result<u8, Failure> {
-        let Made { out, mesh, geometry, lengths } = self;
+    fn finish(mut self, shape: &Shape, common: &Common) -> Result<u8, Failure> {
+        let summary = InputSummary::new(self.out, &**self.surface.mesh());
+        let Counts { vertices, faces, genus, boundary_loops, .. } = summary.counts;
+        let text = format!(
+            "{}: {}, {}, genus {}, {}\n",
+            self.out.display(),
+            count(vertices, "vertex", "vertices"),
+            count(faces, "face", "faces"),
+            genus.unwrap_or(0),
+            count(boundary_loops, "boundary loop", "boundary loops"),
+        );
         if let Some(path) = &common.report {
-            let summary = InputSummary::of_mesh(out, mesh);
-            let quality = shape_quality::of_surface(mesh, geometry, lengths);
+            let quality = shape_quality::of_surface(&self.surface);
             let result = MadeResult { quality, period_matrix: known_periods(shape)? };
-            let seconds = Seconds { total: start.elapsed().as_secs_f64(), ..Seconds::default() };
+            let seconds = Seconds { total: self.start.elapsed().as_secs_f64(), ..Seconds::default() };
             let report = Report::new("make", summary, shape, result).finished(Checks::default(), seconds);
-            outputs.add_report(path, &report)?;
+            self.outputs.add_report(path, &report)?;
         }
-        outputs.commit()?;
+        let files = self.outputs.commit()?;
         if !common.quiet {
-            say::lines(&format!(
-                "{}: {}, {}, genus {}, {}\n",
-                out.display(),
-                count(mesh.n_vertices(), "vertex", "vertices"),
-                count(mesh.n_faces(), "face", "faces"),
-                mesh.genus(),
-                count(mesh.boundary_loops().len(), "boundary loop", "boundary loops"),
-            ));
+            say::lines(&text, &files)?;
         }
         Ok(0)
     }

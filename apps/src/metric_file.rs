@@ -4,10 +4,11 @@
 //! that they read back as the same doubles.
 
 use crate::failure::Failure;
+use ricci::Surface;
+use ricci::flow::Solution;
 use ricci::geometry::Space;
 use ricci::mesh::check::Defect;
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
-use ricci::metric::{Metric, Scheme};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -15,67 +16,10 @@ use std::path::Path;
 /// per face round them apart.
 const LENGTHS_AGREE: f64 = 1e-12;
 
-/// What is written: the metric on its final triangulation.
-#[derive(Serialize)]
-pub struct MetricFile<'a> {
-    space: &'static str,
-    /// The geometry in which `lengths` are to be read: `space`.
-    input_geometry: &'static str,
-    scheme: &'static str,
-    faces: Vec<[u32; 3]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    face_edges: Option<Vec<[i32; 3]>>,
-    eta: Vec<[f64; 3]>,
-    lengths: Vec<[f64; 3]>,
-    /// What the doubles of `lengths` lose of the lengths; left out where that is nothing.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    lengths_lo: Option<Vec<[f64; 3]>>,
-    u: &'a [f64],
-    conformal_factor: &'a [f64],
-    epsilon: &'a [i8],
-    target: &'a [f64],
-    boundary: Vec<bool>,
-    /// Per vertex its mirror image, where the surface is the double of the input: its vertices come first.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    mirror: Option<&'a [u32]>,
-}
-
-impl<'a> MetricFile<'a> {
-    /// `lengths`: as doubles, and what they lose.
-    pub fn new(
-        mesh: &Mesh,
-        scheme: Scheme,
-        metric: &'a Metric,
-        lengths: [&PerEdge<f64>; 2],
-        conformal_factor: &'a PerVertex<f64>,
-        target: &'a PerVertex<f64>,
-        mirror: Option<&'a [u32]>,
-    ) -> Self {
-        let per_face = |values: &PerEdge<f64>| -> Vec<[f64; 3]> {
-            mesh.faces().map(|f| mesh.opposite_edges(f).map(|e| values[e])).collect()
-        };
-        MetricFile {
-            space: metric.space.name(),
-            input_geometry: metric.space.name(),
-            scheme: scheme.name(),
-            faces: mesh.triangles(),
-            face_edges: face_edges_of(mesh),
-            eta: per_face(&metric.eta),
-            lengths: per_face(lengths[0]),
-            lengths_lo: lengths[1].iter().any(|&lo| lo != 0.0).then(|| per_face(lengths[1])),
-            u: &metric.u,
-            conformal_factor,
-            epsilon: &metric.epsilon,
-            target,
-            boundary: mesh.vertices().map(|v| mesh.is_boundary_vertex(v)).collect(),
-            mirror,
-        }
-    }
-}
-
 /// A surface of given edge lengths, without a conformal class: what `ricci make` writes.
 #[derive(Serialize)]
 pub struct LengthsFile {
+    /// The geometry in which `lengths` are to be read.
     input_geometry: &'static str,
     faces: Vec<[u32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -89,9 +33,56 @@ impl LengthsFile {
             input_geometry: geometry.name(),
             faces: mesh.triangles(),
             face_edges: face_edges_of(mesh),
-            lengths: mesh.faces().map(|f| mesh.opposite_edges(f).map(|e| lengths[e])).collect(),
+            lengths: per_face(mesh, lengths),
         }
     }
+}
+
+/// What is written: the metric on its final triangulation.
+#[derive(Serialize)]
+pub struct MetricFile<'a> {
+    space: &'static str,
+    scheme: &'static str,
+    #[serde(flatten)]
+    surface: LengthsFile,
+    eta: Vec<[f64; 3]>,
+    /// What the doubles of `lengths` lose of the lengths; left out where that is nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lengths_lo: Option<Vec<[f64; 3]>>,
+    u: &'a [f64],
+    conformal_factor: Vec<f64>,
+    epsilon: &'a [i8],
+    target: &'a [f64],
+    boundary: Vec<bool>,
+    /// Per vertex its mirror image, where the surface is the double of the input: its vertices come first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mirror: Option<Vec<u32>>,
+}
+
+impl<'a> MetricFile<'a> {
+    /// `target`: per vertex of the solution's triangulation.
+    pub fn new(solution: &'a Solution, target: &'a PerVertex<f64>) -> ricci::Result<Self> {
+        let (mesh, metric) = (solution.mesh(), solution.metric());
+        let lost = metric.length_remainders(mesh)?;
+        Ok(MetricFile {
+            space: metric.space.name(),
+            scheme: solution.scheme()?.name(),
+            surface: LengthsFile::new(mesh, metric.space, &metric.lengths(mesh)?),
+            eta: per_face(mesh, &metric.rounded_eta()),
+            lengths_lo: lost.iter().any(|&lo| lo != 0.0).then(|| per_face(mesh, &lost)),
+            u: &metric.u,
+            conformal_factor: solution.initial().conformal_factor(metric)?.into_vec(),
+            epsilon: &metric.epsilon,
+            target,
+            boundary: mesh.vertices().map(|v| mesh.is_boundary_vertex(v)).collect(),
+            mirror: solution.double().map(|double| mesh.vertices().map(|v| double.mirror(v).0).collect()),
+        })
+    }
+}
+
+/// Values of edges per face, opposite its corners.
+fn per_face(mesh: &Mesh, values: &PerEdge<f64>) -> Vec<[f64; 3]> {
+    mesh.faces().map(|f| mesh.opposite_edges(f).map(|e| values[e])).collect()
 }
 
 /// 1-based edge numbers with the direction as sign, where the faces' vertices alone do not give the surface: where edges
@@ -116,15 +107,8 @@ struct Given {
     input_geometry: Option<String>,
 }
 
-/// A surface read from its faces and lengths.
-pub struct Intrinsic {
-    pub mesh: Mesh,
-    pub lengths: PerEdge<f64>,
-    pub geometry: Space,
-}
-
-/// Read the text of a metric file.
-pub fn parse(path: &Path, text: &str) -> Result<Intrinsic, Failure> {
+/// Read the text of a metric file; `geometry` is to be taken in place of the one that it names.
+pub fn parse(path: &Path, text: &str, geometry: Option<Space>) -> Result<Surface, Failure> {
     let refuse = |why: String| Failure::Input(format!("{}: {why}", path.display()));
     let given: Given = serde_json::from_str(text).map_err(|e| refuse(e.to_string()))?;
     let n_faces = given.faces.len();
@@ -138,7 +122,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Intrinsic, Failure> {
             "`{what}` has {n} entries, one is needed for each of the {n_faces} faces"
         )));
     }
-    let geometry = match given.input_geometry.as_deref() {
+    let written = match given.input_geometry.as_deref() {
         None => Space::E2,
         Some(name) => name.parse().map_err(|e: ricci::Error| refuse(format!("input_geometry: {e}")))?,
     };
@@ -150,13 +134,11 @@ pub fn parse(path: &Path, text: &str) -> Result<Intrinsic, Failure> {
             error => error.into(),
         })?,
     };
-    let sides = given
-        .lengths
-        .into_iter()
-        .zip(given.lengths_lo.into_iter().flatten().chain(std::iter::repeat([0.0; 3])));
-    let sides: Vec<[f64; 3]> = sides.map(|(hi, lo)| std::array::from_fn(|k| hi[k] + lo[k])).collect();
+    let low = given.lengths_lo.into_iter().flatten().chain(std::iter::repeat([0.0; 3]));
+    let sides = given.lengths.into_iter().zip(low);
+    let sides: Vec<[f64; 3]> = sides.map(|(hi, lo)| [0, 1, 2].map(|k| hi[k] + lo[k])).collect();
     let lengths = edge_lengths(&mesh, &sides).map_err(refuse)?;
-    Ok(Intrinsic { mesh, lengths, geometry })
+    Ok(Surface::intrinsic(mesh, lengths, geometry.unwrap_or(written))?)
 }
 
 /// What is a defect of faces given by their vertices, but not of a gluing.

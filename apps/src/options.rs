@@ -1,55 +1,104 @@
 //! Options that several commands share.
 
 use clap::Args;
+use clap::builder::TypedValueParser;
 use ricci::flow::{Flips, Method, Options};
 use ricci::geometry::Space;
 use ricci::metric::Scheme;
-use std::path::PathBuf;
+use serde::{Serialize, Serializer};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
-/// What every command takes.
-#[derive(Args, Debug, Clone)]
-pub struct Common {
-    /// Write all numbers of the run as JSON
-    #[arg(long, value_name = "R.json")]
-    pub report: Option<PathBuf>,
-    /// No progress bar, no summary
-    #[arg(long)]
-    pub quiet: bool,
-    /// Threads, 0 for one per core; results do not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads())]
-    threads: u16,
-}
+/// The name of a file on the command line, which reports hold as text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FileName(PathBuf);
 
-impl Common {
-    /// The number of threads to use, at least 1.
-    pub fn threads(&self) -> usize {
-        match self.threads {
-            0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
-            n => n.into(),
-        }
+impl From<OsString> for FileName {
+    fn from(name: OsString) -> FileName {
+        FileName(name.into())
     }
 }
 
-/// More threads than this help nobody and can exhaust the system.
-fn threads() -> impl clap::builder::TypedValueParser<Value = u16> {
-    clap::value_parser!(u16).range(..=1024)
+impl std::ops::Deref for FileName {
+    type Target = Path;
+
+    fn deref(&self) -> &Path {
+        &self.0
+    }
 }
 
-/// The surface that a metric is computed for.
-#[derive(Args, Debug, Clone)]
-pub struct SurfaceArgs {
-    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json: `faces` and `lengths` suffice)
+impl Serialize for FileName {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.to_string_lossy())
+    }
+}
+
+/// What every command takes.
+#[derive(Args, Serialize, Debug, Clone)]
+pub struct Common {
+    /// Write all numbers of the run as JSON
+    #[arg(long, value_name = "R.json")]
+    #[serde(skip)]
+    pub report: Option<FileName>,
+    /// No progress bar, no summary
+    #[arg(long)]
+    #[serde(skip)]
+    pub quiet: bool,
+    /// Threads, 0 for one per core; results do not depend on it
+    #[arg(long, value_name = "N", default_value = "0", value_parser = threads())]
+    pub threads: usize,
+}
+
+/// More threads than 1024 help nobody and can exhaust the system.
+fn threads() -> impl TypedValueParser<Value = usize> {
+    let all = || std::thread::available_parallelism().map_or(1, |n| n.get());
+    clap::value_parser!(u16).range(..=1024).map(move |n| if n == 0 { all() } else { n.into() })
+}
+
+/// A mesh file, and how it is read.
+#[derive(Args, Serialize, Debug, Clone)]
+pub struct MeshArgs {
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json: `faces` and `lengths` suffice); - for stdin
+    #[serde(skip)]
     pub mesh: PathBuf,
     /// STL: corners within this distance are one vertex; 0: those in exactly the same place
     #[arg(long, value_name = "DISTANCE", value_parser = distance)]
     pub weld: Option<f64>,
+}
+
+/// What the commands take that compute a metric: the surface, the way, and the files that all of them write.
+#[derive(Args, Serialize, Debug, Clone)]
+pub struct MetricArgs {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub file: MeshArgs,
     /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
     #[arg(long, value_enum, value_name = "GEOMETRY")]
+    #[serde(skip)]
     pub input_geometry: Option<GeometryChoice>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub solve: SolveArgs,
+    /// Write the metric
+    #[arg(long, value_name = "M.json")]
+    pub metric: Option<FileName>,
+    /// Write the surface with its layout as texture coordinates (E²; H² of closed surfaces), .obj or .glb
+    #[arg(long, value_name = "OUT.obj")]
+    pub uv: Option<FileName>,
+    /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
+    #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
+    pub on: OnChoice,
+    /// Write where the faces and vertices of --uv lie in the input's: rows output_face,source_face, then
+    /// output_vertex,source_face,b0,b1,b2
+    #[arg(long, value_name = "X.csv", requires = "uv")]
+    pub xref: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub common: Common,
 }
 
 /// How a metric is computed.
-#[derive(Args, Debug, Clone)]
+#[derive(Args, Serialize, Debug, Clone)]
 pub struct SolveArgs {
     /// Discrete conformal structure
     #[arg(long, value_enum, default_value_t = SchemeChoice::Yamabe)]
@@ -65,43 +114,42 @@ pub struct SolveArgs {
     pub tolerance: f64,
     /// Steps before giving up [default: 500 for newton, 200000 for gradient]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[serde(skip)]
     pub max_iterations: Option<u64>,
 }
 
-impl SolveArgs {
+impl MetricArgs {
     /// The library's options for this.
-    pub fn options(&self, threads: usize) -> Options {
+    pub fn options(&self) -> Options {
         Options {
-            method: self.method.into(),
-            tolerance: self.tolerance,
-            flips: self.flips.into(),
-            max_iterations: self.max_iterations.map_or(0, |n| n as usize),
-            threads,
+            method: self.solve.method.into(),
+            tolerance: self.solve.tolerance,
+            flips: self.solve.flips.into(),
+            max_iterations: self.solve.max_iterations.map_or(0, |n| n as usize),
+            threads: self.common.threads,
             ..Options::default()
         }
     }
 }
 
+/// A finite distance, 0 or more.
 pub fn distance(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x >= 0.0 && x.is_finite() => Ok(x),
-        _ => Err("must be a finite distance, 0 or more".into()),
-    }
+    number(text, |x| x >= 0.0, "must be a finite distance, 0 or more")
 }
 
-/// A distance to which copies of a surface can be made: the one at 0 is the surface itself.
+/// A distance to which copies of a surface can be made: within 0 there is the surface alone.
 pub fn radius(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
-        _ => Err("must be a finite distance greater than 0".into()),
-    }
+    number(text, |x| x > 0.0, "must be a finite distance greater than 0")
 }
 
+/// A positive number.
 pub fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
-        _ => Err("must be a positive number".into()),
-    }
+    number(text, |x| x > 0.0, "must be a positive number")
+}
+
+/// A finite number that fits, or the error `else_`.
+pub fn number(text: &str, fits: fn(f64) -> bool, else_: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| x.is_finite() && fits(*x)).ok_or_else(|| else_.into())
 }
 
 /// Choices of an option that are those of a type of the library, by the same names.

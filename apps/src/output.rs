@@ -1,12 +1,48 @@
-//! Files are written beside their destination and renamed into place when all of them are complete.
+//! Files are written beside their destination and renamed into place when all of them are complete; what is no regular file is
+//! written in place.
 
 use crate::failure::Failure;
-use ricci::mesh::io::destination;
+use ricci::mesh::io::{Format, destination};
 use serde::Serialize;
-use std::fs::{self, Permissions};
+use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use tempfile::{Builder, NamedTempFile};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use tempfile::TempDir;
+
+/// The name that stands for stdin and stdout.
+pub const STANDARD: &str = "-";
+
+/// Directories of files that are not in place yet, of this process, and whether all of its files are in place.
+static DRAFTS: Mutex<Drafts> = Mutex::new(Drafts { directories: Vec::new(), in_place: false });
+
+struct Drafts {
+    directories: Vec<PathBuf>,
+    in_place: bool,
+}
+
+fn drafts() -> MutexGuard<'static, Drafts> {
+    DRAFTS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Give up the files that are not in place yet, for a process that is about to end; false if all are in place. Files that are being
+/// put in place are waited for, and no further one will be.
+pub fn abandon() -> bool {
+    let drafts = std::mem::ManuallyDrop::new(drafts());
+    for directory in &drafts.directories {
+        let _ = fs::remove_dir_all(directory);
+    }
+    let abandoned = !drafts.in_place;
+    if !abandoned {
+        drop(std::mem::ManuallyDrop::into_inner(drafts));
+    }
+    abandoned
+}
+
+/// Whether the files of the last run are in place.
+pub fn in_place() -> bool {
+    drafts().in_place
+}
 
 /// The files of one run: none is there before all are complete.
 #[derive(Default)]
@@ -14,32 +50,93 @@ pub struct Outputs {
     pending: Vec<Pending>,
 }
 
-/// A complete file under a temporary name.
+/// A complete file in a directory of its own, which goes with it.
 struct Pending {
-    file: NamedTempFile,
-    /// The name that was asked for, and what it names once links are followed.
+    directory: TempDir,
+    /// The name that was asked for.
     path: PathBuf,
-    target: PathBuf,
-    /// Of the file that is replaced.
-    permissions: Option<Permissions>,
+    place: Place,
+}
+
+/// Where a file goes.
+enum Place {
+    Stdout,
+    /// A device, a pipe or an open file, which is written to.
+    Open,
+    /// A regular file, which is replaced: what its name stands for once links are followed, with the permissions it has.
+    Regular(PathBuf, Option<Permissions>),
+}
+
+impl Place {
+    fn of(path: &Path) -> Place {
+        let exists_otherwise = fs::metadata(path).is_ok_and(|found| !found.is_file());
+        // What a shell has opened is not to be replaced, also where it is a regular file.
+        let opened = ["/dev", "/proc"].iter().any(|root| path.starts_with(root));
+        if path == Path::new(STANDARD) {
+            Place::Stdout
+        } else if exists_otherwise || opened {
+            Place::Open
+        } else {
+            let (target, permissions) = destination(path);
+            Place::Regular(target, permissions)
+        }
+    }
 }
 
 impl Pending {
     fn new(path: &Path) -> io::Result<Pending> {
-        let (target, permissions) = destination(path);
-        Ok(Pending { file: temporary(directory_of(&target))?, path: path.into(), target, permissions })
+        let place = Place::of(path);
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".ricci-");
+        let directory = match &place {
+            Place::Regular(target, _) => builder.tempdir_in(directory_of(target))?,
+            _ => builder.tempdir()?,
+        };
+        let mut drafts = drafts();
+        drafts.directories.push(directory.path().into());
+        drafts.in_place = false;
+        Ok(Pending { directory, path: path.into(), place })
     }
 
-    fn commit(self) -> Result<PathBuf, Failure> {
-        let Pending { file, path, target, permissions } = self;
-        let failed = |e: io::Error| Failure::Failed(format!("{}: {e}", path.display()));
-        if let Some(permissions) = permissions {
-            // The library may have replaced the file itself, so that its handle is that of another.
-            fs::set_permissions(file.path(), permissions).map_err(failed)?;
-        }
-        file.persist(&target).map_err(|e| failed(e.error))?;
-        Ok(path)
+    /// Where the file is written.
+    fn draft(&self) -> PathBuf {
+        self.directory.path().join("draft")
     }
+
+    fn commit(&self) -> Result<PathBuf, Failure> {
+        self.put_in_place().map_err(|e| failed(&self.path, e))?;
+        Ok(self.path.clone())
+    }
+
+    fn put_in_place(&self) -> io::Result<()> {
+        match &self.place {
+            Place::Stdout => {
+                let mut out = io::stdout().lock();
+                io::copy(&mut File::open(self.draft())?, &mut out)?;
+                out.flush()
+            }
+            Place::Open => {
+                let mut out = File::options().append(true).open(&self.path)?;
+                io::copy(&mut File::open(self.draft())?, &mut out).map(drop)
+            }
+            Place::Regular(target, permissions) => {
+                if let Some(permissions) = permissions {
+                    fs::set_permissions(self.draft(), permissions.clone())?;
+                }
+                fs::rename(self.draft(), target)
+            }
+        }
+    }
+}
+
+impl Drop for Pending {
+    fn drop(&mut self) {
+        drafts().directories.retain(|known| known != self.directory.path());
+    }
+}
+
+fn failed(path: &Path, why: impl std::fmt::Display) -> Failure {
+    Failure::Failed(format!("{}: {why}", path.display()))
 }
 
 impl Outputs {
@@ -47,15 +144,18 @@ impl Outputs {
     pub fn add(
         &mut self,
         path: &Path,
-        write: impl FnOnce(&mut BufWriter<&mut NamedTempFile>) -> io::Result<()>,
+        write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        let failed = |e: io::Error| Failure::Failed(format!("{}: {e}", path.display()));
-        let mut pending = Pending::new(path).map_err(failed)?;
-        let mut buffer = BufWriter::new(&mut pending.file);
-        write(&mut buffer).and_then(|()| buffer.flush()).map_err(failed)?;
-        drop(buffer);
+        let pending = Pending::new(path).map_err(|e| failed(path, e))?;
+        let mut buffer = BufWriter::new(File::create(pending.draft()).map_err(|e| failed(path, e))?);
+        write(&mut buffer).and_then(|()| buffer.flush()).map_err(|e| failed(path, e))?;
         self.pending.push(pending);
         Ok(())
+    }
+
+    /// Write these bytes.
+    pub fn add_bytes(&mut self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+        self.add(path, |out| out.write_all(bytes))
     }
 
     /// Let the library write a file by name.
@@ -64,9 +164,8 @@ impl Outputs {
         path: &Path,
         write: impl FnOnce(&Path) -> ricci::Result<T>,
     ) -> Result<T, Failure> {
-        let failed = |e: String| Failure::Failed(format!("{}: {e}", path.display()));
-        let pending = Pending::new(path).map_err(|e| failed(e.to_string()))?;
-        let written = write(pending.file.path()).map_err(|e| failed(e.to_string()))?;
+        let pending = Pending::new(path).map_err(|e| failed(path, e))?;
+        let written = write(&pending.draft()).map_err(|e| failed(path, e))?;
         self.pending.push(pending);
         Ok(written)
     }
@@ -87,10 +186,14 @@ impl Outputs {
         })
     }
 
-    /// Rename every file into place; returns their names. Links stay links, and permissions those of what is replaced. Where one
-    /// fails, the others are still there.
+    /// Put every file in place; returns their names. Links stay links, and permissions those of what is replaced. Where one fails, the
+    /// others are still there.
     pub fn commit(self) -> Result<Vec<PathBuf>, Failure> {
-        let done: Vec<_> = self.pending.into_iter().map(Pending::commit).collect();
+        // Locked: a process that is to end waits for this.
+        let mut drafts = drafts();
+        let done: Vec<_> = self.pending.iter().map(Pending::commit).collect();
+        drafts.in_place = true;
+        drop(drafts);
         done.into_iter().collect()
     }
 }
@@ -98,10 +201,15 @@ impl Outputs {
 /// A usage error if a file of this name could not be written: found before the work, not after it.
 fn check_writable(path: &Path) -> Result<(), Failure> {
     let refuse = |why: String| Err(Failure::Usage(format!("{}: {why}", path.display())));
-    if path.is_dir() {
-        return refuse("is a directory".into());
-    }
-    let directory = directory_of(path);
+    let target = match Place::of(path) {
+        _ if path.is_dir() => return refuse("is a directory".into()),
+        Place::Regular(_, Some(permissions)) if permissions.readonly() => {
+            return refuse("is write-protected".into());
+        }
+        Place::Regular(target, _) => target,
+        Place::Stdout | Place::Open => return Ok(()),
+    };
+    let directory = directory_of(&target);
     if !directory.is_dir() {
         return refuse(format!("the directory {} does not exist", directory.display()));
     }
@@ -113,7 +221,8 @@ fn check_writable(path: &Path) -> Result<(), Failure> {
 
 /// A usage error if two outputs are one file, if one would take the place of an input, or could not be written.
 pub fn check_outputs(inputs: &[Option<&Path>], outputs: &[Option<&Path>]) -> Result<(), Failure> {
-    let inputs: Vec<_> = inputs.iter().flatten().map(|path| (path, place_of(path))).collect();
+    let files = inputs.iter().flatten().filter(|path| **path != Path::new(STANDARD));
+    let inputs: Vec<_> = files.map(|path| (path, place_of(path))).collect();
     let mut seen: Vec<(&Path, PathBuf)> = Vec::new();
     for path in outputs.iter().flatten() {
         let place = place_of(path);
@@ -142,11 +251,28 @@ fn place_of(path: &Path) -> PathBuf {
     }
 }
 
-/// A usage error unless the file that an option names, if it names one, has one of these extensions (lower case).
+/// A usage error unless the file that an option names, if it names one, has one of these extensions (lower case). What is no regular
+/// file has the format of the first.
 pub fn check_extension(option: &str, path: Option<&Path>, known: &[&str]) -> Result<(), Failure> {
-    let Some(path) = path.filter(|path| !known.contains(&extension(path).as_str())) else { return Ok(()) };
+    let named = |path: &&Path| matches!(Place::of(path), Place::Regular(..));
+    let Some(path) = path.filter(named).filter(|path| !known.contains(&extension(path).as_str())) else {
+        return Ok(());
+    };
     let known: Vec<_> = known.iter().map(|e| format!(".{e}")).collect();
     Err(Failure::Usage(format!("{option} {}: the name must end in {}", path.display(), known.join(" or "))))
+}
+
+/// Whether a file of this name is the process's stdout.
+pub fn is_stdout(path: &Path) -> bool {
+    [STANDARD, "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
+}
+
+/// The format of a mesh file that is written: OBJ where the name says none.
+pub fn format_of(path: &Path) -> Result<Format, Failure> {
+    match Place::of(path) {
+        Place::Regular(..) => Ok(Format::of(path)?),
+        Place::Stdout | Place::Open => Ok(Format::of(path).unwrap_or(Format::Obj)),
+    }
 }
 
 /// The extension in lower case.
@@ -156,16 +282,4 @@ pub fn extension(path: &Path) -> String {
 
 fn directory_of(path: &Path) -> &Path {
     path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
-
-/// A temporary file that will have the permissions of an ordinary one (those the umask leaves).
-fn temporary(directory: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = Builder::new();
-    builder.prefix(".ricci-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(directory)
 }

@@ -1,10 +1,13 @@
 //! A progress bar on a terminal, and Ctrl-C.
 
+use crate::failure::Failure;
+use crate::output;
 use indicatif::{ProgressBar, ProgressStyle};
 use ricci::Control;
 use ricci::control::Stage;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -12,6 +15,11 @@ use std::time::Duration;
 const REFRESH: Duration = Duration::from_millis(100);
 /// Runs shorter than this show no bar.
 const PATIENCE: Duration = Duration::from_millis(400);
+/// Time that work has to end by itself after Ctrl-C.
+const GRACE: Duration = Duration::from_millis(60);
+
+/// What is being done, where the library has no stage for it.
+static WORK: Mutex<Option<&str>> = Mutex::new(None);
 
 /// Shows where a `Control` is until dropped.
 pub struct Progress {
@@ -37,7 +45,8 @@ impl Progress {
             }
             while stopped.recv_timeout(REFRESH) == Err(RecvTimeoutError::Timeout) {
                 let (stage, fraction) = control.progress();
-                bar.set_message(if control.is_cancelled() { "stopping" } else { stage_name(stage) });
+                let work = WORK.lock().unwrap_or_else(PoisonError::into_inner).unwrap_or(stage_name(stage));
+                bar.set_message(if control.is_cancelled() { "stopping" } else { work });
                 bar.set_position((1000.0 * fraction) as u64);
             }
             bar.finish_and_clear();
@@ -55,6 +64,15 @@ impl Drop for Progress {
     }
 }
 
+/// Do some work, which the bar names.
+pub fn doing<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
+    let name = |what| *WORK.lock().unwrap_or_else(PoisonError::into_inner) = what;
+    name(Some(what));
+    let done = work();
+    name(None);
+    done
+}
+
 fn stage_name(stage: Stage) -> &'static str {
     match stage {
         Stage::Idle => "",
@@ -66,11 +84,19 @@ fn stage_name(stage: Stage) -> &'static str {
     }
 }
 
-/// A control that Ctrl-C cancels.
+/// A control that Ctrl-C cancels. Work that has not ended a moment later is left where it is: nothing is there yet of its files, and the
+/// temporary ones are removed.
 pub fn cancellable() -> Control {
     let control = Control::new();
     let handle = control.clone();
-    // Without a handler Ctrl-C ends the process at once, which leaves nothing half-written either.
-    let _ = ctrlc::set_handler(move || handle.cancel());
+    // Without a handler Ctrl-C ends the process at once, which leaves temporary files behind but nothing half-written.
+    let _ = ctrlc::set_handler(move || {
+        handle.cancel();
+        std::thread::sleep(GRACE);
+        if output::abandon() {
+            let _ = writeln!(std::io::stderr(), "ricci: {}", Failure::Cancelled);
+            std::process::exit(Failure::Cancelled.exit_code().into());
+        }
+    });
     control
 }

@@ -17,11 +17,9 @@ pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<
     Some(match choice {
         ColorChoice::None => return None,
         ColorChoice::U => {
-            let factor = outcome.initial.conformal_factor(&outcome.metric).ok()?;
-            let all: &[f64] = &factor;
-            let given = &all[..input.mesh().n_vertices()];
-            let scale = Scale::of_amounts("log conformal factor u", given);
-            at_vertices(mesh, &on_layout(given, laid)?, scale)
+            let factor = outcome.solved.solution.conformal_factor().ok()?;
+            let scale = Scale::of_amounts("log conformal factor u", &factor);
+            at_vertices(mesh, &on_layout(&factor, laid)?, scale)
         }
         ColorChoice::Curvature => {
             let (density, scale) = density_of_input(input)?;

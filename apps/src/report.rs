@@ -4,38 +4,75 @@ use crate::failure::Failure;
 use crate::input::Input;
 pub use crate::timing::{Seconds, timed};
 use ricci::mesh::Mesh;
-use serde::Serialize;
+use ricci::mesh::check::Diagnosis;
+use serde::{Serialize, Serializer};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
+
+/// The figures of a result by name, in the order in which the report has them.
+#[derive(Default, Clone)]
+pub struct Figures(Vec<(&'static str, Value)>);
+
+impl Figures {
+    /// These figures and one more; a number that is none, or not finite, is null.
+    pub fn with(mut self, name: &'static str, value: impl Into<Value>) -> Figures {
+        self.0.push((name, value.into()));
+        self
+    }
+
+    /// The same, where there is a value.
+    pub fn if_some(self, name: &'static str, value: Option<impl Into<Value>>) -> Figures {
+        match value {
+            Some(value) => self.with(name, value),
+            None => self,
+        }
+    }
+
+    /// The figure of a name; null where there is none.
+    pub fn get(&self, name: &str) -> &Value {
+        self.0.iter().find(|(known, _)| *known == name).map_or(&Value::Null, |(_, value)| value)
+    }
+
+    /// These figures and those of a surface.
+    pub fn counts(self, of: Counts) -> Figures {
+        self.with("vertices", of.vertices)
+            .with("edges", of.edges)
+            .with("faces", of.faces)
+            .with("components", of.components)
+            .with("euler", of.euler)
+            .with("genus", of.genus)
+            .with("boundary_loops", of.boundary_loops)
+    }
+}
+
+impl Serialize for Figures {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
 
 /// What every command's report has in common.
 #[derive(Serialize)]
 pub struct Report<O, R> {
-    pub ricci: &'static str,
-    pub version: &'static str,
-    pub command: &'static str,
+    ricci: &'static str,
+    version: &'static str,
+    command: &'static str,
     /// None where a command makes its own (`demo`).
-    pub input: Option<InputSummary>,
-    pub options: O,
-    pub result: R,
-    pub checks: Checks,
-    pub seconds: Seconds,
-    pub peak_bytes: Option<u64>,
+    input: Option<InputSummary>,
+    options: O,
+    result: R,
+    checks: Checks,
+    seconds: Seconds,
+    peak_bytes: Option<u64>,
 }
 
 impl<O, R> Report<O, R> {
     pub fn new(command: &'static str, input: impl Into<Option<InputSummary>>, options: O, result: R) -> Self {
-        Report {
-            ricci: env!("CARGO_PKG_VERSION"),
-            version: env!("CARGO_PKG_VERSION"),
-            command,
-            input: input.into(),
-            options,
-            result,
-            checks: Checks::default(),
-            seconds: Seconds::default(),
-            peak_bytes: None,
-        }
+        let version = env!("CARGO_PKG_VERSION");
+        let (checks, seconds) = (Checks::default(), Seconds::default());
+        let input = input.into();
+        Report { ricci: version, version, command, input, options, result, checks, seconds, peak_bytes: None }
     }
 
     /// The report of a run that is over.
@@ -44,10 +81,9 @@ impl<O, R> Report<O, R> {
     }
 }
 
-/// The surface that a command worked on. What a defective list of triangles does not have is null.
+/// The size and topology of a surface. What a defective list of triangles does not have is null.
 #[derive(Serialize, Clone)]
-pub struct InputSummary {
-    pub path: String,
+pub struct Counts {
     pub vertices: usize,
     pub edges: usize,
     pub faces: usize,
@@ -57,14 +93,9 @@ pub struct InputSummary {
     pub boundary_loops: usize,
 }
 
-impl InputSummary {
-    pub fn of(input: &Input) -> Self {
-        InputSummary::of_mesh(&input.path, input.mesh())
-    }
-
-    pub fn of_mesh(path: &Path, mesh: &Mesh) -> Self {
-        InputSummary {
-            path: path_text(path),
+impl From<&Mesh> for Counts {
+    fn from(mesh: &Mesh) -> Counts {
+        Counts {
             vertices: mesh.n_vertices(),
             edges: mesh.n_edges(),
             faces: mesh.n_faces(),
@@ -73,6 +104,31 @@ impl InputSummary {
             genus: Some(mesh.genus()),
             boundary_loops: mesh.boundary_loops().len(),
         }
+    }
+}
+
+impl From<&Diagnosis> for Counts {
+    fn from(found: &Diagnosis) -> Counts {
+        let Diagnosis { vertices, edges, faces, components, euler, genus, boundary_loops, .. } = *found;
+        Counts { vertices, edges, faces, components, euler, genus, boundary_loops }
+    }
+}
+
+/// The surface that a command worked on.
+#[derive(Serialize, Clone)]
+pub struct InputSummary {
+    pub path: String,
+    #[serde(flatten)]
+    pub counts: Counts,
+}
+
+impl InputSummary {
+    pub fn new(path: &Path, counts: impl Into<Counts>) -> InputSummary {
+        InputSummary { path: path_text(path), counts: counts.into() }
+    }
+
+    pub fn of(input: &Input) -> InputSummary {
+        InputSummary::new(&input.path, input.mesh())
     }
 }
 
@@ -114,6 +170,7 @@ pub struct Done<T> {
     pub input: Input,
     /// What the command is for: the metric of a flow, a surface in its canonical shape.
     pub result: T,
+    pub figures: Figures,
     pub checks: Checks,
     /// Files written.
     pub files: Vec<String>,
@@ -121,9 +178,16 @@ pub struct Done<T> {
     pub exit_code: u8,
 }
 
+impl<T> Done<T> {
+    /// What is left to tell without the result itself.
+    pub fn drop_result(self) -> Done<()> {
+        let Done { input, figures, checks, files, seconds, exit_code, .. } = self;
+        Done { input, result: (), figures, checks, files, seconds, exit_code }
+    }
+}
+
 /// Wishes that could not be fulfilled, by option, with the reason.
-#[derive(Serialize, Default)]
-#[serde(transparent)]
+#[derive(Default)]
 pub struct Attempts(pub BTreeMap<&'static str, String>);
 
 impl Attempts {
@@ -164,14 +228,12 @@ impl Seconds {
     /// Those of reading a mesh and of a flow.
     pub fn new(input: &Input, flow: &ricci::flow::Seconds) -> Seconds {
         Seconds {
-            read: input.seconds_read,
-            build: input.seconds_build,
             assemble: flow.assemble,
             analyse: flow.analyse,
             factor: flow.factor,
             solve: flow.solve,
             flip: flow.flip,
-            ..Seconds::default()
+            ..input.seconds
         }
     }
 }

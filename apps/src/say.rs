@@ -1,18 +1,30 @@
 //! What commands say on stdout: a few lines for people. All numbers are in the report.
 
+use crate::failure::Failure;
 use crate::input::Input;
-use crate::report::{Attempts, Checks};
+use crate::output::is_stdout;
+use crate::report::{Checks, Done};
 use crate::shape_quality::thinnest;
+use crate::solved::Solved;
 use ricci::flow::Options;
 use std::io::{self, Write};
+use std::path::Path;
 
 /// Angle in degrees below which the thinnest face is named where a check fails: rounding moves the cotangent of such an angle by
 /// 1e-13 and more.
 const SLIVER: f64 = 0.1;
 
-/// Print lines; a reader that has gone away is no error.
-pub fn lines(text: &str) {
-    let _ = io::stdout().lock().write_all(text.as_bytes());
+/// What commands name that write no file.
+pub const NO_FILES: &[&str] = &[];
+
+/// Print lines on stdout; on stderr where one of the files that were written is stdout. A reader that has gone away is no error.
+pub fn lines(text: &str, files: &[impl AsRef<Path>]) -> Result<(), Failure> {
+    let taken = files.iter().any(|file| is_stdout(file.as_ref()));
+    let mut out: Box<dyn Write> = if taken { Box::new(io::stderr()) } else { Box::new(io::stdout()) };
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Failed(format!("stdout: {e}"))),
+        _ => Ok(()),
+    }
 }
 
 /// `1 vertex`, `2 vertices`.
@@ -51,25 +63,30 @@ pub fn surface(input: &Input) -> String {
 }
 
 /// Where a check fails: whether the surface has slivers, which cost digits.
-pub fn slivers(input: &Input, checks: &Checks) -> String {
-    let thinnest = || thinnest(input.mesh(), input.surface.geometry(), input.surface.lengths());
+fn slivers(input: &Input, checks: &Checks, may_flip: bool) -> String {
+    let thinnest = || thinnest(&input.surface);
     match (!checks.failed().is_empty()).then(thinnest).flatten() {
         Some((face, angle)) if angle < SLIVER => format!(
-            "slivers  face {face} is the thinnest, with an angle of {angle:.1e} degrees: remesh there, or allow flips\n"
+            "slivers  face {face} is the thinnest, with an angle of {angle:.1e} degrees: remesh there{}\n",
+            if may_flip { "" } else { ", or allow flips" }
         ),
         _ => String::new(),
     }
 }
 
 /// The last lines of a summary: what is not there, whether the checks hold, the files, the time.
-pub fn ending(
-    left_out: &[&str],
-    failed: &Attempts,
-    checks: &Checks,
-    files: &[String],
-    seconds: f64,
-) -> String {
-    let mut text = String::new();
+pub fn ending<T>(done: &Done<T>, solved: &Solved) -> String {
+    let Done { checks, files, seconds, .. } = done;
+    let Solved { failed, left_out, added, .. } = solved;
+    let mut text = slivers(&done.input, checks, solved.may_flip);
+    let [vertices, faces] = *added;
+    if vertices + faces > 0 {
+        text += &format!(
+            "added    {} and {} to the input's, where its edges cross others: --xref X.csv says where, --on input has none\n",
+            count(vertices, "vertex", "vertices"),
+            count(faces, "face", "faces")
+        );
+    }
     for what in left_out {
         text += &format!("left out {what}\n");
     }

@@ -1,13 +1,12 @@
 //! The shapes that `ricci make` knows, and what can be done to them.
 
-use crate::options::{Common, choices};
+use crate::options::{Common, FileName, choices, number};
 use crate::picture::SurfacePictureArgs;
 use clap::{Args, Subcommand};
 use num_complex::Complex64;
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, Sliver};
 use serde::{Serialize, Serializer};
-use std::path::PathBuf;
 
 #[derive(Subcommand, Serialize, Debug)]
 #[serde(rename_all = "kebab-case")]
@@ -193,7 +192,7 @@ pub enum Shape {
 pub struct ToMesh {
     /// Mesh (.obj, .off, .ply, .glb), or its edge lengths (.json)
     #[arg(short = 'o', long = "out", value_name = "OUT")]
-    pub out: PathBuf,
+    pub out: FileName,
     #[command(flatten)]
     #[serde(flatten)]
     pub spoil: Spoil,
@@ -210,7 +209,7 @@ pub struct ToMesh {
 pub struct ToMetric {
     /// Edge lengths (.json)
     #[arg(short = 'o', long = "out", value_name = "M.json")]
-    pub out: PathBuf,
+    pub out: FileName,
     #[command(flatten)]
     #[serde(skip)]
     pub common: Common,
@@ -298,5 +297,5 @@ fn grading(text: &str) -> Result<(u32, usize), String> {
 }
 
 fn finite(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| "must be a number".into())
+    number(text, |_| true, "must be a number")
 }

@@ -1,7 +1,8 @@
 //! How well shaped the triangles of a surface are.
 
+use ricci::Surface;
 use ricci::geometry::{Space, triangle};
-use ricci::mesh::{FaceId, Mesh, PerEdge, Point};
+use ricci::mesh::{FaceId, PerEdge, Point};
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -24,7 +25,8 @@ pub struct ShapeQuality {
 const ANGLE_ROUNDING: f64 = 1e-12;
 
 /// Quality of a surface given by its lengths.
-pub fn of_surface(mesh: &Mesh, geometry: Space, lengths: &PerEdge<f64>) -> ShapeQuality {
+pub fn of_surface(surface: &Surface) -> ShapeQuality {
+    let (mesh, geometry, lengths) = (surface.mesh(), surface.geometry(), surface.lengths());
     let sides = |f| mesh.opposite_edges(f).map(|e| lengths[e]);
     let mut opposite = PerEdge::filled(mesh.n_edges(), 0.0);
     for f in mesh.faces() {
@@ -41,7 +43,8 @@ pub fn of_surface(mesh: &Mesh, geometry: Space, lengths: &PerEdge<f64>) -> Shape
 }
 
 /// The face with the smallest angle, and that angle, degrees.
-pub fn thinnest(mesh: &Mesh, geometry: Space, lengths: &PerEdge<f64>) -> Option<(FaceId, f64)> {
+pub fn thinnest(surface: &Surface) -> Option<(FaceId, f64)> {
+    let (mesh, geometry, lengths) = (surface.mesh(), surface.geometry(), surface.lengths());
     let smallest = |f: FaceId| {
         let angles = triangle::angles(geometry, mesh.opposite_edges(f).map(|e| lengths[e])).at;
         (f, angles.into_iter().fold(f64::INFINITY, f64::min).to_degrees())

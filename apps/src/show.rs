@@ -1,6 +1,7 @@
 //! The picture of a finished flow: the surface with its checkerboard beside the layout with its seams.
 
 use crate::circles::circles;
+use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
@@ -8,39 +9,35 @@ use crate::picture::{
     self, Circle, Flat, FlowPictureArgs, Focus, Picture, Style, Surface, SurfacePictureArgs, Zoom,
 };
 use crate::quantity;
-use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
-use std::io::{self, Write};
-use std::path::Path;
+use ricci::mesh::io::Soup;
+use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, VertexId};
 
 /// Only vertices with at least this much target curvature get a dot; a uniform target on a torus-like layout has none.
 const CONE: f64 = 1e-6;
 /// and only where there are at most this many, so that the dots leave the surface visible.
 const MOST_CONES: usize = 60;
 
-/// Write the picture as PNG, or the flat layout alone where the file is named `.svg`.
-///
-/// Without a layout an `.svg` has nothing to show: the caller does not ask for one.
+/// The picture as PNG, or the flat layout alone as SVG where its name ends in `.svg`: without a layout there is nothing to show then,
+/// and the caller does not ask for it.
 pub fn draw(
-    out: &mut impl Write,
-    path: &Path,
     input: &Input,
     outcome: &Outcome,
     args: &FlowPictureArgs,
     threads: usize,
-) -> io::Result<()> {
-    let parts = outcome.layout.as_ref().ok().map(|laid| Parts::new(input, outcome, laid));
+) -> Result<Vec<u8>, Failure> {
+    let laid = outcome.layout.as_ref().ok();
+    let parts = laid.map(|laid| Parts::new(input, outcome, laid));
     let flat = parts.as_ref().map(Parts::flat);
     let field = args.color().and_then(|choice| quantity::of_flow(choice, input, outcome));
-    let laid = outcome.layout.as_ref().ok();
     let focus = args.zoom.zip(laid).and_then(|(zoom, laid)| focus(&zoom, laid));
-    let style = Style { focus, ..args.style() };
-    if is_svg(path) {
-        return flat.map_or(Ok(()), |flat| picture::write_svg(out, &flat, field.as_ref(), &style));
+    let style = Style { focus, ..args.style(threads) };
+    if let (Some(flat), true) = (&flat, args.base.is_svg()) {
+        return picture::flat_svg(flat, field.as_ref(), &style);
     }
     let (mesh, positions) =
         laid.map_or((input.mesh(), input.positions()), |laid| (laid.mesh(), laid.positions.as_deref()));
     let faces = mesh.triangles();
-    let cones = cones(input.mesh(), &outcome.target);
+    let cones = cones(input.mesh(), outcome);
     let surface = positions.as_ref().map(|positions| Surface {
         positions,
         faces: &faces,
@@ -48,8 +45,7 @@ pub fn draw(
         seams: parts.as_ref().map_or(&[], |p| &p.edges),
         cones: &cones,
     });
-    let drawn = Picture { surface, flat, field: field.as_ref(), ..Picture::default() };
-    out.write_all(&picture::png(&drawn, &style, threads).map_err(io::Error::other)?)
+    picture::png(&Picture { surface, flat, field: field.as_ref(), ..Picture::default() }, &style)
 }
 
 /// The surroundings of a vertex, as much of the surface as of the layout.
@@ -73,26 +69,16 @@ fn focus(zoom: &Zoom, laid: &Laid) -> Option<Focus> {
         let n = picture::normal(mesh.face_vertices(f).map(|v| positions[v.index()]));
         normal = [0, 1, 2].map(|k| normal[k] + n[k]);
         area += n.iter().map(|x| x * x).sum::<f64>().sqrt();
-        area_layout += picture::doubled_area(mesh.face_halfedges(f).map(|h| laid.corner_uv(h))).abs();
+        area_layout += picture::doubled_area(laid.face_uv(f)).abs();
     }
     let radius_layout = radius * (area_layout / area).sqrt();
     let finite = radius_layout.is_finite() && radius_layout > 0.0 && radius > 0.0;
     finite.then_some(Focus { at: positions[v.index()], radius, normal, at_layout, radius_layout })
 }
 
-/// Whether the file is the drawing of a layout alone.
-pub fn is_svg(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"))
-}
-
-/// Write a PNG of a surface without a layout; faces that name no or a non-finite vertex are left out.
-pub fn draw_surface(
-    out: &mut impl Write,
-    positions: &[Point],
-    faces: &[[u32; 3]],
-    args: &SurfacePictureArgs,
-    threads: usize,
-) -> io::Result<()> {
+/// A PNG of a surface without a layout; faces that name no or a non-finite vertex are left out.
+pub fn draw_surface(soup: &Soup, args: &SurfacePictureArgs, threads: usize) -> Result<Vec<u8>, Failure> {
+    let Soup { positions, faces, .. } = soup;
     let finite = |v: &u32| positions.get(*v as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
     let faces: Vec<[u32; 3]> = faces.iter().filter(|f| f.iter().all(finite)).copied().collect();
     // Points in no face would widen the view.
@@ -107,14 +93,14 @@ pub fn draw_surface(
     let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut keep)).collect();
     let surface = Surface { positions: &seen, faces: &faces, corner_uv: None, seams: &[], cones: &[] };
     let field = args.curvature().then(|| quantity::curvature_of_triangles(&seen, &faces));
-    let drawn = Picture { surface: Some(surface), flat: None, field: field.as_ref(), ..Picture::default() };
-    out.write_all(&picture::png(&drawn, &args.style(), threads).map_err(io::Error::other)?)
+    let drawn = Picture { surface: Some(surface), field: field.as_ref(), ..Picture::default() };
+    picture::png(&drawn, &args.style(threads))
 }
 
 /// Cone vertices with their curvature, on a surface where few vertices have any.
-fn cones(mesh: &Mesh, target: &PerVertex<f64>) -> Vec<(u32, f64)> {
-    let inside = |v: &VertexId| !mesh.is_boundary_vertex(*v) && target[*v].abs() > CONE;
-    let cones: Vec<_> = mesh.vertices().filter(inside).map(|v| (v.0, target[v])).collect();
+fn cones(mesh: &Mesh, outcome: &Outcome) -> Vec<(u32, f64)> {
+    let curved = |v: &VertexId| !mesh.is_boundary_vertex(*v) && outcome.target(*v).abs() > CONE;
+    let cones: Vec<_> = mesh.vertices().filter(curved).map(|v| (v.0, outcome.target(v))).collect();
     if cones.len() <= MOST_CONES { cones } else { Vec::new() }
 }
 
@@ -134,9 +120,9 @@ impl Parts {
     fn new(input: &Input, outcome: &Outcome, laid: &Laid) -> Parts {
         let mesh = laid.mesh();
         let side = |h: HalfedgeId| (laid.corner_uv(h), laid.corner_uv(mesh.next(h)));
-        let face_uv = |f| mesh.face_halfedges(f).map(|h| laid.corner_uv(h));
-        let mut parts = Parts { corner_uv: mesh.faces().map(face_uv).collect(), ..Parts::default() };
-        for (h, number) in laid.numbered_seams(mesh) {
+        let mut parts =
+            Parts { corner_uv: mesh.faces().map(|f| laid.face_uv(f)).collect(), ..Parts::default() };
+        for (h, number) in laid.seams() {
             parts.edges.push((mesh.origin(h).0, mesh.tip(h).0, number));
             for h in [h, h.twin()] {
                 let (a, b) = side(h);
@@ -147,23 +133,17 @@ impl Parts {
             parts.boundary.push(side(h));
         }
         let mut seen = vec![false; laid.coordinates().len()];
-        let cones: PerVertex<f64> = {
-            let mut at = PerVertex::filled(mesh.n_vertices(), 0.0);
-            cones(input.mesh(), &outcome.target).into_iter().for_each(|(v, k)| at[VertexId(v)] = k);
-            at
-        };
-        for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h) && cones[mesh.origin(h)] != 0.0) {
+        let mut curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
+        cones(input.mesh(), outcome).into_iter().for_each(|(v, k)| curvature[VertexId(v)] = k);
+        for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h) && curvature[mesh.origin(h)] != 0.0) {
             let uv = laid.corner_index()[h] as usize;
             if !std::mem::replace(&mut seen[uv], true) {
-                parts.cones.push((laid.coordinates()[uv], cones[mesh.origin(h)]));
+                parts.cones.push((laid.coordinates()[uv], curvature[mesh.origin(h)]));
             }
         }
         // Circles belong to the layout, not to its charts.
-        let with_circles = outcome.scheme.epsilon() != 0 && laid.packed.is_none();
-        let all = with_circles
-            .then(|| circles(&outcome.mesh, &outcome.metric, outcome.scheme.name(), laid))
-            .flatten();
-        if let Some(all) = all {
+        let with_circles = outcome.solved.scheme.epsilon() != 0 && laid.packed.is_none();
+        if let Some(all) = with_circles.then(|| circles(&outcome.solved, laid)).flatten() {
             let vertex = all.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
             parts.circles = vertex.collect();
             let dual = |c: &crate::circles::DualCircle| Some(Circle { center: c.center, radius: c.radius? });

@@ -1,30 +1,32 @@
 //! The surface with its layout as texture coordinates.
 
-use crate::carry::carry;
+use crate::carry::{carry, left_out};
 use crate::checkerboard;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::laid::Laid;
-use crate::options::OnChoice;
+use crate::options::{MetricArgs, OnChoice};
 use crate::output::{Outputs, extension};
+use crate::solved::Solved;
 use ricci::mesh::io::{self, Texture, Textured, Wrap};
 use ricci::mesh::{Mesh, PerHalfedge};
+use std::io::Write;
 use std::path::Path;
 
 /// Add OBJ or, from a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
 ///
 /// OBJ: `v` of the input, `vt` of the layout, `f v/vt`. The faces are the layout's (then the crossings of the input's edges with
-/// flipped ones follow its vertices), or the input's own.
-pub fn write(
+/// flipped ones follow its vertices), or the input's own. Returned is how many vertices and faces the file has beyond the input's.
+fn write(
     outputs: &mut Outputs,
     path: &Path,
     input: &Input,
     laid: &Laid,
     (on, homogeneous): (OnChoice, bool),
-) -> Result<(), Failure> {
+) -> Result<[usize; 2], Failure> {
     // Without positions `--uv` is refused before the flow.
     let (Some(positions), Some(own_positions)) = (laid.positions.as_deref(), input.positions()) else {
-        return Ok(());
+        return Err(Failure::Failed("an intrinsic metric has no positions in space".into()));
     };
     let (mesh, positions, index, texcoords, refinement) = match (on, &laid.on_input) {
         (OnChoice::Refined, _) => {
@@ -51,12 +53,57 @@ pub fn write(
         face_texcoords: &corners(mesh, index),
     };
     if extension(path) == "glb" {
-        let (texcoords, png) = (checkerboard::coordinates(texcoords), checkerboard::png()?);
-        let texture = Texture { png: &png, wrap: Wrap::Repeat };
-        let data = Textured { texcoords: &texcoords, ..data };
-        return outputs.add_named(path, |path| io::write_glb(path, &data, Some(texture)).map(drop));
+        let png = checkerboard::png()?;
+        let texture = Texture { png: &png, wrap: Wrap::Repeat, repeat: checkerboard::repeat(texcoords) };
+        outputs.add_named(path, |path| io::write_glb(path, &data, Some(texture)).map(drop))?;
+    } else {
+        outputs.add_named(path, |path| io::write_obj(path, &data))?;
     }
-    outputs.add_named(path, |path| io::write_obj(path, &data))
+    Ok([positions.len() - own_positions.len(), faces.len() - input.mesh().n_faces()])
+}
+
+/// Write what is asked for of the layout's mesh; what cannot be made is told.
+pub fn write_asked(
+    outputs: &mut Outputs,
+    input: &Input,
+    laid: &Laid,
+    (args, homogeneous): (&MetricArgs, bool),
+    solved: &mut Solved,
+) -> Result<(), Failure> {
+    if let Some(path) = &args.uv {
+        let written = write(outputs, path, input, laid, (args.on, homogeneous));
+        if let Some(added) = solved.failed.attempt("uv", written)? {
+            (solved.added, solved.left_out) = (added, left_out(input));
+        }
+    }
+    if let Some(path) = &args.xref {
+        let written = outputs.add(path, |out| write_origins(out, input, laid, args.on));
+        solved.failed.attempt("xref", written)?;
+    }
+    Ok(())
+}
+
+/// The way back from the vertices and faces that `--uv` has to those of the input: a face for each face, and for each vertex a face
+/// with barycentric coordinates in it.
+fn write_origins(out: &mut impl Write, input: &Input, laid: &Laid, on: OnChoice) -> std::io::Result<()> {
+    let refinement = laid.refinement().filter(|_| on == OnChoice::Refined);
+    let mesh = refinement.map_or(input.mesh(), |r| &r.mesh);
+    let source = |f| refinement.map_or(f, |r| r.input_face[f]);
+    let whole = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut place = vec![None; mesh.n_vertices()];
+    writeln!(out, "output_face,source_face")?;
+    for f in mesh.faces() {
+        writeln!(out, "{f},{}", source(f))?;
+        let corners = refinement.map_or(whole, |r| r.input_barycentric(f));
+        for (v, weights) in mesh.face_vertices(f).into_iter().zip(corners) {
+            place[v.index()].get_or_insert((source(f), weights));
+        }
+    }
+    writeln!(out, "output_vertex,source_face,b0,b1,b2")?;
+    for (v, (face, [a, b, c])) in place.into_iter().enumerate().filter_map(|(v, p)| Some((v, p?))) {
+        writeln!(out, "{v},{face},{a},{b},{c}")?;
+    }
+    Ok(())
 }
 
 /// The point of every corner of every face.

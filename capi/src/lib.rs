@@ -23,6 +23,7 @@
 #![allow(clippy::missing_safety_doc)]
 // C passes an array as a pointer and a count.
 #![allow(clippy::too_many_arguments)]
+#![warn(clippy::too_many_lines)]
 
 mod arrays;
 mod choice;

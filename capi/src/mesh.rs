@@ -300,7 +300,7 @@ pub unsafe extern "C" fn ricci_mesh_write(
         if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb")) {
             return Err(Failure::argument("a texture is written in .glb files only"));
         }
-        Ok(io::write_glb_textured(&path, &soup, Texture { png: &png, wrap })?)
+        Ok(io::write_glb_textured(&path, &soup, Texture { png: &png, wrap, repeat: 1.0 })?)
     })
 }
 

@@ -216,7 +216,7 @@ pub unsafe extern "C" fn ricci_metric_values(
                 copy_each("values", n, types, values, capacity)
             }
             Quantity::Lengths => copy(lengths),
-            Quantity::Eta => copy(&metric.eta),
+            Quantity::Eta => copy(&metric.rounded_eta()),
             Quantity::MeshU => copy(&metric.u),
         }
     })

@@ -1,16 +1,17 @@
 //! The options of pictures.
 
 use super::{Style, Texture, View};
+use crate::options::FileName;
+use crate::output::extension;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use std::path::PathBuf;
 
 /// What every command takes that draws a surface.
 #[derive(Args, Serialize, Debug, Clone, Default)]
 pub struct PictureArgs {
     /// Write a picture (.png; of a layout also .svg)
     #[arg(long, value_name = "P.png")]
-    pub picture: Option<PathBuf>,
+    pub picture: Option<FileName>,
     /// Pixels of the longer side of each panel [default: 900]
     #[arg(long, value_name = "PIXELS", requires = "picture", value_parser = clap::value_parser!(u16).range(64..=4096))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -59,7 +60,7 @@ pub struct FlowPictureArgs {
     #[arg(long, value_enum, value_name = "QUANTITY", requires = "picture")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<ColorChoice>,
-    /// Show the surroundings of a vertex, so many times larger
+    /// Show the surroundings of a vertex (numbered from 0), so many times larger
     #[arg(long, value_name = "VERTEX,FACTOR", requires = "picture", value_parser = zoom)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub zoom: Option<Zoom>,
@@ -135,7 +136,17 @@ impl Axis {
 }
 
 impl PictureArgs {
-    pub fn style(&self, texture: Texture) -> Style {
+    /// Whether the picture is asked for as the drawing of a layout alone.
+    pub fn is_svg(&self) -> bool {
+        self.picture.as_ref().is_some_and(|path| extension(path) == "svg")
+    }
+
+    /// Whether it is said from where a surface is looked at.
+    pub fn is_turned(&self) -> bool {
+        self.view.is_some() || self.up.is_some()
+    }
+
+    pub fn style(&self, texture: Texture, threads: usize) -> Style {
         let fallback = Style::default();
         let view = View {
             up: self.up.map(Axis::direction),
@@ -143,13 +154,13 @@ impl PictureArgs {
             from: None,
         };
         let size = self.size.map_or(fallback.size, usize::from);
-        Style { size, view, texture, wire: self.wire, palette: self.palette, ..fallback }
+        Style { size, view, texture, threads, wire: self.wire, palette: self.palette, ..fallback }
     }
 }
 
 impl SurfacePictureArgs {
-    pub fn style(&self) -> Style {
-        self.base.style(Texture::None)
+    pub fn style(&self, threads: usize) -> Style {
+        self.base.style(Texture::None, threads)
     }
 
     /// Whether the curvature is to be shown.
@@ -159,9 +170,9 @@ impl SurfacePictureArgs {
 }
 
 impl FlowPictureArgs {
-    pub fn style(&self) -> Style {
+    pub fn style(&self, threads: usize) -> Style {
         let usual = if self.color().is_some() { Texture::None } else { Texture::Checker };
-        self.base.style(self.texture.unwrap_or(usual))
+        self.base.style(self.texture.unwrap_or(usual), threads)
     }
 
     /// The quantity to show.

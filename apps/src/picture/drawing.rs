@@ -104,13 +104,17 @@ pub fn tint_color(tint: u8) -> Rgb {
 }
 
 impl Frame {
-    pub fn fit(&self, size: usize) -> Fit {
-        let [low, high] = match *self {
+    /// Least and largest coordinates of what is shown.
+    pub fn corners(&self) -> [[f64; 2]; 2] {
+        match *self {
             Frame::Disk => [[-1.0; 2], [1.0; 2]],
             Frame::HalfPlane(far) => [[-far, 0.0], [far, far]],
             Frame::Rectangle(corners) => corners,
-        };
-        Fit::new([low, high].into_iter(), size)
+        }
+    }
+
+    pub fn fit(&self, size: usize) -> Fit {
+        Fit::new(self.corners().into_iter(), size)
     }
 
     /// The border of the model.
@@ -151,8 +155,8 @@ impl Label {
     }
 }
 
-/// Draw with this many threads (0: one per core).
-pub fn draw(drawing: &Drawing<'_>, style: &Style, threads: usize) -> Image {
+/// Cells, lines, dots and labels over one another, in this order.
+pub fn draw(drawing: &Drawing<'_>, style: &Style) -> Image {
     let fit = drawing.frame.fit(style.size);
     let mut shapes: Vec<Shape> = drawing
         .cells
@@ -196,7 +200,7 @@ pub fn draw(drawing: &Drawing<'_>, style: &Style, threads: usize) -> Image {
         strokes,
         wire: style.wire.then(|| wire_width(style.size)),
     };
-    render(&shapes, fit.width, fit.height, &panel, threads)
+    render(&shapes, fit.width, fit.height, &panel, style.threads)
 }
 
 struct Panel<'a> {

@@ -16,7 +16,7 @@ pub const DUAL_CIRCLE: u32 = 0x26539e;
 const LAYER: f64 = 1e6;
 
 /// Draw a layout; the pattern, circles, boundary, seams and cones lie over one another in this order.
-pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style, threads: usize) -> Image {
+pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style) -> Image {
     let fit = fit(flat, style);
     let size = style.size as f64;
     let triangles: Vec<[[f64; 2]; 3]> = flat.corner_uv.iter().map(|uv| uv.map(|p| fit.apply(p))).collect();
@@ -49,7 +49,7 @@ pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style, threads: usize) -> 
     // Circles are to be seen, not what is under them.
     let pale = if flat.circles.is_empty() { 0.0 } else { 0.75 };
     let panel = Panel { n_faces: triangles.len(), coat, strokes, pale };
-    render(&shapes, fit.width, fit.height, &panel, threads)
+    render(&shapes, fit.width, fit.height, &panel, style.threads)
 }
 
 /// The whole layout with its circles, or the part that is to be shown.

@@ -1,5 +1,6 @@
 //! The legend: a bar of colours with numbers, and what they are.
 
+use super::Style;
 use super::color::{INK, Rgb};
 use super::colormap::{Ramp, Scale, number};
 use super::font::text;
@@ -56,8 +57,9 @@ impl Plan {
     }
 }
 
-/// Draw a legend as wide as the picture; `size`: of a panel.
-pub fn draw(scale: &Scale, width: usize, size: usize, threads: usize) -> Image {
+/// Draw a legend as wide as the picture.
+pub fn draw(scale: &Scale, width: usize, style: &Style) -> Image {
+    let size = style.size;
     let plan = Plan::new(scale, width as f64, size as f64);
     let mut shapes = Vec::new();
     for (line, [x, y], height) in &plan.lines {
@@ -70,7 +72,7 @@ pub fn draw(scale: &Scale, width: usize, size: usize, threads: usize) -> Image {
         ends: [[x, bottom, 0.0], [x, bottom + plan.tick, 0.0]],
         radius: radius.max(0.4),
     }));
-    render(&shapes, width, plan.height as usize, &Ink { scale, bar: plan.bar }, threads)
+    render(&shapes, width, plan.height as usize, &Ink { scale, bar: plan.bar }, style.threads)
 }
 
 fn moved(shape: Shape, by: [f64; 2]) -> Shape {
@@ -117,7 +119,7 @@ mod tests {
     #[test]
     fn the_bar_runs_through_the_map() {
         let scale = Scale::of_amounts("a", &[0.0, 1.0]);
-        let image = draw(&scale, 400, 400, 1);
+        let image = draw(&scale, 400, &Style { size: 400, ..Style::default() });
         let [left, top, width, height] = Plan::new(&scale, 400.0, 400.0).bar;
         let at = |t: f64| {
             let (x, y) = ((left + t * width) as usize, (top + 0.5 * height) as usize);

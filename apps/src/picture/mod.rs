@@ -32,14 +32,15 @@ pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zo
 pub use camera::View;
 pub use colormap::{CLASSES, Scale};
 pub use drawing::{Cell, Drawing, Frame, Label, Line, PALE, Pattern, TINTS, tint_color};
-pub use drawing_svg::write_drawing_svg;
+pub use drawing_svg::drawing_svg;
 pub use scene::{Circle, Field, Flat, Focus, Style, Surface};
-pub use svg::write_svg;
+pub use svg::flat_svg;
 pub use texture::{Texture, Tiles};
 
 pub use raster::{doubled_area, in_parallel};
 pub use vector::normal;
 
+use crate::failure::Failure;
 use coat::Wish;
 use raster::Image;
 
@@ -79,8 +80,7 @@ impl Picture<'_> {
         })
     }
 
-    /// The picture, drawn by this many threads (0: one per core).
-    fn draw(&self, style: &Style, threads: usize) -> Image {
+    fn draw(&self, style: &Style) -> Image {
         let own = if self.pattern.is_some() { None } else { self.tiles() };
         let tiles = self.pattern.or(own.as_ref());
         let wish = |corner_uv| Wish {
@@ -92,16 +92,16 @@ impl Picture<'_> {
             size: style.size,
         };
         let [surface, beside] = [self.surface, self.beside]
-            .map(|surface| surface.map(|s| solid::draw(&s, &wish(s.corner_uv), style, threads)));
-        let flat = self.flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style, threads));
-        let drawing = self.drawing.map(|d| drawing::draw(d, style, threads));
+            .map(|surface| surface.map(|s| solid::draw(&s, &wish(s.corner_uv), style)));
+        let flat = self.flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style));
+        let drawing = self.drawing.map(|d| drawing::draw(d, style));
         let panels: Vec<Image> = [surface, beside, flat, drawing].into_iter().flatten().collect();
         let gap = (BETWEEN * style.size as f64) as usize * panels.len().saturating_sub(1);
         let width = (panels.iter().map(|p| p.width).sum::<usize>() + gap).max(1);
         let height = panels.iter().map(|p| p.height).max().unwrap_or(1);
         // A legend needs some width.
         let width = if self.field.is_some() { width.max(style.size * 3 / 4) } else { width };
-        let legend = self.field.map(|f| legend::draw(&f.scale, width, style.size, threads));
+        let legend = self.field.map(|f| legend::draw(&f.scale, width, style));
         let mut image = Image::white(width, height + legend.as_ref().map_or(0, |l| l.height));
         let used = panels.iter().map(|p| p.width).sum::<usize>() + gap;
         let mut x = (width - used.min(width)) / 2;
@@ -117,13 +117,16 @@ impl Picture<'_> {
 }
 
 /// The picture as a PNG file.
-pub fn png(picture: &Picture<'_>, style: &Style, threads: usize) -> Result<Vec<u8>, png::EncodingError> {
-    let image = picture.draw(style, threads);
+pub fn png(picture: &Picture<'_>, style: &Style) -> Result<Vec<u8>, Failure> {
+    encoded(&picture.draw(style), style.palette).map_err(|e| Failure::Failed(e.to_string()))
+}
+
+fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::High);
-    if style.palette {
+    if palette {
         let (colors, indices) = palette::reduce(&image.rgb);
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_palette(colors);

@@ -53,6 +53,8 @@ pub struct Field {
 pub struct Style {
     /// Pixels of the longer side of a panel.
     pub size: usize,
+    /// 0: one per core.
+    pub threads: usize,
     pub view: View,
     pub texture: Texture,
     /// Draw the edges of the mesh.
@@ -91,6 +93,6 @@ impl Style {
 impl Default for Style {
     fn default() -> Style {
         let (view, texture) = (View::default(), Texture::Checker);
-        Style { size: 900, view, texture, wire: false, ground: true, palette: false, focus: None }
+        Style { size: 900, threads: 0, view, texture, wire: false, ground: true, palette: false, focus: None }
     }
 }

@@ -23,13 +23,13 @@ const FOCUS_UP: V3 = [0.0, -0.8, 0.6];
 const INSIDE: Rgb = [0.5, 0.18, 0.08];
 
 /// Draw a surface with its light and shadows.
-pub fn draw(surface: &Surface<'_>, wish: &Wish<'_>, style: &Style, threads: usize) -> Image {
+pub fn draw(surface: &Surface<'_>, wish: &Wish<'_>, style: &Style) -> Image {
     let finite = |p: &V3| p.iter().all(|x| x.is_finite());
     if surface.positions.is_empty() || !surface.positions.iter().all(finite) {
         return Image::white(style.size, style.size);
     }
-    let scene = Scene::new(surface, wish, style, threads);
-    render(&scene.shapes, scene.size[0], scene.size[1], &scene, threads)
+    let scene = Scene::new(surface, wish, style);
+    render(&scene.shapes, scene.size[0], scene.size[1], &scene, style.threads)
 }
 
 /// Everything that a visible point of the panel needs.
@@ -51,21 +51,21 @@ struct Scene<'a> {
     margin: f64,
 }
 
-impl<'a> Scene<'a> {
-    fn new(surface: &Surface<'_>, wish: &Wish<'a>, style: &Style, threads: usize) -> Scene<'a> {
-        let unit_size = |points: &[V3]| {
-            let most = points.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-            if most > 0.0 { 1.0 / most } else { 1.0 }
-        };
-        // Scaled, so that neither tiny nor huge coordinates under- or overflow in products.
-        let factor = unit_size(surface.positions);
-        let points: Vec<V3> = surface.positions.iter().map(|p| scaled(*p, factor)).collect();
+/// A surface as the camera sees it.
+struct Stage {
+    camera: Camera,
+    lights: Lights,
+    fit: Fit,
+    /// Positions in pixels.
+    placed: Vec<V3>,
+    ground: Option<Ground>,
+}
+
+impl Stage {
+    /// `points`: scaled by `factor`.
+    fn new(points: &[V3], faces: &[[u32; 3]], style: &Style, factor: f64) -> Stage {
         let view = View { from: style.focus.map(|focus| focus.normal), ..style.view };
-        let camera = Camera::choose(&points, surface.faces, &view, threads);
-        let turned = |n: V3| {
-            let [x, y, z] = camera.apply(n);
-            [x, -y, z]
-        };
+        let camera = Camera::choose(points, faces, &view, style.threads);
         // A part of the surface is lit as seen, wherever it faces.
         let up = match style.focus {
             None => [camera.up[0], -camera.up[1], camera.up[2]],
@@ -98,12 +98,25 @@ impl<'a> Scene<'a> {
         let placed: Vec<V3> = seen.iter().map(pixel).collect();
         let level = placed.iter().map(|p| dot(up, *p)).fold(f64::INFINITY, f64::min);
         let ground = has_ground.then_some(Ground { up, level });
+        Stage { camera, lights, fit, placed, ground }
+    }
+}
 
+impl<'a> Scene<'a> {
+    fn new(surface: &Surface<'_>, wish: &Wish<'a>, style: &Style) -> Scene<'a> {
+        // Scaled, so that neither tiny nor huge coordinates under- or overflow in products.
+        let most = surface.positions.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+        let factor = if most > 0.0 { 1.0 / most } else { 1.0 };
+        let points: Vec<V3> = surface.positions.iter().map(|p| scaled(*p, factor)).collect();
+        let Stage { camera, lights, fit, placed, ground } = Stage::new(&points, surface.faces, style, factor);
+        let turned = |n: V3| {
+            let [x, y, z] = camera.apply(n);
+            [x, -y, z]
+        };
         let corners: Vec<[V3; 3]> = surface.faces.iter().map(|f| f.map(|v| placed[v as usize])).collect();
         let normals: Vec<[V3; 3]> =
             corner_normals(&points, surface.faces).into_iter().map(|n| n.map(turned)).collect();
         let flat: Vec<[[f64; 2]; 3]> = corners.iter().map(|c| c.map(|p| [p[0], p[1]])).collect();
-        let coat = Coat::new(wish, &flat);
         let mut shapes: Vec<Shape> = corners.iter().map(|c| Shape::Triangle(*c)).collect();
         let caster = Caster::new(&shapes, lights.key, style.size);
         let mut strokes = Vec::new();
@@ -115,26 +128,23 @@ impl<'a> Scene<'a> {
         border(surface.faces).into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
         surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.25 * style.line(), seam_color(seam)));
         surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, style.cone(), cone_color(curvature)));
-
-        let size = [fit.width, fit.height];
-        let n_faces = corners.len();
         let mut scene = Scene {
+            size: [fit.width, fit.height],
+            n_faces: corners.len(),
+            coat: Coat::new(wish, &flat),
+            margin: FADE * style.size as f64,
             shapes,
-            size,
-            n_faces,
             corners,
             normals,
-            coat,
             strokes,
             lights,
             ground,
             caster,
             field: None,
-            margin: FADE * style.size as f64,
         };
-        let faces = &scene.shapes[..n_faces];
-        let field = Field::new(&scene.caster, faces, size, threads, |at, hit| scene.describe(at, hit));
-        scene.field = Some(field);
+        let faces = &scene.shapes[..scene.n_faces];
+        let describe = |at, hit: Option<&Hit>| scene.describe(at, hit);
+        scene.field = Some(Field::new(&scene.caster, faces, scene.size, style.threads, describe));
         scene
     }
 

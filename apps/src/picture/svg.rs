@@ -7,6 +7,7 @@ use super::flat::{DUAL_CIRCLE, VERTEX_CIRCLE, fit};
 use super::legend::Plan;
 use super::texture::{CIRCLE_SPACING, RING, Texture, Tiles};
 use super::{Circle, Field, Flat, Picture, Scale, Style};
+use crate::failure::Failure;
 use std::collections::HashMap;
 use std::io::{Result, Write};
 
@@ -15,8 +16,18 @@ const COLORS: usize = 40;
 /// Circles of a smaller radius in pixels are left out.
 const LEAST_RADIUS: f64 = 0.3;
 
-/// Write the layout: pattern or colours, wire, circles, boundary, seams, cones, legend.
-pub fn write_svg(out: &mut impl Write, flat: &Flat<'_>, field: Option<&Field>, style: &Style) -> Result<()> {
+/// The layout as SVG: pattern or colours, wire, circles, boundary, seams, cones, legend.
+pub fn flat_svg(
+    flat: &Flat<'_>,
+    field: Option<&Field>,
+    style: &Style,
+) -> std::result::Result<Vec<u8>, Failure> {
+    let mut out = Vec::new();
+    let written = write_svg(&mut out, flat, field, style);
+    written.map(|()| out).map_err(|e| Failure::Failed(e.to_string()))
+}
+
+fn write_svg(out: &mut Vec<u8>, flat: &Flat<'_>, field: Option<&Field>, style: &Style) -> Result<()> {
     let fit = fit(flat, style);
     let size = style.size as f64;
     let width = if field.is_some() { (fit.width as f64).max(0.75 * size) } else { fit.width as f64 };

@@ -27,7 +27,7 @@ fn surface<'a>(soup: &'a Soup, uv: Option<&'a [[[f64; 2]; 3]]>) -> Surface<'a> {
 }
 
 fn draw(surface: Surface<'_>, style: &Style) -> Image {
-    Picture { surface: Some(surface), ..Picture::default() }.draw(style, 0)
+    Picture { surface: Some(surface), ..Picture::default() }.draw(style)
 }
 
 fn pixels(image: &Image) -> impl Iterator<Item = &[u8]> {
@@ -214,9 +214,10 @@ fn a_picture_is_the_same_for_any_number_of_threads() {
     let picture =
         Picture { surface: Some(surface), flat: Some(flat), field: Some(&field), ..Picture::default() };
     let style = Style { texture: Texture::Circles, wire: true, ground: true, ..style() };
-    let one = png(&picture, &style, 1).unwrap();
+    let drawn = |threads| png(&picture, &Style { threads, ..style }).unwrap();
+    let one = drawn(1);
     for threads in [2, 3, 0] {
-        assert!(png(&picture, &style, threads).unwrap() == one, "{threads} threads");
+        assert!(drawn(threads) == one, "{threads} threads");
     }
     // And the view that is chosen.
     let view = |threads| Camera::choose(&soup.positions, &soup.faces, &View::default(), threads).axes;
@@ -276,8 +277,7 @@ fn drawings_are_well_formed_and_small() {
         (Texture::None, None),
         (Texture::None, Some(&field)),
     ] {
-        let mut svg = Vec::new();
-        write_svg(&mut svg, &flat, field, &Style { texture, wire: field.is_none(), ..style() }).unwrap();
+        let svg = flat_svg(&flat, field, &Style { texture, wire: field.is_none(), ..style() }).unwrap();
         let svg = String::from_utf8(svg).unwrap();
         check_xml(&svg);
         assert!(svg.ends_with("</svg>\n") && svg.contains("<circle"));
@@ -287,7 +287,7 @@ fn drawings_are_well_formed_and_small() {
 
 #[test]
 fn degenerate_input_is_drawn_as_far_as_it_goes() {
-    assert!(!png(&Picture::default(), &style(), 1).unwrap().is_empty());
+    assert!(!png(&Picture::default(), &style()).unwrap().is_empty());
     let uv = [[[1e300, 0.0], [f64::NAN, 1.0], [0.0, 1e-300]]];
     let flat =
         Flat { corner_uv: &uv, seams: &[], boundary: &[], cones: &[], circles: &[], dual_circles: &[] };
@@ -301,10 +301,8 @@ fn degenerate_input_is_drawn_as_far_as_it_goes() {
             field: Some(&field),
             ..Picture::default()
         };
-        assert!(!png(&drawn, &everything, 2).unwrap().is_empty());
+        assert!(!png(&drawn, &everything).unwrap().is_empty());
     }
-    let mut svg = Vec::new();
-    write_svg(&mut svg, &flat, None, &style()).unwrap();
-    let svg = String::from_utf8(svg).unwrap();
+    let svg = String::from_utf8(flat_svg(&flat, None, &style()).unwrap()).unwrap();
     assert!(svg.ends_with("</svg>\n") && !svg.contains("NaN"));
 }

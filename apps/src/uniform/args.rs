@@ -1,12 +1,11 @@
 //! The options of `ricci uniformize` and `ricci cover`.
 
-use crate::options::{Common, OnChoice, SolveArgs, SurfaceArgs, choices};
+use crate::options::{FileName, MetricArgs, choices};
 use crate::picture::{PictureArgs, Texture};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use ricci::geometry::model::Model;
 use serde::Serialize;
-use std::path::PathBuf;
 
 pub const UNIFORMIZE_HELP: &str = "\
 Example: a surface of genus 2 in the hyperbolic plane, the group of its universal cover, and a picture
@@ -28,7 +27,7 @@ Files
 pub const COVER_HELP: &str = "\
 Example: a piece of the hyperbolic plane, tiled by copies of a surface of genus 2
     ricci make genus -o two.obj
-    ricci cover two.obj --depth 3 --cover tiles.obj --domain domain.json --picture tiles.png
+    ricci cover two.obj --cover tiles.obj --domain domain.json --picture tiles.png
 
 Copies are named by their deck transformation as a word in the generators, a1.b1^-1 for a1 after the inverse of b1.
 
@@ -38,38 +37,29 @@ Files
                                the canonical polygon, whose sides are the words of the generators";
 
 /// What both commands take.
-#[derive(Args, Debug, Clone)]
+#[derive(Args, Serialize, Debug, Clone)]
 pub struct CanonicalArgs {
     #[command(flatten)]
-    pub surface: SurfaceArgs,
-    #[command(flatten)]
-    pub solve: SolveArgs,
-    /// The vertex at the origin, where the loops of the generators meet [default: one from which no vertex is far]; of a sphere, the one
+    #[serde(flatten)]
+    pub to: MetricArgs,
+    /// The vertex (numbered from 0) at the origin, where the loops of the generators meet [default: one from which no vertex is far]; of a sphere, the one
     /// that is sent to infinity on the way [default: one from which sizes differ least]
     #[arg(long, value_name = "VERTEX")]
+    #[serde(skip)]
     pub base: Option<u32>,
-    /// Write the metric
-    #[arg(long, value_name = "M.json")]
-    pub metric: Option<PathBuf>,
-    /// Write the opened surface with its layout as texture coordinates, .obj or .glb
-    #[arg(long, value_name = "OUT.obj")]
-    pub uv: Option<PathBuf>,
-    /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
-    #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
-    pub on: OnChoice,
     /// Write a sphere: the final triangulation with its vertices on the unit sphere, .obj or .glb
     #[arg(long, value_name = "S.obj")]
-    pub sphere: Option<PathBuf>,
+    pub sphere: Option<FileName>,
     /// Write the generators of the deck group
     #[arg(long, value_name = "C.json")]
-    pub generators: Option<PathBuf>,
+    pub generators: Option<FileName>,
     #[command(flatten)]
+    #[serde(flatten)]
     pub picture: PictureArgs,
     /// Pattern of the layout [default: checker]
     #[arg(long, value_enum, requires = "picture")]
+    #[serde(skip)]
     pub texture: Option<Texture>,
-    #[command(flatten)]
-    pub common: Common,
 }
 
 #[derive(Args, Debug, Clone)]
@@ -88,7 +78,7 @@ pub struct UniformizeArgs {
 pub struct CoverArgs {
     #[command(flatten)]
     pub canonical: CanonicalArgs,
-    /// Copies of word length N at most [default: 2]
+    /// Copies of word length N at most [default: every copy that touches the domain]
     #[arg(long, value_name = "N", conflicts_with = "radius", value_parser = clap::value_parser!(u16).range(0..=64))]
     pub depth: Option<u16>,
     /// Instead: copies whose base point is this far from the base point at most
@@ -99,10 +89,10 @@ pub struct CoverArgs {
     pub limit: u32,
     /// Write the copies, .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
-    pub cover: Option<PathBuf>,
+    pub cover: Option<FileName>,
     /// Write the Dirichlet domain
     #[arg(long, value_name = "D.json")]
-    pub domain: Option<PathBuf>,
+    pub domain: Option<FileName>,
     /// What the picture shows [default: copies]
     #[arg(long, value_enum, requires = "picture")]
     pub show: Option<TilesChoice>,
@@ -138,7 +128,8 @@ pub enum TilesChoice {
 }
 
 /// What a picture shows.
-#[derive(Clone, Copy)]
+#[derive(Serialize, Debug, Clone, Copy)]
+#[serde(untagged)]
 pub enum Shown {
     Uniform(ShowChoice),
     Cover(TilesChoice),

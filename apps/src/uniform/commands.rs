@@ -1,7 +1,7 @@
 //! Both commands from beginning to end.
 
 use super::args::{CanonicalArgs, CoverArgs, Shown, TilesChoice, UniformizeArgs};
-use super::needs::Needs;
+use super::needs::Task;
 use super::quotient::Uniformized;
 use super::request::{CoverWish, Wish};
 use super::shape::Shape;
@@ -14,14 +14,15 @@ use crate::progress::Progress;
 use crate::report::{Done, timed};
 use ricci::Control;
 use ricci::canonical::{self, QuotientOptions, Uniformization};
+use ricci::geometry::Space;
 use ricci::mesh::VertexId;
 use std::time::Instant;
 
 /// Run `ricci uniformize` and say what came out.
 pub fn uniformize(args: &UniformizeArgs, control: &Control) -> Result<u8, Failure> {
     let done = execute_uniformize(args, control)?;
-    if !args.canonical.common.quiet {
-        summary::say(&done, false);
+    if !args.canonical.to.common.quiet {
+        summary::say(&done, false)?;
     }
     Ok(done.exit_code)
 }
@@ -29,8 +30,8 @@ pub fn uniformize(args: &UniformizeArgs, control: &Control) -> Result<u8, Failur
 /// Run `ricci cover` and say what came out.
 pub fn cover(args: &CoverArgs, control: &Control) -> Result<u8, Failure> {
     let done = execute_cover(args, control)?;
-    if !args.canonical.common.quiet {
-        summary::say(&done, true);
+    if !args.canonical.to.common.quiet {
+        summary::say(&done, true)?;
     }
     Ok(done.exit_code)
 }
@@ -44,18 +45,9 @@ pub fn execute_uniformize(args: &UniformizeArgs, control: &Control) -> Result<Do
 }
 
 pub fn execute_cover(args: &CoverArgs, control: &Control) -> Result<Done<Shape>, Failure> {
-    let cover = CoverWish {
-        depth: args.depth.map_or(2, usize::from),
-        radius: args.radius,
-        limit: args.limit as usize,
-        cover: args.cover.as_deref(),
-        domain: args.domain.as_deref(),
-    };
+    let cover = Some(CoverWish::new(args));
     let shown = Some(Shown::Cover(args.show.unwrap_or(TilesChoice::Copies)));
-    execute(
-        &Wish { args: &args.canonical, command: "cover", shown, model: args.model, cover: Some(cover) },
-        control,
-    )
+    execute(&Wish { args: &args.canonical, command: "cover", shown, model: args.model, cover }, control)
 }
 
 /// The base vertex that was asked for, if it is one.
@@ -70,40 +62,41 @@ fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure
 }
 
 /// Uniformize a closed surface: by the library's one call, but for the paper's flow of spheres.
-fn shape(input: &Input, args: &CanonicalArgs, needs: Needs, control: &Control) -> Result<Shape, Failure> {
+fn shape(task: &Task<'_>) -> Result<Shape, Failure> {
+    let Task { input, args, control, .. } = *task;
     let (base, mut taken) = (base(input, args)?, 0.0);
-    if input.mesh().euler() > 0 && args.solve.method == MethodChoice::Gradient {
-        let found = timed(&mut taken, || flowed(input, args, base, control))?;
-        return Ok(Shape::Sphere(Box::new(Round::new(input, args, found, taken, needs, control)?)));
+    if input.mesh().euler() > 0 && args.to.solve.method == MethodChoice::Gradient {
+        let found = timed(&mut taken, || flowed(task, base))?;
+        return Ok(Shape::Sphere(Box::new(Round::new(task, found, taken)?)));
     }
-    let flow = args.solve.options(args.common.threads());
-    let options = QuotientOptions { scheme: args.solve.scheme.into(), base, flow };
+    let options = QuotientOptions { scheme: args.to.solve.scheme.into(), base, flow: args.to.options() };
     Ok(match timed(&mut taken, || canonical::uniformize(&input.surface, &options, control))? {
         Uniformization::Sphere(sphere) => {
-            let found = punctured(*sphere);
-            Shape::Sphere(Box::new(Round::new(input, args, found, taken, needs, control)?))
+            Shape::Sphere(Box::new(Round::new(task, punctured(*sphere), taken)?))
         }
         Uniformization::Quotient(quotient) => {
-            Shape::Quotient(Box::new(Uniformized::new(input, *quotient, taken, needs, control)?))
+            Shape::Quotient(Box::new(Uniformized::new(task, *quotient, taken)?))
         }
     })
 }
 
 /// The exit code is 1 if a check fails or a file that was asked for has nothing to hold.
 fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done<Shape>, Failure> {
-    let (start, args) = (Instant::now(), wish.args);
+    let (start, to) = (Instant::now(), &wish.args.to);
     wish.check_request()?;
-    let progress = Progress::watch(control, args.common.quiet);
-    let input = input::read(&args.surface, control)?;
+    let progress = Progress::watch(control, to.common.quiet);
+    let input = input::read(&to.file, to.input_geometry.map(Space::from), control)?;
     let shown = wish.check_surface(&input)?;
-    let needs = wish.needs(shown);
-    let mut shape = shape(&input, args, needs, control)?;
+    let task = Task { input: &input, args: wish.args, needs: wish.needs(shown), control };
+    let mut shape = shape(&task)?;
     if let (Shape::Quotient(u), Some(cover)) = (&mut shape, &wish.cover) {
         cover.find(u, control)?;
     }
-    let checks = shape.checks();
-    let files = wish.write(&input, &mut shape, &checks, shown, control, start)?;
+    let written = wish.write(&task, &mut shape, shown, start)?;
     drop(progress);
-    let exit_code = if shape.failed().0.is_empty() { checks.exit_code() } else { 1 };
-    Ok(Done { input, result: shape, checks, files, seconds: start.elapsed().as_secs_f64(), exit_code })
+    let checks = shape.checks();
+    let exit_code = if shape.solved().failed.0.is_empty() { checks.exit_code() } else { 1 };
+    let (files, figures) = written;
+    let seconds = start.elapsed().as_secs_f64();
+    Ok(Done { input, result: shape, figures, checks, files, seconds, exit_code })
 }

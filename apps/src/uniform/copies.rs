@@ -1,15 +1,19 @@
-//! The copies of a cover, one after the other: what is held at a time is as many copies as there are threads.
+//! The copies of a cover, one after the other, and as OBJ: what is held at a time is as many copies as there are threads.
 
 use super::group_file::name;
 use super::model_place::ModelPlace;
 use super::quotient::Uniformized;
+use crate::failure::Failure;
+use crate::options::Common;
 use crate::picture::in_parallel;
+use crate::uv::corners;
 use ricci::Control;
 use ricci::embed::DeckElement;
 use ricci::embed::cover::moved;
-use std::io;
+use std::fmt::Write as _;
+use std::io::{self, Write};
 
-/// What all copies share, and how they are told apart.
+/// The copies of an opened surface.
 pub struct Copies<'a> {
     pub uniformized: &'a Uniformized,
     pub elements: &'a [DeckElement],
@@ -18,11 +22,37 @@ pub struct Copies<'a> {
     /// Plane coordinates of the same.
     pub texcoords: &'a [[f64; 2]],
     pub faces: Vec<[u32; 3]>,
-    pub at: ModelPlace,
-    pub threads: usize,
+    at: ModelPlace,
+    threads: usize,
+    pub quiet: bool,
+    pub control: &'a Control,
 }
 
-impl Copies<'_> {
+impl<'a> Copies<'a> {
+    pub fn new(
+        u: &'a Uniformized,
+        at: ModelPlace,
+        common: &Common,
+        control: &'a Control,
+    ) -> Result<Copies<'a>, Failure> {
+        let laid = u.laid()?;
+        let (points, texcoords) = (&laid.layout.points[..], laid.coordinates());
+        let faces = corners(laid.mesh(), laid.corner_index());
+        let (elements, threads, quiet) = (u.copies()?, common.threads, common.quiet);
+        Ok(Copies { uniformized: u, elements, points, texcoords, faces, at, threads, quiet, control })
+    }
+
+    /// About how large a file of all copies is.
+    pub fn bytes(&self, binary: bool) -> usize {
+        let (points, faces, n) = (self.points.len(), self.faces.len(), self.elements.len());
+        match binary {
+            true if self.at == ModelPlace::Plane => 20 * points + 12 * faces,
+            true => (12 * n + 8) * points + 12 * faces,
+            // A vertex has two numbers of 23 characters; a face three of a vertex and three of a point.
+            false => n * (50 * points + 40 * faces),
+        }
+    }
+
     /// The name of a copy.
     pub fn name(&self, k: usize) -> String {
         name(&self.uniformized.deck.group, &self.elements[k].word)
@@ -34,17 +64,16 @@ impl Copies<'_> {
         moved(self.points, motion).into_iter().map(|p| self.at.coordinates(p)).collect()
     }
 
-    /// Work on copies in parallel and hand over what comes of each, in order.
+    /// Work on the first `n` copies in parallel and hand over what comes of each, in order.
     pub fn each<T: Send>(
         &self,
-        control: &Control,
+        n: usize,
         work: impl Fn(usize) -> T + Sync,
         mut take: impl FnMut(T) -> io::Result<()>,
     ) -> io::Result<()> {
-        let n = self.elements.len();
         let mut batch: Vec<Option<T>> = Vec::new();
         for first in (0..n).step_by(self.threads.max(1)) {
-            control.check().map_err(io::Error::other)?;
+            self.control.check().map_err(io::Error::other)?;
             batch.clear();
             batch.resize_with(self.threads.max(1).min(n - first), || None);
             let slots: Vec<&mut Option<T>> = batch.iter_mut().collect();
@@ -52,5 +81,30 @@ impl Copies<'_> {
             batch.drain(..).flatten().try_for_each(&mut take)?;
         }
         Ok(())
+    }
+
+    /// OBJ: an object each, named by its word; texture coordinates once, for all; numbers with 17 significant digits.
+    pub fn write_obj(&self, out: &mut impl Write) -> io::Result<()> {
+        writeln!(out, "# {} copies in the model {}", self.elements.len(), self.at.name())?;
+        for [s, t] in self.texcoords {
+            writeln!(out, "vt {s:.16e} {t:.16e}")?;
+        }
+        let n = self.points.len();
+        let text = |k: usize| -> String {
+            let mut text = format!("o {}\n", self.name(k));
+            for [x, y, z] in self.points(k) {
+                let _ = match z == 0.0 {
+                    true => writeln!(text, "v {x:.16e} {y:.16e} 0"),
+                    false => writeln!(text, "v {x:.16e} {y:.16e} {z:.16e}"),
+                };
+            }
+            for corners in &self.faces {
+                let [a, b, c] = corners.map(|c| c as usize + 1);
+                let [l, m, r] = [a, b, c].map(|v| v + k * n);
+                let _ = writeln!(text, "f {l}/{a} {m}/{b} {r}/{c}");
+            }
+            text
+        };
+        self.each(self.elements.len(), text, |text| out.write_all(text.as_bytes()))
     }
 }

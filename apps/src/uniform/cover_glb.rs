@@ -1,11 +1,11 @@
 //! Copies of the opened surface as binary glTF: a node each, named by its word; faces, texture coordinates and the checkerboard once, for
-//! all, and a tint of its own for each of a few classes of copies.
+//! all, in the plane positions too; and a tint of its own for each of a few classes of copies.
 
 use super::copies::Copies;
 use super::tiling::tint;
 use crate::checkerboard;
 use crate::picture::{TINTS, tint_color};
-use ricci::Control;
+use ricci::geometry::{Motion, Space, Twofold};
 use serde_json::{Value, json};
 use std::io::{self, Seek, SeekFrom, Write};
 
@@ -16,12 +16,15 @@ const BOUND: usize = 26;
 const MOST: u64 = u32::MAX as u64;
 
 /// Write the copies; coordinates are single precision, as glTF has them.
-pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>, control: &Control) -> io::Result<()> {
+pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>) -> io::Result<()> {
     let (shared, views) = shared(copies)?;
-    let (n, copy) = (copies.elements.len(), 12 * copies.points.len());
+    // Isometries of the plane are those of the nodes; the hyperbolic plane's are no affine maps of any model.
+    let instanced = copies.uniformized.deck.space == Space::E2;
+    let n = if instanced { 1 } else { copies.elements.len() };
+    let copy = 12 * copies.points.len();
     let binary = shared.len() as u64 + n as u64 * copy as u64;
     let none = vec![[[f64::MIN_POSITIVE; 3]; 2]; n];
-    let mut document = Document { copies, views, offset: shared.len(), copy, binary };
+    let document = Document { copies, views, offset: shared.len(), copy, binary, instanced };
     let json = document.text(&none);
     let total = 28 + json.len() as u64 + binary;
     if total > MOST {
@@ -40,16 +43,15 @@ pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>, control: &Co
     out.write_all(&shared)?;
     let mut bounds = Vec::with_capacity(n);
     copies.each(
-        control,
+        n,
         |k| positions(copies, k),
         |(bound, bytes)| {
             bounds.push(bound);
             out.write_all(&bytes)
         },
     )?;
-    // What was left open.
+    // The bounds of the positions, which were left open.
     let end = out.stream_position()?;
-    document.offset = shared.len();
     out.seek(SeekFrom::Start(start + 20))?;
     out.write_all(document.text(&bounds).as_bytes())?;
     out.seek(SeekFrom::Start(end))?;
@@ -60,9 +62,8 @@ pub fn write_glb<W: Write + Seek>(out: &mut W, copies: &Copies<'_>, control: &Co
 fn shared(copies: &Copies<'_>) -> io::Result<(Vec<u8>, Vec<Value>)> {
     let png = checkerboard::png().map_err(|e| io::Error::other(e.to_string()))?;
     let indices: Vec<u8> = copies.faces.as_flattened().iter().flat_map(|i| i.to_le_bytes()).collect();
-    let texcoords = checkerboard::coordinates(copies.texcoords);
     // glTF counts v downwards.
-    let st = texcoords.iter().flat_map(|[s, t]| [*s as f32, (1.0 - t) as f32]);
+    let st = copies.texcoords.iter().flat_map(|[s, t]| [*s as f32, (1.0 - t) as f32]);
     let texcoords: Vec<u8> = st.flat_map(f32::to_le_bytes).collect();
     let (mut shared, mut views) = (Vec::new(), Vec::new());
     for (bytes, target) in [(&indices, Some(34963)), (&texcoords, Some(34962)), (&png, None)] {
@@ -96,6 +97,8 @@ struct Document<'a> {
     offset: usize,
     copy: usize,
     binary: u64,
+    /// Whether the positions are there once for all copies.
+    instanced: bool,
 }
 
 impl Document<'_> {
@@ -108,9 +111,7 @@ impl Document<'_> {
         ];
         let mut views: Vec<String> = self.views.iter().map(Value::to_string).collect();
         let mut accessors: Vec<String> = shared.iter().map(Value::to_string).collect();
-        let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
         for (k, [low, high]) in bounds.iter().enumerate() {
-            let g = &self.copies.elements[k];
             let view = json!({
                 "buffer": 0, "byteOffset": self.offset as u64 + (k * self.copy) as u64, "byteLength": self.copy, "target": 34962
             });
@@ -122,15 +123,29 @@ impl Document<'_> {
                 three(low),
                 three(high)
             ));
-            let primitive = json!({
-                "attributes": {"POSITION": 2 + k, "TEXCOORD_0": 1}, "indices": 0,
-                "material": tint(&self.copies.uniformized.deck, g)
-            });
-            meshes.push(json!({"primitives": [primitive]}).to_string());
-            nodes.push(json!({"mesh": k, "name": self.copies.name(k)}).to_string());
         }
+        let deck = &self.copies.uniformized.deck;
+        let mesh = |position: usize, tint: u8| {
+            let attributes = json!({"POSITION": 2 + position, "TEXCOORD_0": 1});
+            let primitive = json!({"attributes": attributes, "indices": 0, "material": tint});
+            json!({"primitives": [primitive]}).to_string()
+        };
+        let copies = self.copies.elements.iter().enumerate();
+        let (nodes, meshes): (Vec<String>, Vec<String>) = match self.instanced {
+            true => (
+                copies.map(|(k, g)| placed(&self.copies.name(k), tint(deck, g), &g.motion)).collect(),
+                (0..=TINTS).map(|tint| mesh(0, tint)).collect(),
+            ),
+            false => (
+                copies
+                    .clone()
+                    .map(|(k, _)| json!({"mesh": k, "name": self.copies.name(k)}).to_string())
+                    .collect(),
+                copies.map(|(k, g)| mesh(k, tint(deck, g))).collect(),
+            ),
+        };
         let list = |name: &str, items: &[String]| format!(",\"{name}\":[{}]", items.join(","));
-        let mut text = self.head(bounds.len()).to_string();
+        let mut text = self.head(nodes.len()).to_string();
         text.pop();
         for (name, items) in
             [("bufferViews", &views), ("accessors", &accessors), ("nodes", &nodes), ("meshes", &meshes)]
@@ -144,18 +159,22 @@ impl Document<'_> {
 
     /// All but the lists that have an entry for each copy.
     fn head(&self, n_copies: usize) -> Value {
+        let repeat = checkerboard::repeat(self.copies.texcoords);
+        let transform = json!({"KHR_texture_transform": {"scale": [repeat, repeat]}});
+        let texture = json!({"index": 0, "extensions": transform});
         let colors = (0..=TINTS).map(|t| {
             let [r, g, b] = tint_color(t);
             json!({
                 "doubleSided": true,
                 "pbrMetallicRoughness": {
-                    "baseColorFactor": [r, g, b, 1.0], "baseColorTexture": {"index": 0},
+                    "baseColorFactor": [r, g, b, 1.0], "baseColorTexture": texture,
                     "metallicFactor": 0.0, "roughnessFactor": 0.8
                 }
             })
         });
         json!({
             "asset": {"version": "2.0", "generator": concat!("ricci ", env!("CARGO_PKG_VERSION"))},
+            "extensionsUsed": ["KHR_texture_transform"],
             "scene": 0,
             "scenes": [{"nodes": (0..n_copies).collect::<Vec<_>>()}],
             "materials": colors.collect::<Vec<_>>(),
@@ -165,4 +184,12 @@ impl Document<'_> {
             "buffers": [{"byteLength": self.binary}]
         })
     }
+}
+
+/// The node of a copy that is moved in the plane: by the mesh of its tint.
+fn placed(name: &str, tint: u8, motion: &Motion<Twofold>) -> String {
+    let [[[cos, sin], [x, y]], _] = motion.mobius();
+    let half = 0.5 * sin.atan2(cos);
+    let (translation, rotation) = ([x, y, 0.0], [0.0, 0.0, half.sin(), half.cos()]);
+    json!({"mesh": tint, "name": name, "translation": translation, "rotation": rotation}).to_string()
 }

@@ -1,134 +1,117 @@
 //! The files of both commands.
 
 use super::args::{ShowChoice, Shown};
-use super::cover_file;
-use super::figures::UniformFigures;
+use super::copies::Copies;
+use super::cover_glb::write_glb;
+use super::figures::of_quotient;
 use super::group_file::{DomainFile, GroupFile};
-use super::pictures::{self, Canvas};
+use super::needs::Task;
+use super::pictures;
 use super::quotient::Uniformized;
 use super::request::Wish;
 use super::shape::Shape;
 use super::sphere::Round;
-use super::sphere_figures::SphereFigures;
+use super::sphere_figures::of_sphere;
 use super::sphere_picture;
-use crate::carry;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::metric_file::MetricFile;
 use crate::output::{Outputs, extension};
-use crate::picture::Texture;
-use crate::report::{Checks, InputSummary, Report, Seconds, path_text};
+use crate::picture::{Style, Texture};
+use crate::progress::doing;
+use crate::report::{Figures, InputSummary, Report, path_text};
 use crate::uv;
-use ricci::Control;
 use ricci::control::Stage;
-use ricci::flow::Solution;
 use ricci::mesh::io::{self, Textured};
-use ricci::mesh::{PerEdge, PerVertex};
-use serde::Serialize;
+use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
 impl Wish<'_> {
-    /// Write every file that was asked for, the report last; one that cannot be made keeps none of the others back.
+    /// Write every file that was asked for, the report last; returns their names and the figures. One that cannot be made keeps none of
+    /// the others back.
     pub fn write(
         &self,
-        input: &Input,
+        task: &Task<'_>,
         shape: &mut Shape,
-        checks: &Checks,
         shown: Shown,
-        control: &Control,
         start: Instant,
-    ) -> Result<Vec<String>, Failure> {
-        control.step(Stage::Write, 0.0)?;
+    ) -> Result<(Vec<String>, Figures), Failure> {
+        task.control.step(Stage::Write, 0.0)?;
         let begin = Instant::now();
         let mut outputs = Outputs::default();
+        shape.solved_mut().write_metric(&mut outputs, self.args.to.metric.as_deref())?;
         match shape {
-            Shape::Quotient(u) => self.write_quotient(&mut outputs, input, u, shown, control)?,
-            Shape::Sphere(s) => self.write_sphere(&mut outputs, input, s, shown, control)?,
+            Shape::Quotient(u) => self.write_quotient(&mut outputs, task, u, shown)?,
+            Shape::Sphere(s) => self.write_sphere(&mut outputs, task.input, s, shown)?,
         }
-        let seconds = match shape {
-            Shape::Quotient(u) => &mut u.seconds,
-            Shape::Sphere(s) => &mut s.seconds,
-        };
+        task.control.check()?;
+        let seconds = &mut shape.solved_mut().seconds;
         seconds.write += begin.elapsed().as_secs_f64();
         seconds.total = start.elapsed().as_secs_f64();
-        let (seconds, copies) = (*seconds, self.cover.is_some());
+        let copies = self.cover.is_some();
+        let (base, figures) = match shape {
+            Shape::Quotient(u) => (Some(u.basis.base.0), of_quotient(u, copies)),
+            Shape::Sphere(s) => (self.args.base, of_sphere(task.input, s, copies)),
+        };
         let mut report_failed = Ok(());
-        if let Some(path) = &self.args.common.report {
-            report_failed = match shape {
-                Shape::Quotient(u) => {
-                    let asked = self.asked(input, Some(u.basis.base.0), shown);
-                    let figures = UniformFigures::new(u, copies);
-                    let report = self.report(input, asked, figures, checks, seconds);
-                    outputs.add_report(path, &report)
-                }
-                Shape::Sphere(s) => {
-                    let asked = self.asked(input, self.args.base, shown);
-                    let figures = SphereFigures::new(input, s, copies);
-                    let report = self.report(input, asked, figures, checks, seconds);
-                    outputs.add_report(path, &report)
-                }
-            };
+        if let Some(path) = &self.args.to.common.report {
+            let asked = self.asked(task.input, base, shown);
+            let report = Report::new(self.command, InputSummary::of(task.input), asked, figures.clone());
+            report_failed =
+                outputs.add_report(path, &report.finished(shape.checks(), shape.solved().seconds));
         }
-        control.check()?;
+        task.control.check()?;
         let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
-        report_failed.map(|()| files)
+        report_failed.map(|()| (files, figures))
     }
 
-    fn report<O: Serialize, R: Serialize>(
-        &self,
-        input: &Input,
-        asked: O,
-        figures: R,
-        checks: &Checks,
-        seconds: Seconds,
-    ) -> Report<O, R> {
-        Report::new(self.command, InputSummary::of(input), asked, figures).finished(checks.clone(), seconds)
+    /// How the picture is drawn.
+    fn style(&self) -> Style {
+        let texture = self.args.texture.unwrap_or(Texture::Checker);
+        self.args.picture.style(texture, self.args.to.common.threads)
     }
 
     fn write_quotient(
         &self,
         outputs: &mut Outputs,
-        input: &Input,
+        task: &Task<'_>,
         u: &mut Uniformized,
         shown: Shown,
-        control: &Control,
     ) -> Result<(), Failure> {
-        let args = self.args;
-        let (at, threads) = (self.place(u.deck.space), args.common.threads());
-        if let Some(path) = &args.metric {
-            let written = write_metric(outputs, path, &u.metric, &u.lengths, &u.target);
-            u.failed.attempt("metric", written)?;
-        }
-        if let Some(path) = &args.uv {
-            let written = u.laid().and_then(|laid| uv::write(outputs, path, input, laid, (args.on, false)));
-            if u.failed.attempt("uv", written)?.is_some() {
-                u.left_out = carry::left_out(input);
+        let (args, at) = (self.args, self.place(u.deck.space));
+        match &u.laid {
+            Some(Ok(laid)) => {
+                uv::write_asked(outputs, task.input, laid, (&args.to, false), &mut u.solved)?;
             }
+            Some(Err(why)) => {
+                let of_layout = [("uv", args.to.uv.is_some()), ("xref", args.to.xref.is_some())];
+                let missing = of_layout.into_iter().filter(|(_, asked)| *asked);
+                u.solved.failed.0.extend(missing.map(|(wish, _)| (wish, why.clone())));
+            }
+            None => {}
         }
         if let Some(path) = &args.generators {
             let file = GroupFile::new(u).map_err(Failure::from);
             let written = file.and_then(|file| outputs.add_json(path, &file));
-            u.failed.attempt("generators", written)?;
+            u.solved.failed.attempt("generators", written)?;
         }
-        control.check()?;
+        task.control.check()?;
         if let Some(path) = self.cover.and_then(|c| c.domain) {
             let file = u.domain().and_then(|domain| Ok(DomainFile::new(u, domain, at)?));
             let written = file.and_then(|file| outputs.add_json(path, &file));
-            u.failed.attempt("domain", written)?;
+            u.solved.failed.attempt("domain", written)?;
         }
         if let Some(path) = &args.picture.picture {
-            let texture = args.texture.unwrap_or(Texture::Checker);
-            let (at, style) = (self.drawn_place(u.deck.space), args.picture.style(texture));
-            let canvas = Canvas { path, at, style, threads };
-            let ready = pictures::prepare(u, shown, &canvas);
-            let written = ready.and_then(|ready| outputs.add(path, |out| ready.write(out, u, &canvas)));
-            u.failed.attempt("picture", written)?;
+            let canvas = pictures::Canvas { at: self.drawn_place(u.deck.space), style: self.style() };
+            let drawn = doing("drawing", || pictures::draw(u, shown, &canvas, args.picture.is_svg()));
+            let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
+            u.solved.failed.attempt("picture", written)?;
         }
-        control.step(Stage::Write, 0.3)?;
+        task.control.step(Stage::Write, 0.3)?;
         if let Some(path) = self.cover.and_then(|c| c.cover) {
-            let written = cover_file::write(outputs, path, u, at, threads, control);
-            u.failed.attempt("cover", written)?;
+            let copies = Copies::new(u, at, &args.to.common, task.control);
+            let written = copies.and_then(|copies| write_copies(outputs, path, &copies));
+            u.solved.failed.attempt("cover", written)?;
         }
         Ok(())
     }
@@ -139,60 +122,51 @@ impl Wish<'_> {
         input: &Input,
         s: &mut Round,
         shown: Shown,
-        control: &Control,
     ) -> Result<(), Failure> {
         let args = self.args;
-        if let Some(path) = &args.metric {
-            let written = write_metric(outputs, path, &s.metric, &s.lengths, &s.target);
-            s.failed.attempt("metric", written)?;
-        }
-        for (wish, path) in [("sphere", args.sphere.as_deref()), ("cover", self.cover.and_then(|c| c.cover))]
-        {
+        for (wish, path) in [("sphere", args.sphere.as_ref()), ("cover", self.cover.and_then(|c| c.cover))] {
             if let Some(path) = path {
                 let written = write_on_sphere(outputs, path, input, s);
-                s.failed.attempt(wish, written)?;
+                s.solved.failed.attempt(wish, written)?;
             }
         }
         if let Some(path) = &args.generators {
             let written = outputs.add_json(path, &GroupFile::trivial("s2"));
-            s.failed.attempt("generators", written)?;
+            s.solved.failed.attempt("generators", written)?;
         }
-        control.check()?;
         if let Some(path) = &args.picture.picture {
-            let style = args.picture.style(args.texture.unwrap_or(Texture::Checker));
             let beside = matches!(shown, Shown::Uniform(ShowChoice::Both));
-            let threads = args.common.threads();
-            let written = s.refinement().and_then(|r| {
-                let given = input.positions();
-                let positions = given.map(|p| r.from_input_vertices(p)).transpose()?;
-                outputs.add(path, |out| {
-                    sphere_picture::write(out, s, r, positions.as_deref(), &style, beside, threads)
-                })
-            });
-            s.failed.attempt("picture", written)?;
+            let drawn = doing("drawing", || sphere_picture::draw(input, s, &self.style(), beside));
+            let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
+            s.solved.failed.attempt("picture", written)?;
         }
         Ok(())
     }
 }
 
-fn write_metric(
-    outputs: &mut Outputs,
-    path: &Path,
-    surface: &Solution,
-    lengths: &PerEdge<f64>,
-    target: &PerVertex<f64>,
-) -> Result<(), Failure> {
-    let (mesh, metric) = (surface.mesh(), surface.metric());
-    let lost = metric.length_remainders(mesh)?;
-    let factor = surface.conformal_factor()?;
-    let file = MetricFile::new(mesh, surface.scheme()?, metric, [lengths, &lost], &factor, target, None);
-    outputs.add_json(path, &file)
+/// Size in megabytes from which on a file of copies is announced.
+const LARGE: usize = 20;
+
+/// All copies of a cover, as OBJ or, from a name that ends in `.glb`, binary glTF.
+fn write_copies(outputs: &mut Outputs, path: &Path, copies: &Copies<'_>) -> Result<(), Failure> {
+    let binary = extension(path) == "glb";
+    let megabytes = copies.bytes(binary) / 1_000_000;
+    if megabytes >= LARGE && !copies.quiet {
+        let (path, n) = (path.display(), copies.elements.len());
+        let _ = writeln!(std::io::stderr(), "ricci: --cover {path}: {n} copies, about {megabytes} MB");
+    }
+    let written = match extension(path).as_str() {
+        "glb" => outputs.add(path, |out| write_glb(out, copies)),
+        _ => outputs.add(path, |out| copies.write_obj(out)),
+    };
+    // A file that was given up halfway is no failure of its own.
+    copies.control.check()?;
+    written
 }
 
 /// The final triangulation on the unit sphere, with the input's colours.
 fn write_on_sphere(outputs: &mut Outputs, path: &Path, input: &Input, s: &Round) -> Result<(), Failure> {
-    let mesh = s.metric.mesh();
-    let faces = mesh.triangles();
+    let faces = s.mesh().triangles();
     let data = Textured {
         positions: &s.positions,
         colors: input.attributes.colors.as_deref().unwrap_or_default(),

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 type Mobius = [[[f64; 2]; 2]; 2];
 
 /// `--generators`.
-#[derive(Serialize)]
+#[derive(Serialize, Default)]
 pub struct GroupFile {
     space: &'static str,
     basis: Vec<String>,
@@ -30,25 +30,20 @@ pub struct GroupFile {
 impl GroupFile {
     /// The group of what is its own universal cover.
     pub fn trivial(space: &'static str) -> GroupFile {
-        GroupFile {
-            space,
-            basis: Vec::new(),
-            word: Vec::new(),
-            intersections: Vec::new(),
-            generators: BTreeMap::new(),
-            generators_lo: BTreeMap::new(),
-            matrices: BTreeMap::new(),
-        }
+        GroupFile { space, ..GroupFile::default() }
     }
 
-    /// Errors: those of [`intersection_matrix`].
+    /// The deck group of a surface.
+    ///
+    /// # Errors
+    /// Those of [`intersection_matrix`].
     pub fn new(u: &Uniformized) -> ricci::Result<GroupFile> {
         let deck = &u.deck;
         let basis = deck.group.names();
         let named = || basis.iter().cloned().zip(&deck.generators);
         Ok(GroupFile {
             space: deck.space.name(),
-            intersections: intersection_matrix(u.metric.mesh(), &u.basis.loops)?,
+            intersections: intersection_matrix(u.solved.solution.mesh(), &u.basis.loops)?,
             word: letters(&deck.group, &deck.group.relator()),
             generators: named().map(|(name, g)| (name, g.mobius())).collect(),
             generators_lo: named().map(|(name, g)| (name, g.mobius_remainder())).collect(),

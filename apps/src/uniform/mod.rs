@@ -3,9 +3,7 @@
 mod args;
 mod commands;
 mod copies;
-mod cover_file;
 mod cover_glb;
-mod cover_obj;
 mod figures;
 mod files;
 mod group_file;
@@ -24,5 +22,3 @@ mod tiling;
 
 pub use args::{COVER_HELP, CoverArgs, UNIFORMIZE_HELP, UniformizeArgs};
 pub use commands::{cover, execute_cover, execute_uniformize, uniformize};
-pub use figures::UniformFigures;
-pub use shape::Shape;

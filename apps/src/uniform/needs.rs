@@ -1,6 +1,8 @@
-//! What outputs need beside metric, layout and group, and what became of it.
+//! What a surface in its canonical shape is found from.
 
-use crate::failure::Failure;
+use super::args::CanonicalArgs;
+use crate::input::Input;
+use ricci::Control;
 
 /// What some outputs need beside metric, layout and group.
 #[derive(Clone, Copy)]
@@ -13,25 +15,10 @@ pub struct Needs {
     pub domain: bool,
 }
 
-/// What a step has made, or the text of its error.
-///
-/// # Errors
-/// [`Failure::Cancelled`] alone.
-pub fn told<T>(made: ricci::Result<T>) -> Result<Result<T, String>, Failure> {
-    match made {
-        Err(ricci::Error::Cancelled) => Err(Failure::Cancelled),
-        made => Ok(made.map_err(|error| error.to_string())),
-    }
-}
-
-/// What was made.
-///
-/// # Errors
-/// [`Failure::Failed`] with the reason why it was not, also where no output asked for it.
-pub fn known<T>(made: &Option<Result<T, String>>) -> Result<&T, Failure> {
-    match made {
-        Some(Ok(made)) => Ok(made),
-        Some(Err(why)) => Err(Failure::Failed(why.clone())),
-        None => Err(Failure::Failed("no output has asked for it".into())),
-    }
+/// A surface whose canonical shape is wanted.
+pub struct Task<'a> {
+    pub input: &'a Input,
+    pub args: &'a CanonicalArgs,
+    pub needs: Needs,
+    pub control: &'a Control,
 }

@@ -1,7 +1,10 @@
 //! The border of the opened surface in space, once around.
 
 use super::quotient::Uniformized;
-use ricci::embed::Layout;
+use ricci::Control;
+use ricci::embed::cover::elements_reached;
+use ricci::embed::{DeckElement, Layout};
+use ricci::geometry::{Motion, Twofold};
 use ricci::mesh::{HalfedgeId, Mesh};
 use ricci::topology::FundamentalDomain;
 
@@ -18,7 +21,7 @@ pub struct Side {
 /// The sides of the opened surface, counterclockwise.
 pub fn sides(u: &Uniformized) -> ricci::Result<Vec<Side>> {
     let whole = &u.layout;
-    let mesh = &**u.metric.mesh();
+    let mesh = &**u.solved.solution.mesh();
     let domain = FundamentalDomain::new(mesh, &whole.cut.is_cut, &u.basis)?;
     let mut pair = vec![usize::MAX; domain.sides.len()];
     let mut n_pairs = 0;
@@ -39,6 +42,25 @@ pub fn sides(u: &Uniformized) -> ricci::Result<Vec<Side>> {
     Ok(domain.sides.iter().enumerate().map(side).collect())
 }
 
+/// Corners of two copies are one up to this, relative to how far they are from the base point: layouts agree to much less.
+const SAME: f64 = 1e-6;
+
+/// The deck elements whose copies of the opened surface touch the surface itself, and the identity: those that have a corner in common
+/// with it, which are reached over sides.
+pub fn touching(u: &Uniformized, limit: usize, control: &Control) -> ricci::Result<Vec<DeckElement>> {
+    let corners: Vec<[f64; 3]> = sides(u)?.iter().filter_map(|side| side.points.first().copied()).collect();
+    // In the plane the third coordinate is 1, and lengths have the size of the surface.
+    let scale = corners.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
+    let touches = |g: &Motion<Twofold>| {
+        corners.iter().any(|p| {
+            let p = g.apply(p.map(Twofold::from)).map(f64::from);
+            let same = |q: &[f64; 3]| (0..2).all(|k| (p[k] - q[k]).abs() <= SAME * scale.max(q[2]));
+            corners.iter().any(same)
+        })
+    };
+    elements_reached(&u.deck, &u.deck.sides, touches, limit, control)
+}
+
 fn chain(mesh: &Mesh, whole: &Layout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]> {
     let last = halfedges.last().map(|&h| whole.corner(mesh.next(h)));
     halfedges.iter().map(|&h| whole.corner(h)).chain(last).collect()
@@ -47,7 +69,7 @@ fn chain(mesh: &Mesh, whole: &Layout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]>
 /// The loops of the generators in the opened surface: the two ends of each edge in each of its places, with the loop's number.
 pub fn loops(u: &Uniformized) -> Vec<([[f64; 3]; 2], usize)> {
     let whole = &u.layout;
-    let mesh = u.metric.mesh();
+    let mesh = u.solved.solution.mesh();
     let ends = |h: HalfedgeId| [whole.corner(h), whole.corner(mesh.next(h))];
     let of = |(k, path): (usize, &Vec<HalfedgeId>)| -> Vec<_> {
         path.iter().flat_map(|h| [*h, h.twin()]).map(|h| (ends(h), k)).collect()
@@ -58,7 +80,7 @@ pub fn loops(u: &Uniformized) -> Vec<([[f64; 3]; 2], usize)> {
 /// The loops of the generators on the surface as it was given: edges of the common refinement, with the loop's number.
 pub fn loops_on_surface(u: &Uniformized) -> Vec<(u32, u32, usize)> {
     let Some(refinement) = u.laid().ok().and_then(|laid| laid.refinement()) else { return Vec::new() };
-    let mut of_edge = vec![None; u.metric.mesh().n_edges()];
+    let mut of_edge = vec![None; u.solved.solution.mesh().n_edges()];
     for (k, path) in u.basis.loops.iter().enumerate() {
         path.iter().for_each(|h| of_edge[h.edge().index()] = Some(k));
     }

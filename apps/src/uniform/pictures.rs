@@ -7,18 +7,13 @@ use super::quotient::{ORIGIN, Uniformized};
 use super::tiling::{Prototype, Tiling, tint};
 use crate::failure::Failure;
 use crate::laid::Laid;
-use crate::picture::{
-    self, Drawing, Frame, PALE, Pattern, Picture, Style, Surface, Tiles, write_drawing_svg,
-};
-use crate::show::is_svg;
+use crate::picture::{self, Drawing, Frame, PALE, Pattern, Picture, Style, Surface, Tiles};
 use crate::uv::corners;
 use ricci::embed::layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
 use ricci::geometry::{Motion, Space, Twofold};
 use ricci::topology::word::Word;
-use std::io::{self, Write};
-use std::path::Path;
 
 /// Copies in the background of a polygon at most.
 const BACKGROUND: usize = 250;
@@ -32,25 +27,13 @@ const BOLD: f64 = 1.8;
 const HEADROOM: f64 = 1.12;
 
 /// Where and how to draw.
-pub struct Canvas<'a> {
-    pub path: &'a Path,
+pub struct Canvas {
     pub at: ModelPlace,
     pub style: Style,
-    pub threads: usize,
 }
 
-/// The parts of the picture, ready to be written.
-pub struct Ready {
-    tiling: Option<Tiling>,
-    uv: Vec<[[f64; 2]; 3]>,
-    tiles: Tiles,
-    faces: Vec<[u32; 3]>,
-    loops: Vec<(u32, u32, usize)>,
-    with_surface: bool,
-}
-
-/// Work out what is drawn.
-pub fn prepare(u: &Uniformized, shown: Shown, canvas: &Canvas<'_>) -> Result<Ready, Failure> {
+/// The picture as PNG, or the drawing beside the surface alone as SVG.
+pub fn draw(u: &Uniformized, shown: Shown, canvas: &Canvas, svg: bool) -> Result<Vec<u8>, Failure> {
     let laid = u.laid()?;
     let (uv, tiles) = pattern(u, laid);
     let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
@@ -63,38 +46,22 @@ pub fn prepare(u: &Uniformized, shown: Shown, canvas: &Canvas<'_>) -> Result<Rea
         Shown::Cover(TilesChoice::Copies) => Some(copies(u, canvas)?),
         Shown::Cover(TilesChoice::Tiles) => Some(tiled(u, canvas)?),
     };
-    Ok(Ready {
-        tiling,
-        uv,
-        tiles,
-        faces: laid.mesh().triangles(),
-        loops: if with_surface { loops_on_surface(u) } else { Vec::new() },
-        with_surface,
-    })
-}
-
-impl Ready {
-    /// Write the picture as PNG, or the drawing alone where the file is named `.svg`.
-    pub fn write(&self, out: &mut impl Write, u: &Uniformized, canvas: &Canvas<'_>) -> io::Result<()> {
-        let pattern = Pattern { uv: &self.uv, tiles: &self.tiles };
-        let drawing: Option<Drawing<'_>> = self.tiling.as_ref().map(|t| t.drawing(Some(pattern)));
-        if let (Some(drawing), true) = (&drawing, is_svg(canvas.path)) {
-            return write_drawing_svg(out, drawing, &canvas.style);
-        }
-        let base = [(u.basis.base.0, 1.0)];
-        let laid = u.laid().ok().filter(|_| self.with_surface);
-        let positions = laid.and_then(|laid| laid.positions.as_ref());
-        let surface = positions.map(|positions| Surface {
-            positions,
-            faces: &self.faces,
-            corner_uv: Some(&self.uv),
-            seams: &self.loops,
-            cones: &base,
-        });
-        let drawn =
-            Picture { surface, drawing: drawing.as_ref(), pattern: Some(&self.tiles), ..Picture::default() };
-        out.write_all(&picture::png(&drawn, &canvas.style, canvas.threads).map_err(io::Error::other)?)
+    let pattern = Pattern { uv: &uv, tiles: &tiles };
+    let drawing: Option<Drawing<'_>> = tiling.as_ref().map(|t| t.drawing(Some(pattern)));
+    if let (Some(drawing), true) = (&drawing, svg) {
+        return Ok(picture::drawing_svg(drawing, &canvas.style));
     }
+    let (base, faces) = ([(u.basis.base.0, 1.0)], laid.mesh().triangles());
+    let loops = if with_surface { loops_on_surface(u) } else { Vec::new() };
+    let surface = laid.positions.as_ref().filter(|_| with_surface).map(|positions| Surface {
+        positions,
+        faces: &faces,
+        corner_uv: Some(&uv),
+        seams: &loops,
+        cones: &base,
+    });
+    let drawn = Picture { surface, drawing: drawing.as_ref(), pattern: Some(&tiles), ..Picture::default() };
+    picture::png(&drawn, &canvas.style)
 }
 
 /// The pattern: checks of one size in the metric, as far as octaves reach.
@@ -143,7 +110,7 @@ fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
 }
 
 /// The layout, with its sides in pairs or the loops of the generators.
-fn domain(u: &Uniformized, canvas: &Canvas<'_>, named: bool) -> Result<Tiling, Failure> {
+fn domain(u: &Uniformized, canvas: &Canvas, named: bool) -> Result<Tiling, Failure> {
     let sides = sides(u)?;
     let shape = prototype(u.laid()?, &sides);
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
@@ -162,7 +129,7 @@ fn domain(u: &Uniformized, canvas: &Canvas<'_>, named: bool) -> Result<Tiling, F
 }
 
 /// The canonical polygon over copies of the layout, moved to the middle of the picture.
-fn polygon(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+fn polygon(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
     let sides = sides(u)?;
     let shape = prototype(u.laid()?, &sides);
     let given = u.deck.canonical_polygon(ORIGIN)?;
@@ -234,7 +201,7 @@ fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> ricci::R
 }
 
 /// The Dirichlet domain over its neighbours.
-fn dirichlet(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+fn dirichlet(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
     let domain = u.domain()?;
     let sides = sides(u)?;
     let shape = prototype(u.laid()?, &sides);
@@ -282,7 +249,7 @@ fn tile(domain: &DirichletDomain, at: ModelPlace) -> Prototype {
 }
 
 /// The copies of the layout.
-fn copies(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+fn copies(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
     let elements = u.copies()?;
     let sides = sides(u)?;
     let shape = prototype(u.laid()?, &sides);
@@ -295,7 +262,7 @@ fn copies(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
 }
 
 /// The copies of the Dirichlet domain.
-fn tiled(u: &Uniformized, canvas: &Canvas<'_>) -> Result<Tiling, Failure> {
+fn tiled(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
     let (domain, elements) = (u.domain()?, u.copies()?);
     let shape = tile(domain, canvas.at);
     let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);

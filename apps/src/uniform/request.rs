@@ -1,31 +1,30 @@
 //! What is asked of the commands, and what they refuse.
 
-use super::args::{CanonicalArgs, ModelChoice, ShowChoice, Shown, TilesChoice};
+use super::args::{CanonicalArgs, CoverArgs, ModelChoice, ShowChoice, Shown, TilesChoice};
 use super::model_place::ModelPlace;
 use super::needs::Needs;
+use super::outline::touching;
 use super::quotient::Uniformized;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::options::{FlipsChoice, MethodChoice, OnChoice, SchemeChoice};
+use crate::options::{FileName, FlipsChoice, MethodChoice, OnChoice, SchemeChoice};
 use crate::output::{check_extension, check_outputs};
-use crate::picture::{PictureArgs, Texture};
-use crate::report::path_text;
-use crate::show::is_svg;
+use crate::picture::Texture;
 use ricci::Control;
 use ricci::embed::cover::{elements_to_depth, elements_within};
 use ricci::geometry::Space;
 use ricci::geometry::model::Model;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
 
 /// Copies to make, and where they are written.
-#[derive(Clone, Copy)]
+#[derive(Serialize, Clone, Copy)]
 pub struct CoverWish<'a> {
-    pub depth: usize,
+    /// None, as the radius is: every copy that touches the domain.
+    pub depth: Option<u16>,
     pub radius: Option<f64>,
-    pub limit: usize,
-    pub cover: Option<&'a Path>,
-    pub domain: Option<&'a Path>,
+    pub limit: u32,
+    pub cover: Option<&'a FileName>,
+    pub domain: Option<&'a FileName>,
 }
 
 /// What is common to both commands.
@@ -38,20 +37,22 @@ pub struct Wish<'a> {
 }
 
 impl CoverWish<'_> {
-    /// What says how many copies are asked for.
-    fn option(&self) -> &'static str {
-        if self.radius.is_some() { "radius" } else { "depth" }
+    pub fn new(args: &CoverArgs) -> CoverWish<'_> {
+        let CoverArgs { depth, radius, limit, .. } = *args;
+        CoverWish { depth, radius, limit, cover: args.cover.as_ref(), domain: args.domain.as_ref() }
     }
 
     /// Find the copies that are asked for. Where there are too many, or no domain to find them by, files that show none are written all
     /// the same. Errors: [`Failure::Cancelled`] alone.
     pub fn find(&self, u: &mut Uniformized, control: &Control) -> Result<(), Failure> {
-        let found = match self.radius.map(|radius| (radius, u.domain())) {
-            None => elements_to_depth(&u.deck, self.depth, self.limit, control),
-            Some((radius, Ok(domain))) => elements_within(&u.deck, domain, radius, self.limit, control),
-            Some((_, Err(why))) => Err(ricci::Error::Layout(format!("{why}; use --depth"))),
+        let limit = self.limit as usize;
+        let found = match (self.depth, self.radius.map(|radius| (radius, u.domain()))) {
+            (Some(depth), _) => elements_to_depth(&u.deck, depth.into(), limit, control),
+            (None, None) => touching(u, limit, control),
+            (_, Some((radius, Ok(domain)))) => elements_within(&u.deck, domain, radius, limit, control),
+            (_, Some((_, Err(why)))) => Err(ricci::Error::Layout(format!("{why}; use --depth"))),
         };
-        let option = self.option();
+        let option = if self.depth.is_some() { "depth" } else { "radius" };
         u.elements = match found {
             Ok(elements) => Ok(elements),
             Err(ricci::Error::Cancelled) => return Err(Failure::Cancelled),
@@ -61,7 +62,7 @@ impl CoverWish<'_> {
             Err(error) => Err(error.to_string()),
         };
         if let Err(why) = &u.elements {
-            u.failed.0.insert(option, why.clone());
+            u.solved.failed.0.insert(option, why.clone());
         }
         Ok(())
     }
@@ -70,7 +71,7 @@ impl CoverWish<'_> {
 impl Wish<'_> {
     /// What the outputs that are asked for are made from.
     pub fn needs(&self, shown: Shown) -> Needs {
-        let (report, drawn) = (self.args.common.report.is_some(), self.args.picture.picture.is_some());
+        let (report, drawn) = (self.args.to.common.report.is_some(), self.args.picture.picture.is_some());
         let of_domain = matches!(
             shown,
             Shown::Uniform(ShowChoice::Polygon | ShowChoice::Dirichlet) | Shown::Cover(TilesChoice::Tiles)
@@ -78,8 +79,8 @@ impl Wish<'_> {
         let by_domain = self.cover.is_some_and(|c| c.radius.is_some() || c.domain.is_some());
         let copies = self.cover.is_some_and(|c| c.cover.is_some());
         Needs {
-            refinement: report || drawn || copies || self.args.uv.is_some(),
-            on_input: self.args.on == OnChoice::Input && self.args.uv.is_some(),
+            refinement: report || drawn || copies || self.args.to.uv.is_some(),
+            on_input: self.args.to.on == OnChoice::Input && self.args.to.uv.is_some(),
             domain: report || by_domain || (drawn && of_domain),
         }
     }
@@ -88,31 +89,38 @@ impl Wish<'_> {
     pub fn check_request(&self) -> Result<(), Failure> {
         let args = self.args;
         let cover = self.cover.as_ref();
-        let [copies, domain] = [cover.and_then(|c| c.cover), cover.and_then(|c| c.domain)];
+        let [copies, domain] =
+            [cover.and_then(|c| c.cover), cover.and_then(|c| c.domain)].map(|file| file.map(|name| &**name));
         let meshes =
-            [("--uv", args.uv.as_deref()), ("--sphere", args.sphere.as_deref()), ("--cover", copies)];
+            [("--uv", args.to.uv.as_deref()), ("--sphere", args.sphere.as_deref()), ("--cover", copies)];
         for (option, path) in meshes {
             check_extension(option, path, &["obj", "glb"])?;
         }
         let picture = args.picture.picture.as_deref();
         check_extension("--picture", picture, &["png", "svg"])?;
         let in_space = matches!(self.shown, Some(Shown::Uniform(ShowChoice::Both | ShowChoice::Surface)));
-        if in_space && picture.is_some_and(is_svg) {
+        if in_space && args.picture.is_svg() {
             return Err(Failure::Usage(
                 "--picture: an SVG shows no surface in space; use .png, or --show domain".into(),
             ));
         }
+        if args.picture.is_svg() && args.picture.is_turned() {
+            return Err(Failure::Usage(
+                "--view, --up: an SVG shows no surface in space; use .png, or leave them out".into(),
+            ));
+        }
         let files = [
-            args.metric.as_deref(),
-            args.uv.as_deref(),
+            args.to.metric.as_deref(),
+            args.to.uv.as_deref(),
+            args.to.xref.as_deref(),
             args.sphere.as_deref(),
             args.generators.as_deref(),
             picture,
-            args.common.report.as_deref(),
+            args.to.common.report.as_deref(),
             copies,
             domain,
         ];
-        check_outputs(&[Some(&args.surface.mesh)], &files)
+        check_outputs(&[Some(&args.to.file.mesh)], &files)
     }
 
     /// What can be refused once the surface is known; what the picture shows.
@@ -139,14 +147,12 @@ impl Wish<'_> {
                 "--model: a torus lies in the plane, which has no other model".into(),
             ));
         }
-        let usual = match (input.positions(), &self.args.picture.picture) {
-            (Some(_), Some(path)) if !is_svg(path) => ShowChoice::Both,
-            _ => ShowChoice::Domain,
-        };
+        let beside = input.positions().is_some() && !self.args.picture.is_svg();
+        let usual = if beside { ShowChoice::Both } else { ShowChoice::Domain };
         let shown = self.shown.unwrap_or(Shown::Uniform(usual));
         if input.positions().is_none() {
             let nothing = "an intrinsic metric has no positions in space";
-            if self.args.uv.is_some() {
+            if self.args.to.uv.is_some() {
                 return Err(Failure::Usage(format!(
                     "--uv: {nothing}; `ricci cover --depth 0 --cover OUT.obj` writes the layout"
                 )));
@@ -161,7 +167,7 @@ impl Wish<'_> {
     /// The same for a sphere.
     fn check_sphere(&self, input: &Input) -> Result<Shown, Failure> {
         let (args, usage) = (self.args, |message: &str| Err(Failure::Usage(message.into())));
-        if args.uv.is_some() {
+        if args.to.uv.is_some() {
             return usage("--uv: a sphere lies in no plane; use --sphere S.obj (or ricci flow, with cones)");
         }
         if self.model.is_some() {
@@ -172,23 +178,23 @@ impl Wish<'_> {
                 "--domain: a sphere is its own universal cover; there is no fundamental domain to write",
             );
         }
-        if args.solve.method == MethodChoice::Newton {
+        if args.to.solve.method == MethodChoice::Newton {
             if input.mesh().n_vertices() < 4 {
                 let path = input.path.display();
                 let why =
                     "a sphere of fewer than four vertices is no polyhedron; cut each triangle into four";
                 return Err(Failure::Input(format!("{path}: {why}")));
             }
-            if !matches!(args.solve.scheme, SchemeChoice::Yamabe) {
+            if !matches!(args.to.solve.scheme, SchemeChoice::Yamabe) {
                 return usage(
                     "--scheme: spheres flow by vertex scaling, yamabe; other schemes with --method gradient",
                 );
             }
-            if matches!(args.solve.flips, FlipsChoice::Never) {
+            if matches!(args.to.solve.flips, FlipsChoice::Never) {
                 return usage("--flips never: spheres flip edges; without flips use --method gradient");
             }
         }
-        if args.picture.picture.as_deref().is_some_and(is_svg) {
+        if args.picture.is_svg() {
             return usage("--picture: an SVG shows no surface in space; use .png");
         }
         match self.shown {
@@ -211,86 +217,36 @@ impl Wish<'_> {
     }
 
     /// What was asked, defaults put in: a run with these options is this run.
-    pub fn asked(&self, input: &Input, base: Option<u32>, shown: Shown) -> Asked {
+    pub fn asked(&self, input: &Input, base: Option<u32>, shown: Shown) -> Asked<'_> {
         let args = self.args;
-        let text = |path: &Option<PathBuf>| path.as_deref().map(path_text);
-        let options = args.solve.options(args.common.threads());
-        let space = if input.mesh().euler() < 0 { Space::H2 } else { Space::E2 };
         let drawn = args.picture.picture.is_some();
         Asked {
-            weld: args.surface.weld,
             input_geometry: input.surface.geometry().name(),
-            scheme: args.solve.scheme,
-            method: args.solve.method,
-            flips: args.solve.flips,
-            tolerance: args.solve.tolerance,
-            max_iterations: options.iteration_limit(),
-            threads: args.common.threads(),
+            max_iterations: args.to.options().iteration_limit(),
             base,
-            model: (space == Space::H2).then(|| self.place(space).name()),
-            metric: text(&args.metric),
-            uv: text(&args.uv),
-            on: args.on,
-            sphere: text(&args.sphere),
-            generators: text(&args.generators),
-            picture: args.picture.clone(),
+            model: (input.mesh().euler() < 0).then(|| self.place(Space::H2).name()),
             texture: args.texture.or(drawn.then_some(Texture::Checker)),
-            show: drawn.then_some(match shown {
-                Shown::Uniform(show) => Show::Uniform(show),
-                Shown::Cover(show) => Show::Cover(show),
-            }),
-            cover: self.cover.map(|c| CoverAsked {
-                depth: c.radius.is_none().then_some(c.depth),
-                radius: c.radius,
-                limit: c.limit,
-                cover: c.cover.map(path_text),
-                domain: c.domain.map(path_text),
-            }),
+            show: drawn.then_some(shown),
+            args,
+            cover: self.cover,
         }
     }
 }
 
 #[derive(Serialize)]
-pub struct Asked {
-    weld: Option<f64>,
+pub struct Asked<'a> {
     input_geometry: &'static str,
-    scheme: SchemeChoice,
-    method: MethodChoice,
-    flips: FlipsChoice,
-    tolerance: f64,
     max_iterations: usize,
-    threads: usize,
     /// The base vertex; of a sphere the one at infinity, if one was asked for.
     base: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<&'static str>,
-    metric: Option<String>,
-    uv: Option<String>,
-    on: OnChoice,
-    sphere: Option<String>,
-    generators: Option<String>,
-    #[serde(flatten)]
-    picture: PictureArgs,
     #[serde(skip_serializing_if = "Option::is_none")]
     texture: Option<Texture>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    show: Option<Show>,
+    show: Option<Shown>,
     #[serde(flatten)]
-    cover: Option<CoverAsked>,
-}
-
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Show {
-    Uniform(ShowChoice),
-    Cover(TilesChoice),
-}
-
-#[derive(Serialize)]
-struct CoverAsked {
-    depth: Option<usize>,
-    radius: Option<f64>,
-    limit: usize,
-    cover: Option<String>,
-    domain: Option<String>,
+    args: &'a CanonicalArgs,
+    #[serde(flatten)]
+    cover: Option<CoverWish<'a>>,
 }

@@ -2,7 +2,8 @@
 
 use super::quotient::Uniformized;
 use super::sphere::Round;
-use crate::report::{Attempts, Checks};
+use crate::report::Checks;
+use crate::solved::Solved;
 
 /// A surface in its canonical shape.
 pub enum Shape {
@@ -18,10 +19,17 @@ impl Shape {
         }
     }
 
-    pub fn failed(&self) -> &Attempts {
+    pub fn solved(&self) -> &Solved {
         match self {
-            Shape::Sphere(s) => &s.failed,
-            Shape::Quotient(u) => &u.failed,
+            Shape::Sphere(s) => &s.solved,
+            Shape::Quotient(u) => &u.solved,
+        }
+    }
+
+    pub fn solved_mut(&mut self) -> &mut Solved {
+        match self {
+            Shape::Sphere(s) => &mut s.solved,
+            Shape::Quotient(u) => &mut u.solved,
         }
     }
 }

@@ -1,19 +1,16 @@
 //! A closed surface of genus 0 on the unit sphere.
 
-use super::args::CanonicalArgs;
-use super::needs::{Needs, known, told};
-use crate::failure::Failure;
-use crate::input::Input;
-use crate::job::GAUSS_BONNET;
-use crate::report::{Attempts, Checks, Seconds, timed};
-use ricci::Control;
+use super::needs::Task;
+use crate::failure::{Failure, known, told};
+use crate::report::{Checks, Seconds, timed};
+use crate::solved::Solved;
 use ricci::canonical::{Sphere, SphereReport};
 use ricci::embed::{Layout, layout_of};
 use ricci::flow::{Report, Solution, flow};
 use ricci::geometry::vector::{add, distance, dot, triangle_normal};
-use ricci::geometry::{Space, largest, worse};
-use ricci::mesh::{FaceId, PerEdge, PerVertex, Point, VertexId};
-use ricci::metric::{Curvature, Refinement, Scheme};
+use ricci::geometry::{Space, worse};
+use ricci::mesh::{FaceId, Mesh, PerVertex, Point, VertexId};
+use ricci::metric::Refinement;
 use ricci::{Class, Target};
 
 /// Most that an angle may miss the Delaunay condition of an edge, or convexity of the plane's outline, radians: ten times the
@@ -42,16 +39,10 @@ pub struct Round {
     pub way: Way,
     /// What max |K| is held against.
     pub tolerance: f64,
-    pub metric: Solution,
-    pub scheme: Scheme,
+    pub solved: Solved,
     pub positions: PerVertex<Point>,
-    pub curvature: Curvature,
-    pub lengths: PerEdge<f64>,
-    pub target: PerVertex<f64>,
     /// The way back to the given triangulation, where an output needs it, or why there is none.
     pub refinement: Option<Result<Refinement, String>>,
-    pub failed: Attempts,
-    pub seconds: Seconds,
 }
 
 /// How a sphere was found, its metric, and where its vertices are.
@@ -64,15 +55,10 @@ pub fn punctured(sphere: Sphere) -> Found {
 }
 
 /// By the gradient flow in S², laid out from a vertex.
-pub fn flowed(
-    input: &Input,
-    args: &CanonicalArgs,
-    base: Option<VertexId>,
-    control: &Control,
-) -> Result<Found, Failure> {
-    let options = args.solve.options(args.common.threads());
-    let class = Class::new(args.solve.scheme.into(), Space::S2);
-    let metric = flow(input.surface.clone(), class, &Target::Uniform, &options, control)?;
+pub fn flowed(task: &Task<'_>, base: Option<VertexId>) -> Result<Found, Failure> {
+    let Task { input, args, control, .. } = *task;
+    let class = Class::new(args.to.solve.scheme.into(), Space::S2);
+    let metric = flow(input.surface.clone(), class, &Target::Uniform, &args.to.options(), control)?;
     let Some(report) = metric.report().cloned() else {
         return Err(Failure::Failed("the flow has left no report".into()));
     };
@@ -87,47 +73,25 @@ pub fn flowed(
 
 impl Round {
     /// A sphere with what is said of it. `taken`: seconds until it was found.
-    pub fn new(
-        input: &Input,
-        args: &CanonicalArgs,
-        (way, metric, positions): Found,
-        taken: f64,
-        needs: Needs,
-        control: &Control,
-    ) -> Result<Round, Failure> {
-        let flow = match &way {
-            Way::Puncture(report) => &report.seconds,
-            Way::Flow(report, _) => &report.seconds,
+    pub fn new(task: &Task<'_>, (way, metric, positions): Found, taken: f64) -> Result<Round, Failure> {
+        let (flow, tolerance) = match &way {
+            Way::Puncture(report) => (&report.seconds, task.args.to.solve.tolerance),
+            Way::Flow(report, _) => (&report.seconds, report.allowed_error()),
         };
-        let mut seconds = Seconds::new(input, flow);
+        let mut seconds = Seconds::new(task.input, flow);
         seconds.layout = taken - flow.total;
-        let failed = |error: ricci::Error| Failure::Failed(error.to_string());
-        let refinement = match needs.refinement {
-            true => Some(told(timed(&mut seconds.refine, || metric.refinement(control)))?),
+        let refine = || metric.refinement(task.control);
+        let refinement = match task.needs.refinement {
+            true => Some(told(timed(&mut seconds.refine, refine))?),
             false => None,
         };
-        let tolerance = match &way {
-            Way::Puncture(_) => args.solve.tolerance,
-            Way::Flow(report, _) => report.allowed_error(),
-        };
-        Ok(Round {
-            way,
-            tolerance,
-            curvature: metric.curvature().map_err(failed)?,
-            lengths: metric.metric().lengths(metric.mesh()).map_err(failed)?,
-            target: PerVertex::filled(input.mesh().n_vertices(), 0.0),
-            scheme: metric.scheme()?,
-            metric,
-            positions,
-            refinement,
-            failed: Attempts::default(),
-            seconds,
-        })
+        let solved = Solved::new(metric, None, seconds)?;
+        Ok(Round { way, tolerance, solved, positions, refinement })
     }
 
-    /// max |K| of the spherical metric.
-    pub fn curvature_error(&self) -> f64 {
-        largest(self.curvature.at.iter())
+    /// The triangulation on the sphere.
+    pub fn mesh(&self) -> &Mesh {
+        self.solved.solution.mesh()
     }
 
     /// Faces seen from inside the sphere, those too small to tell left out.
@@ -137,12 +101,12 @@ impl Round {
             // From the differences: the determinant of nearly equal vectors would cancel.
             !self.is_point(*f) && dot(triangle_normal([a, b, c]), add(add(a, b), c)) <= 0.0
         };
-        self.metric.mesh().faces().filter(is_inward).count()
+        self.mesh().faces().filter(is_inward).count()
     }
 
     /// Faces whose positions in doubles cannot be told from a point.
     pub fn points(&self) -> usize {
-        self.metric.mesh().faces().filter(|f| self.is_point(*f)).count()
+        self.mesh().faces().filter(|f| self.is_point(*f)).count()
     }
 
     fn is_point(&self, f: FaceId) -> bool {
@@ -151,7 +115,7 @@ impl Round {
     }
 
     fn corners(&self, f: FaceId) -> [Point; 3] {
-        self.metric.mesh().face_vertices(f).map(|v| self.positions[v])
+        self.mesh().face_vertices(f).map(|v| self.positions[v])
     }
 
     /// The way back to the given triangulation, if there is one.
@@ -161,7 +125,7 @@ impl Round {
 
     /// Corners of a piece of the common refinement on the sphere.
     pub fn piece(&self, refinement: &Refinement, f: FaceId) -> [Point; 3] {
-        let corners = self.metric.mesh().face_vertices(refinement.final_face[f]).map(|v| self.positions[v]);
+        let corners = self.mesh().face_vertices(refinement.final_face[f]).map(|v| self.positions[v]);
         refinement.final_barycentric(f).map(|w| {
             let p = [0, 1, 2].map(|k| (0..3).map(|i| w[i] * corners[i][k]).sum::<f64>());
             let length = p[0].hypot(p[1]).hypot(p[2]);
@@ -171,9 +135,7 @@ impl Round {
 
     /// What the result is held against.
     pub fn checks(&self) -> Checks {
-        let mut checks = Checks::default();
-        checks.add("gauss_bonnet", self.curvature.gauss_bonnet, GAUSS_BONNET);
-        checks.add("broken_triangles", self.curvature.broken.len() as f64, 0.0);
+        let mut checks = self.solved.checks(self.tolerance);
         checks.add("flipped_triangles", self.inward() as f64, 0.0);
         let converged = match &self.way {
             Way::Puncture(report) => report.converged,
@@ -190,10 +152,9 @@ impl Round {
             }
         }
         if let Way::Flow(_, layout) = &self.way {
-            let errors = self.curvature.at.iter().map(|k| k.abs()).sum();
-            checks.add("layout_consistency", layout.consistency(), layout.consistency_limit(errors));
+            let limit = layout.consistency_limit(self.solved.total_error());
+            checks.add("layout_consistency", layout.consistency(), limit);
         }
-        checks.add("max_curvature_error", self.curvature_error(), self.tolerance);
         if let Some(refinement) = &self.refinement {
             checks.add("without_refinement", f64::from(u8::from(refinement.is_err())), 0.0);
         }

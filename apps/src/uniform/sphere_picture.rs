@@ -1,21 +1,15 @@
 //! The picture of a sphere: the surface beside it, with one pattern.
 
 use super::sphere::Round;
+use crate::failure::Failure;
+use crate::input::Input;
 use crate::picture::{self, Picture, Style, Surface, Tiles};
 use ricci::geometry::vector::{norm, triangle_normal};
-use ricci::metric::Refinement;
-use std::io::{self, Write};
 
-/// Write the picture as PNG; `beside`: the sphere too.
-pub fn write(
-    out: &mut impl Write,
-    s: &Round,
-    r: &Refinement,
-    positions: Option<&[[f64; 3]]>,
-    style: &Style,
-    beside: bool,
-    threads: usize,
-) -> io::Result<()> {
+/// The picture as PNG; `beside`: the sphere too.
+pub fn draw(input: &Input, s: &Round, style: &Style, beside: bool) -> Result<Vec<u8>, Failure> {
+    let r = s.refinement()?;
+    let positions = input.positions().map(|p| r.from_input_vertices(p)).transpose()?;
     let faces = r.mesh.triangles();
     let mut on_sphere = vec![[0.0, 0.0, 1.0]; r.mesh.n_vertices()];
     let (mut uv, mut scale) = (Vec::new(), Vec::new());
@@ -31,12 +25,12 @@ pub fn write(
     let surface =
         |positions| Surface { positions, faces: &faces, corner_uv: Some(&uv), seams: &[], cones: &[] };
     let drawn = Picture {
-        surface: positions.map(&surface),
+        surface: positions.as_deref().map(&surface),
         beside: beside.then(|| surface(&on_sphere)),
         pattern: Some(&tiles),
         ..Picture::default()
     };
-    out.write_all(&picture::png(&drawn, style, threads).map_err(io::Error::other)?)
+    picture::png(&drawn, style)
 }
 
 /// Stereographic coordinates from the farther pole of a triangle on the sphere.

@@ -3,40 +3,35 @@
 use super::quotient::Uniformized;
 use super::shape::Shape;
 use super::sphere_figures;
+use crate::failure::Failure;
 use crate::flow_summary;
 use crate::report::Done;
 use crate::say;
 
 /// The summary of a run; `copies`: whether a cover was asked for.
-pub fn say(done: &Done<Shape>, copies: bool) {
+pub fn say(done: &Done<Shape>, copies: bool) -> Result<(), Failure> {
     let mut text = say::surface(&done.input);
     text += &match &done.result {
         Shape::Quotient(u) => quotient(u, copies),
         Shape::Sphere(s) => sphere_figures::text(s, copies),
     };
-    text += &say::slivers(&done.input, &done.checks);
-    let left_out = match &done.result {
-        Shape::Quotient(u) => u.left_out.as_slice(),
-        Shape::Sphere(_) => &[],
-    };
-    text += &say::ending(left_out, done.result.failed(), &done.checks, &done.files, done.seconds);
-    say::lines(&text);
+    say::lines(&(text + &say::ending(done, done.result.solved())), &done.files)
 }
 
 fn quotient(u: &Uniformized, copies: bool) -> String {
     let mut text = format!(
         "metric   {} {}: {} after {}, max |K| = {:.1e}{}, area {}\n",
         u.deck.space,
-        u.scheme,
+        u.solved.scheme,
         u.report.stop_reason,
         say::count(u.report.iterations, "step", "steps"),
-        u.curvature_error(),
+        u.solved.curvature_error(),
         say::tolerance(u.report.allowed_error()),
-        say::size(u.area(), 6),
+        say::size(u.layout.area, 6),
     );
     let flipped = || say::count(u.flipped().len(), "triangle flipped", "triangles flipped");
     let layout = u.laid().map_or_else(|_| flipped(), flow_summary::layout);
-    text += &format!("layout   {layout}{}\n", say::modulus(u.modulus));
+    text += &format!("layout   {layout}{}\n", say::modulus(u.deck.modulus()));
     if let Some(Err(why)) = &u.laid {
         text += &format!("FAILED   to carry it back to the given triangulation: {why}\n");
     }

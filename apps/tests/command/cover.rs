@@ -140,37 +140,77 @@ fn the_hyperboloid_is_drawn_as_the_poincare_disk() {
     assert!(read(&place, "hyperboloid.obj").obj.v.iter().all(|p| p[2] >= 1.0));
 }
 
+/// In the hyperbolic plane a mesh for each copy; in the plane the positions once, moved by the nodes.
 #[test]
 fn binary_gltf_has_a_node_for_each_copy() {
     let place = place();
-    place.expect(0, "cover two.obj --depth 1 --cover c.obj --quiet");
-    place.expect(0, "cover two.obj --depth 1 --cover c.glb --quiet");
-    let copies = read(&place, "c.obj");
-    let bytes = std::fs::read(place.path("c.glb")).unwrap();
-    let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
-    assert_eq!((&bytes[..4], word(8)), (b"glTF".as_slice(), bytes.len()));
-    let document: Value = serde_json::from_slice(&bytes[20..20 + word(12)]).unwrap();
-    let binary = &bytes[28 + word(12)..];
-    let nodes = document["nodes"].as_array().unwrap();
-    assert_eq!(nodes.len(), copies.names.len());
-    for (k, (node, points)) in nodes.iter().zip(&copies.points).enumerate() {
-        assert_eq!(node["name"], copies.names[k]);
-        let primitive = &document["meshes"][node["mesh"].as_u64().unwrap() as usize]["primitives"][0];
-        let accessor = &document["accessors"][primitive["attributes"]["POSITION"].as_u64().unwrap() as usize];
-        let view = &document["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
-        let start = view["byteOffset"].as_u64().unwrap() as usize;
-        assert_eq!(accessor["count"], points.len());
-        let mut low = [f64::INFINITY; 3];
-        for (i, p) in points.iter().enumerate() {
-            for axis in 0..3 {
-                let at = start + 12 * i + 4 * axis;
-                let x = f64::from(f32::from_le_bytes(binary[at..at + 4].try_into().unwrap()));
-                assert!((x - p[axis]).abs() < 1e-6);
-                low[axis] = low[axis].min(x);
+    for mesh in ["two", "torus"] {
+        place.expect(0, &format!("cover {mesh}.obj --depth 1 --cover c.obj --quiet"));
+        place.expect(0, &format!("cover {mesh}.obj --depth 1 --cover c.glb --quiet"));
+        let copies = read(&place, "c.obj");
+        let bytes = std::fs::read(place.path("c.glb")).unwrap();
+        let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+        assert_eq!((&bytes[..4], word(8)), (b"glTF".as_slice(), bytes.len()));
+        let document: Value = serde_json::from_slice(&bytes[20..20 + word(12)]).unwrap();
+        let binary = &bytes[28 + word(12)..];
+        let nodes = document["nodes"].as_array().unwrap();
+        assert_eq!(nodes.len(), copies.names.len());
+        let stored = document["accessors"].as_array().unwrap().len() - 2;
+        assert_eq!(stored, if mesh == "torus" { 1 } else { nodes.len() });
+        for (k, (node, points)) in nodes.iter().zip(&copies.points).enumerate() {
+            assert_eq!(node["name"], copies.names[k]);
+            let moved = |k: usize| node["translation"][k].as_f64().unwrap_or(0.0);
+            let primitive = &document["meshes"][node["mesh"].as_u64().unwrap() as usize]["primitives"][0];
+            let position = primitive["attributes"]["POSITION"].as_u64().unwrap() as usize;
+            let accessor = &document["accessors"][position];
+            let view = &document["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
+            let start = view["byteOffset"].as_u64().unwrap() as usize;
+            assert_eq!(accessor["count"], points.len());
+            let mut low = [f64::INFINITY; 3];
+            for (i, p) in points.iter().enumerate() {
+                for axis in 0..3 {
+                    let at = start + 12 * i + 4 * axis;
+                    let x = f64::from(f32::from_le_bytes(binary[at..at + 4].try_into().unwrap()));
+                    assert!((x + moved(axis) - p[axis]).abs() < 1e-5, "{mesh} {k}: {x} {}", p[axis]);
+                    low[axis] = low[axis].min(x);
+                }
+            }
+            assert_eq!(numbers(&accessor["min"]), low);
+        }
+    }
+}
+
+/// Without another wish every copy is there that touches the first one: around each point of its border faces close up. How much is
+/// written is said before.
+#[test]
+fn the_usual_copies_leave_no_gap_around_the_first() {
+    let place = place();
+    for mesh in ["two", "torus"] {
+        let ended = place.expect(0, &format!("cover {mesh}.obj --cover c.obj"));
+        assert!(ended.err.is_empty(), "{}", ended.err);
+        let copies = read(&place, "c.obj");
+        let key = |p: [f64; 3]| [p[0], p[1]].map(|x| (x * 1e7).round() as i64);
+        let first: Vec<[i64; 2]> = copies.points[0].iter().map(|&p| key(p)).collect();
+        let mut links = std::collections::HashMap::new();
+        for p in &first {
+            links.insert(*p, std::collections::HashMap::<[i64; 2], usize>::new());
+        }
+        for face in &copies.obj.faces {
+            let corners = face.map(|v| key(copies.obj.v[v]));
+            for k in 0..3 {
+                if let Some(link) = links.get_mut(&corners[k]) {
+                    *link.entry(corners[(k + 1) % 3]).or_default() += 1;
+                    *link.entry(corners[(k + 2) % 3]).or_default() += 1;
+                }
             }
         }
-        assert_eq!(numbers(&accessor["min"]), low);
+        let open = links.values().filter(|link| link.values().any(|n| *n != 2)).count();
+        assert_eq!(open, 0, "{mesh}: {open} of {} points", first.len());
+        assert!(copies.names.len() < 60, "{mesh}: {} copies", copies.names.len());
     }
+    place.expect(0, "make genus -n 3 -o three.obj --quiet");
+    let ended = place.expect(0, "cover three.obj --depth 3 --cover c.obj");
+    assert!(ended.err.contains("--cover c.obj: 457 copies, about"), "{}", ended.err);
 }
 
 #[test]

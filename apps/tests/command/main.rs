@@ -13,6 +13,7 @@ mod flow;
 mod info;
 mod make;
 mod on_input;
+mod outputs;
 mod picture;
 mod repair;
 mod run;

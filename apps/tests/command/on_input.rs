@@ -20,15 +20,9 @@ fn the_inputs_own_faces_are_written_on_request() {
     for (name, line) in lines {
         place.expect(0, &format!("{line} --uv own.obj --on input --report r.json --quiet"));
         let own = parse_obj(&place.text("own.obj"));
-        let given = place.text(&format!("{name}.obj"));
-        let numbers = |kind: &str| -> Vec<[f64; 3]> {
-            let lines = given.lines().filter_map(|l| l.strip_prefix(kind));
-            let parse = |t: &str| t.parse::<f64>().unwrap();
-            lines.map(|l| l.split_whitespace().map(parse).collect::<Vec<_>>().try_into().unwrap()).collect()
-        };
-        assert_eq!(own.v, numbers("v "), "{line}");
-        let faces: Vec<[f64; 3]> = own.faces.iter().map(|f| f.map(|v| v as f64 + 1.0)).collect();
-        assert_eq!(faces, numbers("f "), "{line}");
+        let (vertices, faces) = parse_plain(&place.text(&format!("{name}.obj")));
+        assert_eq!(own.v, vertices, "{line}");
+        assert_eq!(own.faces, faces, "{line}");
         let result = &place.json("r.json")["result"];
         let (seams, folds) = seams_and_folds(&own);
         assert_eq!(result["flipped_input_faces"].as_u64(), Some(folds), "{line}");
@@ -54,4 +48,59 @@ fn seams_and_folds(mesh: &crate::files::Obj) -> (usize, u64) {
         }
     }
     (seams, folds)
+}
+
+/// `--xref` says where each face and vertex of `--uv` lies in the input's faces, and the summary how many are new.
+#[test]
+fn the_way_back_to_the_inputs_faces_is_written_on_request() {
+    let place = Place::new();
+    place.put("two.obj", &genus_two(12).obj());
+    for options in ["", "--on input"] {
+        let line = "flow two.obj --space e2 --target single:3 --uv o.obj --xref x.csv";
+        let ended = place.expect(0, &format!("{line} {options}"));
+        let (given, own) = (parse_plain(&place.text("two.obj")), parse_obj(&place.text("o.obj")));
+        let table = place.text("x.csv");
+        let (faces, vertices) = table.split_once("output_vertex,source_face,b0,b1,b2\n").unwrap();
+        let faces = faces.strip_prefix("output_face,source_face\n").unwrap();
+        let row = |line: &str| -> Vec<f64> { line.split(',').map(|x| x.parse().unwrap()).collect() };
+        assert_eq!((faces.lines().count(), vertices.lines().count()), (own.faces.len(), own.v.len()));
+        let mut area = vec![0.0; given.1.len()];
+        for (f, row) in faces.lines().map(row).enumerate() {
+            assert_eq!(row[0], f as f64);
+            area[row[1] as usize] += doubled_area(own.faces[f].map(|v| own.v[v]));
+        }
+        for (f, corners) in given.1.iter().enumerate() {
+            let whole = doubled_area(corners.map(|v| given.0[v]));
+            assert!((area[f] / whole - 1.0).abs() < 1e-9, "face {f}: {} of {whole}", area[f]);
+        }
+        for (v, row) in vertices.lines().map(row).enumerate() {
+            let corners = given.1[row[1] as usize].map(|c| given.0[c]);
+            for k in 0..3 {
+                let x: f64 = (0..3).map(|c| row[2 + c] * corners[c][k]).sum();
+                assert!((x - own.v[v][k]).abs() < 1e-9, "vertex {v}");
+            }
+        }
+        let added = format!(
+            "added    {} vertices and {} faces",
+            own.v.len() - given.0.len(),
+            own.faces.len() - given.1.len()
+        );
+        assert_eq!(ended.out.contains(&added), options.is_empty(), "{}", ended.out);
+    }
+    place.expect(2, "flow two.obj --xref x.csv");
+}
+
+fn parse_plain(text: &str) -> (Vec<[f64; 3]>, Vec<[usize; 3]>) {
+    let rows = |kind: &str| -> Vec<[f64; 3]> {
+        let parse = |t: &str| t.parse::<f64>().unwrap();
+        let row = |l: &str| l.split_whitespace().map(parse).collect::<Vec<_>>().try_into().unwrap();
+        text.lines().filter_map(|l| l.strip_prefix(kind)).map(row).collect()
+    };
+    (rows("v "), rows("f ").into_iter().map(|f| f.map(|v| v as usize - 1)).collect())
+}
+
+fn doubled_area([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    let (p, q) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
+    let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+    n.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

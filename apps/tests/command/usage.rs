@@ -161,6 +161,97 @@ fn ctrl_c_is_exit_4_and_leaves_nothing() {
     assert_eq!(place.files(), before);
 }
 
+/// A picture of 4096 pixels takes many seconds, in which the flow itself has long ended.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_a_picture_at_once() {
+    let place = surfaces();
+    let before = place.files();
+    let line = "flow torus.obj --size 4096 --threads 1 --picture p.png --report r.json";
+    let child = place.command(line).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(700));
+    let start = std::time::Instant::now();
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(kill.success());
+    let ended = child.wait_with_output().unwrap();
+    // 60 ms in which work may end by itself, and what starting `kill` takes.
+    assert!(start.elapsed() < Duration::from_millis(400), "{:?}", start.elapsed());
+    assert_eq!(ended.status.code(), Some(4));
+    assert_eq!(String::from_utf8_lossy(&ended.stderr), "ricci: cancelled; nothing was written\n");
+    assert_eq!(place.files(), before);
+}
+
+#[test]
+fn what_cannot_be_made_is_named_and_the_rest_is_written() {
+    let place = surfaces();
+    let files = "--uv o.obj --xref x.csv --metric m.json --picture p.svg --report r.json";
+    let broken = "flow two.obj --flips never --space e2 --target single:40";
+    let ended = place.expect(1, &format!("{broken} {files}"));
+    let failed = &place.json("r.json")["result"]["failed"];
+    for wish in ["uv", "xref", "picture"] {
+        assert!(failed[wish].as_str().unwrap().contains("triangle inequality"), "{wish}: {failed}");
+        assert!(ended.out.contains(&format!("--{wish}")), "{}", ended.out);
+    }
+    assert!(
+        place.exists("m.json") && !place.exists("o.obj") && !place.exists("x.csv") && !place.exists("p.svg")
+    );
+    // Only where they were off is it advised to allow flips.
+    place.put("thin.obj", "v 0 0 0\nv 1 0 0\nv 0.5 1e-6 0\nv 0.5 1 0\nf 1 2 3\nf 2 4 3\nf 4 1 3\n");
+    let flips = |flips: &str| place.run(&format!("flow thin.obj --max-iterations 1 --flips {flips}")).out;
+    assert!(flips("never").contains("or allow flips"), "{}", flips("never"));
+    assert!(!flips("auto").contains("or allow flips"), "{}", flips("auto"));
+}
+
+#[test]
+fn bad_input_is_reported_too() {
+    let place = surfaces();
+    place.put("pair.obj", &octahedron().beside(torus(6, 6)).obj()).put("torn.off", "OFF\n3 1 0\n0 0 0\n");
+    for command in ["flow", "uniformize", "cover"] {
+        place.expect(3, &format!("{command} pair.obj --report r.json"));
+        let report = place.json("r.json");
+        assert_eq!(report["command"], command);
+        assert_eq!(report["input"]["components"], 2);
+        assert_eq!(report["result"]["error"]["exit_code"], 3);
+        assert_eq!(report["result"]["error"]["defects"][0]["code"], "several_components");
+        std::fs::remove_file(place.path("r.json")).unwrap();
+    }
+    place.expect(3, "flow torn.off --report r.json");
+    assert!(place.json("r.json")["result"]["error"]["message"].as_str().unwrap().contains("torn.off"));
+    place.expect(2, "flow torus.obj --target boundary --report none.json");
+    assert!(!place.exists("none.json"));
+}
+
+#[test]
+fn numbers_are_those_that_people_write() {
+    let place = surfaces();
+    // A byte order mark.
+    place.put("cones.csv", "\u{feff}vertex,curvature\n3,0.5\n9,-0.5\n");
+    place.expect(0, "flow torus.obj --target cones:cones.csv --quiet");
+    let ended = place.expect(2, "flow torus.obj --pin boundary");
+    assert!(ended.err.contains("closed surface"), "{}", ended.err);
+    assert!(place.expect(0, "flow torus.obj --target auto:4").out.contains("target auto:4"));
+    for line in ["flow torus.obj --view 10,20", "flow torus.obj --up x", "uniformize two.obj --view 10,20"] {
+        let ended = place.expect(2, &format!("{line} --picture p.svg"));
+        assert!(ended.err.contains("--view"), "{}", ended.err);
+    }
+    place.put("far.obj", &place.text("ball.obj").replacen("v 1 0 0", "v 1e300 0 0", 1));
+    let ended = place.expect(3, "flow far.obj");
+    assert!(ended.err.contains("1e300 is outside the range") && !ended.err.contains("area"), "{}", ended.err);
+    let out = place.expect(0, "info far.obj").out;
+    assert!(out.contains("outside the range") && !out.contains("zero area"), "{out}");
+    let out = place.expect(0, "info torus.obj").out;
+    let area = out.lines().find_map(|line| line.strip_prefix("area ")).unwrap();
+    assert!(!area.split(',').next().unwrap().contains('e'), "{area}");
+    place.put("empty.obj", "");
+    assert!(place.expect(1, "repair empty.obj -o o.obj").out.contains("is empty"));
+    for (line, says) in [("help flow", "numbered from 0"), ("help uniformize", "numbered from 0")] {
+        assert!(place.expect(0, line).out.contains(says), "{line}");
+    }
+    place.put("cones.csv", "96,0.5\n");
+    let ended = place.expect(3, "flow torus.obj --target cones:cones.csv");
+    assert!(ended.err.contains("numbered from 0"), "{}", ended.err);
+}
+
 #[test]
 fn every_command_has_help_with_an_example_and_completions_exist() {
     let place = Place::new();
