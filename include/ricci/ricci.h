@@ -190,7 +190,7 @@ typedef struct ricci_failure {
     ricci_status status;
     /** A RICCI_ELEMENT_*: what `index` counts. */
     uint32_t element;
-    /** The element that the message names, 0-based (lines from 1); -1 if it names none. */
+    /** The element concerned, 0-based (lines from 1); -1 where the failure has no number of one. */
     int64_t index;
     /** By how much, as the status says; 0 where it says nothing. */
     double amount;

@@ -37,7 +37,7 @@ public:
         if (told != RICCI_OK) failure_.status = told;
     }
     ricci_status status() const { return failure_.status; }
-    // RICCI_ELEMENT_*, and its index: -1 where the message names none.
+    // RICCI_ELEMENT_*, and its index: -1 where the failure has no number of one.
     std::uint32_t element() const { return failure_.element; }
     std::int64_t index() const { return failure_.index; }
     double amount() const { return failure_.amount; }

@@ -263,6 +263,8 @@ RICCI_API ricci_status ricci_uniform_domain(const ricci_uniform *uniform, ricci_
 /**
  * The layout of a quotient about its base. Its seams are the segments of the cut, two sides of the domain
  * each.
+ * The corners of the mesh itself have coordinates in ricci_layout_new of its metric, which is cut along edges
+ * of the mesh.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (RICCI_MODEL_AMBIENT), RICCI_LAYOUT (a sphere, whose
  * points are ricci_sphere_points; RICCI_ON_INPUT: the cut does not run along edges of the mesh),

@@ -201,6 +201,16 @@ static void the_way_back_is_a_layout_like_others(const ricci_uniform *quotient, 
             }
         free(corners), free(origin), free(tip);
     }
+    /* Cut along edges of the mesh, its own corners have coordinates too. */
+    ricci_layout *own = NULL;
+    ricci_layout_summary o;
+    OK(ricci_layout_new(metric, NULL, NULL, &own));
+    OK(ricci_layout_summarise(own, &o, sizeof o));
+    double *uv = (double *)room(6 * o.n_input_faces, sizeof *uv);
+    OK(ricci_layout_uv(own, RICCI_ON_INPUT, uv, 6 * o.n_input_faces));
+    CHECK(o.n_flipped == 0 && o.n_input_faces == given.n.n_faces && fabs(o.area - q.area) < 1e-9 * q.area);
+    for (size_t i = 0; i < 6 * o.n_input_faces; i++) CHECK(isfinite(uv[i]) && fabs(uv[i]) <= o.diameter);
+    free(uv), ricci_layout_free(own);
     OK(ricci_layout_write(disk, RICCI_ON_REFINEMENT, 0, "quotient_disk.obj"));
     OK(ricci_layout_write(klein, RICCI_ON_REFINEMENT, 1, "quotient_klein.obj"));
     OK(ricci_mesh_read("quotient_disk.obj", &file));
