@@ -120,6 +120,8 @@ def run(mesh, scheme, target, flips="auto"):
         if not os.path.exists(report):
             return {"done": False, "stop_reason": done.stderr.strip()}
         found = json.load(open(report))
+        if "converged" not in found["result"]:
+            return {"done": False, "stop_reason": done.stderr.strip()}
         result = {**found["result"], "seconds": found["seconds"], "code": done.returncode}
         result["failed"] = [name for name, check in found["checks"].items() if not check["holds"]]
         result["done"] = result["converged"] and result["max_curvature_error"] <= TOLERANCE and result["broken_triangles"] == 0
