@@ -21,8 +21,6 @@
 // The headers document what C sees.
 #![allow(missing_docs)]
 #![allow(clippy::missing_safety_doc)]
-// C passes an array as a pointer and a count.
-#![allow(clippy::too_many_arguments)]
 #![warn(clippy::too_many_lines)]
 
 mod arrays;
