@@ -8,6 +8,11 @@ if(CMAKE_STRIP)
   set(_installed "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}")
   install(CODE "execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-unneeded \"${_installed}/${RICCI_SHARED}\" COMMAND_ERROR_IS_FATAL ANY)
     execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-debug \"${_installed}/${RICCI_STATIC}\" COMMAND_ERROR_IS_FATAL ANY)")
+  if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_OBJCOPY AND CMAKE_NM)
+    install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" -DARCHIVE=${_installed}/${RICCI_STATIC} -DSHARED=${_installed}/${RICCI_SHARED}
+      -DNM=${CMAKE_NM} -DLD=${CMAKE_LINKER} -DOBJCOPY=${CMAKE_OBJCOPY} -DAR=${CMAKE_AR} -P \"${CMAKE_CURRENT_LIST_DIR}/static.cmake\"
+      COMMAND_ERROR_IS_FATAL ANY)")
+  endif()
 endif()
 
 # Our licences and those of every crate that is linked, from the sources that cargo has built from.
