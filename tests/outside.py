@@ -113,6 +113,23 @@ def check_uv(name, path, source, metric):
     check(name + " isometry", (off <= 0).all(), f"{off.max()}")
 
 
+def check_origins(name, path, uv, source):
+    """--xref: every vertex of the layout's mesh lies where its row says, every face in its face, and the faces fill theirs."""
+    (v, _, f, _), (v0, _, f0, _) = read_obj(uv), read_obj(source)
+    faces, vertices = open(path).read().split("output_vertex,source_face,b0,b1,b2\n")
+    rows = np.array([[float(x) for x in line.split(",")] for line in vertices.splitlines()])
+    whole = np.array([[int(x) for x in line.split(",")] for line in faces.splitlines()[1:]])
+    check(name + " rows", (whole[:, 0] == np.arange(len(f))).all() and (rows[:, 0] == np.arange(len(v))).all(), "not in order")
+    there = (rows[:, 2:, None] * v0[f0[rows[:, 1].astype(int)]]).sum(1)
+    off = np.abs(there - v).max() / np.abs(v0).max()
+    check(name + " places", off <= 1e-6, f"{off}")
+    area = lambda v, f: np.linalg.norm(np.cross(v[f[:, 1]] - v[f[:, 0]], v[f[:, 2]] - v[f[:, 0]]), axis=1)
+    filled = np.zeros(len(f0))
+    np.add.at(filled, whole[:, 1], area(v, f))
+    short = np.abs(filled - area(v0, f0)).max() / area(v0, f0).max()
+    check(name + " pieces", short <= 1e-6, f"{short}")
+
+
 def klein(z):
     return 2 * z / (1 + (z * z).sum(1, keepdims=True))
 
@@ -252,7 +269,7 @@ def run(name, mesh, *options):
         path = lambda file: os.path.join(out, file)
         files = ["--metric", path("m.json"), "--report", path("r.json")]
         plane = "h2" not in options
-        files += ["--uv", path("uv.obj")]
+        files += ["--uv", path("uv.obj"), "--xref", path("x.csv")]
         code = subprocess.run([RICCI, "flow", mesh, *options, *files, "--quiet"]).returncode
         report = json.load(open(path("r.json")))
         result, checks = report["result"], report["checks"]
@@ -260,6 +277,7 @@ def run(name, mesh, *options):
         check(name + " truth", result["converged"] or code == 1, f"exit {code}, {result}")
         if code == 0:
             check_metric(name, path("m.json"), result["max_curvature_error"])
+            check_origins(name + " way back", path("x.csv"), path("uv.obj"), mesh)
             if plane:
                 check_uv(name, path("uv.obj"), mesh, path("m.json"))
             else:
