@@ -267,7 +267,7 @@ table(["target", "scheme", "reached", "steps: median, most", "median flips", "la
        "degenerate pieces", "outside: metrics", "outside: layouts"], summary(flown))
 print("Per class: steps (median, most), median flips.\n")
 table(["class", "meshes"] + [f"{target} {scheme}" for target in TARGETS for scheme in SCHEMES], classes(flown))
-print("Not reached: the range of lengths is beyond doubles (diverged), rounding holds the error above 1e-10 (rounding floor: the report "
+print("Not reached: u is beyond ±5e5 (diverged), rounding holds the error above 1e-10 (rounding floor: the report "
       "states it; stalled), or Newton's method takes more than 500 steps.\n")
 table(["mesh", "target", "scheme", "why", "steps", "error"], missing(flown))
 print("## Every flow\n")
