@@ -9,13 +9,16 @@ cargo, source, output = sys.argv[1:]
 
 
 def ask(*words):
-    done = subprocess.run([cargo, *words, "--locked", "--offline"], cwd=source, capture_output=True, text=True, check=True)
+    done = subprocess.run([cargo, *words, "--locked"], cwd=source, capture_output=True, text=True, check=True)
     return done.stdout
 
 
 linked = ask("tree", "--package", "ricci-capi", "--edges", "normal", "--prefix", "none", "--format", "{p}")
 names = {tuple(line.split()[:2]) for line in linked.splitlines() if line and "(/" not in line}
-packages = json.loads(ask("metadata", "--format-version", "1"))["packages"]
+# Crates of other platforms may not have been fetched.
+version = subprocess.run([cargo, "--version", "--verbose"], capture_output=True, text=True, check=True).stdout
+host = next(line.split()[1] for line in version.splitlines() if line.startswith("host:"))
+packages = json.loads(ask("metadata", "--format-version", "1", "--filter-platform", host))["packages"]
 parts = []
 for package in sorted(packages, key=lambda p: (p["name"], p["version"])):
     if (package["name"], "v" + package["version"]) not in names:
