@@ -159,10 +159,8 @@ fn an_arrow_that_points_up_is_seen() {
 
 #[test]
 fn modules_import_in_one_direction() {
-    let found = ["src", "capi/src", "apps/src"].map(|folder| {
-        let circles = modules::Modules::read(folder, EXCEPTION).circles();
-        (folder, circles)
-    });
+    let found = ["src", "capi/src", "apps/src"]
+        .map(|folder| (folder, modules::Modules::read(folder, EXCEPTION).circles()));
     assert!(found.iter().all(|(_, circles)| circles.is_empty()), "modules import one another: {found:#?}");
 }
 

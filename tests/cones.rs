@@ -7,7 +7,8 @@ use common::flow::{attempt, euclidean, surface};
 use ricci::flow::cones::MAX_AUTO_CONES;
 use ricci::flow::{AutoCones, Options, auto_cones};
 use ricci::geometry::Space;
-use ricci::mesh::io::Soup;
+use ricci::mesh::io::{self, Soup};
+use ricci::mesh::repair::{Repair, repair};
 use ricci::mesh::shapes;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::Scheme;
@@ -125,6 +126,25 @@ fn on_real_surfaces_placed_cones_beat_farthest_points() {
         println!("| {file} | {n} | {chi} | {four:.4} | {eight:.4} | {sixteen:.4} | {equal:.4?} |");
         assert!(sixteen < eight && eight < four, "{file}");
         assert!(equal.is_none_or(|equal| eight < equal), "{file}: {eight}, farthest points {equal:?}");
+    }
+}
+
+/// Genus 24 with needles: four cones of about −70 stalled at a broken triangle, as long as flips rounded η to doubles.
+#[test]
+fn a_few_cones_carry_the_curvature_of_many_handles() {
+    let Some(folder) = common::corpus("bad") else { return };
+    let soup = io::read(&folder.join("gravgen_675cc.obj")).unwrap();
+    let one = Repair { component: Some(0), ..Repair::default() };
+    let (mesh, lengths) = surface(&repair(&soup, &one).unwrap().soup);
+    assert_eq!(mesh.euler(), -46);
+    let class = Class::yamabe(Space::E2);
+    for n in [1, 4, 5] {
+        let placed = place(&mesh, &lengths, n);
+        let mut flow =
+            Flow::new(euclidean(&mesh, &lengths), class, &Options::default(), &Control::new()).unwrap();
+        let report = attempt(&mut flow, &placed.target);
+        println!("{n} cones: {} after {} steps", report.stop_reason, report.iterations);
+        assert!(report.converged(), "{n} cones: {report:?}");
     }
 }
 

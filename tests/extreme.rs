@@ -307,6 +307,19 @@ fn what_cannot_be_is_refused_by_name() {
     }
 }
 
+/// 73 handles behind one loop of a few short edges: the steps to the metric are found to be too many after twenty of them.
+#[test]
+fn curvature_that_lengths_cannot_carry_is_refused_soon() {
+    let given = ricci::Surface::from_soup(&shapes::punch(&shapes::genus(73, 2).unwrap(), 1).unwrap());
+    let class = Class::yamabe(Space::E2);
+    let mut flow = Flow::new(given.unwrap(), class, &Options::default(), &Control::new()).unwrap();
+    let solution = flow.solve(&Target::Boundary, &Control::new()).unwrap();
+    let report = solution.report().unwrap();
+    assert!(matches!(report.stop_reason, StopReason::OutOfReach { step } if step > 1e3), "{report:?}");
+    assert!(!report.converged() && report.iterations <= 20);
+    solution.metric().check_domain(solution.mesh()).unwrap();
+}
+
 /// Isometric flips to the plain Delaunay triangulation, and their number.
 fn to_delaunay(surface: &mut Triangulated) -> usize {
     intrinsic_delaunay(surface, IntrinsicOptions::default(), &mut |_, _| (), &Control::new()).unwrap()

@@ -5,8 +5,9 @@ mod common;
 
 use common::flow::{converged, rigid, solve};
 use ricci::flow::curvature_derivative;
-use ricci::geometry::conformal::{Vertex, differences, edge, length, weights};
+use ricci::geometry::conformal::{Vertex, differences, edge, length};
 use ricci::geometry::triangle::angles_from;
+use ricci::geometry::weights::weights;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
 use ricci::metric::{Class, Metric, Scheme, curvature, initial_metric};

@@ -76,6 +76,12 @@ fn why(outcome: &Outcome) -> String {
             o.least
         );
     }
+    if let StopReason::OutOfReach { step } = report.stop_reason {
+        return format!(
+            "lengths would differ by a factor of about e^{step:.0}: too much curvature at too few vertices; spread it over cones \
+             (--target auto:N), or flow in H² where χ < 0 (--space h2)"
+        );
+    }
     let worst: Vec<VertexId> = report.worst.iter().map(|&(v, _)| v).collect();
     format!("the error is largest at {}", named("vertex", "vertices", &worst))
 }

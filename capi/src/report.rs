@@ -18,6 +18,7 @@ choices!(STOP_REASONS: &'static CStr = "stop reason", [
     RICCI_STOP_STALLED => c"stalled",
     RICCI_STOP_ITERATION_LIMIT => c"iteration_limit",
     RICCI_STOP_INFEASIBLE => c"infeasible",
+    RICCI_STOP_OUT_OF_REACH => c"out_of_reach",
 ]);
 
 /// The number of a stop reason, and its name.
@@ -197,6 +198,7 @@ mod tests {
             StopReason::Stalled,
             StopReason::IterationLimit,
             StopReason::Infeasible,
+            StopReason::OutOfReach { step: 1e4 },
         ] {
             assert!(stop_reason(reason).is_ok(), "{}", reason.name());
         }

@@ -1055,7 +1055,12 @@ enum {
      * No metric of the class on this triangulation has the target curvature: the vertices of
      * RICCI_REPORT_OBSTRUCTION prove it.
      */
-    RICCI_STOP_INFEASIBLE = 6
+    RICCI_STOP_INFEASIBLE = 6,
+    /**
+     * The step to the target is longer than all steps up to the iteration limit: lengths would differ by a factor
+     * beyond use. Spread the curvature over more cones.
+     */
+    RICCI_STOP_OUT_OF_REACH = 7
 };
 
 /** Numbers of a report. */

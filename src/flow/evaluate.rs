@@ -3,12 +3,12 @@
 use super::seconds::{Seconds, timed};
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::conformal::{Edge, Vertex, differences, weights};
+use crate::geometry::conformal::{Edge, Vertex, differences};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles};
 use crate::geometry::twofold::two_sum;
-use crate::geometry::{Space, Twofold};
-use crate::geometry::{largest, worse};
+use crate::geometry::weights::weights;
+use crate::geometry::{Space, Twofold, largest, worse};
 use crate::mesh::{EdgeId, FaceId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_from_angles;

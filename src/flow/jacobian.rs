@@ -151,7 +151,7 @@ impl Jacobian {
 
 /// ∂K/∂u at `metric`: V×V, symmetric, entries (i, j, value) with i ≥ j, the diagonal included; (i, j) once.
 ///
-/// Off-diagonal entries are minus the edge weights ([`crate::geometry::conformal::weights`]). A broken triangle
+/// Off-diagonal entries are minus the edge weights ([`crate::geometry::weights::weights`]). A broken triangle
 /// contributes nothing.
 ///
 /// # Errors

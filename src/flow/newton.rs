@@ -39,6 +39,10 @@ const POLISH_TO: f64 = 1e-13;
 /// Such steps at most: each costs a solution, and the error falls to rounding in one or two.
 const POLISH_STEPS: usize = 3;
 
+/// Steps over which it is seen how fast the steps still proposed become shorter: at needles by a share each, on the way to a far metric by
+/// about the length of those taken.
+const SETTLING_STEPS: usize = 20;
+
 /// What a Newton solve carries from step to step.
 pub(super) struct Iterate {
     pub state: State,
@@ -54,6 +58,8 @@ pub(super) struct Iterate {
     /// Least error so far, but for the last tenth, and the steps since.
     best: f64,
     since_best: usize,
+    /// Length of the first in the present row of steps that were all too long for what is left, and their number.
+    too_long: (f64, usize),
     /// Flips in this solve when the last matrix was factored; none before the first one.
     factored_at: Option<usize>,
 }
@@ -71,8 +77,8 @@ impl Iterate {
         let [mut residual, step] = [(); 2].map(|()| vec![0.0; flow.mesh.n_vertices()]);
         let error = state.residual(&flow.target, &flow.pinned, &mut residual);
         let trial = State::new(&flow.start, &flow.start_low);
-        let (shift, best, since_best, factored_at) = (0.0, error, 0, None);
-        Iterate { state, trial, residual, step, error, shift, best, since_best, factored_at }
+        let (shift, best, since_best, too_long, factored_at) = (0.0, error, 0, (0.0, 0), None);
+        Iterate { state, trial, residual, step, error, shift, best, since_best, too_long, factored_at }
     }
 
     /// Count the step that has led here: whether there have been too many without a better residual.
@@ -102,7 +108,8 @@ impl Flow {
         }
         // The factor of another triangulation has another pattern.
         let factored = at.factored_at == Some(report.flips);
-        if factored && report.stop_reason != StopReason::IterationLimit && at.error > self.polished() {
+        let far = matches!(report.stop_reason, StopReason::IterationLimit | StopReason::OutOfReach { .. });
+        if factored && !far && at.error > self.polished() {
             let mut system = self.take_system(report)?;
             self.polish(&mut system, &mut at, report, control)?;
             self.system = Some(system);
@@ -142,6 +149,9 @@ impl Flow {
             if !self.direction(at, report, control)? {
                 return Ok(Some(StopReason::Stalled));
             }
+            if let Some(reason) = self.out_of_reach(at, report) {
+                return Ok(Some(reason));
+            }
             report.iterations += 1;
             if !self.step(at, report, control)? {
                 if self.is_moved_by_flips(at, report, control)? && restarts < RESTARTS {
@@ -175,6 +185,24 @@ impl Flow {
         } else {
             Next::Step
         }
+    }
+
+    /// Whether the steps that are left cannot go as far as the one proposed, nor will it be short enough in time at the rate at which it
+    /// falls. In the second half of the iterations allowed it is too late to save time.
+    fn out_of_reach(&self, at: &mut Iterate, report: &Report) -> Option<StopReason> {
+        let (step, limit) = (largest(&at.step), self.options.iteration_limit());
+        let left = (limit - report.iterations) as f64;
+        if step <= self.options.max_step * left || 2.0 * left <= limit as f64 {
+            at.too_long = (step, 0);
+            return None;
+        }
+        let (first, steps) = at.too_long;
+        if steps == 0 {
+            at.too_long.0 = step;
+        }
+        at.too_long.1 += 1;
+        let shorter = (first - step) * left / steps as f64;
+        (steps >= SETTLING_STEPS && step > shorter).then_some(StopReason::OutOfReach { step })
     }
 
     /// Go back to the triangulation of the last metric, or one of the same, after a search that found nothing: whether the residual

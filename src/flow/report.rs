@@ -35,6 +35,13 @@ pub enum StopReason {
     Infeasible,
     /// The variables run away: some |u| exceeds 5e5, where metrics in E² end, and no obstruction was found.
     Diverged,
+    /// The metric is out of reach: the step to it moves some u by `step`, and all steps up to the iteration limit could not
+    /// ([`super::Options::max_step`] each). So much curvature at so few vertices, or behind so short a loop, asks for lengths that differ
+    /// by a factor of about e^step.
+    OutOfReach {
+        /// Largest change of u in the step.
+        step: f64,
+    },
     /// No step reduces the error, which is above the rounding floor: `Report::worst` says where,
     /// `Report::broken_triangles` whether triangles break there. No obstruction was found.
     Stalled,
@@ -51,6 +58,7 @@ impl StopReason {
             StopReason::BrokenTriangles => "broken_triangles",
             StopReason::Infeasible => "infeasible",
             StopReason::Diverged => "diverged",
+            StopReason::OutOfReach { .. } => "out_of_reach",
             StopReason::Stalled => "stalled",
             StopReason::IterationLimit => "iteration_limit",
         }

@@ -220,7 +220,10 @@ impl Flow {
         }
         let open = matches!(
             report.stop_reason,
-            StopReason::Stalled | StopReason::Diverged | StopReason::IterationLimit
+            StopReason::Stalled
+                | StopReason::Diverged
+                | StopReason::OutOfReach { .. }
+                | StopReason::IterationLimit
         );
         if !self.flips_allowed && open {
             report.obstruction = self.obstruction(state);

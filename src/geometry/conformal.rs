@@ -1,4 +1,4 @@
-//! A conformal class (ε, η, u) on one edge and one triangle: lengths, half-perimeter differences, derivative of the angles.
+//! A conformal class (ε, η, u) on one edge and one triangle: lengths and half-perimeter differences.
 //!
 //! With `e_i = e^{u_i}` and `d_i = 1 + λ ε_i e_i²`
 //!
@@ -164,6 +164,11 @@ impl Vertex {
         }
     }
 
+    /// e^u in the vertex's unit, with the digits that `low` adds.
+    pub fn precise_scale(self) -> Twofold {
+        Twofold::from(self.scale) + (self.scale * self.low).into()
+    }
+
     /// The same vertex in units of 2^`unit`.
     fn in_unit(self, unit: i32) -> Vertex {
         let by = self.exponent - unit;
@@ -285,7 +290,7 @@ fn lost_gap(a: Vertex, b: Vertex, eta: Twofold, gap: f64) -> f64 {
 /// ([`is_precise`]), and the exponent of its unit; 0 for an edge without a real length.
 pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> (Twofold, i32) {
     let [a, b] = if space == Space::E2 { in_unit_of_edge(a, b, eta.high) } else { [a, b] };
-    let [x, y] = [a, b].map(|v| Twofold::from(v.scale) + (v.scale * v.low).into());
+    let [x, y] = [a, b].map(Vertex::precise_scale);
     let square = |v: Vertex, x: Twofold| x * x * v.epsilon.into();
     let n = x * y * eta * 2.0.into() + square(a, x) + square(b, y);
     let q = match space {
@@ -376,72 +381,4 @@ pub fn differences(corners: [Vertex; 3], edges: [Edge; 3]) -> [f64; 3] {
         let low = edges[i].low + edges[j].low - edges[k].low;
         0.5 * (sum + (first + second + third + low))
     })
-}
-
-/// The weights `w_k = ∂θ_i/∂u_j = ∂θ_j/∂u_i` of the three edges (w_k belongs to edge ij, opposite corner k).
-///
-/// `r`: half-perimeter differences; `q2`, `eta`: of the edges opposite the corners. With `c_i = 1 − λ ε_i e_i²`
-///
-/// ```text
-/// w_k = 8 e_i e_j [ e_i e_j c_k (ε_i ε_j − η_ij²) + e_j e_k c_i (ε_j η_ki + η_ij η_jk) + e_i e_k c_j (ε_i η_jk + η_ij η_ki) ]
-///       / (d_i² d_j² d_k Δ f(l_k)²),          Δ² = f(s) f(r_i) f(r_j) f(r_k),   f(x) = x, sinh x, sin x  (E²: ½ in place of 8)
-/// ∂θ_i/∂u_i = −w_k C(l_k) − w_j C(l_j),      C(l) = 1, cosh l, cos l
-/// ```
-///
-/// which is \[ZGZLYG14\]'s matrix `σ/A · L Θ L⁻¹ D` multiplied out (notation.md derives it); for circle packings with η in
-/// [0, 1] in E² and H² no term is negative. In E² it is `cot θ_k / 2` for ε = 0, and always (signed distance of the power
-/// centre from edge ij) / l_k. A broken triangle has weights 0: its extended angles are constant.
-#[inline]
-pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], eta: [f64; 3]) -> [f64; 3] {
-    if r.iter().any(|&x| x <= 0.0) {
-        return [0.0; 3];
-    }
-    if space == Space::E2 && corners.iter().all(|v| v.epsilon == 0.0) {
-        return cotangents(r).map(|cotangent| 0.5 * cotangent);
-    }
-    // In units of the longest chord no product under- or overflows.
-    let unit = 0.5 / q2.into_iter().fold(0.0, f64::max).sqrt();
-    let f = |x: f64| unit * super::triangle::sine(space, x);
-    let s = r[0] + r[1] + r[2];
-    if space == Space::S2 && s >= PI {
-        return [0.0; 3];
-    }
-    let delta = (f(s) * f(r[0])).sqrt() * (f(r[1]) * f(r[2])).sqrt();
-    let lambda = space.curvature();
-    let c = corners.map(|v| 1.0 - lambda * v.epsilon * v.scale * v.scale);
-    let e = corners.map(|v| v.scale * unit);
-    let own = [0, 1, 2].map(|i| corners[i].epsilon * e[i] * e[i]);
-    let cross = [0, 1, 2].map(|k| eta[k] * (e[(k + 1) % 3] * e[(k + 2) % 3]));
-    let weight = |k: usize| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let first = if own[i] * own[j] > 0.0 {
-            own[i] * own[j] * ((1.0 - eta[k]) * (1.0 + eta[k]))
-        } else {
-            own[i] * own[j] - cross[k] * cross[k]
-        };
-        let sum = c[k] * first
-            + c[i] * (own[j] * cross[j] + cross[k] * cross[i])
-            + c[j] * (own[i] * cross[i] + cross[k] * cross[j]);
-        // f(l_k)² = 4 q² (1 − λ q²)
-        let chord = (2.0 * unit) * (2.0 * unit) * q2[k] * (1.0 - lambda * q2[k]);
-        let scale = match space {
-            Space::E2 => 0.5,
-            _ => 8.0 / (corners[i].d * corners[j].d).powi(2) / corners[k].d,
-        };
-        scale * sum / (delta * chord)
-    };
-    let w = [weight(0), weight(1), weight(2)];
-    // Where a triangle is so thin that its area underflows, the quotients are no numbers: it is treated as a broken one.
-    if w.iter().all(|w| w.is_finite()) { w } else { [0.0; 3] }
-}
-
-/// The cotangents of the angles of a triangle in E² with half-perimeter differences r, from `tan²(θ_k/2) = r_i r_j/(s r_k)`; 0 where the
-/// triangle is so thin that they are no numbers.
-fn cotangents(r: [f64; 3]) -> [f64; 3] {
-    // In units of the half-perimeter, which is 1 then, no product over- or underflows.
-    let s = r[0] + r[1] + r[2];
-    let r = r.map(|x| x / s);
-    let area = r[0].sqrt() * r[1].sqrt() * r[2].sqrt();
-    let all = [0, 1, 2].map(|k| (r[k] - r[(k + 1) % 3] * r[(k + 2) % 3]) / (2.0 * area));
-    if all.iter().all(|x| x.is_finite()) { all } else { [0.0; 3] }
 }

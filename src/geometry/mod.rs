@@ -18,6 +18,7 @@ pub mod symplectic;
 pub mod triangle;
 pub mod twofold;
 pub mod vector;
+pub mod weights;
 pub mod worst;
 
 pub use isometry::PlaneIsometry;

@@ -29,6 +29,10 @@ use crate::mesh::{EdgeId, FixedEdges, Flip, HalfedgeId, Mesh, PerEdge, PerVertex
 pub use super::flip_queue::Queue;
 pub use super::isometric::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 
+/// Largest |η| that a flip makes, about 2^960: what is formed from edges below it stays in the doubles with all their digits. An edge whose
+/// other diagonal has more is not flipped.
+const MAX_ETA: f64 = 1e289;
+
 /// The four vertices of the hinge of half-edge h (origin, tip, left, right), and its five half-edges: h, then those of the left and the right
 /// face at the origin and at the tip of h.
 fn hinge_of(mesh: &Mesh, h: HalfedgeId) -> ([VertexId; 4], [HalfedgeId; 5]) {
@@ -126,10 +130,10 @@ impl VertexHinge {
     }
 
     /// η of the other diagonal, to twice the digits whatever the digits of w, on which it does not depend; `None` where there is no other
-    /// diagonal.
+    /// diagonal, or where its η is above [`MAX_ETA`].
     fn other_diagonal(&self, eta: &PerEdge<Twofold>) -> Option<Twofold> {
         let (hinge, scale) = self.precise(eta);
-        hinge.flipped().map(|product| product / scale).filter(|eta| eta.high.is_finite())
+        hinge.flipped().map(|product| product / scale).filter(|eta| eta.high.abs() <= MAX_ETA)
     }
 }
 

@@ -227,8 +227,7 @@ fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) ->
         Space::H2 => ((0.5 * length).sinh().powi(2) * a.d * b.d).into(),
         Space::S2 => ((0.5 * length).sin().powi(2) * a.d * b.d).into(),
     };
-    let [x, y] =
-        [a, b].map(|v| (Twofold::from(v.scale) + (v.scale * v.low).into()).scaled(v.exponent - unit));
+    let [x, y] = [a, b].map(|v| v.precise_scale().scaled(v.exponent - unit));
     let own = |v: Vertex, x: Twofold| x * x * v.epsilon.into();
     (n - own(a, x) - own(b, y)) / (x * y * 2.0.into())
 }

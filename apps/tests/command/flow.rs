@@ -433,6 +433,14 @@ fn the_default_on_open_surfaces_with_handles_places_cones() {
     assert_eq!(report["result"]["flipped_triangles"], 0);
     // On request the boundary, and that is the default without handles.
     assert!(place.run("flow open.obj --target boundary").out.contains("target boundary"));
+    // Too many handles for a short loop: that is found out soon, and said by name.
+    place.expect(0, "make genus --genus 73 -n 2 --holes 1 -o many.obj --quiet");
+    let ended = place.expect(1, "flow many.obj --target boundary --report r.json --metric m.json");
+    assert!(ended.out.contains("lengths would differ by a factor of about e^"), "{}", ended.out);
+    assert!(ended.out.contains("--target auto:N"), "{}", ended.out);
+    let result = &place.json("r.json")["result"];
+    assert_eq!((&result["stop_reason"], &result["iterations"]), (&"out_of_reach".into(), &20.into()));
+    place.expect(0, "flow many.obj --report r.json");
     place.put("disk.obj", &hill(8).obj());
     assert!(place.expect(0, "flow disk.obj").out.contains("target boundary:"));
 }
