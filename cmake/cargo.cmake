@@ -3,12 +3,9 @@
 #
 # RICCI_CARGO_PROFILE     cargo profile: release (default) or dev
 # RICCI_CARGO_TARGET_DIR  where cargo builds: $CARGO_TARGET_DIR or target/ by default
-# RICCI_CARGO_TARGET      the Rust target; default when cross-compiling: <processor>-unknown-linux-gnu, else the host
+# RICCI_CARGO_TARGET      the Rust target; default when cross-compiling for Linux or, by MinGW, for Windows: that of CMake's processor;
+#                         else the host
 # RICCI_CARGO_OFFLINE     ON: nothing is downloaded, as from the tarball of cmake/tarball.cmake
-
-if(WIN32)
-  message(FATAL_ERROR "ricci: the C face is built on Linux and macOS only")
-endif()
 
 find_program(CARGO cargo HINTS $ENV{CARGO_HOME}/bin $ENV{HOME}/.cargo/bin)
 if(NOT CARGO)
@@ -31,10 +28,13 @@ endif()
 # What CMake compiles for is what cargo builds for.
 set(_target "")
 if(CMAKE_CROSSCOMPILING)
-  if(NOT CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT RICCI_CARGO_TARGET)
+  if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+    set(_target ${CMAKE_SYSTEM_PROCESSOR}-unknown-linux-gnu)
+  elseif(MINGW)
+    set(_target ${CMAKE_SYSTEM_PROCESSOR}-pc-windows-gnu)
+  elseif(NOT RICCI_CARGO_TARGET)
     message(FATAL_ERROR "ricci: name the Rust target for ${CMAKE_SYSTEM_NAME} in RICCI_CARGO_TARGET")
   endif()
-  set(_target ${CMAKE_SYSTEM_PROCESSOR}-unknown-linux-gnu)
 endif()
 set(RICCI_CARGO_TARGET "${_target}" CACHE STRING "the Rust target; empty: the host")
 option(RICCI_CARGO_OFFLINE "build without the network" OFF)
@@ -58,7 +58,25 @@ set(_soversion ${PROJECT_VERSION_MAJOR})
 if(_soversion EQUAL 0)
   set(_soversion 0.${PROJECT_VERSION_MINOR})
 endif()
-if(APPLE)
+set(_built_static libricci_c.a)
+set(RICCI_STATIC libricci.a)
+set(_built_import)
+set(RICCI_IMPORT)
+set(RICCI_SHARED_LINKS)
+if(WIN32)
+  # The import library knows the DLL by the name that cargo gives it.
+  set(_built ricci_c.dll)
+  set(RICCI_SHARED ricci_c.dll)
+  if(MSVC)
+    set(_built_static ricci_c.lib)
+    set(RICCI_STATIC ricci_static.lib)
+    set(_built_import ricci_c.dll.lib)
+    set(RICCI_IMPORT ricci.lib)
+  else()
+    set(_built_import libricci_c.dll.a)
+    set(RICCI_IMPORT libricci.dll.a)
+  endif()
+elseif(APPLE)
   set(_built libricci_c.dylib)
   set(RICCI_SHARED libricci.${PROJECT_VERSION}.dylib)
   set(RICCI_SHARED_LINKS libricci.${_soversion}.dylib libricci.dylib)
@@ -67,28 +85,33 @@ else()
   set(RICCI_SHARED libricci.so.${PROJECT_VERSION})
   set(RICCI_SHARED_LINKS libricci.so.${_soversion} libricci.so)
 endif()
-set(RICCI_STATIC libricci.a)
 set(RICCI_LIB_DIR ${PROJECT_BINARY_DIR}/lib)
 
 # What a program that links the static library needs besides: `rustc --print native-static-libs`.
-if(APPLE)
+if(WIN32)
+  set(RICCI_SYSTEM_LIBS kernel32 ntdll userenv ws2_32 dbghelp)
+elseif(APPLE)
   set(RICCI_SYSTEM_LIBS m)
 else()
   set(RICCI_SYSTEM_LIBS gcc_s pthread m dl)
 endif()
 
-set(_links)
+set(_built_files ${_built} ${_built_static} ${_built_import})
+set(_files ${RICCI_SHARED} ${RICCI_STATIC} ${RICCI_IMPORT})
+list(TRANSFORM _files PREPEND ${RICCI_LIB_DIR}/)
+set(_copies)
+foreach(_from _to IN ZIP_LISTS _built_files _files)
+  list(APPEND _copies COMMAND ${CMAKE_COMMAND} -E copy_if_different ${_built_dir}/${_from} ${_to})
+endforeach()
 foreach(_link ${RICCI_SHARED_LINKS})
-  list(APPEND _links COMMAND ${CMAKE_COMMAND} -E create_symlink ${RICCI_SHARED} ${RICCI_LIB_DIR}/${_link})
+  list(APPEND _copies COMMAND ${CMAKE_COMMAND} -E create_symlink ${RICCI_SHARED} ${RICCI_LIB_DIR}/${_link})
 endforeach()
 add_custom_target(ricci_cargo ALL
   COMMAND ${_cargo_env} ${CARGO} build --locked --package ricci-capi --lib --profile ${RICCI_CARGO_PROFILE}
           --target-dir ${RICCI_CARGO_TARGET_DIR} ${_cargo_args}
   COMMAND ${CMAKE_COMMAND} -E make_directory ${RICCI_LIB_DIR}
-  COMMAND ${CMAKE_COMMAND} -E copy_if_different ${_built_dir}/${_built} ${RICCI_LIB_DIR}/${RICCI_SHARED}
-  COMMAND ${CMAKE_COMMAND} -E copy_if_different ${_built_dir}/libricci_c.a ${RICCI_LIB_DIR}/${RICCI_STATIC}
-  ${_links}
-  BYPRODUCTS ${RICCI_LIB_DIR}/${RICCI_SHARED} ${RICCI_LIB_DIR}/${RICCI_STATIC}
+  ${_copies}
+  BYPRODUCTS ${_files}
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
   COMMENT "cargo build (${RICCI_CARGO_PROFILE})"
   USES_TERMINAL VERBATIM)
@@ -97,17 +120,23 @@ add_library(ricci::ricci_shared SHARED IMPORTED GLOBAL)
 set_target_properties(ricci::ricci_shared PROPERTIES
   IMPORTED_LOCATION ${RICCI_LIB_DIR}/${RICCI_SHARED}
   INTERFACE_INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/include)
-list(GET RICCI_SHARED_LINKS 0 RICCI_SONAME)
-if(APPLE)
-  string(PREPEND RICCI_SONAME @rpath/)
+set(RICCI_SONAME)
+if(WIN32)
+  set_target_properties(ricci::ricci_shared PROPERTIES IMPORTED_IMPLIB ${RICCI_LIB_DIR}/${RICCI_IMPORT})
+else()
+  list(GET RICCI_SHARED_LINKS 0 RICCI_SONAME)
+  if(APPLE)
+    string(PREPEND RICCI_SONAME @rpath/)
+  endif()
+  set_target_properties(ricci::ricci_shared PROPERTIES IMPORTED_SONAME ${RICCI_SONAME})
 endif()
-set_target_properties(ricci::ricci_shared PROPERTIES IMPORTED_SONAME ${RICCI_SONAME})
 add_dependencies(ricci::ricci_shared ricci_cargo)
 
 add_library(ricci::ricci_static STATIC IMPORTED GLOBAL)
 set_target_properties(ricci::ricci_static PROPERTIES
   IMPORTED_LOCATION ${RICCI_LIB_DIR}/${RICCI_STATIC}
   INTERFACE_INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/include
+  INTERFACE_COMPILE_DEFINITIONS RICCI_STATIC
   INTERFACE_LINK_LIBRARIES "${RICCI_SYSTEM_LIBS}")
 add_dependencies(ricci::ricci_static ricci_cargo)
 

@@ -3,11 +3,21 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(FILES ${RICCI_LIB_DIR}/${RICCI_STATIC} DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(PROGRAMS ${RICCI_LIB_DIR}/${RICCI_SHARED} DESTINATION ${CMAKE_INSTALL_LIBDIR})
-if(CMAKE_STRIP)
+set(_shared_dir ${CMAKE_INSTALL_LIBDIR})
+if(WIN32)
+  set(_shared_dir ${CMAKE_INSTALL_BINDIR})
+  install(FILES ${RICCI_LIB_DIR}/${RICCI_IMPORT} DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
+install(PROGRAMS ${RICCI_LIB_DIR}/${RICCI_SHARED} DESTINATION ${_shared_dir})
+if(CMAKE_STRIP AND NOT MSVC)
   set(_installed "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}")
-  install(CODE "execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-unneeded \"${_installed}/${RICCI_SHARED}\" COMMAND_ERROR_IS_FATAL ANY)
-    execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-debug \"${_installed}/${RICCI_STATIC}\" COMMAND_ERROR_IS_FATAL ANY)")
+  set(_strip_shared --strip-unneeded)
+  if(APPLE)
+    set(_strip_shared -x)
+  endif()
+  install(CODE "execute_process(COMMAND \"${CMAKE_STRIP}\" ${_strip_shared}
+      \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${_shared_dir}/${RICCI_SHARED}\" COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND \"${CMAKE_STRIP}\" -S \"${_installed}/${RICCI_STATIC}\" COMMAND_ERROR_IS_FATAL ANY)")
   if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_OBJCOPY AND CMAKE_NM)
     install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" -DARCHIVE=${_installed}/${RICCI_STATIC} -DSHARED=${_installed}/${RICCI_SHARED}
       -DNM=${CMAKE_NM} -DLD=${CMAKE_LINKER} -DOBJCOPY=${CMAKE_OBJCOPY} -DAR=${CMAKE_AR} -P \"${CMAKE_CURRENT_LIST_DIR}/static.cmake\"
@@ -33,9 +43,13 @@ endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ricci DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 set(_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ricci)
+set(_shared_names "IMPORTED_SONAME \"${RICCI_SONAME}\"")
+if(WIN32)
+  set(_shared_names "IMPORTED_IMPLIB \"\${PACKAGE_PREFIX_DIR}/${CMAKE_INSTALL_LIBDIR}/${RICCI_IMPORT}\"")
+endif()
 configure_package_config_file(cmake/ricci-config.cmake.in ${PROJECT_BINARY_DIR}/ricci-config.cmake
   INSTALL_DESTINATION ${_package_dir}
-  PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR)
+  PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR _shared_dir)
 # Before 1.0 a new minor version may be incompatible.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/ricci-config-version.cmake
   COMPATIBILITY SameMinorVersion)

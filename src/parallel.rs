@@ -14,6 +14,7 @@
 
 use crate::error::{Error, Result};
 use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
 use std::thread::JoinHandle;
 
 /// Elements that a thread takes at a time: enough that handing them over costs little. The number is fixed, so that the division of an
@@ -90,25 +91,31 @@ impl Drop for Pool {
 /// `out[i] = f(i)` for every i, in parallel when called inside a pool, one after the other outside: rayon
 /// would start its global pool there.
 pub fn fill<T: Send>(out: &mut [T], f: impl Fn(usize) -> T + Sync) {
-    if out.len() <= CHUNK || rayon::current_thread_index().is_none() {
-        out.iter_mut().enumerate().for_each(|(i, x)| *x = f(i));
-        return;
-    }
-    out.par_chunks_mut(CHUNK).enumerate().for_each(|(c, chunk)| {
+    in_chunks(out.chunks_mut(CHUNK), |c, chunk| {
         chunk.iter_mut().enumerate().for_each(|(i, x)| *x = f(c * CHUNK + i));
     });
 }
 
 /// `(a[i], b[i]) = f(i)` for every i of two arrays of the same length, as [`fill`].
 pub fn fill_both<A: Send, B: Send>(a: &mut [A], b: &mut [B], f: impl Fn(usize) -> (A, B) + Sync) {
-    let one = |i: usize, (a, b): (&mut A, &mut B)| (*a, *b) = f(i);
-    if a.len() <= CHUNK || rayon::current_thread_index().is_none() {
-        a.iter_mut().zip(b).enumerate().for_each(|(i, pair)| one(i, pair));
-        return;
-    }
-    a.par_chunks_mut(CHUNK).zip(b.par_chunks_mut(CHUNK)).enumerate().for_each(|(c, (a, b))| {
-        a.iter_mut().zip(b).enumerate().for_each(|(i, pair)| one(c * CHUNK + i, pair));
+    in_chunks(a.chunks_mut(CHUNK).zip(b.chunks_mut(CHUNK)), |c, (a, b)| {
+        a.iter_mut().zip(b.iter_mut()).enumerate().for_each(|(i, (a, b))| (*a, *b) = f(c * CHUNK + i));
     });
+}
+
+/// Hands each chunk with its number to `work`, which whoever comes to it locks.
+fn in_chunks<C: Send>(chunks: impl Iterator<Item = C>, work: impl Fn(usize, &mut C) + Sync) {
+    let chunks: Vec<Mutex<C>> = chunks.map(Mutex::new).collect();
+    share(chunks.len(), &|c| work(c, &mut chunks[c].lock().unwrap_or_else(PoisonError::into_inner)));
+}
+
+/// `work(c)` for every c below `n`. The machinery of rayon is compiled here, once for all loops.
+fn share(n: usize, work: &(dyn Fn(usize) + Sync)) {
+    if n <= 1 || rayon::current_thread_index().is_none() {
+        (0..n).for_each(work);
+    } else {
+        (0..n).into_par_iter().for_each(work);
+    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ mod common;
 
 use common::flow::{euclidean, surface};
 use ricci::embed::unroll::CONE_TOLERANCE;
-use ricci::embed::{Layout, Scale, UnrollOptions, cones_of, unroll};
+use ricci::embed::{Layout, Quality, Scale, UnrollOptions, cones_of, unroll};
 use ricci::flow::{Flips, Options, Solution, auto_cones, flow};
 use ricci::geometry::{PlaneIsometry, Space};
 use ricci::mesh::io::Soup;
@@ -62,6 +62,37 @@ fn check(mesh: &Mesh, layout: &Layout, what: &str) {
         on_input.flipped.len(),
         mesh.n_faces()
     );
+}
+
+/// With K the dilatation of a linear map of triangles, K + 1/K is the squared norm of its derivative over the determinant; both from squared
+/// lengths and areas.
+fn check_quality((mesh, lengths): &(Mesh, PerEdge<f64>), corners: &[[[f64; 2]; 3]], quality: &Quality) {
+    let [mut areas, mut images] = [Vec::new(), Vec::new()];
+    for f in mesh.faces() {
+        let squares = mesh.opposite_edges(f).map(|e| lengths[e] * lengths[e]);
+        let [a, b, c] = squares;
+        let area = 0.25 * (2.0 * (a * b + b * c + c * a) - a * a - b * b - c * c).sqrt();
+        let p = corners[f.index()];
+        let across = |i: usize, j: usize| [p[i][0] - p[j][0], p[i][1] - p[j][1]];
+        let ([x, y], [z, w]) = (across(1, 0), across(2, 0));
+        let image = 0.5 * (x * w - y * z).abs();
+        let norm: f64 = (0..3)
+            .map(|k| {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                let [x, y] = across(i, j);
+                (squares[i] + squares[j] - squares[k]) * (x * x + y * y)
+            })
+            .sum();
+        let (expected, k) = (norm / (8.0 * area * image), quality.qc[f]);
+        assert!((k + 1.0 / k - expected).abs() < 1e-9 * expected * expected, "face {f}: {k} for {expected}");
+        areas.push(area);
+        images.push(image);
+    }
+    let (all, whole) = (areas.iter().sum::<f64>(), images.iter().sum::<f64>());
+    for (f, (area, image)) in areas.into_iter().zip(images).enumerate() {
+        let expected = (image / whole) / (area / all);
+        assert!((quality.area_ratio[f.into()] - expected).abs() < 1e-9 * (1.0 + expected), "face {f}");
+    }
 }
 
 /// Noise of a rounding error in a target makes no cones: eight of them on a sphere are joined by seven seams, and some more where those
@@ -121,6 +152,9 @@ fn layouts_in_the_plane_are_cut_along_the_inputs_edges() {
             assert!((solved.area * layout.scale * layout.scale / given_area - 1.0).abs() < 1e-12, "{what}");
             let quality = layout.quality(mesh, &surface.1).unwrap();
             assert!(quality.qc_mean >= 1.0 && quality.qc_mean < 3.0, "{what}: {}", quality.qc_mean);
+            let on_input = layout.quality_on_input(&surface.1).unwrap().unwrap();
+            assert_eq!(on_input == quality, result.is_unflipped(), "{what}");
+            check_quality(&surface, &layout.corner_uv().unwrap(), &on_input);
         }
     }
 }

@@ -17,6 +17,7 @@ use ricci::embed::layout::{bounding_diagonal, distance};
 use ricci::embed::{Layout, OnInput, Quality, Scale, Seam, UnrollOptions, unroll};
 use ricci::geometry::{Model, PlaneIsometry, Space};
 use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerHalfedge, Point};
+use std::borrow::Cow;
 use std::ffi::c_char;
 use std::sync::Arc;
 
@@ -89,6 +90,9 @@ pub struct ricci_layout_summary {
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_layout_summary, "summary");
 
+const NOT_ON_INPUT: &str =
+    "this layout is cut along edges of the metric's triangulation, not of the mesh: take ricci_layout_new";
+
 fn not_here(message: &'static str) -> Failure {
     Failure::new(RICCI_LAYOUT, message)
 }
@@ -127,8 +131,13 @@ impl ricci_layout {
     }
 
     fn on_input(&self) -> Outcome<&OnInput> {
-        let message = "this layout is cut along edges of the metric's triangulation, not of the mesh: take ricci_layout_new";
-        self.on_input.as_ref().ok_or_else(|| not_here(message))
+        self.on_input.as_ref().ok_or_else(|| not_here(NOT_ON_INPUT))
+    }
+
+    fn quality_on_input(&self) -> Outcome<Quality> {
+        let surface = self.state.solution.surface();
+        let _reserve = memory::work(surface.mesh().n_vertices(), memory::LAYOUT)?;
+        self.layout.quality_on_input(surface.lengths())?.ok_or_else(|| not_here(NOT_ON_INPUT))
     }
 
     /// The point of every corner of every face, of the input or of what is laid out.
@@ -341,12 +350,16 @@ pub unsafe extern "C" fn ricci_layout_flipped(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_layout_distortion(
     layout: *const ricci_layout,
+    on: u32,
     qc: *mut f64,
     area_ratio: *mut f64,
     capacity: usize,
 ) -> ricci_status {
     guard::with(layout, |layout| {
-        let quality = layout.quality()?;
+        let quality = match ON.choose(on)? {
+            On::Input => Cow::Owned(layout.quality_on_input()?),
+            _ => Cow::Borrowed(layout.quality()?),
+        };
         check_buffer("area_ratio", quality.area_ratio.len(), area_ratio, capacity)?;
         copy_out("qc", &quality.qc, qc, capacity)?;
         copy_out("area_ratio", &quality.area_ratio, area_ratio, capacity)

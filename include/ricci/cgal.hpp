@@ -1,10 +1,11 @@
 // CGAL::Surface_mesh in and out, of any point type with x(), y(), z().
 //
 //     const auto flat = ricci::flow(ricci::metric(ricci::cgal::from(mesh)), ricci::target::automatic(8));
-//     const auto uv = ricci::cgal::uv(mesh, ricci::layout(flat)); // a property map of halfedges: of the
-//     corner at their target const auto factor = ricci::cgal::factor(mesh, flat);        // a property map of
-//     vertices
+//     const auto uv = ricci::cgal::uv(mesh, ricci::layout(flat));
+//     const auto factor = ricci::cgal::factor(mesh, flat);
 //
+// `uv` is a property map of half-edges: the coordinates of the corner at their target; `factor` one of
+// vertices.
 // Elements keep CGAL's numbers; call collect_garbage() first where elements were removed. The maps are named
 // "h:ricci_uv", "v:ricci_factor" and "v:ricci_curvature".
 //

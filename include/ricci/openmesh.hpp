@@ -1,10 +1,10 @@
 // OpenMesh in and out: any TriMesh kernel, of float or double. Include OpenMesh before.
 //
 //     const auto flat = ricci::flow(ricci::metric(ricci::openmesh::from(mesh)), ricci::target::automatic(8));
-//     const auto uv = ricci::openmesh::uv(mesh, ricci::layout(flat)); // a property of halfedges: of the
-//     corner at their tip const auto factor = ricci::openmesh::factor(mesh, flat);        // a property of
-//     vertices
+//     const auto uv = ricci::openmesh::uv(mesh, ricci::layout(flat));
+//     const auto factor = ricci::openmesh::factor(mesh, flat);
 //
+// `uv` is a property of half-edges: the coordinates of the corner at their tip; `factor` one of vertices.
 // Elements keep OpenMesh's numbers; call garbage_collection() first where elements were deleted. Properties
 // are added under the names "ricci:uv", "ricci:factor" and "ricci:curvature", or written again where the mesh
 // has them.

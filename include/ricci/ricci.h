@@ -1310,8 +1310,8 @@ typedef struct ricci_layout_summary {
     /** Largest distance of a point from the origin, in the space. */
     double radius;
     /**
-     * Quasi-conformal dilatation, at least 1: mean over the input's area. NaN, as all below, on the
-     * metric's own triangulation.
+     * Quasi-conformal dilatation of the faces of what is laid out, at least 1: mean over the input's area.
+     * NaN, as all below, on the metric's own triangulation.
      */
     double qc_mean;
     /** Largest quasi-conformal dilatation. */
@@ -1450,18 +1450,23 @@ RICCI_API ricci_status ricci_layout_flipped(const ricci_layout *layout, uint32_t
                                             size_t capacity);
 
 /**
- * How every face of what is laid out is distorted.
+ * How every face is distorted.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (the metric's own
- * triangulation).
+ * On the input it is the map that is linear on each face of the mesh, whose coordinates ricci_layout_uv
+ * gives there; a face that folds has the dilatation of its mirror image. Shares are of the sum over all
+ * faces. A face without area on either side has the dilatation 1 / DBL_EPSILON; no number is larger.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_NO_MEMORY,
+ * RICCI_LAYOUT (RICCI_ON_INPUT as of ricci_layout_corners; else the metric's own triangulation after
+ * flips).
  *
  * @param layout      the layout.
- * @param qc          out: n_faces quasi-conformal dilatations, at least 1: 1 is conformal.
- * @param area_ratio  out: n_faces shares of the layout's area over shares of the input's.
+ * @param on          RICCI_ON_INPUT: the faces of the mesh; else those of what is laid out.
+ * @param qc          out: n_input_faces or n_faces quasi-conformal dilatations, at least 1: 1 is conformal.
+ * @param area_ratio  out: as many shares of the layout's area over shares of the input's.
  * @param capacity    entries of `qc` and of `area_ratio`.
  */
-RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, double *qc, double *area_ratio,
-                                               size_t capacity);
+RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, uint32_t on, double *qc,
+                                               double *area_ratio, size_t capacity);
 
 /**
  * What is laid out as a mesh: the mesh that the metric was made from, or the common refinement.

@@ -344,12 +344,13 @@ public:
     std::vector<std::uint32_t> flipped(std::uint32_t on = RICCI_ON_INPUT) const {
         return values<std::uint32_t>(ricci_layout_flipped, get(), on);
     }
-    // Dilatations and area ratios of the faces of what is laid out.
-    std::pair<std::vector<double>, std::vector<double>> distortion() const {
-        const std::size_t n = summary().n_faces;
+    // Dilatations and area ratios of every face: of the caller's mesh, by default.
+    std::pair<std::vector<double>, std::vector<double>> distortion(std::uint32_t on = RICCI_ON_INPUT) const {
+        const ricci_layout_summary all = summary();
+        const std::size_t n = on == RICCI_ON_INPUT ? all.n_input_faces : all.n_faces;
         std::pair<std::vector<double>, std::vector<double>> both{std::vector<double>(n),
                                                                  std::vector<double>(n)};
-        check(ricci_layout_distortion(handle_, both.first.data(), both.second.data(), n));
+        check(ricci_layout_distortion(handle_, on, both.first.data(), both.second.data(), n));
         return both;
     }
     ricci::mesh laid_out() const { return ricci::mesh(make<ricci_mesh>(ricci_layout_mesh, get())); }

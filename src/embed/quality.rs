@@ -12,19 +12,6 @@
 //! # Ok(())
 //! # }
 //! ```
-//!
-//! ```
-//! use ricci::embed::layout;
-//! use ricci::{Control, Surface, mesh::shapes, topology::cut_graph};
-//! # fn main() -> ricci::Result<()> {
-//! let disk = Surface::from_soup(&shapes::disk(4)?)?;
-//! let cut = cut_graph(disk.mesh(), disk.lengths(), &[], &Control::new())?;
-//! let isometric = layout(disk.mesh(), disk.lengths(), &cut, &Control::new())?;
-//! let quality = isometric.quality(disk.mesh(), disk.lengths())?;
-//! assert!(quality.qc_max < 1.0 + 1e-12 && quality.degenerate.is_empty());
-//! # Ok(())
-//! # }
-//! ```
 
 use super::layout::{Layout, distance};
 use super::overlap::Triangle;
@@ -85,8 +72,25 @@ impl Layout {
             let to = self.face_uv(f).map(|p| p.map(|x| x / self.diameter));
             let dilatation =
                 if self.can_compare(f, from, to) { dilatation(from, to) } else { DILATATION_CAP };
-            (dilatation, self.area_of(f, to))
+            (dilatation, self.area_of(self.face_points(f), to))
         })
+    }
+
+    /// [`Layout::quality`] of the map that is linear on the faces of the surface as it came ([`Layout::on_input`]); `None` where the cut does
+    /// not run along its edges. `lengths`: of its edges in E².
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the lengths.
+    pub fn quality_on_input(&self, lengths: &PerEdge<f64>) -> Result<Option<Quality>> {
+        let (Some((input, _)), Some(on_input)) = (&self.input, self.on_input()) else { return Ok(None) };
+        let place = |f| (f, CORNERS);
+        let quality = Given::new(input, lengths)?.quality(input, place, |f, from| {
+            let face = input.face_halfedges(f);
+            let points = face.map(|h| on_input.points[on_input.corner_index[h] as usize] as usize);
+            let to = points.map(|k| self.coordinates[k].map(|x| x / self.diameter));
+            (dilatation(from, to), self.area_of(points.map(|k| self.points[k]), to))
+        });
+        quality.map(Some)
     }
 
     /// Whether a piece and its image have a shape to compare. The triangles of a mesh always have, as far as doubles go: they come from their
@@ -102,12 +106,12 @@ impl Layout {
         self.refinement().is_none() || (Shape::of(from).share > LEAST_SHARE && is_sound())
     }
 
-    /// The area of a triangle; `to` are its coordinates in E², divided by the diameter.
-    fn area_of(&self, f: FaceId, to: Triangle) -> f64 {
+    /// The area of a triangle with these corners; `to` are their coordinates in E², divided by the diameter.
+    fn area_of(&self, corners: [Point; 3], to: Triangle) -> f64 {
         if self.space == Space::E2 {
             return 0.5 * doubled_area(to).abs();
         }
-        let points = self.brought_home(self.face_points(f));
+        let points = self.brought_home(corners);
         area(self.space, [[1, 2], [2, 0], [0, 1]].map(|[i, j]| distance(self.space, points[i], points[j])))
     }
 }

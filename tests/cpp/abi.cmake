@@ -18,7 +18,7 @@ endforeach()
 file(MAKE_DIRECTORY ${WORK})
 file(WRITE ${WORK}/abi.c "${_stub}")
 get_filename_component(_include ${HEADERS} DIRECTORY)
-execute_process(COMMAND ${CC} -g -w -fPIC -shared -I${_include} ${WORK}/abi.c -o ${WORK}/libabi.so COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CC} -g -w -fPIC -shared -ffile-prefix-map=${WORK}/= -I${_include} ${WORK}/abi.c -o ${WORK}/libabi.so COMMAND_ERROR_IS_FATAL ANY)
 
 if(DEFINED ENV{RICCI_BLESS})
   execute_process(COMMAND ${ABIDW} --no-show-locs --no-corpus-path --no-comp-dir-path --no-elf-needed --out-file ${BASELINE}

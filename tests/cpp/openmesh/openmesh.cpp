@@ -116,9 +116,11 @@ void check_layout(const Mesh &input, const ricci_metric *end, const Surface &sur
     OK(ricci_layout_summarise(layout, &summary, sizeof summary));
     OK(ricci_layout_uv(layout, RICCI_ON_REFINEMENT, uv.data(), uv.size()));
     std::vector<double> ratio(surface.n_faces), input_uv(uv.size());
-    OK(ricci_layout_distortion(layout, qc.data(), ratio.data(), qc.size()));
+    std::vector<double> input_qc(qc), input_ratio(qc);
+    OK(ricci_layout_distortion(layout, RICCI_ON_REFINEMENT, qc.data(), ratio.data(), qc.size()));
+    OK(ricci_layout_distortion(layout, RICCI_ON_INPUT, input_qc.data(), input_ratio.data(), qc.size()));
     OK(ricci_layout_uv(layout, RICCI_ON_INPUT, input_uv.data(), input_uv.size()));
-    CHECK(input_uv == uv); // no edge was flipped
+    CHECK(input_uv == uv && input_qc == qc && input_ratio == ratio); // no edge was flipped
     OK(ricci_metric_values(end, RICCI_METRIC_LENGTH, lengths.data(), lengths.size()));
     const auto point = [&](std::size_t f, int k) {
         return Exact::Point_2(uv[6 * f + 2 * (k % 3)], uv[6 * f + 2 * (k % 3) + 1]);

@@ -27,7 +27,8 @@ int whole_job() {
         if (std::abs(l / lengths[0] - 1) > 1e-9) return 3;
     const ricci::layout layout(end);
     const auto summary = layout.summary();
-    if (layout.uv().size() != 24 || layout.distortion().first.size() != summary.n_faces) return 4;
+    if (layout.uv().size() != 24 || layout.distortion().first.size() != 4) return 4;
+    if (layout.distortion(RICCI_ON_REFINEMENT).second.size() != summary.n_faces) return 4;
     if (layout.seam_edges().size() != summary.n_seams || !layout.flipped().empty()) return 5;
     const ricci::map map(end);
     if (map.faces(RICCI_ON_INPUT).size() != map.summary().n_faces) return 6;

@@ -232,6 +232,40 @@ static void the_refinement_is_the_same_surface(const ricci_mesh *mesh, double wa
     arrays_free(&given);
 }
 
+/* The map that is linear on the mesh's faces: with K the dilatation, K + 1/K is the squared norm of its
+ * derivative over the determinant; both from squared lengths (cotangent formula) and areas. */
+static void check_distortion_on_input(const arrays *given, const ricci_layout *layout, const double *uv) {
+    const size_t n = given->n.n_faces;
+    double *qc = (double *)room(n, sizeof *qc), *ratio = (double *)room(n, sizeof *ratio);
+    double before = 0, after = 0, worst = 0;
+    FAILS(ricci_layout_distortion(layout, RICCI_ON_INPUT, qc, ratio, n - 1), RICCI_BUFFER_TOO_SMALL,
+          "area_ratio");
+    FAILS(ricci_layout_distortion(layout, RICCI_ON_INPUT, NULL, ratio, n), RICCI_NULL_POINTER, "qc");
+    FAILS(ricci_layout_distortion(layout, 3, qc, ratio, n), RICCI_ARGUMENT, "on is 3");
+    OK(ricci_layout_distortion(layout, RICCI_ON_INPUT, qc, ratio, n));
+    for (size_t f = 0; f < n; f++) {
+        before += area_in_space(given->positions, given->faces + 3 * f);
+        after += fabs(area_in_plane(uv + 6 * f));
+    }
+    for (size_t f = 0; f < n; f++) {
+        const double area = area_in_space(given->positions, given->faces + 3 * f);
+        const double image = fabs(area_in_plane(uv + 6 * f)), *p = uv + 6 * f;
+        double squares[3], norm = 0;
+        for (int k = 0; k < 3; k++) squares[k] = side(given, f, k) * side(given, f, k);
+        for (int k = 0; k < 3; k++) {
+            const int i = (k + 1) % 3, j = (k + 2) % 3;
+            const double x = p[2 * i] - p[2 * j], y = p[2 * i + 1] - p[2 * j + 1];
+            norm += (squares[i] + squares[j] - squares[k]) * (x * x + y * y);
+        }
+        const double expected = norm / (8 * area * image);
+        CHECK(qc[f] >= 1 && fabs(qc[f] + 1 / qc[f] - expected) < 1e-10 * expected * expected);
+        CHECK(fabs(ratio[f] - (image / after) / (area / before)) < 1e-9 * (1 + ratio[f]));
+        worst = fmax(worst, qc[f]);
+    }
+    CHECK(worst > 1.01); /* the map is not conformal, so that there was something to measure */
+    free(qc), free(ratio);
+}
+
 /* Noise in a target makes no cones: four are joined by three seams (five where those branch), along edges of
  * the mesh; its own faces have coordinates. */
 static void noise_makes_no_cones(const ricci_mesh *mesh) {
@@ -252,6 +286,7 @@ static void noise_makes_no_cones(const ricci_mesh *mesh) {
     CHECK(s.n_seams >= 3 && s.n_seams <= 5 && s.n_flipped == 0 && s.n_input_faces == n_faces &&
           50 * s.n_flipped_input < n_faces);
     OK(ricci_layout_uv(layout, RICCI_ON_INPUT, uv, 6 * n_faces));
+    check_distortion_on_input(&given, layout, uv);
     /* The faces that fold are clockwise there. */
     uint32_t *folded = (uint32_t *)room(s.n_flipped_input, sizeof *folded);
     OK(ricci_layout_flipped(layout, RICCI_ON_INPUT, folded, s.n_flipped_input));

@@ -123,7 +123,10 @@ static void models_agree(const ricci_uniform *quotient, const laid *l) {
     FAILS(ricci_layout_points(layout, 4, flat[0], 2 * n), RICCI_ARGUMENT, "model is 4");
     FAILS(ricci_layout_points(layout, RICCI_MODEL_AMBIENT, flat[0], 2 * n), RICCI_BUFFER_TOO_SMALL, "points");
     FAILS(ricci_layout_uv(layout, RICCI_ON_INPUT, flat[0], 2 * n), RICCI_LAYOUT, "not of the mesh");
-    FAILS(ricci_layout_distortion(layout, flat[0], flat[1], 2 * n), RICCI_LAYOUT, "refinement");
+    FAILS(ricci_layout_distortion(layout, RICCI_ON_REFINEMENT, flat[0], flat[1], 2 * n), RICCI_LAYOUT,
+          "refinement");
+    FAILS(ricci_layout_distortion(layout, RICCI_ON_INPUT, flat[0], flat[1], 2 * n), RICCI_LAYOUT,
+          "not of the mesh");
     ricci_layout_free(layout);
     for (int m = 0; m < 3; m++) free(flat[m]);
 }

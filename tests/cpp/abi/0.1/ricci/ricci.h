@@ -361,8 +361,8 @@ RICCI_API ricci_status ricci_layout_seam_edges(const ricci_layout *layout, uint3
                                                size_t edges_capacity, size_t *starts, size_t starts_capacity);
 RICCI_API ricci_status ricci_layout_flipped(const ricci_layout *layout, uint32_t on, uint32_t *faces,
                                             size_t capacity);
-RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, double *qc, double *area_ratio,
-                                               size_t capacity);
+RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, uint32_t on, double *qc,
+                                               double *area_ratio, size_t capacity);
 RICCI_API ricci_status ricci_layout_mesh(const ricci_layout *layout, ricci_mesh **mesh);
 RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t on, uint32_t homogeneous,
                                           const char *path);

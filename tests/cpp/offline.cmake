@@ -1,0 +1,30 @@
+# The archive of cmake/tarball.cmake builds where nothing can be fetched: without a network, and with a CARGO_HOME that has no crate.
+#
+# The build is not optimised, so that it is quick.
+find_program(GIT git)
+if(NOT GIT OR NOT EXISTS ${ROOT}/.git)
+  message(STATUS "skipped: archives are made of a git checkout, and this is none")
+  return()
+endif()
+file(REMOVE_RECURSE ${WORK})
+execute_process(COMMAND ${CMAKE_COMMAND} -DOUT=${WORK} -P ${ROOT}/cmake/tarball.cmake COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB _archive ${WORK}/ricci-*.tar.gz)
+file(SIZE ${_archive} _size)
+message(STATUS "${_archive}: ${_size} bytes")
+file(ARCHIVE_EXTRACT INPUT ${_archive} DESTINATION ${WORK})
+file(GLOB _source ${WORK}/ricci-*.*.?)
+
+file(WRITE ${WORK}/home/config.toml "[profile.dev]\nopt-level = 0\n[profile.dev.package.\"*\"]\nopt-level = 0\n")
+set(ENV{CARGO_HOME} ${WORK}/home)
+unset(ENV{CARGO_TARGET_DIR})
+set(_alone unshare --map-root-user --net)
+execute_process(COMMAND ${_alone} true RESULT_VARIABLE _together OUTPUT_QUIET ERROR_QUIET)
+if(NOT _together EQUAL 0)
+  message(STATUS "the network cannot be taken away here (unshare): cargo is only told not to use it")
+  set(_alone)
+endif()
+execute_process(COMMAND ${_alone} ${CMAKE_COMMAND} -S ${_source} -B ${WORK}/build -DRICCI_CARGO_OFFLINE=ON
+  -DRICCI_CARGO_PROFILE=dev -DRICCI_TESTS=OFF COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${_alone} ${CMAKE_COMMAND} --build ${WORK}/build COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${WORK}/build/examples/c/example_flow WORKING_DIRECTORY ${WORK} COMMAND_ERROR_IS_FATAL ANY)
+file(REMOVE_RECURSE ${WORK})
