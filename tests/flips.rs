@@ -4,14 +4,13 @@
 mod common;
 
 use common::flips::{SCHEMES, reach, started};
-use common::flow::{attempt, euclidean};
+use common::flow::{attempt, default_target, euclidean, small_meshes};
 use ricci::flow::{Options, Report};
 use ricci::geometry::Space;
-use ricci::mesh::{Mesh, PerEdge, PerVertex, VertexId, io};
+use ricci::mesh::{PerVertex, VertexId};
 use ricci::metric::delaunay::{IntrinsicOptions, Triangulated, failing, intrinsic_delaunay};
-use ricci::metric::{Scheme, curvature, lengths_from_positions};
+use ricci::metric::{Scheme, curvature};
 use ricci::{Class, Control, Flow, Target};
-use std::f64::consts::PI;
 
 /// Largest mesh that the optimised tests of a debug build take.
 const MOST_VERTICES: usize = 3000;
@@ -30,35 +29,12 @@ fn check(flow: &Flow, report: &Report, target: &PerVertex<f64>, what: &str) {
     assert!(failing(mesh, metric).is_empty(), "{what}");
 }
 
-/// Uniform, or four cones of π on a sphere.
-fn default_target(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space, scheme: Scheme) -> PerVertex<f64> {
-    if space == Space::E2 && mesh.genus() == 0 {
-        let mut target = PerVertex::filled(mesh.n_vertices(), 0.0);
-        let step = mesh.n_vertices() / 4;
-        (0..4).for_each(|k| target[(k * step).into()] = PI);
-        return target;
-    }
-    Target::Uniform.resolve(&euclidean(mesh, lengths), Class::new(scheme, space)).unwrap()
-}
-
-fn corpus() -> Vec<(String, Mesh, PerEdge<f64>)> {
-    let Some((folder, rows)) = common::index("good") else { return Vec::new() };
-    let mut all = Vec::new();
-    for row in &rows {
-        if row["V"].parse::<usize>().unwrap() <= MOST_VERTICES {
-            let soup = io::read(&folder.join(&row["file"])).unwrap();
-            let mesh = Mesh::from_soup(&soup).unwrap();
-            let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-            all.push((row["file"].clone(), mesh, lengths));
-        }
-    }
-    all
-}
-
 #[test]
 fn every_closed_mesh_reaches_its_uniform_metric() {
     let mut steps = Vec::new();
-    for (name, mesh, lengths) in corpus().into_iter().filter(|(_, mesh, _)| mesh.is_closed()) {
+    for (name, mesh, lengths, _) in
+        small_meshes(MOST_VERTICES).into_iter().filter(|(_, mesh, ..)| mesh.is_closed())
+    {
         for scheme in SCHEMES {
             for space in [Space::E2, Space::H2].into_iter().filter(|s| *s == Space::E2 || mesh.genus() >= 2) {
                 let target = default_target(&mesh, &lengths, space, scheme);
@@ -79,7 +55,9 @@ fn every_closed_mesh_reaches_its_uniform_metric() {
 
 #[test]
 fn every_open_mesh_becomes_flat_through_its_double() {
-    for (name, half, lengths) in corpus().into_iter().filter(|(_, mesh, _)| !mesh.is_closed()) {
+    for (name, half, lengths, _) in
+        small_meshes(MOST_VERTICES).into_iter().filter(|(_, mesh, ..)| !mesh.is_closed())
+    {
         let given = euclidean(&half, &lengths);
         let surface = (half, lengths);
         for scheme in SCHEMES {
@@ -106,8 +84,8 @@ fn every_open_mesh_becomes_flat_through_its_double() {
 fn rounding_that_differs_between_mirror_images_does_not_hold_the_error() {
     // All of 2πχ at one vertex of a surface with 106 boundary loops: a hundred thousand flips on each half of the double, in another
     // order, leave η so different that symmetric steps alone stop at 1e-5.
-    let found = corpus().into_iter().find(|(name, ..)| name == "elephant_with_holes.obj");
-    let Some((name, mesh, lengths)) = found else { return };
+    let found = small_meshes(MOST_VERTICES).into_iter().find(|(name, ..)| name == "elephant_with_holes.obj");
+    let Some((name, mesh, lengths, _)) = found else { return };
     let target = Target::Single(VertexId(0));
     let target = target.resolve(&euclidean(&mesh, &lengths), Class::yamabe(Space::E2)).unwrap();
     let mut flow = started(&(mesh, lengths), (Space::E2, Scheme::Yamabe), &Options::default());
@@ -121,7 +99,7 @@ fn intrinsic_delaunay_keeps_the_surface() {
     let flipped = |surface: &mut Triangulated| {
         intrinsic_delaunay(surface, IntrinsicOptions::default(), &mut |_, _| {}, &Control::new()).unwrap()
     };
-    for (name, mesh, lengths) in corpus() {
+    for (name, mesh, lengths, _) in small_meshes(MOST_VERTICES) {
         let before = curvature(&mesh, Space::E2, &lengths).unwrap();
         let mut surface = Triangulated { mesh, lengths, geometry: Space::E2 };
         flipped(&mut surface);

@@ -3,16 +3,41 @@
 
 use ricci::flow::{Flips, Options, Report, StopReason};
 use ricci::geometry::Space;
-use ricci::mesh::io::Soup;
-use ricci::mesh::{Mesh, PerEdge, PerVertex};
-use ricci::metric::{Metric, lengths_from_positions};
-use ricci::{Control, Flow, Surface, Target};
+use ricci::mesh::io::{self, Soup};
+use ricci::mesh::{Mesh, PerEdge, PerVertex, Point};
+use ricci::metric::{Metric, Scheme, lengths_from_positions};
+use ricci::{Class, Control, Flow, Surface, Target};
+use std::collections::HashMap;
+use std::f64::consts::PI;
 
 /// Connectivity and edge lengths of a triangle list.
 pub fn surface(soup: &Soup) -> (Mesh, PerEdge<f64>) {
     let mesh = Mesh::from_soup(soup).unwrap();
     let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
     (mesh, lengths)
+}
+
+/// The meshes of the corpus with at most so many vertices, by file name; none where the corpus is absent.
+pub fn small_meshes(most_vertices: usize) -> Vec<(String, Mesh, PerEdge<f64>, Vec<Point>)> {
+    let Some((folder, rows)) = super::index("good") else { return Vec::new() };
+    let is_small = |row: &&HashMap<String, String>| row["V"].parse::<usize>().unwrap() <= most_vertices;
+    let read = |row: &HashMap<String, String>| {
+        let soup = io::read(&folder.join(&row["file"])).unwrap();
+        let (mesh, lengths) = surface(&soup);
+        (row["file"].clone(), mesh, lengths, soup.positions)
+    };
+    rows.iter().filter(is_small).map(read).collect()
+}
+
+/// The uniform target, or four cones of π on a sphere in E².
+pub fn default_target(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space, scheme: Scheme) -> PerVertex<f64> {
+    if space == Space::E2 && mesh.genus() == 0 {
+        let mut target = PerVertex::filled(mesh.n_vertices(), 0.0);
+        let step = mesh.n_vertices() / 4;
+        (0..4).for_each(|k| target[(k * step).into()] = PI);
+        return target;
+    }
+    Target::Uniform.resolve(&euclidean(mesh, lengths), Class::new(scheme, space)).unwrap()
 }
 
 /// A surface with Euclidean lengths.

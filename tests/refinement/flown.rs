@@ -1,14 +1,13 @@
 //! Flows whose flips are recorded.
 
-use crate::common::flow::{attempt, euclidean};
+use crate::common::flow::attempt;
 use ricci::flow::Options;
 use ricci::geometry::{Space, Twofold};
 use ricci::mesh::{Double, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use ricci::metric::delaunay::{ClassFlips, Queue, failing};
 use ricci::metric::refinement::{Final, Input, Intrinsic, Triangulations};
 use ricci::metric::{Metric, Refinement, Scheme, StartOptions, Triangulated, delaunay_start};
-use ricci::{Class, Control, Flow, Target};
-use std::f64::consts::PI;
+use ricci::{Class, Control, Flow};
 
 pub const SCHEMES: [Scheme; 2] = [Scheme::Yamabe, Scheme::Inversive];
 
@@ -114,15 +113,4 @@ impl Flown {
         });
         Refinement::new(Triangulations { input: given, intrinsic, result }, &keep, &Control::new()).unwrap()
     }
-}
-
-/// Uniform, or four cones of π on a sphere.
-pub fn default_target(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space, scheme: Scheme) -> PerVertex<f64> {
-    if space == Space::E2 && mesh.genus() == 0 {
-        let mut target = PerVertex::filled(mesh.n_vertices(), 0.0);
-        let step = mesh.n_vertices() / 4;
-        (0..4).for_each(|k| target[(k * step).into()] = PI);
-        return target;
-    }
-    Target::Uniform.resolve(&euclidean(mesh, lengths), Class::new(scheme, space)).unwrap()
 }

@@ -1,9 +1,10 @@
 //! Surfaces that isometric flips change first: their edges are straight on the surface.
 
 use crate::check::{check, determinant};
+use crate::common::flow::default_target;
 use crate::common::flow::{attempt, euclidean};
 use crate::common::{self, Random};
-use crate::flown::{Flown, SCHEMES, default_target, flow};
+use crate::flown::{Flown, SCHEMES, flow};
 use crate::small::shuffle;
 use ricci::embed::{UnrollOptions, cones_of, unroll};
 use ricci::flow::Options;

@@ -10,33 +10,21 @@ mod normal;
 mod small;
 
 use check::{check, check_layout};
-use common::flow::euclidean;
-use flown::{SCHEMES, default_target, flow};
+use common::flow::{default_target, euclidean, small_meshes};
+use flown::{SCHEMES, flow};
 use ricci::geometry::Space;
-use ricci::mesh::{Double, Mesh, PerEdge, PerVertex, Point, io};
-use ricci::metric::{Scheme, lengths_from_positions};
+use ricci::mesh::{Double, PerEdge, PerVertex};
+use ricci::metric::Scheme;
 use ricci::{Class, Target};
 
 /// Largest mesh that the optimised tests of a debug build take.
 const MOST_VERTICES: usize = 3000;
 
-fn corpus() -> Vec<(String, Mesh, PerEdge<f64>, Vec<Point>)> {
-    let Some((folder, rows)) = common::index("good") else { return Vec::new() };
-    let mut all = Vec::new();
-    for row in &rows {
-        if row["V"].parse::<usize>().unwrap() <= MOST_VERTICES {
-            let soup = io::read(&folder.join(&row["file"])).unwrap();
-            let mesh = Mesh::from_soup(&soup).unwrap();
-            let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-            all.push((row["file"].clone(), mesh, lengths, soup.positions));
-        }
-    }
-    all
-}
-
 #[test]
 fn every_closed_mesh_is_refined_with_its_flat_and_hyperbolic_metrics() {
-    for (name, mesh, lengths, positions) in corpus().into_iter().filter(|(_, mesh, ..)| mesh.is_closed()) {
+    for (name, mesh, lengths, positions) in
+        small_meshes(MOST_VERTICES).into_iter().filter(|(_, mesh, ..)| mesh.is_closed())
+    {
         let kinds = SCHEMES.map(|scheme| (Space::E2, scheme));
         let curved = (mesh.genus() >= 2).then_some((Space::H2, Scheme::Yamabe));
         for (space, scheme) in kinds.into_iter().chain(curved) {
@@ -68,7 +56,9 @@ fn every_closed_mesh_is_refined_with_its_flat_and_hyperbolic_metrics() {
 
 #[test]
 fn every_open_mesh_is_refined_in_its_half_of_the_double() {
-    for (name, half, lengths, positions) in corpus().into_iter().filter(|(_, mesh, ..)| !mesh.is_closed()) {
+    for (name, half, lengths, positions) in
+        small_meshes(MOST_VERTICES).into_iter().filter(|(_, mesh, ..)| !mesh.is_closed())
+    {
         let double = Double::new(&half).unwrap();
         let lengths_of_double: PerEdge<f64> = double.spread_edges(&lengths).unwrap().into();
         for scheme in SCHEMES {

@@ -2,7 +2,8 @@
 
 use crate::check::determinant;
 use crate::common::Random;
-use crate::flown::{default_target, flow};
+use crate::common::flow::default_target;
+use crate::flown::flow;
 use ricci::Control;
 use ricci::geometry::flip::Hinge;
 use ricci::geometry::{Space, Twofold};
