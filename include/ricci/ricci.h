@@ -53,7 +53,7 @@
  *     result.
  *   - Results are identical bit for bit for any number of threads. Threads are the call's own and have
  *     ended when it returns (a ricci_solver keeps its threads until it is freed). Nothing is printed.
- *   - Platforms: 64-bit Linux (tested on x86-64, glibc); written for macOS too, not tested there.
+ *   - Platforms: 64-bit Linux (tested on x86-64, glibc); written for macOS and Windows, not tested there.
  */
 
 #ifndef RICCI_H

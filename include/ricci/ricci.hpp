@@ -354,8 +354,8 @@ public:
         return both;
     }
     ricci::mesh laid_out() const { return ricci::mesh(make<ricci_mesh>(ricci_layout_mesh, get())); }
-    void write(const std::string &path, std::uint32_t on = RICCI_ON_REFINEMENT,
-               bool homogeneous = false) const {
+    // OBJ with texture coordinates: the caller's mesh, by default.
+    void write(const std::string &path, std::uint32_t on = RICCI_ON_INPUT, bool homogeneous = false) const {
         check(ricci_layout_write(handle_, on, homogeneous ? 1 : 0, path.c_str()));
     }
 };

@@ -76,9 +76,11 @@ void check(const std::string &name, const Mesh &input, uint32_t scheme) {
     const ricci::layout layout(end);
     const auto plane = layout.summary();
     const auto counts = ricci::map(end).summary();
-    layout.write(path);
-
     Mesh refined;
+    layout.write(path); // on the caller's own faces, by default
+    CHECK(OpenMesh::IO::read_mesh(refined, path));
+    CHECK(refined.n_vertices() == n && refined.n_faces() == input.n_faces());
+    layout.write(path, RICCI_ON_REFINEMENT);
     CHECK(OpenMesh::IO::read_mesh(refined, path));
     CHECK(refined.n_vertices() == plane.n_vertices && refined.n_faces() == plane.n_faces);
     CHECK(refined.n_edges() == plane.n_edges && plane.n_vertices == n + counts.n_crossings);
