@@ -111,6 +111,7 @@ struct Parts {
     edges: Vec<(u32, u32, usize)>,
     seams: Vec<([f64; 2], [f64; 2], usize)>,
     boundary: Vec<([f64; 2], [f64; 2])>,
+    frame: Vec<([f64; 2], [f64; 2])>,
     cones: Vec<([f64; 2], f64)>,
     circles: Vec<Circle>,
     dual_circles: Vec<Circle>,
@@ -131,6 +132,10 @@ impl Parts {
         }
         for h in mesh.halfedges().filter(|h| mesh.is_outside(h.twin())) {
             parts.boundary.push(side(h));
+        }
+        if laid.packed.is_some() {
+            let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+            parts.frame = (0..4).map(|k| (square[k], square[(k + 1) % 4])).collect();
         }
         let mut seen = vec![false; laid.coordinates().len()];
         let mut curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
@@ -157,6 +162,7 @@ impl Parts {
             corner_uv: &self.corner_uv,
             seams: &self.seams,
             boundary: &self.boundary,
+            frame: &self.frame,
             cones: &self.cones,
             circles: &self.circles,
             dual_circles: &self.dual_circles,

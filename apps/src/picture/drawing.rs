@@ -76,7 +76,7 @@ pub const PALE: u8 = TINTS + 1;
 /// Colour of what a disk or half-plane has no copy on.
 pub const EMPTY: u32 = 0xefeeea;
 /// Distance of layers that are drawn over one another, above every radius in pixels.
-const LAYER: f64 = 1e6;
+const LAYER: f64 = 1e4;
 /// Distance of a label from its point, over the size of the panel.
 const AWAY: f64 = 0.021;
 

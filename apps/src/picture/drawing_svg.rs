@@ -15,6 +15,7 @@ pub fn drawing_svg(drawing: &Drawing<'_>, style: &Style) -> Vec<u8> {
     let over = sheet.over(drawing);
     format!(
         r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" fill="none" stroke-linejoin="round" stroke-linecap="round">
+<path fill="white" d="M0 0H{width}V{height}H0Z"/>
 {inside}{over}</svg>
 "#
     )

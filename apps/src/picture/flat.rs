@@ -10,10 +10,12 @@ use super::{Circle, Flat, Style};
 const LEAST_RADIUS: f64 = 1.0;
 /// And of a larger one: their piece of arc in the picture is a line.
 const MOST_RADIUS: f64 = 1e5;
+/// Colour of the frame around charts.
+pub const FRAME: u32 = 0x9a9a9a;
 pub const VERTEX_CIRCLE: u32 = 0xb5342a;
 pub const DUAL_CIRCLE: u32 = 0x26539e;
 /// Distance of layers that are drawn over one another, above every radius in pixels.
-const LAYER: f64 = 1e6;
+const LAYER: f64 = 1e4;
 
 /// Draw a layout; the pattern, circles, boundary, seams and cones lie over one another in this order.
 pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style) -> Image {
@@ -33,6 +35,9 @@ pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style) -> Image {
             let (points, radius) = outline(&fit, circle, size);
             points.windows(2).for_each(|p| line(p[0], p[1], layer, radius, from_hex(color)));
         }
+    }
+    for &(a, b) in flat.frame {
+        line(fit.apply(a), fit.apply(b), 1.0, 0.5 * style.line(), from_hex(FRAME));
     }
     for &(a, b) in flat.boundary {
         line(fit.apply(a), fit.apply(b), 4.0, style.line(), INK);
@@ -59,6 +64,7 @@ pub fn fit(flat: &Flat<'_>, style: &Style) -> Fit {
     }
     let ends = |c: &Circle| [-1.0, 1.0].map(|s| [c.center[0] + s * c.radius, c.center[1] + s * c.radius]);
     let points = flat.corner_uv.iter().flatten().copied();
+    let points = points.chain(flat.frame.iter().map(|side| side.0));
     Fit::new(points.chain(flat.circles.iter().flat_map(ends)), style.size)
 }
 

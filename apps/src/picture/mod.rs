@@ -1,8 +1,8 @@
 //! Pictures: the surface with the pattern of its layout beside the flat layout, and a legend below.
 //!
 //! A small software renderer. Everything becomes triangles and round strokes that go through one supersampled z-buffer
-//! in linear light; light and shadow come from rays over a tree of boxes. Orthographic, so that attributes interpolate
-//! linearly. Every pixel is a fixed computation: a picture is the same for any number of threads.
+//! in linear light; light and shadow come from depth maps, one for each of many small lights. Orthographic, so that attributes
+//! interpolate linearly. Every pixel is a fixed computation: a picture is the same for any number of threads.
 
 mod args;
 mod camera;
@@ -81,7 +81,7 @@ impl Picture<'_> {
     }
 
     fn draw(&self, style: &Style) -> Image {
-        let own = if self.pattern.is_some() { None } else { self.tiles() };
+        let own = if self.pattern.is_some() { None } else { self.tiles().map(|t| t.banded(style.bands)) };
         let tiles = self.pattern.or(own.as_ref());
         let wish = |corner_uv| Wish {
             texture: style.texture,
@@ -125,8 +125,8 @@ fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> 
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
     if palette {
+        encoder.set_compression(png::Compression::High);
         let (colors, indices) = palette::reduce(&image.rgb);
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_palette(colors);
@@ -134,6 +134,7 @@ fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> 
         encoder.set_filter(png::Filter::NoFilter);
         encoder.write_header()?.write_image_data(&indices)?;
     } else {
+        encoder.set_compression(png::Compression::Fast);
         encoder.set_color(png::ColorType::Rgb);
         encoder.write_header()?.write_image_data(&image.rgb)?;
     }

@@ -33,6 +33,8 @@ pub struct Flat<'a> {
     pub corner_uv: &'a [[[f64; 2]; 3]],
     /// Both copies of each cut edge: ends in the order of their face, and the number of their seam.
     pub seams: &'a [([f64; 2], [f64; 2], usize)],
+    /// Lines that are no part of the layout: the unit square around charts.
+    pub frame: &'a [([f64; 2], [f64; 2])],
     /// Boundary edges, ends in the order of their face.
     pub boundary: &'a [([f64; 2], [f64; 2])],
     pub cones: &'a [([f64; 2], f64)],
@@ -63,6 +65,10 @@ pub struct Style {
     pub ground: bool,
     /// Write at most 192 colours, for a small file.
     pub palette: bool,
+    /// Leave shadows out.
+    pub draft: bool,
+    /// Change the size of the pattern by steps where the layout's scale varies much.
+    pub bands: bool,
     /// Show a part only.
     pub focus: Option<Focus>,
 }
@@ -93,6 +99,17 @@ impl Style {
 impl Default for Style {
     fn default() -> Style {
         let (view, texture) = (View::default(), Texture::Checker);
-        Style { size: 900, threads: 0, view, texture, wire: false, ground: true, palette: false, focus: None }
+        Style {
+            size: 900,
+            threads: 0,
+            view,
+            texture,
+            wire: false,
+            ground: true,
+            palette: false,
+            focus: None,
+            draft: false,
+            bands: false,
+        }
     }
 }

@@ -45,7 +45,8 @@ struct Scene<'a> {
     strokes: Vec<Rgb>,
     lights: Lights,
     ground: Option<Ground>,
-    caster: Caster,
+    /// None in a draft.
+    caster: Option<Caster>,
     field: Option<Field>,
     /// Width in pixels over which the ground fades at the edge.
     margin: f64,
@@ -118,7 +119,8 @@ impl<'a> Scene<'a> {
             corner_normals(&points, surface.faces).into_iter().map(|n| n.map(turned)).collect();
         let flat: Vec<[[f64; 2]; 3]> = corners.iter().map(|c| c.map(|p| [p[0], p[1]])).collect();
         let mut shapes: Vec<Shape> = corners.iter().map(|c| Shape::Triangle(*c)).collect();
-        let caster = Caster::new(&shapes, lights.key, style.size);
+        let cast = || Caster::new(&placed, surface.faces, lights.key, style.threads);
+        let caster = (!style.draft).then(cast);
         let mut strokes = Vec::new();
         let mut tube = |a: u32, b: u32, radius: f64, color: Rgb| {
             let ends = [placed[a as usize], placed[b as usize]];
@@ -144,7 +146,8 @@ impl<'a> Scene<'a> {
         };
         let faces = &scene.shapes[..scene.n_faces];
         let describe = |at, hit: Option<&Hit>| scene.describe(at, hit);
-        scene.field = Some(Field::new(&scene.caster, faces, scene.size, style.threads, describe));
+        let light = |caster| Field::new(caster, faces, scene.size, style.threads, describe);
+        scene.field = scene.caster.as_ref().map(light);
         scene
     }
 
@@ -171,7 +174,7 @@ impl<'a> Scene<'a> {
     /// The light at a point near one that a pixel shows.
     fn open(&self, pixel: [f64; 2], point: &Point) -> Open {
         let near = self.field.as_ref().and_then(|field| field.at(pixel, point));
-        near.unwrap_or_else(|| self.caster.open(point, 0))
+        near.unwrap_or_else(|| self.caster.as_ref().map_or(Open::FULLY, |caster| caster.open(point)))
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::color::{cone_color, seam_color, to_hex};
 use super::fit::Fit;
-use super::flat::{DUAL_CIRCLE, VERTEX_CIRCLE, fit};
+use super::flat::{DUAL_CIRCLE, FRAME, VERTEX_CIRCLE, fit};
 use super::legend::Plan;
 use super::texture::{CIRCLE_SPACING, RING, Texture, Tiles};
 use super::{Circle, Field, Flat, Picture, Scale, Style};
@@ -39,6 +39,7 @@ fn write_svg(out: &mut Vec<u8>, flat: &Flat<'_>, field: Option<&Field>, style: &
         decimal(width),
         decimal(height)
     )?;
+    writeln!(out, r#"<path fill="white" d="M0 0H{}V{}H0Z"/>"#, decimal(width), decimal(height))?;
     writeln!(out, r#"<g transform="translate({} 0)">"#, decimal(0.5 * (width - fit.width as f64)))?;
     let drawing = Drawing { flat, fit, size, style };
     match field {
@@ -172,6 +173,10 @@ impl Drawing<'_> {
 
     fn lines(&self, out: &mut impl Write) -> Result<()> {
         let (width, Flat { boundary, seams, cones, .. }) = (decimal(2.0 * self.style.line()), self.flat);
+        for (a, b) in self.flat.frame {
+            let (path, width) = (self.polyline(&[*a, *b]), decimal(self.style.line()));
+            writeln!(out, r##"<path stroke="#{FRAME:06x}" stroke-width="{width}" d="{path}"/>"##)?;
+        }
         writeln!(out, r#"<g stroke-width="{width}" stroke-linecap="round">"#)?;
         for points in loops(boundary.iter().copied()) {
             writeln!(out, r##"<path stroke="#1c1c21" d="{}"/>"##, self.polyline(&points))?;

@@ -17,13 +17,13 @@ pub enum Texture {
 const CHECKS: f64 = 26.0;
 /// Distance of the centres of two circles that touch, in checks.
 pub const CIRCLE_SPACING: f64 = 1.6;
-/// Where a layout's scale varies by more than this factor, the pattern is made finer or coarser by it: it stays
-/// of visible size on the whole surface, nested into itself.
+/// With bands: where a layout's scale varies by more than this factor, the pattern is made finer or coarser by it, so that it stays of
+/// visible size on the whole surface, nested into itself.
 const OCTAVE: f64 = 8.0;
 /// Patterns with a period below the first number of pixels are faded to their mean, above the second not at all.
-const FADE: [f64; 2] = [1.3, 3.0];
-/// Width over which checks are averaged, pixels; the samples of a pixel average over one more.
-const FILTER: f64 = 0.6;
+const FADE: [f64; 2] = [0.85, 1.6];
+/// Width over which checks are averaged, pixels.
+const FILTER: f64 = 1.1;
 /// Radii of a circle's outer and inner edge and of the dot at its centre, over the circles' distance.
 pub const RING: [f64; 3] = [0.47, 0.36, 0.11];
 
@@ -148,6 +148,14 @@ impl Tiles {
         }
         let level = |v: u32| mean[v as usize].0 / f64::max(mean[v as usize].1, 1.0);
         Tiles { size, level: faces.iter().map(|f| f.map(level)).collect() }
+    }
+
+    /// The same pattern with or without its steps in size.
+    pub fn banded(mut self, bands: bool) -> Tiles {
+        if !bands {
+            self.level.fill([0.0; 3]);
+        }
+        self
     }
 }
 

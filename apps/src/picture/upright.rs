@@ -2,7 +2,7 @@
 //!
 //! Files do not say it. y is up in most of them; exceptions are told by their shape.
 
-use super::vector::{V3, norm, normal};
+use super::vector::{V3, add, dot, norm, normal, sphere_point, unit};
 
 /// Which way is up, and whether the surface lies flat on the ground, to be seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,9 +22,16 @@ const SYMMETRIC: f64 = 0.55;
 const REGULAR: f64 = 0.75;
 /// Boxes per axis in which mirror images are compared.
 const BOXES: usize = 10;
-/// A bottom that covers this share of the bounding box stands on the ground; less than the other share does not.
-const BASE: f64 = 0.3;
-const NO_BASE: f64 = 0.08;
+/// A flat side with this share of the area that the surface can stand on is what it stands on.
+const BASE: f64 = 0.065;
+/// Directions in which flat sides are looked for, and how many of those with the most area are looked at.
+const DIRECTIONS: usize = 128;
+const LOOKED_AT: usize = 6;
+/// Faces of a flat side: normals within this cosine of its own, and no deeper than this share of the extent along it.
+const LEVEL: f64 = 0.95;
+const DEPTH: f64 = 0.04;
+/// An upright direction within this cosine of a coordinate axis is that axis.
+const AXIS: f64 = 0.995;
 
 const Y: V3 = [0.0, 1.0, 0.0];
 const Z: V3 = [0.0, 0.0, 1.0];
@@ -51,8 +58,36 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
     if let Some(k) = [2, 1, 0].into_iter().find(flat) {
         return Stance { up: axis(k, 1.0), lies: true };
     }
-    let stands = figure.base[2] > BASE && figure.base[1] < NO_BASE;
-    Stance { up: if stands { Z } else { Y }, lies: false }
+    Stance { up: base(points, faces).unwrap_or(Y), lies: false }
+}
+
+/// The direction away from the flat side that a surface stands on, if it has one.
+fn base(points: &[V3], faces: &[[u32; 3]]) -> Option<V3> {
+    let around: Vec<V3> = (0..DIRECTIONS).map(|i| sphere_point(i, DIRECTIONS)).collect();
+    let corners = |f: &[u32; 3]| f.map(|v| points[v as usize]);
+    let mut sums = vec![([0.0; 3], 0.0); DIRECTIONS];
+    for n in faces.iter().map(|f| normal(corners(f))) {
+        let best = (0..DIRECTIONS).fold(0, |b, k| if dot(n, around[k]) > dot(n, around[b]) { k } else { b });
+        sums[best] = (add(sums[best].0, n), sums[best].1 + norm(n));
+    }
+    let total: f64 = sums.iter().map(|s| s.1).sum();
+    sums.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let share = |down: V3| {
+        let heights = points.iter().map(|p| dot(down, *p));
+        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        let area = |f: &[u32; 3]| {
+            let (n, p) = (normal(corners(f)), corners(f));
+            let middle = (0..3).map(|k| dot(down, p[k])).sum::<f64>() / 3.0;
+            let level = dot(down, n) > LEVEL * norm(n) && middle > high - DEPTH * (high - low);
+            if level { norm(n) } else { 0.0 }
+        };
+        faces.iter().map(area).sum::<f64>() / total
+    };
+    let sides = sums.iter().take(LOOKED_AT).filter_map(|s| unit(s.0)).map(|down| (share(down), down));
+    let (share, down) = sides.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let axis = (0..3).find(|k| down[*k].abs() > AXIS);
+    let snapped = axis.map(|k| [0, 1, 2].map(|j| if j == k { -down[k].signum() } else { 0.0 }));
+    (share > BASE).then(|| snapped.unwrap_or(down.map(|x| -x)))
 }
 
 /// What the rules look at; a surface of no extent has none of it.
@@ -62,8 +97,6 @@ struct Figure {
     outside: V3,
     /// Area per box of the bounding box.
     boxes: Vec<f64>,
-    /// Area of the faces at the bottom along y and z that face down, over that of the bounding box.
-    base: V3,
     /// Whether the Euler characteristic is below that of a sphere or disk.
     handles: bool,
 }
@@ -79,7 +112,7 @@ impl Figure {
         }
         let extent = [0, 1, 2].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
         let mut boxes = vec![0.0; BOXES * BOXES * BOXES];
-        let (mut outside, mut total, mut base) = ([0.0; 3], 0.0, [0.0; 3]);
+        let (mut outside, mut total) = ([0.0; 3], 0.0);
         for face in faces {
             let p = face.map(|v| points[v as usize]);
             let n = normal(p);
@@ -88,12 +121,7 @@ impl Figure {
             let cell = place.map(|x| ((x * BOXES as f64) as usize).min(BOXES - 1));
             boxes[(cell[0] * BOXES + cell[1]) * BOXES + cell[2]] += area;
             total += area;
-            for k in 0..3 {
-                outside[k] += n[k];
-                if place[k] < 0.04 && n[k] < -0.9 * area {
-                    base[k] += 0.5 * area / (extent[(k + 1) % 3] * extent[(k + 2) % 3]);
-                }
-            }
+            outside = add(outside, n);
         }
         let mut edges: Vec<(u32, u32)> = faces
             .iter()
@@ -103,7 +131,7 @@ impl Figure {
         edges.dedup();
         let euler = points.len() as i64 - edges.len() as i64 + faces.len() as i64;
         let outside = outside.map(|x| x / f64::max(total, f64::MIN_POSITIVE));
-        Figure { extent, outside, boxes, base, handles: euler <= 0 }
+        Figure { extent, outside, boxes, handles: euler <= 0 }
     }
 
     /// How much of the area lies as its mirror image along axis `k` does, in [0, 1].
@@ -136,6 +164,24 @@ mod tests {
         assert_eq!(stance(&disk.positions, &disk.faces), Stance { up: Z, lies: true });
         let below: Vec<[u32; 3]> = disk.faces.iter().map(|f| [f[0], f[2], f[1]]).collect();
         assert_eq!(stance(&disk.positions, &below).up, [0.0, 0.0, -1.0]);
+        // A prism with a slanted top stands on its end, wherever that looks.
+        let prism = |tilt: f64| -> Vec<V3> {
+            let corner = |k: u32| {
+                [
+                    3.0 * f64::from(k & 1),
+                    f64::from(k >> 1 & 1),
+                    3.0 * f64::from(k >> 2) + f64::from(k >> 2 & k & 1),
+                ]
+            };
+            let (sin, cos) = tilt.sin_cos();
+            let turned = |[x, y, z]: V3| [x, cos * y - sin * z, sin * y + cos * z];
+            (0..8).map(|k| turned(corner(k))).collect()
+        };
+        let squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let faces: Vec<[u32; 3]> =
+            squares.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+        let up = stance(&prism(0.6), &faces).up;
+        assert!(up.iter().any(|x| x.abs() > 0.1 && x.abs() < 0.99), "{up:?}");
         let tall = shapes::ellipsoid([1.0, 3.0, 1.0], 8).unwrap();
         assert_eq!(stance(&tall.positions, &tall.faces), Stance { up: Y, lies: false });
     }

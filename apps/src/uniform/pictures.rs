@@ -14,6 +14,7 @@ use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
 use ricci::geometry::{Motion, Space, Twofold};
 use ricci::topology::word::Word;
+use std::collections::HashSet;
 
 /// Copies in the background of a polygon at most.
 const BACKGROUND: usize = 250;
@@ -36,10 +37,11 @@ pub struct Canvas {
 pub fn draw(u: &Uniformized, shown: Shown, canvas: &Canvas, svg: bool) -> Result<Vec<u8>, Failure> {
     let laid = u.laid()?;
     let (uv, tiles) = pattern(u, laid);
+    let tiles = tiles.banded(canvas.style.bands);
     let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
     let tiling = match shown {
         Shown::Uniform(ShowChoice::Surface) => None,
-        Shown::Uniform(ShowChoice::Both) => Some(domain(u, canvas, false)?),
+        Shown::Uniform(ShowChoice::Both) => Some(dirichlet(u, canvas).or_else(|_| domain(u, canvas, false))?),
         Shown::Uniform(ShowChoice::Domain) => Some(domain(u, canvas, true)?),
         Shown::Uniform(ShowChoice::Polygon) => Some(polygon(u, canvas)?),
         Shown::Uniform(ShowChoice::Dirichlet) => Some(dirichlet(u, canvas)?),
@@ -261,17 +263,57 @@ fn copies(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
     Ok(tiling)
 }
 
-/// The copies of the Dirichlet domain.
+/// The copies of the Dirichlet domain with the pattern of the layout.
 fn tiled(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
     let (domain, elements) = (u.domain()?, u.copies()?);
     let shape = tile(domain, canvas.at);
     let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);
+    let opened = prototype(u.laid()?, &sides(u)?);
+    // A triangle of the opened surface lies in its own tile, or in the one across a side.
+    let owners = owners(&opened, domain, u.deck.space);
+    let wanted: HashSet<&Word> = elements.iter().map(|g| &g.word).collect();
+    let across = |g: &DeckElement, side: &DeckElement| DeckElement {
+        word: u.deck.group.reduce(&g.word.times(&side.word)),
+        motion: g.motion.compose(&side.motion),
+    };
+    let mut drawn = HashSet::new();
+    let around = elements.iter().flat_map(|g| domain.sides.iter().map(move |side| across(g, side)));
+    for g in elements.iter().cloned().chain(around) {
+        if drawn.insert(g.word.clone()) {
+            let mut tints = vec![wanted.contains(&g.word).then(|| tint(&u.deck, &g))];
+            tints.extend(domain.sides.iter().map(|side| {
+                let next = across(&g, side);
+                wanted.contains(&next.word).then(|| tint(&u.deck, &next))
+            }));
+            tiling.cells_of(&opened, &g.motion, |f| tints[owners[f]]);
+        }
+    }
+    // What is drawn first is seen: these are under the pattern, and alone where that is too fine.
     for g in elements {
         tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
     }
     outline(u, &mut tiling, domain, false);
     tiling.dots.push(canvas.at.flat(domain.centre));
     Ok(tiling)
+}
+
+/// For each triangle 0 if it lies in the Dirichlet domain, and otherwise one more than the side that it lies across.
+fn owners(shape: &Prototype, domain: &DirichletDomain, space: Space) -> Vec<usize> {
+    let centre = domain.centre;
+    let images: Vec<[f64; 3]> =
+        domain.sides.iter().map(|g| g.motion.apply(centre.map(Twofold::from)).map(f64::from)).collect();
+    // What grows with the distance of two points.
+    let far = |p: [f64; 3], q: [f64; 3]| match space {
+        Space::H2 => p[2] * q[2] - p[0] * q[0] - p[1] * q[1],
+        _ => (p[0] - q[0]).hypot(p[1] - q[1]),
+    };
+    let owner = |corners: &[u32; 3]| {
+        let middle = middle(space, &corners.map(|c| shape.points[c as usize]));
+        let candidates = std::iter::once(&centre).chain(&images);
+        let distances = candidates.map(|c| far(middle, *c)).enumerate();
+        distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k)
+    };
+    shape.triangles.iter().map(owner).collect()
 }
 
 /// What is shown of all copies: in the plane all of it.

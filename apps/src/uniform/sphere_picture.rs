@@ -5,6 +5,8 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::picture::{self, Picture, Style, Surface, Tiles};
 use ricci::geometry::vector::{norm, triangle_normal};
+use ricci::mesh::{FaceId, HalfedgeId};
+use ricci::metric::Refinement;
 
 /// The picture as PNG; `beside`: the sphere too.
 pub fn draw(input: &Input, s: &Round, style: &Style, beside: bool) -> Result<Vec<u8>, Failure> {
@@ -21,9 +23,10 @@ pub fn draw(input: &Input, s: &Round, style: &Style, beside: bool) -> Result<Vec
     }
     // On either hemisphere the pattern's scale is between 1/2 and 1 of the sphere's.
     let flat: Vec<f64> = uv.iter().map(|uv| 0.5 * picture::doubled_area(*uv).abs()).collect();
-    let tiles = Tiles::new(&scale, &flat, &faces, r.mesh.n_vertices());
+    let tiles = Tiles::new(&scale, &flat, &faces, r.mesh.n_vertices()).banded(style.bands);
+    let seam = equator(s, r);
     let surface =
-        |positions| Surface { positions, faces: &faces, corner_uv: Some(&uv), seams: &[], cones: &[] };
+        |positions| Surface { positions, faces: &faces, corner_uv: Some(&uv), seams: &seam, cones: &[] };
     let drawn = Picture {
         surface: positions.as_deref().map(&surface),
         beside: beside.then(|| surface(&on_sphere)),
@@ -33,9 +36,24 @@ pub fn draw(input: &Input, s: &Round, style: &Style, beside: bool) -> Result<Vec
     picture::png(&drawn, style)
 }
 
+/// The edges between the hemispheres, along which the pattern breaks.
+fn equator(s: &Round, r: &Refinement) -> Vec<(u32, u32, usize)> {
+    let side = |f: FaceId| is_northern(s.piece(r, f));
+    let breaks = |h: &HalfedgeId| match [r.mesh.face(*h), r.mesh.face(h.twin())] {
+        [Some(f), Some(g)] => side(f) != side(g),
+        _ => false,
+    };
+    let edges = r.mesh.edges().map(|e| e.halfedge()).filter(breaks);
+    edges.map(|h| (r.mesh.origin(h).0, r.mesh.tip(h).0, 0)).collect()
+}
+
+fn is_northern(piece: [[f64; 3]; 3]) -> bool {
+    piece.iter().map(|p| p[2]).sum::<f64>() >= 0.0
+}
+
 /// Stereographic coordinates from the farther pole of a triangle on the sphere.
 fn hemisphere(piece: [[f64; 3]; 3]) -> [[f64; 2]; 3] {
-    let north = piece.iter().map(|p| p[2]).sum::<f64>() >= 0.0;
+    let north = is_northern(piece);
     piece
         .map(|[x, y, z]| if north { [x / (1.0 + z), y / (1.0 + z)] } else { [x / (1.0 - z), -y / (1.0 - z)] })
 }

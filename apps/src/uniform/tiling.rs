@@ -60,47 +60,60 @@ impl Tiling {
         Drawing { frame: *frame, pattern, cells, outlines, lines, dots, labels }
     }
 
-    /// Add a copy; returns its radius in pixels. `border`: draw that too, in this width.
-    pub fn copy(
-        &mut self,
-        shape: &Prototype,
-        motion: &Motion<Twofold>,
-        tint: u8,
-        border: Option<f64>,
-    ) -> f64 {
+    /// Add a copy in one tint; `border`: draw that too, in this width.
+    pub fn copy(&mut self, shape: &Prototype, motion: &Motion<Twofold>, tint: u8, border: Option<f64>) {
         let moved = |p: &[f64; 3]| motion.apply(p.map(Twofold::from)).map(f64::from);
-        let centre = moved(&shape.centre);
-        let middle = self.at.flat(centre);
-        let outline: Vec<[f64; 3]> = coarse(&shape.border).map(moved).collect();
+        let (radius, coarse) = self.extent(shape, motion);
+        if radius.is_nan() || radius < LEAST {
+            return;
+        }
+        let fine: Vec<[f64; 3]> = shape.border.iter().map(moved).collect();
+        let outline = if radius < PLAIN { &coarse } else { &fine };
+        if radius < PLAIN || shape.triangles.is_empty() || self.cells.len() > MOST_CELLS {
+            self.fan(moved(&shape.centre), outline, tint, if radius > LARGE { STEPS } else { 1 });
+        } else {
+            self.cells_of(shape, motion, |_| Some(tint));
+        }
+        let flat = |points: &[[f64; 3]]| points.iter().map(|p| self.at.flat(*p)).collect::<Vec<_>>();
+        self.outlines.push((flat(outline), tint));
+        if let (Some(width), true) = (border, radius > BORDERED) {
+            let mut points = flat(&fine);
+            points.extend(points.first().copied());
+            self.lines.push(Line { points, color: None, width });
+        }
+    }
+
+    /// The radius of a copy in pixels, and some points of its border.
+    fn extent(&self, shape: &Prototype, motion: &Motion<Twofold>) -> (f64, Vec<[f64; 3]>) {
+        let moved = |p: &[f64; 3]| motion.apply(p.map(Twofold::from)).map(f64::from);
+        let middle = self.at.flat(moved(&shape.centre));
+        let coarse: Vec<[f64; 3]> = coarse(&shape.border).map(moved).collect();
         let off = |p: &[f64; 3]| {
             let [x, y] = self.at.flat(*p);
             (x - middle[0]).hypot(y - middle[1])
         };
-        let radius = self.scale * outline.iter().map(off).fold(0.0, f64::max);
-        if radius.is_nan() || radius < LEAST {
-            return 0.0;
-        }
-        if radius < PLAIN || shape.triangles.is_empty() || self.cells.len() > MOST_CELLS {
-            let fine: Vec<[f64; 3]> =
-                if radius < PLAIN { outline } else { shape.border.iter().map(moved).collect() };
-            self.fan(centre, &fine, tint, if radius > LARGE { STEPS } else { 1 });
-            self.outlines.push((fine.iter().map(|p| self.at.flat(*p)).collect(), tint));
-        } else {
-            let places: Vec<[f64; 2]> = shape.points.iter().map(|p| self.at.flat(moved(p))).collect();
-            let cell = |(f, corners): (usize, &[u32; 3])| Cell {
-                corners: corners.map(|c| places[c as usize]),
-                face: Some(f as u32),
-                tint,
+        (self.scale * coarse.iter().map(off).fold(0.0, f64::max), coarse)
+    }
+
+    /// Add the triangles of a copy that have a tint; whether it is large enough for its pattern to be seen.
+    pub fn cells_of(
+        &mut self,
+        shape: &Prototype,
+        motion: &Motion<Twofold>,
+        tint: impl Fn(usize) -> Option<u8>,
+    ) -> bool {
+        let (radius, _) = self.extent(shape, motion);
+        let seen = radius >= PLAIN && self.cells.len() <= MOST_CELLS;
+        if seen {
+            let place = |p: &[f64; 3]| self.at.flat(motion.apply(p.map(Twofold::from)).map(f64::from));
+            let places: Vec<[f64; 2]> = shape.points.iter().map(place).collect();
+            let cell = |(f, corners): (usize, &[u32; 3])| {
+                let corners = corners.map(|c| places[c as usize]);
+                Some(Cell { corners, face: Some(f as u32), tint: tint(f)? })
             };
-            self.cells.extend(shape.triangles.iter().enumerate().map(cell));
-            self.outlines.push((shape.border.iter().map(|p| self.at.flat(moved(p))).collect(), tint));
+            self.cells.extend(shape.triangles.iter().enumerate().filter_map(cell));
         }
-        if let (Some(width), true) = (border, radius > BORDERED) {
-            let closed = shape.border.iter().chain(shape.border.first());
-            let points = closed.map(|p| self.at.flat(moved(p))).collect();
-            self.lines.push(Line { points, color: None, width });
-        }
-        radius
+        seen
     }
 
     /// Cells between a centre and a closed polygon around it, along geodesics from the one to the other.

@@ -17,6 +17,26 @@ fn place() -> Place {
     place
 }
 
+/// Where the layout's scale varies much the pattern changes its size on request alone.
+#[test]
+fn bands_are_drawn_on_request() {
+    let place = place();
+    place.expect(0, "make ellipsoid --axes 6 1 1 -n 10 -o long.obj --quiet");
+    let draw = |options: &str| {
+        place.expect(0, &format!("flow long.obj --quiet --size 120 --draft --picture p.png {options}"));
+        pixels(&place, "p.png")
+    };
+    assert!(draw("") != draw("--bands"));
+}
+
+/// Charts are framed by their unit square.
+#[test]
+fn charts_lie_in_a_frame() {
+    let place = place();
+    place.expect(0, "flow torus.obj --target auto:4 --charts --quiet --size 100 --picture p.svg");
+    assert_eq!(place.text("p.svg").matches("stroke=\"#9a9a9a\"").count(), 4);
+}
+
 #[test]
 fn patterns_colours_wire_and_views_change_the_picture_and_threads_do_not() {
     let place = place();
@@ -31,6 +51,7 @@ fn patterns_colours_wire_and_views_change_the_picture_and_threads_do_not() {
         "--texture circles",
         "--texture none",
         "--wire",
+        "--draft",
         "--view 10,50",
         "--view -80,-10",
         "--up x",
@@ -77,7 +98,26 @@ fn drawings_are_vectors_with_a_legend() {
         let svg = place.text("p.svg");
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n") && svg.contains(has), "{options}");
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        // The first thing drawn is a white ground.
+        assert!(svg.lines().nth(1).unwrap().starts_with(r#"<path fill="white""#), "{options}");
     }
+}
+
+#[test]
+fn the_seconds_of_a_picture_are_its_own_and_a_draft_takes_fewer() {
+    let place = place();
+    let seconds = |line: &str| {
+        place.expect(0, &format!("{line} --quiet --threads 1 --picture p.png --report r.json"));
+        let seconds = &place.json("r.json")["seconds"];
+        let of = |phase: &str| seconds[phase].as_f64().unwrap();
+        assert!(of("picture") > 0.0 && of("picture") + of("write") <= of("total"), "{line}: {seconds}");
+        of("picture")
+    };
+    // The least of some: a loaded machine only ever takes longer.
+    let least = |line: &str| (0..3).map(|_| seconds(line)).fold(f64::INFINITY, f64::min);
+    assert!(least("flow torus.obj --draft") < least("flow torus.obj"));
+    seconds("uniformize torus.obj");
+    seconds("info torus.obj");
 }
 
 #[test]
