@@ -1,9 +1,32 @@
-# Installs the libraries, the headers, the CMake package and the pkg-config file.
+# Installs the libraries without their debug information, the headers, the licences, the CMake package and the pkg-config file.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(FILES ${RICCI_LIB_DIR}/${RICCI_STATIC} DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(PROGRAMS ${RICCI_LIB_DIR}/${RICCI_SHARED} DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(CMAKE_STRIP)
+  set(_installed "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}")
+  install(CODE "execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-unneeded \"${_installed}/${RICCI_SHARED}\" COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-debug \"${_installed}/${RICCI_STATIC}\" COMMAND_ERROR_IS_FATAL ANY)")
+  if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_OBJCOPY AND CMAKE_NM)
+    install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" -DARCHIVE=${_installed}/${RICCI_STATIC} -DSHARED=${_installed}/${RICCI_SHARED}
+      -DNM=${CMAKE_NM} -DLD=${CMAKE_LINKER} -DOBJCOPY=${CMAKE_OBJCOPY} -DAR=${CMAKE_AR} -P \"${CMAKE_CURRENT_LIST_DIR}/static.cmake\"
+      COMMAND_ERROR_IS_FATAL ANY)")
+  endif()
+endif()
+
+# Our licences and those of every crate that is linked, from the sources that cargo has built from.
+find_package(Python3 COMPONENTS Interpreter)
+set(_licences ${PROJECT_BINARY_DIR}/THIRD-PARTY.txt)
+if(Python3_FOUND)
+  add_custom_command(OUTPUT ${_licences} DEPENDS ${PROJECT_SOURCE_DIR}/Cargo.lock ${CMAKE_CURRENT_LIST_DIR}/licences.py
+    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/licences.py ${CARGO} ${PROJECT_SOURCE_DIR} ${_licences} VERBATIM)
+  add_custom_target(ricci_licences ALL DEPENDS ${_licences})
+  install(FILES ${_licences} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ricci)
+else()
+  message(STATUS "ricci: Python not found; the licences of linked crates are not installed")
+endif()
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE-MIT ${PROJECT_SOURCE_DIR}/LICENSE-APACHE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ricci)
 foreach(_link ${RICCI_SHARED_LINKS})
   install(FILES ${RICCI_LIB_DIR}/${_link} DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endforeach()

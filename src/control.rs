@@ -104,6 +104,13 @@ impl Control {
     pub fn check(&self) -> Result<()> {
         if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }
     }
+
+    /// [`Control::check`] before the first of `steps` and then before every `every`-th one; counts the step. For loops whose single
+    /// steps take less time than looking at the handle.
+    pub(crate) fn check_every(&self, every: usize, steps: &mut usize) -> Result<()> {
+        *steps += 1;
+        if (*steps - 1).is_multiple_of(every) { self.check() } else { Ok(()) }
+    }
 }
 
 #[cfg(test)]

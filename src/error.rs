@@ -20,11 +20,11 @@ pub enum At {
     Line(usize),
     /// This byte, from 0: where what is wrong begins, or the file's size if it is what is missing.
     Byte(usize),
-    /// No place of its own: the file lacks something, or is too much as a whole.
+    /// The file as a whole: something is missing from it, or there is too much of it.
     Whole,
 }
 
-/// As it follows the file's name: `:12`, `, byte 40`, or nothing.
+/// The place as text that follows the file's name: `:12`, `, byte 40`, or nothing.
 impl std::fmt::Display for At {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -218,6 +218,16 @@ pub enum Error {
 }
 
 impl Error {
+    /// [`Error::Argument`] with the value as text.
+    pub fn argument(what: &'static str, value: impl ToString, need: &'static str) -> Error {
+        Error::Argument { what, value: value.to_string(), need }
+    }
+
+    /// [`Error::Connectivity`].
+    pub fn connectivity(element: &'static str, index: usize, message: &'static str) -> Error {
+        Error::Connectivity { element, index, message }
+    }
+
     /// Stable number of the variant: 1–99 calls, 100s files, 200s meshes, 300s metrics, 400s targets, 500s
     /// solvers, 600s layouts.
     pub fn code(&self) -> u32 {
@@ -246,12 +256,12 @@ impl Error {
     }
 }
 
-/// A number, in powers of ten where it would be all zeros.
+/// A number as text: with an exponent where the plain notation would be a long row of zeros.
 fn number(x: f64) -> String {
     if x == 0.0 || (1e-4..1e9).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
 
-/// `too large by 1.5e-1`; a strict bound that is met with equality says so.
+/// `too large by 1.5e-1`; for an amount of 0 the text says that the bound is strict.
 fn amount(how: &str, by: f64) -> String {
     if by == 0.0 { "equality is not enough".into() } else { format!("{how} by {:.4e}", by.abs()) }
 }

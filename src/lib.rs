@@ -18,6 +18,9 @@
 //! Two cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf,
 //! `gifti` reads .gii.
 
+// Readers and writers of formats, whose functions follow their formats, are excepted in mesh/io.
+#![warn(clippy::too_many_lines)]
+
 pub mod canonical;
 pub mod control;
 pub mod embed;

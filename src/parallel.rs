@@ -16,8 +16,8 @@ use crate::error::{Error, Result};
 use rayon::prelude::*;
 use std::thread::JoinHandle;
 
-/// Elements handed to a thread at a time: enough that handing them over costs little. It is fixed, so that the division does not
-/// depend on the number of threads.
+/// Elements that a thread takes at a time: enough that handing them over costs little. The number is fixed, so that the division of an
+/// array does not depend on the number of threads.
 const CHUNK: usize = 1024;
 
 /// Most threads of a pool. No step of the library is divided finely enough for more to be of use.
@@ -26,7 +26,7 @@ pub const MAX_THREADS: usize = 256;
 /// Thread pool of one solver or call. Its threads have ended when it is dropped: a host that unloads the
 /// library then leaves nothing behind.
 pub struct Pool {
-    /// Taken by `drop` only.
+    /// `None` only while the pool is dropped.
     pool: Option<rayon::ThreadPool>,
     workers: Vec<JoinHandle<()>>,
     threads: usize,
@@ -50,11 +50,7 @@ impl Pool {
                 Ok(())
             })
             .build()
-            .map_err(|_| Error::Argument {
-                what: "threads",
-                value: threads.to_string(),
-                need: "the system could not start that many threads",
-            })?;
+            .map_err(|_| Error::argument("threads", threads, "as many as the system can start"))?;
         Ok(Pool { threads: pool.current_num_threads(), pool: Some(pool), workers })
     }
 
@@ -73,6 +69,10 @@ impl Pool {
 }
 
 /// Run `work` inside a pool: the one that the caller is in, else one of `threads` threads ([`Pool::new`]) for this call alone.
+///
+/// # Errors
+///
+/// Those of `work` and [`Pool::new`].
 pub fn within<R: Send>(threads: usize, work: impl FnOnce() -> Result<R> + Send) -> Result<R> {
     if rayon::current_thread_index().is_some() { work() } else { Pool::new(threads)?.run(work) }
 }

@@ -13,9 +13,8 @@ use ricci::geometry::Space;
 use ricci::mesh::{Curves, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, intrinsic_delaunay};
 use ricci::metric::{Scheme, Triangulated, delaunay_start, initial_metric};
-use ricci::topology::cut_graph;
+use ricci::topology::{cut_graph, farthest_vertices, homology_generators, shortest_paths};
 use ricci::{Class, Control, Error, Flow, Result, Target};
-use std::sync::Arc;
 use std::time::Duration;
 
 /// A torus whose triangulation is far from Delaunay.
@@ -60,6 +59,9 @@ fn a_cancelled_control_stops_every_stage() {
     is_cancelled("Curves::trace", Curves::trace(mesh, &normal, &stop));
     let cones = [VertexId(3), VertexId(700)];
     is_cancelled("cut_graph", cut_graph(mesh, lengths, &cones, &stop));
+    is_cancelled("shortest_paths", shortest_paths(mesh, lengths, cones, &stop));
+    is_cancelled("farthest_vertices", farthest_vertices(mesh, lengths, VertexId(0), 4, &stop));
+    is_cancelled("homology_generators", homology_generators(mesh, lengths, &stop));
     let options = UnrollOptions { cones: Some(cones.to_vec()), ..UnrollOptions::default() };
     is_cancelled("unroll", unroll(&now, &options, &stop));
     let layout = unroll(&now, &options, &free).unwrap();
@@ -112,14 +114,15 @@ fn flips_that_are_cancelled_on_their_way_leave_the_surface() {
     assert!(matches!(start, Ok(_) | Err(Error::Cancelled)));
     assert!(start.is_ok() || m == flipped);
 
-    let mut metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap().metric;
-    let u = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| (v.index() as f64).sin());
+    let mut metric = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2)).unwrap().metric;
+    metric.u = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| (v.index() as f64).sin());
+    let vertices = metric.vertices();
     let (mut m, mut queue, control) = (mesh.clone(), Queue::all(&mesh, &FixedEdges::none()), Control::new());
-    let mut record = |_: &Mesh, _| control.cancel();
+    let mut record = |_: &Mesh, _: Flip<_>| control.cancel();
     is_cancelled(
         "restore_delaunay",
         ClassFlips { mesh: &mut m, metric: &mut metric, record: &mut record }
-            .restore_delaunay(&u, &mut queue, &control),
+            .restore_delaunay(&vertices, &mut queue, &control),
     );
 }
 
@@ -178,6 +181,8 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
     delaunay_start(&mut flat, Class::yamabe(Space::E2).into(), &mut record, &free).unwrap();
     interrupt("Curves::trace", one, |c| Curves::trace(&flat.mesh, &normal, c).map(drop));
     interrupt("cut_graph", one, |c| cut_graph(mesh, lengths, &[], c).map(drop));
+    interrupt("homology_generators", one, |c| homology_generators(mesh, lengths, c).map(drop));
+    interrupt("farthest_vertices", one, |c| farthest_vertices(mesh, lengths, VertexId(0), 8, c).map(drop));
     interrupt("auto_cones", one, |c| auto_cones(mesh, lengths, 6, c).map(drop));
     let class = Class::yamabe(Space::E2);
     let mut made = Flow::new(euclidean(mesh, lengths), class, &Options::default(), &free).unwrap();
@@ -199,7 +204,7 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
     }
     made.solve(&Target::Uniform, &free).unwrap();
     let cut = cut_graph(made.mesh(), &made.metric().lengths(made.mesh()).unwrap(), &[], &free).unwrap();
-    let layout = layout_of(&Arc::new(made.mesh().clone()), made.metric(), None, Some(&cut), &free).unwrap();
+    let layout = layout_of(made.mesh(), made.metric(), None, Some(&cut), &free).unwrap();
     let uv = |h| layout.uv(h);
     interrupt("charts", one, |c| charts(made.mesh(), uv, &ChartOptions::default(), c).map(drop));
     let triangles: Vec<_> = made.mesh().faces().map(|f| layout.face_uv(f)).collect();

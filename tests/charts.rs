@@ -315,8 +315,8 @@ fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> (Mes
     let cones: Vec<_> =
         mesh.vertices().filter(|&v| target[v] != 0.0 && !mesh.is_boundary_vertex(v)).collect();
     let cut = cut_graph(&mesh, &metric.lengths(&mesh).unwrap(), &cones, &Control::new()).unwrap();
-    let layout = layout_of(&Arc::new(mesh.clone()), &metric, None, Some(&cut), &Control::new()).unwrap();
-    (mesh, layout)
+    let layout = layout_of(&mesh, &metric, None, Some(&cut), &Control::new()).unwrap();
+    (Arc::unwrap_or_clone(mesh), layout)
 }
 
 #[test]

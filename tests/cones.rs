@@ -55,7 +55,8 @@ fn measured(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> f64
 fn equal_cones(mesh: &Mesh, lengths: &PerEdge<f64>, n: usize) -> PerVertex<f64> {
     let mut target = PerVertex::filled(mesh.n_vertices(), 0.0);
     let share = 2.0 * PI * mesh.euler() as f64 / n as f64;
-    farthest_vertices(mesh, lengths, VertexId(0), n).unwrap().into_iter().for_each(|v| target[v] = share);
+    let cones = farthest_vertices(mesh, lengths, VertexId(0), n, &Control::new()).unwrap();
+    cones.into_iter().for_each(|v| target[v] = share);
     target
 }
 

@@ -11,7 +11,7 @@ use ricci::flow::curvature_derivative;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::{FaceId, Mesh, PerEdge, PerVertex};
 use ricci::metric::initial::{MixedClass, initial_mixed};
-use ricci::metric::{Metric, Scheme, curvature, initial_metric};
+use ricci::metric::{Class, Metric, Scheme, curvature, initial_metric};
 
 const SPACES: [Space; 3] = [Space::E2, Space::H2, Space::S2];
 
@@ -33,7 +33,7 @@ fn random_metric(mesh: &Mesh, space: Space, scheme: Option<Scheme>, random: &mut
     let size = if space == Space::S2 { 0.5 } else { 0.8 };
     let lengths = PerEdge::from_fn(mesh.n_edges(), |_| size * (1.0 + 0.1 * random.symmetric()));
     let mut metric = match scheme {
-        Some(scheme) => initial_metric(mesh, &lengths, space, scheme, space).unwrap().metric,
+        Some(scheme) => initial_metric(mesh, &lengths, space, Class::new(scheme, space)).unwrap().metric,
         None => {
             let epsilon = PerVertex::from_fn(mesh.n_vertices(), |_| (3.0 * random.unit()) as i8 - 1);
             let radii = PerVertex::from_fn(mesh.n_vertices(), |_| size * (0.2 + 0.2 * random.unit()));
@@ -92,7 +92,7 @@ fn angle_block(mesh: &Mesh, metric: &Metric, f: FaceId) -> [[f64; 3]; 3] {
     let mut dl = [[0.0; 3]; 3];
     for k in 0..3 {
         for (i, j) in [((k + 1) % 3, (k + 2) % 3), ((k + 2) % 3, (k + 1) % 3)] {
-            let cross = metric.eta[edges[k]] * (metric.u[corners[i]] + metric.u[corners[j]]).exp();
+            let cross = metric.eta[edges[k]].high * (metric.u[corners[i]] + metric.u[corners[j]]).exp();
             dl[k][i] = match space {
                 Space::E2 => (x[i] + cross) / l[k],
                 Space::H2 => {
@@ -180,7 +180,7 @@ fn automatic(mesh: &Mesh, metric: &Metric) -> Vec<Vec<f64>> {
             let ea = f64::from(metric.epsilon[a]);
             let eb = f64::from(metric.epsilon[b]);
             let (xa, xb) = ((u[a.index()] * 2.0).exp() * ea, (u[b.index()] * 2.0).exp() * eb);
-            let cross = (u[a.index()] + u[b.index()]).exp() * metric.eta[e];
+            let cross = (u[a.index()] + u[b.index()]).exp() * metric.eta[e].high;
             match metric.space {
                 Space::E2 => (cross * 2.0 + xa + xb).sqrt(),
                 Space::H2 => {

@@ -27,7 +27,7 @@ fn check(flow: &Flow, report: &Report, target: &PerVertex<f64>, what: &str) {
     // Lengths are rounded; the report's own error is formed from u.
     let worst = mesh.vertices().map(|v| (k.at[v] - target[v]).abs()).fold(0.0, f64::max);
     assert!(worst < 1e-8 && report.max_curvature_error <= report.allowed_error(), "{what}: {worst}");
-    assert!(failing(mesh, metric, &metric.u).is_empty(), "{what}");
+    assert!(failing(mesh, metric).is_empty(), "{what}");
 }
 
 /// Uniform, or four cones of π on a sphere.

@@ -4,11 +4,12 @@
 mod surfaces;
 
 use ricci::embed::quality::DILATATION_CAP;
-use ricci::embed::{Layout, layout};
-use ricci::geometry::{PlaneIsometry, Space};
-use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, VertexId};
+use ricci::embed::{Layout, Quality, layout};
+use ricci::geometry::{PlaneIsometry, Space, vector};
+use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, VertexId, shapes};
+use ricci::metric::Refinement;
 use ricci::topology::cut_graph;
-use ricci::{Control, Error};
+use ricci::{Class, Control, Error, Solution, Surface};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 use surfaces::*;
@@ -270,6 +271,54 @@ fn quality_of_an_affine_stretch_is_the_ratio_of_its_factors() {
         }
         assert!((q.qc_mean / k - 1.0).abs() < 1e-12 + tolerance);
     }
+}
+
+/// The refinement of an icosphere by itself, and its positions as they are on the sphere.
+fn round_sphere(subdivisions: usize) -> (Surface, Refinement) {
+    let surface = Surface::from_soup(&shapes::icosphere(subdivisions).unwrap()).unwrap();
+    let metric = Solution::initial_of(surface.clone(), Class::yamabe(Space::E2)).unwrap();
+    (surface, metric.refinement(&Control::new()).unwrap())
+}
+
+#[test]
+fn quality_on_the_sphere_is_that_of_the_chords() {
+    let (surface, refinement) = round_sphere(6);
+    let (mesh, positions) = (surface.mesh(), surface.positions().unwrap());
+    let corners = |f| mesh.face_vertices(f).map(|v| positions[v.index()]);
+    let q = Quality::on_sphere(&refinement, mesh, surface.lengths(), corners).unwrap();
+    assert!(q.degenerate.is_empty() && q.qc_max < 1.0 + 1e-12);
+    assert!(q.area_ratio_min > 1.0 - 1e-11 && q.area_ratio_max < 1.0 + 1e-11);
+
+    // The input is the sphere stretched along an axis. In a plane with unit normal n the map that undoes that has the singular values 1 and
+    // σ, where the product of both is the ratio of areas.
+    let stretch = |[x, y, z]: [f64; 3]| [x, y, 4.0 * z];
+    let long = PerEdge::from_fn(mesh.n_edges(), |e| {
+        let [p, q] = mesh.ends(e).map(|v| stretch(positions[v.index()]));
+        vector::distance(p, q)
+    });
+    let q = Quality::on_sphere(&refinement, mesh, &long, corners).unwrap();
+    let normal = |p| vector::norm(vector::triangle_normal(p));
+    for f in mesh.faces() {
+        let ratio = normal(corners(f).map(stretch)) / normal(corners(f));
+        let k = ratio.max(1.0 / ratio);
+        assert!((q.qc[f] / k - 1.0).abs() < 1e-12, "{} for {k}", q.qc[f]);
+    }
+    assert!(q.qc_max > 3.9 && q.qc_mean > 1.0 && q.area_ratio_min < 1.0 && q.area_ratio_max > 1.0);
+}
+
+#[test]
+fn pieces_too_small_for_positions_on_the_sphere_are_degenerate() {
+    let (surface, refinement) = round_sphere(2);
+    let (mesh, positions) = (surface.mesh(), surface.positions().unwrap());
+    let small = |f: FaceId| {
+        let [a, b, c] = mesh.face_vertices(f).map(|v| positions[v.index()]);
+        let near = |p| vector::lerp(a, p, if f.0 == 3 { 1e-8 } else { 1.0 });
+        if f.0 == 5 { [a, b, vector::lerp(a, b, 0.5)] } else { [a, near(b), near(c)] }
+    };
+    let q = Quality::on_sphere(&refinement, mesh, surface.lengths(), small).unwrap();
+    assert_eq!(q.degenerate, [FaceId(3), FaceId(5)]);
+    assert_eq!([q.qc[FaceId(3)], q.qc[FaceId(5)]], [DILATATION_CAP; 2]);
+    assert!(q.qc_max < 1.0 + 1e-12 && q.qc_mean < 1.0 + 1e-12);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use ricci::Error;
 use ricci::flow::{Options, curvature_derivative};
 use ricci::geometry::{Space, Twofold};
 use ricci::mesh::{EdgeId, VertexId, shapes};
-use ricci::metric::{Scheme, initial_metric};
+use ricci::metric::{Class, Scheme, initial_metric};
 
 /// Metrics whose lengths and areas doubles do not hold are reached like others: angles need ratios within one triangle alone.
 #[test]
@@ -58,7 +58,8 @@ fn lengths_keep_both_halves_of_u() {
     let mut worst = [0.0f64; 2];
     for scheme in Scheme::ALL {
         for (size, shift) in [(1e-3, 0.0), (0.3, 0.0), (0.3, -400.0), (0.3, 300.0)] {
-            let mut metric = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::E2).unwrap().metric;
+            let mut metric =
+                initial_metric(&mesh, &lengths, Space::E2, Class::new(scheme, Space::E2)).unwrap().metric;
             for v in mesh.vertices() {
                 metric.u[v] += shift + size * random.symmetric();
                 metric.u_low[v] = 0.4 * random.symmetric() * f64::EPSILON * metric.u[v].abs();
@@ -103,7 +104,7 @@ fn lengths_keep_both_halves_of_u() {
 #[test]
 fn what_u_loses_is_less_than_an_ulp() {
     let (mesh, lengths) = surface(&shapes::icosphere(1).unwrap());
-    let metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap().metric;
+    let metric = initial_metric(&mesh, &lengths, Space::E2, Class::inversive(Space::E2)).unwrap().metric;
     metric.check(&mesh).unwrap();
     let v = VertexId(5);
     for (low, sound) in [(0.4, true), (2.0, false), (f64::NAN, false), (f64::INFINITY, false)] {

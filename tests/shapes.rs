@@ -1,13 +1,13 @@
 //! The generators: topology, geometry and known totals.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
-use ricci::Error;
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, Intrinsic};
 use ricci::mesh::{HalfedgeId, Mesh, Point};
 use ricci::metric::{curvature, lengths_from_positions};
 use ricci::topology::homology_generators;
+use ricci::{Control, Error};
 use std::f64::consts::PI;
 
 fn topology(soup: &Soup) -> (usize, usize) {
@@ -186,7 +186,7 @@ fn bolza_has_the_systole_of_the_regular_octagon() {
     assert!(loops.iter().all(|&e| (lengths[e] - systole).abs() < 1e-14));
     for level in 0..=4 {
         let (mesh, lengths) = shapes::bolza(level).unwrap().build().unwrap();
-        let generators = homology_generators(&mesh, &lengths).unwrap();
+        let generators = homology_generators(&mesh, &lengths, &Control::new()).unwrap();
         assert_eq!(generators.len(), 4);
         let length = |path: &Vec<HalfedgeId>| path.iter().map(|h| lengths[h.edge()]).sum::<f64>();
         assert!(generators.iter().all(|path| length(path) >= systole - 1e-12), "level {level}");

@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 #[test]
 fn a_kept_solver_gives_what_a_fresh_one_gives() {
     let (mesh, lengths) = surface(&shapes::torus(2.0, 0.9, 20, 12).unwrap());
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap();
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Class::inversive(Space::E2)).unwrap();
     let mut flow = Flow::from_metric(mesh.clone(), initial.metric.clone(), &rigid()).unwrap();
     for (a, b) in [(0, 100), (17, 30), (200, 5)] {
         let cones = Target::Cones(vec![(VertexId(a), 1.0), (VertexId(b), -1.0)]);
@@ -34,7 +34,7 @@ fn a_kept_solver_gives_what_a_fresh_one_gives() {
 fn a_failed_solve_does_not_spoil_the_next() {
     let (mesh, lengths) = surface(&shapes::torus(2.0, 0.9, 20, 12).unwrap());
     for scheme in [Scheme::Yamabe, Scheme::Inversive, Scheme::Tangential] {
-        let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::E2).unwrap();
+        let initial = initial_metric(&mesh, &lengths, Space::E2, Class::new(scheme, Space::E2)).unwrap();
         let mut flow = Flow::from_metric(mesh.clone(), initial.metric.clone(), &rigid()).unwrap();
         // Two neighbours below the bound that holds for them together.
         let mut target = PerVertex::filled(mesh.n_vertices(), 6.2 * PI / (mesh.n_vertices() - 2) as f64);
@@ -56,7 +56,7 @@ fn a_total_that_is_off_by_rounding_is_shared_and_reached() {
     // Four cones of π written with nine decimals.
     let written = (1e9 * PI).round() / 1e9;
     let cones = Target::Cones([0, 1, 2, 3].map(|v| (VertexId(v), written)).to_vec());
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap();
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Class::inversive(Space::E2)).unwrap();
     let values = cones.values(&euclidean(&mesh, &lengths), Space::E2).unwrap();
     assert!((values.iter().sum::<f64>() - 4.0 * PI).abs() > 1e-9);
     let (_, report) = solve(&mesh, &initial.metric, &values, &rigid());
@@ -69,7 +69,7 @@ fn a_total_that_is_off_by_rounding_is_shared_and_reached() {
 #[test]
 fn pinned_vertices_keep_u_and_the_rest_reach_their_curvature() {
     let (mesh, lengths) = surface(&shapes::disk(6).unwrap());
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2)).unwrap();
     let boundary: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).collect();
     let mut flow = Flow::from_metric(mesh.clone(), initial.metric.clone(), &rigid()).unwrap();
     flow.pin(&boundary, &Control::new()).unwrap();
@@ -99,7 +99,7 @@ fn pinned_vertices_keep_u_in_every_space_and_by_every_method() {
     for space in [Space::E2, Space::H2, Space::S2] {
         for area_normalised in [false, true] {
             for method in [Method::Newton, Method::Gradient] {
-                let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, space).unwrap();
+                let initial = initial_metric(&mesh, &lengths, Space::E2, Class::inversive(space)).unwrap();
                 let gradient = Gradient { area_normalised, ..Gradient::default() };
                 let options = Options { method, gradient, max_iterations: 50, ..rigid() };
                 let mut flow = Flow::from_metric(mesh.clone(), initial.metric.clone(), &options).unwrap();
@@ -121,7 +121,7 @@ fn pinned_vertices_keep_u_in_every_space_and_by_every_method() {
         }
     }
     // Every vertex pinned: nothing to do, nothing to miss.
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2)).unwrap();
     let mut flow = Flow::from_metric(mesh.clone(), initial.metric.clone(), &rigid()).unwrap();
     flow.pin(&mesh.vertices().collect::<Vec<_>>(), &Control::new()).unwrap();
     let report = attempt(&mut flow, &PerVertex::filled(mesh.n_vertices(), 0.0));
@@ -137,7 +137,7 @@ fn an_open_surface_in_the_hyperbolic_plane_has_the_area_of_gauss_and_bonnet() {
     let target =
         PerVertex::from_fn(mesh.n_vertices(), |v| if mesh.is_boundary_vertex(v) { share } else { 0.0 });
     for scheme in Scheme::ALL {
-        let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::H2).unwrap();
+        let initial = initial_metric(&mesh, &lengths, Space::E2, Class::new(scheme, Space::H2)).unwrap();
         let (metric, report) = solve(&mesh, &initial.metric, &target, &rigid());
         converged(&report);
         assert!((metric.curvature(&mesh).unwrap().area - 0.8).abs() < 1e-9, "{scheme}");
@@ -151,7 +151,8 @@ fn the_unit_of_length_does_not_matter_as_far_as_doubles_go() {
     for scheme in [Scheme::Yamabe, Scheme::Inversive, Scheme::Thurston] {
         let result = |exponent: i32| {
             let lengths = PerEdge::from_fn(mesh.n_edges(), |e| lengths[e] * 2f64.powi(exponent));
-            let start = initial_metric(&mesh, &lengths, Space::E2, scheme, Space::E2).unwrap().metric;
+            let start =
+                initial_metric(&mesh, &lengths, Space::E2, Class::new(scheme, Space::E2)).unwrap().metric;
             let (metric, report) = solve(&mesh, &start, &target, &rigid());
             converged(&report);
             let lengths = metric.lengths(&mesh).unwrap();
@@ -163,7 +164,7 @@ fn the_unit_of_length_does_not_matter_as_far_as_doubles_go() {
         }
     }
     let far = PerEdge::from_fn(mesh.n_edges(), |e| lengths[e] * 1e-160);
-    let error = initial_metric(&mesh, &far, Space::E2, Scheme::Yamabe, Space::E2).unwrap_err();
+    let error = initial_metric(&mesh, &far, Space::E2, Class::yamabe(Space::E2)).unwrap_err();
     assert!(matches!(error, Error::EdgeLength { edge: 0, .. }), "{error}");
 }
 
@@ -189,7 +190,7 @@ fn imaginary_circles_have_a_radius_for_every_u() {
 #[test]
 fn cancelling_stops_the_flow_and_leaves_the_metric() {
     let (mesh, lengths) = surface(&shapes::genus(2, 6).unwrap());
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::H2).unwrap();
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::H2)).unwrap();
     let mut flow = Flow::from_metric(mesh.clone(), initial.metric.clone(), &rigid()).unwrap();
     let control = Control::new();
     control.cancel();

@@ -68,8 +68,8 @@ fn a_target_below_thurstons_bound_is_reported_with_the_vertices_that_prove_it() 
     let mut random = Random::new(23);
     for scheme in [Scheme::Thurston, Scheme::Tangential] {
         for space in [Space::E2, Space::H2] {
-            let initial = initial_metric(&mesh, &lengths, Space::E2, scheme, space).unwrap();
-            let eta = &initial.metric.eta;
+            let initial = initial_metric(&mesh, &lengths, Space::E2, Class::new(scheme, space)).unwrap();
+            let eta = &initial.metric.rounded_eta();
             // Two neighbours, each of them above its own bound, together below theirs.
             let [a, b] = mesh.ends(5usize.into());
             let pair = [a, b];

@@ -3,9 +3,9 @@
 
 mod surfaces;
 
-use ricci::Error;
 use ricci::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
 use ricci::topology::{CutGraph, cut_graph, homology_generators};
+use ricci::{Control, Error};
 use surfaces::*;
 
 /// Poincaré dual cochain of a closed loop: how often each half-edge crosses the loop, pushed to its left,
@@ -75,7 +75,7 @@ fn assert_closed_without_spurs(mesh: &Mesh, walk: &[HalfedgeId]) {
 }
 
 fn check_generators(name: &str, mesh: &Mesh, lengths: &PerEdge<f64>) {
-    let loops = homology_generators(mesh, lengths).unwrap();
+    let loops = homology_generators(mesh, lengths, &Control::new()).unwrap();
     let (genus, boundary) = (mesh.genus(), mesh.boundary_loops().len());
     assert_eq!(loops.len(), 2 * genus + boundary.saturating_sub(1), "{name}");
     loops.iter().for_each(|walk| assert_closed_without_spurs(mesh, walk));
@@ -111,7 +111,7 @@ fn intersection_form_of_homology_generators_is_unimodular() {
 fn generators_of_a_holed_disk_are_a_basis_of_its_homology() {
     let (mesh, positions) = square(7, &[(1, 1), (4, 2), (5, 5)], &mut Random(1));
     let lengths = plane_lengths(&mesh, &positions);
-    let loops = homology_generators(&mesh, &lengths).unwrap();
+    let loops = homology_generators(&mesh, &lengths, &Control::new()).unwrap();
     assert_eq!(loops.len(), 3);
     // The first homology is cycles modulo the boundaries of faces, which are independent on an open surface.
     let chain = |walk: &[HalfedgeId]| {
@@ -127,9 +127,11 @@ fn generators_of_a_holed_disk_are_a_basis_of_its_homology() {
 #[test]
 fn sphere_and_disk_have_no_homology() {
     let (mesh, lengths) = tetrahedron();
-    assert!(homology_generators(&mesh, &lengths).unwrap().is_empty());
+    assert!(homology_generators(&mesh, &lengths, &Control::new()).unwrap().is_empty());
     let (mesh, positions) = square(4, &[], &mut Random(2));
-    assert!(homology_generators(&mesh, &plane_lengths(&mesh, &positions)).unwrap().is_empty());
+    assert!(
+        homology_generators(&mesh, &plane_lengths(&mesh, &positions), &Control::new()).unwrap().is_empty()
+    );
 }
 
 /// Euler characteristic of the opened surface, its vertices counted as classes of corners; `None` if
@@ -170,7 +172,7 @@ fn opened_euler(mesh: &Mesh, cut: &CutGraph) -> Option<i64> {
 }
 
 fn check_cut(name: &str, mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> CutGraph {
-    let cut = cut_graph(mesh, lengths, cones, &ricci::Control::new()).unwrap();
+    let cut = cut_graph(mesh, lengths, cones, &Control::new()).unwrap();
     assert_eq!(opened_euler(mesh, &cut), Some(1), "{name}: not a disk");
     let mut degree = vec![0; mesh.n_vertices()];
     let mut covered = PerEdge::filled(mesh.n_edges(), 0);
@@ -219,7 +221,7 @@ fn cut_opens_every_surface_into_a_disk_through_all_cones() {
         check_cut(&name, &mesh, &lengths, &cones);
         if mesh.is_closed() && mesh.genus() == 0 {
             assert!(
-                matches!(cut_graph(&mesh, &lengths, &[], &ricci::Control::new()), Err(Error::Layout(_))),
+                matches!(cut_graph(&mesh, &lengths, &[], &Control::new()), Err(Error::Layout(_))),
                 "{name}"
             );
         } else {
@@ -252,15 +254,15 @@ fn cut_of_a_flat_torus_is_about_as_short_as_two_closed_geodesics() {
 fn bad_input_is_named() {
     let (mesh, lengths) = cube();
     let cones = [VertexId(0), VertexId(8)];
-    assert!(matches!(
-        cut_graph(&mesh, &lengths, &cones, &ricci::Control::new()),
-        Err(Error::Argument { .. })
-    ));
+    assert!(matches!(cut_graph(&mesh, &lengths, &cones, &Control::new()), Err(Error::Argument { .. })));
     let mut bad = lengths.clone();
     bad[EdgeId(5)] = f64::NAN;
-    assert!(matches!(homology_generators(&mesh, &bad), Err(Error::EdgeLength { edge: 5, .. })));
     assert!(matches!(
-        cut_graph(&mesh, &PerEdge::filled(3, 1.0), &[], &ricci::Control::new()),
+        homology_generators(&mesh, &bad, &Control::new()),
+        Err(Error::EdgeLength { edge: 5, .. })
+    ));
+    assert!(matches!(
+        cut_graph(&mesh, &PerEdge::filled(3, 1.0), &[], &Control::new()),
         Err(Error::Size { .. })
     ));
 }

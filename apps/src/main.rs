@@ -1,5 +1,7 @@
 //! The `ricci` command.
 
+#![warn(clippy::too_many_lines)]
+
 mod carry;
 mod charts;
 mod checkerboard;

@@ -68,7 +68,7 @@ impl<'a> MetricFile<'a> {
             space: metric.space.name(),
             scheme: solution.scheme()?.name(),
             surface: LengthsFile::new(mesh, metric.space, &metric.lengths(mesh)?),
-            eta: per_face(mesh, &metric.eta),
+            eta: per_face(mesh, &metric.rounded_eta()),
             lengths_lo: lost.iter().any(|&lo| lo != 0.0).then(|| per_face(mesh, &lost)),
             u: &metric.u,
             conformal_factor: solution.initial().conformal_factor(metric)?.into_vec(),

@@ -1,21 +1,18 @@
 //! Arrays from and to C. Nothing here trusts alignment; counts are checked before they are multiplied.
 
-use crate::failure::{Failure, Outcome};
+use crate::failure::{Element, Failure, Outcome};
 use crate::guard::output;
-use crate::status::ricci_status;
+use crate::status::*;
 use ricci::mesh::Point;
 use std::ffi::{CStr, c_char};
 use std::path::PathBuf;
 
-/// Bytes of `n` items that lie `stride` bytes apart, if an array of that size can exist.
-fn check_extent(what: &str, n: usize, stride: usize, size: usize) -> Outcome {
-    let extent = n.saturating_sub(1).checked_mul(stride).and_then(|bytes| bytes.checked_add(size));
-    match extent {
-        Some(bytes) if bytes <= isize::MAX as usize => Ok(()),
-        _ => Err(Failure::new(
-            ricci_status::RICCI_TOO_LARGE,
-            format!("{what}: no array of {n} entries can exist in memory"),
-        )),
+/// Room for `n` entries, or that there is no memory for them.
+pub fn room<T>(what: &str, n: usize) -> Outcome<Vec<T>> {
+    let mut items = Vec::new();
+    match items.try_reserve_exact(n) {
+        Ok(()) => Ok(items),
+        Err(_) => Err(Failure::new(RICCI_NO_MEMORY, format!("{what}: no memory for {n} entries")).needs(n)),
     }
 }
 
@@ -27,11 +24,12 @@ fn gather<T: Copy>(what: &str, data: *const T, n: usize, stride: usize) -> Outco
     if data.is_null() {
         return Err(Failure::null(what));
     }
-    check_extent(what, n, stride, size_of::<T>())?;
-    let mut items = Vec::new();
-    items.try_reserve_exact(n).map_err(|_| {
-        Failure::new(ricci_status::RICCI_TOO_LARGE, format!("{what}: no memory for {n} entries"))
-    })?;
+    let extent = (n - 1).checked_mul(stride).and_then(|bytes| bytes.checked_add(size_of::<T>()));
+    if extent.is_none_or(|bytes| bytes > isize::MAX as usize) {
+        let message = format!("{what}: no array of {n} entries can exist in memory");
+        return Err(Failure::new(RICCI_TOO_LARGE, message).needs(n));
+    }
+    let mut items = room(what, n)?;
     // SAFETY: the caller's array has n items, stride bytes apart (contract of the header); nothing is
     // aligned.
     items.extend((0..n).map(|i| unsafe { data.cast::<u8>().add(i * stride).cast::<T>().read_unaligned() }));
@@ -46,12 +44,20 @@ pub fn array<T: Copy>(what: &str, data: *const T, n: usize) -> Outcome<Vec<T>> {
 /// An array that must have `needed` entries.
 pub fn array_of<T: Copy>(what: &str, data: *const T, n: usize, needed: usize) -> Outcome<Vec<T>> {
     if n != needed {
-        return Err(Failure::new(
-            ricci_status::RICCI_WRONG_SIZE,
-            format!("{what} has {n} entries, {needed} are needed"),
-        ));
+        let message = format!("{what} has {n} entries, {needed} are needed");
+        return Err(Failure::new(RICCI_WRONG_SIZE, message).needs(needed));
     }
     array(what, data, n)
+}
+
+/// An array that may be left out by NULL.
+pub fn optional<T: Copy>(what: &str, data: *const f64, n: usize) -> Outcome<Option<Vec<T>>> {
+    if data.is_null() { Ok(None) } else { array(what, data.cast(), n).map(Some) }
+}
+
+/// One entry that may be left out by NULL.
+pub fn one<T: Copy>(data: *const T) -> Outcome<Option<T>> {
+    Ok(array("value", data, usize::from(!data.is_null()))?.pop())
 }
 
 /// `n` points whose coordinates x, y, z start `stride` bytes apart; 0 means tightly packed.
@@ -65,32 +71,25 @@ pub fn points(data: *const f64, stride: usize, n: usize) -> Outcome<Vec<Point>> 
     gather("positions", data.cast::<Point>(), n, stride)
 }
 
-/// `n` faces of `uint32_t`.
+/// `n` faces. Indices of 2^31 and more are negative ones of a caller whose faces are `int32_t`: no mesh has so many vertices.
 pub fn faces(data: *const u32, n: usize) -> Outcome<Vec<[u32; 3]>> {
-    array("faces", data.cast(), n)
-}
-
-/// `n` faces of `int32_t`; a negative index is refused by face and corner.
-pub fn faces_i32(data: *const i32, n: usize) -> Outcome<Vec<[u32; 3]>> {
-    let faces: Vec<[i32; 3]> = array("faces", data.cast(), n)?;
+    let faces: Vec<[u32; 3]> = array("faces", data.cast(), n)?;
     for (f, face) in faces.iter().enumerate() {
-        if let Some(k) = face.iter().position(|&v| v < 0) {
-            return Err(Failure::argument(format!(
-                "face {f}, corner {k}: vertex {} is negative; indices are 0-based",
-                face[k]
-            )));
+        if let Some(k) = face.iter().position(|&v| (v as i32) < 0) {
+            let v = face[k] as i32;
+            let message = format!("face {f}, corner {k}: vertex {v} is negative; indices are 0-based");
+            return Err(Failure::argument(message).at(Element::Face, f));
         }
     }
-    Ok(faces.into_iter().map(|face| face.map(|v| v as u32)).collect())
+    Ok(faces)
 }
 
 /// Refuse a buffer that cannot take `needed` entries.
 pub fn check_buffer<T>(what: &str, needed: usize, buffer: *mut T, capacity: usize) -> Outcome {
     if capacity < needed {
-        return Err(Failure::new(
-            ricci_status::RICCI_BUFFER_TOO_SMALL,
-            format!("{what}: {needed} entries are needed, the buffer has room for {capacity}"),
-        ));
+        let message = format!("{what}: {needed} entries are needed, the buffer has room for {capacity}");
+        let failure = Failure::new(RICCI_BUFFER_TOO_SMALL, message).needs(needed);
+        return Err(Failure { is_question: buffer.is_null() && capacity == 0, ..failure });
     }
     if buffer.is_null() && needed > 0 { Err(Failure::null(what)) } else { Ok(()) }
 }
@@ -111,7 +110,7 @@ macro_rules! entries {
         }
     )+};
 }
-entries!(f64 i8 u8 i32 u32 i64 usize);
+entries!(f64 u8 i32 u32 i64 usize);
 
 impl<T: Row, const N: usize> Row for [T; N] {
     type Entry = T::Entry;
@@ -130,6 +129,20 @@ pub fn copy_out<T: Row>(what: &str, values: &[T], buffer: *mut T::Entry, capacit
         unsafe { std::ptr::copy_nonoverlapping(values.as_ptr().cast::<u8>(), buffer.cast::<u8>(), bytes) };
     }
     Ok(())
+}
+
+/// Copy values that are made one by one, `n` of them.
+pub fn copy_each<T: Row>(
+    what: &str,
+    n: usize,
+    values: impl IntoIterator<Item = T>,
+    buffer: *mut T::Entry,
+    capacity: usize,
+) -> Outcome {
+    check_buffer(what, n * (size_of::<T>() / size_of::<T::Entry>()), buffer, capacity)?;
+    let mut all = room(what, n)?;
+    all.extend(values);
+    copy_out(what, &all, buffer, capacity)
 }
 
 /// Copy rows of different lengths: their entries one after the other, and where each row starts and the last one ends.
@@ -170,20 +183,22 @@ pub fn copy_counted<T: Row<Entry = T>>(
 pub fn ambient(what: &str, data: *const f64, n: usize) -> Outcome<Vec<[f64; 3]>> {
     let points: Vec<[f64; 3]> = array(what, data.cast(), n)?;
     match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
-        Some(i) => Err(Failure::argument(format!("{what}: row {i} is not finite"))),
+        Some(i) => Err(Failure::argument(format!("{what}: row {i} is not finite")).at(Element::Entry, i)),
         None => Ok(points),
     }
 }
 
-/// A file name.
-pub fn path(what: &str, text: *const c_char) -> Outcome<PathBuf> {
+/// A text in UTF-8.
+pub fn text<'a>(what: &str, text: *const c_char) -> Outcome<&'a str> {
     if text.is_null() {
         return Err(Failure::null(what));
     }
-    // SAFETY: NUL-terminated (contract of the header).
+    // SAFETY: NUL-terminated (contract of the header), and alive during the call.
     let text = unsafe { CStr::from_ptr(text) };
-    #[cfg(unix)]
-    return Ok(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(text.to_bytes()).into());
-    #[cfg(not(unix))]
-    text.to_str().map(PathBuf::from).map_err(|_| Failure::argument(format!("{what} is not UTF-8")))
+    text.to_str().map_err(|_| Failure::argument(format!("{what} is not UTF-8")))
+}
+
+/// A file name.
+pub fn path(name: *const c_char) -> Outcome<PathBuf> {
+    text("path", name).map(PathBuf::from)
 }

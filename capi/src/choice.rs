@@ -1,48 +1,34 @@
-//! Enum values that come from C: any integer may come, and an unknown one is refused by name.
+//! Enum values that come from C as `uint32_t`: any integer may come, and an unknown one is refused by name.
 
 use crate::failure::{Failure, Outcome};
-use crate::integer::raw;
-use std::mem::MaybeUninit;
 
-/// An enum that C passes by value, with the library's value for each of its own.
-pub trait Choice: Sized + Copy + 'static {
-    /// Its name in messages.
-    const NAME: &'static str;
-    /// The library's type.
-    type Value: Copy + PartialEq;
-    /// Every value.
-    const ALL: &'static [(Self, Self::Value)];
-    /// Its number.
-    fn number(self) -> i32;
+/// The constants of an enum in the order of their numbers from 0, each with what it stands for.
+pub struct Choices<T: 'static> {
+    /// What the number is called in messages.
+    pub what: &'static str,
+    pub values: &'static [(&'static str, T)],
 }
 
-/// Makes a `#[repr(C)]` enum the choices of an argument, each with the value that it stands for.
-macro_rules! choice {
-    ($type:ident, $name:literal, $value:ident, [$($own:ident => $stands_for:ident),+ $(,)?]) => {
-        impl $crate::choice::Choice for $type {
-            const NAME: &'static str = $name;
-            type Value = $value;
-            const ALL: &'static [(Self, $value)] = &[$(($type::$own, $value::$stands_for)),+];
-            fn number(self) -> i32 {
-                self as i32
-            }
-        }
+macro_rules! choices {
+    ($vis:vis $table:ident: $type:ty = $what:literal, [$($name:ident => $value:expr),+ $(,)?]) => {
+        $vis const $table: $crate::choice::Choices<$type> =
+            $crate::choice::Choices { what: $what, values: &[$((stringify!($name), $value)),+] };
     };
 }
-pub(crate) use choice;
+pub(crate) use choices;
 
-/// The library's value of what C passed.
-pub fn choose<E: Choice>(value: MaybeUninit<E>) -> Outcome<E::Value> {
-    let number = raw(value);
-    let found = E::ALL.iter().find(|(known, _)| known.number() == number);
-    found.map(|&(_, value)| value).ok_or_else(|| {
-        let largest = E::ALL.iter().map(|(known, _)| known.number()).max().unwrap_or(0);
-        Failure::argument(format!("{} is {number}: known are 0 to {largest}", E::NAME))
-    })
-}
+impl<T: Copy + PartialEq> Choices<T> {
+    /// What a number stands for.
+    pub fn choose(&self, number: u32) -> Outcome<T> {
+        self.values.get(number as usize).map(|&(_, value)| value).ok_or_else(|| {
+            let names: Vec<&str> = self.values.iter().map(|(name, _)| *name).collect();
+            Failure::argument(format!("{} is {number}: known are {}", self.what, names.join(", ")))
+        })
+    }
 
-/// The C enum of a library value.
-pub fn name<E: Choice>(value: E::Value) -> Outcome<E> {
-    let found = E::ALL.iter().find(|(_, own)| *own == value);
-    found.map(|&(known, _)| known).ok_or_else(|| Failure::argument(format!("{} has no number in C", E::NAME)))
+    /// The number of a value.
+    pub fn number(&self, value: T) -> Outcome<u32> {
+        let found = self.values.iter().position(|(_, own)| *own == value);
+        found.map(|k| k as u32).ok_or_else(|| Failure::argument(format!("{} has no number in C", self.what)))
+    }
 }

@@ -1,34 +1,91 @@
-//! Why a call fails: a status and a message.
+//! Why a call fails: a status, a message, and the element and amount as numbers.
 
-use crate::status::ricci_status;
-use ricci::Error;
-
-/// Why a call fails.
-pub struct Failure {
-    pub status: ricci_status,
-    pub message: String,
-}
+use crate::status::*;
+use ricci::{At, Error};
+use std::borrow::Cow;
 
 /// What the body of an entry point returns.
 pub type Outcome<T = ()> = Result<T, Failure>;
 
+/// What an element number counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Element {
+    #[default]
+    None,
+    Vertex,
+    Edge,
+    Face,
+    /// An entry, or a row, of the caller's array.
+    Entry,
+    /// A line of a text file, from 1.
+    Line,
+    /// A byte of a file.
+    Byte,
+}
+
+/// Why a call fails.
+#[derive(Debug, Default)]
+pub struct Failure {
+    pub status: ricci_status,
+    pub message: Cow<'static, str>,
+    pub at: (Element, usize),
+    pub amount: f64,
+    pub needed: usize,
+    /// The caller asked for a size with NULL and capacity 0: that is no event to be logged.
+    pub is_question: bool,
+}
+
 impl Failure {
-    pub fn new(status: ricci_status, message: impl Into<String>) -> Failure {
-        Failure { status, message: message.into() }
+    pub fn new(status: ricci_status, message: impl Into<Cow<'static, str>>) -> Failure {
+        Failure { status, message: message.into(), ..Failure::default() }
     }
 
     pub fn null(what: &str) -> Failure {
-        Failure::new(ricci_status::RICCI_NULL_POINTER, format!("{what} is NULL"))
+        Failure::new(RICCI_NULL_POINTER, format!("{what} is NULL"))
     }
 
-    pub fn argument(message: impl Into<String>) -> Failure {
-        Failure::new(ricci_status::RICCI_ARGUMENT, message)
+    pub fn argument(message: impl Into<Cow<'static, str>>) -> Failure {
+        Failure::new(RICCI_ARGUMENT, message)
     }
+
+    /// The same, at an element.
+    pub fn at(self, element: Element, index: usize) -> Failure {
+        Failure { at: (element, index), ..self }
+    }
+
+    /// The same, with the number of entries that are needed.
+    pub fn needs(self, needed: usize) -> Failure {
+        Failure { needed, ..self }
+    }
+}
+
+/// An element that does not exist.
+pub fn no_such(element: Element, what: &str, index: usize, count: usize) -> Failure {
+    Failure::argument(format!("{what} {index} does not exist: there are {count}")).at(element, index)
 }
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Failure {
-        let status = ricci_status::from_code(error.code()).unwrap_or(ricci_status::RICCI_ARGUMENT);
-        Failure::new(status, error.to_string())
+        let failure = Failure::new(error.code(), error.to_string());
+        let (at, amount) = match &error {
+            Error::Size { expected, .. } => return failure.needs(*expected),
+            // Threads that the system cannot start.
+            Error::Argument { what: "threads", .. } => {
+                return Failure { status: RICCI_NO_MEMORY, ..failure };
+            }
+            Error::Parse { at: At::Line(line), .. } => ((Element::Line, *line), 0.0),
+            Error::Parse { at: At::Byte(byte), .. } => ((Element::Byte, *byte), 0.0),
+            Error::TooLarge { count, .. } => ((Element::None, 0), *count as f64),
+            Error::Gluing { face, .. } => ((Element::Face, *face), 0.0),
+            Error::EdgeLength { edge, length } => ((Element::Edge, *edge), *length),
+            Error::TriangleInequality { face, excess } => ((Element::Face, *face), *excess),
+            Error::EdgeWeight { edge, eta, .. } => ((Element::Edge, *edge), *eta),
+            Error::Domain { vertex, u, .. } => ((Element::Vertex, *vertex), *u),
+            Error::TargetAtVertex { vertex, excess, .. } => ((Element::Vertex, *vertex), *excess),
+            Error::TargetBelow { vertex, excess, .. } => ((Element::Vertex, *vertex), *excess),
+            Error::TargetTotal { miss, .. } => ((Element::None, 0), *miss),
+            _ => return failure,
+        };
+        Failure { at, amount, ..failure }
     }
 }

@@ -1,80 +1,37 @@
 //! The one door: every entry point runs its body through [`call`] or [`free`].
 //!
-//! The body runs under the default floating-point environment, a panic ends in `RICCI_PANIC`, and every
-//! handle that the body had opened is poisoned by it.
+//! The body runs under the default floating-point environment, and a panic ends in `RICCI_PANIC`. A handle that the body was
+//! changing is poisoned by it; handles that are only read are as they were.
 
 use crate::environment::Environment;
 use crate::failure::{Failure, Outcome};
-use crate::last_error;
-use crate::status::ricci_status;
+use crate::kept;
+use crate::memory;
+use crate::status::*;
 use std::any::Any;
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Set once a call on the handle has panicked.
-#[derive(Default)]
-pub struct Poison(AtomicBool);
 
 /// What every opaque type has.
 pub trait Handle: Sized {
     /// Its name in messages.
     const NAME: &'static str;
-    fn poison(&self) -> &Poison;
 }
 
-/// Makes a struct with a field `poison` the opaque type of this name.
 macro_rules! handle {
     ($type:ty, $name:literal) => {
         impl $crate::guard::Handle for $type {
             const NAME: &'static str = $name;
-            fn poison(&self) -> &$crate::guard::Poison {
-                &self.poison
-            }
         }
     };
 }
 pub(crate) use handle;
 
-/// The handles that a running body has opened.
-#[derive(Default)]
-pub struct Door(RefCell<Vec<*const Poison>>);
-
-impl Door {
-    /// A handle that is only read.
-    pub fn shared<'a, H: Handle>(&self, handle: *const H) -> Outcome<&'a H> {
-        // SAFETY: NULL, or from this library and alive (contract of the header).
-        let handle = unsafe { handle.as_ref() }.ok_or_else(|| Failure::null(H::NAME))?;
-        self.admit::<H>(handle.poison())?;
-        Ok(handle)
-    }
-
-    /// A handle that is changed.
-    pub fn exclusive<'a, H: Handle>(&self, handle: *mut H) -> Outcome<&'a mut H> {
-        // SAFETY: NULL, or from this library, alive and used by this thread only (contract of the header).
-        let handle = unsafe { handle.as_mut() }.ok_or_else(|| Failure::null(H::NAME))?;
-        self.admit::<H>(handle.poison())?;
-        Ok(handle)
-    }
-
-    fn admit<H: Handle>(&self, poison: &Poison) -> Outcome {
-        if poison.0.load(Ordering::Acquire) {
-            return Err(Failure::new(
-                ricci_status::RICCI_POISONED,
-                format!("an earlier call on this {} ended in an internal error; free it", H::NAME),
-            ));
-        }
-        self.0.borrow_mut().push(poison);
-        Ok(())
-    }
-
-    fn poison_all(&self) {
-        for &poison in self.0.borrow().iter() {
-            // SAFETY: the caller keeps handles alive for the whole call.
-            unsafe { &*poison }.0.store(true, Ordering::Release);
-        }
-    }
+/// A handle that is only read.
+pub fn shared<'a, H: Handle>(handle: *const H) -> Outcome<&'a H> {
+    // SAFETY: NULL, or from this library and alive (contract of the header).
+    unsafe { handle.as_ref() }.ok_or_else(|| Failure::null(H::NAME))
 }
 
 /// Where a result goes.
@@ -88,54 +45,62 @@ impl<T> Output<T> {
     }
 }
 
-impl<H: Handle> Output<*mut H> {
-    /// Hand a new handle to the caller.
-    pub fn hand_over(self, handle: H) {
-        self.set(Box::into_raw(Box::new(handle)));
-    }
-}
-
 /// The place for a result, checked before any work is done.
 pub fn output<T>(what: &str, place: *mut T) -> Outcome<Output<T>> {
     if place.is_null() { Err(Failure::null(what)) } else { Ok(Output(place)) }
 }
 
 /// Run the body of an entry point.
-pub fn call(body: impl FnOnce(&Door) -> Outcome) -> ricci_status {
+pub fn call(body: impl FnOnce() -> Outcome) -> ricci_status {
     let _host = Environment::enter();
-    let door = Door::default();
-    match guarded(|| body(&door)) {
-        Ok(Ok(())) => ricci_status::RICCI_OK,
+    let failure = match guarded(|| memory::little().and_then(|()| body())) {
+        Ok(Ok(())) => return RICCI_OK,
         Ok(Err(failure)) => {
-            log::warn!("{}", failure.message);
-            last_error::set(&failure.message);
-            failure.status
+            if !failure.is_question {
+                log::warn!("{}", failure.message);
+            }
+            failure
         }
         Err(message) => {
-            door.poison_all();
             log::error!("{message}");
-            last_error::set(&message);
-            ricci_status::RICCI_PANIC
+            Failure::new(RICCI_PANIC, message)
         }
-    }
+    };
+    kept::keep(&failure);
+    failure.status
 }
 
 /// Run the body of an entry point that reads one handle.
 pub fn with<H: Handle>(handle: *const H, body: impl FnOnce(&H) -> Outcome) -> ricci_status {
-    call(|door| body(door.shared(handle)?))
+    call(|| body(shared(handle)?))
 }
 
 /// Run the body of an entry point that makes a handle, whose place is checked before any work is done.
-pub fn make<H: Handle>(
-    what: &str,
-    place: *mut *mut H,
-    body: impl FnOnce(&Door) -> Outcome<H>,
-) -> ricci_status {
-    call(|door| {
-        let place = output(what, place)?;
-        place.hand_over(body(door)?);
+pub fn make<H: Handle>(place: *mut *mut H, body: impl FnOnce() -> Outcome<H>) -> ricci_status {
+    call(|| {
+        let place = output(H::NAME, place)?;
+        place.set(Box::into_raw(Box::new(body()?)));
         Ok(())
     })
+}
+
+/// A handle that calls change.
+pub trait Mutable: Handle {
+    /// Whether a call was changing it and did not come to its end.
+    fn poisoned(&mut self) -> &mut bool;
+}
+
+/// The result of a body that changes a handle: a panic leaves it poisoned.
+pub fn change<H: Mutable, T>(handle: *mut H, body: impl FnOnce(&mut H) -> Outcome<T>) -> Outcome<T> {
+    // SAFETY: NULL, or from this library, alive and used by this thread only (contract of the header).
+    let handle = unsafe { handle.as_mut() }.ok_or_else(|| Failure::null(H::NAME))?;
+    if std::mem::replace(handle.poisoned(), true) {
+        let message = format!("an earlier call on this {} ended in an internal error; free it", H::NAME);
+        return Err(Failure::new(RICCI_POISONED, message));
+    }
+    let result = body(handle);
+    *handle.poisoned() = false;
+    result
 }
 
 /// Release a handle; NULL is fine, and so is a poisoned one.
@@ -144,9 +109,9 @@ pub fn free<H>(handle: *mut H) {
         return;
     }
     let _host = Environment::enter();
-    // SAFETY: made by `Output::hand_over` and not freed before (contract of the header).
+    // SAFETY: made by `make` and not freed before (contract of the header).
     if let Err(message) = guarded(|| drop(unsafe { Box::from_raw(handle) })) {
-        last_error::set(&message);
+        kept::keep(&Failure::new(RICCI_PANIC, message));
     }
 }
 
@@ -191,5 +156,44 @@ fn words(payload: Box<dyn Any + Send>) -> String {
                 "unknown".into()
             }
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ricci::parallel::Pool;
+    use std::ffi::CStr;
+
+    struct Box2 {
+        poisoned: bool,
+        value: i32,
+    }
+    handle!(Box2, "box");
+    impl Mutable for Box2 {
+        fn poisoned(&mut self) -> &mut bool {
+            &mut self.poisoned
+        }
+    }
+
+    fn last() -> String {
+        // SAFETY: NUL-terminated, of this thread.
+        unsafe { CStr::from_ptr(kept::text()) }.to_string_lossy().into_owned()
+    }
+
+    /// On a thread of the library, too.
+    #[test]
+    fn a_panic_is_a_status_and_poisons_what_was_changed() {
+        let mut changed = Box2 { poisoned: false, value: 1 };
+        let (handle, read) = (&raw mut changed, Box2 { poisoned: false, value: 2 });
+        let status = call(|| {
+            let read = shared(&read)?;
+            change(handle, |h| Pool::new(2)?.run(|| panic!("{} and {}", h.value, read.value)))
+        });
+        assert_eq!((status, last().as_str()), (RICCI_PANIC, "internal error: 1 and 2"));
+        assert_eq!(call(|| change(handle, |_| Ok(()))), RICCI_POISONED);
+        assert_eq!(with(&read, |_| Ok(())), RICCI_OK);
+        assert_eq!(call(|| Err(Failure::argument("x").needs(3))), RICCI_ARGUMENT);
+        assert_eq!(last(), "x");
     }
 }

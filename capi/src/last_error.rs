@@ -1,24 +1,47 @@
-//! The detail message of the last failure, one per thread.
+//! What a caller asks about the last failure of its thread.
 
-use std::cell::RefCell;
-use std::ffi::{CString, c_char};
+use crate::choice::choices;
+use crate::failure::Element;
+use crate::guard;
+use crate::kept::{self, Numbers};
+use crate::status::ricci_status;
+use crate::structs::{self, sized};
+use std::ffi::c_char;
 
-thread_local! {
-    static MESSAGE: RefCell<CString> = RefCell::default();
+choices!(ELEMENTS: Element = "element", [
+    RICCI_ELEMENT_NONE => Element::None,
+    RICCI_ELEMENT_VERTEX => Element::Vertex,
+    RICCI_ELEMENT_EDGE => Element::Edge,
+    RICCI_ELEMENT_FACE => Element::Face,
+    RICCI_ELEMENT_ENTRY => Element::Entry,
+    RICCI_ELEMENT_LINE => Element::Line,
+    RICCI_ELEMENT_BYTE => Element::Byte,
+]);
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_failure {
+    pub size: usize,
+    pub status: ricci_status,
+    pub element: u32,
+    pub index: i64,
+    pub amount: f64,
+    pub needed: usize,
 }
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_failure, "failure");
 
-/// Keep the message of a failure. A NUL inside it (from a caller's path) would cut it short, so it is
-/// replaced.
-pub(crate) fn set(message: &str) {
-    let text = CString::new(message.replace('\0', "\u{fffd}")).unwrap_or_default();
-    let _ = MESSAGE.try_with(|last| last.replace(text));
-}
-
-/// The detail message of the last call of this thread that failed: which element, by how much, what to do.
-///
-/// Successful calls leave it alone. Empty if no call has failed.
-/// @return a NUL-terminated UTF-8 string, valid until the next call of this thread; not to be freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn ricci_last_error() -> *const c_char {
-    MESSAGE.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
+    kept::text()
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_last_failure(failure: *mut ricci_failure, size: usize) -> ricci_status {
+    guard::call(|| {
+        let Numbers { status, at: (element, index), amount, needed } = kept::numbers();
+        let index = if element == Element::None { -1 } else { index as i64 };
+        let element = ELEMENTS.number(element)?;
+        structs::write(ricci_failure { size, status, element, index, amount, needed }, failure, size)
+    })
 }

@@ -1,17 +1,16 @@
-//! The C face of `ricci`: `include/ricci/ricci.h` is generated from this crate. All `unsafe` of the project
-//! is here.
+//! The C face of `ricci`. All `unsafe` of the project is here.
 //!
-//! Names are those of C. One file per concept, mirroring the library; underneath them:
+//! Names are those of C. What functions do is said once, in the headers of `include/ricci`, which are written by hand;
+//! `tests/header.rs` holds their declarations, structs and constants against this crate. One file per concept of the library;
+//! underneath them:
 //!
 //! | file | what it keeps |
 //! |---|---|
-//! | `guard` | nothing unwinds into C; handles are checked, and poisoned after a panic |
+//! | `guard` | nothing unwinds into C; a handle that was being changed is poisoned by a panic |
 //! | `environment` | the host's floating-point environment |
-//! | `arrays`, `sized`, `choice`, `integer` | arrays, structs and enum values that come from C |
-//! | `edges`, `letters` | edge paths and words as signed numbers |
-//! | `drawing` | what layouts in the plane and in the hyperbolic plane have in common |
-//! | `failure`, `status`, `last_error` | what went wrong |
-//! | `debug` | a panic on request, for tests |
+//! | `memory` | what the system refuses is asked for before the work |
+//! | `arrays`, `structs`, `choice`, `paths` | arrays, structs, enum values, edge paths and words from and to C |
+//! | `failure`, `kept`, `status` | what went wrong, last on every thread |
 //!
 //! # Safety
 //! Every function here is called from C, so each has the same contract, which the header states and no
@@ -19,89 +18,40 @@
 //! library and was not freed, and a `T *` is in use by one thread only.
 
 #![allow(non_camel_case_types)]
-// The comments are the header's: brackets there are C's arrays.
-#![allow(rustdoc::broken_intra_doc_links)]
+// The headers document what C sees.
+#![allow(missing_docs)]
 #![allow(clippy::missing_safety_doc)]
+#![warn(clippy::too_many_lines)]
 
 mod arrays;
 mod choice;
-mod edges;
 mod environment;
 mod failure;
 mod guard;
-mod integer;
-mod letters;
-mod sized;
+mod kept;
+mod memory;
+mod paths;
+mod structs;
+mod texture;
 
-pub mod status;
-
-pub mod last_error;
-
-pub mod version;
-
-pub mod log;
-
+pub mod atlas;
 pub mod control;
-
-pub mod space;
-
-pub mod mesh;
-
-pub mod mesh_file;
-
-pub mod shapes;
-
-pub mod intrinsic;
-
-pub mod diagnosis;
-
-pub mod repair;
-
-pub mod scheme;
-
-pub mod metric;
-
-pub mod triangulation;
-
-pub mod target;
-
-pub mod report;
-
-pub mod flow;
-
-pub mod hyperbolic;
-pub mod layout;
-
-pub mod refined;
-
-pub mod transfer;
-
-pub mod charts;
-
-pub mod layout_file;
-
-pub mod model;
-
-pub mod uniformize_options;
-
-pub mod uniformize;
-
-pub mod sphere;
-
-pub mod stereographic;
-
-pub mod quotient;
-
-pub mod quotient_layout;
-
-pub mod homotopy;
-
-pub mod word;
-
-pub mod domain;
-
 pub mod deck;
-
 pub mod dirichlet;
-
-pub mod debug;
+pub mod domain;
+pub mod flow;
+pub mod homotopy;
+pub mod init;
+pub mod last_error;
+pub mod layout;
+pub mod log;
+pub mod map;
+pub mod mesh;
+pub mod metric;
+pub mod report;
+pub mod shapes;
+pub mod soup;
+pub mod status;
+pub mod target;
+pub mod uniformize;
+pub mod version;

@@ -1,124 +1,173 @@
-//! Meshes: connectivity with positions in space, or with edge lengths alone.
+//! Meshes: connectivity with positions in space, or with edge lengths, or both.
 
-use crate::arrays::{self, copy_out, copy_rows};
-use crate::choice::choose;
-use crate::edges::signed_edge;
+use crate::arrays::{self, copy_each, copy_out, copy_rows};
+use crate::choice::choices;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{self, Poison, handle};
-use crate::sized::{self, sized};
-use crate::space::ricci_space;
+use crate::guard::{self, handle, shared};
+use crate::memory;
+use crate::paths::signed_edge;
 use crate::status::ricci_status;
+use crate::structs::{self, sized};
 use ricci::Surface;
-use ricci::geometry::space::Space;
-use ricci::mesh::io::{Attributes, Soup};
+use ricci::geometry::Space;
+use ricci::mesh::io::{self, Attributes, Soup, Texture, Wrap};
 use ricci::mesh::{Mesh, PerEdge, Point};
-use std::mem::MaybeUninit;
-use std::sync::Arc;
+use std::ffi::c_char;
+use std::sync::{Arc, OnceLock};
 
-/// A connected oriented triangulated surface with the lengths of its edges. It never changes.
+choices!(pub(crate) SPACES: Space = "space", [
+    RICCI_SPACE_E2 => Space::E2,
+    RICCI_SPACE_H2 => Space::H2,
+    RICCI_SPACE_S2 => Space::S2,
+]);
+
+/// What the elements of a mesh or a triangle list have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Value {
+    Positions,
+    Lengths,
+    Normals,
+    Colors,
+    Uv,
+    CornerNormals,
+}
+
+choices!(pub(crate) VALUES: Value = "which", [
+    RICCI_POSITIONS => Value::Positions,
+    RICCI_LENGTHS => Value::Lengths,
+    RICCI_NORMALS => Value::Normals,
+    RICCI_COLORS => Value::Colors,
+    RICCI_UV => Value::Uv,
+    RICCI_CORNER_NORMALS => Value::CornerNormals,
+]);
+
+choices!(WRAPS: Wrap = "wrap", [
+    RICCI_WRAP_REPEAT => Wrap::Repeat,
+    RICCI_WRAP_MIRROR => Wrap::Mirror,
+    RICCI_WRAP_CLAMP => Wrap::Clamp,
+]);
+
 pub struct ricci_mesh {
-    poison: Poison,
     pub(crate) connectivity: Arc<Mesh>,
-    pub(crate) shape: Shape,
+    positions: Option<Arc<Vec<Point>>>,
+    /// Given ones, in this geometry; else they are measured in space.
+    lengths: Option<(Arc<PerEdge<f64>>, Space)>,
     /// What the file had beside positions and faces.
-    pub(crate) attributes: Attributes,
+    attributes: Attributes,
+    surface: OnceLock<Surface>,
+    summary: OnceLock<ricci_mesh_summary>,
 }
-
-/// Where the edge lengths come from.
-#[derive(Clone)]
-pub(crate) enum Shape {
-    /// A surface in space.
-    Positions(Arc<Vec<Point>>),
-    /// An intrinsic surface: one length per edge, in this geometry.
-    Lengths(Arc<PerEdge<f64>>, Space),
-}
-
 handle!(ricci_mesh, "mesh");
 
 impl ricci_mesh {
-    pub(crate) fn new(connectivity: Arc<Mesh>, shape: Shape) -> ricci_mesh {
-        ricci_mesh { poison: Poison::default(), connectivity, shape, attributes: Attributes::default() }
-    }
-
-    pub(crate) fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {
-        let connectivity = Arc::new(Mesh::from_soup(&soup)?);
-        let Soup { positions, attributes, .. } = soup;
-        Ok(ricci_mesh { attributes, ..ricci_mesh::new(connectivity, Shape::Positions(Arc::new(positions))) })
-    }
-
-    pub(crate) fn positions(&self) -> Outcome<&[Point]> {
-        match &self.shape {
-            Shape::Positions(positions) => Ok(positions),
-            Shape::Lengths(..) => {
-                Err(Failure::argument("this mesh is intrinsic: it has lengths, no positions"))
-            }
+    pub(crate) fn in_space(connectivity: Arc<Mesh>, positions: Arc<Vec<Point>>) -> ricci_mesh {
+        ricci_mesh {
+            connectivity,
+            positions: Some(positions),
+            lengths: None,
+            attributes: Attributes::default(),
+            surface: OnceLock::new(),
+            summary: OnceLock::new(),
         }
     }
 
-    /// The surface with the lengths that are measured in space, or those of an intrinsic mesh.
-    pub(crate) fn surface(&self) -> Outcome<Surface> {
-        let connectivity = self.connectivity.clone();
-        Ok(match &self.shape {
-            Shape::Positions(positions) => Surface::in_space(connectivity, positions.clone())?,
-            Shape::Lengths(lengths, space) => Surface::intrinsic(connectivity, lengths.clone(), *space)?,
-        })
+    pub(crate) fn intrinsic(connectivity: Arc<Mesh>, lengths: Arc<PerEdge<f64>>, space: Space) -> ricci_mesh {
+        let mesh = ricci_mesh::in_space(connectivity, Arc::default());
+        ricci_mesh { positions: None, lengths: Some((lengths, space)), ..mesh }
     }
 
-    /// The surface with lengths of the caller's, and the mesh's own positions if it has any.
-    pub(crate) fn surface_with(&self, lengths: Vec<f64>, geometry: Space) -> Outcome<Surface> {
-        let surface = Surface::intrinsic(self.connectivity.clone(), PerEdge::from(lengths), geometry)?;
-        Ok(match &self.shape {
-            Shape::Positions(positions) => surface.with_positions(positions.clone())?,
-            Shape::Lengths(..) => surface,
-        })
+    pub(crate) fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {
+        let _reserve = memory::work(soup.positions.len().max(soup.faces.len()), memory::MESH)?;
+        let connectivity = Arc::new(Mesh::from_soup(&soup)?);
+        let Soup { positions, attributes, .. } = soup;
+        Ok(ricci_mesh { attributes, ..ricci_mesh::in_space(connectivity, Arc::new(positions)) })
+    }
+
+    /// The triangle list that the mesh is, with what it was read with.
+    pub(crate) fn soup(&self) -> Outcome<Soup> {
+        let positions = self.positions()?.to_vec();
+        let faces = self.connectivity.triangles();
+        Ok(Soup { positions, faces, attributes: self.attributes.clone() })
+    }
+
+    fn positions(&self) -> Outcome<&[Point]> {
+        let positions = self.positions.as_ref().map(|positions| positions.as_slice());
+        positions.ok_or_else(|| Failure::argument("this mesh is intrinsic: it has lengths, no positions"))
+    }
+
+    /// The surface with the lengths that were given, or are measured in space.
+    pub(crate) fn surface(&self) -> Outcome<&Surface> {
+        if let Some(surface) = self.surface.get() {
+            return Ok(surface);
+        }
+        let mesh = self.connectivity.clone();
+        let surface = match (&self.lengths, &self.positions) {
+            (Some((lengths, space)), None) => Surface::intrinsic(mesh, lengths.clone(), *space)?,
+            (Some((lengths, space)), Some(positions)) => {
+                Surface::intrinsic(mesh, lengths.clone(), *space)?.with_positions(positions.clone())?
+            }
+            (None, positions) => Surface::in_space(mesh, positions.clone().unwrap_or_default())?,
+        };
+        Ok(self.surface.get_or_init(|| surface))
     }
 }
 
-/// Counts of a mesh.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct ricci_mesh_summary {
-    /// Bytes of this struct that are filled.
     pub size: usize,
-    /// V.
     pub n_vertices: usize,
-    /// E.
     pub n_edges: usize,
-    /// F.
     pub n_faces: usize,
-    /// Number of boundary loops; 0 for a closed surface.
     pub n_boundary_loops: usize,
-    /// Number of vertices on the boundary.
     pub n_boundary_vertices: usize,
-    /// V - E + F.
     pub euler: i64,
-    /// (2 - euler - boundary loops) / 2.
     pub genus: usize,
-    /// Number of normals of vertices: V, or 0 if the mesh was not read from a file that has them.
+    pub has_positions: u32,
+    pub geometry: u32,
     pub n_normals: usize,
-    /// Number of colours: V, or 0.
     pub n_colors: usize,
-    /// Number of faces with texture coordinates: F, or 0.
     pub n_uv: usize,
-    /// Number of faces with normals at their corners, instead of those of the vertices: F, or 0.
     pub n_corner_normals: usize,
 }
-
-// SAFETY: integers of 8 bytes, size first.
+// SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_mesh_summary, "summary");
 
-/// A mesh from positions and faces.
-///
-/// Both arrays are copied; vertices, faces and corners keep their order and numbers.
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride), RICCI_TOO_LARGE, RICCI_DEFECTS (ask
-/// ricci_diagnose_arrays for the list).
-///
-/// @param positions   n_vertices points: x, y, z as double; finite.
-/// @param stride      bytes from one point to the next, at least 24; 0 means 24. Need not be a multiple of 8.
-/// @param n_vertices  number of points.
-/// @param faces       n_faces x 3 vertex indices, 0-based, consistently oriented.
-/// @param n_faces     number of triangles, at least 1.
-/// @param mesh        out: the new handle, to be released by ricci_mesh_free.
+/// How many normals, colours, faces with texture coordinates and with normals of their corners there are.
+pub(crate) fn count(attributes: &Attributes) -> [usize; 4] {
+    let Attributes { normals, colors, uv, corner_normals } = attributes;
+    fn n<T>(list: &Option<Vec<T>>) -> usize {
+        list.as_ref().map_or(0, Vec::len)
+    }
+    [n(normals), n(colors), n(uv), n(corner_normals)]
+}
+
+/// Copy one of the attributes out.
+pub(crate) fn copy_attribute(
+    which: Value,
+    attributes: &Attributes,
+    values: *mut f64,
+    capacity: usize,
+) -> Outcome {
+    fn copy<T: arrays::Row<Entry = f64>>(
+        what: &str,
+        list: &Option<Vec<T>>,
+        to: (*mut f64, usize),
+    ) -> Outcome {
+        let list =
+            list.as_deref().ok_or_else(|| Failure::argument(format!("there are no {what} to be had")))?;
+        copy_out("values", list, to.0, to.1)
+    }
+    let to = (values, capacity);
+    match which {
+        Value::Normals => copy("normals", &attributes.normals, to),
+        Value::Colors => copy("colors", &attributes.colors, to),
+        Value::Uv => copy("uv", &attributes.uv, to),
+        Value::CornerNormals => copy("corner normals", &attributes.corner_normals, to),
+        Value::Positions | Value::Lengths => Err(Failure::argument("a triangle list has no lengths")),
+    }
+}
+
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_from_arrays(
     positions: *const f64,
@@ -128,105 +177,157 @@ pub unsafe extern "C" fn ricci_mesh_from_arrays(
     n_faces: usize,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::make("mesh", mesh, |_| {
+    guard::make(mesh, || {
         let positions = arrays::points(positions, stride, n_vertices)?;
-        let faces = arrays::faces(faces, n_faces)?;
-        ricci_mesh::from_soup(Soup::new(positions, faces))
+        ricci_mesh::from_soup(Soup::new(positions, arrays::faces(faces, n_faces)?))
     })
 }
 
-/// ricci_mesh_from_arrays for faces of int32_t. A negative index is refused by face and corner.
-///
-/// @return as ricci_mesh_from_arrays; RICCI_ARGUMENT also for a negative index.
-///
-/// @param positions   n_vertices points: x, y, z as double; finite.
-/// @param stride      bytes from one point to the next, at least 24; 0 means 24. Need not be a multiple of 8.
-/// @param n_vertices  number of points.
-/// @param faces       n_faces x 3 vertex indices, 0-based, consistently oriented.
-/// @param n_faces     number of triangles, at least 1.
-/// @param mesh        out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_from_arrays_i32(
-    positions: *const f64,
-    stride: usize,
-    n_vertices: usize,
-    faces: *const i32,
-    n_faces: usize,
-    mesh: *mut *mut ricci_mesh,
-) -> ricci_status {
-    guard::make("mesh", mesh, |_| {
-        let positions = arrays::points(positions, stride, n_vertices)?;
-        let faces = arrays::faces_i32(faces, n_faces)?;
-        ricci_mesh::from_soup(Soup::new(positions, faces))
-    })
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_gluing {
+    pub size: usize,
+    pub n_vertices: usize,
+    pub faces: *const u32,
+    pub face_edges: *const i32,
+    pub n_faces: usize,
+    pub lengths: *const f64,
+    pub n_edges: usize,
+    pub geometry: u32,
+    pub reserved: u32,
+}
+// SAFETY: numbers and raw pointers; 8-byte alignment, size first.
+sized!(ricci_gluing, "gluing");
+
+/// Finite positive lengths of the edges of a mesh.
+fn lengths_of(mesh: &Mesh, lengths: *const f64, n: usize) -> Outcome<Arc<PerEdge<f64>>> {
+    let lengths = arrays::array_of("lengths", lengths, n, mesh.n_edges())?;
+    for (edge, &length) in lengths.iter().enumerate() {
+        if !(length.is_finite() && length > 0.0) {
+            return Err(ricci::Error::EdgeLength { edge, length }.into());
+        }
+    }
+    Ok(Arc::new(lengths.into()))
 }
 
-/// An intrinsic surface: triangles glued along numbered edges, and a length for every edge.
-///
-/// Two vertices may share several edges, an edge may be a loop, a face may be glued to itself. Edge number e
-/// (1-based in `face_edges`) is edge e - 1 of every per-edge array.
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE (`n_edges` is not the number of edges),
-/// RICCI_GLUING, RICCI_DEFECTS, RICCI_EDGE_LENGTH, RICCI_ARGUMENT, RICCI_TOO_LARGE.
-///
-/// @param n_vertices  number of vertices.
-/// @param faces       n_faces x 3 vertex indices (a, b, c), 0-based.
-/// @param face_edges  n_faces x 3 edge numbers (bc, ca, ab): 1-based, negative where the face runs against
-///                    the edge's direction; each edge once with either sign, or once only (boundary).
-/// @param n_faces     number of triangles, at least 1.
-/// @param lengths     n_edges lengths, finite and positive.
-/// @param n_edges     number of edges.
-/// @param geometry    the geometry in which the lengths are meant.
-/// @param mesh        out: the new handle, to be released by ricci_mesh_free.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_from_gluing(
-    n_vertices: usize,
-    faces: *const u32,
-    face_edges: *const i32,
-    n_faces: usize,
-    lengths: *const f64,
-    n_edges: usize,
-    geometry: MaybeUninit<ricci_space>,
+    gluing: *const ricci_gluing,
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
-    guard::make("mesh", mesh, |_| {
-        let geometry = choose(geometry)?;
-        let faces = arrays::faces(faces, n_faces)?;
-        let face_edges: Vec<[i32; 3]> = arrays::array("face_edges", face_edges.cast(), n_faces)?;
-        let connectivity = Mesh::from_gluing(n_vertices, &faces, &face_edges)?;
-        let lengths = arrays::array_of("lengths", lengths, n_edges, connectivity.n_edges())?;
-        for (edge, &length) in lengths.iter().enumerate() {
-            if !(length.is_finite() && length > 0.0) {
-                return Err(ricci::Error::EdgeLength { edge, length }.into());
-            }
+    guard::make(mesh, || {
+        if gluing.is_null() {
+            return Err(Failure::null("gluing"));
         }
-        let shape = Shape::Lengths(Arc::new(lengths.into()), geometry);
-        Ok(ricci_mesh::new(Arc::new(connectivity), shape))
+        let given = structs::read(gluing)?;
+        let geometry = SPACES.choose(given.geometry)?;
+        let faces = arrays::faces(given.faces, given.n_faces)?;
+        let face_edges: Vec<[i32; 3]> = arrays::array("face_edges", given.face_edges.cast(), given.n_faces)?;
+        let connectivity = Mesh::from_gluing(given.n_vertices, &faces, &face_edges)?;
+        let lengths = lengths_of(&connectivity, given.lengths, given.n_edges)?;
+        Ok(ricci_mesh::intrinsic(Arc::new(connectivity), lengths, geometry))
     })
 }
 
-/// Release a mesh. Metrics made from it live on.
-///
-/// @param mesh  the handle, or NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_with_lengths(
+    mesh: *const ricci_mesh,
+    lengths: *const f64,
+    n_edges: usize,
+    geometry: u32,
+    result: *mut *mut ricci_mesh,
+) -> ricci_status {
+    guard::make(result, || {
+        let mesh = shared(mesh)?;
+        let lengths = lengths_of(&mesh.connectivity, lengths, n_edges)?;
+        let measured = ricci_mesh::intrinsic(mesh.connectivity.clone(), lengths, SPACES.choose(geometry)?);
+        let (positions, attributes) = (mesh.positions.clone(), mesh.attributes.clone());
+        Ok(ricci_mesh { positions, attributes, ..measured })
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_read(path: *const c_char, mesh: *mut *mut ricci_mesh) -> ricci_status {
+    guard::make(mesh, || ricci_mesh::from_soup(io::read(&arrays::path(path)?)?))
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_attributes {
+    pub size: usize,
+    pub normals: *const f64,
+    pub colors: *const f64,
+    pub uv: *const f64,
+    pub corner_normals: *const f64,
+    pub png: *const u8,
+    pub png_size: usize,
+    pub wrap: u32,
+    pub reserved: u32,
+}
+// SAFETY: numbers and raw pointers; 8-byte alignment, size first.
+sized!(ricci_attributes, "attributes");
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_write(
+    mesh: *const ricci_mesh,
+    attributes: *const ricci_attributes,
+    path: *const c_char,
+) -> ricci_status {
+    guard::with(mesh, |mesh| {
+        let path = arrays::path(path)?;
+        let mut soup = mesh.soup()?;
+        let given = structs::read(attributes)?;
+        if !attributes.is_null() {
+            let (v, f) = (soup.positions.len(), soup.faces.len());
+            soup.attributes = Attributes {
+                normals: arrays::optional("normals", given.normals, v)?,
+                colors: arrays::optional("colors", given.colors, v)?,
+                uv: arrays::optional("uv", given.uv, f)?,
+                corner_normals: arrays::optional("corner_normals", given.corner_normals, f)?,
+            };
+        }
+        if given.png.is_null() && given.png_size == 0 {
+            return write_soup(&path, &soup);
+        }
+        let wrap = WRAPS.choose(given.wrap)?;
+        let png: Vec<u8> = arrays::array("png", given.png, given.png_size)?;
+        if !png.starts_with(b"\x89PNG\r\n\x1a\n") {
+            return Err(Failure::argument("png is no PNG file: its first eight bytes are not that format's"));
+        }
+        if soup.attributes.uv.is_none() {
+            return Err(Failure::argument("a texture needs uv, texture coordinates"));
+        }
+        if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb")) {
+            return Err(Failure::argument("a texture is written in .glb files only"));
+        }
+        Ok(io::write_glb_textured(&path, &soup, Texture { png: &png, wrap, repeat: 1.0 })?)
+    })
+}
+
+/// Write a triangle list in the format that the file's name says.
+pub(crate) fn write_soup(path: &std::path::Path, soup: &Soup) -> Outcome {
+    for what in io::write(path, soup)? {
+        log::warn!("{}: the format has no place for {what}: left out", path.display());
+    }
+    Ok(())
+}
+
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_free(mesh: *mut ricci_mesh) {
     guard::free(mesh);
 }
 
-/// Counts, Euler characteristic, genus, boundary loops, and which attributes there are.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
-///
-/// @param mesh     the mesh.
-/// @param summary  out: the counts.
-/// @param size     sizeof *summary.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_summarise(
     mesh: *const ricci_mesh,
     summary: *mut ricci_mesh_summary,
     size: usize,
 ) -> ricci_status {
-    guard::with(mesh, |ricci_mesh { connectivity: mesh, attributes, .. }| {
-        let counts = ricci_mesh_summary {
+    guard::with(mesh, |handle| {
+        let mesh = &handle.connectivity;
+        let geometry = SPACES.number(handle.lengths.as_ref().map_or(Space::E2, |(_, space)| *space))?;
+        let [n_normals, n_colors, n_uv, n_corner_normals] = count(&handle.attributes);
+        let counts = handle.summary.get_or_init(|| ricci_mesh_summary {
             size,
             n_vertices: mesh.n_vertices(),
             n_edges: mesh.n_edges(),
@@ -235,38 +336,31 @@ pub unsafe extern "C" fn ricci_mesh_summarise(
             n_boundary_vertices: mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).count(),
             euler: mesh.euler(),
             genus: mesh.genus(),
-            n_normals: attributes.normals.as_ref().map_or(0, Vec::len),
-            n_colors: attributes.colors.as_ref().map_or(0, Vec::len),
-            n_uv: attributes.uv.as_ref().map_or(0, Vec::len),
-            n_corner_normals: attributes.corner_normals.as_ref().map_or(0, Vec::len),
-        };
-        sized::write(counts, summary, size)
+            has_positions: handle.positions.is_some().into(),
+            geometry,
+            n_normals,
+            n_colors,
+            n_uv,
+            n_corner_normals,
+        });
+        structs::write(*counts, summary, size)
     })
 }
 
-/// The positions a mesh was made from.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (the mesh is intrinsic).
-///
-/// @param mesh       the mesh.
-/// @param positions  out: n_vertices x 3.
-/// @param capacity   entries of `positions`, at least 3 n_vertices.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_positions(
+pub unsafe extern "C" fn ricci_mesh_values(
     mesh: *const ricci_mesh,
-    positions: *mut f64,
+    which: u32,
+    values: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(mesh, |mesh| copy_out("positions", mesh.positions()?, positions, capacity))
+    guard::with(mesh, |mesh| match VALUES.choose(which)? {
+        Value::Positions => copy_out("positions", mesh.positions()?, values, capacity),
+        Value::Lengths => copy_out("lengths", mesh.surface()?.lengths(), values, capacity),
+        which => copy_attribute(which, &mesh.attributes, values, capacity),
+    })
 }
 
-/// The vertices of every face, in corner order.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
-///
-/// @param mesh      the mesh.
-/// @param faces     out: n_faces x 3 vertex indices (a, b, c).
-/// @param capacity  entries of `faces`, at least 3 n_faces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_faces(
     mesh: *const ricci_mesh,
@@ -276,84 +370,35 @@ pub unsafe extern "C" fn ricci_mesh_faces(
     guard::with(mesh, |mesh| copy_out("faces", &mesh.connectivity.triangles(), faces, capacity))
 }
 
-/// The edges opposite the corners of every face: how the triangles are glued, and where in a per-edge array a
-/// face finds its sides.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
-///
-/// @param mesh        the mesh.
-/// @param face_edges  out: n_faces x 3 edge numbers (bc, ca, ab): 1-based, negative where the face runs
-///                    against the edge's direction.
-/// @param capacity    entries of `face_edges`, at least 3 n_faces.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_face_edges(
-    mesh: *const ricci_mesh,
-    face_edges: *mut i32,
-    capacity: usize,
-) -> ricci_status {
-    guard::call(|door| {
-        let mesh = &door.shared(mesh)?.connectivity;
-        let signed: Vec<[i32; 3]> = mesh
-            .faces()
-            .map(|f| {
-                let [ab, bc, ca] = mesh.face_halfedges(f).map(signed_edge);
-                [bc, ca, ab]
-            })
-            .collect();
-        copy_out("face_edges", &signed, face_edges, capacity)
-    })
-}
-
-/// The two ends of every edge, in the edge's direction.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
-///
-/// @param mesh      the mesh.
-/// @param edges     out: n_edges x 2 vertex indices.
-/// @param capacity  entries of `edges`, at least 2 n_edges.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_edges(
     mesh: *const ricci_mesh,
     edges: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = &door.shared(mesh)?.connectivity;
-        let ends: Vec<[u32; 2]> = mesh.edges().map(|e| mesh.ends(e).map(|v| v.0)).collect();
-        copy_out("edges", &ends, edges, capacity)
+    guard::with(mesh, |mesh| {
+        let mesh = &mesh.connectivity;
+        let ends = mesh.edges().map(|e| mesh.ends(e).map(|v| v.0));
+        copy_each("edges", mesh.n_edges(), ends, edges, capacity)
     })
 }
 
-/// The length of every edge, in space or as given.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_EDGE_LENGTH (two positions coincide).
-///
-/// @param mesh      the mesh.
-/// @param lengths   out: n_edges lengths.
-/// @param capacity  entries of `lengths`, at least n_edges.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_lengths(
+pub unsafe extern "C" fn ricci_mesh_face_edges(
     mesh: *const ricci_mesh,
-    lengths: *mut f64,
+    face_edges: *mut i32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let surface = door.shared(mesh)?.surface()?;
-        let values = surface.lengths();
-        copy_out("lengths", values, lengths, capacity)
+    guard::with(mesh, |mesh| {
+        let mesh = &mesh.connectivity;
+        let signed = mesh.faces().map(|f| {
+            let [ab, bc, ca] = mesh.face_halfedges(f).map(signed_edge);
+            [bc, ca, ab]
+        });
+        copy_each("face_edges", mesh.n_faces(), signed, face_edges, capacity)
     })
 }
 
-/// The vertices of every boundary loop, each loop with the surface on its left.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
-///
-/// @param mesh               the mesh.
-/// @param vertices           out: n_boundary_vertices vertex indices, loop after loop.
-/// @param vertices_capacity  entries of `vertices`.
-/// @param starts             out: n_boundary_loops + 1 offsets: loop i is vertices[starts[i] .. starts[i +
-///                           1]).
-/// @param starts_capacity    entries of `starts`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_boundary(
     mesh: *const ricci_mesh,
@@ -362,8 +407,8 @@ pub unsafe extern "C" fn ricci_mesh_boundary(
     starts: *mut usize,
     starts_capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let mesh = &door.shared(mesh)?.connectivity;
+    guard::with(mesh, |mesh| {
+        let mesh = &mesh.connectivity;
         let loops = mesh.boundary_loops();
         let rows = loops.iter().map(|walk| walk.iter().rev().map(|&h| mesh.origin(h).0));
         copy_rows("vertices", rows, (vertices, vertices_capacity), (starts, starts_capacity))

@@ -1,40 +1,152 @@
-//! Metrics: a point (ε, η, u) of a conformal class on a mesh, with what it says about lengths and curvature.
+//! Metrics: a point (ε, η, u) of a conformal class on a mesh, with what it says about lengths and curvature, and what led there.
 
-use crate::arrays::{self, copy_out};
-use crate::choice::{choose, name};
-use crate::failure::Outcome;
-use crate::guard::{self, Poison, handle};
-use crate::mesh::ricci_mesh;
-use crate::scheme::ricci_scheme;
-use crate::sized::{self, sized};
-use crate::space::ricci_space;
+use crate::arrays::{copy_each, copy_out};
+use crate::choice::choices;
+use crate::failure::{Failure, Outcome};
+use crate::guard::{self, handle, shared};
+use crate::memory;
+use crate::mesh::{SPACES, ricci_mesh};
 use crate::status::ricci_status;
-use ricci::flow::Solution;
-use ricci::mesh::{Mesh, PerEdge, Point};
-use ricci::{Class, Surface};
-use std::mem::MaybeUninit;
-use std::sync::Arc;
+use crate::structs::{self, sized};
+use ricci::flow::{Report, Solution};
+use ricci::mesh::PerEdge;
+use ricci::metric::Refinement;
+use ricci::metric::curvature::Curvature;
+use ricci::metric::scheme::Scheme;
+use ricci::{Class, Control};
+use std::sync::{Arc, OnceLock};
 
-/// A metric of a surface in a conformal class: types, weights and one variable u per vertex. It never
-/// changes; the flow makes a new one.
-///
-/// Arrays per vertex are those of the vertices of the mesh that the metric was made from, in its numbers. A
-/// flow that flips edges leads to another triangulation, on which edges and faces have numbers of their own
-/// (ricci_metric_mesh), and of a surface with boundary to one of its double; ricci_layout_new leads back.
-pub struct ricci_metric {
-    poison: Poison,
-    pub(crate) surface: Solution,
-    /// Of the edges of its triangulation.
-    pub(crate) lengths: Arc<PerEdge<f64>>,
-    /// Of the given vertices.
-    pub(crate) positions: Option<Arc<Vec<Point>>>,
+choices!(pub(crate) SCHEMES: Scheme = "scheme", [
+    RICCI_SCHEME_YAMABE => Scheme::Yamabe,
+    RICCI_SCHEME_INVERSIVE => Scheme::Inversive,
+    RICCI_SCHEME_THURSTON => Scheme::Thurston,
+    RICCI_SCHEME_TANGENTIAL => Scheme::Tangential,
+    RICCI_SCHEME_VIRTUAL => Scheme::Virtual,
+]);
+
+/// Where what is asked about lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum On {
+    /// The caller's mesh.
+    Input,
+    /// The metric's own triangulation.
+    Metric,
+    /// Both laid over each other.
+    Refinement,
 }
 
+choices!(pub(crate) ON: On = "on", [
+    RICCI_ON_INPUT => On::Input,
+    RICCI_ON_METRIC => On::Metric,
+    RICCI_ON_REFINEMENT => On::Refinement,
+]);
+
+/// Numbers of a metric.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Quantity {
+    Factor,
+    Curvature,
+    U,
+    Type,
+    Lengths,
+    Eta,
+    MeshU,
+}
+
+choices!(QUANTITIES: Quantity = "which", [
+    RICCI_METRIC_FACTOR => Quantity::Factor,
+    RICCI_METRIC_CURVATURE => Quantity::Curvature,
+    RICCI_METRIC_U => Quantity::U,
+    RICCI_METRIC_TYPE => Quantity::Type,
+    RICCI_METRIC_LENGTH => Quantity::Lengths,
+    RICCI_METRIC_ETA => Quantity::Eta,
+    RICCI_METRIC_MESH_U => Quantity::MeshU,
+]);
+
+/// A metric of a surface, shared by the handles that were made from it, with what is asked of it more than once.
+pub(crate) struct State {
+    pub solution: Solution,
+    /// Of the flow that led here, if one did.
+    pub report: Option<Report>,
+    /// Of the edges of its triangulation.
+    pub lengths: Arc<PerEdge<f64>>,
+    curvature: OnceLock<Curvature>,
+    refinement: OnceLock<Arc<Refinement>>,
+}
+
+pub struct ricci_metric(pub(crate) Arc<State>);
 handle!(ricci_metric, "metric");
 
+/// The value of a cell, made at the first question.
+fn kept<T>(cell: &OnceLock<T>, make: impl FnOnce() -> ricci::Result<T>) -> Outcome<&T> {
+    match cell.get() {
+        Some(value) => Ok(value),
+        None => {
+            let value = make()?;
+            Ok(cell.get_or_init(|| value))
+        }
+    }
+}
+
+impl State {
+    fn curvature(&self) -> Outcome<&Curvature> {
+        kept(&self.curvature, || self.solution.curvature())
+    }
+
+    /// The common refinement of the given mesh and the metric's triangulation; none where they are one.
+    pub fn refinement(&self, control: &Control) -> Outcome<Option<&Arc<Refinement>>> {
+        if self.solution.is_unflipped() {
+            return Ok(None);
+        }
+        kept(&self.refinement, || Ok(Arc::new(self.solution.refinement(control)?))).map(Some)
+    }
+}
+
 impl ricci_metric {
-    fn start(surface: Surface, class: Class) -> Outcome<ricci_metric> {
-        let metric = Solution::initial_of(surface, class)?;
+    /// The metric that a flow has led to; `report`: where the solution itself has none.
+    pub(crate) fn at(solution: Solution, report: Option<Report>) -> Outcome<ricci_metric> {
+        let lengths = Arc::new(solution.metric().lengths(solution.mesh())?);
+        let report = solution.report().cloned().or(report);
+        let (curvature, refinement) = (OnceLock::new(), OnceLock::new());
+        Ok(ricci_metric(Arc::new(State { solution, report, lengths, curvature, refinement })))
+    }
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_metric_summary {
+    pub size: usize,
+    pub space: u32,
+    pub input_geometry: u32,
+    pub scheme: u32,
+    pub doubled: u32,
+    pub n_vertices: usize,
+    pub n_mesh_vertices: usize,
+    pub n_edges: usize,
+    pub n_faces: usize,
+    pub area: f64,
+    pub gauss_bonnet: f64,
+    pub broken_triangles: usize,
+    pub clamped_edges: usize,
+    pub max_length_change: f64,
+    pub n_flips: usize,
+    pub n_start_flips: usize,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_metric_summary, "summary");
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_metric_new(
+    mesh: *const ricci_mesh,
+    scheme: u32,
+    space: u32,
+    metric: *mut *mut ricci_metric,
+) -> ricci_status {
+    guard::make(metric, || {
+        let class = Class::new(SCHEMES.choose(scheme)?, SPACES.choose(space)?);
+        let mesh = shared(mesh)?;
+        let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::MESH)?;
+        let metric = Solution::initial_of(mesh.surface()?.clone(), class)?;
         let initial = metric.initial();
         if initial.clamped_edges > 0 {
             log::info!(
@@ -44,152 +156,32 @@ impl ricci_metric {
                 100.0 * initial.max_length_change
             );
         }
-        ricci_metric::at(metric)
-    }
-
-    /// A metric of a surface.
-    pub(crate) fn at(surface: Solution) -> Outcome<ricci_metric> {
-        let lengths = Arc::new(surface.metric().lengths(surface.mesh())?);
-        let positions = surface.surface().positions().cloned();
-        Ok(ricci_metric { poison: Poison::default(), surface, lengths, positions })
-    }
-
-    /// The given triangulation.
-    pub(crate) fn given(&self) -> &Mesh {
-        self.surface.given()
-    }
-
-    /// The first entries, those of the given vertices.
-    fn given_part<'a, T>(&self, values: &'a [T]) -> &'a [T] {
-        &values[..self.given().n_vertices()]
-    }
-}
-
-/// Figures of a metric.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct ricci_metric_summary {
-    /// Bytes of this struct that are filled.
-    pub size: usize,
-    /// The geometry of its triangles.
-    pub space: ricci_space,
-    /// The geometry in which the input lengths were read.
-    pub input_geometry: ricci_space,
-    /// Its scheme.
-    pub scheme: ricci_scheme,
-    /// 1 if its triangulation is one of the double of the surface: two copies glued along the boundary.
-    pub doubled: i32,
-    /// V of the mesh it was made from, the entries of per-vertex arrays.
-    pub n_vertices: usize,
-    /// E of its triangulation, the entries of per-edge arrays.
-    pub n_edges: usize,
-    /// F of its triangulation.
-    pub n_faces: usize,
-    /// Area of the surface, in units of the input length squared (E2) or of 1/|curvature|.
-    pub area: f64,
-    /// |sum of curvatures + lambda area - 2 pi chi| of its triangulation, lambda the curvature of the space:
-    /// rounding only.
-    pub gauss_bonnet: f64,
-    /// Number of triangles whose lengths break the triangle inequality.
-    pub broken_triangles: usize,
-    /// Edges whose initial weight the scheme had to change (Thurston).
-    pub clamped_edges: usize,
-    /// Largest relative change of an edge length by going over to the scheme.
-    pub max_length_change: f64,
-    /// V of its triangulation: those of the mesh, and of a double the mirror images of interior vertices
-    /// behind them.
-    pub n_mesh_vertices: usize,
-    /// Edge flips from the mesh it was made from to its triangulation.
-    pub n_flips: usize,
-    /// Those of them that come before the flow and change no distance on the surface.
-    pub n_start_flips: usize,
-}
-
-// SAFETY: only ever written by the library; 8-byte alignment, size first.
-sized!(ricci_metric_summary, "summary");
-
-/// The initial metric of a mesh in the conformal class of its lengths.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT, RICCI_EDGE_LENGTH, RICCI_TRIANGLE_INEQUALITY,
-/// RICCI_EDGE_WEIGHT, RICCI_DOMAIN.
-///
-/// @param mesh    the mesh; lengths are measured in space, or those of an intrinsic mesh.
-/// @param scheme  how lengths depend on u.
-/// @param space   the geometry in which the metric will live.
-/// @param metric  out: the new handle, to be released by ricci_metric_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_metric_new(
-    mesh: *const ricci_mesh,
-    scheme: MaybeUninit<ricci_scheme>,
-    space: MaybeUninit<ricci_space>,
-    metric: *mut *mut ricci_metric,
-) -> ricci_status {
-    guard::make("metric", metric, |door| {
-        let class = Class::new(choose(scheme)?, choose(space)?);
-        ricci_metric::start(door.shared(mesh)?.surface()?, class)
+        ricci_metric::at(metric, None)
     })
 }
 
-/// ricci_metric_new with lengths of the caller's in place of the mesh's own.
-///
-/// @return as ricci_metric_new; RICCI_WRONG_SIZE.
-///
-/// @param mesh      the mesh.
-/// @param lengths   n_edges lengths, finite and positive, in the order of ricci_mesh_edges.
-/// @param n_edges   number of edges of the mesh.
-/// @param geometry  the geometry in which the lengths are meant.
-/// @param scheme    how lengths depend on u.
-/// @param space     the geometry in which the metric will live.
-/// @param metric    out: the new handle, to be released by ricci_metric_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_metric_from_lengths(
-    mesh: *const ricci_mesh,
-    lengths: *const f64,
-    n_edges: usize,
-    geometry: MaybeUninit<ricci_space>,
-    scheme: MaybeUninit<ricci_scheme>,
-    space: MaybeUninit<ricci_space>,
-    metric: *mut *mut ricci_metric,
-) -> ricci_status {
-    guard::make("metric", metric, |door| {
-        let mesh = door.shared(mesh)?;
-        let lengths = arrays::array_of("lengths", lengths, n_edges, mesh.connectivity.n_edges())?;
-        let class = Class::new(choose(scheme)?, choose(space)?);
-        ricci_metric::start(mesh.surface_with(lengths, choose(geometry)?)?, class)
-    })
-}
-
-/// Release a metric.
-///
-/// @param metric  the handle, or NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_metric_free(metric: *mut ricci_metric) {
     guard::free(metric);
 }
 
-/// Kind, counts, area and Gauss-Bonnet residual of a metric.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
-///
-/// @param metric   the metric.
-/// @param summary  out: the figures.
-/// @param size     sizeof *summary.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_metric_summarise(
     metric: *const ricci_metric,
     summary: *mut ricci_metric_summary,
     size: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let surface = &door.shared(metric)?.surface;
-        let (curvature, initial, mesh) = (surface.curvature()?, surface.initial(), surface.mesh());
+    guard::with(metric, |ricci_metric(state)| {
+        let State { solution, .. } = &**state;
+        let (curvature, initial, mesh) = (state.curvature()?, solution.initial(), solution.mesh());
         let figures = ricci_metric_summary {
             size,
-            space: name(surface.metric().space)?,
-            input_geometry: name(initial.input_geometry)?,
-            scheme: name(surface.scheme()?)?,
-            doubled: surface.double().is_some().into(),
-            n_vertices: surface.given().n_vertices(),
+            space: SPACES.number(solution.metric().space)?,
+            input_geometry: SPACES.number(initial.input_geometry)?,
+            scheme: SCHEMES.number(solution.scheme()?)?,
+            doubled: solution.double().is_some().into(),
+            n_vertices: solution.given().n_vertices(),
+            n_mesh_vertices: mesh.n_vertices(),
             n_edges: mesh.n_edges(),
             n_faces: mesh.n_faces(),
             area: curvature.area,
@@ -197,80 +189,64 @@ pub unsafe extern "C" fn ricci_metric_summarise(
             broken_triangles: curvature.broken.len(),
             clamped_edges: initial.clamped_edges,
             max_length_change: initial.max_length_change,
-            n_mesh_vertices: mesh.n_vertices(),
-            n_flips: surface.flips(),
-            n_start_flips: surface.start_flips(),
+            n_flips: solution.flips(),
+            n_start_flips: solution.start_flips(),
         };
-        sized::write(figures, summary, size)
+        structs::write(figures, summary, size)
     })
 }
 
-/// The curvature of every vertex: 2 pi minus its angles inside, pi minus its angles on the boundary.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
-///
-/// @param metric     the metric.
-/// @param curvature  out: n_vertices curvatures, radians.
-/// @param capacity   entries of `curvature`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_metric_curvature(
+pub unsafe extern "C" fn ricci_metric_values(
     metric: *const ricci_metric,
-    curvature: *mut f64,
+    which: u32,
+    values: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(metric, |metric| copy_out("curvature", &metric.surface.curvature()?.at, curvature, capacity))
-}
-
-/// The variable u of every vertex.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
-///
-/// @param metric    the metric.
-/// @param u         out: n_vertices values.
-/// @param capacity  entries of `u`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_metric_u(
-    metric: *const ricci_metric,
-    u: *mut f64,
-    capacity: usize,
-) -> ricci_status {
-    guard::with(metric, |metric| copy_out("u", metric.given_part(&metric.surface.metric().u), u, capacity))
-}
-
-/// The type epsilon of every vertex: 1 circle, 0 vertex scaling, -1 imaginary circle.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
-///
-/// @param metric    the metric.
-/// @param epsilon   out: n_vertices types.
-/// @param capacity  entries of `epsilon`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_metric_epsilon(
-    metric: *const ricci_metric,
-    epsilon: *mut i8,
-    capacity: usize,
-) -> ricci_status {
-    guard::with(metric, |metric| {
-        copy_out("epsilon", metric.given_part(&metric.surface.metric().epsilon), epsilon, capacity)
+    guard::with(metric, |ricci_metric(state)| {
+        let State { solution, lengths, .. } = &**state;
+        let (metric, n) = (solution.metric(), solution.given().n_vertices());
+        let copy = |all: &[f64]| copy_out("values", all, values, capacity);
+        match QUANTITIES.choose(which)? {
+            Quantity::Factor => copy(&solution.conformal_factor()?),
+            Quantity::Curvature => copy(&state.curvature()?.at),
+            Quantity::U => copy(metric.u.split_at(n).0),
+            Quantity::Type => {
+                let types = metric.epsilon.iter().take(n).map(|&e| f64::from(e));
+                copy_each("values", n, types, values, capacity)
+            }
+            Quantity::Lengths => copy(lengths),
+            Quantity::Eta => copy(&metric.rounded_eta()),
+            Quantity::MeshU => copy(&metric.u),
+        }
     })
 }
 
-/// The conformal factor of every vertex against the initial metric: the change of u (vertex scaling), or the
-/// logarithm of the change of radius (circle packings).
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
-///
-/// @param metric    the metric.
-/// @param factor    out: n_vertices logarithms.
-/// @param capacity  entries of `factor`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_metric_conformal_factor(
+pub unsafe extern "C" fn ricci_metric_mesh(
     metric: *const ricci_metric,
-    factor: *mut f64,
+    mesh: *mut *mut ricci_mesh,
+) -> ricci_status {
+    guard::make(mesh, || {
+        let State { solution, lengths, .. } = &*shared(metric)?.0;
+        Ok(ricci_mesh::intrinsic(solution.mesh().clone(), lengths.clone(), solution.metric().space))
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_metric_mirror(
+    metric: *const ricci_metric,
+    mirror: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::call(|door| {
-        let values = door.shared(metric)?.surface.conformal_factor()?;
-        copy_out("factor", &values, factor, capacity)
+    guard::with(metric, |ricci_metric(state)| {
+        let (mesh, double) = (state.solution.mesh(), state.solution.double());
+        let images = mesh.vertices().map(|v| double.map_or(v, |double| double.mirror(v)).0);
+        copy_each("mirror", mesh.n_vertices(), images, mirror, capacity)
     })
+}
+
+/// What the flow did that led to a metric.
+pub(crate) fn report_of(state: &State) -> Outcome<&Report> {
+    state.report.as_ref().ok_or_else(|| Failure::argument("no flow has led to this metric: it has no report"))
 }

@@ -1,278 +1,179 @@
-//! Sample surfaces in space, and what can be done to a surface in space.
+//! Sample surfaces, and what can be done to a surface in space.
 
 use crate::arrays;
-use crate::choice::{choice, choose};
-use crate::failure::Outcome;
-use crate::guard::{self, output};
+use crate::choice::choices;
+use crate::failure::{Failure, Outcome};
+use crate::guard::{self, shared};
 use crate::mesh::ricci_mesh;
 use crate::status::ricci_status;
+use crate::structs::{self, sized};
+use num_complex::Complex64;
+use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::mesh::io::Soup;
-use ricci::mesh::shapes::{self, Sliver, TorusKnot};
-use std::mem::MaybeUninit;
+use ricci::mesh::shapes::{self, Intrinsic, Sliver, TorusKnot};
+use std::sync::Arc;
 
-fn in_space(mesh: *mut *mut ricci_mesh, make: impl FnOnce() -> ricci::Result<Soup>) -> Outcome {
-    let mesh = output("mesh", mesh)?;
-    mesh.hand_over(ricci_mesh::from_soup(make()?)?);
-    Ok(())
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Shape {
+    Sphere,
+    Ellipsoid,
+    Disk,
+    Annulus,
+    Torus,
+    Genus,
+    Knot,
+    FlatTorus,
+    Bolza,
+    OneVertex,
+    TwoVertex,
+    TwoTriangles,
+    Pants,
+    Hyperelliptic,
 }
 
-/// The unit sphere: an icosahedron with each edge cut into n. 10 n^2 + 2 vertices.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
-///
-/// @param n     at least 1.
-/// @param mesh  out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_shape_sphere(n: usize, mesh: *mut *mut ricci_mesh) -> ricci_status {
-    guard::call(|_| in_space(mesh, || shapes::icosphere(n)))
-}
-
-/// An ellipsoid: the sphere scaled along x, y, z.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
-///
-/// @param a     half axis along x.
-/// @param b     half axis along y.
-/// @param c     half axis along z.
-/// @param n     as for ricci_shape_sphere.
-/// @param mesh  out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_shape_ellipsoid(
-    a: f64,
-    b: f64,
-    c: f64,
-    n: usize,
-    mesh: *mut *mut ricci_mesh,
-) -> ricci_status {
-    guard::call(|_| in_space(mesh, || shapes::ellipsoid([a, b, c], n)))
-}
-
-/// The unit disk in the plane z = 0: a centre and n rings. 3 n (n + 1) + 1 vertices.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
-///
-/// @param n     at least 1.
-/// @param mesh  out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_shape_disk(n: usize, mesh: *mut *mut ricci_mesh) -> ricci_status {
-    guard::call(|_| in_space(mesh, || shapes::disk(n)))
-}
-
-/// A plane ring, radii in geometric progression. (n + 1) m vertices.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
-///
-/// @param inner  inner radius.
-/// @param outer  outer radius, larger.
-/// @param n      steps from inside to outside, at least 1.
-/// @param m      vertices around, at least 3.
-/// @param mesh   out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_shape_annulus(
-    inner: f64,
-    outer: f64,
-    n: usize,
-    m: usize,
-    mesh: *mut *mut ricci_mesh,
-) -> ricci_status {
-    guard::call(|_| in_space(mesh, || shapes::annulus(inner, outer, n, m)))
-}
-
-/// A torus of revolution about z. n m vertices.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
-///
-/// @param big    radius of the centre circle.
-/// @param small  radius of the tube, smaller.
-/// @param n      vertices around the axis, at least 3.
-/// @param m      vertices around the tube, at least 3.
-/// @param mesh   out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_shape_torus(
-    big: f64,
-    small: f64,
-    n: usize,
-    m: usize,
-    mesh: *mut *mut ricci_mesh,
-) -> ricci_status {
-    guard::call(|_| in_space(mesh, || shapes::torus(big, small, n, m)))
-}
-
-/// A smooth closed surface of any genus: handles in a row, the first hole `ratio` times as wide as the last.
-/// 8 (5 genus + 1) n^2 + 2 - 2 genus vertices.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
-///
-/// @param genus  number of handles, at least 1.
-/// @param n      layers over a quarter of the tube, at least 1.
-/// @param ratio  1 for equal handles; larger ones have a limit, which the message names.
-/// @param mesh   out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_shape_genus(
-    genus: usize,
-    n: usize,
-    ratio: f64,
-    mesh: *mut *mut ricci_mesh,
-) -> ricci_status {
-    guard::call(|_| in_space(mesh, || shapes::tapered_genus(genus, n, ratio)))
-}
-
-/// A knotted torus: a tube around the curve that goes p times around the axis and q times around the tube of a
-/// torus of revolution. n m vertices.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT.
-///
-/// @param p      times around the axis; coprime with q.
-/// @param q      times around the tube.
-/// @param big    radius of that torus's centre circle.
-/// @param small  radius of its tube, smaller.
-/// @param tube   radius of the tube around the curve; where it would meet itself is an error.
-/// @param n      cross-sections, at least 3.
-/// @param m      vertices around the tube, at least 3.
-/// @param mesh   out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_shape_knot(
-    p: u32,
-    q: u32,
-    big: f64,
-    small: f64,
-    tube: f64,
-    n: usize,
-    m: usize,
-    mesh: *mut *mut ricci_mesh,
-) -> ricci_status {
-    guard::call(|_| in_space(mesh, || TorusKnot { p, q, big, small }.torus(tube, n, m)))
-}
-
-/// Which bad triangles.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ricci_sliver {
-    /// A vertex near the middle of a side: one angle near pi.
-    RICCI_SLIVER_CAP = 0,
-    /// A vertex near a corner: a short edge.
-    RICCI_SLIVER_NEEDLE = 1,
-}
-
-choice!(ricci_sliver, "sliver", Sliver, [
-    RICCI_SLIVER_CAP => Cap,
-    RICCI_SLIVER_NEEDLE => Needle,
+choices!(SHAPES: Shape = "shape", [
+    RICCI_SHAPE_SPHERE => Shape::Sphere,
+    RICCI_SHAPE_ELLIPSOID => Shape::Ellipsoid,
+    RICCI_SHAPE_DISK => Shape::Disk,
+    RICCI_SHAPE_ANNULUS => Shape::Annulus,
+    RICCI_SHAPE_TORUS => Shape::Torus,
+    RICCI_SHAPE_GENUS => Shape::Genus,
+    RICCI_SHAPE_KNOT => Shape::Knot,
+    RICCI_SHAPE_FLAT_TORUS => Shape::FlatTorus,
+    RICCI_SHAPE_BOLZA => Shape::Bolza,
+    RICCI_SHAPE_ONE_VERTEX => Shape::OneVertex,
+    RICCI_SHAPE_TWO_VERTEX => Shape::TwoVertex,
+    RICCI_SHAPE_TWO_TRIANGLES => Shape::TwoTriangles,
+    RICCI_SHAPE_PANTS => Shape::Pants,
+    RICCI_SHAPE_HYPERELLIPTIC => Shape::Hyperelliptic,
 ]);
 
-/// A changed copy of a surface in space.
-fn changed(
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Change {
+    Punch,
+    Grade,
+    Caps,
+    Needles,
+    Noise,
+    Invert,
+}
+
+choices!(CHANGES: Change = "change", [
+    RICCI_CHANGE_PUNCH => Change::Punch,
+    RICCI_CHANGE_GRADE => Change::Grade,
+    RICCI_CHANGE_CAPS => Change::Caps,
+    RICCI_CHANGE_NEEDLES => Change::Needles,
+    RICCI_CHANGE_NOISE => Change::Noise,
+    RICCI_CHANGE_INVERT => Change::Invert,
+]);
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_shape {
+    pub size: usize,
+    pub shape: u32,
+    pub reserved: u32,
+    pub genus: usize,
+    pub n: usize,
+    pub m: usize,
+    pub a: f64,
+    pub b: f64,
+    pub c: f64,
+    pub p: u32,
+    pub q: u32,
+    pub points: *const f64,
+    pub n_points: usize,
+}
+// SAFETY: numbers and raw pointers; 8-byte alignment, size first.
+sized!(ricci_shape, "shape");
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_change_spec {
+    pub size: usize,
+    pub change: u32,
+    pub vertex: u32,
+    pub count: usize,
+    pub amount: f64,
+    pub seed: u64,
+    pub centre: [f64; 3],
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_change_spec, "change");
+
+fn branch_points(points: *const f64, n_points: usize) -> Outcome<Vec<Complex64>> {
+    let points: Vec<[f64; 2]> = arrays::array("points", points.cast(), n_points)?;
+    Ok(points.into_iter().map(|[re, im]| Complex64::new(re, im)).collect())
+}
+
+fn intrinsic(surface: Intrinsic) -> Outcome<ricci_mesh> {
+    let (connectivity, lengths) = surface.build()?;
+    Ok(ricci_mesh::intrinsic(Arc::new(connectivity), Arc::new(lengths), surface.geometry))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_make(shape: *const ricci_shape, mesh: *mut *mut ricci_mesh) -> ricci_status {
+    guard::make(mesh, || {
+        if shape.is_null() {
+            return Err(Failure::null("shape"));
+        }
+        let ricci_shape { shape, genus, n, m, a, b, c, p, q, points, n_points, .. } = structs::read(shape)?;
+        ricci_mesh::from_soup(match SHAPES.choose(shape)? {
+            Shape::Sphere => shapes::icosphere(n)?,
+            Shape::Ellipsoid => shapes::ellipsoid([a, b, c], n)?,
+            Shape::Disk => shapes::disk(n)?,
+            Shape::Annulus => shapes::annulus(a, b, n, m)?,
+            Shape::Torus => shapes::torus(a, b, n, m)?,
+            Shape::Genus => shapes::tapered_genus(genus, n, if a == 0.0 { 1.0 } else { a })?,
+            Shape::Knot => TorusKnot { p, q, big: a, small: b }.torus(c, n, m)?,
+            Shape::FlatTorus => return intrinsic(shapes::flat_torus([a, b], n, m)?),
+            Shape::Bolza => return intrinsic(shapes::bolza(n)?),
+            Shape::OneVertex => return intrinsic(shapes::one_vertex(genus)?),
+            Shape::TwoVertex => return intrinsic(shapes::two_vertex(genus)?),
+            Shape::TwoTriangles => return intrinsic(shapes::two_triangle_sphere()),
+            Shape::Pants => return intrinsic(shapes::pants([a, b, c], n)?),
+            Shape::Hyperelliptic => {
+                return intrinsic(shapes::hyperelliptic(&branch_points(points, n_points)?, n)?);
+            }
+        })
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_change(
     mesh: *const ricci_mesh,
+    change: *const ricci_change_spec,
     result: *mut *mut ricci_mesh,
-    change: impl FnOnce(&mut Soup) -> Outcome,
 ) -> ricci_status {
-    guard::make("result", result, |door| {
-        let mesh = door.shared(mesh)?;
-        let mut soup = Soup::new(mesh.positions()?.to_vec(), mesh.connectivity.triangles());
-        change(&mut soup)?;
+    guard::make(result, || {
+        if change.is_null() {
+            return Err(Failure::null("change"));
+        }
+        let ricci_change_spec { change, vertex, count, amount, seed, centre, .. } = structs::read(change)?;
+        let Soup { positions, faces, .. } = shared(mesh)?.soup()?;
+        let mut soup = Soup::new(positions, faces);
+        match CHANGES.choose(change)? {
+            Change::Punch => soup = shapes::punch(&soup, count)?,
+            Change::Grade => shapes::grade(&mut soup, vertex, count)?,
+            Change::Caps => shapes::slivers(&mut soup, Sliver::Cap, count, amount, seed)?,
+            Change::Needles => shapes::slivers(&mut soup, Sliver::Needle, count, amount, seed)?,
+            Change::Noise => shapes::noise(&mut soup, amount, seed)?,
+            Change::Invert => shapes::invert(&mut soup, centre, amount)?,
+        }
         ricci_mesh::from_soup(soup)
     })
 }
 
-/// Cut round holes out of a surface, as far from each other and from the boundary as its vertices allow. Vertices and
-/// faces keep their order, those cut out are dropped.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (also: the mesh is intrinsic).
-///
-/// @param mesh    the surface.
-/// @param count   number of holes; no room for one is an error.
-/// @param result  out: the new handle, to be released by ricci_mesh_free.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_punch(
-    mesh: *const ricci_mesh,
-    count: usize,
-    result: *mut *mut ricci_mesh,
+pub unsafe extern "C" fn ricci_hyperelliptic_periods(
+    points: *const f64,
+    n_points: usize,
+    periods: *mut f64,
+    capacity: usize,
 ) -> ricci_status {
-    changed(mesh, result, |soup| {
-        *soup = shapes::punch(soup, count)?;
-        Ok(())
-    })
-}
-
-/// Halve the edges around a vertex, then those of the smaller triangles around it, and so on. The new vertices come
-/// last; the surface keeps its shape.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (also: the mesh is intrinsic).
-///
-/// @param mesh    the surface.
-/// @param vertex  the vertex.
-/// @param levels  number of times, at most 100.
-/// @param result  out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_grade(
-    mesh: *const ricci_mesh,
-    vertex: u32,
-    levels: usize,
-    result: *mut *mut ricci_mesh,
-) -> ricci_status {
-    changed(mesh, result, |soup| Ok(shapes::grade(soup, vertex, levels)?))
-}
-
-/// Cut faces into three by a vertex that leaves one of them with a small angle. The new vertices come last; the surface
-/// keeps its shape.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (also: the mesh is intrinsic).
-///
-/// @param mesh    the surface.
-/// @param kind    which slivers.
-/// @param count   number of faces to cut, at most n_faces.
-/// @param angle   their smallest angle, radians, 1e-7 to 0.1.
-/// @param seed    chooses the faces.
-/// @param result  out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_slivers(
-    mesh: *const ricci_mesh,
-    kind: MaybeUninit<ricci_sliver>,
-    count: usize,
-    angle: f64,
-    seed: u64,
-    result: *mut *mut ricci_mesh,
-) -> ricci_status {
-    changed(mesh, result, |soup| {
-        let kind = choose(kind)?;
-        Ok(shapes::slivers(soup, kind, count, angle, seed)?)
-    })
-}
-
-/// Move every vertex by up to a fraction of the mean edge length in each coordinate.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (also: the mesh is intrinsic).
-///
-/// @param mesh       the surface.
-/// @param amplitude  the fraction, 0 to 1000.
-/// @param seed       the same seed gives the same noise on every machine.
-/// @param result     out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_noise(
-    mesh: *const ricci_mesh,
-    amplitude: f64,
-    seed: u64,
-    result: *mut *mut ricci_mesh,
-) -> ricci_status {
-    changed(mesh, result, |soup| Ok(shapes::noise(soup, amplitude, seed)?))
-}
-
-/// Map a surface by the inversion in a sphere, a conformal map; faces keep their outside.
-///
-/// @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (also: the mesh is intrinsic).
-///
-/// @param mesh    the surface.
-/// @param centre  3 entries: the centre of the sphere, away from every vertex.
-/// @param radius  its radius.
-/// @param result  out: the new handle, to be released by ricci_mesh_free.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_mesh_invert(
-    mesh: *const ricci_mesh,
-    centre: *const f64,
-    radius: f64,
-    result: *mut *mut ricci_mesh,
-) -> ricci_status {
-    changed(mesh, result, |soup| {
-        let centre: Vec<[f64; 3]> = arrays::array("centre", centre.cast(), 1)?;
-        Ok(shapes::invert(soup, centre[0], radius)?)
+    guard::call(|| {
+        let tau = period_matrix(&branch_points(points, n_points)?)?;
+        let entries: Vec<f64> = tau.iter().flatten().flat_map(|z| [z.re, z.im]).collect();
+        arrays::copy_out("periods", &entries, periods, capacity)
     })
 }

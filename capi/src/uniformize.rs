@@ -1,47 +1,375 @@
-//! Uniformization: one call for every closed surface.
+//! Closed surfaces in their canonical shape: on the sphere, or as quotients of the plane or the hyperbolic plane.
 
+use crate::arrays::{check_buffer, copy_out};
 use crate::control::{self, ricci_control};
-use crate::guard::{self, output};
-use crate::mesh::ricci_mesh;
-use crate::quotient::ricci_quotient;
-use crate::sphere::ricci_sphere;
-use crate::status::ricci_status;
-use crate::uniformize_options::{read_options, ricci_uniformize_options};
-use ricci::canonical::{Uniformization, uniformize};
+use crate::domain::ricci_domain;
+use crate::failure::{Failure, Outcome};
+use crate::flow::{read_options, ricci_flow_options};
+use crate::guard::{self, handle, shared};
+use crate::homotopy::ricci_homotopy;
+use crate::layout::{MODELS, ricci_layout};
+use crate::memory;
+use crate::mesh::{SPACES, ricci_mesh};
+use crate::metric::{ON, On, SCHEMES, ricci_metric};
+use crate::paths::{halfedges, vertex_or_none};
+use crate::report::stop_reason;
+use crate::status::*;
+use crate::structs::{self, sized};
+use ricci::canonical::{Quotient, QuotientOptions, Sphere, Uniformization, quotient_of, uniformize};
+use ricci::geometry::Model;
+use ricci::topology::FundamentalDomain;
+use std::ffi::c_char;
+use std::sync::Arc;
 
-/// The metric of constant curvature in the conformal class of a closed surface: on the sphere, or as a quotient of the plane or the
-/// hyperbolic plane, by its Euler characteristic.
-///
-/// Of the options a sphere takes base, tolerance, steps and threads; its scheme is RICCI_SCHEME_YAMABE. Deterministic.
-/// @return as ricci_sphere_new and ricci_quotient_new; RICCI_LAYOUT for a surface with boundary.
-///
-/// @param mesh      the mesh; lengths are measured in space, or those of an intrinsic mesh.
-/// @param options   how; NULL for the defaults.
-/// @param control   progress and cancellation; NULL for neither.
-/// @param sphere    out: for genus 0 the new handle, to be released by ricci_sphere_free; else NULL.
-/// @param quotient  out: for genus 1 and more the new handle, to be released by ricci_quotient_free; else NULL.
+pub struct ricci_uniform {
+    pub(crate) shape: Canonical,
+    metric: ricci_metric,
+}
+handle!(ricci_uniform, "uniform");
+
+#[derive(Clone)]
+pub(crate) enum Canonical {
+    Sphere(Arc<Sphere>),
+    Quotient(Arc<Quotient>),
+}
+
+impl ricci_uniform {
+    fn sphere(&self) -> Outcome<&Arc<Sphere>> {
+        match &self.shape {
+            Canonical::Sphere(sphere) => Ok(sphere),
+            _ => Err(Failure::new(RICCI_LAYOUT, "this surface is no sphere, but the quotient of a plane")),
+        }
+    }
+
+    pub(crate) fn quotient(&self) -> Outcome<&Arc<Quotient>> {
+        match &self.shape {
+            Canonical::Quotient(quotient) => Ok(quotient),
+            _ => Err(Failure::new(RICCI_LAYOUT, "this surface is a sphere, not the quotient of a plane")),
+        }
+    }
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_uniform_options {
+    pub size: usize,
+    pub flow: *const ricci_flow_options,
+    pub start: *const ricci_metric,
+    pub base: *const u32,
+    pub scheme: u32,
+    pub reserved: u32,
+}
+// SAFETY: numbers and raw pointers; 8-byte alignment, size first.
+sized!(ricci_uniform_options, "options");
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_uniform_summary {
+    pub size: usize,
+    pub space: u32,
+    pub base: u32,
+    pub converged: u32,
+    pub stop_reason: u32,
+    pub stop_reason_text: *const c_char,
+    pub genus: usize,
+    pub iterations: usize,
+    pub n_flips: usize,
+    pub n_start_flips: usize,
+    pub max_curvature_error: f64,
+    pub angle_defect: f64,
+    pub gauss_bonnet: f64,
+    pub area: f64,
+    pub n_generators: usize,
+    pub n_sides: usize,
+    pub n_polygon: usize,
+    pub disagreement: f64,
+    pub radius: f64,
+    pub relation_residual: f64,
+    pub side_residual: f64,
+    pub base_lift: [f64; 3],
+    pub modulus: [f64; 2],
+    pub n_tried: usize,
+    pub u_range: f64,
+    pub smallest_edge: f64,
+    pub delaunay_violation: f64,
+    pub outline_turning: f64,
+    pub nonconvexity: f64,
+    pub off_centre: f64,
+}
+// SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
+sized!(ricci_uniform_summary, "summary");
+
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_uniformize(
     mesh: *const ricci_mesh,
-    options: *const ricci_uniformize_options,
+    options: *const ricci_uniform_options,
     control: *const ricci_control,
-    sphere: *mut *mut ricci_sphere,
-    quotient: *mut *mut ricci_quotient,
+    uniform: *mut *mut ricci_uniform,
 ) -> ricci_status {
-    guard::call(|door| {
-        let (sphere, quotient) = (output("sphere", sphere)?, output("quotient", quotient)?);
-        let mesh = door.shared(mesh)?;
-        let (options, control) = (read_options(options)?, control::of(control));
-        match uniformize(&mesh.surface()?, &options, &control)? {
-            Uniformization::Sphere(found) => {
-                sphere.hand_over(ricci_sphere::new(*found));
-                quotient.set(std::ptr::null_mut());
-            }
-            Uniformization::Quotient(found) => {
-                quotient.hand_over(ricci_quotient::new(*found));
-                sphere.set(std::ptr::null_mut());
+    guard::make(uniform, || {
+        let (given, control) = (structs::read(options)?, control::of(control));
+        let options = QuotientOptions {
+            scheme: SCHEMES.choose(given.scheme)?,
+            base: vertex_or_none(given.base)?,
+            flow: read_options(given.flow)?,
+        };
+        if !given.start.is_null() {
+            let start = &shared(given.start)?.0.solution;
+            let _reserve = memory::work(start.mesh().n_vertices(), memory::UNIFORM)?;
+            return of_quotient(quotient_of(start, &options, &control)?);
+        }
+        let mesh = shared(mesh)?;
+        let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::UNIFORM)?;
+        match uniformize(mesh.surface()?, &options, &control)? {
+            Uniformization::Quotient(quotient) => of_quotient(*quotient),
+            Uniformization::Sphere(sphere) => {
+                let report = &sphere.report;
+                log::info!(
+                    "uniformize: sphere {} after {} iterations, max |K| = {:.1e}",
+                    report.stop_reason,
+                    report.iterations,
+                    report.spherical_curvature_error
+                );
+                let metric = ricci_metric::at(sphere.metric.clone(), None)?;
+                Ok(ricci_uniform { shape: Canonical::Sphere(Arc::new(*sphere)), metric })
             }
         }
-        Ok(())
+    })
+}
+
+fn of_quotient(quotient: Quotient) -> Outcome<ricci_uniform> {
+    log::info!(
+        "uniformize: {} after {} iterations, max |K| = {:.1e}, side pairings within {:.1e}, relation {:.1e}",
+        quotient.report.stop_reason,
+        quotient.report.iterations,
+        quotient.angle_defect,
+        quotient.deck.side_residual,
+        quotient.deck.relation_residual
+    );
+    let metric = ricci_metric::at(quotient.metric.clone(), Some(quotient.report.clone()))?;
+    Ok(ricci_uniform { shape: Canonical::Quotient(Arc::new(quotient)), metric })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_uniform_free(uniform: *mut ricci_uniform) {
+    guard::free(uniform);
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_uniform_summarise(
+    uniform: *const ricci_uniform,
+    summary: *mut ricci_uniform_summary,
+    size: usize,
+) -> ricci_status {
+    guard::with(uniform, |uniform| {
+        let solution = &uniform.metric.0.solution;
+        let space = SPACES.number(solution.metric().space)?;
+        // SAFETY: zeros are valid (`Sized64`).
+        let mut figures: ricci_uniform_summary = unsafe { std::mem::zeroed() };
+        figures.modulus = [f64::NAN; 2];
+        let stop = match &uniform.shape {
+            Canonical::Sphere(sphere) => {
+                sphere_figures(sphere, &mut figures);
+                sphere.report.stop_reason
+            }
+            Canonical::Quotient(quotient) => {
+                quotient_figures(quotient, &mut figures);
+                quotient.report.stop_reason
+            }
+        };
+        let (stop_reason, stop_reason_text) = stop_reason(stop)?;
+        figures.n_start_flips = solution.start_flips();
+        figures.n_flips = solution.flips() - figures.n_start_flips;
+        structs::write(
+            ricci_uniform_summary { space, stop_reason, stop_reason_text, ..figures },
+            summary,
+            size,
+        )
+    })
+}
+
+fn sphere_figures(sphere: &Sphere, figures: &mut ricci_uniform_summary) {
+    let report = &sphere.report;
+    *figures = ricci_uniform_summary {
+        base: report.puncture.0,
+        converged: report.converged.into(),
+        iterations: report.iterations,
+        max_curvature_error: report.max_curvature_error,
+        angle_defect: report.spherical_curvature_error,
+        gauss_bonnet: report.gauss_bonnet,
+        area: 4.0 * std::f64::consts::PI,
+        n_tried: report.tried,
+        u_range: report.u_range,
+        smallest_edge: report.smallest_edge,
+        delaunay_violation: report.delaunay_violation,
+        outline_turning: report.link_turning,
+        nonconvexity: report.nonconvexity,
+        off_centre: report.centring,
+        ..*figures
+    };
+}
+
+fn quotient_figures(quotient: &Quotient, figures: &mut ricci_uniform_summary) {
+    let Quotient { report, angle_defect, layout, basis, deck, .. } = quotient;
+    *figures = ricci_uniform_summary {
+        base: basis.base.0,
+        converged: report.converged().into(),
+        genus: basis.group.genus,
+        iterations: report.iterations,
+        max_curvature_error: report.max_curvature_error,
+        angle_defect: *angle_defect,
+        gauss_bonnet: report.gauss_bonnet,
+        area: layout.area,
+        n_generators: deck.generators.len(),
+        n_sides: deck.sides.len(),
+        n_polygon: deck.group.relator().len(),
+        disagreement: layout.disagreement,
+        radius: layout.radius,
+        relation_residual: deck.relation_residual,
+        side_residual: deck.side_residual,
+        base_lift: layout.corner(deck.corner),
+        modulus: deck.modulus().unwrap_or([f64::NAN; 2]),
+        ..*figures
+    };
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_uniform_metric(
+    uniform: *const ricci_uniform,
+    metric: *mut *mut ricci_metric,
+) -> ricci_status {
+    guard::make(metric, || Ok(ricci_metric(shared(uniform)?.metric.0.clone())))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_uniform_homotopy(
+    uniform: *const ricci_uniform,
+    homotopy: *mut *mut ricci_homotopy,
+) -> ricci_status {
+    guard::make(homotopy, || {
+        let quotient = shared(uniform)?.quotient()?;
+        Ok(ricci_homotopy { mesh: quotient.metric.mesh().clone(), basis: quotient.basis.clone() })
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_uniform_domain(
+    uniform: *const ricci_uniform,
+    domain: *mut *mut ricci_domain,
+) -> ricci_status {
+    guard::make(domain, || {
+        let Quotient { metric, layout, basis, .. } = &**shared(uniform)?.quotient()?;
+        Ok(ricci_domain(FundamentalDomain::new(metric.mesh(), &layout.cut.is_cut, basis)?))
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_uniform_layout(
+    uniform: *const ricci_uniform,
+    on: u32,
+    model: u32,
+    control: *const ricci_control,
+    layout: *mut *mut ricci_layout,
+) -> ricci_status {
+    guard::make(layout, || {
+        let (uniform, control) = (shared(uniform)?, control::of(control));
+        let _reserve = memory::work(uniform.metric.0.solution.mesh().n_vertices(), memory::LAYOUT)?;
+        let (quotient, state) = (uniform.quotient()?, &uniform.metric.0);
+        let laid = match ON.choose(on)? {
+            On::Metric => quotient.layout.clone(),
+            On::Refinement => {
+                let refinement = match state.refinement(&control)? {
+                    Some(refinement) => refinement.clone(),
+                    None => Arc::new(state.solution.refinement(&control)?),
+                };
+                quotient.layout.refined(&refinement, quotient.metric.metric(), &control)?
+            }
+            On::Input => {
+                let message = "a quotient is opened along edges of the metric's triangulation: take RICCI_ON_REFINEMENT";
+                return Err(Failure::new(RICCI_LAYOUT, message));
+            }
+        };
+        ricci_layout::new(state.clone(), laid, MODELS.choose(model)?)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_uniform_polygon(
+    uniform: *const ricci_uniform,
+    corners: *mut f64,
+    angles: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(uniform, |uniform| {
+        let Quotient { layout, deck, .. } = &**uniform.quotient()?;
+        let base = layout.corner(deck.corner);
+        let (points, inside) = (deck.canonical_polygon(base)?, deck.canonical_angles(base)?);
+        check_buffer("angles", inside.len(), angles, capacity)?;
+        copy_out("corners", &points, corners, capacity.saturating_mul(3))?;
+        copy_out("angles", &inside, angles, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_uniform_lift(
+    uniform: *const ricci_uniform,
+    path: *const i32,
+    n_path: usize,
+    points: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(uniform, |uniform| {
+        let Quotient { metric, layout, deck, .. } = &**uniform.quotient()?;
+        let path = halfedges(metric.mesh(), path, n_path)?;
+        copy_out("points", &layout.lift(deck.corner, &path)?, points, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_sphere_points(
+    uniform: *const ricci_uniform,
+    model: u32,
+    points: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(uniform, |uniform| {
+        let sphere = uniform.sphere()?;
+        match MODELS.choose(model)? {
+            Model::Hyperboloid => copy_out("points", &sphere.positions, points, capacity),
+            _ => copy_out("points", &sphere.plane, points, capacity),
+        }
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_sphere_mesh(
+    uniform: *const ricci_uniform,
+    on: u32,
+    control: *const ricci_control,
+    mesh: *mut *mut ricci_mesh,
+) -> ricci_status {
+    guard::make(mesh, || {
+        let uniform = shared(uniform)?;
+        let (sphere, state) = (uniform.sphere()?, &uniform.metric.0);
+        let on = ON.choose(on)?;
+        let own = || ricci_mesh::in_space(state.solution.mesh().clone(), Arc::new(sphere.positions.to_vec()));
+        if on == On::Input {
+            return Err(Failure::new(
+                RICCI_LAYOUT,
+                "the polyhedron has the metric's faces: take RICCI_ON_METRIC",
+            ));
+        }
+        Ok(match state.refinement(&control::of(control))?.filter(|_| on == On::Refinement) {
+            Some(refinement) => {
+                // A combination of the ends of an edge, as vectors, has the direction of its point on the arc between them.
+                let mut points = refinement.from_final_vertices(&sphere.positions)?;
+                for p in points.iter_mut().skip(refinement.n_input_vertices) {
+                    let norm = p[0].hypot(p[1]).hypot(p[2]);
+                    *p = p.map(|x| x / norm);
+                }
+                ricci_mesh::in_space(Arc::new(refinement.mesh.clone()), Arc::new(points))
+            }
+            None => own(),
+        })
     })
 }

@@ -120,6 +120,8 @@ def run(mesh, scheme, target, flips="auto"):
         if not os.path.exists(report):
             return {"done": False, "stop_reason": done.stderr.strip()}
         found = json.load(open(report))
+        if "converged" not in found["result"]:
+            return {"done": False, "stop_reason": done.stderr.strip()}
         result = {**found["result"], "seconds": found["seconds"], "code": done.returncode}
         result["failed"] = [name for name, check in found["checks"].items() if not check["holds"]]
         result["done"] = result["converged"] and result["max_curvature_error"] <= TOLERANCE and result["broken_triangles"] == 0
@@ -130,12 +132,25 @@ def run(mesh, scheme, target, flips="auto"):
         return result
 
 
+def on_input(mesh):
+    """The layout of the default flow on the input's own faces: how many the program says fold, and the outside verdict."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(corpus, mesh["file"])
+        report, uv = (os.path.join(folder, name) for name in ("r.json", "uv.obj"))
+        line = [ricci, "flow", path, "--uv", uv, "--on", "input", "--threads", "1", "--report", report, "--quiet"]
+        done = subprocess.run(line, stderr=subprocess.PIPE, text=True, timeout=SECONDS)
+        module = outside()[0]
+        found = module.corners(uv, path) if module and done.returncode == 0 else {}
+        folded = json.load(open(report))["result"]["flipped_input_faces"] if done.returncode == 0 else None
+        return {"code": done.returncode, "folded": folded, **found}
+
+
 def work(mesh):
     print(mesh["name"], file=sys.stderr)
     genus = int(mesh["genus"])
     targets = ["default", "cones"] + ["straight"] * (int(mesh["boundary_loops"]) > 0) + ["single"] * (1 <= genus <= 3)
     flown = {(target, scheme): run(mesh, scheme, target) for target in targets for scheme in SCHEMES}
-    return flown, {scheme: run(mesh, scheme, "default", "never") for scheme in RIGID}
+    return flown, {scheme: run(mesh, scheme, "default", "never") for scheme in RIGID}, on_input(mesh)
 
 
 def kind(mesh):
@@ -230,8 +245,9 @@ def rigid_cell(x):
 
 with concurrent.futures.ProcessPoolExecutor(2) as pool:
     results = list(pool.map(work, meshes))
-flown = [(m, x) for m, (x, _) in zip(meshes, results)]
-rigid = [(m, x) for m, (_, x) in zip(meshes, results)]
+flown = [(m, x) for m, (x, _, _) in zip(meshes, results)]
+rigid = [(m, x) for m, (_, x, _) in zip(meshes, results)]
+given = [(m, x) for m, (_, _, x) in zip(meshes, results)]
 
 print("# Flow on the mesh corpus\n")
 print(f"Made by `docs/results/flow.py`: `ricci flow` on each of the {len(meshes)} meshes. Reached: converged, max |K − K̄| ≤ 1e-10, no "
@@ -251,7 +267,7 @@ table(["target", "scheme", "reached", "steps: median, most", "median flips", "la
        "degenerate pieces", "outside: metrics", "outside: layouts"], summary(flown))
 print("Per class: steps (median, most), median flips.\n")
 table(["class", "meshes"] + [f"{target} {scheme}" for target in TARGETS for scheme in SCHEMES], classes(flown))
-print("Not reached: the range of lengths is beyond doubles (diverged), rounding holds the error above 1e-10 (rounding floor: the report "
+print("Not reached: u is beyond ±5e5 (diverged), rounding holds the error above 1e-10 (rounding floor: the report "
       "states it; stalled), or Newton's method takes more than 500 steps.\n")
 table(["mesh", "target", "scheme", "why", "steps", "error"], missing(flown))
 print("## Every flow\n")
@@ -269,3 +285,13 @@ print("`--flips never`, default target: steps where reached, otherwise why not: 
       "infeasible, and how many vertices prove it. `!`: reached, but triangles of the layout are flipped.\n")
 table(["", *RIGID], [["reached", *(f"{sum(x[s]['done'] for _, x in rigid)} of {len(rigid)}" for s in RIGID)]])
 table(["mesh", *RIGID], [[m["name"], *(rigid_cell(x[s]) for s in RIGID)] for m, x in rigid])
+print("## On the input's own faces\n")
+print("`--on input`, default target: the layout made linear on each face of the input. Folded: faces of the input that turn over then "
+      "(the exact map, on the refinement, turns none over), as the report says and as `check.py corners` counts.\n")
+whole = sum(int(m["F"]) for m, _ in given)
+folded = sum(x["folded"] or 0 for _, x in given)
+same = sum(bool(x.get("same_faces")) for _, x in given)
+print(f"{sum(x['code'] == 0 for _, x in given)} of {len(given)} meshes written; {same} with the input's own faces, and so with seams on its "
+      f"edges, by the outside program. {folded} of {whole} faces folded: {100 * folded / whole:.2f} %.\n")
+table(["mesh", "faces", "folded", "share", "outside: folded"],
+      [(m["name"], m["F"], x["folded"], f"{100 * (x['folded'] or 0) / int(m['F']):.2f} %", x.get("flipped", "–")) for m, x in given])

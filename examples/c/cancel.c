@@ -23,13 +23,14 @@ static ricci_mesh *make_torus(size_t n, size_t m) {
     uint32_t *faces = malloc(6 * n * m * sizeof *faces);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < m; j++) {
-            const double a = turn * i / n, b = turn * j / m, r = 2 + cos(b) + 0.2 * sin(5 * a) * sin(3 * b);
+            const double a = turn * (double)i / (double)n, b = turn * (double)j / (double)m,
+                         r = 2 + cos(b) + 0.2 * sin(5 * a) * sin(3 * b);
             const size_t v = i * m + j, right = (i + 1) % n * m + j;
             const size_t up = i * m + (j + 1) % m, across = (i + 1) % n * m + (j + 1) % m;
             const double point[3] = {r * cos(a), r * sin(a), sin(b)};
             const size_t corners[6] = {v, right, across, v, across, up};
-            for (int k = 0; k < 3; k++) positions[3 * v + k] = point[k];
-            for (int k = 0; k < 6; k++) faces[6 * v + k] = (uint32_t)corners[k];
+            for (size_t k = 0; k < 3; k++) positions[3 * v + k] = point[k];
+            for (size_t k = 0; k < 6; k++) faces[6 * v + k] = (uint32_t)corners[k];
         }
     ricci_mesh *mesh;
     check(ricci_mesh_from_arrays(positions, 0, n * m, faces, 2 * n * m, &mesh));
@@ -41,11 +42,11 @@ static ricci_mesh *make_torus(size_t n, size_t m) {
 /* Waits until the flow has begun, then cancels it. */
 static void *cancel_when_running(void *control) {
     const struct timespec pause = {0, 1000000};
-    ricci_stage stage = RICCI_STAGE_IDLE;
+    uint32_t stage = RICCI_STAGE_IDLE;
     double fraction = 0;
     while (stage != RICCI_STAGE_FLOW) {
         nanosleep(&pause, NULL);
-        check(ricci_control_progress(control, &stage, &fraction));
+        check(ricci_control_progress(control, &stage, &fraction, NULL));
     }
     check(ricci_control_cancel(control));
     return NULL;
@@ -59,27 +60,25 @@ int main(int argc, char **argv) {
     ricci_control *control;
     check(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
     check(ricci_control_new(&control));
-    double *target = malloc(n * m * sizeof *target);
     double *before = malloc(n * m * sizeof *before), *after = malloc(n * m * sizeof *after);
-    check(ricci_target_uniform(metric, target, n * m));
-    check(ricci_metric_u(metric, before, n * m));
+    check(ricci_metric_values(metric, RICCI_METRIC_U, before, n * m));
 
     ricci_flow_options options;
-    check(ricci_flow_options_init(&options, sizeof options));
+    check(ricci_init(&options, sizeof options));
     options.method = RICCI_METHOD_GRADIENT; /* thousands of steps: it is still running when it is cancelled */
     options.max_iterations = 1000000;
 
     pthread_t other;
     pthread_create(&other, NULL, cancel_when_running, control);
-    const ricci_status status = ricci_flow(metric, target, n * m, &options, control, &result, NULL);
-    double latency = 0;
-    check(ricci_control_since_cancel(control, &latency));
+    const ricci_status status = ricci_flow(metric, NULL, &options, control, &result);
+    uint32_t stage;
+    double fraction, latency;
+    check(ricci_control_progress(control, &stage, &fraction, &latency));
     pthread_join(other, NULL);
-    check(ricci_metric_u(metric, after, n * m));
+    check(ricci_metric_values(metric, RICCI_METRIC_U, after, n * m));
 
     const int unchanged = memcmp(before, after, n * m * sizeof *before) == 0;
     printf("%zu vertices: %s; latency %.1f ms\n", n * m, ricci_status_text(status), 1000 * latency);
-    free(target);
     free(before);
     free(after);
     ricci_control_free(control);

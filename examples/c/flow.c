@@ -7,7 +7,7 @@
 
 enum { N = 48, M = 24, V = N * M, F = 2 * N * M };
 
-static double positions[V][3], target[V], curvature[V];
+static double positions[V][3], factor[V], uv[F][3][2];
 static uint32_t faces[F][3];
 
 /* Every call may fail; its message says what to do. */
@@ -20,8 +20,8 @@ static void check(ricci_status status) {
 
 static void make_torus(void) {
     const double turn = 8 * atan(1.0);
-    for (int i = 0; i < N; i++)
-        for (int j = 0; j < M; j++) {
+    for (uint32_t i = 0; i < N; i++)
+        for (uint32_t j = 0; j < M; j++) {
             const double a = turn * i / N, b = turn * j / M, r = 2 + 0.7 * cos(b);
             const uint32_t v = i * M + j, right = (i + 1) % N * M + j;
             const uint32_t up = i * M + (j + 1) % M, across = (i + 1) % N * M + (j + 1) % M;
@@ -40,43 +40,43 @@ int main(void) {
     ricci_mesh *mesh;
     check(ricci_mesh_from_arrays(&positions[0][0], sizeof positions[0], V, &faces[0][0], F, &mesh));
 
-    ricci_metric *metric;
+    ricci_metric *metric, *flat;
     check(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
-    check(ricci_target_uniform(metric, target, V)); /* a torus: 0 everywhere */
-
+    ricci_target target; /* zeros are defaults; here said: of a torus 0 everywhere */
+    check(ricci_init(&target, sizeof target));
+    target.kind = RICCI_TARGET_UNIFORM;
     ricci_flow_options options;
-    check(ricci_flow_options_init(&options, sizeof options));
+    check(ricci_init(&options, sizeof options));
     options.tolerance = 1e-11;
-    ricci_metric *flat;
-    ricci_report *report;
-    check(ricci_flow(metric, target, V, &options, NULL, &flat, &report));
+    check(ricci_flow(metric, &target, &options, NULL, &flat));
 
     ricci_report_summary done;
-    check(ricci_report_summarise(report, &done, sizeof done));
-    printf("%s after %zu iterations, max |K - target| = %.1e\n", ricci_stop_reason_text(done.stop_reason),
-           done.iterations, done.max_curvature_error);
-    check(ricci_metric_curvature(flat, curvature, V));
+    check(ricci_report_summarise(flat, &done, sizeof done));
+    printf("%s after %zu iterations, max |K - target| = %.1e\n", done.stop_reason_text, done.iterations,
+           done.max_curvature_error);
+    check(ricci_metric_values(flat, RICCI_METRIC_FACTOR, factor, V));
+    printf("vertex 0 is scaled by %.4f\n", exp(factor[0]));
 
     ricci_layout *layout;
     ricci_layout_summary plane;
-    check(ricci_layout_new(flat, target, V, NULL, &layout));
+    check(ricci_layout_new(flat, NULL, NULL, &layout));
     check(ricci_layout_summarise(layout, &plane, sizeof plane));
-    /* Edges may have been flipped: the layout's faces are then parts of those above, cut along the flipped
-     * edges. */
-    double *uv = malloc(6 * plane.n_faces * sizeof *uv);
+    check(ricci_layout_uv(layout, RICCI_ON_INPUT, &uv[0][0][0], 6 * F));
+    printf("the last face begins at (%.3f, %.3f)\n", uv[F - 1][0][0], uv[F - 1][0][1]);
+    /* Edges may have been flipped: the exact map lives on parts of the faces, cut along the flipped edges. */
+    ricci_map *map;
     uint32_t *part_of = malloc(plane.n_faces * sizeof *part_of);
-    check(ricci_layout_uv(layout, uv, 6 * plane.n_faces));
-    check(ricci_layout_input_faces(layout, part_of, plane.n_faces));
-    printf("%zu faces are %zu in the plane; the last, part of face %u, begins at (%.3f, %.3f)\n", (size_t)F,
-           plane.n_faces, (unsigned)part_of[plane.n_faces - 1], uv[6 * plane.n_faces - 6],
-           uv[6 * plane.n_faces - 5]);
+    if (!part_of) return 1;
+    check(ricci_map_new(flat, NULL, &map));
+    check(ricci_map_faces(map, RICCI_ON_INPUT, part_of, plane.n_faces));
+    printf("%zu faces are %zu in the plane, the last one part of face %u\n", (size_t)F, plane.n_faces,
+           (unsigned)part_of[plane.n_faces - 1]);
     printf("layout: %zu points, %zu seams, %zu flipped, dilatation %.3f (mean) %.3f (max)\n", plane.n_points,
            plane.n_seams, plane.n_flipped, plane.qc_mean, plane.qc_max);
 
-    free(uv);
     free(part_of);
     ricci_layout_free(layout);
-    ricci_report_free(report);
+    ricci_map_free(map);
     ricci_metric_free(flat);
     ricci_metric_free(metric);
     ricci_mesh_free(mesh);

@@ -1,154 +1,516 @@
-// C++ ownership and errors for the C face: handles that free themselves, statuses that throw.
+// C++ ownership and errors for the C face: handles that free themselves, failures that throw, queries that
+// return vectors.
 //
-//     ricci::mesh mesh = ricci::make<ricci_mesh>(ricci_mesh_read, "bunny.obj");
-//     ricci::metric metric = ricci::make<ricci_metric>(ricci_metric_new, mesh.get(), RICCI_SCHEME_YAMABE,
-//                                                      RICCI_SPACE_E2);
-//     auto counts = ricci::summary(ricci_mesh_summarise, mesh);
-//     std::vector<double> u = ricci::values(ricci_metric_u, metric, counts.n_vertices);
+//     const auto mesh = ricci::mesh::read("bunny.obj");
+//     const auto flat = ricci::flow(ricci::metric(mesh), ricci::target::automatic(8));
+//     const ricci::layout layout(flat);
+//     const std::vector<double> uv = layout.uv(), factor = flat.factor();
 //
-// C++11; nothing is hidden: every function of ricci.h takes the handles by .get().
+// C++11; nothing is hidden: every function of the C headers takes the handles by .get(), and ricci::make,
+// ricci::values and ricci::rows call those that have no method here. Objects are moved, not copied.
 //
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #ifndef RICCI_HPP
 #define RICCI_HPP
 
+#include <ricci/repair.h>
 #include <ricci/ricci.h>
+#include <ricci/shapes.h>
+#include <ricci/uniformize.h>
 
+#include <array>
 #include <cstddef>
-#include <memory>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace ricci {
 
-// A call that failed: its status, and as what() the detail message.
+// A call that failed: as what() the message, and its numbers.
 class error : public std::runtime_error {
 public:
-    explicit error(ricci_status status) : std::runtime_error(ricci_last_error()), status(status) {}
-    const ricci_status status;
+    error() : std::runtime_error(ricci_last_error()), failure_() {
+        const ricci_status told = ricci_last_failure(&failure_, sizeof failure_);
+        if (told != RICCI_OK) failure_.status = told;
+    }
+    ricci_status status() const { return failure_.status; }
+    // RICCI_ELEMENT_*, and its index: -1 where the failure has no number of one.
+    std::uint32_t element() const { return failure_.element; }
+    std::int64_t index() const { return failure_.index; }
+    double amount() const { return failure_.amount; }
+    std::size_t needed() const { return failure_.needed; }
+
+private:
+    ricci_failure failure_;
 };
 
 // Throws unless the call succeeded.
 inline void check(ricci_status status) {
-    if (status != RICCI_OK) throw error(status);
+    if (status != RICCI_OK) throw error();
 }
 
-struct deleter {
-    void operator()(ricci_mesh *p) const { ricci_mesh_free(p); }
-    void operator()(ricci_diagnosis *p) const { ricci_diagnosis_free(p); }
-    void operator()(ricci_repair *p) const { ricci_repair_free(p); }
-    void operator()(ricci_metric *p) const { ricci_metric_free(p); }
-    void operator()(ricci_report *p) const { ricci_report_free(p); }
-    void operator()(ricci_solver *p) const { ricci_solver_free(p); }
-    void operator()(ricci_layout *p) const { ricci_layout_free(p); }
-    void operator()(ricci_charts *p) const { ricci_charts_free(p); }
-    void operator()(ricci_sphere *p) const { ricci_sphere_free(p); }
-    void operator()(ricci_quotient *p) const { ricci_quotient_free(p); }
-    void operator()(ricci_homotopy *p) const { ricci_homotopy_free(p); }
-    void operator()(ricci_domain *p) const { ricci_domain_free(p); }
-    void operator()(ricci_deck *p) const { ricci_deck_free(p); }
-    void operator()(ricci_dirichlet *p) const { ricci_dirichlet_free(p); }
-    void operator()(ricci_control *p) const { ricci_control_free(p); }
+// Numbers that lie one after the other, whoever owns them.
+template <class Value> class span {
+public:
+    span() : data_(nullptr), size_(0) {}
+    span(const Value *data, std::size_t size) : data_(data), size_(size) {}
+    template <std::size_t N> span(const Value (&values)[N]) : data_(values), size_(N) {}
+    // std::vector, std::array, std::span and what else has data() and size().
+    template <class List, class = decltype(std::declval<const List &>().data())>
+    span(const List &list) : data_(list.data()), size_(list.size()) {}
+    const Value *data() const { return data_; }
+    std::size_t size() const { return size_; }
+
+private:
+    const Value *data_;
+    std::size_t size_;
 };
 
-template <class Handle> using owned = std::unique_ptr<Handle, deleter>;
+// A struct with its size, and zeros: the defaults.
+template <class Options> Options init() {
+    Options options;
+    check(ricci_init(&options, sizeof options));
+    return options;
+}
 
-using mesh = owned<ricci_mesh>;
-using diagnosis = owned<ricci_diagnosis>;
-using repair = owned<ricci_repair>;
-using metric = owned<ricci_metric>;
-using report = owned<ricci_report>;
-using solver = owned<ricci_solver>;
-using layout = owned<ricci_layout>;
-using charts = owned<ricci_charts>;
-using sphere = owned<ricci_sphere>;
-using quotient = owned<ricci_quotient>;
-using homotopy = owned<ricci_homotopy>;
-using domain = owned<ricci_domain>;
-using deck = owned<ricci_deck>;
-using dirichlet = owned<ricci_dirichlet>;
-using control = owned<ricci_control>;
+// A handle of its own.
+template <class Handle, void (*Free)(Handle *)> class owned {
+public:
+    owned() : handle_(nullptr) {}
+    explicit owned(Handle *handle) : handle_(handle) {}
+    owned(owned &&other) noexcept : handle_(other.release()) {}
+    owned &operator=(owned &&other) noexcept {
+        if (this != &other) {
+            Free(handle_);
+            handle_ = other.release();
+        }
+        return *this;
+    }
+    owned(const owned &) = delete;
+    owned &operator=(const owned &) = delete;
+    ~owned() { Free(handle_); }
+    Handle *get() const { return handle_; }
+    Handle *release() {
+        Handle *handle = handle_;
+        handle_ = nullptr;
+        return handle;
+    }
+    explicit operator bool() const { return handle_ != nullptr; }
 
-// The handle that a function of ricci.h hands out through its last parameter.
+protected:
+    Handle *handle_;
+};
+
+// The handle that a function hands out through its last parameter.
 template <class Handle, class Function, class... Arguments>
-owned<Handle> make(Function function, Arguments &&...arguments) {
+Handle *make(Function function, Arguments... arguments) {
     Handle *handle = nullptr;
-    check(function(std::forward<Arguments>(arguments)..., &handle));
-    return owned<Handle>(handle);
+    check(function(arguments..., &handle));
+    return handle;
 }
 
 // The struct that a _summarise function fills.
 template <class Handle, class Summary>
-Summary summary(ricci_status (*function)(const Handle *, Summary *, size_t), const owned<Handle> &handle) {
+Summary summary(ricci_status (*function)(const Handle *, Summary *, std::size_t), const Handle *handle) {
     Summary filled;
-    check(function(handle.get(), &filled, sizeof filled));
+    check(function(handle, &filled, sizeof filled));
     return filled;
 }
 
-// The array that a function copies out: `entries` is its capacity, rows times columns.
-template <class Handle, class Value>
-std::vector<Value> values(ricci_status (*function)(const Handle *, Value *, size_t),
-                          const owned<Handle> &handle, size_t entries) {
-    std::vector<Value> filled(entries);
-    check(function(handle.get(), filled.data(), entries));
+// The array that a function copies out through its last two parameters.
+template <class Value, class Function, class... Arguments>
+std::vector<Value> values(Function function, Arguments... arguments) {
+    std::vector<Value> filled;
+    const ricci_status asked = function(arguments..., static_cast<Value *>(nullptr), std::size_t(0));
+    if (asked == RICCI_OK) return filled;
+    const error why;
+    if (asked != RICCI_BUFFER_TOO_SMALL) throw why;
+    filled.resize(why.needed());
+    check(function(arguments..., filled.data(), filled.size()));
     return filled;
 }
 
-// Options with their defaults.
-inline ricci_flow_options flow_options() {
-    ricci_flow_options options;
-    check(ricci_flow_options_init(&options, sizeof options));
-    return options;
-}
-
-// ricci_flow; `done`, if given, receives the report.
-inline metric flow(const metric &start, const double *target, size_t n_vertices,
-                   const ricci_flow_options &options = flow_options(), report *done = nullptr,
-                   const ricci_control *control = nullptr) {
-    ricci_metric *end = nullptr;
-    ricci_report *what = nullptr;
-    check(ricci_flow(start.get(), target, n_vertices, &options, control, &end, done ? &what : nullptr));
-    if (done) done->reset(what);
-    return metric(end);
-}
-
-// Rows of different lengths, such as loops, sides and words: row i is entries[starts[i] .. starts[i + 1]).
-template <class Value> struct rows {
+// Lists of different lengths, such as loops, sides and words: list i is entries[starts[i] .. starts[i + 1]).
+template <class Value> struct lists {
     std::vector<Value> entries;
-    std::vector<size_t> starts;
-    size_t size() const { return starts.size() - 1; }
-    std::vector<Value> operator[](size_t i) const {
-        return {entries.begin() + static_cast<std::ptrdiff_t>(starts[i]),
-                entries.begin() + static_cast<std::ptrdiff_t>(starts[i + 1])};
+    std::vector<std::size_t> starts;
+    std::size_t size() const { return starts.size() - 1; }
+    std::vector<Value> operator[](std::size_t i) const {
+        const Value *data = entries.data();
+        return std::vector<Value>(data + starts[i], data + starts[i + 1]);
     }
 };
 
-// The rows that a function copies out.
-template <class Handle, class Value>
-rows<Value> values(ricci_status (*function)(const Handle *, Value *, size_t, size_t *, size_t),
-                   const owned<Handle> &handle, size_t entries, size_t n_rows) {
-    rows<Value> filled{std::vector<Value>(entries), std::vector<size_t>(n_rows + 1)};
-    check(function(handle.get(), filled.entries.data(), entries, filled.starts.data(), n_rows + 1));
+// The n lists that a function copies out through its last four parameters.
+template <class Value, class Function, class... Arguments>
+lists<Value> rows(std::size_t n, Function function, Arguments... arguments) {
+    lists<Value> filled;
+    filled.starts.resize(n + 1);
+    const ricci_status asked =
+        function(arguments..., static_cast<Value *>(nullptr), std::size_t(0), filled.starts.data(), n + 1);
+    if (asked == RICCI_OK) return filled;
+    const error why;
+    if (asked != RICCI_BUFFER_TOO_SMALL) throw why;
+    filled.entries.resize(why.needed());
+    check(function(arguments..., filled.entries.data(), filled.entries.size(), filled.starts.data(), n + 1));
     return filled;
 }
 
-// Options with their defaults.
-inline ricci_uniformize_options uniformize_options() {
-    ricci_uniformize_options options;
-    check(ricci_uniformize_options_init(&options, sizeof options));
-    return options;
+using control_handle = owned<ricci_control, ricci_control_free>;
+
+// Progress of a long call, and the means to cancel it from another thread.
+class control : public control_handle {
+public:
+    control() : control_handle(make<ricci_control>(ricci_control_new)) {}
+    void cancel() const { check(ricci_control_cancel(handle_)); }
+    // RICCI_STAGE_*, and the part of it that is done.
+    std::pair<std::uint32_t, double> progress() const {
+        std::pair<std::uint32_t, double> now;
+        check(ricci_control_progress(handle_, &now.first, &now.second, nullptr));
+        return now;
+    }
+};
+
+// What a call is told of: nothing by default.
+inline const ricci_control *of(const control *watched) { return watched ? watched->get() : nullptr; }
+
+using mesh_handle = owned<ricci_mesh, ricci_mesh_free>;
+
+class mesh : public mesh_handle {
+public:
+    using mesh_handle::mesh_handle;
+    // 3 coordinates per vertex, 3 indices per face (std::uint32_t or int).
+    template <class Index> static mesh from(span<double> positions, span<Index> faces) {
+        static_assert(std::is_integral<Index>::value && sizeof(Index) == 4, "indices of 32 bits");
+        if (positions.size() % 3 != 0 || faces.size() % 3 != 0)
+            throw std::invalid_argument("positions and faces come in threes");
+        return mesh(
+            make<ricci_mesh>(ricci_mesh_from_arrays, positions.data(), std::size_t(0), positions.size() / 3,
+                             reinterpret_cast<const std::uint32_t *>(faces.data()), faces.size() / 3));
+    }
+    template <class Index>
+    static mesh from(const std::vector<double> &positions, const std::vector<Index> &faces) {
+        return from(span<double>(positions), span<Index>(faces));
+    }
+    static mesh read(const std::string &path) {
+        return mesh(make<ricci_mesh>(ricci_mesh_read, path.c_str()));
+    }
+    static mesh made(const ricci_shape &shape) { return mesh(make<ricci_mesh>(ricci_make, &shape)); }
+    mesh with_lengths(span<double> lengths, std::uint32_t geometry = RICCI_SPACE_E2) const {
+        return mesh(
+            make<ricci_mesh>(ricci_mesh_with_lengths, get(), lengths.data(), lengths.size(), geometry));
+    }
+    void write(const std::string &path, const ricci_attributes *attributes = nullptr) const {
+        check(ricci_mesh_write(handle_, attributes, path.c_str()));
+    }
+    ricci_mesh_summary summary() const { return ricci::summary(ricci_mesh_summarise, get()); }
+    std::vector<double> values(std::uint32_t which) const {
+        return ricci::values<double>(ricci_mesh_values, get(), which);
+    }
+    std::vector<double> positions() const { return values(RICCI_POSITIONS); }
+    std::vector<double> lengths() const { return values(RICCI_LENGTHS); }
+    std::vector<std::uint32_t> faces() const { return ricci::values<std::uint32_t>(ricci_mesh_faces, get()); }
+    std::vector<std::uint32_t> edges() const { return ricci::values<std::uint32_t>(ricci_mesh_edges, get()); }
+    std::vector<std::int32_t> face_edges() const {
+        return ricci::values<std::int32_t>(ricci_mesh_face_edges, get());
+    }
+    lists<std::uint32_t> boundary() const {
+        return rows<std::uint32_t>(summary().n_boundary_loops, ricci_mesh_boundary, get());
+    }
+};
+
+// A target by rule or by value, which keeps its arrays.
+class target {
+public:
+    target() : target(RICCI_TARGET_DEFAULT, 0) {}
+    static target uniform() { return target(RICCI_TARGET_UNIFORM, 0); }
+    static target boundary() { return target(RICCI_TARGET_BOUNDARY, 0); }
+    static target automatic(std::size_t cones) { return target(RICCI_TARGET_AUTO, cones); }
+    static target single(std::uint32_t vertex) {
+        target all(RICCI_TARGET_SINGLE, 1);
+        all.vertices_.assign(1, vertex);
+        return all;
+    }
+    static target cones(span<std::uint32_t> vertices, span<double> curvatures) {
+        if (vertices.size() != curvatures.size())
+            throw std::invalid_argument("as many curvatures as vertices");
+        target all(RICCI_TARGET_CONES, vertices.size());
+        all.vertices_.assign(vertices.data(), vertices.data() + vertices.size());
+        all.curvatures_.assign(curvatures.data(), curvatures.data() + curvatures.size());
+        return all;
+    }
+    static target given(span<double> curvatures) {
+        target all(RICCI_TARGET_GIVEN, curvatures.size());
+        all.curvatures_.assign(curvatures.data(), curvatures.data() + curvatures.size());
+        return all;
+    }
+    // Valid as long as the target.
+    ricci_target get() const {
+        ricci_target all = init<ricci_target>();
+        all.kind = kind_, all.n = n_, all.vertices = vertices_.data(), all.curvatures = curvatures_.data();
+        return all;
+    }
+
+private:
+    target(std::uint32_t kind, std::size_t n) : kind_(kind), n_(n) {}
+    std::uint32_t kind_;
+    std::size_t n_;
+    std::vector<std::uint32_t> vertices_;
+    std::vector<double> curvatures_;
+};
+
+using metric_handle = owned<ricci_metric, ricci_metric_free>;
+
+class metric : public metric_handle {
+public:
+    using metric_handle::metric_handle;
+    explicit metric(const mesh &on, std::uint32_t scheme = RICCI_SCHEME_YAMABE,
+                    std::uint32_t space = RICCI_SPACE_E2)
+        : metric_handle(make<ricci_metric>(ricci_metric_new, on.get(), scheme, space)) {}
+    ricci_metric_summary summary() const { return ricci::summary(ricci_metric_summarise, get()); }
+    std::vector<double> values(std::uint32_t which) const {
+        return ricci::values<double>(ricci_metric_values, get(), which);
+    }
+    std::vector<double> factor() const { return values(RICCI_METRIC_FACTOR); }
+    std::vector<double> curvature() const { return values(RICCI_METRIC_CURVATURE); }
+    std::vector<double> lengths() const { return values(RICCI_METRIC_LENGTH); }
+    std::vector<std::uint32_t> mirror() const {
+        return ricci::values<std::uint32_t>(ricci_metric_mirror, get());
+    }
+    ricci::mesh triangulation() const { return ricci::mesh(make<ricci_mesh>(ricci_metric_mesh, get())); }
+    std::vector<double> resolve(const target &asked, const control *watched = nullptr) const {
+        const ricci_target all = asked.get();
+        return ricci::values<double>(ricci_target_fill, get(), &all, of(watched));
+    }
+    // Of the flow that led here.
+    ricci_report_summary report() const { return ricci::summary(ricci_report_summarise, get()); }
+    std::vector<double> report_values(std::uint32_t which) const {
+        return ricci::values<double>(ricci_report_values, get(), which);
+    }
+    std::vector<std::uint32_t> report_vertices(std::uint32_t which) const {
+        return ricci::values<std::uint32_t>(ricci_report_vertices, get(), which);
+    }
+    std::vector<std::uint32_t> cones() const { return report_vertices(RICCI_REPORT_CONES); }
+};
+
+inline metric flow(const metric &start, const target &asked = target(),
+                   const ricci_flow_options &options = init<ricci_flow_options>(),
+                   const control *watched = nullptr) {
+    const ricci_target all = asked.get();
+    return metric(make<ricci_metric>(ricci_flow, start.get(), &all, &options, of(watched)));
 }
 
-// ricci_uniformize: one of the two is not null.
-inline std::pair<sphere, quotient> uniformize(const mesh &surface,
-                                              const ricci_uniformize_options &options = uniformize_options(),
-                                              const ricci_control *control = nullptr) {
-    ricci_sphere *ball = nullptr;
-    ricci_quotient *plane = nullptr;
-    check(ricci_uniformize(surface.get(), &options, control, &ball, &plane));
-    return {sphere(ball), quotient(plane)};
-}
+using solver_handle = owned<ricci_solver, ricci_solver_free>;
+
+class solver : public solver_handle {
+public:
+    explicit solver(const metric &start, const ricci_flow_options &options = init<ricci_flow_options>())
+        : solver_handle(make<ricci_solver>(ricci_solver_new, start.get(), &options)) {}
+    void pin(span<std::uint32_t> vertices) {
+        check(ricci_solver_pin(handle_, vertices.data(), vertices.size()));
+    }
+    metric solve(const target &asked, const control *watched = nullptr) {
+        const ricci_target all = asked.get();
+        return metric(make<ricci_metric>(ricci_solver_solve, get(), &all, of(watched)));
+    }
+};
+
+using layout_handle = owned<ricci_layout, ricci_layout_free>;
+
+class layout : public layout_handle {
+public:
+    using layout_handle::layout_handle;
+    explicit layout(const metric &flat, const ricci_layout_options &options = init<ricci_layout_options>(),
+                    const control *watched = nullptr)
+        : layout_handle(make<ricci_layout>(ricci_layout_new, flat.get(), &options, of(watched))) {}
+    ricci_layout_summary summary() const { return ricci::summary(ricci_layout_summarise, get()); }
+    // u, v of every corner of every face: of the caller's mesh, by default.
+    std::vector<double> uv(std::uint32_t on = RICCI_ON_INPUT) const {
+        return values<double>(ricci_layout_uv, get(), on);
+    }
+    std::vector<std::uint32_t> corners(std::uint32_t on = RICCI_ON_INPUT) const {
+        return values<std::uint32_t>(ricci_layout_corners, get(), on);
+    }
+    std::vector<double> points(std::uint32_t model) const {
+        return values<double>(ricci_layout_points, get(), model);
+    }
+    std::vector<double> seams() const { return values<double>(ricci_layout_seams, get()); }
+    lists<std::int32_t> seam_edges(std::uint32_t on = RICCI_ON_INPUT) const {
+        return rows<std::int32_t>(summary().n_seams, ricci_layout_seam_edges, get(), on);
+    }
+    std::vector<std::uint32_t> flipped(std::uint32_t on = RICCI_ON_INPUT) const {
+        return values<std::uint32_t>(ricci_layout_flipped, get(), on);
+    }
+    // Dilatations and area ratios of the faces of what is laid out.
+    std::pair<std::vector<double>, std::vector<double>> distortion() const {
+        const std::size_t n = summary().n_faces;
+        std::pair<std::vector<double>, std::vector<double>> both{std::vector<double>(n),
+                                                                 std::vector<double>(n)};
+        check(ricci_layout_distortion(handle_, both.first.data(), both.second.data(), n));
+        return both;
+    }
+    ricci::mesh laid_out() const { return ricci::mesh(make<ricci_mesh>(ricci_layout_mesh, get())); }
+    void write(const std::string &path, std::uint32_t on = RICCI_ON_REFINEMENT,
+               bool homogeneous = false) const {
+        check(ricci_layout_write(handle_, on, homogeneous ? 1 : 0, path.c_str()));
+    }
+};
+
+using map_handle = owned<ricci_map, ricci_map_free>;
+
+class map : public map_handle {
+public:
+    explicit map(const metric &flat, const control *watched = nullptr)
+        : map_handle(make<ricci_map>(ricci_map_new, flat.get(), of(watched))) {}
+    ricci_map_summary summary() const { return ricci::summary(ricci_map_summarise, get()); }
+    ricci::mesh refinement() const { return ricci::mesh(make<ricci_mesh>(ricci_map_mesh, get())); }
+    std::vector<std::uint32_t> faces(std::uint32_t on) const {
+        return values<std::uint32_t>(ricci_map_faces, get(), on);
+    }
+    std::vector<double> barycentric(std::uint32_t on) const {
+        return values<double>(ricci_map_barycentric, get(), on);
+    }
+    std::vector<double> weights() const { return values<double>(ricci_map_weights, get()); }
+    std::vector<double> carry(const ricci_carried &given) const {
+        return values<double>(ricci_map_carry, get(), &given);
+    }
+};
+
+using soup_handle = owned<ricci_soup, ricci_soup_free>;
+
+// A triangle list, whatever its defects.
+class soup : public soup_handle {
+public:
+    using soup_handle::soup_handle;
+    static soup read(const std::string &path) {
+        return soup(make<ricci_soup>(ricci_soup_read, path.c_str()));
+    }
+    static soup from(span<double> positions, span<std::uint32_t> faces) {
+        return soup(make<ricci_soup>(ricci_soup_from_arrays, positions.data(), std::size_t(0),
+                                     positions.size() / 3, faces.data(), faces.size() / 3));
+    }
+    ricci_soup_summary summary() const { return ricci::summary(ricci_soup_summarise, get()); }
+    ricci_defect defect(std::size_t index) const {
+        ricci_defect one;
+        check(ricci_soup_defect(handle_, index, &one, sizeof one));
+        return one;
+    }
+    std::vector<double> values(std::uint32_t which) const {
+        return ricci::values<double>(ricci_soup_values, get(), which);
+    }
+    std::vector<std::uint32_t> faces() const { return ricci::values<std::uint32_t>(ricci_soup_faces, get()); }
+    soup repaired(const ricci_repair_options &options = init<ricci_repair_options>()) const {
+        return soup(make<ricci_soup>(ricci_soup_repair, get(), &options));
+    }
+    // Vertices and faces of the list that was repaired.
+    std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> origins() const {
+        const ricci_soup_summary n = summary();
+        std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> both{
+            std::vector<std::uint32_t>(n.n_vertices), std::vector<std::uint32_t>(n.n_faces)};
+        check(ricci_soup_origins(handle_, both.first.data(), both.first.size(), both.second.data(),
+                                 both.second.size()));
+        return both;
+    }
+    ricci::mesh build() const { return ricci::mesh(make<ricci_mesh>(ricci_soup_mesh, get())); }
+    void write(const std::string &path) const { check(ricci_soup_write(handle_, path.c_str())); }
+};
+
+using homotopy_handle = owned<ricci_homotopy, ricci_homotopy_free>;
+
+class homotopy : public homotopy_handle {
+public:
+    using homotopy_handle::homotopy_handle;
+    explicit homotopy(const mesh &on, const std::uint32_t *base = nullptr, const control *watched = nullptr)
+        : homotopy_handle(make<ricci_homotopy>(ricci_homotopy_new, on.get(), base, of(watched))) {}
+    ricci_homotopy_summary summary() const { return ricci::summary(ricci_homotopy_summarise, get()); }
+    lists<std::int32_t> loops() const {
+        return rows<std::int32_t>(summary().n_generators, ricci_homotopy_loops, get());
+    }
+    std::vector<std::int32_t> reduced(span<std::int32_t> word) const {
+        std::vector<std::int32_t> shorter(word.size());
+        std::size_t n = 0;
+        check(ricci_homotopy_reduce(handle_, word.data(), word.size(), shorter.data(), shorter.size(), &n));
+        shorter.resize(n);
+        return shorter;
+    }
+};
+
+using deck_handle = owned<ricci_deck, ricci_deck_free>;
+
+class deck : public deck_handle {
+public:
+    using deck_handle::deck_handle;
+    ricci_deck_summary summary() const { return ricci::summary(ricci_deck_summarise, get()); }
+    lists<std::int32_t> words() const {
+        return rows<std::int32_t>(summary().n_elements, ricci_deck_words, get());
+    }
+    std::vector<double> values(std::uint32_t which) const {
+        return ricci::values<double>(ricci_deck_values, get(), which);
+    }
+    // Points in ambient coordinates, moved by one element.
+    std::vector<double> moved(std::size_t element, span<double> points) const {
+        return ricci::values<double>(ricci_deck_apply, get(), element, points.data(), points.size() / 3);
+    }
+};
+
+using dirichlet_handle = owned<ricci_dirichlet, ricci_dirichlet_free>;
+
+class dirichlet : public dirichlet_handle {
+public:
+    using dirichlet_handle::dirichlet_handle;
+    ricci_dirichlet_summary summary() const { return ricci::summary(ricci_dirichlet_summarise, get()); }
+    std::vector<double> corners() const { return values<double>(ricci_dirichlet_corners, get()); }
+    std::vector<std::int32_t> partners() const {
+        return values<std::int32_t>(ricci_dirichlet_partners, get());
+    }
+};
+
+using uniform_handle = owned<ricci_uniform, ricci_uniform_free>;
+
+// A closed surface with its metric of constant curvature.
+class uniform : public uniform_handle {
+public:
+    explicit uniform(const mesh &on, const ricci_uniform_options &options = init<ricci_uniform_options>(),
+                     const control *watched = nullptr)
+        : uniform_handle(make<ricci_uniform>(ricci_uniformize, on.get(), &options, of(watched))) {}
+    ricci_uniform_summary summary() const { return ricci::summary(ricci_uniform_summarise, get()); }
+    ricci::metric metric() const { return ricci::metric(make<ricci_metric>(ricci_uniform_metric, get())); }
+    ricci::homotopy homotopy() const {
+        return ricci::homotopy(make<ricci_homotopy>(ricci_uniform_homotopy, get()));
+    }
+    ricci::layout layout(std::uint32_t on = RICCI_ON_REFINEMENT,
+                         std::uint32_t model = RICCI_MODEL_POINCARE) const {
+        return ricci::layout(make<ricci_layout>(ricci_uniform_layout, get(), on, model, of(nullptr)));
+    }
+    ricci::deck deck(const ricci_deck_spec &spec = init<ricci_deck_spec>(),
+                     const control *watched = nullptr) const {
+        return ricci::deck(make<ricci_deck>(ricci_deck_new, get(), &spec, of(watched)));
+    }
+    ricci::dirichlet dirichlet(const double *centre = nullptr) const {
+        return ricci::dirichlet(make<ricci_dirichlet>(ricci_dirichlet_new, get(), centre, of(nullptr)));
+    }
+    std::vector<double> sphere_points(std::uint32_t model = RICCI_MODEL_AMBIENT) const {
+        return values<double>(ricci_sphere_points, get(), model);
+    }
+};
+
+using atlas_handle = owned<ricci_atlas, ricci_atlas_free>;
+
+class atlas : public atlas_handle {
+public:
+    explicit atlas(const layout &of_layout, double margin = 1.0 / 256, const control *watched = nullptr)
+        : atlas_handle(make<ricci_atlas>(ricci_atlas_new, of_layout.get(), margin, of(watched))) {}
+    ricci_atlas_summary summary() const { return ricci::summary(ricci_atlas_summarise, get()); }
+    std::vector<std::uint32_t> faces() const { return values<std::uint32_t>(ricci_atlas_faces, get()); }
+    std::vector<double> points() const { return values<double>(ricci_atlas_points, get()); }
+    std::vector<std::uint32_t> corners() const { return values<std::uint32_t>(ricci_atlas_corners, get()); }
+    void write(const std::string &path, bool homogeneous = false) const {
+        check(ricci_atlas_write(handle_, homogeneous ? 1 : 0, path.c_str()));
+    }
+};
 
 } // namespace ricci
 

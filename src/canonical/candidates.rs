@@ -1,29 +1,31 @@
 //! Which vertex to send to infinity.
 //!
-//! The plane seen from one vertex tells what it is from any other: an inversion away, on the same triangulation. With u of the centred
-//! sphere, `u' = u_i + u_v − 2 log(|x_i − x_v|/2)` in the plane seen from v. The neighbours of v come to lie at −log(2 η),
-//! whatever u; the far side at about u_i + u_v ≥ min u + u_v; what lies deep beyond v, in a finger whose tip is crowded on the
-//! sphere, at u_i − u_v. So the best v has long edges, and lies half way down the deepest finger. One vertex for each depth is looked at.
+//! The planes seen from two vertices differ by an inversion, on the same triangulation. With u of the centred sphere, the plane seen
+//! from v has `u' = u_i + u_v − 2 log(|x_i − x_v|/2)`. This is −log(2 η) at the neighbours of v, whatever u; about u_i + u_v on the far
+//! side of the sphere; and about u_i − u_v in a long finger of the surface beyond v, whose vertices are crowded on the sphere. So the
+//! range of u' is smallest for a vertex with long edges half way down the deepest finger. The depth of a vertex is the largest u minus
+//! its own, and one vertex of each depth is tried.
 //!
-//! Where the angles at an arc from v add up to nearly π, the outline seen from v is nearly straight there, and whether the arc
-//! belongs there turns on rounding: its angle's logarithm is as good as digits of u.
+//! Where the angles at an edge of v add up to nearly π, the outline seen from v is nearly straight there, and rounding decides which
+//! way it turns. The logarithm of that small angle is counted as lost digits of u.
 
 use super::star::Punctured;
 use crate::error::Result;
 use crate::mesh::{PerVertex, VertexId};
+use crate::topology::spanning::Key;
 
-/// Depths, in steps of 1 of u, at each of which the best vertex is looked at: u of surfaces in doubles has a smaller range.
+/// Number of depths, in steps of 1 of u, at each of which the best vertex is tried. The range of u of surfaces in doubles is smaller.
 const DEPTHS: usize = 64;
-/// So many of the best vertices are looked at, whatever their depth.
+/// Number of the best vertices that are tried whatever their depth.
 const BEST_ANYWHERE: usize = 8;
-/// Radians. Angles below this are all rounding, so one is as bad as the other.
+/// Radians. Smaller angles count as this one: they consist of rounding.
 const LEAST_ANGLE: f64 = 1e-12;
 
 impl Punctured {
     /// Vertices to puncture, the best one first: by the range of u in the plane seen from them, and the digits lost in narrow angles.
     /// `plane` is the present layout, `u` that of the centred sphere.
     pub fn candidates(&self, plane: &PerVertex<[f64; 2]>, u: &PerVertex<f64>) -> Result<Vec<VertexId>> {
-        // Least exterior angle of the polyhedron at the edges of a vertex.
+        // Per vertex, the least exterior angle of the polyhedron at its edges.
         let mut narrow = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
         let mut note = |v: VertexId, angle: f64| narrow[v] = narrow[v].min(angle);
         let excess = self.excess()?;
@@ -36,20 +38,16 @@ impl Punctured {
         let lost = |v: VertexId| -narrow[v].max(LEAST_ANGLE).ln();
         let top = u.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let depth = |v: VertexId| ((top - u[v]) as usize).min(DEPTHS - 1);
-        let mut all: Vec<(f64, VertexId)> =
-            self.mesh.vertices().map(|v| (self.height(v) + lost(v), v)).collect();
-        all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let all = ranked(self.mesh.vertices().map(|v| (Key(self.height(v) + lost(v)), v)));
         let mut seen = [false; DEPTHS];
         let mut chosen: Vec<VertexId> = Vec::new();
-        for (rank, &(_, v)) in all.iter().enumerate() {
+        for (rank, v) in all.into_iter().enumerate() {
             if !std::mem::replace(&mut seen[depth(v)], true) || rank < BEST_ANYWHERE {
                 chosen.push(v);
             }
         }
-        let cost = |v| (range(&self.seen_from(v, plane), v) + lost(v), v);
-        let mut ranked: Vec<(f64, VertexId)> = chosen.into_iter().map(cost).collect();
-        ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Ok(ranked.into_iter().map(|(_, v)| v).collect())
+        let cost = |v| (Key(range(&self.seen_from(v, plane), v) + lost(v)), v);
+        Ok(ranked(chosen.into_iter().map(cost)))
     }
 
     /// The vertex whose shortest edge is the longest.
@@ -63,6 +61,13 @@ impl Punctured {
     fn height(&self, v: VertexId) -> f64 {
         self.mesh.outgoing(v).map(|arc| self.bound(arc)).fold(f64::NEG_INFINITY, f64::max)
     }
+}
+
+/// Vertices in the order of their costs, and of their numbers where these are equal.
+fn ranked(costs: impl Iterator<Item = (Key, VertexId)>) -> Vec<VertexId> {
+    let mut costs: Vec<_> = costs.collect();
+    costs.sort_unstable();
+    costs.into_iter().map(|(_, v)| v).collect()
 }
 
 /// Largest minus smallest u of all vertices but the puncture.

@@ -14,8 +14,11 @@ use crate::metric::Metric;
 use std::sync::Arc;
 
 impl Punctured {
-    /// The vertices in the plane, the smallest triangle at the origin; the puncture at (∞, ∞). Errors: [`Error::Layout`] where
-    /// vertices lie in no triangle of the plane; [`Error::Cancelled`].
+    /// The vertices in the plane, the smallest triangle at the origin; the puncture at (∞, ∞).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Layout`] where vertices lie in no triangle of the plane; [`Error::Cancelled`].
     pub fn lay_out(&self, control: &Control) -> Result<PerVertex<[f64; 2]>> {
         let mut is_cut = PerEdge::filled(self.mesh.n_edges(), false);
         self.star().into_iter().for_each(|arc| is_cut[self.link(arc).edge()] = true);
@@ -36,12 +39,15 @@ impl Punctured {
         }
     }
 
-    /// The similarity of the plane after which the lifted vertices have their weighted mean at the centre of the sphere.
+    /// The similarity of the plane after which the weighted mean of the lifted vertices is the centre of the sphere.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Layout`] where half of the weight lies at one place.
     pub fn centre(&self, plane: &PerVertex<[f64; 2]>, weights: &PerVertex<f64>) -> Result<Similarity> {
         let others = || self.mesh.vertices().filter(|&v| v != self.at);
         let points: Vec<[f64; 2]> = others().map(|v| plane[v]).collect();
         let masses: Vec<f64> = others().map(|v| weights[v]).collect();
-        // Half of the weight at one place.
         conformal_barycentre(&points, &masses, weights[self.at])
             .map_err(|error| Error::Layout(error.to_string()))
     }
@@ -72,8 +78,8 @@ pub(super) fn lifted(plane: &PerVertex<[f64; 2]>) -> PerVertex<Point> {
     PerVertex::from_fn(plane.len(), |v| if plane[v][0].is_finite() { lift(plane[v]) } else { SOUTH })
 }
 
-/// The largest signed distance of a vertex over the plane of a face next to one of its faces: not positive where every edge is convex.
-/// Faces that are no triangle in doubles have no plane.
+/// The largest signed distance of a face's corner over the plane of a neighbouring face: not positive where every edge is convex.
+/// Faces without area in doubles have no plane and are left out.
 pub(super) fn nonconvexity(mesh: &Mesh, positions: &PerVertex<Point>) -> f64 {
     let over = |h| {
         let [a, b, c] = [h, mesh.next(h), mesh.prev(h)].map(|h| positions[mesh.origin(h)]);

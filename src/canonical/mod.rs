@@ -1,5 +1,17 @@
 //! Closed surfaces in their canonical shape: spheres as convex polyhedra inscribed in the unit sphere, all others as quotients of the
 //! plane or the hyperbolic plane.
+//!
+//! ```
+//! use ricci::canonical::{QuotientOptions, Uniformization, uniformize};
+//! use ricci::geometry::Space;
+//! use ricci::mesh::shapes;
+//! use ricci::{Control, Surface};
+//! let surface = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let torus = uniformize(&surface, &QuotientOptions::default(), &Control::new())?;
+//! assert!(torus.converged() && torus.space() == Space::E2);
+//! assert!(matches!(torus, Uniformization::Quotient(_)));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 mod candidates;
 mod lift;

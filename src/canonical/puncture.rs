@@ -16,21 +16,23 @@ use crate::geometry::twofold::two_sum;
 use crate::geometry::worse;
 use crate::mesh::{HalfedgeId, PerVertex};
 
-/// Vertices leave the link once the largest |K| inside, in radians, is below this: before, the outline is still far from its shape.
+/// Radians. Vertices may leave the link once the largest |K| inside is below this; before, the outline is far from its final shape.
 const SETTLED: f64 = 0.5;
-/// The widest angle, in radians, that a vertex which leaves the link is opened by at once: the surface around it is only known nearby.
+/// Radians. Largest angle of the triangle that is made where a vertex leaves the link: the metric around it is only known near the
+/// present u.
 const WIDEST_OPENING: f64 = 0.5;
-/// Radians. Below this largest |K| Newton converges quadratically: a step that raises the error was too long.
+/// Radians. Below this largest |K| Newton's method converges quadratically, so that a step which raises the error was too long.
 const QUADRATIC: f64 = 1e-3;
-/// Steps of u are not shortened below this: it is the square of an angle that is all rounding, and lengths move by squares of angles.
+/// Shortest step of u. An angle of 1e-12 is all rounding, and lengths change by the squares of angles.
 const SHORTEST_STEP: f64 = 1e-24;
-/// Radians. A triangle that opens by less than this moves nothing around it, since lengths move by the square of the angle.
+/// Radians. A triangle with a smaller angle changes the lengths around it by less than 1e-6, the square of the angle, and is made with
+/// its full angle at once.
 const NARROW: f64 = 1e-3;
 
 /// What a plane is asked for.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Goal {
-    /// The outline turns by minus this at least, radians.
+    /// Radians by which the outline may turn the wrong way at a vertex.
     pub straight: f64,
     /// Whether angles far below 1e-4 count at the end. Then edges of slivers are flipped too, and near the end a step that
     /// raises the error, because a sliver breaks on its way, is made again a quarter as long.
@@ -49,7 +51,7 @@ pub(super) struct Found {
     pub turning: f64,
 }
 
-/// The one solver of a call, and what its steps have cost.
+/// The solver that all flows of a call share, with its steps and times so far.
 pub(super) struct Solver<'a> {
     flow: Flow,
     pub options: &'a Options,
@@ -112,7 +114,7 @@ impl Punctured {
             let ended = stop_reason != StopReason::IterationLimit;
             let settled = error < SETTLED || ended;
             let go_on = entered || (settled && self.leave(&turning, error.max(goal.straight))?);
-            // Where triangles are broken at the lowest point flatness is only as sharp as the outline that was asked for.
+            // Where triangles are broken at the lowest point, angles are only as accurate as the outline that was asked for.
             let is_broken = stop_reason == StopReason::BrokenTriangles;
             let within = if is_broken { FLAT_POLYHEDRON.max(goal.straight) } else { FLAT_POLYHEDRON };
             if (!go_on && ended) || steps >= most || self.is_flat(within)? {

@@ -1,4 +1,13 @@
 //! Closed surfaces of genus 1 and more as quotients of the plane or the hyperbolic plane.
+//!
+//! ```
+//! use ricci::canonical::{QuotientOptions, uniformize_quotient};
+//! use ricci::{Control, Surface, mesh::shapes};
+//! let surface = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let torus = uniformize_quotient(&surface, &QuotientOptions::default(), &Control::new())?;
+//! assert!(torus.angle_defect < 1e-10 && torus.deck.generators.len() == 2);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::control::Control;
 use crate::embed::{DeckGroup, Layout, layout_of};
@@ -11,7 +20,8 @@ use crate::parallel::Pool;
 use crate::topology::{HomotopyBasis, central_vertex, check_vertex, homotopy_basis};
 use std::ops::RangeInclusive;
 
-/// How far the vertices of a torus may be from its base: doubles hold third powers of it, and 1e-33 of its square.
+/// How far the farthest vertex of a torus may be from its base. The third powers of these numbers are doubles, and so is what a double
+/// loses of their squares.
 const SIZES: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// What the uniformization of a surface can be asked.
@@ -51,9 +61,11 @@ pub struct Quotient {
 
 /// The metric of constant curvature in the conformal class of a closed surface of genus 1 or more, with layout and deck group.
 ///
-/// Deterministic for any number of threads.
+/// The result is the same for any number of threads.
 ///
-/// Errors: [`Error::Layout`] for a surface with boundary or of genus 0, and for a torus beyond 1e-100 to 1e100; those of
+/// # Errors
+///
+/// [`Error::Layout`] for a surface with boundary or of genus 0, and for a torus that is not between 1e-100 and 1e100 wide; those of
 /// [`Flow::new`], [`Flow::solve`], [`layout_of`], [`homotopy_basis`], [`DeckGroup::new`]; [`Error::Cancelled`].
 pub fn uniformize_quotient(
     surface: &Surface,
@@ -64,10 +76,11 @@ pub fn uniformize_quotient(
     finish(Flow::new(surface.clone(), class, &options.flow, control)?, options, control)
 }
 
-/// [`uniformize_quotient`] from where a metric of the surface is, such as another solver's result: in its scheme, in E² for genus 1, in H²
-/// for more.
+/// [`uniformize_quotient`] from a metric of the surface, such as another flow's result: in its scheme, in E² for genus 1, in H² for more.
 ///
-/// Errors: those of [`uniformize_quotient`]; [`Error::Layout`] for a metric in another space.
+/// # Errors
+///
+/// Those of [`uniformize_quotient`]; [`Error::Layout`] for a metric in another space.
 pub fn quotient_of(metric: &Solution, options: &QuotientOptions, control: &Control) -> Result<Quotient> {
     let given = metric.given();
     let space = check(given, options)?;
@@ -122,7 +135,7 @@ fn finish(mut flow: Flow, options: &QuotientOptions, control: &Control) -> Resul
             }
         }
         let basis = homotopy_basis(&mesh, &lengths, Some(base), control)?;
-        let deck = DeckGroup::new(&mesh, metric.metric(), &layout, &basis, control)?;
+        let deck = DeckGroup::new(metric.metric(), &layout, &basis, control)?;
         Ok(Quotient { report, angle_defect, metric, layout, basis, deck })
     })
 }

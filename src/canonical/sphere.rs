@@ -1,4 +1,14 @@
 //! Closed surfaces of genus 0 on the unit sphere [Riv94; Spr20; BPS15].
+//!
+//! ```
+//! use ricci::canonical::{SphereOptions, uniformize_sphere};
+//! use ricci::{Control, Surface, mesh::shapes};
+//! let surface = Surface::from_soup(&shapes::ellipsoid([1.0, 2.0, 3.0], 4)?)?;
+//! let sphere = uniformize_sphere(&surface, &SphereOptions::default(), &Control::new())?;
+//! assert!(sphere.report.converged);
+//! assert!(sphere.positions.iter().all(|[x, y, z]| (x * x + y * y + z * z - 1.0).abs() < 1e-14));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::candidates::range;
 use super::lift::{lifted, nonconvexity, off_centre};
@@ -9,17 +19,17 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Seconds, Solution, StopReason};
 use crate::geometry::twofold::two_sum;
-use crate::geometry::{Space, largest, triangle};
+use crate::geometry::{Space, Twofold, largest, triangle};
 use crate::mesh::{Mesh, PerVertex, Point, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Curvature, Metric, Surface};
 use crate::parallel::Pool;
 use crate::topology::check_vertex;
 
-/// Radians. The angles opposite an edge of a result may exceed π, and its outline turn the wrong way, by this: far above rounding, and
-/// far below what a wrong edge does.
+/// Radians. The angles opposite an edge of a result may exceed π by this, and its outline may turn the wrong way by this: it is far above
+/// rounding, and far below the excess at a wrong edge.
 const DELAUNAY: f64 = 1e-9;
-/// Newton steps on the sphere after the lift, at most: one or two make up for rounding.
+/// Most Newton steps on the sphere after the lift. One or two correct the rounding of the plane.
 const POLISH_STEPS: usize = 10;
 
 /// Options of [`uniformize_sphere`].
@@ -44,7 +54,7 @@ impl Default for SphereOptions {
 /// What became of a sphere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereReport {
-    /// Plane and sphere have K = 0 to the tolerance, every edge is Delaunay and the outline convex to 1e-9.
+    /// Whether plane and sphere have K = 0 to the tolerance, every edge is Delaunay and the outline is convex, these two to 1e-9.
     pub converged: bool,
     /// Why the last flow stopped; `stalled` also where it came to its target and the polyhedron is not the one asked for.
     pub stop_reason: StopReason,
@@ -95,12 +105,14 @@ pub struct Sphere {
     pub report: SphereReport,
 }
 
-/// A surface of genus 0 as a convex polyhedron in the unit sphere: the one whose edges are, after flips inside the conformal class, chords of lengths in that class. Its vertices are moved by the Möbius transformation
-/// after which `Σ w x = 0`, w one third of the area of the given faces at a vertex; they are determined up to a rotation.
+/// A surface of genus 0 as a convex polyhedron in the unit sphere: the one whose edges, after flips inside the conformal class, are chords
+/// of lengths in that class. A Möbius transformation makes `Σ w x = 0`, where w is one third of the area of the given faces at a vertex;
+/// the positions are then determined up to a rotation.
 ///
-/// A vertex is sent to infinity, the rest flows to the plane, and is lifted.
+/// One vertex is sent to infinity, the others flow to the plane, and the plane is lifted to the sphere.
 ///
 /// # Errors
+///
 /// [`Error::Argument`] for a surface that is no sphere, or of fewer than four vertices; lengths and triangles as for [`Flow::new`];
 /// [`Error::Layout`] where all vertices come to lie on one circle (the double of a polygon without inner vertices), where one has half
 /// of the area or more, and where no plane was found; [`Error::Cancelled`].
@@ -116,13 +128,13 @@ fn check(given: &Mesh, options: &SphereOptions) -> Result<()> {
         let value =
             format!("{kind}, of {} vertices and Euler characteristic {}", given.n_vertices(), given.euler());
         let need = "one closed surface of genus 0 with at least four vertices (cut each triangle into four)";
-        return Err(Error::Argument { what: "surface", value, need });
+        return Err(Error::argument("surface", value, need));
     }
     flow(options).check()?;
     options.puncture.map_or(Ok(()), |v| check_vertex(given, v))
 }
 
-/// Options of the flows.
+/// Options of all flows of a call.
 fn flow(options: &SphereOptions) -> Options {
     let &SphereOptions { tolerance, max_iterations, threads, .. } = options;
     Options { tolerance, max_iterations, threads, ..Options::default() }
@@ -134,7 +146,7 @@ fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> 
     let n = mesh.n_vertices();
     let mut metric = Metric { space: Space::E2, u: PerVertex::filled(n, 0.0), ..metric };
     let unit = unit(&metric);
-    metric.eta.iter_mut().for_each(|eta| *eta = *eta / unit / unit);
+    metric.eta.iter_mut().for_each(|eta| *eta = scaled_by(*eta, 1.0 / unit));
     let weights = vertex_areas(surface, unit);
     let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
     let flow = flow(options);
@@ -195,7 +207,7 @@ fn raised(flat: Flat, from: Solution, unit: f64, tried: &mut Tried) -> Result<Sp
         nonconvexity: nonconvexity(&surface.mesh, &positions),
         centring: off_centre(&positions, tried.weights),
     };
-    metric.eta.iter_mut().for_each(|eta| *eta = *eta * unit * unit);
+    metric.eta.iter_mut().for_each(|eta| *eta = scaled_by(*eta, unit));
     for (u, low) in metric.u.iter_mut().zip(metric.u_low.iter_mut()) {
         let (sum, lost) = two_sum(*u, -unit.ln());
         (*u, *low) = two_sum(sum, lost + *low);
@@ -225,8 +237,13 @@ fn polished(mesh: &Mesh, lifted: Metric, solver: &mut Solver) -> Result<(Metric,
 /// A power of two of about the size of the longest edge: with η over its square nothing depends on the size of the surface, and
 /// nothing is rounded.
 fn unit(metric: &Metric) -> f64 {
-    let largest = metric.eta.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let largest = metric.eta.iter().map(|eta| eta.high).fold(f64::MIN_POSITIVE, f64::max);
     2f64.powi((0.5 * largest.log2()).round() as i32)
+}
+
+/// η times the square of a unit, which is a power of two.
+fn scaled_by(eta: Twofold, unit: f64) -> Twofold {
+    Twofold { high: eta.high * unit * unit, low: eta.low * unit * unit }
 }
 
 /// One third of the area of the faces at each vertex; in E² in units of `unit²`.

@@ -11,24 +11,24 @@
 //! The bound is the Delaunay condition with the horocycle of ∞ as one of the circles: the triangulation at given u is its one.
 
 use crate::error::{Error, Result};
-use crate::geometry::Space;
 use crate::geometry::conformal::{differences, edge, in_one_unit};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::angles_from;
+use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Flip, HalfedgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::delaunay::ClassFlips;
 use crate::parallel;
 use std::f64::consts::PI;
 
-/// A u this far above its bound is off it: rounding of u and η is far below.
+/// A vertex is above its bound if its u exceeds the bound by more than this, which is far above the rounding of u and η.
 const OFF_BOUND: f64 = 1e-12;
-/// Flips per edge before a star is given up: surfaces need less than one, and rounding could make one go in circles.
+/// Most flips per edge. Surfaces need less than one; rounding could make a sequence of flips come back to where it was.
 const MOST_FLIPS_PER_EDGE: usize = 100;
-/// Rounding of η moves an angle π − φ by a few ε/φ: an edge is not flipped where the angles opposite it exceed π by less than this
-/// multiple of ε/φ.
+/// Rounding of η (of relative size ε) changes an angle π − φ by a few ε/φ. An edge is not flipped where the angles opposite it exceed π
+/// by less than this multiple of ε/φ.
 const ANGLE_ROUNDINGS: f64 = 32.0;
-/// Radians. Nor is it flipped where they exceed π by less than this, which is rounding whatever φ is.
+/// Radians. An edge is not flipped either where the angles exceed π by less than this: rounding is that large whatever φ is.
 const LEAST_EXCESS: f64 = 1e-12;
 /// Radians. A polyhedron whose dihedral angles are all this close to 0 and π is flat: where they are within δ, rounding leaves the
 /// spherical metric |K| up to 6e-15/δ (measured), which is above the default tolerance of 1e-10 here.
@@ -44,7 +44,7 @@ pub(super) struct Punctured {
     pub metric: Metric,
     /// The puncture, ∞.
     pub at: VertexId,
-    /// Told every flip.
+    /// Sets of curves that record every flip.
     pub followed: Vec<NormalCoordinates>,
     /// Flips so far.
     pub flips: usize,
@@ -68,13 +68,13 @@ impl Punctured {
 
     /// Least u that the tip of a half-edge may have if its origin is the puncture.
     pub fn bound(&self, arc: HalfedgeId) -> f64 {
-        -(2.0 * self.metric.eta[arc.edge()]).ln()
+        -(2.0 * self.metric.eta[arc.edge()].high).ln()
     }
 
     /// Length of an edge.
     pub fn length(&self, h: HalfedgeId) -> f64 {
         let [a, b] = self.mesh.ends(h.edge()).map(|v| self.metric.u[v]);
-        (2.0 * self.metric.eta[h.edge()]).sqrt() * (0.5 * (a + b)).exp()
+        (2.0 * self.metric.eta[h.edge()].high).sqrt() * (0.5 * (a + b)).exp()
     }
 
     /// A u of the puncture with which arcs are so long that the star's faces are triangles too.
@@ -104,7 +104,7 @@ impl Punctured {
             let (e, need) = (sides[k], "one that gives the edge a length in the range of doubles at this u");
             let eta = self.metric.eta[e];
             let made = edge(Space::E2, corners[(k + 1) % 3], corners[(k + 2) % 3], eta);
-            made.ok_or(Error::EdgeWeight { edge: e.index(), eta, need })
+            made.ok_or(Error::EdgeWeight { edge: e.index(), eta: eta.high, need })
         };
         let mut edges = [side(0)?, side(1)?, side(2)?];
         let unit = in_one_unit(&mut corners, &mut edges);
@@ -114,7 +114,7 @@ impl Punctured {
     /// The face of a half-edge with its corner there. Errors: [`Error::Connectivity`] outside the surface, which is closed.
     fn corner(&self, h: HalfedgeId) -> Result<(FaceId, usize)> {
         let message = "has no face, on a surface that should be closed";
-        self.mesh.corner(h).ok_or(Error::Connectivity { element: "half-edge", index: h.index(), message })
+        self.mesh.corner(h).ok_or(Error::connectivity("half-edge", h.index(), message))
     }
 
     /// Angle of the planar part in the corner that is `turn` half-edges after `h` in its face; 0 in the star, which is no part of it.
@@ -187,8 +187,9 @@ impl Punctured {
     /// Flip an edge inside the class.
     pub fn flip(&mut self, e: EdgeId) -> bool {
         let followed = &mut self.followed;
-        let mut record =
-            |mesh: &Mesh, flip: Flip| followed.iter_mut().for_each(|normal| normal.record(mesh, flip.edge));
+        let mut record = |mesh: &Mesh, flip: Flip<Twofold>| {
+            followed.iter_mut().for_each(|normal| normal.record(mesh, flip.edge))
+        };
         let flipped =
             ClassFlips { mesh: &mut self.mesh, metric: &mut self.metric, record: &mut record }.flip(e);
         self.flips += usize::from(flipped);
@@ -226,8 +227,11 @@ impl Punctured {
                 break;
             }
             if self.flips - before > MOST_FLIPS_PER_EDGE * self.mesh.n_edges() {
-                let message = "flips around a puncture do not end";
-                return Err(Error::Connectivity { element: "vertex", index: self.at.index(), message });
+                return Err(Error::connectivity(
+                    "vertex",
+                    self.at.index(),
+                    "flips around a puncture do not end",
+                ));
             }
         }
         for arc in self.star() {

@@ -5,16 +5,15 @@ use super::star::{FLAT_POLYHEDRON, NEARLY_FLAT, Punctured};
 use crate::error::{Error, Result};
 use crate::geometry::worse;
 use crate::mesh::{Mesh, PerVertex, VertexId};
-use crate::topology::farthest_vertices;
-use crate::topology::spanning::shortest_paths_under;
+use crate::topology::{farthest_vertices, shortest_paths};
 
-/// The first plane only tells from which vertex the plane is best: its outline may turn the wrong way a little.
+/// The first plane is only used to find the vertex from which the plane is best, so that its outline may turn the wrong way a little.
 const FIRST_PLANE: Goal = Goal { straight: 1e-4, slivers: false };
 /// The last plane: its outline is convex but for rounding.
 const LAST_PLANE: Goal = Goal { straight: 1e-12, slivers: true };
-/// Vertices that are tried, until the flow from one ends well: first from a guess, then from the plane that was found.
+/// Most vertices that are tried, first from a guess, then from the plane that was found, until the flow from one ends well.
 const TRIES: usize = 8;
-/// Newton steps from the first plane to the plane seen from another vertex. It takes 1, and some more where angles are narrow.
+/// Most Newton steps from the first plane to the plane seen from another vertex. One is usual; narrow angles take some more.
 const STEPS_FROM_A_PLANE: usize = 60;
 
 /// A punctured surface, its plane, and how it was found.
@@ -41,7 +40,7 @@ impl Flat {
     }
 }
 
-/// What was done so far, and with what.
+/// The flows that were started so far, and what they need.
 pub(super) struct Tried<'a> {
     /// Flows that were started.
     pub flows: usize,
@@ -72,7 +71,7 @@ impl<'a> Tried<'a> {
             Err(error) if self.is_flat || error == Error::Cancelled => return Err(error),
             known => {
                 let lengths = begin.metric.lengths(&begin.mesh)?;
-                let others = farthest_vertices(&begin.mesh, &lengths, widest, TRIES)?;
+                let others = farthest_vertices(&begin.mesh, &lengths, widest, TRIES, self.solver.control)?;
                 self.guessed(begin, &others[1..], known.ok().as_ref())?
             }
         };
@@ -96,7 +95,7 @@ impl<'a> Tried<'a> {
     fn guessed(&mut self, begin: &Punctured, vertices: &[VertexId], known: Option<&Flat>) -> Result<Flat> {
         let (lengths, control) = (begin.metric.lengths(&begin.mesh)?, self.solver.control);
         let guess = |&v: &VertexId| {
-            let distance = shortest_paths_under(&begin.mesh, &lengths, [v], control)?.distance;
+            let distance = shortest_paths(&begin.mesh, &lengths, [v], control)?.distance;
             let mut surface = Punctured { at: v, ..begin.clone() };
             let u = |i| if i == v { 0.0 } else { -2.0 * distance[i].ln() };
             surface.metric.u = PerVertex::from_fn(distance.len(), u);
@@ -105,8 +104,11 @@ impl<'a> Tried<'a> {
         self.first_good(vertices.iter().map(guess), known, FIRST_PLANE)
     }
 
-    /// The first flow that ends well, or the one of them and of what was `known` that is least off. Errors: [`Error::Layout`] where all
-    /// vertices lie on one circle, or no flow came to a plane; [`Error::Cancelled`].
+    /// The result of the first flow that ends well; if none does, the one with the least error, `known` included.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Layout`] where all vertices lie on one circle, or no flow came to a plane; [`Error::Cancelled`].
     fn first_good(
         &mut self,
         surfaces: impl IntoIterator<Item = Result<Punctured>>,

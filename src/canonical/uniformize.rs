@@ -1,4 +1,13 @@
 //! One call for every closed surface.
+//!
+//! ```
+//! use ricci::canonical::{QuotientOptions, uniformize};
+//! use ricci::{Control, Surface, geometry::Space, mesh::shapes};
+//! let surface = Surface::from_soup(&shapes::icosphere(3)?)?;
+//! let sphere = uniformize(&surface, &QuotientOptions::default(), &Control::new())?;
+//! assert!(sphere.converged() && sphere.space() == Space::S2);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::quotient::{Quotient, QuotientOptions, uniformize_quotient};
 use super::sphere::{Sphere, SphereOptions, uniformize_sphere};
@@ -40,14 +49,16 @@ impl Uniformization {
     }
 }
 
-/// The metric of constant curvature in the conformal class of a closed surface: on the sphere, in the plane or in the hyperbolic plane, by its
-/// Euler characteristic.
+/// The metric of constant curvature in the conformal class of a closed surface. Its Euler characteristic decides whether it lies on the
+/// sphere, in the plane or in the hyperbolic plane.
 ///
-/// Of the options a sphere takes the base as its puncture, tolerance, steps and threads; its
-/// scheme is [`Scheme::Yamabe`].
+/// For a surface of genus 0 the base is the puncture, the tolerance, the step limit and the threads of the flow are used, and the
+/// scheme must be [`Scheme::Yamabe`].
 ///
-/// Errors: [`Error::Layout`] for a surface with boundary; [`Error::Argument`] for a sphere in another scheme; those of
-/// [`uniformize_sphere`] and [`uniformize_quotient`].
+/// # Errors
+///
+/// [`Error::Layout`] for a surface with boundary; [`Error::Argument`] for a sphere in another scheme; those of [`uniformize_sphere`] and
+/// [`uniformize_quotient`].
 pub fn uniformize(surface: &Surface, options: &QuotientOptions, control: &Control) -> Result<Uniformization> {
     let mesh = surface.mesh();
     if !mesh.is_closed() || mesh.euler() <= 0 {
@@ -55,8 +66,11 @@ pub fn uniformize(surface: &Surface, options: &QuotientOptions, control: &Contro
         return Ok(Uniformization::Quotient(Box::new(quotient)));
     }
     if options.scheme != Scheme::Yamabe {
-        let need = "yamabe: spheres are uniformized by vertex scaling";
-        return Err(Error::Argument { what: "scheme", value: options.scheme.to_string(), need });
+        return Err(Error::argument(
+            "scheme",
+            options.scheme,
+            "yamabe: spheres are uniformized by vertex scaling",
+        ));
     }
     let flow = &options.flow;
     let sphere = SphereOptions {

@@ -10,7 +10,7 @@ use std::collections::{BTreeSet, BinaryHeap};
 
 /// Faces between two looks at the control.
 const FACES_PER_STEP: usize = 4096;
-/// No chart.
+/// The chart number of a face that no chart has yet.
 const NONE: u32 = u32::MAX;
 
 /// How a face lies in the plane.
@@ -18,7 +18,7 @@ const NONE: u32 = u32::MAX;
 pub(super) enum Lie {
     /// Counterclockwise, with more area than rounding could have given it.
     Solid,
-    /// No area beyond rounding: it overlaps nothing, and goes with the chart that reaches it first.
+    /// Without an area that rounding could not have given it: it overlaps nothing, and belongs to the chart that reaches it first.
     Degenerate,
     /// Clockwise: a chart of its own.
     Flipped,
@@ -27,12 +27,13 @@ pub(super) enum Lie {
 /// A surface in the plane, to be cut into charts.
 pub(super) struct Sheet<'a> {
     pub mesh: &'a Mesh,
-    pub triangles: &'a [Triangle],
-    pub lie: &'a PerFace<Lie>,
+    /// Per face, its corners in the layout.
+    pub layout: Vec<Triangle>,
+    pub lie: PerFace<Lie>,
     /// Edges across which faces may be in one chart.
-    pub joined: &'a PerEdge<bool>,
-    /// Per face: its area, in any unit.
-    pub area: &'a PerFace<f64>,
+    pub joined: PerEdge<bool>,
+    /// Per face: twice its area in the layout.
+    pub area: PerFace<f64>,
 }
 
 /// The chart of each face, numbered by their area, the largest first.
@@ -41,10 +42,15 @@ pub(super) struct Partition {
     pub count: usize,
 }
 
-/// Cut a sheet into charts: connected, their solid faces with disjoint interiors, exactly. `done` and `share`: what of the control's
-/// stage is over, and what this takes.
-pub(super) fn partition(sheet: &Sheet, [done, share]: [f64; 2], control: &Control) -> Result<Partition> {
-    let mut growth = Growth::new(sheet, control)?;
+/// Cuts a sheet into connected charts. Where its faces have these `triangles`, the interiors of the solid faces of one chart are disjoint,
+/// exactly. `done` and `share`: the part of the control's stage that is over, and the part that this call takes.
+pub(super) fn partition(
+    sheet: &Sheet,
+    triangles: &[Triangle],
+    [done, share]: [f64; 2],
+    control: &Control,
+) -> Result<Partition> {
+    let mut growth = Growth::new(sheet, triangles, control)?;
     growth.grow([done, share], control)?;
     growth.join(control)?;
     Ok(growth.numbered())
@@ -53,6 +59,7 @@ pub(super) fn partition(sheet: &Sheet, [done, share]: [f64; 2], control: &Contro
 /// Charts in the making.
 struct Growth<'a> {
     sheet: &'a Sheet<'a>,
+    triangles: &'a [Triangle],
     chart: PerFace<u32>,
     /// The faces of each chart.
     members: Vec<Vec<FaceId>>,
@@ -61,22 +68,22 @@ struct Growth<'a> {
 
 impl<'a> Growth<'a> {
     /// Every flipped face is a chart, the others are in none yet.
-    fn new(sheet: &'a Sheet<'a>, control: &Control) -> Result<Growth<'a>> {
+    fn new(sheet: &'a Sheet<'a>, triangles: &'a [Triangle], control: &Control) -> Result<Growth<'a>> {
         let mut chart = PerFace::filled(sheet.mesh.n_faces(), NONE);
         let mut members = Vec::new();
         for f in sheet.mesh.faces().filter(|&f| sheet.lie[f] == Lie::Flipped) {
             chart[f] = members.len() as u32;
             members.push(vec![f]);
         }
-        Ok(Growth { sheet, chart, members, tree: BoxTree::new(sheet.triangles, control)? })
+        Ok(Growth { sheet, triangles, chart, members, tree: BoxTree::new(triangles, control)? })
     }
 
-    /// A face that is in the way of others, and they of it.
+    /// Whether a face counts for overlap.
     fn is_solid(&self, f: FaceId) -> bool {
         self.sheet.lie[f] == Lie::Solid
     }
 
-    /// Whether a face overlaps what is in the tree.
+    /// Whether a face overlaps one in the tree.
     fn is_refused(&self, f: FaceId) -> bool {
         self.is_solid(f) && self.tree.meeting(f.index()).is_some()
     }
@@ -100,11 +107,11 @@ impl<'a> Growth<'a> {
     }
 
     fn centre(&self, f: FaceId) -> [f64; 2] {
-        let [a, b, c] = self.sheet.triangles[f.index()];
+        let [a, b, c] = self.triangles[f.index()];
         [0, 1].map(|k| a[k] / 3.0 + b[k] / 3.0 + c[k] / 3.0)
     }
 
-    /// Grow charts until every face is in one.
+    /// Grows charts until every face is in one.
     fn grow(&mut self, [before, share]: [f64; 2], control: &Control) -> Result<()> {
         let mut seeds: Vec<FaceId> = self.sheet.mesh.faces().filter(|&f| self.chart[f] == NONE).collect();
         let sheet = self.sheet;
@@ -130,7 +137,7 @@ impl<'a> Growth<'a> {
                     control.step(Stage::Layout, before + share * part)?;
                 }
                 if self.is_refused(f) {
-                    // The chart only grows: what overlaps it now always will.
+                    // The chart only grows, so that a face that overlaps it now always will.
                     refused[f] = number;
                     continue;
                 }
@@ -151,7 +158,7 @@ impl<'a> Growth<'a> {
         Ok(())
     }
 
-    /// Join charts that hang together and do not overlap: each, from the largest down, with its neighbours, the largest first.
+    /// Joins charts that hang together and do not overlap: each, from the largest down, with its neighbours, the largest first.
     fn join(&mut self, control: &Control) -> Result<()> {
         let size = |g: &Self, c: u32| -> f64 { g.members[c as usize].iter().map(|f| g.sheet.area[*f]).sum() };
         let mut order: Vec<(Key, Reverse<u32>)> =

@@ -1,15 +1,28 @@
-//! Charts: a layout that overlaps itself, cut into pieces that do not and packed into the unit square.
+//! Charts: a layout that overlaps itself is cut into pieces that do not, and these are packed into the unit square.
 //!
 //! Charts grow face by face around a seed, in the order of the distance from it; a face whose image would overlap the chart stays
-//! outside. Overlap is decided exactly ([`super::overlap`]). Seeds are the largest faces that are left. A layout that is injective
+//! outside. Overlap is decided exactly ([`super::overlap`]). Each seed is the largest face that has no chart yet. An injective layout
 //! grows into one chart. At the end charts that fit together are joined.
 //!
-//! Packed, the charts are looked at again: scaling and moving rounds coordinates to those of the unit square, and a vertex that
-//! nearly touched another face may then lie inside it. Such charts are cut once more and all are packed anew, until what comes out
-//! does not overlap. A chart once cut stays cut, so that this ends.
+//! Packed charts are tested for overlap again: scaling and moving rounds coordinates to those of the unit square, and a vertex that
+//! nearly touched another face may then lie inside it. Such charts are cut once more and all are packed anew, until none overlaps itself.
+//! Charts are never joined again on the way, so that this ends.
 //!
-//! Faces that are smaller than doubles resolve are no obstacle to others: where scales span more than 1e16, as around a single
+//! Faces that are smaller than doubles resolve do not keep others out: where scales span more than 1e16, as around a single
 //! cone on a surface of high genus, whole regions shrink to a point. They stay in the chart around them.
+//!
+//! ```
+//! use ricci::embed::{ChartOptions, charts, layout};
+//! use ricci::{Control, Surface, mesh::shapes, topology::cut_graph};
+//! # fn main() -> ricci::Result<()> {
+//! let disk = Surface::from_soup(&shapes::disk(4)?)?;
+//! let cut = cut_graph(disk.mesh(), disk.lengths(), &[], &Control::new())?;
+//! let flat = layout(disk.mesh(), disk.lengths(), &cut, &Control::new())?;
+//! let charts = charts(disk.mesh(), |h| flat.uv(h), &ChartOptions::default(), &Control::new())?;
+//! assert!(charts.count() == 1 && charts.efficiency > 0.7);
+//! # Ok(())
+//! # }
+//! ```
 
 use super::chart_growth::{Lie, Partition, Sheet, partition};
 use super::corner::number_corners;
@@ -19,15 +32,16 @@ use super::shape::{Shape, extent};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::PlaneIsometry;
+use crate::geometry::complex::{distance, doubled_area};
 use crate::geometry::predicates::orientation;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge};
 use std::cmp::Ordering;
 use std::f64::consts::FRAC_PI_2;
 
-/// Coordinates in the unit square are multiples of 1/this, the spacing of doubles in its far half: everywhere the same, and no
-/// difference of two of them is rounded.
+/// Coordinates in the unit square are multiples of the inverse of this number: of the spacing of doubles between 1/2 and 1. So no difference of
+/// two coordinates is rounded.
 const GRID: f64 = (1u64 << 53) as f64;
-/// Charts keep at least this distance, so that rounding lets none touch another: many steps of the grid.
+/// Least distance of two charts, in sides of the unit square: so many steps of the grid that rounding lets no chart touch another.
 const ROOM: f64 = 64.0 / GRID;
 
 /// Options of [`charts`].
@@ -66,7 +80,7 @@ pub struct Charts {
     /// Faces whose image is clockwise, by more than what makes it degenerate. Each is a chart of its own: no motion of the plane
     /// mends it.
     pub flipped: Vec<FaceId>,
-    /// Faces without area to speak of, in the layout or in the unit square: within [`super::shape::LEAST_SHARE`] · longest edge² of zero,
+    /// Faces with an area that rounding can explain, in the layout or in the unit square: within [`super::shape::LEAST_SHARE`] · longest edge² of zero,
     /// or lower than two steps of the coordinates. They lie in the charts of their neighbours, and may overlap what is around them
     /// by as much as their own size.
     pub degenerate: Vec<FaceId>,
@@ -89,7 +103,7 @@ impl Charts {
     }
 }
 
-/// Cut a layout into charts that do not overlap themselves, and pack them.
+/// Cuts a layout into charts that do not overlap themselves, and packs them.
 ///
 /// `uv(h)`: plane coordinates of the corner at the origin of h, in its face (h inside the surface). Faces hang together across an
 /// edge where both give its ends exactly the same coordinates. Every chart is connected. In the layout and, exactly, in the
@@ -97,7 +111,8 @@ impl Charts {
 ///
 /// Deterministic. O(F log F) for layouts of bounded overlap, each time that rounding makes it necessary to cut again.
 ///
-/// Errors: [`Error::Layout`] for coordinates that are not finite or a layout without area; [`Error::Argument`] for a margin that is
+/// # Errors
+/// [`Error::Layout`] for coordinates that are not finite or a layout without area; [`Error::Argument`] for a margin that is
 /// negative or leaves no room; [`Error::Cancelled`].
 pub fn charts(
     mesh: &Mesh,
@@ -109,95 +124,135 @@ pub fn charts(
     if !(0.0..1.0).contains(&margin) {
         return Err(Error::Argument { what: "margin", value: margin.to_string(), need: "in [0, 1)" });
     }
-    let triangles: Vec<Triangle> = mesh.faces().map(|f| mesh.face_halfedges(f).map(&uv)).collect();
-    if let Some(f) = triangles.iter().position(|t| !t.as_flattened().iter().all(|x| x.is_finite())) {
+    let layout: Vec<Triangle> = mesh.faces().map(|f| mesh.face_halfedges(f).map(&uv)).collect();
+    if let Some(f) = layout.iter().position(|t| !t.as_flattened().iter().all(|x| x.is_finite())) {
         return Err(Error::Layout(format!("face {f} has coordinates that are not finite")));
     }
-    let area: f64 = triangles.iter().map(|t| doubled_area(t).abs()).sum::<f64>() * 0.5;
+    let area: f64 = layout.iter().map(|&t| doubled_area(t).abs()).sum::<f64>() * 0.5;
     if !(area > 0.0 && area.is_finite()) {
         return Err(Error::Layout("the layout has no area, or more than doubles hold".into()));
     }
-    let size = extent(&triangles.concat());
-    let mut lie = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
-        let shape = Shape::of(triangles[f.index()]);
-        match (shape.is_degenerate(size), shape.is_flipped(size)) {
-            (true, _) => Lie::Degenerate,
-            (_, true) => Lie::Flipped,
-            _ => Lie::Solid,
+    let mut sheet = Sheet::new(mesh, layout);
+    let own_seam = sheet.seams();
+    let mut cut = partition(&sheet, &sheet.layout, [0.0, 0.4], control)?;
+    let charts = loop {
+        sheet.separate(&cut.chart);
+        let charts = sheet.pack(cut, margin, control)?;
+        let placed: Vec<Triangle> = mesh.faces().map(|f| charts.face_uv(mesh, f)).collect();
+        sheet.mark_degenerate(&placed);
+        // Rounding may have made charts overlap themselves: then they are cut once more.
+        cut = partition(&sheet, &placed, [0.5, 0.4], control)?;
+        if cut.count == charts.count() {
+            break charts;
         }
-    });
-    let continuous = |e: EdgeId| {
-        let (h, t) = (e.halfedge(), e.halfedge().twin());
-        let faces = [h, t].map(|h| mesh.face(h).is_some_and(|f| lie[f] != Lie::Flipped));
-        faces == [true; 2] && uv(h) == uv(mesh.next(t)) && uv(mesh.next(h)) == uv(t)
     };
-    let mut joined = PerEdge::from_fn(mesh.n_edges(), continuous);
-    let areas = PerFace::from_fn(mesh.n_faces(), |f: FaceId| doubled_area(&triangles[f.index()]).abs());
-    let own_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
-    let cut = |triangles: &[Triangle], lie: &PerFace<Lie>, joined: &PerEdge<bool>, stage: [f64; 2]| {
-        let sheet = Sheet { mesh, triangles, lie, joined, area: &areas };
-        partition(&sheet, stage, control)
-    };
-    let Partition { mut chart, mut count } = cut(&triangles, &lie, &joined, [0.0, 0.4])?;
-
-    let (corner_index, points, scale, motions) = loop {
-        for e in mesh.edges() {
-            let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).map(|f| chart[f]));
-            joined[e] &= f == g;
-        }
-        let is_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
-        let (corner_index, n_points) = number_corners(mesh, &is_seam);
-        let mut points = vec![[0.0; 2]; n_points];
-        let mut point_chart = vec![0u32; n_points];
-        for f in mesh.faces() {
-            for h in mesh.face_halfedges(f) {
-                let k = corner_index[h] as usize;
-                (points[k], point_chart[k]) = (uv(h), chart[f]);
-            }
-        }
-        let (scale, motions) = arrange(&mut points, &point_chart, count, margin, control)?;
-        let placed: Vec<Triangle> =
-            mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| points[corner_index[h] as usize])).collect();
-        for f in mesh.faces() {
-            let [a, b, c] = placed[f.index()];
-            let flat =
-                || orientation(a, b, c) != Ordering::Greater || Shape::of([a, b, c]).is_degenerate(1.0);
-            if lie[f] == Lie::Solid && flat() {
-                lie[f] = Lie::Degenerate;
-            }
-        }
-        let again = cut(&placed, &lie, &joined, [0.5, 0.4])?;
-        if again.count == count {
-            break (corner_index, points, scale, motions);
-        }
-        (chart, count) = (again.chart, again.count);
-    };
-    let is_seam = PerEdge::from_fn(mesh.n_edges(), |e| !mesh.is_boundary_edge(e) && !joined[e]);
-    let length = |h: HalfedgeId| {
-        let (p, q) = (uv(h), uv(mesh.next(h)));
-        (p[0] - q[0]).hypot(p[1] - q[1])
-    };
-    let total = |seam: &dyn Fn(EdgeId) -> bool| -> f64 {
-        let sides = mesh.edges().filter(|&e| seam(e)).map(|e| [e.halfedge(), e.halfedge().twin()]);
-        sides.map(|[h, t]| 0.5 * (length(h) + length(t))).sum()
-    };
-    let seam_length = [&own_seam, &is_seam].map(|is_seam| total(&|e| is_seam[e]));
-    let that = |what: Lie| mesh.faces().filter(|&f| lie[f] == what).collect();
     Ok(Charts {
-        chart,
-        corner_index,
-        coordinates: points,
-        motions,
-        scale,
-        efficiency: area * scale * scale,
-        is_seam,
-        seam_length,
-        flipped: that(Lie::Flipped),
-        degenerate: that(Lie::Degenerate),
+        efficiency: area * charts.scale * charts.scale,
+        seam_length: [&own_seam, &charts.is_seam].map(|seams| sheet.length(seams)),
+        flipped: sheet.faces_that_lie(Lie::Flipped),
+        degenerate: sheet.faces_that_lie(Lie::Degenerate),
+        ..charts
     })
 }
 
-/// Turn, scale and move the points of all charts into the unit square.
+impl<'a> Sheet<'a> {
+    /// A layout with finite coordinates. Faces hang together across an edge where both give its ends the same coordinates.
+    fn new(mesh: &'a Mesh, layout: Vec<Triangle>) -> Self {
+        let size = extent(layout.as_flattened());
+        let lie = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
+            let shape = Shape::of(layout[f.index()]);
+            match (shape.is_degenerate(size), shape.is_flipped(size)) {
+                (true, _) => Lie::Degenerate,
+                (_, true) => Lie::Flipped,
+                _ => Lie::Solid,
+            }
+        });
+        let area = PerFace::from_fn(mesh.n_faces(), |f: FaceId| doubled_area(layout[f.index()]).abs());
+        let mut sheet = Sheet { mesh, layout, lie, joined: PerEdge::filled(mesh.n_edges(), false), area };
+        sheet.joined = PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| {
+            let solid = |f| sheet.lie[f] != Lie::Flipped;
+            let [left, right] = [e.halfedge(), e.halfedge().twin()];
+            match (sheet.side(left), sheet.side(right)) {
+                (Some((f, [p, q])), Some((g, [r, s]))) => solid(f) && solid(g) && p == s && q == r,
+                _ => false,
+            }
+        });
+        sheet
+    }
+
+    /// The face of a half-edge, and the half-edge's ends in the layout as this face has them; none outside the surface.
+    fn side(&self, h: HalfedgeId) -> Option<(FaceId, [[f64; 2]; 2])> {
+        let (f, k) = self.mesh.corner(h)?;
+        let corners = self.layout[f.index()];
+        Some((f, [corners[k], corners[(k + 1) % 3]]))
+    }
+
+    /// The edges inside the surface that are not joined.
+    fn seams(&self) -> PerEdge<bool> {
+        PerEdge::from_fn(self.mesh.n_edges(), |e| !self.mesh.is_boundary_edge(e) && !self.joined[e])
+    }
+
+    /// The total length of some edges inside the surface; where the two faces of an edge differ, the mean.
+    fn length(&self, edges: &PerEdge<bool>) -> f64 {
+        let length = |h| self.side(h).map_or(0.0, |(_, [p, q])| distance(p, q));
+        let seams = self.mesh.edges().filter(|&e| edges[e]).map(EdgeId::halfedge);
+        seams.map(|h| 0.5 * (length(h) + length(h.twin()))).sum()
+    }
+
+    /// Keeps faces of different charts apart from now on.
+    fn separate(&mut self, chart: &PerFace<u32>) {
+        for e in self.mesh.edges() {
+            let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| self.mesh.face(h).map(|f| chart[f]));
+            self.joined[e] &= f == g;
+        }
+    }
+
+    /// The charts of a partition, opened along the seams and moved into the unit square; nothing is measured yet.
+    fn pack(&self, cut: Partition, margin: f64, control: &Control) -> Result<Charts> {
+        let is_seam = self.seams();
+        let (corner_index, n_points) = number_corners(self.mesh, &is_seam);
+        let (mut coordinates, mut chart) = (vec![[0.0; 2]; n_points], vec![0; n_points]);
+        for f in self.mesh.faces() {
+            for (h, p) in self.mesh.face_halfedges(f).into_iter().zip(self.layout[f.index()]) {
+                let k = corner_index[h] as usize;
+                (coordinates[k], chart[k]) = (p, cut.chart[f]);
+            }
+        }
+        let (scale, motions) = arrange(&mut coordinates, &chart, cut.count, margin, control)?;
+        let (chart, efficiency, seam_length) = (cut.chart, 0.0, [0.0; 2]);
+        let (flipped, degenerate) = (Vec::new(), Vec::new());
+        Ok(Charts {
+            chart,
+            corner_index,
+            coordinates,
+            motions,
+            scale,
+            efficiency,
+            is_seam,
+            seam_length,
+            flipped,
+            degenerate,
+        })
+    }
+
+    /// Takes solid faces that rounding to the unit square has left no area for degenerate ones.
+    fn mark_degenerate(&mut self, placed: &[Triangle]) {
+        for (lie, &[a, b, c]) in self.lie.iter_mut().zip(placed) {
+            let is_flat =
+                || orientation(a, b, c) != Ordering::Greater || Shape::of([a, b, c]).is_degenerate(1.0);
+            if *lie == Lie::Solid && is_flat() {
+                *lie = Lie::Degenerate;
+            }
+        }
+    }
+
+    fn faces_that_lie(&self, lie: Lie) -> Vec<FaceId> {
+        self.mesh.faces().filter(|&f| self.lie[f] == lie).collect()
+    }
+}
+
+/// Turns, scales and moves the points of all charts into the unit square; `chart` is the chart of each point. Returns the scale and, per
+/// chart, the motion that follows it.
 fn arrange(
     points: &mut [[f64; 2]],
     chart: &[u32],
@@ -216,7 +271,7 @@ fn arrange(
         let need = "small enough to leave room between the charts";
         Error::Argument { what: "margin", value: format!("{margin} with {count} charts"), need }
     })?;
-    // Where the largest chart alone sets the scale, its least square counts, not its least rectangle.
+    // Where the largest chart alone limits the scale, it does so by its least square, not by its least rectangle.
     let square = least_square(&of_chart[0]);
     let first = std::mem::replace(&mut rectangles[0], square);
     match pack(&sides(&rectangles), margin, control)? {
@@ -241,8 +296,4 @@ fn arrange(
     }
     let motion = |c: usize| PlaneIsometry::new(angle(c), [0, 1].map(|k| places[c].at[k] - low[c][k]));
     Ok((scale, (0..count).map(motion).collect()))
-}
-
-fn doubled_area(&[a, b, c]: &Triangle) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }

@@ -1,24 +1,40 @@
 //! Finite pieces of the universal cover.
+//!
+//! ```
+//! use ricci::embed::cover::elements_to_depth;
+//! use ricci::canonical::{QuotientOptions, uniformize_quotient};
+//! use ricci::{Control, Surface, mesh::shapes};
+//! # fn main() -> ricci::Result<()> {
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 8, 8)?)?;
+//! let flat = uniformize_quotient(&torus, &QuotientOptions::default(), &Control::new())?;
+//! // The identity, and one step along each of the two generators in either direction.
+//! assert_eq!(elements_to_depth(&flat.deck, 1, 100, &Control::new())?.len(), 5);
+//! # Ok(())
+//! # }
+//! ```
 
 use super::deck::{DeckElement, DeckGroup};
-use super::dirichlet::{DirichletDomain, identity};
+use super::dirichlet::DirichletDomain;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::parallel;
 use crate::topology::SurfaceGroup;
-use crate::topology::word::{Letter, Word};
+use crate::topology::word::Letter;
 use std::collections::HashMap;
 
 /// Elements between two looks at the control.
 const ELEMENTS_PER_STEP: usize = 256;
-/// Displacements of one element along two words agree to this; it only chooses which elements are compared as words.
+/// Difference of displacements, in H² a length and in E² in units of the longest generator, up to which two elements are compared as words. One
+/// element along two words differs by far less; a larger value would only cost comparisons.
 const SAME: f64 = 1e-6;
 
 /// All deck elements of word length at most `depth` in the canonical generators, each once, shortest first, the identity to begin with.
 ///
 /// Whether two words mean the same is decided in the group ([`SurfaceGroup::equal`]), not by coordinates.
+///
+/// # Errors
 /// [`Error::TooLarge`] for more than `limit` elements; [`Error::Cancelled`].
 pub fn elements_to_depth(
     deck: &DeckGroup,
@@ -28,7 +44,7 @@ pub fn elements_to_depth(
 ) -> Result<Vec<DeckElement>> {
     let letters = (0..deck.group.n_generators())
         .flat_map(|k| [Letter::generator(k), Letter::generator(k).inverse()])
-        .map(|letter| Ok(DeckElement { word: Word::from_iter([letter]), motion: deck.letter(letter)? }))
+        .map(|letter| deck.element(letter))
         .collect::<Result<Vec<_>>>()?;
     let mut found = Found::new(deck, limit);
     let mut level = 0..1;
@@ -44,7 +60,10 @@ pub fn elements_to_depth(
 /// All deck elements that move the centre of a Dirichlet domain by at most `radius`, each once, nearest first.
 ///
 /// The segment from the centre to such an image runs through copies of the domain that all meet the disk of that radius, each next to the
-/// one before: they are reached over sides. Errors: those of [`elements_to_depth`].
+/// one before. So all are reached by steps over sides, and a step to a copy outside the disk is not taken.
+///
+/// # Errors
+/// Those of [`elements_to_depth`].
 pub fn elements_within(
     deck: &DeckGroup,
     domain: &DirichletDomain,
@@ -54,7 +73,7 @@ pub fn elements_within(
 ) -> Result<Vec<DeckElement>> {
     let home = Motion::to_origin(deck.space, precise_point(deck.space, domain.centre));
     let moved = |g: &Motion<Twofold>| g.conjugated_by(&home).displacement();
-    // As far as the centre is from γ D, γ⁻¹ of the centre is from D.
+    // The centre is as far from γ D as γ⁻¹ of the centre is from D.
     let lines = domain.lines();
     let meets = |g: &Motion<Twofold>| {
         let centre = g.inverse().conjugated_by(&home).origin();
@@ -89,7 +108,7 @@ pub fn elements_reached(
     Ok(found.elements)
 }
 
-/// Elements that were found, by what they have in common if they are equal.
+/// Elements that were found, arranged by two properties in which equal elements agree.
 struct Found {
     group: SurfaceGroup,
     elements: Vec<DeckElement>,
@@ -110,13 +129,13 @@ impl Found {
             limit: limit.max(1),
             same: if deck.space == Space::E2 && longest > 0.0 { SAME * longest } else { SAME },
         };
-        let one = identity(deck.space);
+        let one = DeckElement::identity(deck.space);
         let key = found.key(&one);
         found.insert(one, key);
         found
     }
 
-    /// Multiply element `k` by `factors` from the right; keep what is new and `wanted`.
+    /// Multiplies element `k` by `factors` from the right, and keeps products that are new and `wanted`.
     fn grow(
         &mut self,
         k: usize,

@@ -1,13 +1,26 @@
 //! The deck group of a surface of constant curvature: its fundamental group as isometries of the model space.
+//!
+//! ```
+//! use ricci::canonical::{QuotientOptions, uniformize_quotient};
+//! use ricci::{Control, Surface, mesh::shapes};
+//! # fn main() -> ricci::Result<()> {
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 8, 8)?)?;
+//! let flat = uniformize_quotient(&torus, &QuotientOptions::default(), &Control::new())?;
+//! // The deck group of a torus consists of translations that commute.
+//! assert_eq!(flat.deck.generators.len(), 2);
+//! assert!(flat.deck.relation_residual < 1e-12);
+//! # Ok(())
+//! # }
+//! ```
 
-use super::faces::Faces;
+use super::faces::{Faces, corner_of};
 use super::layout::Layout;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, worse};
-use crate::mesh::{HalfedgeId, Mesh};
+use crate::mesh::HalfedgeId;
 use crate::metric::Metric;
 use crate::topology::word::{Letter, Word};
 use crate::topology::{FundamentalDomain, HomotopyBasis, Side, SurfaceGroup, crossed_halfedges};
@@ -22,11 +35,27 @@ pub struct DeckElement {
     pub motion: Motion<Twofold>,
 }
 
+impl DeckElement {
+    /// The identity.
+    pub fn identity(space: Space) -> DeckElement {
+        DeckElement { word: Word::identity(), motion: Motion::identity(space) }
+    }
+
+    /// The inverse.
+    pub fn inverse(&self) -> DeckElement {
+        DeckElement { word: self.word.inverse(), motion: self.motion.inverse() }
+    }
+
+    /// The conjugate `to ∘ self ∘ to⁻¹` as an isometry, under the same word.
+    pub(super) fn conjugated_by(&self, to: &Motion<Twofold>) -> DeckElement {
+        DeckElement { word: self.word.clone(), motion: self.motion.conjugated_by(to) }
+    }
+}
+
 /// The group of deck transformations of the universal cover of a layout, acting from the left: M(γ) carries the base lift to the end of
 /// γ's lift, `M(γδ) = M(γ) M(δ)`.
 ///
-/// Isometries are carried to twice the digits of doubles: what a product of far translations loses is then below what the side pairings
-/// are known to.
+/// Isometries have twice the digits of doubles: products of far translations then lose less than the errors of the side pairings.
 #[derive(Debug, Clone)]
 pub struct DeckGroup {
     /// The space it acts on.
@@ -42,34 +71,35 @@ pub struct DeckGroup {
     /// `‖R − I‖_F / max_k ‖P_k‖²` of the relator's matrix R over its partial products P_k (Frobenius norms of 2×2 matrices, R with the
     /// nearer sign). 0 without a relation.
     pub relation_residual: f64,
-    /// `‖R − I‖_F` itself: what the rounding of far products has left of the relation near the base.
+    /// `‖R − I‖_F` itself: the error of the relation near the base.
     pub relation_error: f64,
     /// As `relation_residual`, for each side: how far its pairing is from its word's isometry; the largest.
     pub side_residual: f64,
 }
 
 impl DeckGroup {
-    /// The deck group of a layout without cones of this metric, with the generators of a homotopy basis of the same mesh.
+    /// The deck group of a layout without cones of this metric, with the generators of a homotopy basis of the mesh that is laid out: the
+    /// metric's own triangulation.
     ///
-    /// Errors: [`crate::Error::Layout`], [`crate::Error::Size`] for a layout or basis of another mesh, or where the opened surface is no disk;
-    /// [`crate::Error::Cancelled`].
+    /// # Errors
+    /// [`Error::Layout`], [`Error::Size`] for a metric or basis of another mesh, or where the opened surface is no disk;
+    /// [`Error::Cancelled`].
     pub fn new(
-        mesh: &Mesh,
         metric: &Metric,
         layout: &Layout,
         basis: &HomotopyBasis,
         control: &Control,
     ) -> Result<DeckGroup> {
         control.check()?;
+        let mesh = layout.mesh();
+        let corner = mesh.outgoing(basis.base).find(|&h| !mesh.is_outside(h));
+        let no_face = || Error::Layout(format!("the base, vertex {}, has no face", basis.base));
         let mut deck = DeckGroup {
             space: layout.space,
             group: basis.group,
             generators: Vec::new(),
             sides: Vec::new(),
-            corner: mesh
-                .outgoing(basis.base)
-                .find(|&h| !mesh.is_outside(h))
-                .ok_or_else(|| Error::Layout(format!("the base, vertex {}, has no face", basis.base)))?,
+            corner: corner.ok_or_else(no_face)?,
             relation_residual: 0.0,
             relation_error: 0.0,
             side_residual: 0.0,
@@ -84,28 +114,17 @@ impl DeckGroup {
             None => Err(Error::Layout("a side of the fundamental domain has no edges".into())),
         };
         let pairings: Vec<_> = domain.sides.iter().map(pairing).collect::<Result<_>>()?;
-        let faces = match layout.space {
-            Space::H2 => Some(Faces::precise(mesh, metric)?),
-            _ => None,
-        };
-        for path in &basis.loops {
-            control.check()?;
-            // Products of pairings lead from one copy's middle to the next one's, in H² far from the loop, which costs e^{3 radius} of the
-            // digits; from face to face along the loop nothing leads farther than the loop. In E², where the layout has a scale
-            // of its own, they cost none.
-            let whole = match &faces {
-                Some(faces) => {
-                    let crossed = crossed_halfedges(mesh, deck.corner, path)?;
-                    let home = layout.frame(faces, deck.corner)?;
-                    transport(faces, deck.corner, &crossed)?.conjugated_by(&home)
-                }
-                None => {
+        deck.generators = match layout.space {
+            Space::H2 => along_loops(&Faces::precise(mesh, metric)?, layout, (deck.corner, basis), control)?,
+            space => {
+                let product = |path| {
                     let crossed = domain.crossings(mesh, deck.corner, path)?;
-                    crossed.iter().fold(Motion::identity(layout.space), |m, &k| m.compose(&pairings[k]))
-                }
-            };
-            deck.generators.push(whole.normalised());
-        }
+                    let all = crossed.iter().fold(Motion::identity(space), |m, &k| m.compose(&pairings[k]));
+                    Ok(all.normalised())
+                };
+                basis.loops.iter().map(|path| product(path)).collect::<Result<_>>()?
+            }
+        };
         for (side, motion) in domain.sides.iter().zip(pairings).filter(|(side, _)| side.partner.is_some()) {
             let word = side.element.clone();
             let spelled = deck.motion(&word)?.compose(&motion.inverse());
@@ -119,7 +138,18 @@ impl DeckGroup {
         Ok(deck)
     }
 
-    /// The isometry of a generator or its inverse. Errors: [`Error::Argument`] for a generator that the group has not.
+    /// The element of a generator or its inverse.
+    ///
+    /// # Errors
+    /// As [`DeckGroup::letter`].
+    pub fn element(&self, letter: Letter) -> Result<DeckElement> {
+        Ok(DeckElement { word: Word::from_iter([letter]), motion: self.letter(letter)? })
+    }
+
+    /// The isometry of a generator or its inverse.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a generator that the group has not.
     pub fn letter(&self, letter: Letter) -> Result<Motion<Twofold>> {
         match self.generators.get(letter.index()) {
             Some(g) if letter.is_inverse() => Ok(g.inverse()),
@@ -131,7 +161,10 @@ impl DeckGroup {
         }
     }
 
-    /// The isometry of a word. Errors: as [`DeckGroup::letter`].
+    /// The isometry of a word.
+    ///
+    /// # Errors
+    /// As [`DeckGroup::letter`].
     pub fn motion(&self, word: &Word) -> Result<Motion<Twofold>> {
         let letters = word.letters().iter();
         letters.map(|&l| self.letter(l)).try_fold(Motion::identity(self.space), |m, g| Ok(m.compose(&g?)))
@@ -146,7 +179,7 @@ impl DeckGroup {
             largest = largest.max(product.norm_square());
         }
         let residual = rest.distance_from_identity() / largest;
-        // Products beyond the range of doubles say nothing.
+        // A product beyond the range of doubles gives NaN.
         Ok(if residual.is_nan() { f64::MAX } else { residual })
     }
 
@@ -172,7 +205,10 @@ impl DeckGroup {
     /// lift at `base` under its prefixes, in ambient coordinates; 4g + b of them.
     ///
     /// It is a fundamental domain of a closed surface: the geodesic loops of the generators meet in the base alone. Its corners need
-    /// not be convex. Errors: as [`DeckGroup::letter`].
+    /// not be convex.
+    ///
+    /// # Errors
+    /// As [`DeckGroup::letter`].
     pub fn canonical_polygon(&self, base: [f64; 3]) -> Result<Vec<[f64; 3]>> {
         let mut product = Motion::identity(self.space);
         let base = precise_point(self.space, base);
@@ -189,7 +225,10 @@ impl DeckGroup {
     /// point of it.
     ///
     /// Each is formed at the base: seen from corner P_k, the neighbours are where the last letter came from and where the next one
-    /// leads. Errors: as [`DeckGroup::letter`].
+    /// leads.
+    ///
+    /// # Errors
+    /// As [`DeckGroup::letter`].
     pub fn canonical_angles(&self, base: [f64; 3]) -> Result<Vec<f64>> {
         let home = Motion::to_origin(self.space, precise_point(self.space, base));
         let direction = |g: Motion<Twofold>| {
@@ -207,22 +246,43 @@ impl DeckGroup {
     }
 }
 
-/// What a walk from a half-edge and back to it does to a frame: through the half-edges `crossed`, each of the face one is in.
+/// The isometries of a basis's loops, which start at `corner`, from face to face along each loop.
+///
+/// Products of the layout's side pairings lead from the middle of one copy to that of the next, in H² far from the loop, which costs
+/// e^{3 radius} of the digits; from face to face nothing leads farther than the loop. In E², where the layout has a scale of its own, the
+/// products cost none.
+fn along_loops(
+    faces: &Faces<Motion<Twofold>>,
+    layout: &Layout,
+    (corner, basis): (HalfedgeId, &HomotopyBasis),
+    control: &Control,
+) -> Result<Vec<Motion<Twofold>>> {
+    let home = layout.frame(faces, corner)?;
+    let along = |path| {
+        control.check()?;
+        let crossed = crossed_halfedges(faces.mesh, corner, path)?;
+        Ok(transport(faces, corner, &crossed)?.conjugated_by(&home).normalised())
+    };
+    basis.loops.iter().map(|path| along(path)).collect()
+}
+
+/// The isometry by which a walk from a half-edge and back to it moves a frame. The walk leads through the half-edges `crossed`, each of the
+/// face that the walk is in.
 fn transport(
     faces: &Faces<Motion<Twofold>>,
     corner: HalfedgeId,
     crossed: &[HalfedgeId],
 ) -> Result<Motion<Twofold>> {
     let mut frame = Motion::identity(faces.space);
-    let (mut face, mut k) = faces.place_of(corner)?;
+    let (mut face, mut k) = corner_of(faces.mesh, corner)?;
     for &h in crossed {
-        let (same, side) = faces.place_of(h)?;
+        let (same, side) = corner_of(faces.mesh, h)?;
         if same != face {
             return Err(Error::Layout(format!("half-edge {h} is no side of face {face}, where a walk is")));
         }
         frame = faces.across(faces.around(face, k, frame)[side], h);
-        (face, k) = faces.place_of(h.twin())?;
+        (face, k) = corner_of(faces.mesh, h.twin())?;
     }
-    let (_, side) = faces.place_of(corner)?;
+    let (_, side) = corner_of(faces.mesh, corner)?;
     Ok(faces.around(face, k, frame)[side])
 }

@@ -1,104 +1,131 @@
 //! Developing an opened surface into the space of its metric: face after face, outwards from the origin.
 
-use super::faces::{Faces, Placed, place_in_face};
+use super::faces::{Faces, Placed, corner_at, corner_of};
 use super::frame::Frame;
 use super::pieces::Pieces;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
-use crate::geometry::model::distance;
-use crate::geometry::{Motion, Space, Twofold};
-use crate::mesh::{FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge};
+use crate::geometry::{Motion, Twofold};
+use crate::mesh::{FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
+use crate::topology::check_vertex;
 use crate::topology::spanning::Key;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::sync::Arc;
 
-/// "In no patch yet".
+/// The patch number of a piece that no patch has yet.
 const NONE: u32 = u32::MAX;
 /// Patches between two looks at the control.
 const PATCHES_PER_STEP: usize = 4096;
 
-/// What lies at the origin.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Start {
-    /// A piece to begin with.
-    pub piece: FaceId,
-    /// The half-edge of its final face, by its number there, that lies along the x axis from the origin.
-    pub side: usize,
+/// Half-edges through which a development can go on, the one with the nearest far corner first.
+type Queue = BinaryHeap<Reverse<(Key, HalfedgeId)>>;
+
+/// How a final face is added: by one of its pieces, and the frame of its half-edge with this number.
+struct Entry<F> {
+    piece: FaceId,
+    side: usize,
+    frame: F,
 }
 
-/// Where everything lies. A *patch* is what hangs together of a final face between cuts: its pieces lie in one copy of the face.
-pub(super) struct Development<F> {
-    /// Per patch, in the order in which they were added, the frame of the first half-edge of its final face.
-    pub frames: Vec<F>,
-    /// Per piece its patch; `u32::MAX` for one that was not reached.
+/// Where every piece lies. A *patch* is a part of a final face that no cut divides: its pieces lie in one copy of the face.
+pub(super) struct Development<'a, F: Frame> {
+    pub pieces: Pieces,
+    pub faces: &'a Faces<'a, F>,
+    /// Per patch, in the order in which patches were added, the frames of the half-edges of its final face.
+    pub sides: Vec<[F; 3]>,
+    /// The patch of each piece; `u32::MAX` for a piece that was not reached.
     pub patch: PerFace<u32>,
     /// The pieces, patch by patch.
     order: Vec<FaceId>,
-    /// `order[starts[k]..starts[k + 1]]` are those of patch k.
+    /// The pieces of patch k are `order[starts[k]..starts[k + 1]]`.
     starts: Vec<u32>,
     /// Edges of the pieces through which a patch grew or was entered; empty where a cut was given.
     pub crossed: PerEdge<bool>,
 }
 
-/// Add face after face, next the one whose far corner is nearest to the origin, over no edge that `is_cut`.
-///
-/// This order keeps the largest coordinate on the way to every face as small as it can be. Accuracy asks for that: in H² what a
-/// frame loses is magnified by e^distance, in E² a position is rounded to the spacing of doubles there. Frames are passed on from whole final
-/// faces to whole final faces: pieces lie in them, however small they are, and nothing is laid out from a piece.
-///
-/// Without a cut every face is added once, and the edges that are not [`Development::crossed`] are where the growing disk meets itself.
-///
-/// Errors: [`Error::Layout`] for lengths beyond what doubles can place; [`Error::Cancelled`].
-pub(super) fn develop<F: Frame>(
-    pieces: &Pieces,
-    faces: &Faces<F>,
-    start: Start,
-    is_cut: Option<&PerEdge<bool>>,
-    control: &Control,
-) -> Result<Development<F>> {
-    let mesh = pieces.mesh();
-    let mut grown = Development {
-        frames: Vec::with_capacity(faces.mesh.n_faces()),
-        patch: PerFace::filled(mesh.n_faces(), NONE),
-        order: Vec::with_capacity(mesh.n_faces()),
-        starts: Vec::with_capacity(faces.mesh.n_faces() + 1),
-        crossed: PerEdge::filled(if is_cut.is_none() { mesh.n_edges() } else { 0 }, false),
-    };
-    let mut queue = BinaryHeap::new();
-    let mut stack = Vec::new();
-    let mut next = Some((start.piece, start.side, F::identity(faces.space)));
-    while let Some((piece, side, frame)) = next {
-        if grown.frames.len().is_multiple_of(PATCHES_PER_STEP) {
-            control.step(Stage::Layout, grown.order.len() as f64 / mesh.n_faces() as f64)?;
+impl<'a, F: Frame> Development<'a, F> {
+    /// Adds face after face, next the one whose far corner is nearest to the origin, over no edge that `is_cut`. The vertex `root`, or
+    /// a corner of the smallest final face, lies at the origin.
+    ///
+    /// This order keeps the largest coordinate on the way to every face as small as it can be. Accuracy needs that: in H² the error of a
+    /// frame is magnified by e^distance, in E² a position is rounded to the spacing of doubles there. Frames are passed on between whole
+    /// final faces, and pieces are placed in these: a small piece never decides where its neighbours lie.
+    ///
+    /// Without a cut every face is added once, and the edges that are not [`Development::crossed`] are where the growing disk meets itself.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a root that is no vertex; [`Error::Layout`] for a root without a face and for lengths beyond what doubles
+    /// can place; [`Error::Cancelled`].
+    pub fn grow(
+        pieces: Pieces,
+        faces: &'a Faces<'a, F>,
+        root: Option<VertexId>,
+        is_cut: Option<&PerEdge<bool>>,
+        control: &Control,
+    ) -> Result<Self> {
+        let (piece, side) = start(&pieces, faces, root)?;
+        let (n_pieces, n_edges) = (pieces.mesh().n_faces(), pieces.mesh().n_edges());
+        let mut grown = Development {
+            pieces,
+            faces,
+            sides: Vec::with_capacity(faces.mesh.n_faces()),
+            patch: PerFace::filled(n_pieces, NONE),
+            order: Vec::with_capacity(n_pieces),
+            starts: Vec::with_capacity(faces.mesh.n_faces() + 1),
+            crossed: PerEdge::filled(if is_cut.is_none() { n_edges } else { 0 }, false),
+        };
+        let mut queue = Queue::new();
+        let mut next = Some(Entry { piece, side, frame: F::identity(faces.space) });
+        while let Some(entry) = next {
+            if grown.sides.len().is_multiple_of(PATCHES_PER_STEP) {
+                control.step(Stage::Layout, grown.order.len() as f64 / n_pieces as f64)?;
+            }
+            grown.add(entry, is_cut, &mut queue)?;
+            next = loop {
+                let Some(Reverse((_, h))) = queue.pop() else { break None };
+                if let Some(entry) = grown.enter(h)? {
+                    break Some(entry);
+                }
+            };
         }
-        let (number, face) = (grown.frames.len() as u32, pieces.final_face(piece));
-        let sides = faces.around(face, side, frame);
-        grown.frames.push(sides[0]);
         grown.starts.push(grown.order.len() as u32);
-        grown.patch[piece] = number;
-        stack.push(piece);
-        let mut distance = [None; 3];
-        while let Some(piece) = stack.pop() {
-            grown.order.push(piece);
+        Ok(grown)
+    }
+
+    /// Adds a patch: the piece of an entry and all that hang together with it in its final face.
+    fn add(&mut self, entry: Entry<F>, is_cut: Option<&PerEdge<bool>>, queue: &mut Queue) -> Result<()> {
+        let (mesh, faces) = (self.pieces.mesh(), self.faces);
+        let (number, face) = (self.sides.len() as u32, self.pieces.final_face(entry.piece));
+        let sides = faces.around(face, entry.side, entry.frame);
+        // Formed from the first half-edge, whose frame is all that a layout keeps of a face.
+        self.sides.push(if entry.side == 0 { sides } else { faces.around(face, 0, sides[0]) });
+        let (mut done, mut distance) = (self.order.len(), [None; 3]);
+        self.starts.push(done as u32);
+        self.patch[entry.piece] = number;
+        self.order.push(entry.piece);
+        // Pieces are appended to `order` while it is walked through.
+        while let Some(&piece) = self.order.get(done) {
+            done += 1;
             for h in mesh.face_halfedges(piece) {
                 let Some(beside) = mesh.face(h.twin()) else { continue };
                 if is_cut.is_some_and(|is_cut| is_cut[h.edge()]) {
                     continue;
                 }
-                match pieces.final_halfedge(h) {
+                match self.pieces.final_halfedge(h) {
                     None => {
-                        if grown.patch[beside] == NONE {
-                            grown.patch[beside] = number;
-                            stack.push(beside);
+                        if self.patch[beside] == NONE {
+                            self.patch[beside] = number;
+                            self.order.push(beside);
                         }
                         if is_cut.is_none() {
-                            grown.crossed[h.edge()] |= grown.patch[beside] == number;
+                            self.crossed[h.edge()] |= self.patch[beside] == number;
                         }
                     }
-                    Some(_) if grown.patch[beside] != NONE => {}
+                    Some(_) if self.patch[beside] != NONE => {}
                     Some(along) => {
-                        let (_, k) = faces.place_of(along)?;
+                        let (_, k) = corner_of(faces.mesh, along)?;
                         let far = match distance[k] {
                             Some(far) => far,
                             None => *distance[k].insert(distance_beyond(faces, sides[k], along)?),
@@ -108,69 +135,41 @@ pub(super) fn develop<F: Frame>(
                 }
             }
         }
-        next = None;
-        while next.is_none() {
-            let Some(Reverse((_, entry))) = queue.pop() else { break };
-            next = enter(pieces, faces, &mut grown, entry)?;
+        Ok(())
+    }
+
+    /// The piece that a half-edge leads into, unless it has its place, with the frame of the half-edge's final one.
+    fn enter(&mut self, h: HalfedgeId) -> Result<Option<Entry<F>>> {
+        let unplaced = self.pieces.mesh().face(h).filter(|&f| self.patch[f] == NONE);
+        let Some(piece) = unplaced else { return Ok(None) };
+        let (from, _) = corner_of(self.pieces.mesh(), h.twin())?;
+        let inside =
+            || Error::Layout(format!("edge {} lies inside a face of the metric's triangulation", h.edge()));
+        let along = self.pieces.final_halfedge(h.twin()).ok_or_else(inside)?;
+        if !self.crossed.is_empty() {
+            self.crossed[h.edge()] = true;
         }
-    }
-    grown.starts.push(grown.order.len() as u32);
-    Ok(grown)
-}
-
-/// The distance from the origin of the far corner of the face beyond a final half-edge with this frame.
-fn distance_beyond<F: Frame>(faces: &Faces<F>, frame: F, along: HalfedgeId) -> Result<f64> {
-    let (face, k) = faces.place_of(along.twin())?;
-    let far = faces.distance_of_apex(faces.across(frame, along), face, k);
-    if !far.is_finite() {
-        return Err(Error::Layout(format!("edge {} lies beyond the range of doubles", along.edge())));
-    }
-    Ok(far)
-}
-
-/// The piece that a half-edge leads into, unless it has its place, with the number of its final half-edge and the frame of that.
-fn enter<F: Frame>(
-    pieces: &Pieces,
-    faces: &Faces<F>,
-    grown: &mut Development<F>,
-    entry: HalfedgeId,
-) -> Result<Option<(FaceId, usize, F)>> {
-    let mesh = pieces.mesh();
-    let (piece, _) = place_in_face(mesh, entry)?;
-    if grown.patch[piece] != NONE {
-        return Ok(None);
-    }
-    let (from, _) = place_in_face(mesh, entry.twin())?;
-    let along = final_side(pieces, entry.twin())?;
-    if !grown.crossed.is_empty() {
-        grown.crossed[entry.edge()] = true;
-    }
-    let (_, k) = faces.place_of(along.twin())?;
-    Ok(Some((piece, k, faces.across(grown.side(faces, from, along)?, along))))
-}
-
-fn final_side(pieces: &Pieces, h: HalfedgeId) -> Result<HalfedgeId> {
-    let inside =
-        || Error::Layout(format!("edge {} lies inside a face of the metric's triangulation", h.edge()));
-    pieces.final_halfedge(h).ok_or_else(inside)
-}
-
-impl<F: Frame> Development<F> {
-    /// The frame of the final half-edge `along`, of the final face of a piece, where that lies.
-    fn side(&self, faces: &Faces<F>, piece: FaceId, along: HalfedgeId) -> Result<F> {
-        let (face, k) = faces.place_of(along)?;
-        Ok(faces.around(face, 0, self.frames[self.patch[piece] as usize])[k])
+        let (_, side) = corner_of(self.faces.mesh, along.twin())?;
+        Ok(Some(Entry { piece, side, frame: self.faces.across(self.side(from, along)?, along) }))
     }
 
-    /// That of a refinement whose final faces all have these frames.
-    pub fn of_frames(r: &Refinement, frames: PerFace<F>) -> Self {
+    /// The frame of the final half-edge `along`, of the final face of a piece, where that piece lies.
+    fn side(&self, piece: FaceId, along: HalfedgeId) -> Result<F> {
+        let (_, k) = corner_of(self.faces.mesh, along)?;
+        Ok(self.sides[self.patch[piece] as usize][k])
+    }
+
+    /// The development of a refinement all of whose final faces have their first half-edges where these frames are.
+    pub fn of_frames(r: &Arc<Refinement>, faces: &'a Faces<'a, F>, frames: &[F]) -> Self {
         let mut order: Vec<FaceId> = r.mesh.faces().collect();
         order.sort_by_key(|&f| r.final_face[f]);
         let first = |k: usize| order.partition_point(|&f| r.final_face[f].index() < k) as u32;
         Development {
+            pieces: Pieces::Refinement(r.clone()),
+            faces,
             starts: (0..=frames.len()).map(first).collect(),
             patch: r.final_face.iter().map(|f| f.0).collect::<Vec<_>>().into(),
-            frames: frames.into_vec(),
+            sides: frames.iter().enumerate().map(|(f, &frame)| faces.around(f.into(), 0, frame)).collect(),
             order,
             crossed: Vec::new().into(),
         }
@@ -181,31 +180,23 @@ impl<F: Frame> Development<F> {
         self.order.len()
     }
 
-    /// The pieces of a patch.
-    pub fn pieces_of(&self, patch: usize) -> &[FaceId] {
-        &self.order[self.starts[patch] as usize..self.starts[patch + 1] as usize]
+    /// The final face of a patch where it lies, with its pieces; none for a patch without pieces.
+    pub fn placed(&self, patch: usize) -> Option<(Placed<'_, F>, &[FaceId])> {
+        let pieces = &self.order[self.starts[patch] as usize..self.starts[patch + 1] as usize];
+        let face = self.pieces.final_face(*pieces.first()?);
+        Some((Placed::new(self.faces, face, &self.sides[patch]), pieces))
     }
 
     /// Ambient coordinates per number of a corner: each from the first patch that has it; NaN for what was not reached.
-    pub fn points(
-        &self,
-        pieces: &Pieces,
-        faces: &Faces<F>,
-        corner: &PerHalfedge<u32>,
-        n_corners: usize,
-    ) -> Vec<[f64; 3]> {
+    pub fn points(&self, corner: &PerHalfedge<u32>, n_corners: usize) -> Vec<[f64; 3]> {
         let mut points = vec![[f64::NAN; 3]; n_corners];
-        for (k, &frame) in self.frames.iter().enumerate() {
-            let of_patch = self.pieces_of(k);
-            let Some(&first) = of_patch.first() else { continue };
-            let placed = faces.placed(pieces.final_face(first), frame);
-            for &f in of_patch {
-                for (h, weights) in
-                    pieces.mesh().face_halfedges(f).into_iter().zip(pieces.final_barycentric(f))
-                {
+        for (placed, pieces) in (0..self.sides.len()).filter_map(|patch| self.placed(patch)) {
+            for &f in pieces {
+                let halfedges = self.pieces.mesh().face_halfedges(f);
+                for (h, weights) in halfedges.into_iter().zip(self.pieces.final_barycentric(f)) {
                     let point = &mut points[corner[h] as usize];
                     if point[0].is_nan() {
-                        *point = placed.point(faces, weights);
+                        *point = placed.point(weights);
                     }
                 }
             }
@@ -213,73 +204,55 @@ impl<F: Frame> Development<F> {
         points
     }
 
-    /// The two places of one frame, of a half-edge `h` on the cut: as the face on its left and as the face on its right has it. What carries
-    /// the second onto the first pairs the sides of the cut.
-    pub fn on_both_sides(
-        &self,
-        pieces: &Pieces,
-        faces: &Faces<F>,
-        h: HalfedgeId,
-    ) -> Result<[Motion<Twofold>; 2]> {
-        let ((left, _), (right, _)) =
-            (place_in_face(pieces.mesh(), h)?, place_in_face(pieces.mesh(), h.twin())?);
-        let both = match pieces.final_halfedge(h) {
+    /// The two places of one frame, of a half-edge `h` on the cut: as the face on its left and as the face on its right has it. The
+    /// isometry that carries the second onto the first pairs the sides of the cut.
+    pub fn on_both_sides(&self, h: HalfedgeId) -> Result<[Motion<Twofold>; 2]> {
+        let mesh = self.pieces.mesh();
+        let ((left, _), (right, _)) = (corner_of(mesh, h)?, corner_of(mesh, h.twin())?);
+        let both = match self.pieces.final_halfedge(h) {
             Some(along) => {
                 let twin = along.twin();
-                [self.side(faces, left, along)?, faces.across(self.side(faces, right, twin)?, twin)]
+                [self.side(left, along)?, self.faces.across(self.side(right, twin)?, twin)]
             }
             // Two copies of one final face.
-            None => [left, right].map(|f| self.frames[self.patch[f] as usize]),
+            None => [left, right].map(|f| self.sides[self.patch[f] as usize][0]),
         };
         Ok(both.map(|frame| frame.motion()))
     }
 }
 
-impl<F: Frame> Placed<F> {
-    /// The point with these weights of the face's corners, as the face's first half-edge has it at the origin.
-    fn local(&self, faces: &Faces<F>, weights: [f64; 3]) -> [f64; 3] {
-        combination(faces.space, *self.local.get_or_init(|| faces.local(self.face)), weights)
-    }
-
-    /// The point of the face with these weights of its corners, where it lies.
-    pub fn point(&self, faces: &Faces<F>, weights: [f64; 3]) -> [f64; 3] {
-        match weights.iter().position(|&w| w == 1.0) {
-            Some(corner) => self.sides[corner].apply([0.0, 0.0, 1.0]),
-            None => self.sides[0].apply(self.local(faces, weights)),
+/// The piece to begin with, and the number of the half-edge of its final face that is to lie along the x axis from the origin: one that
+/// leaves the root, or of the smallest final face.
+fn start<F: Frame>(pieces: &Pieces, faces: &Faces<F>, root: Option<VertexId>) -> Result<(FaceId, usize)> {
+    let mesh = pieces.mesh();
+    let Some(root) = root else {
+        let size = |f: &FaceId| faces.longest(pieces.final_face(*f));
+        let smallest = mesh.faces().min_by(|f, g| size(f).total_cmp(&size(g)));
+        return Ok((smallest.ok_or_else(|| Error::Layout("the surface has no face".into()))?, 0));
+    };
+    check_vertex(faces.mesh, root)?;
+    check_vertex(mesh, root)?;
+    // Layouts of the final triangulation and of its refinement lie the same way where both begin with the first half-edge of the final
+    // triangulation at the root. Where that belongs to no piece, on the other half of a double, any other does.
+    let first = faces.mesh.outgoing(root).find(|&h| !faces.mesh.is_outside(h));
+    let mut any = None;
+    for h in mesh.outgoing(root).filter(|&h| !mesh.is_outside(h)) {
+        let (piece, k) = corner_of(mesh, h)?;
+        let Some(side) = corner_at(pieces.final_barycentric(piece)[k]) else { continue };
+        if first == Some(faces.mesh.face_halfedges(pieces.final_face(piece))[side]) {
+            return Ok((piece, side));
         }
+        any = any.or(Some((piece, side)));
     }
-
-    /// By how much a point misses that one: a vector in the frame of the face's first half-edge, for a corner that of its own.
-    pub fn miss(&self, faces: &Faces<F>, point: [f64; 3], weights: [f64; 3]) -> [f64; 2] {
-        match weights.iter().position(|&w| w == 1.0) {
-            // About the corner itself: seen from elsewhere in a large face of H² it would be magnified.
-            Some(corner) if faces.space != Space::E2 => self.sides[corner].miss(point, [0.0, 0.0, 1.0]),
-            _ => self.sides[0].miss(point, self.local(faces, weights)),
-        }
-    }
+    any.ok_or_else(|| Error::Layout(format!("vertex {root} has no face")))
 }
 
-/// The point of the plane, hyperboloid or sphere in the direction of a combination of points; at a corner, the corner itself.
-pub(super) fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
-    if let Some(corner) = weights.iter().position(|&w| w == 1.0) {
-        return corners[corner];
+/// The distance from the origin of the far corner of the face beyond a final half-edge with this frame.
+fn distance_beyond<F: Frame>(faces: &Faces<F>, frame: F, along: HalfedgeId) -> Result<f64> {
+    let (face, k) = corner_of(faces.mesh, along.twin())?;
+    let far = faces.distance_of_apex(faces.across(frame, along), face, k);
+    if !far.is_finite() {
+        return Err(Error::Layout(format!("edge {} lies beyond the range of doubles", along.edge())));
     }
-    let [x, y, w] = [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * corners[k][i]).sum::<f64>());
-    // −⟨P, P⟩ = Σ w_i² + Σ 2 w_i w_j cosh d_ij, and cosh d − 1 is half the square of the difference.
-    let norm = match space {
-        Space::E2 => w,
-        Space::S2 => (x * x + y * y + w * w).sqrt(),
-        Space::H2 => {
-            let pairs = [[0, 1], [1, 2], [2, 0]].map(|[i, j]| {
-                let half = (0.5 * distance(corners[i], corners[j])).sinh();
-                4.0 * weights[i] * weights[j] * half * half
-            });
-            let sum: f64 = weights.iter().sum();
-            (sum * sum + pairs.iter().sum::<f64>()).sqrt()
-        }
-    };
-    let (x, y) = (x / norm, y / norm);
-    // On the hyperboloid to the last digit.
-    let w = if space == Space::H2 { 1.0f64.hypot(x.hypot(y)) } else { w / norm };
-    [x, y, w]
+    Ok(far)
 }

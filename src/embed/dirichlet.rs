@@ -1,23 +1,39 @@
 //! Dirichlet domains: the points that are nearer to a base point than to its images under a group.
+//!
+//! ```
+//! use ricci::embed::dirichlet_domain;
+//! use ricci::canonical::{QuotientOptions, uniformize_quotient};
+//! use ricci::{Control, Surface, mesh::shapes};
+//! # fn main() -> ricci::Result<()> {
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 8, 8)?)?;
+//! let flat = uniformize_quotient(&torus, &QuotientOptions::default(), &Control::new())?;
+//! let domain = dirichlet_domain(&flat.deck, [0.0, 0.0, 1.0], flat.layout.area, &Control::new())?;
+//! // By the symmetry of this torus the domain is a rectangle.
+//! assert_eq!(domain.sides.len(), 4);
+//! # Ok(())
+//! # }
+//! ```
 
 use super::deck::{DeckElement, DeckGroup};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, triangle};
-use crate::topology::word::{Letter, Word};
+use crate::topology::word::Letter;
 use std::f64::consts::PI;
 
-/// A side counts, and a corner is cut off, where that moves the border by more than the first of these for which the sides can be paired:
-/// elements are known to 1e-30 (some schemes: 1e-14) times e^distance, and corners where more than three bisectors meet to as much.
+/// Lengths by which a bisector must move the border of the polygon to count; the first for which all sides can be paired is taken. Elements
+/// have errors of 1e-30, or 1e-14 in some schemes, times e^distance, and so have corners where more than three bisectors meet.
 const TOLERANCES: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
-/// Rounds of products of side elements. Each at least doubles the word length that is looked at; two or three are usual.
+/// Rounds of products of side elements, at most. Each round at least doubles the word length that is reached; two or three rounds are usual.
 const ROUNDS: usize = 12;
-/// Products that one search looks at, some seconds' worth: where elements are wrong they make ever new ones.
+/// Products that one search forms at most, which takes some seconds: wrong elements would make ever new products.
 const MOST_PRODUCTS: usize = 5_000_000;
-/// An element that moves the centre by less is the identity (in E² in units of the longest side pairing).
+/// Displacement of the centre, in H² a length and in E² in units of the longest factor, below which an element is the identity. It is far above the
+/// errors of elements and far below the shortest loop of a surface that can be resolved.
 const SAME: f64 = 1e-6;
-/// The polygon's area against the surface's, relative.
+/// Relative difference of the polygon's area and the surface's up to which the polygon is the domain. A missing or wrong side changes the area by
+/// more.
 const AREA: f64 = 1e-6;
 
 /// The Dirichlet domain of a base point: a convex polygon with geodesic sides, each on the bisector of the base point and its image
@@ -38,7 +54,8 @@ pub struct DirichletDomain {
     pub radius: f64,
 }
 
-/// Side pairings that are farther from their words bound no polygon.
+/// Largest [`DeckGroup::side_residual`] with which a polygon is looked for: pairings farther from their words have lost half of their digits, and
+/// bound no polygon.
 const PAIRED: f64 = 1e-8;
 
 fn none(why: &str) -> Error {
@@ -51,7 +68,8 @@ fn none(why: &str) -> Error {
 /// Bisectors of the side pairings of the layout cut a first polygon; then those of products of the elements of its sides are tried, until
 /// none cuts anything off, every side has its partner, and the area is the surface's.
 ///
-/// Errors: [`Error::Layout`] for a group without elements or in S², and where no such polygon is found; [`Error::Cancelled`].
+/// # Errors
+/// [`Error::Layout`] for a group without elements or in S², and where no such polygon is found; [`Error::Cancelled`].
 pub fn dirichlet_domain(
     deck: &DeckGroup,
     centre: [f64; 3],
@@ -67,34 +85,27 @@ pub fn dirichlet_domain(
             "the isometries of the sides are {off:.1e} away from those of their words"
         )));
     }
-    // Everything about the origin: the base point is carried there.
+    // The base point is carried to the origin, and everything with it.
     let home = Motion::to_origin(deck.space, precise_point(deck.space, centre));
-    let about = |g: &DeckElement| DeckElement { word: g.word.clone(), motion: g.motion.conjugated_by(&home) };
-    // The surface is covered by what the neighbours' centres are about: nothing nearest to the centre is farther out than all of them
-    // together.
-    let reach = deck.sides.iter().map(about).map(|g| g.motion.displacement()).sum();
-    // The generators, too: on a surface of few vertices they are shorter than the sides.
-    let generators = (0..deck.generators.len()).map(|k| {
-        let letter = Letter::generator(k);
-        Ok(DeckElement { word: Word::from_iter([letter]), motion: deck.letter(letter)? })
-    });
-    let sides = deck.sides.iter().cloned().map(Ok);
-    let factors = sides.chain(generators).map(|g| g.map(|g| about(&g))).collect::<Result<Vec<_>>>()?;
-    // Lengths of the plane are in units of the longest pairing, those of H² as they are.
-    let unit = if deck.space == Space::E2 {
-        factors.iter().map(|g| g.motion.displacement()).fold(0.0, f64::max)
-    } else {
-        1.0
+    let sides = deck.sides.iter().map(|g| g.conjugated_by(&home));
+    // The images of the centre under the side pairings lie within the sum of their distances: no point that is nearest to the centre is
+    // farther out.
+    let reach = sides.clone().map(|g| g.motion.displacement()).sum();
+    // The generators are factors too: on a surface of few vertices they are shorter than the sides.
+    let generator = |k| Ok(deck.element(Letter::generator(k))?.conjugated_by(&home));
+    let generators = (0..deck.generators.len()).map(generator);
+    let factors = sides.map(Ok).chain(generators).collect::<Result<Vec<_>>>()?;
+    // Lengths of the plane are in units of the longest factor, those of H² as they are.
+    let longest = || factors.iter().map(|g| g.motion.displacement()).fold(0.0, f64::max);
+    // The radius of a disk of this area: a polygon of that area reaches farther.
+    let (unit, least) = match deck.space {
+        Space::H2 => (1.0, 2.0 * (area / (4.0 * PI)).sqrt().asinh()),
+        _ => (longest(), (area / PI).sqrt()),
     };
-    // That of a disk of this area: no polygon of it lies in a smaller one.
-    let least = match deck.space {
-        Space::H2 => 2.0 * (area / (4.0 * PI)).sqrt().asinh(),
-        _ => (area / PI).sqrt(),
-    };
-    let (mut nearest, mut left) = (None, MOST_PRODUCTS);
+    let (mut nearest, mut limits) = (None, Limits { least, left: MOST_PRODUCTS });
     for tolerance in TOLERANCES {
         let mut polygon = Polygon::around(deck.space, reach, [tolerance * unit, SAME * unit]);
-        polygon.close(deck, &factors, least, &mut left, control)?;
+        polygon.close(deck, &factors, &mut limits, control)?;
         if !polygon.is_bounded() {
             break;
         }
@@ -117,7 +128,8 @@ fn product(deck: &DeckGroup, g: &DeckElement, h: &DeckElement, motion: Motion<Tw
     DeckElement { word: deck.group.reduce(&g.word.times(&h.word)), motion }
 }
 
-/// Products that come beside factors whose bisectors do not bound the polygon, at most.
+/// Largest number of products that are added to factors whose bisectors do not bound the polygon. Finding them takes the square of this number
+/// of compositions, below a second.
 const MOST_FACTORS: usize = 600;
 
 /// Of some elements and their products by twos, other than the identity, those that move the origin least: twice as many as were given.
@@ -127,7 +139,7 @@ fn shortest_products(
     same: f64,
     control: &Control,
 ) -> Result<Vec<DeckElement>> {
-    let identity = identity(deck.space);
+    let identity = DeckElement::identity(deck.space);
     let mut pairs = Vec::with_capacity(all.len() * (all.len() + 1));
     for (i, g) in all.iter().enumerate() {
         control.check()?;
@@ -155,8 +167,12 @@ fn shortest_products(
     Ok(found)
 }
 
-fn inverse(g: &DeckElement) -> DeckElement {
-    DeckElement { word: g.word.inverse(), motion: g.motion.inverse() }
+/// Where the search for a polygon gives up.
+struct Limits {
+    /// Radius below which no polygon has room for the surface.
+    least: f64,
+    /// Products of elements that may still be formed, for all polygons together.
+    left: usize,
 }
 
 /// A convex polygon about the origin in the plane or in the Klein disk. Corners are vectors `[x, y, w]` of height 1, with twice the digits:
@@ -180,7 +196,7 @@ struct Bisector {
     norm: f64,
 }
 
-/// Below this a form in doubles is evaluated again with twice the digits.
+/// Value of a form, as a distance, below which it is evaluated again with twice the digits; doubles give the sign of larger ones.
 const CLOSE: f64 = 1e-4;
 
 impl Bisector {
@@ -194,8 +210,8 @@ impl Bisector {
         Bisector { form: [x, y, -height], norm }
     }
 
-    /// How far a corner lies beyond it: its distance, in H² the hyperbolic sine of that, or for a corner outside the disk
-    /// some number of the same sign.
+    /// How far a corner lies beyond the bisector: the distance, in H² its hyperbolic sine; for a corner outside the disk some number of the same
+    /// sign.
     fn beyond(&self, space: Space, p: &[Twofold; 3]) -> f64 {
         let size = match space {
             Space::H2 => {
@@ -226,19 +242,18 @@ impl Polygon {
         Polygon { space, corners, sides: vec![None; 4], radius: f64::INFINITY, tolerance, same }
     }
 
-    /// Cut by the bisectors of `factors` and of their inverses, then of products of the elements of its sides, until none cuts anything off.
-    /// Where the factors move the centre so far that their bisectors do not bound the polygon, short products come beside them. Ends where
-    /// its radius is below `least` or none of the products are `left`: elements are wrong then.
+    /// Cuts by the bisectors of `factors` and of their inverses, then of products of the elements of its sides, until none cuts anything off.
+    /// Where the factors move the centre so far that their bisectors do not bound the polygon, short products are added to them. It ends early
+    /// at the `limits`, which wrong elements bring about.
     fn close(
         &mut self,
         deck: &DeckGroup,
         factors: &[DeckElement],
-        least: f64,
-        left: &mut usize,
+        limits: &mut Limits,
         control: &Control,
     ) -> Result<()> {
-        // They generate the group, and stay.
-        let given: Vec<_> = factors.iter().flat_map(|g| [g.clone(), inverse(g)]).collect();
+        // These generate the group, so that they stay among the factors.
+        let given: Vec<_> = factors.iter().flat_map(|g| [g.clone(), g.inverse()]).collect();
         let mut factors = given.clone();
         for _ in 0..ROUNDS {
             factors.iter().for_each(|g| {
@@ -248,10 +263,10 @@ impl Polygon {
             let mut changed = false;
             for g in sides.iter().chain(&factors) {
                 control.check()?;
-                if self.radius < least || *left == 0 {
+                if self.radius < limits.least || limits.left == 0 {
                     return Ok(());
                 }
-                *left = left.saturating_sub(sides.len());
+                limits.left = limits.left.saturating_sub(sides.len());
                 for h in &sides {
                     let motion = g.motion.compose(&h.motion);
                     if self.is_cut_by(&motion) || self.is_cut_by(&motion.inverse()) {
@@ -262,10 +277,10 @@ impl Polygon {
             match self.is_bounded() {
                 true if !changed => break,
                 true => {}
-                // Nothing new has come, and no room is left for more.
+                // This round has cut nothing off, and no more products may be added.
                 false if !changed && factors.len() > MOST_FACTORS => break,
                 false => {
-                    *left = left.saturating_sub(factors.len() * factors.len());
+                    limits.left = limits.left.saturating_sub(factors.len() * factors.len());
                     factors = shortest_products(deck, &factors, self.same, control)?;
                     factors.extend_from_slice(&given);
                 }
@@ -274,17 +289,17 @@ impl Polygon {
         Ok(())
     }
 
-    /// Cut by the bisectors of an element and of its inverse: they belong together.
+    /// Cuts by the bisectors of an element and of its inverse, since each is the other's partner.
     fn cut_by_both(&mut self, g: &DeckElement) -> bool {
         let first = self.cut(g);
-        self.cut(&inverse(g)) || first
+        self.cut(&g.inverse()) || first
     }
 
     fn elements(&self) -> Vec<DeckElement> {
         self.sides.iter().flatten().cloned().collect()
     }
 
-    /// Whether bisectors alone bound it, inside the Klein disk.
+    /// Whether it lies inside the Klein disk and all its sides are on bisectors.
     fn is_bounded(&self) -> bool {
         self.radius < f64::INFINITY && self.sides.iter().all(Option::is_some)
     }
@@ -299,7 +314,7 @@ impl Polygon {
         self.corners.iter().any(|p| bisector.beyond(self.space, p) > self.tolerance)
     }
 
-    /// Cut off what lies beyond the bisector of `g`; false if that is nothing.
+    /// Cuts off the part beyond the bisector of `g`; false if there is none.
     fn cut(&mut self, g: &DeckElement) -> bool {
         if !self.is_cut_by(&g.motion) {
             return false;
@@ -307,7 +322,7 @@ impl Polygon {
         let bisector = Bisector::new(&g.motion);
         let n = self.corners.len();
         let beyond: Vec<f64> = self.corners.iter().map(|p| bisector.beyond(self.space, p)).collect();
-        // The corners that are cut off are one run about the farthest, from one that stays to the next that does.
+        // The corners that are cut off lie in a row around the farthest one, between two that stay.
         let farthest = (0..n).fold(0, |far, k| if beyond[k] > beyond[far] { k } else { far });
         let stays = |k: &usize| beyond[*k] <= 0.0;
         let Some(last) = (1..n).map(|step| (farthest + n - step) % n).find(stays) else { return false };
@@ -380,11 +395,10 @@ impl Polygon {
             }
         };
         let area = (0..n).map(sector).sum();
-        let place = |g: DeckElement| DeckElement { motion: g.motion.conjugated_by(back), word: g.word };
         Some(DirichletDomain {
             centre,
             corners: points.iter().map(|&p| back.apply(p).map(f64::from)).collect(),
-            sides: elements.into_iter().map(place).collect(),
+            sides: elements.iter().map(|g| g.conjugated_by(back)).collect(),
             partner: partner?,
             area,
             radius,
@@ -427,9 +441,4 @@ fn on_hyperboloid(space: Space, [x, y, w]: [Twofold; 3]) -> [Twofold; 3] {
     }
     let scale = Twofold::from(1.0) / (Twofold::from(1.0) - x * x - y * y).sqrt();
     [x * scale, y * scale, scale]
-}
-
-/// The identity as an element.
-pub(super) fn identity(space: Space) -> DeckElement {
-    DeckElement { word: Word::identity(), motion: Motion::identity(space) }
 }

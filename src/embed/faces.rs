@@ -1,11 +1,12 @@
 //! The triangles of a metric, each by itself.
 
-use super::frame::{Frame, PlaneFrame};
+use super::frame::{Frame, ORIGIN, PlaneFrame};
 use super::triangle::Triangle;
 use crate::error::{Error, Result};
+use crate::geometry::model::distance;
 use crate::geometry::triangle::{area_from, half_differences};
 use crate::geometry::{Motion, Space, Twofold};
-use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace};
 use crate::metric::Metric;
 use crate::metric::precise::half_angles;
 use crate::parallel;
@@ -22,15 +23,6 @@ pub(super) struct Faces<'a, F: Frame> {
     areas: PerFace<(f64, bool)>,
 }
 
-/// A triangle where it lies.
-pub(super) struct Placed<F> {
-    pub face: FaceId,
-    /// The frames of its half-edges.
-    pub sides: [F; 3],
-    /// [`Faces::local`], once it was needed: pieces have points elsewhere than at its corners.
-    pub local: OnceCell<[[f64; 3]; 3]>,
-}
-
 impl<'a> Faces<'a, PlaneFrame> {
     /// Of lengths in E² (E entries), by doubles.
     pub fn of_lengths(mesh: &'a Mesh, lengths: PerEdge<f64>) -> Self {
@@ -41,13 +33,17 @@ impl<'a> Faces<'a, PlaneFrame> {
         Self::of_triangles(mesh, lengths, &differences)
     }
 
-    /// Of a metric in E², by doubles: triangles keep their shape where circles of very different sizes meet, which rounded lengths
-    /// do not. Errors: those of [`Metric::lengths`]; [`Error::Layout`] in another space.
+    /// Of a metric in E², by doubles. Triangles keep their shape where circles of very different sizes meet, since they come from
+    /// [`Metric::differences`]: rounded lengths would lose it.
+    ///
+    /// # Errors
+    /// Those of [`Metric::lengths`]; [`Error::Layout`] in another space.
     pub fn in_plane(mesh: &'a Mesh, metric: &Metric) -> Result<Self> {
         if metric.space != Space::E2 {
             return Err(Error::Layout(format!("a metric in {} has no layout in the plane", metric.space)));
         }
-        Ok(Self::of_triangles(mesh, metric.lengths(mesh)?, &metric.differences(mesh)?))
+        let (lengths, differences) = metric.lengths_and_differences(mesh)?;
+        Ok(Self::of_triangles(mesh, lengths, &differences))
     }
 
     fn of_triangles(mesh: &'a Mesh, lengths: PerEdge<f64>, differences: &[[f64; 3]]) -> Self {
@@ -62,12 +58,20 @@ impl<'a> Faces<'a, PlaneFrame> {
 }
 
 impl<'a> Faces<'a, Motion<Twofold>> {
-    /// Of a metric in any space, with twice the digits of doubles. Errors: those of [`Metric::lengths`].
+    /// Of a metric in any space, with twice the digits of doubles.
+    ///
+    /// # Errors
+    /// Those of [`Metric::lengths`].
     pub fn precise(mesh: &'a Mesh, metric: &Metric) -> Result<Self> {
-        let chords = metric.half_chords(mesh)?;
-        let angles = half_angles(metric, mesh, &metric.scaled_chords(mesh)?);
         let differences = metric.differences(mesh)?;
-        let step = |&chord: &Twofold| [Motion::translation_of_chord(chord, metric.space).a[0], chord];
+        let chords = metric.scaled_chords(mesh);
+        let angles = half_angles(metric, mesh, &chords);
+        let mut sides = vec![[Twofold::default(); 2]; mesh.n_edges()];
+        parallel::fill(&mut sides, |e| {
+            let (chord, unit) = chords[EdgeId::from(e)];
+            let chord = chord.scaled(unit);
+            [Motion::translation_of_chord(chord, metric.space).a[0], chord]
+        });
         let area = |f: FaceId| {
             let broken = angles[f].iter().all(|[cos, sin]| cos.high == 0.0 || sin.high == 0.0);
             (area_from(metric.space, differences[f]), broken)
@@ -75,7 +79,7 @@ impl<'a> Faces<'a, Motion<Twofold>> {
         Ok(Faces {
             mesh,
             space: metric.space,
-            sides: chords.iter().map(step).collect::<Vec<_>>().into(),
+            sides: sides.into(),
             areas: PerFace::from_fn(mesh.n_faces(), area),
             angles,
         })
@@ -105,21 +109,16 @@ impl<F: Frame> Faces<'_, F> {
         let mut frames = [frame; 3];
         frames[next] = frame.forward(sides[k]).turned_onwards(angles[next]);
         frames[last] = frames[next].forward(sides[next]).turned_onwards(angles[last]);
-        // From the nearer end: the step is rounded to doubles of its size.
+        // The last corner is placed from its nearer neighbour, since a step is rounded to doubles of its size.
         if F::size(sides[last]) < F::size(sides[next]) {
             frames[last] = frames[last].ending_at(&frame, sides[last]);
         }
         frames
     }
 
-    /// A face whose first half-edge has this frame.
-    pub fn placed(&self, f: FaceId, frame: F) -> Placed<F> {
-        Placed { face: f, sides: self.around(f, 0, frame), local: OnceCell::new() }
-    }
-
     /// The corners of a face as its first half-edge has them at the origin, along the x axis: ambient coordinates.
     pub fn local(&self, f: FaceId) -> [[f64; 3]; 3] {
-        self.around(f, 0, F::identity(self.space)).map(|frame| frame.apply([0.0, 0.0, 1.0]))
+        self.around(f, 0, F::identity(self.space)).map(|frame| frame.origin())
     }
 
     /// The frame of the twin of the half-edge with this frame.
@@ -132,16 +131,85 @@ impl<F: Frame> Faces<'_, F> {
         let last = self.mesh.face_halfedges(f)[(k + 2) % 3];
         frame.distance_of_apex(self.angles[f][k], self.sides[last.edge()])
     }
+}
 
-    /// The face of a half-edge and its number there. Errors: [`Error::Layout`] outside the surface.
-    pub fn place_of(&self, h: HalfedgeId) -> Result<(FaceId, usize)> {
-        place_in_face(self.mesh, h)
+/// A final face where it lies.
+pub(super) struct Placed<'a, F: Frame> {
+    faces: &'a Faces<'a, F>,
+    face: FaceId,
+    /// The frames of its half-edges.
+    sides: &'a [F; 3],
+    /// [`Faces::local`], formed where a piece has a point elsewhere than at a corner of the face.
+    local: OnceCell<[[f64; 3]; 3]>,
+}
+
+impl<'a, F: Frame> Placed<'a, F> {
+    pub fn new(faces: &'a Faces<'a, F>, face: FaceId, sides: &'a [F; 3]) -> Self {
+        Placed { faces, face, sides, local: OnceCell::new() }
+    }
+
+    /// The point with these weights of the face's corners, as the face's first half-edge has it at the origin.
+    fn local(&self, weights: [f64; 3]) -> [f64; 3] {
+        combination(self.faces.space, *self.local.get_or_init(|| self.faces.local(self.face)), weights)
+    }
+
+    /// The point of the face with these weights of its corners, where it lies.
+    pub fn point(&self, weights: [f64; 3]) -> [f64; 3] {
+        match corner_at(weights) {
+            Some(corner) => self.sides[corner].origin(),
+            None => self.sides[0].apply(self.local(weights)),
+        }
+    }
+
+    /// By how much a point misses the one with these weights, as [`Frame::miss`] has it: at a corner about the corner itself, since seen
+    /// from elsewhere in a large face of H² the difference would be magnified.
+    pub fn miss(&self, point: [f64; 3], weights: [f64; 3]) -> [f64; 2] {
+        match corner_at(weights) {
+            Some(corner) => self.sides[corner].miss(point, ORIGIN),
+            None => self.sides[0].miss(point, self.local(weights)),
+        }
+    }
+
+    /// The length of the face's longest side, or a number that grows with it: [`Faces::longest`].
+    pub fn longest(&self) -> f64 {
+        self.faces.longest(self.face)
     }
 }
 
-/// The face of a half-edge and its number among the face's half-edges. Errors: [`Error::Layout`] outside the surface.
-pub(super) fn place_in_face(mesh: &Mesh, h: HalfedgeId) -> Result<(FaceId, usize)> {
-    let f = mesh.face(h);
-    let place = f.and_then(|f| mesh.face_halfedges(f).iter().position(|&side| side == h).map(|k| (f, k)));
-    place.ok_or_else(|| Error::Layout(format!("half-edge {h} belongs to no face")))
+/// The corner of a face at which a point with these weights lies, if it is one.
+pub(super) fn corner_at(weights: [f64; 3]) -> Option<usize> {
+    weights.iter().position(|&w| w == 1.0)
+}
+
+/// The point of the plane, hyperboloid or sphere in the direction of a combination of points; at a corner, the corner itself.
+pub(super) fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
+    if let Some(corner) = corner_at(weights) {
+        return corners[corner];
+    }
+    let [x, y, w] = [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * corners[k][i]).sum::<f64>());
+    // In H² −⟨P, P⟩ = Σ w_i² + Σ 2 w_i w_j cosh d_ij = (Σ w_i)² + Σ 4 w_i w_j sinh²(d_ij/2), which does not cancel.
+    let norm = match space {
+        Space::E2 => w,
+        Space::S2 => (x * x + y * y + w * w).sqrt(),
+        Space::H2 => {
+            let pairs = [[0, 1], [1, 2], [2, 0]].map(|[i, j]| {
+                let half = (0.5 * distance(corners[i], corners[j])).sinh();
+                4.0 * weights[i] * weights[j] * half * half
+            });
+            let sum: f64 = weights.iter().sum();
+            (sum * sum + pairs.iter().sum::<f64>()).sqrt()
+        }
+    };
+    let (x, y) = (x / norm, y / norm);
+    // So that the point is on the hyperboloid to the last digit.
+    let w = if space == Space::H2 { 1.0f64.hypot(x.hypot(y)) } else { w / norm };
+    [x, y, w]
+}
+
+/// The face of a half-edge and its number among the face's half-edges.
+///
+/// # Errors
+/// [`Error::Layout`] outside the surface.
+pub(super) fn corner_of(mesh: &Mesh, h: HalfedgeId) -> Result<(FaceId, usize)> {
+    mesh.corner(h).ok_or_else(|| Error::Layout(format!("half-edge {h} belongs to no face")))
 }

@@ -1,14 +1,17 @@
 //! Where a half-edge lies: its origin and its direction there.
 
-use crate::geometry::complex::{conj, mul, norm2, sub};
+use crate::geometry::complex::{mul, norm2, sub};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
+
+/// The origin in ambient coordinates.
+pub(super) const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// The frame of a half-edge, by which its face is placed: the isometry that brings the half-edge from the origin, along the x axis, to
 /// where it lies.
 ///
-/// Frames of H² and S² are [`Motion`]s with twice the digits of doubles, since what they lose is magnified by e^distance in H². In E² a
-/// [`PlaneFrame`] of doubles does, which takes a tenth of the time.
+/// Frames of H² and S² are [`Motion`]s with twice the digits of doubles, since their errors are magnified by e^distance in H². In E² a
+/// [`PlaneFrame`] of doubles is enough, and takes a tenth of the time.
 pub(super) trait Frame: Copy + Send + Sync {
     /// The length of a side, as walks along it take it.
     type Side: Copy + Send + Sync;
@@ -28,15 +31,18 @@ pub(super) trait Frame: Copy + Send + Sync {
     fn turned_onwards(&self, angle: Self::Angle) -> Self;
     /// After a turn by π.
     fn turned_round(&self) -> Self;
-    /// In the same direction, but so that the half-edge, of this length, ends at the place of another frame. A frame of twice the digits is
-    /// that already.
+    /// In the same direction, but moved so that the half-edge, of this length, ends at the place of another frame. A frame of twice the digits
+    /// stays as it is: it ends there to all digits that a layout has.
     fn ending_at(&self, end: &Self, side: Self::Side) -> Self;
-    /// The distance from the origin of the third corner of a triangle on this half-edge, whose angle here and whose last side are given:
-    /// by doubles, or any number that grows with it.
+    /// The distance from the origin of the third corner of a triangle on this half-edge, by its angle here and its last side; or a number that
+    /// grows with that distance. Doubles are enough, since it only decides the order of faces.
     fn distance_of_apex(&self, angle: Self::Angle, last: Self::Side) -> f64;
+    /// Where the half-edge starts, in ambient coordinates.
+    fn origin(&self) -> [f64; 3];
     /// Where it carries a point in ambient coordinates.
     fn apply(&self, p: [f64; 3]) -> [f64; 3];
-    /// By how much a point misses the place where the frame carries `local`: a vector at the frame's origin.
+    /// By how much a point misses the place where the frame carries `local`: a vector of the plane in E², elsewhere one at the frame's
+    /// origin.
     fn miss(&self, point: [f64; 3], local: [f64; 3]) -> [f64; 2];
     /// The isometry.
     fn motion(&self) -> Motion<Twofold>;
@@ -72,7 +78,7 @@ impl Frame for PlaneFrame {
 
     fn turned_onwards(&self, [cos, sin]: [f64; 2]) -> Self {
         let direction = mul(self.direction, [-cos, sin]);
-        // One step of Newton's method for 1/|direction|, from 1: that is off by a few roundings.
+        // One step of Newton's method for 1/|direction| from 1, where the length is off by a few roundings.
         let correction = 1.5 - 0.5 * norm2(direction);
         PlaneFrame { direction: direction.map(|x| correction * x), place: self.place }
     }
@@ -91,6 +97,10 @@ impl Frame for PlaneFrame {
         x.hypot(y)
     }
 
+    fn origin(&self) -> [f64; 3] {
+        [self.place[0].high, self.place[1].high, 1.0]
+    }
+
     fn apply(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {
         let way = mul(self.direction, [x, y]);
         [self.place[0].plus(way[0]).high, self.place[1].plus(way[1]).high, 1.0]
@@ -98,7 +108,7 @@ impl Frame for PlaneFrame {
 
     fn miss(&self, [x, y, _]: [f64; 3], local: [f64; 3]) -> [f64; 2] {
         let from = [self.place[0].plus(-x), self.place[1].plus(-y)].map(|d| -d.high);
-        sub(mul(from, conj(self.direction)), [local[0], local[1]])
+        sub(from, mul(self.direction, [local[0], local[1]]))
     }
 
     fn motion(&self) -> Motion<Twofold> {
@@ -138,10 +148,14 @@ impl Frame for Motion<Twofold> {
     }
 
     fn distance_of_apex(&self, half_angle: [Twofold; 2], last: [Twofold; 2]) -> f64 {
-        // Half the distance, its hyperbolic sine or its sine; the order of faces needs no more than doubles.
+        // |b| is half the distance in E², its hyperbolic sine in H², its sine in S².
         let far =
             self.rounded().after_rotation(half_angle.map(f64::from)).after_translation(last.map(f64::from));
         far.b[0].hypot(far.b[1])
+    }
+
+    fn origin(&self) -> [f64; 3] {
+        Motion::origin(self).map(f64::from)
     }
 
     fn apply(&self, p: [f64; 3]) -> [f64; 3] {
@@ -149,7 +163,12 @@ impl Frame for Motion<Twofold> {
     }
 
     fn miss(&self, point: [f64; 3], local: [f64; 3]) -> [f64; 2] {
-        let [x, y, _] = Motion::apply(&self.inverse(), precise_point(self.space, point)).map(f64::from);
+        let point = precise_point(self.space, point);
+        if self.space == Space::E2 {
+            let place = Motion::apply(self, precise_point(self.space, local));
+            return [0, 1].map(|k| f64::from(point[k] - place[k]));
+        }
+        let [x, y, _] = Motion::apply(&self.inverse(), point).map(f64::from);
         sub([x, y], [local[0], local[1]])
     }
 
@@ -186,8 +205,9 @@ mod tests {
                 assert!(off[0].hypot(off[1]) < 1e-12, "{k}: {off:?}");
             }
             let other = [p[0] + 3.0, p[1] - 4.0, 1.0];
-            let off = plane.miss(other, local);
-            assert!((off[0].hypot(off[1]) - 5.0).abs() < 1e-12);
+            for off in [plane.miss(other, local), motion.miss(other, local)] {
+                assert!((off[0] - 3.0).hypot(off[1] + 4.0) < 1e-12, "{k}: {off:?}");
+            }
         }
     }
 }

@@ -1,7 +1,21 @@
 //! A surface, opened along a cut, in the space of its metric.
+//!
+//! ```
+//! use ricci::embed::{UnrollOptions, unroll};
+//! use ricci::{Class, Control, Solution, Surface, geometry::Space, mesh::shapes};
+//! # fn main() -> ricci::Result<()> {
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let torus = Surface::intrinsic(mesh, lengths, Space::E2)?;
+//! let flat = Solution::initial_of(torus, Class::yamabe(Space::E2))?;
+//! let layout = unroll(&flat, &UnrollOptions::default(), &Control::new())?;
+//! let [x, y] = layout.modulus().unwrap();
+//! assert!(x.abs() < 1e-14 && (y - 1.0).abs() < 1e-14);
+//! # Ok(())
+//! # }
+//! ```
 
 use super::corner::number_corners;
-use super::faces::{Faces, place_in_face};
+use super::faces::{Faces, corner_of};
 use super::pieces::Pieces;
 use super::shape::{Shape, extent};
 use crate::error::{Error, Result};
@@ -18,9 +32,10 @@ use crate::topology::{CutGraph, corner_walk};
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-/// Rounding of one step of a development, relative: a direction is turned by an angle and made a unit vector again, a few ulp.
+/// Relative rounding error of one step of a development: a direction is turned by an angle and made a unit vector again, a few ulp.
 const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// What the two sides of a seam may always differ by in H², a distance: copies of the layout are to meet to this.
+/// Distance in H² by which the two sides of a seam may differ however exact the metric is: copies of the layout need to meet no better, in a
+/// cover that is drawn or written in doubles.
 pub const MEETING: f64 = 1e-8;
 
 /// A surface, opened along a cut, in the model space of its metric: E², H² or S². Orientation is the surface's (of a sphere seen from
@@ -35,7 +50,7 @@ pub const MEETING: f64 = 1e-8;
 pub struct Layout {
     /// The space.
     pub space: Space,
-    /// Along which the surface is opened.
+    /// The cut along which the surface is opened.
     pub cut: CutGraph,
     /// Per half-edge, the index into `points` of the corner at its origin, in its face. Corners around a vertex share an index unless cut
     /// or boundary edges separate them. A half-edge outside the surface has the index of the corner at its origin in the face across the
@@ -44,14 +59,14 @@ pub struct Layout {
     /// Ambient coordinates `[x, y, w]` of the vertices of the opened surface: of the plane `w = 1`, of the hyperboloid
     /// `w² = 1 + x² + y²` ([`crate::geometry::model`] has other models), of the unit sphere `x² + y² + w² = 1`.
     pub points: Vec<[f64; 3]>,
-    /// Plane coordinates of the same: in E² their own, in H² of the Poincaré disk, in S² by stereographic projection from the south pole.
+    /// Plane coordinates of these vertices: in E² their own, in H² of the Poincaré disk, in S² by stereographic projection from the south pole.
     pub coordinates: Vec<[f64; 2]>,
     /// One seam per segment of the cut, in the same order.
     pub seams: Vec<Seam>,
     /// Triangles that are not counterclockwise. Of a metric's own triangulation: clockwise or without area, by exact arithmetic. Of a
-    /// refinement: those with an area below −[`super::shape::LEAST_SHARE`] · longest edge² and what rounding does to it.
+    /// refinement: those with an area below −[`super::shape::LEAST_SHARE`] · longest edge², and by more than rounding explains.
     pub flipped: Vec<FaceId>,
-    /// Triangles of a refinement whose area is within that of zero.
+    /// Triangles of a refinement whose area differs from zero by no more than this.
     pub degenerate: Vec<FaceId>,
     /// Triangles in final faces whose lengths break the triangle inequality, ascending: they are laid out with angles (π, 0, 0), and the layout
     /// does not represent the metric there.
@@ -76,9 +91,9 @@ pub struct Layout {
     pub(super) side: PerHalfedge<i32>,
     /// Number of final faces between the origin and the farthest piece, at most.
     pub(super) n_steps: usize,
-    /// The frames of the final faces' first half-edges, with twice the digits; none where doubles were enough …
+    /// The frames of the final faces' first half-edges, with twice the digits; none where doubles were enough.
     pub(super) frames: Vec<Motion<Twofold>>,
-    /// … and per triangle the number of its own.
+    /// Per triangle, the number of its final face's frame in `frames`.
     pub(super) patch: PerFace<u32>,
 }
 
@@ -88,12 +103,12 @@ pub struct Seam {
     /// The isometry that carries the opened surface onto its neighbour across the left side of the segment: the image of its right side onto
     /// that of its left side.
     pub pairing: Motion<Twofold>,
-    /// How far that is from the isometry of any edge of the segment, there: relative to the layout's diameter in E², a distance elsewhere.
+    /// The largest distance, at an edge of the segment, between this isometry and the edge's own: relative to the layout's diameter in E², a distance elsewhere.
     pub residual: f64,
 }
 
-/// Radians. A rotation below this is the rounding of numbers of twice the digits, about 1e-30 on flat tori, whose sides are paired by
-/// translations; the positions, which are doubles, tell none below 1e-16.
+/// Rotation in radians below which an isometry counts as a translation. Rounding of numbers with twice the digits leaves about 1e-30 on flat
+/// tori, whose sides are paired by translations, and positions in doubles show no rotation below 1e-16.
 const LEAST_ROTATION: f64 = 1e-24;
 
 impl Seam {
@@ -216,10 +231,12 @@ impl Layout {
     }
 
     /// The vertices of the lift of an edge path that starts at the corner at the origin of `corner` (a half-edge of a face), in ambient
-    /// coordinates: the start, then the end of each edge, on into the copies of the layout.
+    /// coordinates: the start, then the end of each edge, also where the path leads into copies of the layout.
     ///
     /// A loop that starts at [`super::DeckGroup::corner`] ends where its element carries the start.
-    /// [`Error::Argument`] for a path that is none, or does not start at that corner.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for edges that do not follow one another, or a path that does not start at that corner.
     pub fn lift(&self, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<[f64; 3]>> {
         let mut copy = Motion::identity(self.space);
         let place = |copy: &Motion<Twofold>, at: HalfedgeId| {
@@ -240,7 +257,8 @@ impl Layout {
         if self.space == Space::E2 { self.disagreement / self.diameter } else { self.disagreement }
     }
 
-    /// What curvature errors (the sum of their absolute values over the vertices) and rounding allow [`Layout::consistency`] to be.
+    /// The largest [`Layout::consistency`] that rounding and curvature errors explain; these are given by the sum of their absolute values over
+    /// the vertices.
     pub fn consistency_limit(&self, curvature_errors: f64) -> f64 {
         // A vertex with curvature error δ turns what lies beyond it by δ: in E² that moves it by at most δ of the diameter, in H² a point at
         // distance r by sinh(r) δ.
@@ -266,9 +284,10 @@ impl Layout {
         periods.find_map(|t| modulus([first, t]))
     }
 
-    /// Scale a layout in E² so that its area is `area` (finite, positive); returns the factor on lengths.
+    /// Scales a layout in E² so that its area is `area` (finite, positive); returns the factor on lengths.
     ///
-    /// Errors: [`Error::Argument`]; [`Error::Layout`] in another space, where nothing has a scale.
+    /// # Errors
+    /// [`Error::Argument`] for an area that is not finite and positive; [`Error::Layout`] in another space, whose curvature fixes the scale.
     pub fn scale_to_area(&mut self, area: f64) -> Result<f64> {
         if self.space != Space::E2 {
             return Err(Error::Layout(format!("a layout in {} has the scale of its space", self.space)));
@@ -299,13 +318,17 @@ impl Layout {
         self.area *= factor * factor;
     }
 
-    /// Find the triangles that are flipped or degenerate.
+    /// Finds the triangles that are flipped or degenerate.
     pub(super) fn find_flat(&mut self) {
         let mesh = self.pieces.mesh();
         if self.pieces.refinement().is_none() {
             self.flipped = match self.space {
                 Space::E2 => faces_where(mesh, |f| !is_left_turn(self.face_uv(f))),
-                _ => faces_where(mesh, |f| !is_counterclockwise(self.face_points(f))),
+                // The sign of the determinant is in H² the orientation in the Klein disk.
+                _ => faces_where(mesh, |f| {
+                    let [p, q, r] = self.face_points(f);
+                    winding(p, q, r) != Ordering::Greater
+                }),
             };
             return;
         }
@@ -318,8 +341,8 @@ impl Layout {
         self.degenerate = faces(|(shape, extent)| shape.is_degenerate(*extent));
     }
 
-    /// The shape of a triangle about its own place, where doubles are as dense as they can be, with the size of coordinates at which its own
-    /// have been rounded. `size`: that of the whole layout in E².
+    /// The shape of a triangle, and the size of the coordinates at which its corners have been rounded: in E² `size`, the one of the whole
+    /// layout. In H² and S² the triangle is first moved to the origin, where doubles are densest.
     pub(super) fn shape(&self, f: FaceId, size: f64) -> (Shape, f64) {
         if self.space == Space::E2 {
             return (Shape::of(self.face_uv(f)), size);
@@ -337,7 +360,7 @@ impl Layout {
 
     /// The frame of a half-edge of a face, of a layout with frames of twice the digits ([`layout_of`]).
     pub(super) fn frame(&self, faces: &Faces<Motion<Twofold>>, h: HalfedgeId) -> Result<Motion<Twofold>> {
-        let (f, k) = place_in_face(self.mesh(), h)?;
+        let (f, k) = corner_of(self.mesh(), h)?;
         match self.frames.get(*self.patch.get(f.index()).unwrap_or(&u32::MAX) as usize) {
             Some(&frame) => Ok(faces.around(f, 0, frame)[k]),
             None => Err(Error::Layout(format!("face {f} has no frame of twice the digits"))),
@@ -345,9 +368,11 @@ impl Layout {
     }
 }
 
-/// A translation by less, in diameters of the layout, is none: its seam leads to a vertex and back.
+/// Length, in diameters of the layout, below which the translation of a seam counts as none: the seam then leads to a vertex and back. It is far
+/// above the rounding of coordinates and far below an edge.
 const LEAST_PERIOD: f64 = 1e-9;
-/// A side pairing of a flat torus turns by less: cones turn by their curvature, of a flow within its tolerance of 0.
+/// Rotation in radians above which a side pairing shows that the surface has cones. It is far above the tolerance of a flow to curvature 0 and far
+/// below the curvature of a cone that somebody asked for.
 const TURNS: f64 = 1e-6;
 
 fn faces_where(mesh: &Mesh, is_so: impl Fn(FaceId) -> bool + Sync) -> Vec<FaceId> {
@@ -358,12 +383,6 @@ fn faces_where(mesh: &Mesh, is_so: impl Fn(FaceId) -> bool + Sync) -> Vec<FaceId
 
 fn is_left_turn([a, b, c]: [[f64; 2]; 3]) -> bool {
     orientation(a, b, c) == Ordering::Greater
-}
-
-/// Whether three points in ambient coordinates run counterclockwise, by exact arithmetic: the sign of their determinant, which in H² is
-/// the orientation of their images in the Klein disk.
-pub fn is_counterclockwise([p, q, r]: [[f64; 3]; 3]) -> bool {
-    winding(p, q, r) == Ordering::Greater
 }
 
 /// Distance of a point in ambient coordinates from the origin.

@@ -1,5 +1,5 @@
-//! Layouts of metrics: developing a cut surface, the isometries between the sides of its seams, how much the map distorts, and
-//! charts that do not overlap.
+//! Layouts of metrics: a surface that is opened along a cut and developed into the space of its metric, the isometries between the two
+//! sides of each seam, how much the map distorts, and charts that do not overlap.
 
 mod chart_growth;
 pub mod charts;

@@ -1,4 +1,15 @@
-//! Whether triangles in the plane overlap: exactly, and without looking at every pair.
+//! Whether triangles in the plane overlap: by exact arithmetic, and without looking at every pair.
+//!
+//! ```
+//! use ricci::{Control, embed::overlap::overlapping};
+//! # fn main() -> ricci::Result<()> {
+//! let left = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+//! let right = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+//! assert!(overlapping(&[left, right], &Control::new())?.is_empty());
+//! assert_eq!(overlapping(&[left, right, left], &Control::new())?, [2]);
+//! # Ok(())
+//! # }
+//! ```
 
 use crate::control::Control;
 use crate::error::Result;
@@ -21,11 +32,11 @@ pub fn interiors_meet(a: &Triangle, b: &Triangle) -> bool {
     !separates(a, b) && !separates(b, a)
 }
 
-/// Triangles, all or some of which are *present*, in a tree of bounding boxes.
+/// Triangles, some of which are *present*, in a tree of bounding boxes.
 ///
-/// The tree is built once over all of them, by halving along the longer side of the box of the centres; each node counts the
-/// present triangles below, and a search only enters nodes that have some. Triangles of any mixture of sizes are welcome, which
-/// they would not be in a grid. Adding, removing: O(log n); searching: O(log n) and what is there.
+/// The tree is built once over all triangles, by halving along the longer side of the box of their centres. Each node counts the
+/// present triangles below it, and a search only enters nodes that have some. Triangles may differ in size by any factor, which a grid would
+/// not stand. Adding and removing take O(log n), a search O(log n) and the number of boxes that it meets.
 pub struct BoxTree<'a> {
     triangles: &'a [Triangle],
     /// Number of leaves, a power of two; leaf k is node `leaves + k`, the children of node i are 2i and 2i + 1.
@@ -42,7 +53,10 @@ pub struct BoxTree<'a> {
 const EMPTY: [f64; 4] = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
 
 impl<'a> BoxTree<'a> {
-    /// A tree with no triangle present. Coordinates must be finite. O(n log n). Errors: [`crate::Error::Cancelled`].
+    /// A tree with no triangle present. Coordinates must be finite. O(n log n).
+    ///
+    /// # Errors
+    /// [`crate::Error::Cancelled`].
     pub fn new(triangles: &'a [Triangle], control: &Control) -> Result<BoxTree<'a>> {
         let n = triangles.len();
         let leaves = n.next_power_of_two();
@@ -59,12 +73,12 @@ impl<'a> BoxTree<'a> {
         Ok(BoxTree { triangles, leaves, order, leaf, boxes, present: vec![0; 2 * leaves] })
     }
 
-    /// Make a triangle present; it must be counterclockwise and not be present yet.
+    /// Makes a triangle present; it must be counterclockwise and not be present yet.
     pub fn insert(&mut self, f: usize) {
         self.update(f, |count| *count += 1);
     }
 
-    /// Make a present triangle absent.
+    /// Makes a present triangle absent.
     pub fn remove(&mut self, f: usize) {
         self.update(f, |count| *count -= 1);
     }
@@ -99,8 +113,10 @@ impl<'a> BoxTree<'a> {
     }
 }
 
-/// The first triangle of each overlapping group is innocent: the triangles, in their order, whose interiors meet that of an
-/// earlier one. Clockwise triangles count as their mirror images do, those without area meet nothing. Exact. Errors:
+/// The triangles, ascending, whose interiors meet that of an earlier triangle that is not itself in this list. Clockwise triangles count as
+/// their mirror images do, triangles without area meet nothing. Exact.
+///
+/// # Errors
 /// [`crate::Error::Cancelled`].
 pub fn overlapping(triangles: &[Triangle], control: &Control) -> Result<Vec<usize>> {
     let turned: Vec<Triangle> = triangles
@@ -125,7 +141,7 @@ pub fn overlapping(triangles: &[Triangle], control: &Control) -> Result<Vec<usiz
     Ok(found)
 }
 
-/// Order triangles so that each half of each power-of-two block is one side of the block.
+/// Orders triangles so that the two halves of each block of a power of two lie on different sides of its middle.
 fn halve(triangles: &[Triangle], order: &mut [u32], leaves: usize, control: &Control) -> Result<()> {
     let half = leaves / 2;
     if half == 0 || order.len() <= 1 {

@@ -1,12 +1,22 @@
 //! Packing shapes into the unit square by their bounding rectangles, all with one scale.
+//!
+//! ```
+//! use ricci::{Control, embed::pack::pack};
+//! # fn main() -> ricci::Result<()> {
+//! let (scale, places) = pack(&[[2.0, 2.0]; 4], 0.0, &Control::new())?.unwrap();
+//! assert!((scale - 0.25).abs() < 1e-4 && places.len() == 4);
+//! # Ok(())
+//! # }
+//! ```
 
 use crate::control::Control;
 use crate::error::Result;
+use crate::geometry::complex::doubled_area;
 use std::f64::consts::FRAC_PI_2;
 
-/// The search for the scale ends at this relative accuracy.
+/// Relative accuracy at which the search for the scale ends: nobody sees a smaller gain.
 const ACCURACY: f64 = 1e-4;
-/// More rectangles than this are packed in one order, not in several.
+/// Number of rectangles above which only one order is tried: packing takes the square of their number in the worst case.
 const MANY: usize = 4000;
 /// Rectangles placed between two looks at the control.
 const RECTANGLES_PER_STEP: usize = 256;
@@ -98,8 +108,7 @@ fn convex_hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     sorted.dedup();
-    let turn =
-        |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    let turn = |a, b, c| doubled_area([a, b, c]);
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
         let mut chain: Vec<[f64; 2]> = Vec::new();
         for p in points {
@@ -129,8 +138,11 @@ pub struct Place {
 /// Places for rectangles with these sides, scaled by the largest factor that is found, in the unit square: `margin` apart and half
 /// of that from the border. `None` if there are too many for the margin, or all are points.
 ///
-/// Errors: [`crate::Error::Cancelled`]. For each scale a skyline packing \[Jyl10\]: rectangles in the order of their size, each where its upper side comes lowest, upright or
-/// turned; the scale by bisection.
+/// For each scale a skyline packing \[Jyl10\]: rectangles in the order of their size, each where its upper side comes lowest, upright or
+/// turned. The scale is found by bisection.
+///
+/// # Errors
+/// [`crate::Error::Cancelled`].
 pub fn pack(sides: &[[f64; 2]], margin: f64, control: &Control) -> Result<Option<(f64, Vec<Place>)>> {
     let area: f64 = sides.iter().map(|s| s[0] * s[1]).sum();
     let longest = sides.iter().fold(0.0f64, |m, s| m.max(s[0]).max(s[1]));

@@ -15,8 +15,8 @@ pub(super) enum Pieces {
     Refinement(Arc<Refinement>),
 }
 
-/// The weights of a triangle's corners in the triangle itself.
-const CORNERS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// Weights of a triangle's corners in that triangle.
+pub(super) const CORNERS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Pieces {
     pub fn mesh(&self) -> &Mesh {
@@ -57,7 +57,7 @@ impl Pieces {
         let Some(r) = self.refinement() else { return Some(h) };
         let (e, f) = (r.origin[h.edge()].input?, r.mesh.face(h)?);
         let k = r.mesh.face_halfedges(f).iter().position(|&side| side == h)?;
-        // It starts at the corner where the side does, or on that side.
+        // The half-edge starts at a corner of the face or on the side that starts there.
         let place = r.input_barycentric(f)[k];
         let corner = (0..3).find(|&c| place[c] > 0.0 && place[(c + 2) % 3] == 0.0)?;
         Some(input.face_halfedges(r.input_face[f])[corner]).filter(|g| g.edge() == e)

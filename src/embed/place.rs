@@ -1,8 +1,20 @@
-//! Placing pieces in the space of their metric: what a layout is made from.
+//! From a development of pieces to a layout.
+//!
+//! ```
+//! use ricci::embed::layout_of;
+//! use ricci::{Class, Control, Solution, Surface, geometry::Space, mesh::shapes};
+//! # fn main() -> ricci::Result<()> {
+//! let disk = Surface::from_soup(&shapes::disk(4)?)?;
+//! let flat = Solution::initial_of(disk, Class::yamabe(Space::E2))?;
+//! let layout = layout_of(flat.mesh(), flat.metric(), None, None, &Control::new())?;
+//! assert!(layout.seams.is_empty() && layout.consistency() < 1e-14);
+//! # Ok(())
+//! # }
+//! ```
 
 use super::corner::number_corners;
-use super::develop::{Development, Start, develop};
-use super::faces::{Faces, place_in_face};
+use super::develop::Development;
+use super::faces::Faces;
 use super::frame::Frame;
 use super::layout::{Layout, Seam, bounding_diagonal, distance_from_origin, flat};
 use super::pieces::Pieces;
@@ -10,19 +22,20 @@ use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{norm2, sub};
 use crate::geometry::{Motion, Space, Twofold, worse};
-use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
 use crate::metric::{Metric, Refinement};
 use crate::parallel;
-use crate::topology::{CutGraph, check_lengths, check_vertex, cut};
+use crate::topology::{CutGraph, check_lengths, cut};
 use std::sync::Arc;
 
-/// Lay lengths that are flat off the cut out in E², in units of the lengths, by doubles, O(E log E). A corner of the smallest triangle
+/// Lays lengths that are flat off the cut out in E², in units of the lengths, by doubles, O(E log E). A corner of the smallest triangle
 /// lies at the origin.
 ///
-/// `lengths`: one per edge, flat at every vertex that is inside the opened surface; what is missing to that shows in
+/// `lengths`: one per edge, flat at every vertex inside the opened surface; how far they are from that shows in
 /// [`Layout::consistency`] and [`Layout::broken`]. `cut` opens the surface into a disk ([`crate::topology::cut_graph`]).
 ///
-/// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk, [`Error::Cancelled`].
+/// # Errors
+/// [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk, [`Error::Cancelled`].
 pub fn layout(mesh: &Arc<Mesh>, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Control) -> Result<Layout> {
     check_lengths(mesh, lengths)?;
     let faces = Faces::of_lengths(mesh, lengths.clone());
@@ -31,14 +44,15 @@ pub fn layout(mesh: &Arc<Mesh>, lengths: &PerEdge<f64>, cut: &CutGraph, control:
     Ok(layout)
 }
 
-/// Lay a metric of constant curvature out in its space, outwards from `root` (default: a corner of the smallest triangle) with
+/// Lays a metric of constant curvature out in its space, outwards from `root` (default: a corner of the smallest triangle), with
 /// twice the digits of doubles, as deck groups need them: O(E log E).
 ///
-/// `cut`: where to open the surface; `None` for one without cones, whose cut is then the locus where the order of [`Layout`]'s faces, by
-/// the distance of their far corner, meets itself (nearly a Dirichlet domain: small, round about the root; no cut at all on a sphere). Cones
-/// inside have to lie on a given cut.
+/// `cut`: where to open the surface; cones inside have to lie on it. `None`, for a surface without cones: faces are added by the distance of
+/// their far corner from the root, and the surface is opened where this growing disk meets itself. It is nearly a Dirichlet domain: small, and
+/// round about the root. A sphere is then not cut at all.
 ///
-/// Errors: [`Error::Argument`] for a root that is no vertex; [`Error::Layout`] for a cut that does not leave a disk, a surface of several
+/// # Errors
+/// [`Error::Argument`] for a root that is no vertex; [`Error::Layout`] for a cut that does not leave a disk, a surface of several
 /// components, lengths beyond what doubles can place; those of [`Metric::lengths`]; [`Error::Cancelled`].
 pub fn layout_of(
     mesh: &Arc<Mesh>,
@@ -53,22 +67,25 @@ pub fn layout_of(
     Ok(layout)
 }
 
-/// Where the corners of the part of a flat surface lie that a cut leaves around the smallest triangle, per half-edge of a face; NaN beyond the cut.
-/// Errors: those of [`layout_of`].
+/// Lays out the part of a flat surface that a cut leaves around the smallest triangle: the coordinates of the corner at the origin of each
+/// half-edge of a face, NaN beyond the cut.
+///
+/// # Errors
+/// Those of [`layout_of`].
 pub(crate) fn unroll_part(
     mesh: &Arc<Mesh>,
     metric: &Metric,
     is_cut: &PerEdge<bool>,
     control: &Control,
 ) -> Result<PerHalfedge<[f64; 2]>> {
-    let (pieces, faces) = (Pieces::Mesh(mesh.clone()), Faces::in_plane(mesh, metric)?);
-    let grown = develop(&pieces, &faces, start(&pieces, &faces, None)?, Some(is_cut), control)?;
+    let faces = Faces::in_plane(mesh, metric)?;
+    let grown = Development::grow(Pieces::Mesh(mesh.clone()), &faces, None, Some(is_cut), control)?;
     let (corner, n_corners) = number_corners(mesh, is_cut);
-    let points = grown.points(&pieces, &faces, &corner, n_corners);
+    let points = grown.points(&corner, n_corners);
     Ok(PerHalfedge::from_fn(mesh.n_halfedges(), |h| flat(Space::E2, points[corner[h] as usize])))
 }
 
-/// Lay pieces out; what is flipped or degenerate is not yet found ([`Layout::find_flat`]). `cut`: on the pieces.
+/// Lays pieces out along a cut of them; flipped and degenerate triangles are found later ([`Layout::find_flat`]).
 pub(super) fn lay_out<F: Frame>(
     pieces: Pieces,
     faces: &Faces<F>,
@@ -77,153 +94,103 @@ pub(super) fn lay_out<F: Frame>(
     control: &Control,
 ) -> Result<Layout> {
     cut.as_ref().map_or(Ok(()), |cut| check_cut(pieces.mesh(), cut))?;
-    let start = start(&pieces, faces, root)?;
-    let grown = develop(&pieces, faces, start, cut.as_ref().map(|cut| &cut.is_cut), control)?;
-    if grown.n_reached() < pieces.mesh().n_faces() {
+    let grown = Development::grow(pieces, faces, root, cut.as_ref().map(|cut| &cut.is_cut), control)?;
+    let mesh = grown.pieces.mesh();
+    if grown.n_reached() < mesh.n_faces() {
         return Err(Error::Layout("the surface has several components: lay out each alone".into()));
     }
-    let cut = cut.unwrap_or_else(|| {
-        let mesh = pieces.mesh();
-        CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !grown.crossed[e]))
-    });
-    assemble(pieces, faces, grown, cut, control)
+    let where_it_meets = || CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !grown.crossed[e]));
+    let cut = cut.unwrap_or_else(where_it_meets);
+    grown.layout(cut, control)
 }
 
-/// What to begin with: at a vertex of the final triangulation, or with the smallest final face.
-fn start<F: Frame>(pieces: &Pieces, faces: &Faces<F>, root: Option<VertexId>) -> Result<Start> {
-    let mesh = pieces.mesh();
-    let Some(root) = root else {
-        let size = |f: &FaceId| faces.longest(pieces.final_face(*f));
-        let smallest = mesh.faces().min_by(|f, g| size(f).total_cmp(&size(g)));
-        let piece = smallest.ok_or_else(|| Error::Layout("the surface has no face".into()))?;
-        return Ok(Start { piece, side: 0 });
-    };
-    check_vertex(faces.mesh, root)?;
-    check_vertex(mesh, root)?;
-    // The half-edge of the final triangulation that comes first at the root, so that layouts of the triangulation and of its
-    // refinement lie the same way; or any other where that belongs to no piece (on the other half of a double).
-    let first = faces.mesh.outgoing(root).find(|&h| !faces.mesh.is_outside(h));
-    let mut any = None;
-    for h in mesh.outgoing(root).filter(|&h| !mesh.is_outside(h)) {
-        let (piece, k) = place_in_face(mesh, h)?;
-        let corner = pieces.final_barycentric(piece)[k].iter().position(|&w| w == 1.0);
-        let Some(side) = corner else { continue };
-        let found = Start { piece, side };
-        if first == Some(faces.mesh.face_halfedges(pieces.final_face(piece))[side]) {
-            return Ok(found);
+impl<F: Frame> Development<'_, F> {
+    /// The layout of a development in which every piece was reached, opened along a cut of the pieces. Its flipped and degenerate triangles are not
+    /// found yet.
+    fn layout(self, cut: CutGraph, control: &Control) -> Result<Layout> {
+        let (mesh, faces, space) = (self.pieces.mesh(), self.faces, self.faces.space);
+        let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
+        let points = self.points(&corner_index, n_corners);
+        let coordinates: Vec<[f64; 2]> = points.iter().map(|&p| flat(space, p)).collect();
+        let diameter = bounding_diagonal(&coordinates);
+        // The south pole of a sphere has no plane coordinates.
+        let is_placed = points.as_flattened().iter().all(|x| x.is_finite()) && diameter > 0.0;
+        if !(is_placed && (diameter.is_finite() || space == Space::S2)) {
+            return Err(Error::Layout(
+                "the lengths are too large or too small for doubles: rescale them".into(),
+            ));
         }
-        any = any.or(Some(found));
-    }
-    any.ok_or_else(|| Error::Layout(format!("vertex {root} has no face")))
-}
-
-fn assemble<F: Frame>(
-    pieces: Pieces,
-    faces: &Faces<F>,
-    grown: Development<F>,
-    cut: CutGraph,
-    control: &Control,
-) -> Result<Layout> {
-    let (mesh, space) = (pieces.mesh(), faces.space);
-    let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
-    let points = grown.points(&pieces, faces, &corner_index, n_corners);
-    let coordinates: Vec<[f64; 2]> = points.iter().map(|&p| flat(space, p)).collect();
-    let diameter = bounding_diagonal(&coordinates);
-    // The south pole of a sphere has no plane coordinates.
-    let is_placed = points.as_flattened().iter().all(|x| x.is_finite()) && diameter > 0.0;
-    if !(is_placed && (diameter.is_finite() || space == Space::S2)) {
-        return Err(Error::Layout("the lengths are too large or too small for doubles: rescale them".into()));
-    }
-    control.check()?;
-    let mut misses = vec![[0.0; 2]; grown.frames.len()];
-    parallel::fill(&mut misses, |patch| misses_of(&pieces, faces, &grown, &corner_index, &points, patch));
-    let [apart, local_consistency] =
-        misses.iter().fold([0.0; 2], |[a, b], m| [worse(a, m[0]), worse(b, m[1])]);
-    let (mut seams, mut disagreement) = (Vec::with_capacity(cut.segments.len()), apart);
-    for segment in &cut.segments {
-        let mut seam = Seam::new(&pieces, faces, &grown, segment)?;
-        disagreement = worse(disagreement, seam.residual);
+        control.check()?;
+        let mut misses = vec![[0.0; 2]; self.sides.len()];
+        parallel::fill(&mut misses, |patch| self.misses(patch, |h| points[corner_index[h] as usize]));
+        let [apart, local_consistency] =
+            misses.iter().fold([0.0; 2], |[a, b], m| [worse(a, m[0]), worse(b, m[1])]);
+        let mut seams = cut.segments.iter().map(|s| self.seam(s)).collect::<Result<Vec<_>>>()?;
+        let disagreement = seams.iter().fold(apart, |far, seam| worse(far, seam.residual));
         if space == Space::E2 {
-            seam.residual /= diameter;
+            seams.iter_mut().for_each(|seam| seam.residual /= diameter);
         }
-        seams.push(seam);
+        // A refinement with a boundary, of a closed triangulation, is the given half of a double.
+        let is_half = faces.mesh.is_closed() && !mesh.is_closed();
+        control.check()?;
+        Ok(Layout {
+            space,
+            seams,
+            flipped: Vec::new(),
+            degenerate: Vec::new(),
+            broken: mesh.faces().filter(|&f| faces.is_broken(self.pieces.final_face(f))).collect(),
+            disagreement,
+            local_consistency,
+            radius: points.iter().map(|&p| distance_from_origin(space, p)).fold(0.0, f64::max),
+            diameter,
+            area: if is_half { 0.5 } else { 1.0 } * faces.area(),
+            scale: 1.0,
+            input: None,
+            side: seam_sides(mesh, &cut),
+            n_steps: self.sides.len(),
+            frames: if F::IS_PRECISE {
+                self.sides.iter().map(|s| s[0].motion()).collect()
+            } else {
+                Vec::new()
+            },
+            patch: if F::IS_PRECISE { self.patch } else { Vec::new().into() },
+            pieces: self.pieces,
+            cut,
+            corner_index,
+            points,
+            coordinates,
+        })
     }
-    // A refinement with a boundary, of a closed triangulation, is the given half of a double.
-    let is_half = faces.mesh.is_closed() && !mesh.is_closed();
-    let layout = Layout {
-        space,
-        seams,
-        flipped: Vec::new(),
-        degenerate: Vec::new(),
-        broken: mesh.faces().filter(|&f| faces.is_broken(pieces.final_face(f))).collect(),
-        disagreement,
-        local_consistency,
-        radius: points.iter().map(|&p| distance_from_origin(space, p)).fold(0.0, f64::max),
-        diameter,
-        area: if is_half { 0.5 } else { 1.0 } * faces.area(),
-        scale: 1.0,
-        input: None,
-        side: seam_sides(mesh, &cut),
-        n_steps: grown.frames.len(),
-        frames: if F::IS_PRECISE { grown.frames.iter().map(Frame::motion).collect() } else { Vec::new() },
-        patch: if F::IS_PRECISE { grown.patch } else { Vec::new().into() },
-        pieces,
-        cut,
-        corner_index,
-        points,
-        coordinates,
-    };
-    control.check()?;
-    Ok(layout)
-}
 
-/// Of one patch: the largest distance between where its face has a corner and where that lies, and the largest difference of an edge
-/// relative to the face's longest side.
-fn misses_of<F: Frame>(
-    pieces: &Pieces,
-    faces: &Faces<F>,
-    grown: &Development<F>,
-    corner_index: &PerHalfedge<u32>,
-    points: &[[f64; 3]],
-    patch: usize,
-) -> [f64; 2] {
-    let of_patch = grown.pieces_of(patch);
-    let Some(&first) = of_patch.first() else { return [0.0; 2] };
-    let placed = faces.placed(pieces.final_face(first), grown.frames[patch]);
-    let longest = faces.longest(pieces.final_face(first));
-    let (mut worst, mut worst_edge) = (0.0, 0.0);
-    for &f in of_patch {
-        let (halfedges, weights) = (pieces.mesh().face_halfedges(f), pieces.final_barycentric(f));
-        let off = [0, 1, 2].map(|k| {
-            let point = points[corner_index[halfedges[k]] as usize];
-            placed.miss(faces, point, weights[k]).map(|x| x / longest)
-        });
-        for k in 0..3 {
-            worst = worse(worst, norm2(off[k]));
-            worst_edge = worse(worst_edge, norm2(sub(off[(k + 1) % 3], off[k])));
+    /// Of one patch: the largest distance between where its face has a corner and where that lies, and the largest difference of an edge
+    /// relative to the face's longest side.
+    fn misses(&self, patch: usize, point: impl Fn(HalfedgeId) -> [f64; 3]) -> [f64; 2] {
+        let Some((placed, pieces)) = self.placed(patch) else { return [0.0; 2] };
+        let longest = placed.longest();
+        let (mut worst, mut worst_edge) = (0.0, 0.0);
+        for &f in pieces {
+            let (halfedges, weights) =
+                (self.pieces.mesh().face_halfedges(f), self.pieces.final_barycentric(f));
+            let off = [0, 1, 2].map(|k| placed.miss(point(halfedges[k]), weights[k]).map(|x| x / longest));
+            for k in 0..3 {
+                worst = worse(worst, norm2(off[k]));
+                worst_edge = worse(worst_edge, norm2(sub(off[(k + 1) % 3], off[k])));
+            }
         }
+        [longest * worst.sqrt(), worst_edge.sqrt()]
     }
-    [longest * worst.sqrt(), worst_edge.sqrt()]
-}
 
-impl Seam {
-    /// The isometry of the edge that is nearest to the origin, and how far those of the others are from it: a distance.
-    fn new<F: Frame>(
-        pieces: &Pieces,
-        faces: &Faces<F>,
-        grown: &Development<F>,
-        segment: &[HalfedgeId],
-    ) -> Result<Seam> {
-        let frames =
-            segment.iter().map(|&h| grown.on_both_sides(pieces, faces, h)).collect::<Result<Vec<_>>>()?;
+    /// The isometry of a segment's edge that is nearest to the origin, and how far those of the others are from it: a distance.
+    fn seam(&self, segment: &[HalfedgeId]) -> Result<Seam> {
+        let frames = segment.iter().map(|&h| self.on_both_sides(h)).collect::<Result<Vec<_>>>()?;
         let far = |sides: &[Motion<Twofold>; 2]| sides.iter().map(Motion::displacement).fold(0.0, f64::max);
         let far: Vec<f64> = frames.iter().map(far).collect();
         let nearest = (0..far.len()).min_by(|&i, &j| far[i].total_cmp(&far[j]));
         let pairing = match nearest.map(|k| frames[k]) {
             Some([left, right]) => left.compose(&right.inverse()),
-            None => Motion::identity(faces.space),
+            None => Motion::identity(self.faces.space),
         };
-        // By frames: products of vectors would lose e^{2r} in H², those of isometries e^r.
+        // The distance of isometries loses a factor e^r of the digits in H²; that of vectors would lose e^{2r}.
         let off = |[left, right]: &[Motion<Twofold>; 2]| {
             left.inverse().compose(&pairing).compose(right).displacement()
         };
@@ -234,7 +201,8 @@ impl Seam {
 impl Layout {
     /// The same layout on a common refinement of the triangulation that is laid out, opened where that is; O(pieces).
     ///
-    /// Errors: [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a layout that has no frames (of
+    /// # Errors
+    /// [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a layout that has no frames (of
     /// [`layout_of`]) or is one of a refinement; [`Error::Cancelled`].
     pub fn refined(&self, r: &Arc<Refinement>, metric: &Metric, control: &Control) -> Result<Layout> {
         let Pieces::Mesh(mesh) = &self.pieces else {
@@ -248,15 +216,15 @@ impl Layout {
         let need = r.final_face.iter().map(|f| f.index() + 1).fold(0, usize::max);
         check_size("final faces", mesh.n_faces().min(need), need)?;
         let faces = Faces::precise(mesh, metric)?;
-        let pieces = Pieces::Refinement(r.clone());
-        let cut = pieces.cut_of_final(mesh, &self.cut)?;
         let frame = |f: FaceId| {
             let mut frame = self.frames[self.patch[f] as usize];
             frame.b = frame.b.map(|x| x / self.scale.into());
             frame
         };
-        let grown = Development::of_frames(r, PerFace::from_fn(mesh.n_faces(), frame));
-        let mut layout = assemble(pieces, &faces, grown, cut, control)?;
+        let frames: Vec<_> = mesh.faces().map(frame).collect();
+        let grown = Development::of_frames(r, &faces, &frames);
+        let cut = grown.pieces.cut_of_final(mesh, &self.cut)?;
+        let mut layout = grown.layout(cut, control)?;
         layout.scale_by(self.scale);
         layout.find_flat();
         Ok(layout)
@@ -274,7 +242,7 @@ fn seam_sides(mesh: &Mesh, cut: &CutGraph) -> PerHalfedge<i32> {
     side
 }
 
-/// The cut opens the surface into a disk; every cut edge lies in exactly one segment, once, and inside the surface.
+/// Checks that a cut opens the surface into a disk, and that every cut edge lies inside the surface and in exactly one segment, once.
 pub(super) fn check_cut(mesh: &Mesh, cut: &CutGraph) -> Result<()> {
     check_size("is_cut", cut.is_cut.len(), mesh.n_edges())?;
     if !cut::is_disk(mesh, &cut.is_cut) {

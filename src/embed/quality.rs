@@ -1,18 +1,51 @@
 //! Distortion of a layout: quasi-conformal dilatation and area.
+//!
+//! ```
+//! use ricci::embed::layout;
+//! use ricci::{Control, Surface, mesh::shapes, topology::cut_graph};
+//! # fn main() -> ricci::Result<()> {
+//! let disk = Surface::from_soup(&shapes::disk(4)?)?;
+//! let cut = cut_graph(disk.mesh(), disk.lengths(), &[], &Control::new())?;
+//! let isometric = layout(disk.mesh(), disk.lengths(), &cut, &Control::new())?;
+//! let quality = isometric.quality(disk.mesh(), disk.lengths())?;
+//! assert!(quality.qc_max < 1.0 + 1e-12 && quality.degenerate.is_empty());
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! ```
+//! use ricci::embed::layout;
+//! use ricci::{Control, Surface, mesh::shapes, topology::cut_graph};
+//! # fn main() -> ricci::Result<()> {
+//! let disk = Surface::from_soup(&shapes::disk(4)?)?;
+//! let cut = cut_graph(disk.mesh(), disk.lengths(), &[], &Control::new())?;
+//! let isometric = layout(disk.mesh(), disk.lengths(), &cut, &Control::new())?;
+//! let quality = isometric.quality(disk.mesh(), disk.lengths())?;
+//! assert!(quality.qc_max < 1.0 + 1e-12 && quality.degenerate.is_empty());
+//! # Ok(())
+//! # }
+//! ```
 
 use super::layout::{Layout, distance};
+use super::overlap::Triangle;
+use super::pieces::CORNERS;
 use super::shape::{LEAST_SHARE, Shape, extent};
-use super::triangle::Triangle;
+use super::triangle::Triangle as PlaneTriangle;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::Space;
 use crate::geometry::complex::{conj, cross, doubled_area, mul, norm, norm2, sub};
 use crate::geometry::triangle::area;
-use crate::mesh::{FaceId, Mesh, PerEdge, PerFace};
+use crate::geometry::{Space, vector};
+use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, Point};
+use crate::metric::Refinement;
 use crate::parallel;
 use crate::topology::check_lengths;
 
-/// The dilatation of a face whose image or original has no area: doubles resolve none beyond 1/ε.
+/// The dilatation of a face whose image or original has no area. It is 1/ε, since doubles resolve no larger one.
 pub const DILATATION_CAP: f64 = 1.0 / f64::EPSILON;
+
+/// Length of the longest edge of a piece on the unit sphere below which its shape is not measured: coordinates are rounded by 1e-16, which
+/// leaves the shape of a larger piece right to 1e-9.
+const LEAST_EDGE_ON_SPHERE: f64 = 1e-7;
 
 /// How the linear maps from the input triangles to the layout's triangles distort. Every number is finite.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,40 +77,21 @@ impl Layout {
     /// A flipped face counts with the dilatation of its mirror image. Triangles that are degenerate on either side are named, and
     /// left out of the mean and the extremes.
     ///
-    /// Errors: [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the input lengths.
+    /// # Errors
+    /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the input lengths.
     pub fn quality(&self, input: &Mesh, lengths: &PerEdge<f64>) -> Result<Quality> {
-        check_lengths(input, lengths)?;
-        let (mesh, pieces) = (self.mesh(), &self.pieces);
-        let need = mesh.faces().map(|f| pieces.input_face(f).index() + 1).fold(0, usize::max);
-        check_size("input faces", input.n_faces().min(need), need)?;
-        // Units in which no area over- or underflows that matters.
-        let unit = lengths.iter().copied().fold(0.0, f64::max);
-        let given = |f: FaceId| {
-            let sides = input.opposite_edges(pieces.input_face(f)).map(|e| lengths[e] / unit);
-            Given { triangle: Triangle::from_sides(sides), sides }
-        };
-        let (mut qc, mut areas) = (vec![DILATATION_CAP; mesh.n_faces()], vec![[0.0; 2]; mesh.n_faces()]);
-        parallel::fill_both(&mut qc, &mut areas, |f| {
-            let f = FaceId::from(f);
-            let given = given(f);
-            let from = given.place(pieces.input_barycentric(f));
+        let place = |f| (self.pieces.input_face(f), self.pieces.input_barycentric(f));
+        Given::new(input, lengths)?.quality(self.mesh(), place, |f, from| {
             let to = self.face_uv(f).map(|p| p.map(|x| x / self.diameter));
             let dilatation =
                 if self.can_compare(f, from, to) { dilatation(from, to) } else { DILATATION_CAP };
-            (dilatation, [0.5 * doubled_area(from).abs(), self.area_of(f, to)])
-        });
-        match mesh.faces().find(|&f| given(f).triangle.excess > 0.0) {
-            Some(f) => {
-                let (face, excess) = (pieces.input_face(f).index(), given(f).triangle.excess);
-                Err(Error::TriangleInequality { face, excess })
-            }
-            None => Ok(summary(mesh, qc.into(), &areas.into())),
-        }
+            (dilatation, self.area_of(f, to))
+        })
     }
 
     /// Whether a piece and its image have a shape to compare. The triangles of a mesh always have, as far as doubles go: they come from their
     /// lengths; the corners of a refinement's pieces are rounded.
-    fn can_compare(&self, f: FaceId, from: [[f64; 2]; 3], to: [[f64; 2]; 3]) -> bool {
+    fn can_compare(&self, f: FaceId, from: Triangle, to: Triangle) -> bool {
         let is_sound = || match self.space {
             Space::E2 => !Shape::of(to).is_degenerate(extent(&to).max(1.0)),
             _ => {
@@ -89,7 +103,7 @@ impl Layout {
     }
 
     /// The area of a triangle; `to` are its coordinates in E², divided by the diameter.
-    fn area_of(&self, f: FaceId, to: [[f64; 2]; 3]) -> f64 {
+    fn area_of(&self, f: FaceId, to: Triangle) -> f64 {
         if self.space == Space::E2 {
             return 0.5 * doubled_area(to).abs();
         }
@@ -98,21 +112,89 @@ impl Layout {
     }
 }
 
-/// A triangle of the input.
-struct Given {
-    sides: [f64; 3],
-    triangle: Triangle,
+impl Quality {
+    /// How the linear maps from the pieces of a refinement of the `input`, with the `lengths` of its edges in E², to triangles in space with
+    /// corners on the unit sphere distort. `corners`: those of a piece, in its corner order.
+    ///
+    /// Degenerate pieces are those within [`LEAST_SHARE`] of no area on either side, and those whose image is so small that rounding of positions
+    /// shows in its shape.
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the input lengths.
+    pub fn on_sphere(
+        refinement: &Refinement,
+        input: &Mesh,
+        lengths: &PerEdge<f64>,
+        corners: impl Fn(FaceId) -> [Point; 3] + Sync,
+    ) -> Result<Quality> {
+        let place = |f| (refinement.input_face[f], refinement.input_barycentric(f));
+        Given::new(input, lengths)?.quality(&refinement.mesh, place, |f, from| {
+            let [a, b, c] = corners(f);
+            let sides = [[b, c], [c, a], [a, b]].map(|[p, q]| vector::distance(p, q));
+            let to = in_plane(sides, &PlaneTriangle::from_sides(sides), CORNERS);
+            let (before, after) = (Shape::of(from), Shape::of(to));
+            let is_sound =
+                before.share.min(after.share) > LEAST_SHARE && after.longest >= LEAST_EDGE_ON_SPHERE;
+            let dilatation = if is_sound { dilatation(from, to) } else { DILATATION_CAP };
+            (dilatation, 0.5 * doubled_area(to).abs())
+        })
+    }
 }
 
-impl Given {
-    /// Points of the triangle in the plane, by the weights of its corners. The corner opposite the longest side lies at the origin: there
-    /// a needle's edges are far from parallel.
-    fn place(&self, weights: [[f64; 3]; 3]) -> [[f64; 2]; 3] {
-        let k = longest_side(self.sides);
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let way = self.triangle.direction[k].map(|x| self.sides[i] * x);
-        weights.map(|w| [w[i] * self.sides[j] + w[j] * way[0], w[j] * way[1]])
+/// The surface as it came: triangles by their lengths.
+struct Given<'a> {
+    mesh: &'a Mesh,
+    lengths: &'a PerEdge<f64>,
+    /// The longest edge: in units of it no area over- or underflows that matters.
+    unit: f64,
+}
+
+impl<'a> Given<'a> {
+    fn new(mesh: &'a Mesh, lengths: &'a PerEdge<f64>) -> Result<Self> {
+        check_lengths(mesh, lengths)?;
+        Ok(Given { mesh, lengths, unit: lengths.iter().copied().fold(0.0, f64::max) })
     }
+
+    fn triangle(&self, f: FaceId) -> ([f64; 3], PlaneTriangle) {
+        let sides = self.mesh.opposite_edges(f).map(|e| self.lengths[e] / self.unit);
+        (sides, PlaneTriangle::from_sides(sides))
+    }
+
+    /// The quality of a map of pieces. `place`: the face of a piece, and the weights of the piece's corners in it. `image`: the dilatation of a piece that
+    /// lies so in the plane, and the area of its image.
+    fn quality(
+        &self,
+        pieces: &Mesh,
+        place: impl Fn(FaceId) -> (FaceId, [[f64; 3]; 3]) + Sync,
+        image: impl Fn(FaceId, Triangle) -> (f64, f64) + Sync,
+    ) -> Result<Quality> {
+        let need = pieces.faces().map(|f| place(f).0.index() + 1).fold(0, usize::max);
+        check_size("input faces", self.mesh.n_faces().min(need), need)?;
+        let (mut qc, mut areas) = (vec![DILATATION_CAP; pieces.n_faces()], vec![[0.0; 2]; pieces.n_faces()]);
+        parallel::fill_both(&mut qc, &mut areas, |f| {
+            let (face, weights) = place(f.into());
+            let (sides, triangle) = self.triangle(face);
+            let from = in_plane(sides, &triangle, weights);
+            let (dilatation, area) = image(f.into(), from);
+            (dilatation, [0.5 * doubled_area(from).abs(), area])
+        });
+        for (face, _) in pieces.faces().map(&place) {
+            let excess = self.triangle(face).1.excess;
+            if excess > 0.0 {
+                return Err(Error::TriangleInequality { face: face.index(), excess });
+            }
+        }
+        Ok(summary(pieces, qc.into(), &areas.into()))
+    }
+}
+
+/// Points of a triangle in the plane, by the weights of its corners. The corner opposite the longest side lies at the origin: the edges of a
+/// needle are far from parallel there.
+fn in_plane(sides: [f64; 3], triangle: &PlaneTriangle, weights: [[f64; 3]; 3]) -> Triangle {
+    let k = longest_side(sides);
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let way = triangle.direction[k].map(|x| sides[i] * x);
+    weights.map(|w| [w[i] * sides[j] + w[j] * way[0], w[j] * way[1]])
 }
 
 fn longest_side(sides: [f64; 3]) -> usize {
@@ -150,10 +232,10 @@ fn summary(mesh: &Mesh, qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality 
 /// βz̄` where `α ∝ Q P̄′ − Q′ P̄` and `β ∝ Q P′ − Q′ P`, and `K = (|α| + |β|) / ||α| − |β|| = (|α| + |β|)² /
 /// (16 A A′)`: the areas are formed directly, so nothing cancels where K is large. The corner is the one
 /// opposite the longest side, where a needle's edge vectors are far from parallel.
-fn dilatation(from: [[f64; 2]; 3], to: [[f64; 2]; 3]) -> f64 {
+fn dilatation(from: Triangle, to: Triangle) -> f64 {
     let k = longest_side([[1, 2], [2, 0], [0, 1]].map(|[i, j]| norm2(sub(from[i], from[j]))));
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-    let vectors = |t: [[f64; 2]; 3]| [sub(t[i], t[k]), sub(t[j], t[k])];
+    let vectors = |t: Triangle| [sub(t[i], t[k]), sub(t[j], t[k])];
     let ([p, q], [p_image, q_image]) = (vectors(from), vectors(to));
     // Scaled by their lengths: sides of very different lengths pass.
     let (n, m) = (norm(p), norm(q));

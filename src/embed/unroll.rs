@@ -1,7 +1,6 @@
 //! The layout of a flow's result on the surface as it came.
 
-use super::develop::combination;
-use super::faces::Faces;
+use super::faces::{Faces, combination};
 use super::frame::{Frame, PlaneFrame};
 use super::layout::{Layout, distance};
 use super::pieces::Pieces;
@@ -19,7 +18,8 @@ use std::sync::Arc;
 
 /// Curvature up to this, in radians, is no cone: what a flow with the default tolerance leaves.
 pub const CONE_TOLERANCE: f64 = 1e-10;
-/// Shortest edge that a cut reckons with, relative to the longest.
+/// Length of the shortest edge relative to the longest below which a search for a cut takes edges to have this length: paths over
+/// regions that have shrunk to a point then do not cost nothing.
 const SHORTEST: f64 = 1e-12;
 
 /// Lengths in a layout in E²; other spaces have a scale of their own.
@@ -51,20 +51,23 @@ pub struct UnrollOptions {
 }
 
 /// The cones of a curvature, or of a target of one: vertices inside the surface (V entries) where it is more than `tolerance` off flat.
-/// Errors: [`crate::Error::Size`].
+///
+/// # Errors
+/// [`crate::Error::Size`].
 pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<VertexId>> {
     check_size("curvature", curvature.len(), mesh.n_vertices())?;
     let is_cone = |v: &VertexId| curvature[v.index()].abs() > tolerance && !mesh.is_boundary_vertex(*v);
     Ok(mesh.vertices().filter(is_cone).collect())
 }
 
-/// Lay a metric out in its space on the surface as it came, opened along edges of that: closed or open, on its double (the given half),
+/// Lays a metric out in its space on the surface as it came, opened along edges of that: closed or open, on its double (the given half),
 /// with edges flipped (then the common refinement is laid out) or not.
 ///
 /// The cut goes through all cones, and is short in the metric ([`cut_graph`]); without cones, in H² and S², it is where a disk that
 /// grows about the root meets itself, so that nothing lies farther out than it has to.
 ///
-/// Errors: [`crate::Error::Argument`] for a cone or root that is no vertex; [`crate::Error::Layout`] for a sphere in E² with fewer than two cones, a cut
+/// # Errors
+/// [`crate::Error::Argument`] for a cone or root that is no vertex; [`crate::Error::Layout`] for a sphere in E² with fewer than two cones, a cut
 /// that does not leave a disk, several components, lengths beyond what doubles can place; those of [`Solution::refinement`] and
 /// [`crate::metric::Metric::lengths`]; [`crate::Error::Cancelled`].
 ///
@@ -117,7 +120,10 @@ pub struct Source<'a> {
     pub refinement: Option<Arc<Refinement>>,
 }
 
-/// [`unroll`] from its parts, in the metric's own scale. Errors: as there.
+/// [`unroll`] from its parts, in the metric's own scale.
+///
+/// # Errors
+/// Those of [`unroll`].
 pub fn unroll_source(source: Source, options: &UnrollOptions, control: &Control) -> Result<Layout> {
     let mut layout = laid_out(source, options, control)?;
     layout.find_flat();
@@ -145,7 +151,7 @@ fn by<F: Frame>(
     vertices.copied().try_for_each(|v| check_vertex(given, v))?;
     let cones = match &options.cones {
         Some(cones) => cones.clone(),
-        // Inside the surface that of its double is its own.
+        // The curvature of a double is that of the surface at vertices inside it.
         None => {
             let mut curvature = source.metric.curvature(source.mesh)?.at.into_vec();
             curvature.truncate(given.n_vertices());
@@ -166,7 +172,7 @@ fn by<F: Frame>(
         }
         _ => cut_graph(given, &lengths, &cones, control)?,
     };
-    // A sphere without cones closes without a cut.
+    // A sphere without cones needs no cut.
     let is_whole = cut.segments.is_empty() && given.is_closed();
     let on_pieces = if is_whole { None } else { Some(pieces.cut_of_input(given, &cut)?) };
     let mut layout = lay_out(pieces, faces, root, on_pieces, control)?;

@@ -1,12 +1,12 @@
 //! Newton steps under bounds on u, by an active-set method.
 //!
 //! Among the u with `u_j ≥ b_j` for some vertices j, the lowest point of the convex energy `∫ Σ (K_j − K̄_j) du_j` has K_j = K̄_j
-//! where u_j is above its bound, and `K_j − K̄_j ≥ 0`, which is the multiplier of the bound, where u_j is on it. The bounds that u is held on are the
-//! *active set*. The caller takes Newton steps with it ([`Flow::step_within`]) and changes it in between: bounds that are
-//! violated enter, those with a negative multiplier leave.
+//! where u_j is above its bound, and `K_j − K̄_j ≥ 0`, which is the multiplier of the bound, where u_j is on it. The bounds that u is
+//! held on are the *active set*. The caller takes Newton steps with it ([`Flow::step_within`]) and changes it in between: bounds that
+//! are violated enter, those with a negative multiplier leave.
 //!
 //! Held vertices keep their rows and columns in the Newton matrix, as those of the identity. The pattern of the matrix is then that of
-//! the triangulation, whatever is held, so that its analysis lasts from step to step, also from one surface to another.
+//! the triangulation, whichever vertices are held, so one analysis serves all steps, also those on other surfaces of that pattern.
 
 use super::seconds::timed;
 use super::{Flow, Options, Report};
@@ -14,6 +14,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, FixedEdges, Mesh, NormalCoordinates, VertexId};
 use crate::metric::Metric;
+use std::sync::Arc;
 
 /// What a Newton step leaves as it is.
 pub(crate) struct ActiveSet {
@@ -33,9 +34,9 @@ pub(crate) struct Lent<'a> {
 
 impl Lent<'_> {
     fn exchange(&mut self, flow: &mut Flow) {
-        std::mem::swap(self.mesh, &mut flow.mesh);
-        std::mem::swap(self.metric, &mut flow.metric);
-        std::mem::swap(self.followed, &mut flow.followed);
+        std::mem::swap(self.mesh, Arc::make_mut(&mut flow.now.mesh));
+        std::mem::swap(self.metric, &mut flow.now.metric);
+        std::mem::swap(self.followed, &mut flow.now.followed);
     }
 }
 
@@ -78,7 +79,7 @@ impl Flow {
         self.fixed = FixedEdges::new(&self.mesh, &active.fixed_edges)?;
         self.log.clear();
         self.options.max_step = max_step;
-        // Flips outside this flow count as well.
+        // Edges that were flipped outside this flow make the system's pattern out of date too.
         self.unseen_flips =
             self.system.as_ref().map_or(0, |system| system.jacobian.changed_edges(&self.mesh));
         (self.start, self.start_low) = (self.metric.u.clone(), self.metric.u_low.clone());
@@ -86,8 +87,7 @@ impl Flow {
         let mut seconds = 0.0;
         let end = timed(&mut seconds, || self.flow(&mut report, control))?;
         report.seconds.total = seconds;
-        let state = end.into_state();
-        (self.metric.u, self.metric.u_low) = (state.u, state.low);
+        (self.now.metric.u, self.now.metric.u_low) = (end.state.u, end.state.low);
         Ok(report)
     }
 }
@@ -118,7 +118,7 @@ mod tests {
             let report = bounded.step_within(lent, &active, 3.0, &control).unwrap();
             assert_eq!((report.iterations, report.flips), (expected.iterations, expected.flips));
             assert!((report.max_curvature_error - expected.max_curvature_error).abs() < 1e-11);
-            assert_eq!(&moved_mesh, pinned.mesh());
+            assert_eq!(moved_mesh, **pinned.mesh());
             for v in mesh.vertices() {
                 assert!((metric.u[v] - pinned.metric().u[v]).abs() < 1e-11, "{v}");
             }

@@ -31,29 +31,13 @@ pub(super) fn angles(b: &[Vec<f64>], g: &[f64], sum: Option<f64>, bound: f64) ->
     for _ in 0..STEPS_PER_UNKNOWN * (k + 1) {
         let slope = gradient(&t);
         let free: Vec<usize> = (0..k).filter(|&i| !held[i]).collect();
-        let step = match (free.is_empty(), sum) {
-            (true, _) => Vec::new(),
-            (false, sum) => {
-                let n = free.len();
-                let mut rows: Vec<Vec<f64>> = free
-                    .iter()
-                    .map(|&i| {
-                        let left = free.iter().map(|&j| b[i][j]);
-                        left.chain(sum.map(|_| 1.0)).chain([-slope[i]]).collect()
-                    })
-                    .collect();
-                if sum.is_some() {
-                    let mut last = vec![1.0; n];
-                    last.extend([0.0, 0.0]);
-                    rows.push(last);
-                }
-                let mut solution = eliminate(rows)?;
-                if sum.is_some() {
-                    level = -solution.pop()?;
-                }
-                solution
+        let mut step = Vec::new();
+        if !free.is_empty() {
+            step = eliminate(equations(b, &slope, &free, sum.is_some()))?;
+            if sum.is_some() {
+                level = -step.pop()?;
             }
-        };
+        }
         let mut reach = 1.0;
         let mut blocking = None;
         for (&i, &p) in free.iter().zip(&step) {
@@ -66,7 +50,7 @@ pub(super) fn angles(b: &[Vec<f64>], g: &[f64], sum: Option<f64>, bound: f64) ->
             (t[i], held[i]) = (bound, true);
             continue;
         }
-        // At the least for this set of bounds: let go of the one that pulls hardest the wrong way.
+        // The minimum under these bounds is reached. The bound with the largest multiplier of the wrong sign is given up.
         let slope = gradient(&t);
         let least = NOTHING * slope.iter().fold(1.0f64, |m, s| m.max(s.abs()));
         let pull = |i: usize| slope[i] - level;
@@ -79,6 +63,18 @@ pub(super) fn angles(b: &[Vec<f64>], g: &[f64], sum: Option<f64>, bound: f64) ->
     let slope = gradient(&t);
     let energy = t.iter().zip(&slope).zip(g).map(|((t, s), g)| 0.5 * t * (s + g)).sum();
     Some(Angles { t, level, energy })
+}
+
+/// The equations of a step of the `free` entries to where the gradient, now `slope`, is 0 for them. With a sum, which the step is to
+/// keep, the gradient has one value for all of them, and minus that is a further unknown, the last.
+fn equations(b: &[Vec<f64>], slope: &[f64], free: &[usize], has_sum: bool) -> Vec<Vec<f64>> {
+    let sum = has_sum.then_some(1.0);
+    let row = |&i: &usize| free.iter().map(|&j| b[i][j]).chain(sum).chain([-slope[i]]).collect();
+    let mut rows: Vec<Vec<f64>> = free.iter().map(row).collect();
+    if has_sum {
+        rows.push(free.iter().map(|_| 1.0).chain([0.0, 0.0]).collect());
+    }
+    rows
 }
 
 /// Solve n equations, each a row of n coefficients and its right-hand side, by elimination with partial pivoting.

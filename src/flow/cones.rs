@@ -17,19 +17,20 @@ use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
-use crate::metric::{Scheme, initial_metric};
+use crate::metric::target::boundary_lengths;
+use crate::metric::{Class, Metric, initial_metric};
 use std::f64::consts::PI;
 
-/// More cones than this are not a few: their dense equations would take longer than the surface.
+/// Most cones that are placed: the dense equations of more would take longer than the sparse ones of the surface.
 pub const MAX_AUTO_CONES: usize = 256;
 /// The least angle around a cone that is placed (half of it at the boundary): near a cone of angle θ lengths grow like the power
 /// θ/2π of the distance, so narrower ones squeeze a whole neighbourhood into nothing. Three such cones still close a sphere.
 pub const LEAST_ANGLE: f64 = PI / 6.0;
 /// Times each cone is taken away and placed anew. Few move in the second round.
 const SWEEPS: usize = 2;
-/// A move must lower E by this fraction: less is rounding, and would only make ties depend on it.
+/// A cone is moved only if that lowers E by this fraction: a smaller change is rounding, which is not to decide between equal places.
 const WORTH_MOVING: f64 = 1e-6;
-/// What a linear solution may leave, for right-hand sides of order 1.
+/// Residual that a linear solution may leave, for right-hand sides of order 1.
 const ENOUGH: f64 = 1e-11;
 /// Shift of the Laplacian, relative to its mean diagonal, where rounding leaves it without a factor.
 const SHIFT: f64 = 1e-12;
@@ -55,9 +56,19 @@ pub struct AutoCones {
 ///
 /// One factorisation and about 6n solutions: O(V^1.5 + n V log V) in practice, and n·V numbers of memory.
 ///
-/// Errors: [`Error::TargetKind`] for an n that the surface cannot have: closed of genus 0: 3 at least; genus 1: not 1; genus ≥ 2:
-/// 1 at least; [`MAX_AUTO_CONES`] and the number of interior vertices at most. [`Error::EdgeLength`],
-/// [`Error::TriangleInequality`], [`Error::Factorisation`], [`Error::Cancelled`].
+/// # Errors
+/// - [`Error::TargetKind`] for an n that the surface cannot have. Closed of genus 0: 3 at least; genus 1: not 1; genus ≥ 2: 1 at
+///   least; [`MAX_AUTO_CONES`] and the number of interior vertices at most.
+/// - [`Error::EdgeLength`], [`Error::TriangleInequality`], [`Error::Factorisation`], [`Error::Cancelled`].
+///
+/// ```
+/// # use ricci::{Control, Surface, flow::auto_cones, mesh::shapes};
+/// let sphere = Surface::from_soup(&shapes::icosphere(4)?)?;
+/// let placed = auto_cones(sphere.mesh(), sphere.lengths(), 4, &Control::new())?;
+/// let total: f64 = placed.cones.iter().map(|cone| cone.1).sum();
+/// assert!(placed.cones.len() == 4 && (total - 4.0 * std::f64::consts::PI).abs() < 1e-12);
+/// # Ok::<(), ricci::Error>(())
+/// ```
 pub fn auto_cones(mesh: &Mesh, lengths: &PerEdge<f64>, n: usize, control: &Control) -> Result<AutoCones> {
     check_number(mesh, n)?;
     let mut place = Placing::new(mesh, lengths, control)?;
@@ -138,24 +149,8 @@ struct Placing<'a> {
 
 impl<'a> Placing<'a> {
     fn new(mesh: &Mesh, lengths: &PerEdge<f64>, control: &'a Control) -> Result<Self> {
-        let (mesh, lengths) = (mesh.clone(), lengths.clone());
-        // An input that is no surface is refused with the names of its own elements.
-        initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?;
-        control.check()?;
-        let mut surface = Triangulated { mesh, lengths, geometry: Space::E2 };
-        intrinsic_delaunay(&mut surface, IntrinsicOptions::default(), &mut |_, _| {}, control)?;
-        let Triangulated { mesh, lengths, .. } = surface;
-        let metric = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2)?.metric;
-        let mut state = State::new(&mesh, &metric.u, &metric.u_low);
-        if !state.evaluate(&mesh, &metric) {
-            return Err(factorisation(0, "an edge without length"));
-        }
-        let mut mass = vec![0.0; mesh.n_vertices()];
-        let area = state.area(&mesh, &metric);
-        for f in mesh.faces() {
-            let third = state.face_area(&mesh, Space::E2, f) / (3.0 * area);
-            mesh.face_vertices(f).into_iter().for_each(|v| mass[v.index()] += third);
-        }
+        let (mesh, metric, state) = measured(mesh, lengths, control)?;
+        let mass = state.vertex_areas(&mesh, Space::E2, state.area(&mesh, &metric));
         let closed = mesh.is_closed();
         let fixed: Vec<bool> = mesh
             .vertices()
@@ -165,9 +160,8 @@ impl<'a> Placing<'a> {
         let mut system = System::new(&mesh, &fixed, None)?;
         system.jacobian.assemble(&mesh, &metric, &state);
         if system.factor().is_err() {
-            let shift = SHIFT * system.jacobian.mean_diagonal();
+            let (size, shift) = (system.unknowns(), SHIFT * system.jacobian.mean_diagonal());
             system.jacobian.add_diagonal(|_| shift);
-            let size = system.unknowns();
             system.factor().map_err(|_| factorisation(size, "the Laplacian is not positive definite"))?;
         }
         let sum = closed.then(|| 2.0 * PI * mesh.euler() as f64);
@@ -306,12 +300,8 @@ impl<'a> Placing<'a> {
     fn boundary(&mut self, lengths: &PerEdge<f64>, mesh: &Mesh, target: &mut PerVertex<f64>) -> Result<()> {
         let change = self.change(target);
         let u = self.solve(&change)?;
-        let mut share = PerVertex::filled(mesh.n_vertices(), 0.0);
+        let share = boundary_lengths(mesh, lengths);
         let boundary: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).collect();
-        for h in mesh.boundary_loops().into_iter().flatten() {
-            share[mesh.origin(h)] += lengths[h.edge()];
-            share[mesh.tip(h)] += lengths[h.edge()];
-        }
         boundary.iter().for_each(|&v| target[v] = self.state.curvature[v]);
         for f in self.mesh.faces() {
             let weights = self.state.weights[f.index()];
@@ -346,6 +336,22 @@ impl<'a> Placing<'a> {
         let message = "the boundary has too few vertices to take the curvature that the cones leave".into();
         Err(Error::TargetKind { target: "auto", message })
     }
+}
+
+/// A surface on its intrinsic Delaunay triangulation, measured at u = 0.
+fn measured(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<(Mesh, Metric, State)> {
+    // An input that is no surface is refused with the names of its own elements.
+    initial_metric(mesh, lengths, Space::E2, Class::yamabe(Space::E2))?;
+    control.check()?;
+    let mut surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
+    intrinsic_delaunay(&mut surface, IntrinsicOptions::default(), &mut |_, _| {}, control)?;
+    let Triangulated { mesh, lengths, .. } = surface;
+    let metric = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2))?.metric;
+    let mut state = State::new(&metric.u, &metric.u_low);
+    if !state.evaluate(&mesh, &metric) {
+        return Err(factorisation(0, "an edge without length"));
+    }
+    Ok((mesh, metric, state))
 }
 
 fn factorisation(size: usize, message: &str) -> Error {

@@ -3,17 +3,24 @@
 use super::seconds::{Seconds, timed};
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::Space;
-use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit, weights};
+use crate::geometry::conformal::{Edge, Vertex, differences, weights};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles};
 use crate::geometry::twofold::two_sum;
-use crate::geometry::worse;
+use crate::geometry::{Space, Twofold};
+use crate::geometry::{largest, worse};
 use crate::mesh::{EdgeId, FaceId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_from_angles;
 use crate::metric::delaunay::{ClassFlips, Queue};
+use crate::metric::lengths::{face_differences, face_parts};
 use crate::parallel::{fill, fill_both};
+
+/// A face with a weight above this is a needle, whose other weights are differences of numbers of this size: their rounding may hide
+/// that an edge fails the Delaunay condition by more than 1e-12.
+const NEEDLE: f64 = 1e3;
+/// Roundings of the largest weight of a needle that add up in its other weights, at most.
+const ROUNDINGS: f64 = 64.0;
 
 /// The metric at one u: the variables with their curvature, and what was measured on the way, whose memory goes from step to step.
 pub(super) struct State {
@@ -29,7 +36,7 @@ pub(super) struct State {
 }
 
 impl State {
-    pub fn new(mesh: &Mesh, u: &PerVertex<f64>, low: &PerVertex<f64>) -> State {
+    pub fn new(u: &PerVertex<f64>, low: &PerVertex<f64>) -> State {
         State {
             u: u.clone(),
             low: low.clone(),
@@ -37,11 +44,11 @@ impl State {
             edges: Vec::new(),
             angles: Vec::new(),
             weights: Vec::new(),
-            curvature: PerVertex::filled(mesh.n_vertices(), 0.0),
+            curvature: PerVertex::filled(u.len(), 0.0),
         }
     }
 
-    /// Compute everything from `self.u` and `self.low`; false when some edge has no real length there (outside the domain).
+    /// Compute everything from `self.u` and `self.low`; false where some edge has no real length (u is outside the domain).
     pub fn evaluate(&mut self, mesh: &Mesh, class: &Metric) -> bool {
         if !self.measure(mesh, class) {
             return false;
@@ -50,30 +57,32 @@ impl State {
         true
     }
 
-    /// [`State::evaluate`] after flips inside the class to the weighted Delaunay triangulation at `self.u`; returns also their
-    /// number, keeps the `fixed` edges, and tells `record` each edge before its flip.
+    /// [`State::evaluate`] after the flips of `surface` inside its class that make it weighted Delaunay at `self.u`, but for
+    /// `fixed` edges. Returns also the number of flips.
     ///
-    /// An edge is Delaunay where its Laplacian weight, which Newton needs anyway, is not negative: the flips start at the others
-    /// and at broken faces, and only what they touch is measured again.
+    /// An edge is Delaunay where its Laplacian weight, which Newton needs anyway, is not negative. So the flips start at the
+    /// edges of negative weight and at broken faces, and only what they touch is measured again.
     pub fn evaluate_delaunay(
         &mut self,
-        mesh: &mut Mesh,
-        class: &mut Metric,
+        surface: ClassFlips,
         fixed: &FixedEdges,
-        record: &mut dyn FnMut(&Mesh, Flip),
         seconds: &mut Seconds,
         control: &Control,
     ) -> Result<(bool, usize)> {
+        let ClassFlips { mesh, metric: class, record } = surface;
         let real = timed(&mut seconds.assemble, || self.measure(mesh, class));
         let mut touched = Vec::new();
         let flips = timed(&mut seconds.flip, || {
             let mut queue = if real { self.suspects(mesh, fixed) } else { Queue::all(mesh, fixed) };
-            let mut record = |mesh: &Mesh, flip: Flip| {
+            let mut record = |mesh: &Mesh, flip: Flip<Twofold>| {
                 touched.push(flip.edge);
                 record(mesh, flip);
             };
-            ClassFlips { mesh, metric: class, record: &mut record }
-                .restore_delaunay(&self.u, &mut queue, control)
+            ClassFlips { mesh, metric: class, record: &mut record }.restore_delaunay(
+                &self.vertices,
+                &mut queue,
+                control,
+            )
         })?;
         let real = timed(&mut seconds.assemble, || {
             let real = match flips {
@@ -101,7 +110,7 @@ impl State {
             Vertex::precise(space, class.epsilon[v], u[v], low[v])
         });
         let vertices = &self.vertices;
-        fill(&mut self.edges, |e| measured_edge(mesh, class, vertices, EdgeId::from(e)));
+        fill(&mut self.edges, |e| class.edge(mesh, vertices, e.into()));
         if self.edges.iter().any(|e| e.q2 == 0.0) {
             return false;
         }
@@ -114,7 +123,7 @@ impl State {
     /// Measure flipped edges, and the faces at them.
     fn measure_again(&mut self, mesh: &Mesh, class: &Metric, flipped: &[EdgeId]) -> bool {
         for &e in flipped {
-            self.edges[e.index()] = measured_edge(mesh, class, &self.vertices, e);
+            self.edges[e.index()] = class.edge(mesh, &self.vertices, e);
         }
         if flipped.iter().any(|e| self.edges[e.index()].q2 == 0.0) {
             return false;
@@ -127,15 +136,20 @@ impl State {
         true
     }
 
-    /// Edges of negative weight, and those of faces that have none: the only ones that may fail the Delaunay condition.
+    /// The only edges that may fail the Delaunay condition: those of negative weight, as far as rounding lets that be known, and those of
+    /// faces without weights.
     fn suspects(&self, mesh: &Mesh, fixed: &FixedEdges) -> Queue {
         let mut queue = Queue::new(mesh.n_edges(), fixed);
         let mut weight = vec![0.0; mesh.n_edges()];
         for f in mesh.faces() {
             let weights = self.weights[f.index()];
-            let none = weights == [0.0; 3];
+            let lowered = match largest(&weights) {
+                0.0 => f64::INFINITY,
+                most if most > NEEDLE => ROUNDINGS * f64::EPSILON * most,
+                _ => 0.0,
+            };
             for (e, w) in mesh.opposite_edges(f).into_iter().zip(weights) {
-                weight[e.index()] += if none { f64::NEG_INFINITY } else { w };
+                weight[e.index()] += w - lowered;
             }
         }
         mesh.edges().filter(|e| weight[e.index()] < 0.0).for_each(|e| queue.push(e));
@@ -179,8 +193,18 @@ impl State {
 
     /// Area of a face; infinite where doubles end, which takes lengths of 1e154.
     pub fn face_area(&self, mesh: &Mesh, space: Space, f: FaceId) -> f64 {
-        let (corners, edges, unit) = face_parts(mesh, &self.vertices, &self.edges, f);
-        scaled(triangle::area_from(space, differences(corners, edges)), 2 * unit)
+        let (r, unit) = face_differences(mesh, &self.vertices, &self.edges, f);
+        scaled(triangle::area_from(space, r), 2 * unit)
+    }
+
+    /// Per vertex a third of the area of the faces around it, divided by `unit`.
+    pub fn vertex_areas(&self, mesh: &Mesh, space: Space, unit: f64) -> Vec<f64> {
+        let mut areas = vec![0.0; mesh.n_vertices()];
+        for f in mesh.faces() {
+            let third = self.face_area(mesh, space, f) / (3.0 * unit);
+            mesh.face_vertices(f).into_iter().for_each(|v| areas[v.index()] += third);
+        }
+        areas
     }
 
     /// Number of faces that break the triangle inequality.
@@ -210,12 +234,6 @@ fn add(u: f64, low: f64, x: f64) -> (f64, f64) {
     two_sum(sum, lost + low)
 }
 
-/// An edge; without a real length, the default, whose `q2` is 0.
-fn measured_edge(mesh: &Mesh, class: &Metric, vertices: &[Vertex], e: EdgeId) -> Edge {
-    let [i, j] = mesh.ends(e);
-    edge(class.space, vertices[i.index()], vertices[j.index()], class.eta[e]).unwrap_or_default()
-}
-
 /// Angles and derivative weights of a face.
 fn measured_face(
     mesh: &Mesh,
@@ -226,15 +244,7 @@ fn measured_face(
 ) -> (Angles, [f64; 3]) {
     let (corners, edges, _) = face_parts(mesh, vertices, edges, f);
     let differences = differences(corners, edges);
-    let eta = mesh.opposite_edges(f).map(|e| class.eta[e]);
+    let eta = mesh.opposite_edges(f).map(|e| class.eta[e].high);
     let weights = weights(class.space, differences, edges.map(|e| e.q2), corners, eta);
     (triangle::angles_from(class.space, differences), weights)
-}
-
-/// Corners of a face and the edges opposite them, in one unit of length, and its exponent.
-fn face_parts(mesh: &Mesh, vertices: &[Vertex], edges: &[Edge], f: FaceId) -> ([Vertex; 3], [Edge; 3], i32) {
-    let mut corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
-    let mut edges = mesh.opposite_edges(f).map(|e| edges[e.index()]);
-    let unit = in_one_unit(&mut corners, &mut edges);
-    (corners, edges, unit)
 }

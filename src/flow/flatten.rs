@@ -6,9 +6,7 @@ use super::solve::center;
 use super::system::System;
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::{Space, largest};
-use crate::mesh::PerVertex;
-use std::mem::replace;
+use crate::geometry::largest;
 
 /// Corrections at most. Each brings the curvature down by the accuracy of a linear solution, 1e-12 and better.
 const STEPS: usize = 4;
@@ -19,71 +17,76 @@ const FLOOR: f64 = 1e-29;
 impl Flow {
     /// Bring the curvature of all vertices from nearly 0 to 0, as far as twice the digits of doubles go: iterative refinement of the
     /// nonlinear system, residuals with twice the digits ([`crate::metric::Metric::angle_defects`]), corrections in doubles with one
-    /// factorisation. The triangulation stays. Returns the largest |K| that is left.
+    /// factorisation. The triangulation stays. Returns the largest |K| that is left, radians.
     ///
-    /// For a metric that a flow to K̄ = 0 has come to. Errors: [`crate::Error::Cancelled`].
+    /// For a metric that a flow to K̄ = 0 has come to.
+    ///
+    /// # Errors
+    /// Those of [`crate::metric::Metric::angle_defects`]; [`crate::Error::Cancelled`], [`crate::Error::Factorisation`].
     pub fn flatten(&mut self, control: &Control) -> Result<f64> {
-        let Flow { mesh, metric, pinned, mirror, system, pool, .. } = self;
-        if mirror.is_some() {
-            // Its unknowns are those of one half; rounding differs between the two.
-            *system = None;
-        }
-        let free_scale = metric.space == Space::E2 && !pinned.contains(&true);
+        let pool = self.pool.clone();
         pool.run(|| {
-            let mut residual = defects(metric.angle_defects(mesh)?, pinned);
-            let mut error = largest(&residual);
-            let mut fixed = pinned.clone();
-            fixed[0] |= free_scale;
-            let mut state = State::new(mesh, &metric.u, &metric.u_low);
-            if error <= FLOOR || !state.evaluate(mesh, metric) {
+            let residual = self.defects()?;
+            let error = largest(&residual);
+            let mut state = State::new(&self.metric.u, &self.metric.u_low);
+            if error <= FLOOR || !state.evaluate(&self.mesh, &self.metric) {
                 return Ok(error);
             }
-            let kept = match system.take() {
-                Some(kept) => kept.flipped(mesh, &fixed, None, 0)?,
-                None => System::new(mesh, &fixed, None)?,
+            let mut fixed = self.pinned.clone();
+            fixed[0] |= self.free_scale();
+            // Mirror images have an unknown each here, since rounding differs between them, and share one in a solve.
+            let shared = self.mirror.is_some();
+            let mut system = match self.system.take().filter(|_| !shared) {
+                Some(kept) => kept.flipped(&self.mesh, &fixed, None, 0)?,
+                None => System::new(&self.mesh, &fixed, None)?,
             };
-            // Of other unknowns than the next solve's, where that keeps a mirror symmetry.
-            let mut own;
-            let system = match mirror {
-                Some(_) => {
-                    own = kept;
-                    &mut own
-                }
-                None => system.insert(kept),
-            };
-            system.jacobian.assemble(mesh, metric, &state);
+            system.jacobian.assemble(&self.mesh, &self.metric, &state);
             control.check()?;
-            if system.factor().is_err() {
-                return Ok(error);
-            }
-            let mut step = vec![0.0; residual.len()];
-            let mut next = State::new(mesh, &metric.u, &metric.u_low);
-            for _ in 0..STEPS {
-                control.check()?;
-                if error <= FLOOR || !system.solve(&residual, 0.0, &mut step) {
-                    break;
-                }
-                if free_scale {
-                    center(&mut step);
-                }
-                next.set_step(&state, 1.0, &step);
-                let before =
-                    (replace(&mut metric.u, next.u.clone()), replace(&mut metric.u_low, next.low.clone()));
-                let left = defects(metric.angle_defects(mesh)?, pinned);
-                let now = largest(&left);
-                if now >= error {
-                    (metric.u, metric.u_low) = before;
-                    break;
-                }
-                (residual, error) = (left, now);
-                std::mem::swap(&mut state, &mut next);
-            }
-            Ok(error)
+            let left = match system.factor() {
+                Ok(()) => self.correct(&mut system, state, residual, control)?,
+                Err(_) => error,
+            };
+            self.system = if shared { None } else { Some(system) };
+            Ok(left)
         })
     }
-}
 
-/// `K̄ − K` at the vertices that are not pinned.
-fn defects(curvature: PerVertex<f64>, pinned: &[bool]) -> Vec<f64> {
-    curvature.iter().zip(pinned).map(|(k, &pinned)| if pinned { 0.0 } else { -k }).collect()
+    /// Corrections of a metric, measured at `state`, as long as they lower the largest residual, which is returned.
+    fn correct(
+        &mut self,
+        system: &mut System,
+        mut state: State,
+        mut residual: Vec<f64>,
+        control: &Control,
+    ) -> Result<f64> {
+        let mut error = largest(&residual);
+        let mut step = vec![0.0; residual.len()];
+        let mut next = State::new(&state.u, &state.low);
+        for _ in 0..STEPS {
+            control.check()?;
+            if error <= FLOOR || !system.solve(&residual, 0.0, &mut step) {
+                break;
+            }
+            if self.free_scale() {
+                center(&mut step);
+            }
+            next.set_step(&state, 1.0, &step);
+            (self.now.metric.u, self.now.metric.u_low) = (next.u.clone(), next.low.clone());
+            let left = self.defects()?;
+            let now = largest(&left);
+            if now >= error {
+                (self.now.metric.u, self.now.metric.u_low) = (state.u, state.low);
+                break;
+            }
+            (residual, error) = (left, now);
+            std::mem::swap(&mut state, &mut next);
+        }
+        Ok(error)
+    }
+
+    /// −K at the vertices that are not pinned, 0 at the others.
+    fn defects(&self) -> Result<Vec<f64>> {
+        let curvature = self.metric.angle_defects(&self.mesh)?;
+        Ok(curvature.iter().zip(&self.pinned).map(|(k, &pinned)| if pinned { 0.0 } else { -k }).collect())
+    }
 }

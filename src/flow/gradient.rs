@@ -15,7 +15,12 @@ const GROWTH: f64 = 10.0;
 /// Halvings before the flow counts as stalled.
 const HALVINGS: usize = 60;
 
-/// The two ends of an accepted step: where it started, and where it leads.
+/// Rescalings, at most, until a metric has the area that is kept: one is exact in E², and in S² they converge linearly.
+const RESCALINGS: usize = 20;
+/// Half the relative error of the area that is accepted after the last rescaling: far below the tolerance of flows.
+const AREA_REACHED: f64 = 1e-12;
+
+/// A step of the flow: where it starts, and where it leads.
 struct Leg {
     state: State,
     trial: State,
@@ -23,16 +28,18 @@ struct Leg {
     direction: Vec<f64>,
     /// K̄ − K at `trial`.
     next_direction: Vec<f64>,
+    /// Largest |K̄ − K| at `state`, and at `trial`.
+    error: f64,
+    next_error: f64,
+    /// The total area that is kept, if any.
+    area: Option<f64>,
+    /// `∫ Σ (K − K̄) du` up to `state`.
+    energy: f64,
 }
-
-/// Steps of the area's fixed point: one in E², where it is exact; linear convergence in S².
-const RESCALINGS: usize = 20;
-/// Half the relative error of the area after them that a metric may have: far below what the flow's tolerance sees of it.
-const AREA_REACHED: f64 = 1e-12;
 
 impl Flow {
     pub(super) fn gradient(&self, state: State, report: &mut Report, control: &Control) -> Result<State> {
-        // Pinned vertices hold their u: nothing is left to keep the area with.
+        // Where pinned vertices hold their u, no constant can be added to u that would keep the area.
         let area = match self.metric.space {
             _ if self.has_pins() => None,
             Space::S2 => Some(self.spherical_area()),
@@ -40,69 +47,57 @@ impl Flow {
             _ => None,
         };
         let [mut direction, next_direction] = [(); 2].map(|()| vec![0.0; self.mesh.n_vertices()]);
-        let mut error = state.residual(&self.target, &self.pinned, &mut direction);
-        let trial = State::new(&self.mesh, &self.start, &self.start_low);
-        let mut leg = Leg { state, trial, direction, next_direction };
-        let (first, mut energy, mut step) = (error, 0.0, 0.0);
-        report.trace.push(self.row(&leg.state, [energy, error, step], 0));
-        report.residuals.push(error);
+        let first = state.residual(&self.target, &self.pinned, &mut direction);
+        let trial = State::new(&self.start, &self.start_low);
+        let (error, next_error, energy) = (first, first, 0.0);
+        let mut leg = Leg { state, trial, direction, next_direction, error, next_error, area, energy };
+        let mut step = 0.0;
+        self.note(&leg, step, report);
         report.stop_reason = loop {
-            if error <= report.tolerance {
+            if leg.error <= report.tolerance {
                 break StopReason::Converged;
             }
             if report.iterations >= self.options.iteration_limit() {
                 break StopReason::IterationLimit;
             }
-            control.step(Stage::Flow, progress(first, error, report.tolerance))?;
+            control.step(Stage::Flow, progress(first, leg.error, report.tolerance))?;
             match self.options.gradient.step {
                 StepRule::Fixed(h) => step = h,
                 StepRule::BarzilaiBorwein if report.iterations > 0 => {}
                 _ => step = timed(&mut report.seconds.assemble, || self.stable_step(&leg.state)),
             }
-            let mut h = step;
-            let Some(now) = self.go(&mut leg, &mut h, GROWTH * error, area, (report, control))? else {
-                break StopReason::Stalled;
-            };
-            step = leg.next_step(h, report.iterations, &mut energy);
-            std::mem::swap(&mut leg.state, &mut leg.trial);
-            std::mem::swap(&mut leg.direction, &mut leg.next_direction);
-            error = now;
+            let Some(h) = self.go(&mut leg, step, report, control)? else { break StopReason::Stalled };
+            step = leg.finish(h, report.iterations);
             report.iterations += 1;
-            report.residuals.push(error);
-            report.trace.push(self.row(&leg.state, [energy, error, h], report.iterations));
+            self.note(&leg, h, report);
         };
-        report.max_curvature_error = error;
+        report.max_curvature_error = leg.error;
         Ok(leg.state)
     }
 
-    /// Go `h` along the direction of a leg, or half as far, and so on, until the error there is at most `most`: that error, none where
-    /// every step leads farther off.
-    fn go(
-        &self,
-        leg: &mut Leg,
-        h: &mut f64,
-        most: f64,
-        area: Option<f64>,
-        (report, control): (&mut Report, &Control),
-    ) -> Result<Option<f64>> {
-        let Leg { state, trial, direction, next_direction } = leg;
+    /// Go `h` along the direction of a leg, or half as far, and so on, until the error there is not much larger: how far that was;
+    /// none where the error grows along every step.
+    fn go(&self, leg: &mut Leg, mut h: f64, report: &mut Report, control: &Control) -> Result<Option<f64>> {
         for _ in 0..HALVINGS {
             control.check()?;
-            trial.set_step(state, *h, direction);
-            if timed(&mut report.seconds.assemble, || self.settle(trial, area)) {
-                let now = trial.residual(&self.target, &self.pinned, next_direction);
-                if now <= most {
-                    return Ok(Some(now));
+            leg.trial.set_step(&leg.state, h, &leg.direction);
+            if timed(&mut report.seconds.assemble, || self.settle(&mut leg.trial, leg.area)) {
+                leg.next_error = leg.trial.residual(&self.target, &self.pinned, &mut leg.next_direction);
+                if leg.next_error <= GROWTH * leg.error {
+                    return Ok(Some(h));
                 }
             }
-            *h *= 0.5;
+            h *= 0.5;
         }
         Ok(None)
     }
 
-    fn row(&self, state: &State, [energy, error, step_size]: [f64; 3], step: usize) -> TraceRow {
-        let area = state.area(&self.mesh, &self.metric);
-        TraceRow { step, energy, max_curvature_error: error, area, step_size }
+    /// Note where a leg starts, to which a step of this size has led.
+    fn note(&self, leg: &Leg, step_size: f64, report: &mut Report) {
+        let area = leg.state.area(&self.mesh, &self.metric);
+        let (step, energy, max_curvature_error) = (report.iterations, leg.energy, leg.error);
+        report.residuals.push(max_curvature_error);
+        report.trace.push(TraceRow { step, energy, max_curvature_error, area, step_size });
     }
 
     /// The explicit scheme is stable for h < 2/λ_max, and λ_max ≤ 2 max_i Σ |w| c(l) (Gershgorin).
@@ -111,14 +106,9 @@ impl Flow {
         let mut row = vec![0.0; self.mesh.n_vertices()];
         for f in self.mesh.faces() {
             let weights = state.weights[f.index()];
-            for (h, (w, e)) in self
-                .mesh
-                .face_halfedges(f)
-                .into_iter()
-                .zip(weights.into_iter().zip(self.mesh.opposite_edges(f)))
-            {
-                let c = 1.0 - 2.0 * space.curvature() * state.edges[e.index()].q2;
+            for (h, w) in self.mesh.face_halfedges(f).into_iter().zip(weights) {
                 let side = self.mesh.next(h);
+                let c = 1.0 - 2.0 * space.curvature() * state.edges[side.edge().index()].q2;
                 row[self.mesh.origin(side).index()] += w.abs() * c;
                 row[self.mesh.tip(side).index()] += w.abs() * c;
             }
@@ -146,7 +136,7 @@ impl Flow {
                 return true;
             }
             state.shift(shift);
-            // Near the largest spherical metric of the class the area grows faster: come back half the way.
+            // Near the largest spherical metric of the class the area grows faster, and there may be no metric: go back half the way.
             while !state.evaluate(&self.mesh, &self.metric) {
                 shift *= 0.5;
                 if shift.abs() <= 4.0 * f64::EPSILON {
@@ -160,18 +150,21 @@ impl Flow {
 }
 
 impl Leg {
-    /// Barzilai–Borwein's long and short step in turn \[BB88\]; the step `h` again where the energy is straight along it. Adds the
-    /// energy's change along the leg (trapezoidal rule).
-    fn next_step(&self, h: f64, iteration: usize, energy: &mut f64) -> f64 {
+    /// Let the next leg start where this one, of size `h`, has led, and add the change of the energy (trapezoidal rule). Returns the
+    /// next step: Barzilai–Borwein's long and short step in turn \[BB88\], or `h` again where the energy is straight along the leg.
+    fn finish(&mut self, h: f64, iteration: usize) -> f64 {
         let (mut ss, mut sy, mut yy) = (0.0, 0.0, 0.0);
         for v in 0..self.direction.len() {
             let s = self.trial.u[v.into()] - self.state.u[v.into()];
-            *energy -= 0.5 * s * (self.direction[v] + self.next_direction[v]);
+            self.energy -= 0.5 * s * (self.direction[v] + self.next_direction[v]);
             ss += s * s;
             let y = self.direction[v] - self.next_direction[v];
             sy += s * y;
             yy += y * y;
         }
+        std::mem::swap(&mut self.state, &mut self.trial);
+        std::mem::swap(&mut self.direction, &mut self.next_direction);
+        self.error = self.next_error;
         match iteration % 2 {
             _ if sy <= 0.0 || ss <= 0.0 => h,
             0 => ss / sy,

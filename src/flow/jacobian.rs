@@ -10,12 +10,11 @@
 
 use super::evaluate::State;
 use crate::error::{Error, Result};
-use crate::geometry::conformal::is_precise;
 use crate::linalg::{Pattern, Symmetric};
 use crate::mesh::{EdgeId, Mesh, VertexId};
 use crate::metric::Metric;
 
-/// No unknown, no entry.
+/// Stands where there is no unknown or no entry.
 const NONE: u32 = u32::MAX;
 
 /// The matrix over the vertices that are not fixed.
@@ -57,7 +56,7 @@ impl Jacobian {
         })
     }
 
-    /// Fill at a state.
+    /// Fill the matrix with the derivative at a state.
     pub fn assemble(&mut self, mesh: &Mesh, class: &Metric, state: &State) {
         self.values.fill(0.0);
         for f in mesh.faces() {
@@ -116,7 +115,7 @@ impl Jacobian {
     /// `Σ |∂K_i/∂u_j| δ`, term by term, for the rounding of e^u and of the lengths, where δ is an ulp of 1, or its square where these have
     /// twice the digits ([`is_precise`]); and two ulp of π for every angle, which is a double.
     pub fn rounding_floor(&self, mesh: &Mesh, class: &Metric, state: &State) -> Vec<f64> {
-        let precise = class.epsilon.iter().all(|&e| is_precise(class.space, e));
+        let precise = class.is_precise();
         let moved = if precise { f64::EPSILON * f64::EPSILON } else { f64::EPSILON };
         let mut floor = vec![0.0; mesh.n_vertices()];
         for f in mesh.faces() {
@@ -154,9 +153,12 @@ impl Jacobian {
 ///
 /// Off-diagonal entries are minus the edge weights ([`crate::geometry::conformal::weights`]). A broken triangle
 /// contributes nothing.
+///
+/// # Errors
+/// Those of [`Metric::check_domain`].
 pub fn curvature_derivative(mesh: &Mesh, metric: &Metric) -> Result<Vec<(VertexId, VertexId, f64)>> {
     metric.check(mesh)?;
-    let mut state = State::new(mesh, &metric.u, &metric.u_low);
+    let mut state = State::new(&metric.u, &metric.u_low);
     if !state.evaluate(mesh, metric) {
         // The first edge without a length is named by this call.
         metric.check_domain(mesh)?;

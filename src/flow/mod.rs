@@ -34,19 +34,18 @@ mod system;
 pub(crate) use active_set::{ActiveSet, Lent};
 pub use cones::{AutoCones, auto_cones};
 pub use jacobian::curvature_derivative;
-pub use obstruction::Obstruction;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
-pub use report::{Report, StopReason, TraceRow};
+pub use report::{Obstruction, Report, StopReason, TraceRow};
 pub use seconds::Seconds;
 pub use solution::Solution;
 
 use crate::control::Control;
 use crate::error::Result;
-use crate::mesh::{FixedEdges, FlipLog, Mesh, NormalCoordinates, PerVertex};
-use crate::metric::{Class, Metric, Surface, Target};
+use crate::geometry::Twofold;
+use crate::mesh::{FixedEdges, FlipLog, PerVertex};
+use crate::metric::{Class, Surface, Target};
 use crate::parallel::Pool;
-use origin::Origin;
-use solution::Reached;
+use std::ops::Deref;
 use std::sync::Arc;
 use system::System;
 
@@ -62,39 +61,41 @@ use system::System;
 /// tangential packings (Delaunay on any triangulation). Between imaginary circles (virtual radii) an edge need not have another
 /// diagonal: flips help there, without a guarantee. Pinned vertices keep a boundary from being doubled: interior edges alone are
 /// flipped.
+///
+/// A flow answers what its present metric, a [`Solution`], answers: the start, or where the last solve ended, converged or not.
 pub struct Flow {
-    origin: Arc<Origin>,
-    mesh: Mesh,
-    metric: Metric,
-    /// u of the last converged solve, or what was set, and what its doubles lose.
+    now: Solution,
+    /// u that solves start from, which is that of the last one that reached its target, or what was set; and what its doubles lose.
     start: PerVertex<f64>,
     start_low: PerVertex<f64>,
     options: Options,
     /// Whether edges may be flipped, by the options and the class.
     flips_allowed: bool,
-    /// Edges of `mesh` that are not flipped: those of the options, and their images on a double.
+    /// Edges of the present triangulation that are not flipped: those of the options, and their images on a double.
     fixed: FixedEdges,
     pinned: Vec<bool>,
     /// Whether `pinned` is an active set, which changes between steps: then it stays in the matrix ([`active_set`]).
     is_bounded: bool,
     /// Per vertex its mirror image on a double, where the metric is kept symmetric.
     mirror: Option<Vec<u32>>,
-    /// Told every flip.
-    followed: Vec<NormalCoordinates>,
     /// The flips of the present solve, by which it is undone.
-    log: FlipLog,
-    /// All flips since the given triangulation.
-    flips: usize,
-    /// What the last solve was asked and did.
-    reached: Option<Reached>,
+    log: FlipLog<Twofold>,
     /// On one copy of a surface with boundary, as long as nothing is flipped across its boundary.
     one_copy: bool,
-    /// The present solve's target per vertex of `mesh`.
+    /// The present solve's target per vertex of the present triangulation.
     target: PerVertex<f64>,
     system: Option<System>,
     /// Flips since `system` was made.
     unseen_flips: usize,
     pool: Arc<Pool>,
+}
+
+impl Deref for Flow {
+    type Target = Solution;
+
+    fn deref(&self) -> &Solution {
+        &self.now
+    }
 }
 
 /// The metric of a surface with prescribed curvature in a class: [`Flow::new`] and [`Flow::solve`].

@@ -22,11 +22,11 @@ const RESTARTS: usize = 20;
 const FIRST_SHIFT: f64 = 1e-12;
 /// Factor from one shift to the next: [`SHIFTS`] of them reach the diagonal's own size and beyond.
 const SHIFT_GROWTH: f64 = 100.0;
-/// Shifts that are tried for one step.
+/// Shifts that are tried for one step, at most.
 const SHIFTS: usize = 12;
-/// The floor estimate counts every rounding once; a stalled residual within this factor of it is at the floor.
+/// A stalled residual within this factor of the estimated rounding floor is at the floor: the estimate counts every rounding once.
 const FLOOR_SLACK: f64 = 8.0;
-/// Radians. A floor above this is no floor but a degenerating triangle.
+/// Radians. A larger estimate of the rounding floor comes from a degenerating triangle and is not accepted.
 const MAX_FLOOR: f64 = 1e-7;
 /// Iterations without a new best residual (by a tenth) after which a residual below [`QUADRATIC`] counts as stalled: Newton converges
 /// quadratically there, and what does not is rounding. (Farther out the maximum norm proves nothing.)
@@ -36,24 +36,26 @@ const QUADRATIC: f64 = 1e-8;
 /// Radians. Once converged, the last factor is reused to bring the error down to this, each step at least halving it; in H², whose
 /// layouts magnify errors by e^distance, as far as it goes.
 const POLISH_TO: f64 = 1e-13;
-/// Steps of that at most: each costs a solution, and the error falls to rounding in one or two.
+/// Such steps at most: each costs a solution, and the error falls to rounding in one or two.
 const POLISH_STEPS: usize = 3;
 
 /// What a Newton solve carries from step to step.
-struct Iterate {
-    state: State,
+pub(super) struct Iterate {
+    pub state: State,
     /// The state at the end of a step that is tried.
-    trial: State,
+    pub trial: State,
     /// K̄ − K at `state`.
-    residual: Vec<f64>,
-    step: Vec<f64>,
+    pub residual: Vec<f64>,
+    pub step: Vec<f64>,
     /// Largest residual.
-    error: f64,
+    pub error: f64,
     /// What the last matrix was shifted by.
-    shift: f64,
+    pub shift: f64,
     /// Least error so far, but for the last tenth, and the steps since.
     best: f64,
     since_best: usize,
+    /// Flips in this solve when the last matrix was factored; none before the first one.
+    factored_at: Option<usize>,
 }
 
 /// What a solve does next.
@@ -65,11 +67,12 @@ enum Next {
 }
 
 impl Iterate {
-    fn new(flow: &Flow, state: State) -> Iterate {
+    pub fn new(flow: &Flow, state: State) -> Iterate {
         let [mut residual, step] = [(); 2].map(|()| vec![0.0; flow.mesh.n_vertices()]);
         let error = state.residual(&flow.target, &flow.pinned, &mut residual);
-        let trial = State::new(&flow.mesh, &flow.start, &flow.start_low);
-        Iterate { state, trial, residual, step, error, shift: 0.0, best: error, since_best: 0 }
+        let trial = State::new(&flow.start, &flow.start_low);
+        let (shift, best, since_best, factored_at) = (0.0, error, 0, None);
+        Iterate { state, trial, residual, step, error, shift, best, since_best, factored_at }
     }
 
     /// Count the step that has led here: whether there have been too many without a better residual.
@@ -87,69 +90,73 @@ impl Flow {
         let mut at = Iterate::new(self, state);
         report.residuals.push(at.error);
         control.step(Stage::Flow, 0.0)?;
-        let (first, mut restarts) = (at.error, 0);
-        // Flips when the last matrix was factored; none yet.
-        let mut factored_at = None;
-        report.stop_reason = loop {
-            match self.next(&at, report) {
-                Next::Step => control.step(Stage::Flow, progress(first, at.error, report.tolerance))?,
-                Next::Stop(reason) => break reason,
-                Next::Leave => {
-                    report.max_curvature_error = at.error;
-                    return Ok(End::AtBoundary(at.state));
-                }
-            }
-            if self.is_lopsided(&at) {
-                (self.mirror, self.system) = (None, None);
-            }
-            let mut system = self.take_system(report)?;
-            self.assemble(&mut system, &at.state, report);
-            control.check()?;
-            let factored = self.direction(&mut system, &mut at, report, control)?;
-            self.system = Some(system);
-            factored_at = factored.then_some(report.flips);
-            if !factored {
-                break StopReason::Stalled;
-            }
-            report.iterations += 1;
-            if !self.step(&mut at, report, control)? {
-                if self.is_moved_by_flips(&mut at, report, control)? && restarts < RESTARTS {
-                    restarts += 1;
-                    continue;
-                }
-                break StopReason::Stalled;
-            }
-            report.residuals.push(at.error);
-            let (steps, flips) = (report.iterations, report.flips);
-            log::debug!("Newton step {steps}: max |K − K̄| = {:.3e}, {flips} flips", at.error);
-            if at.is_out_of_patience() {
-                break StopReason::Stalled;
-            }
+        let Some(reason) = self.iterate(&mut at, report, control)? else {
+            report.max_curvature_error = at.error;
+            return Ok(End { state: at.state, left: true });
         };
+        report.stop_reason = reason;
         // A step within bounds may begin where another one has ended, at the tolerance: it has no factor yet to polish with.
         let begins_at_end = self.is_bounded && report.iterations == 0 && at.error > self.polished();
         if begins_at_end && report.stop_reason == StopReason::Converged {
-            let mut system = self.take_system(report)?;
-            self.assemble(&mut system, &at.state, report);
-            let factored = self.direction(&mut system, &mut at, report, control)?;
-            self.system = Some(system);
-            factored_at = factored.then_some(report.flips);
+            self.direction(&mut at, report, control)?;
         }
-        // A factor of another triangulation is no good, and its matrix is of another pattern.
-        let factored = factored_at == Some(report.flips);
+        // The factor of another triangulation has another pattern.
+        let factored = at.factored_at == Some(report.flips);
         if factored && report.stop_reason != StopReason::IterationLimit && at.error > self.polished() {
             let mut system = self.take_system(report)?;
             self.polish(&mut system, &mut at, report, control)?;
             self.system = Some(system);
         }
         if !at.state.is_measured() {
-            timed(&mut report.seconds.assemble, || at.state.evaluate(&self.mesh, &self.metric));
+            // The last point that was tried was not taken: back to the triangulation of the one before.
+            self.evaluate(&mut at.state, report, control)?;
+            at.error = at.state.residual(&self.target, &self.pinned, &mut at.residual);
+            if report.stop_reason == StopReason::Converged && at.error > report.tolerance {
+                report.stop_reason = StopReason::Stalled;
+            }
         }
         report.max_curvature_error = at.error;
         if report.stop_reason == StopReason::Stalled {
             report.stop_reason = self.stalled(&mut at, report)?;
         }
-        Ok(End::Stopped(at.state))
+        Ok(End { state: at.state, left: false })
+    }
+
+    /// Steps until there is a reason to stop, or none where the flow leaves the one copy of a surface with boundary.
+    fn iterate(
+        &mut self,
+        at: &mut Iterate,
+        report: &mut Report,
+        control: &Control,
+    ) -> Result<Option<StopReason>> {
+        let (first, mut restarts) = (at.error, 0);
+        loop {
+            match self.next(at, report) {
+                Next::Step => control.step(Stage::Flow, progress(first, at.error, report.tolerance))?,
+                Next::Stop(reason) => return Ok(Some(reason)),
+                Next::Leave => return Ok(None),
+            }
+            if self.is_lopsided(at) {
+                (self.mirror, self.system) = (None, None);
+            }
+            if !self.direction(at, report, control)? {
+                return Ok(Some(StopReason::Stalled));
+            }
+            report.iterations += 1;
+            if !self.step(at, report, control)? {
+                if self.is_moved_by_flips(at, report, control)? && restarts < RESTARTS {
+                    restarts += 1;
+                    continue;
+                }
+                return Ok(Some(StopReason::Stalled));
+            }
+            report.residuals.push(at.error);
+            let (steps, flips) = (report.iterations, report.flips);
+            log::debug!("Newton step {steps}: max |K − K̄| = {:.3e}, {flips} flips", at.error);
+            if at.is_out_of_patience() {
+                return Ok(Some(StopReason::Stalled));
+            }
+        }
     }
 
     /// Whether there is another step to take.
@@ -231,13 +238,23 @@ impl Flow {
         at.residual.iter().zip(mirror).map(even).fold(0.0, worse) < 0.5 * at.error
     }
 
-    /// The Newton direction into `at.step`; false when there is none.
+    /// The Newton direction into `at.step`, with the matrix at `at.state`, whose factor is kept; false where there is none.
+    fn direction(&mut self, at: &mut Iterate, report: &mut Report, control: &Control) -> Result<bool> {
+        let mut system = self.take_system(report)?;
+        self.assemble(&mut system, &at.state, report);
+        let factored = self.direction_of(&mut system, at, report, control)?;
+        self.system = Some(system);
+        at.factored_at = factored.then_some(report.flips);
+        Ok(factored)
+    }
+
+    /// The Newton direction of a matrix that has been assembled.
     ///
     /// A vertex whose triangles all break has a zero row, and rounding can make the matrix indefinite. Where the matrix has
     /// no factor, its diagonal is raised at the vertices of broken triangles (at all, where none is broken), so far that no
     /// u moves further than `max_step`: capping the step instead would hold back the sound vertices for the loose ones.
     /// `at.shift` remembers by how much, for the next iteration.
-    fn direction(
+    fn direction_of(
         &self,
         system: &mut System,
         at: &mut Iterate,
@@ -292,10 +309,10 @@ impl Flow {
         if self.metric.space == Space::H2 { 0.0 } else { POLISH_TO }
     }
 
-    /// Steps with the last factor, as long as they at least halve the error: iterative refinement of the nonlinear
+    /// Steps with the last factor, as long as they at least halve the error and flip nothing: iterative refinement of the nonlinear
     /// system at the price of a solve.
     fn polish(
-        &self,
+        &mut self,
         system: &mut System,
         at: &mut Iterate,
         report: &mut Report,
@@ -309,12 +326,10 @@ impl Flow {
                 return Ok(());
             }
             let Iterate { state, trial, residual, step, error, .. } = at;
-            let inside = timed(&mut report.seconds.assemble, || {
-                trial.set_step(state, 1.0, step);
-                state.hand_on(trial);
-                trial.evaluate(&self.mesh, &self.metric)
-            });
-            if !inside {
+            trial.set_step(state, 1.0, step);
+            state.hand_on(trial);
+            let flips = report.flips;
+            if !self.evaluate(trial, report, control)? {
                 return Ok(());
             }
             let now = trial.residual(&self.target, &self.pinned, residual);
@@ -324,7 +339,7 @@ impl Flow {
             std::mem::swap(state, trial);
             let halved = now <= 0.5 * *error;
             *error = now;
-            if !halved || now <= self.polished() {
+            if !halved || now <= self.polished() || report.flips != flips {
                 return Ok(());
             }
         }

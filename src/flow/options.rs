@@ -1,4 +1,12 @@
 //! What a flow can be asked.
+//!
+//! ```
+//! # use ricci::flow::{Flips, Options};
+//! let options = Options { flips: Flips::Never, tolerance: 1e-12, ..Options::default() };
+//! options.check()?;
+//! assert_eq!(options.iteration_limit(), 500);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, VertexId};
@@ -85,7 +93,10 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Every number finite and in its range.
+    /// Whether the tolerance and all step sizes are positive finite numbers.
+    ///
+    /// # Errors
+    /// [`Error::Argument`].
     pub fn check(&self) -> Result<()> {
         let positive = |what, value: f64| {
             if value > 0.0 && value.is_finite() {

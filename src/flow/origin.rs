@@ -1,8 +1,8 @@
 //! What all metrics that flow from one start share: the surface, its triangulation at the start, and the initial metric there.
 
 use crate::control::Control;
-use crate::error::{Result, check_size};
-use crate::mesh::{Double, EdgeId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex};
+use crate::error::Result;
+use crate::mesh::{Double, EdgeId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge};
 use crate::metric::delaunay::{Triangulated, boundary_fails};
 use crate::metric::refinement::{Final, Input, Intrinsic, Triangulations};
 use crate::metric::{Class, Initial, Metric, Refinement, StartOptions, Surface, delaunay_start};
@@ -19,13 +19,13 @@ pub(super) struct Origin {
     pub initial: Initial,
     /// Isometric flips from the given triangulation to that of `initial`.
     pub flips: usize,
-    /// The latter, if that is another one.
+    /// The triangulation of `initial`, if isometric flips have made one.
     pub flipped: Option<Flipped>,
     /// Given edges that are not flipped.
     pub fixed: FixedEdges,
     /// Whether edges may be flipped from here on.
     pub follows: bool,
-    /// Whether this start, of one copy, is half of what its double's is: there no boundary edge would be flipped.
+    /// Whether this start on one copy is one half of the start on the double, as it is where no boundary edge would be flipped there.
     pub is_half: bool,
 }
 
@@ -41,19 +41,12 @@ pub(super) struct Flipped {
 
 impl Origin {
     /// The initial metric on the given triangulation, whose edges stay.
+    ///
+    /// # Errors
+    /// Those of [`Surface::initial`].
     pub fn rigid(surface: Surface, class: Class) -> Result<Origin> {
         let initial = surface.initial(class)?;
-        Ok(Origin {
-            surface,
-            class: Some(class),
-            double: None,
-            initial,
-            flips: 0,
-            flipped: None,
-            fixed: FixedEdges::none(),
-            follows: false,
-            is_half: false,
-        })
+        Ok(Origin { class: Some(class), ..Origin::unflipped(surface, initial) })
     }
 
     /// A metric as it is, on its triangulation; `follows`: edges may be flipped from there on.
@@ -61,7 +54,11 @@ impl Origin {
         let lengths = metric.lengths(&mesh)?;
         let initial = Initial::of_metric(metric.clone())?;
         let surface = Surface::intrinsic(mesh, lengths, metric.space)?;
-        Ok(Origin {
+        Ok(Origin { follows, ..Origin::unflipped(surface, initial) })
+    }
+
+    fn unflipped(surface: Surface, initial: Initial) -> Origin {
+        Origin {
             surface,
             class: None,
             double: None,
@@ -69,9 +66,9 @@ impl Origin {
             flips: 0,
             flipped: None,
             fixed: FixedEdges::none(),
-            follows,
+            follows: false,
             is_half: false,
-        })
+        }
     }
 
     /// The initial metric on the (weighted) Delaunay triangulation, of the surface or, if it is `doubled`, of its double:
@@ -108,33 +105,17 @@ impl Origin {
         Ok(Origin { surface, class, double, initial, flips, flipped, fixed, follows: true, is_half })
     }
 
-    /// The triangulation at the start, and what is followed through flips from there: the given edges, and those of the start if
-    /// they are others.
+    /// The triangulation at the start, and the edges that are followed from there through flips: the given ones, and those of the
+    /// start if they are others.
     pub fn start(&self) -> (Arc<Mesh>, Vec<NormalCoordinates>) {
-        let unflipped = || match &self.double {
-            Some(double) => Arc::new(double.mesh.clone()),
-            None => self.surface.mesh().clone(),
+        let mesh = match (&self.flipped, &self.double) {
+            (Some(flipped), _) => flipped.mesh.clone(),
+            (None, Some(double)) => Arc::new(double.mesh.clone()),
+            (None, None) => self.surface.mesh().clone(),
         };
-        match &self.flipped {
-            Some(flipped) => {
-                (flipped.mesh.clone(), vec![flipped.given.clone(), NormalCoordinates::new(&flipped.mesh)])
-            }
-            None if self.follows => {
-                let mesh = unflipped();
-                let normal = NormalCoordinates::new(&mesh);
-                (mesh, vec![normal])
-            }
-            None => (unflipped(), Vec::new()),
-        }
-    }
-
-    /// A target on the given surface as one on what flows: on a double, curvature on both sides of the boundary adds up.
-    pub fn spread_target(&self, target: &PerVertex<f64>) -> Result<PerVertex<f64>> {
-        check_size("target", target.len(), self.surface.mesh().n_vertices())?;
-        match &self.double {
-            Some(double) => Ok(double.target(target)?.into()),
-            None => Ok(target.clone()),
-        }
+        let given = self.flipped.as_ref().map(|flipped| flipped.given.clone());
+        let own = self.follows.then(|| NormalCoordinates::new(&mesh));
+        (mesh, given.into_iter().chain(own).collect())
     }
 
     /// The common refinement of the given triangulation with that of a metric.

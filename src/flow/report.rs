@@ -1,6 +1,17 @@
 //! What a flow did.
+//!
+//! ```
+//! # use ricci::{Class, Control, Flow, Surface, Target, geometry::Space, mesh::shapes};
+//! # use ricci::flow::{Options, StopReason};
+//! let options = Options { max_iterations: 1, ..Options::default() };
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let mut flow = Flow::new(torus, Class::yamabe(Space::E2), &options, &Control::new())?;
+//! let stopped = flow.solve(&Target::Uniform, &Control::new())?;
+//! let report = stopped.report().unwrap();
+//! assert!(report.stop_reason == StopReason::IterationLimit && !report.converged());
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
-use super::obstruction::Obstruction;
 use super::seconds::Seconds;
 use crate::mesh::{Double, VertexId};
 use std::collections::BTreeSet;
@@ -69,6 +80,22 @@ pub struct TraceRow {
 
 /// Vertices named in [`Report::worst`].
 pub const WORST: usize = 8;
+
+/// A set I of vertices that proves a target out of reach: every metric of the class on this triangulation has `Σ_I K > least`, and the
+/// target asks for `Σ_I K̄ = curvature ≤ least`.
+///
+/// A triangle with two or three corners in I has angles of at most π there; one with a single corner has less than
+/// `π − arccos η` of the opposite edge in a circle packing (all η in [0, 1]: Thurston's inequality, \[Thu80, chapter
+/// 13\], \[CL03\]), less than π in the other schemes. `least` is 2π per vertex of I (π on the boundary) minus these.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Obstruction {
+    /// The vertices of I, ascending.
+    pub vertices: Vec<VertexId>,
+    /// Σ K̄ over I, radians.
+    pub curvature: f64,
+    /// The bound, not attained, radians. (Both sums are formed in doubles.)
+    pub least: f64,
+}
 
 /// Result of a flow, with everything needed to judge it.
 #[derive(Debug, Clone, PartialEq)]
@@ -169,7 +196,7 @@ impl Report {
         }
     }
 
-    /// This flow and the one that took it to its end.
+    /// The report of this flow and of the one that went on where this one ended.
     pub(super) fn then(mut self, rest: Report) -> Report {
         self.residuals.extend(rest.residuals.into_iter().skip(1));
         self.seconds += rest.seconds;

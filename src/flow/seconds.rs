@@ -1,6 +1,6 @@
 //! Where the time of a flow goes.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Seconds by phase.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -34,6 +34,6 @@ impl std::ops::AddAssign for Seconds {
 pub(super) fn timed<R>(phase: &mut f64, work: impl FnOnce() -> R) -> R {
     let start = Instant::now();
     let result = work();
-    *phase += start.elapsed().max(Duration::ZERO).as_secs_f64();
+    *phase += start.elapsed().as_secs_f64();
     result
 }

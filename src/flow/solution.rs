@@ -3,7 +3,7 @@
 use super::origin::Origin;
 use super::report::Report;
 use crate::control::Control;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_size};
 use crate::mesh::{Double, Mesh, NormalCoordinates, PerVertex, VertexId};
 use crate::metric::delaunay::boundary_fails;
 use crate::metric::{Class, Curvature, Initial, Metric, Refinement, Scheme, Surface};
@@ -47,6 +47,9 @@ impl Solution {
     }
 
     /// The initial metric of a closed surface on its (weighted) Delaunay triangulation.
+    ///
+    /// # Errors
+    /// Those of [`crate::metric::delaunay_start`].
     pub(crate) fn delaunay(surface: Surface, class: Class, control: &Control) -> Result<Solution> {
         Ok(Solution::start(Origin::delaunay(surface, class, false, &[], control)?))
     }
@@ -56,7 +59,7 @@ impl Solution {
         (Mesh::clone(&self.mesh), self.metric.clone(), self.followed.clone())
     }
 
-    /// What the metric has become `flips` flips later.
+    /// The same surface with another metric, to whose triangulation `flips` more flips have led.
     pub(crate) fn at(
         self,
         mesh: Mesh,
@@ -64,9 +67,17 @@ impl Solution {
         followed: Vec<NormalCoordinates>,
         flips: usize,
     ) -> Solution {
-        let given = self.given();
-        let mesh = if mesh == **given { given.clone() } else { Arc::new(mesh) };
-        Solution { mesh, metric, followed, flips: self.flips + flips, ..self }
+        let mut solution =
+            Solution { mesh: Arc::new(mesh), metric, followed, flips: self.flips + flips, ..self };
+        solution.share_given();
+        solution
+    }
+
+    /// Hold the given mesh itself where flips have led back to it.
+    pub(super) fn share_given(&mut self) {
+        if !self.is_unflipped() && *self.mesh == **self.given() {
+            self.mesh = self.given().clone();
+        }
     }
 
     /// Where flows from this origin start.
@@ -111,7 +122,7 @@ impl Solution {
         self.class().map(|class| class.scheme).ok_or_else(none)
     }
 
-    /// The triangulation that the metric lives on.
+    /// The triangulation that the metric lives on: of the surface, or of its double.
     pub fn mesh(&self) -> &Arc<Mesh> {
         &self.mesh
     }
@@ -146,12 +157,24 @@ impl Solution {
         self.reached.as_ref().map(|reached| &reached.target)
     }
 
-    /// The target per vertex of [`Solution::mesh`]: on a double, curvature on both sides of the boundary adds up.
+    /// A target on the given surface as one on [`Solution::mesh`]: on a double, curvature on both sides of the boundary adds up.
     ///
     /// # Errors
-    /// None that a solution can have; those of [`crate::mesh::Double::target`].
+    /// [`Error::Size`] unless the target has an entry per vertex of the given surface.
+    pub fn spread_target(&self, target: &PerVertex<f64>) -> Result<PerVertex<f64>> {
+        check_size("target", target.len(), self.given().n_vertices())?;
+        match self.double() {
+            Some(double) => Ok(double.target(target)?.into()),
+            None => Ok(target.clone()),
+        }
+    }
+
+    /// The target per vertex of [`Solution::mesh`] ([`Solution::spread_target`]).
+    ///
+    /// # Errors
+    /// None that a solution can have; those of [`Solution::spread_target`].
     pub fn final_target(&self) -> Result<Option<PerVertex<f64>>> {
-        self.target().map(|target| self.origin.spread_target(target)).transpose()
+        self.target().map(|target| self.spread_target(target)).transpose()
     }
 
     /// The cones: interior vertices of the given surface that the caller named as cones, or whose curvature is to be off 0 by more
@@ -225,10 +248,13 @@ impl Solution {
         within(self.threads, || self.origin.refinement(&self.mesh, &self.metric, &self.followed, control))
     }
 
-    /// Whether flows may go on from here on the double of the surface, or on one copy that could be reflected: Delaunay along the
-    /// boundary too, as it was at the start.
-    pub(super) fn is_symmetric(&self) -> bool {
+    /// Whether a flow can go on from here. A flow that is to be `doubled` can on the double, or on one copy that could be reflected,
+    /// being Delaunay along the boundary too, as it was at the start; any other flow can where there is no double.
+    pub(super) fn suits(&self, doubled: bool) -> bool {
         let fails = || boundary_fails(&self.mesh, &self.metric, &self.metric.u, &self.origin.fixed);
-        self.double().is_some() || (self.origin.is_half && !fails())
+        match self.double() {
+            Some(_) => doubled,
+            None => !doubled || (self.origin.is_half && !fails()),
+        }
     }
 }

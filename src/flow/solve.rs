@@ -2,7 +2,6 @@
 
 use super::Flow;
 use super::evaluate::State;
-use super::obstruction::{obstruction, obstruction_at_a_vertex};
 use super::options::Method;
 use super::report::{Report, StopReason, WORST};
 use super::seconds::timed;
@@ -13,30 +12,17 @@ use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::geometry::conformal::is_precise;
 use crate::mesh::{Mesh, PerVertex, VertexId};
-use crate::metric::Target;
 use crate::metric::curvature::gauss_bonnet;
+use crate::metric::delaunay::ClassFlips;
 use crate::metric::target::{check_total, check_upper, settle_total};
+use crate::metric::{Metric, Target};
+use std::sync::Arc;
 
-/// How a method came to its end.
-pub(super) enum End {
-    /// Where the report says.
-    Stopped(State),
-    /// On one copy of a surface with boundary, where its double would flip a boundary edge.
-    AtBoundary(State),
-}
-
-impl End {
-    pub fn state(&self) -> &State {
-        match self {
-            End::Stopped(state) | End::AtBoundary(state) => state,
-        }
-    }
-
-    pub fn into_state(self) -> State {
-        match self {
-            End::Stopped(state) | End::AtBoundary(state) => state,
-        }
-    }
+/// The end of a method.
+pub(super) struct End {
+    pub state: State,
+    /// Whether the flow has left the one copy of a surface with boundary, whose double would flip a boundary edge.
+    pub left: bool,
 }
 
 impl Flow {
@@ -48,8 +34,8 @@ impl Flow {
     /// Those of [`Target::values`]; without pins a total that no metric can have ([`check_total`]); curvature that no angle can have
     /// ([`check_upper`]); [`Error::Cancelled`], [`Error::Factorisation`]: the flow is then where it was before.
     pub fn solve(&mut self, target: &Target, control: &Control) -> Result<Solution> {
-        let (space, given) = (self.metric.space, self.origin.surface.mesh().clone());
-        let mut values = target.values(&self.origin.surface, space)?;
+        let (space, given) = (self.metric.space, self.given().clone());
+        let mut values = target.values(self.surface(), space)?;
         given.vertices().filter(|v| self.pinned[v.index()]).for_each(|v| values[v] = 0.0);
         check_upper(&given, &values)?;
         if !self.has_pins() {
@@ -57,8 +43,12 @@ impl Flow {
             settle_total(&given, space, &mut values);
         }
         self.reach(&values, control)?;
-        let named = target.named();
-        self.remember_cones(&given, &named);
+        let (named, tolerance) = (target.named(), self.options.tolerance);
+        if let Some(reached) = &mut self.now.reached {
+            let is_cone = |v: &VertexId| named.contains(v) || reached.target[*v].abs() > tolerance;
+            let inside = given.vertices().filter(|&v| !given.is_boundary_vertex(v));
+            reached.cones = inside.filter(is_cone).collect();
+        }
         Ok(self.solution())
     }
 
@@ -68,86 +58,90 @@ impl Flow {
     /// # Errors
     /// [`Error::Size`], [`Error::Argument`]; those of [`Flow::solve`].
     pub(crate) fn reach(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<&Report> {
-        let given = self.origin.surface.mesh();
+        let given = self.given();
         check_size("target", target.len(), given.n_vertices())?;
         if let Some(v) = given.vertices().find(|&v| !target[v].is_finite()) {
             let value = format!("{} at vertex {v}", target[v]);
             return Err(Error::Argument { what: "target curvature", value, need: "finite everywhere" });
         }
         let mut report = self.advance(target, control)?;
-        if report.is_reached() && self.is_to_be_flattened(target) {
-            report.angle_defect = Some(self.flatten(control)?);
-        }
-        if let Some(double) = &self.origin.double {
+        if let Some(double) = self.double() {
             report.on_surface(double);
         }
         let mut target = target.clone();
         if self.has_pins() {
-            let curvature = self.solution().curvature()?.at;
+            let curvature = self.curvature()?.at;
             let pinned = |v: &VertexId| self.pinned[v.index()];
-            self.origin.surface.mesh().vertices().filter(pinned).for_each(|v| target[v] = curvature[v]);
+            self.given().vertices().filter(pinned).for_each(|v| target[v] = curvature[v]);
         }
-        let reached = self.reached.insert(Reached { report, target, cones: Vec::new() });
+        let reached = self.now.reached.insert(Reached { report, target, cones: Vec::new() });
         Ok(&reached.report)
     }
 
-    /// Interior vertices that are named, or whose curvature is to be off 0 by more than the tolerance.
-    fn remember_cones(&mut self, given: &Mesh, named: &[VertexId]) {
-        let Some(reached) = &mut self.reached else { return };
-        let is_cone = |v: &VertexId| named.contains(v) || reached.target[*v].abs() > self.options.tolerance;
-        let inside = given.vertices().filter(|&v| !given.is_boundary_vertex(v));
-        reached.cones = inside.filter(is_cone).collect();
-    }
-
-    /// Layouts in H² magnify what is left of the curvature by e^distance.
+    /// Whether a flow to this target ends with [`Flow::flatten`]: layouts in H² magnify what is left of the curvature by e^distance.
     fn is_to_be_flattened(&self, target: &PerVertex<f64>) -> bool {
         self.metric.space == Space::H2 && self.mesh.is_closed() && target.iter().all(|&k| k == 0.0)
     }
 
-    /// From one copy to the double where the solve leads there.
+    /// A solve, on the double where it leads there; the flow is as before where that is an error.
     fn advance(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<Report> {
-        if !self.one_copy {
-            return Ok(self.run(target, control)?.0);
-        }
-        let before = self.solution();
-        let (start, low) = (self.start.clone(), self.start_low.clone());
-        let (mut report, left) = self.run(target, control)?;
-        if !left {
-            return Ok(report);
-        }
-        let mut took = 0.0;
-        let doubled = timed(&mut took, || self.doubled(control));
-        report.seconds.flip += took;
-        report.seconds.total += took;
-        let rest = doubled.and_then(|mut doubled| {
-            let limit = self.options.max_iterations;
-            doubled.options.max_iterations = self.options.iteration_limit() - report.iterations;
-            let rest = doubled.run(target, control)?.0;
-            doubled.options.max_iterations = limit;
-            Ok((rest, doubled))
+        let Metric { u, u_low, .. } = &self.metric;
+        let before = [u, u_low, &self.start, &self.start_low].map(PerVertex::clone);
+        let flips = self.flips;
+        let start = [&before[2], &before[3]];
+        let outcome = self.run(target, control).and_then(|(report, left)| match left {
+            true => self.run_doubled(report, target, start, control),
+            false => Ok((report, None)),
         });
-        match rest {
-            Ok((rest, mut doubled)) => {
-                if let (false, Some(double)) = (rest.is_reached(), &doubled.origin.double) {
-                    let spread = |x: &[f64]| double.spread_vertices(x).map(PerVertex::from);
-                    (doubled.start, doubled.start_low) = (spread(&start)?, spread(&low)?);
+        match outcome {
+            Ok((report, doubled)) => {
+                if let Some(doubled) = doubled {
+                    *self = doubled;
                 }
-                *self = doubled;
-                Ok(report.then(rest))
+                Ok(report)
             }
             Err(error) => {
-                *self = Flow::resume(&before, &self.options, &Control::new())?;
-                (self.start, self.start_low) = (start, low);
+                // The triangulation from before, whose system is to be made anew.
+                self.system = None;
+                let Flow { now, log, start, start_low, .. } = self;
+                log.undo(Arc::make_mut(&mut now.mesh), &mut now.metric.eta, &mut now.followed)?;
+                now.share_given();
+                now.flips = flips;
+                [now.metric.u, now.metric.u_low, *start, *start_low] = before;
                 Err(error)
             }
         }
     }
 
+    /// The rest of a solve whose one copy has been left with this report, on the double. `start`, the start of the solve with what
+    /// its doubles lose, is that of the next solve too where this one does not reach its target.
+    fn run_doubled(
+        &self,
+        mut report: Report,
+        target: &PerVertex<f64>,
+        start: [&PerVertex<f64>; 2],
+        control: &Control,
+    ) -> Result<(Report, Option<Flow>)> {
+        let mut took = 0.0;
+        let mut doubled = timed(&mut took, || self.doubled(control))?;
+        report.seconds.flip += took;
+        report.seconds.total += took;
+        let limit = self.options.max_iterations;
+        doubled.options.max_iterations = self.options.iteration_limit() - report.iterations;
+        let rest = doubled.run(target, control)?.0;
+        doubled.options.max_iterations = limit;
+        if let (false, Some(double)) = (rest.is_reached(), doubled.now.double()) {
+            let spread = |x: &[f64]| double.spread_vertices(x).map(PerVertex::from);
+            (doubled.start, doubled.start_low) = (spread(start[0])?, spread(start[1])?);
+        }
+        Ok((report.then(rest), Some(doubled)))
+    }
+
     /// One solve on the present copy or double; whether it was left because the double would flip a boundary edge.
     fn run(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<(Report, bool)> {
-        self.target = self.origin.spread_target(target)?;
+        self.target = self.spread_target(target)?;
         if !self.has_pins() {
-            settle_total(&self.mesh, self.metric.space, &mut self.target);
+            settle_total(&self.now.mesh, self.now.metric.space, &mut self.target);
         }
         let mut report = Report::new(self.options.tolerance);
         let precise = self.metric.epsilon.iter().all(|&e| is_precise(self.metric.space, e));
@@ -160,22 +154,10 @@ impl Flow {
         if self.mirror.is_some() != mirror.is_some() {
             (self.mirror, self.system) = (mirror, None);
         }
-        let end = match end {
-            Ok(end) => end,
-            Err(error) => {
-                // The triangulation from before, whose system is to be made anew.
-                self.log.undo(&mut self.mesh, &mut self.metric.eta, &mut self.followed)?;
-                self.system = None;
-                return Err(error);
-            }
-        };
-        self.log.clear();
+        let End { mut state, left } = end?;
         report.seconds.total = seconds;
-        self.flips += report.flips;
-        let (mut state, left) = match end {
-            End::Stopped(state) => (state, false),
-            End::AtBoundary(state) => (state, true),
-        };
+        self.now.flips += report.flips;
+        self.now.share_given();
         if self.one_copy && self.free_scale() {
             // The scale of the double, where a vertex inside counts twice.
             let copies = |v| if self.mesh.is_boundary_vertex(v) { 1.0 } else { 2.0 };
@@ -188,13 +170,16 @@ impl Flow {
         if report.is_reached() {
             (self.start, self.start_low) = (state.u.clone(), state.low.clone());
         }
-        (self.metric.u, self.metric.u_low) = (state.u, state.low);
+        (self.now.metric.u, self.now.metric.u_low) = (state.u, state.low);
+        if report.is_reached() && self.is_to_be_flattened(target) {
+            report.angle_defect = Some(self.flatten(control)?);
+        }
         Ok((report, left))
     }
 
     /// The flow by its method, from the start to the end that the report tells.
     pub(super) fn flow(&mut self, report: &mut Report, control: &Control) -> Result<End> {
-        let mut state = State::new(&self.mesh, &self.start, &self.start_low);
+        let mut state = State::new(&self.start, &self.start_low);
         let keeps_area = self.options.method == Method::Gradient && self.options.gradient.area_normalised;
         if self.free_scale() && !keeps_area {
             state.center();
@@ -205,27 +190,22 @@ impl Flow {
         // A target that is infeasible on one triangulation can be feasible after flips, so obstructions are only searched where flips
         // are off. One that a single vertex rules out needs no flow.
         if !self.flips_allowed {
-            report.obstruction = obstruction_at_a_vertex(
-                &self.mesh,
-                &self.metric,
-                &self.target,
-                &self.pinned,
-                report.tolerance,
-            );
+            report.obstruction = self.obstruction_at_a_vertex();
         }
+        let stopped = |state| End { state, left: false };
         let end = match (self.options.method, self.metric.space) {
             _ if report.obstruction.is_some() => {
                 let mut residual = vec![0.0; self.target.len()];
                 report.max_curvature_error = state.residual(&self.target, &self.pinned, &mut residual);
                 report.residuals.push(report.max_curvature_error);
                 report.stop_reason = StopReason::Infeasible;
-                End::Stopped(state)
+                stopped(state)
             }
-            (Method::Gradient, _) => End::Stopped(self.gradient(state, report, control)?),
-            (Method::Newton, Space::S2) => End::Stopped(self.spherical(state, report, control)?),
+            (Method::Gradient, _) => stopped(self.gradient(state, report, control)?),
+            (Method::Newton, Space::S2) => stopped(self.spherical(state, report, control)?),
             (Method::Newton, _) => self.newton(state, report, control)?,
         };
-        self.judge(end.state(), report);
+        self.judge(&end.state, report);
         Ok(end)
     }
 
@@ -243,7 +223,7 @@ impl Flow {
             StopReason::Stalled | StopReason::Diverged | StopReason::IterationLimit
         );
         if !self.flips_allowed && open {
-            report.obstruction = obstruction(&self.mesh, &self.metric, state, &self.target, &self.pinned);
+            report.obstruction = self.obstruction(state);
             if report.obstruction.is_some() {
                 report.stop_reason = StopReason::Infeasible;
             }
@@ -289,16 +269,10 @@ impl Flow {
         if !self.flips_allowed {
             return Ok(timed(&mut report.seconds.assemble, || state.evaluate(&self.mesh, &self.metric)));
         }
-        let (log, followed) = (&mut self.log, &mut self.followed);
+        let Flow { now: Solution { mesh, metric, followed, .. }, log, fixed, .. } = self;
         let mut record = |mesh: &Mesh, flip| log.record(mesh, flip, followed);
-        let (real, flips) = state.evaluate_delaunay(
-            &mut self.mesh,
-            &mut self.metric,
-            &self.fixed,
-            &mut record,
-            &mut report.seconds,
-            control,
-        )?;
+        let surface = ClassFlips { mesh: Arc::make_mut(mesh), metric, record: &mut record };
+        let (real, flips) = state.evaluate_delaunay(surface, fixed, &mut report.seconds, control)?;
         report.flips += flips;
         self.unseen_flips += flips;
         Ok(real)
@@ -307,20 +281,16 @@ impl Flow {
     /// Take the system for the present unknowns and triangulation: analysed now, or kept. It is put back by the caller.
     pub(super) fn take_system(&mut self, report: &mut Report) -> Result<System> {
         let flips = std::mem::take(&mut self.unseen_flips);
-        let kept = self.system.take();
-        let fixed = || {
-            let mut fixed =
-                if self.is_bounded { vec![false; self.pinned.len()] } else { self.pinned.clone() };
-            fixed[0] |= self.free_scale();
-            fixed
-        };
-        let system = match kept {
+        let system = match self.system.take() {
             Some(kept) if flips == 0 => kept,
-            Some(kept) => timed(&mut report.seconds.analyse, || {
-                kept.flipped(&self.mesh, &fixed(), self.mirror.as_deref(), flips)
-            })?,
-            None => timed(&mut report.seconds.analyse, || {
-                System::new(&self.mesh, &fixed(), self.mirror.as_deref())
+            kept => timed(&mut report.seconds.analyse, || {
+                let mut fixed =
+                    if self.is_bounded { vec![false; self.pinned.len()] } else { self.pinned.clone() };
+                fixed[0] |= self.free_scale();
+                match kept {
+                    Some(kept) => kept.flipped(&self.mesh, &fixed, self.mirror.as_deref(), flips),
+                    None => System::new(&self.mesh, &fixed, self.mirror.as_deref()),
+                }
             })?,
         };
         report.unknowns = system.unknowns();
@@ -343,4 +313,38 @@ impl Flow {
 pub(super) fn center(x: &mut [f64]) {
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     x.iter_mut().for_each(|x| *x -= mean);
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::flow::Options;
+    use crate::mesh::EdgeId;
+    use crate::mesh::shapes::{self, SplitMix64};
+    use crate::metric::{Class, Surface};
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_solve_that_cannot_go_on_in_the_double_leaves_the_flow_as_it_was() {
+        let disk = Surface::from_soup(&shapes::disk(6).unwrap()).unwrap();
+        let (n, control, mut random) = (disk.mesh().n_vertices(), Control::new(), SplitMix64::new(4));
+        let mut target = PerVertex::from_fn(n, |_: VertexId| 4.0 * (random.unit() - 0.5));
+        let miss = (TAU - target.iter().sum::<f64>()) / n as f64;
+        target.iter_mut().for_each(|k| *k += miss);
+        for class in [Class::yamabe(Space::E2), Class::inversive(Space::E2)] {
+            let start = || Flow::new(disk.clone(), class, &Options::default(), &control).unwrap();
+            let (report, left) = start().run(&target, &control).unwrap();
+            assert!(left && report.flips > 0);
+            let mut flow = start();
+            let before = (flow.solution(), flow.start.clone(), flow.start_low.clone());
+            // With these options the double cannot be made.
+            flow.options.fixed_edges = vec![EdgeId(u32::MAX)];
+            assert!(flow.reach(&target, &control).is_err());
+            let (Solution { mesh, metric, followed, flips, .. }, u, u_low) = before;
+            assert!(flow.mesh == mesh && flow.metric == metric && flow.followed == followed);
+            assert!(flow.flips == flips && flow.start == u && flow.start_low == u_low);
+            assert!(flow.report().is_none());
+        }
+    }
 }

@@ -6,17 +6,21 @@
 
 use super::Flow;
 use super::evaluate::State;
-use super::newton::progress;
+use super::newton::{Iterate, progress};
 use super::report::{Report, StopReason};
 use super::seconds::timed;
+use super::system::System;
 use crate::control::{Control, Stage};
 use crate::error::Result;
+use crate::geometry::largest;
 use std::f64::consts::PI;
 
 /// Least damping: above 2, the size of the one negative eigenvalue on the round sphere.
 const MIN_DAMPING: f64 = 2.1;
 /// The flow gives up at this damping: steps are then far below the rounding of u.
 const MAX_DAMPING: f64 = 1e15;
+/// Factor by which the damping grows after a step that was refused.
+const DAMPING_GROWTH: f64 = 4.0;
 
 impl Flow {
     /// Area that Gauss–Bonnet gives the target.
@@ -30,60 +34,73 @@ impl Flow {
         report: &mut Report,
         control: &Control,
     ) -> Result<State> {
-        let n = self.mesh.n_vertices();
-        let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n]);
-        let mut trial = State::new(&self.mesh, &self.start, &self.start_low);
         let area = (!self.has_pins()).then(|| self.spherical_area());
         if !self.settle(&mut state, area) {
             return Ok(self.without_a_start(report));
         }
-        let mut error = state.residual(&self.target, &self.pinned, &mut residual);
-        let (first, mut damping) = (error, MIN_DAMPING);
-        report.residuals.push(error);
+        let mut at = Iterate::new(self, state);
+        let first = at.error;
+        at.shift = MIN_DAMPING;
+        report.residuals.push(at.error);
         let mut system = self.take_system(report)?;
         report.stop_reason = loop {
-            if error <= report.tolerance {
+            if at.error <= report.tolerance {
                 break StopReason::Converged;
             }
             if report.iterations >= self.options.iteration_limit() {
                 break StopReason::IterationLimit;
             }
-            if damping > MAX_DAMPING {
+            if at.shift > MAX_DAMPING {
                 break StopReason::Stalled;
             }
-            control.step(Stage::Flow, progress(first, error, report.tolerance))?;
-            let mass = self.vertex_areas(&state);
-            timed(&mut report.seconds.assemble, || {
-                system.jacobian.assemble(&self.mesh, &self.metric, &state);
-                system.jacobian.add_diagonal(|v| damping * mass[v]);
-            });
+            control.step(Stage::Flow, progress(first, at.error, report.tolerance))?;
             report.iterations += 1;
-            let solved = timed(&mut report.seconds.factor, || system.factor()).is_ok()
-                && timed(&mut report.seconds.solve, || system.solve(&residual, self.enough(), &mut step));
-            let largest = step.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-            if !solved || largest > self.options.max_step {
-                damping *= 4.0;
-                continue;
-            }
-            trial.set_step(&state, 1.0, &step);
-            let inside = timed(&mut report.seconds.assemble, || self.settle(&mut trial, area));
-            if inside && norm_of(&trial, self) < norm_of(&state, self) {
-                std::mem::swap(&mut state, &mut trial);
-                error = state.residual(&self.target, &self.pinned, &mut residual);
-                report.residuals.push(error);
-                damping = (0.5 * damping).max(MIN_DAMPING);
+            if self.damped_step(&mut system, &mut at, area, report) {
+                at.error = at.state.residual(&self.target, &self.pinned, &mut at.residual);
+                report.residuals.push(at.error);
+                at.shift = (0.5 * at.shift).max(MIN_DAMPING);
             } else {
-                damping *= 4.0;
+                at.shift *= DAMPING_GROWTH;
             }
         };
         self.system = Some(system);
-        report.max_curvature_error = error;
-        Ok(state)
+        report.max_curvature_error = at.error;
+        Ok(at.state)
+    }
+
+    /// One step with the damping μ = `at.shift`, at the total area `area` if there is one; false, and `at.state` as it was, where that
+    /// does not lower the norm of the residual.
+    fn damped_step(
+        &self,
+        system: &mut System,
+        at: &mut Iterate,
+        area: Option<f64>,
+        report: &mut Report,
+    ) -> bool {
+        timed(&mut report.seconds.assemble, || {
+            let mass = at.state.vertex_areas(&self.mesh, self.metric.space, 1.0);
+            system.jacobian.assemble(&self.mesh, &self.metric, &at.state);
+            system.jacobian.add_diagonal(|v| at.shift * mass[v]);
+        });
+        let enough = self.enough();
+        let solved = timed(&mut report.seconds.factor, || system.factor()).is_ok()
+            && timed(&mut report.seconds.solve, || system.solve(&at.residual, enough, &mut at.step));
+        if !solved || largest(&at.step) > self.options.max_step {
+            return false;
+        }
+        let Iterate { state, trial, step, .. } = at;
+        trial.set_step(state, 1.0, step);
+        let inside = timed(&mut report.seconds.assemble, || self.settle(trial, area));
+        let is_better = inside && self.norm_at(trial) < self.norm_at(state);
+        if is_better {
+            std::mem::swap(state, trial);
+        }
+        is_better
     }
 
     /// The start as it is, where no shift of it has the area of the target.
     fn without_a_start(&self, report: &mut Report) -> State {
-        let mut state = State::new(&self.mesh, &self.start, &self.start_low);
+        let mut state = State::new(&self.start, &self.start_low);
         state.evaluate(&self.mesh, &self.metric);
         let mut residual = vec![0.0; self.mesh.n_vertices()];
         report.stop_reason = StopReason::Stalled;
@@ -91,20 +108,11 @@ impl Flow {
         state
     }
 
-    /// A third of the area of the faces at each vertex.
-    fn vertex_areas(&self, state: &State) -> Vec<f64> {
-        let mut areas = vec![0.0; self.mesh.n_vertices()];
-        for f in self.mesh.faces() {
-            let third = state.face_area(&self.mesh, self.metric.space, f) / 3.0;
-            self.mesh.face_vertices(f).into_iter().for_each(|v| areas[v.index()] += third);
-        }
-        areas
+    /// Euclidean norm of the residual.
+    fn norm_at(&self, state: &State) -> f64 {
+        let square = |(i, t): (usize, &f64)| {
+            if self.pinned[i] { 0.0 } else { (t - state.curvature[i.into()]).powi(2) }
+        };
+        self.target.iter().enumerate().map(square).sum::<f64>().sqrt()
     }
-}
-
-/// Euclidean norm of the residual.
-fn norm_of(state: &State, flow: &Flow) -> f64 {
-    let square =
-        |(i, t): (usize, &f64)| if flow.pinned[i] { 0.0 } else { (t - state.curvature[i.into()]).powi(2) };
-    flow.target.iter().enumerate().map(square).sum::<f64>().sqrt()
 }

@@ -7,8 +7,8 @@ use super::solution::Solution;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::mesh::{Double, FixedEdges, FlipLog, Mesh, PerVertex, VertexId};
-use crate::metric::{Class, Initial, Metric, Scheme, Surface};
+use crate::mesh::{FixedEdges, FlipLog, Mesh, PerVertex, VertexId};
+use crate::metric::{Class, Metric, Surface};
 use crate::parallel::Pool;
 use std::sync::Arc;
 
@@ -49,7 +49,7 @@ impl Flow {
         let given = from.given();
         let doubled = !given.is_closed() && options.pinned.is_empty();
         let fixed = FixedEdges::new(given, &options.fixed_edges)?;
-        let fits = !from.followed.is_empty() && from.origin.fixed == fixed && suits(from, doubled);
+        let fits = !from.followed.is_empty() && from.origin.fixed == fixed && from.suits(doubled);
         match from.class() {
             Some(class) if !fits && !is_rigid(from.surface().geometry(), class, options) => {
                 Flow::new(from.surface().clone(), class, options, control)
@@ -70,47 +70,39 @@ impl Flow {
         Flow::go_on(Solution::start(Origin::of_metric(mesh, &metric, follows)?), options)
     }
 
-    fn go_on(from: Solution, options: &Options) -> Result<Flow> {
+    fn go_on(mut now: Solution, options: &Options) -> Result<Flow> {
         options.check()?;
-        let Solution { origin, mesh, mut metric, followed, flips, reached, .. } = from;
-        let mesh = Arc::unwrap_or_clone(mesh);
-        let rigid = origin.class.map_or(!may_flip(options, metric.space), |class| {
+        let (origin, mesh) = (now.origin.clone(), now.mesh.clone());
+        let rigid = origin.class.map_or(!may_flip(options, now.metric.space), |class| {
             is_rigid(origin.surface.geometry(), class, options)
         });
-        let mut fixed = FixedEdges::new(origin.surface.mesh(), &options.fixed_edges)?;
+        let (mut fixed, mut mirror) = (FixedEdges::new(now.given(), &options.fixed_edges)?, None);
         if let Some(double) = &origin.double {
             fixed = FixedEdges::new(&mesh, &double.with_images(&options.fixed_edges)?)?;
+            mirror = Some(mesh.vertices().map(|v| double.mirror(v).0).collect());
             // Rounding has told mirror images apart: they must be the same to begin with.
+            let Metric { u, u_low, .. } = &mut now.metric;
             for v in mesh.vertices().skip(double.n_half_vertices()) {
                 let image = double.mirror(v);
-                (metric.u[v], metric.u_low[v]) = (metric.u[image], metric.u_low[image]);
+                (u[v], u_low[v]) = (u[image], u_low[image]);
             }
         }
+        now.threads = options.threads;
         let pool = Arc::new(Pool::new(options.threads)?);
-        pool.run(|| metric.check_domain(&mesh))?;
-        let mirror = origin
-            .double
-            .as_ref()
-            .map(|double| mesh.vertices().map(|v| double.mirror(v).0).collect::<Vec<u32>>());
-        let (start, start_low) = (metric.u.clone(), metric.u_low.clone());
+        pool.run(|| now.metric.check_domain(&mesh))?;
         let mut flow = Flow {
-            pinned: vec![false; mesh.n_vertices()],
-            is_bounded: false,
-            target: PerVertex::filled(mesh.n_vertices(), 0.0),
-            origin,
-            mesh,
-            metric,
-            start,
-            start_low,
+            start: now.metric.u.clone(),
+            start_low: now.metric.u_low.clone(),
+            now,
             options: options.clone(),
             flips_allowed: !rigid,
             fixed,
+            pinned: vec![false; mesh.n_vertices()],
+            is_bounded: false,
             mirror,
-            followed,
             log: FlipLog::default(),
-            flips,
-            reached,
             one_copy: false,
+            target: PerVertex::filled(mesh.n_vertices(), 0.0),
             system: None,
             unseen_flips: 0,
             pool,
@@ -128,51 +120,47 @@ impl Flow {
     /// Those of [`Flow::new`].
     pub fn pin(&mut self, pinned: &[VertexId], control: &Control) -> Result<()> {
         let options = Options { pinned: pinned.to_vec(), ..self.options.clone() };
-        let given = self.origin.surface.mesh();
-        let doubled = !given.is_closed() && pinned.is_empty();
-        let stays = match self.origin.class {
-            Some(_) if self.flips_allowed => suits(&self.solution(), doubled),
-            _ => true,
-        };
-        if stays {
+        let doubled = !self.given().is_closed() && pinned.is_empty();
+        if self.class().is_none() || !self.flips_allowed || self.suits(doubled) {
             self.hold(pinned)?;
             self.options = options;
         } else {
-            *self = Flow::resume(&self.solution(), &options, control)?;
+            *self = Flow::resume(&self.now, &options, control)?;
         }
         Ok(())
     }
 
     fn hold(&mut self, pinned: &[VertexId]) -> Result<()> {
-        let given = self.origin.surface.mesh();
-        let n = given.n_vertices();
+        let Flow { now, pinned: held, .. } = self;
+        let n = now.given().n_vertices();
         if let Some(v) = pinned.iter().find(|v| v.index() >= n) {
             let value = v.to_string();
             return Err(Error::Argument { what: "pinned vertex", value, need: "an existing vertex" });
         }
-        let on_one_copy = self.origin.class.is_some() && self.origin.double.is_none() && !given.is_closed();
+        let on_one_copy = now.class().is_some() && now.double().is_none() && !now.given().is_closed();
         self.one_copy = self.flips_allowed && on_one_copy && pinned.is_empty();
-        self.pinned.fill(false);
+        held.fill(false);
         for &v in pinned {
-            self.pinned[v.index()] = true;
-            if let Some(double) = &self.origin.double {
-                self.pinned[double.mirror(v).index()] = true;
+            held[v.index()] = true;
+            if let Some(double) = now.double() {
+                held[double.mirror(v).index()] = true;
             }
         }
         self.system = None;
         Ok(())
     }
 
-    /// Set u per vertex of [`Flow::mesh`]: the start of the next solves, and the values held at pinned vertices.
+    /// Set u per vertex of [`Solution::mesh`]: the start of the next solves, and the values held at pinned vertices.
     ///
     /// # Errors
     /// Those of [`Metric::lengths`] there; nothing has changed then.
     pub fn set_u(&mut self, u: PerVertex<f64>) -> Result<()> {
         let u_low = PerVertex::filled(u.len(), 0.0);
         let metric = Metric { u, u_low, ..self.metric.clone() };
-        self.pool.run(|| metric.check_domain(&self.mesh))?;
+        let mesh = self.now.mesh();
+        self.pool.run(|| metric.check_domain(mesh))?;
         (self.start, self.start_low) = (metric.u.clone(), metric.u_low.clone());
-        self.metric = metric;
+        self.now.metric = metric;
         Ok(())
     }
 
@@ -189,70 +177,18 @@ impl Flow {
         let fixed = &self.options.fixed_edges;
         let double = || Origin::delaunay(surface.clone(), *class, true, fixed, control);
         let mut flow = Flow::go_on(Solution::start(self.pool.run(double)?), &self.options)?;
-        if let Some(double) = &flow.origin.double {
+        if let Some(double) = flow.now.double() {
             // Edges between imaginary circles may have no length there before they are flipped: then it begins from its own start.
-            let _ = flow.set_u(double.spread_vertices(&self.metric.u)?.into());
+            let u = double.spread_vertices(&self.metric.u)?;
+            let _ = flow.set_u(u.into());
         }
         Ok(flow)
     }
 
     /// The present metric, with what the last solve says of it.
     pub fn solution(&self) -> Solution {
-        let given = self.origin.surface.mesh();
-        let mesh = if self.mesh == **given { given.clone() } else { Arc::new(self.mesh.clone()) };
-        Solution {
-            origin: self.origin.clone(),
-            mesh,
-            metric: self.metric.clone(),
-            followed: self.followed.clone(),
-            flips: self.flips,
-            reached: self.reached.clone(),
-            threads: self.options.threads,
-        }
+        self.now.clone()
     }
-
-    /// The surface as it was given.
-    pub fn surface(&self) -> &Surface {
-        &self.origin.surface
-    }
-
-    /// The triangulation that flips have led to: of the surface, or of its double.
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
-    }
-
-    /// The metric on it: the start, or where the last solve ended, converged or not.
-    pub fn metric(&self) -> &Metric {
-        &self.metric
-    }
-
-    /// Where the flow started, after the flips to Delaunay.
-    pub fn initial(&self) -> &Initial {
-        &self.origin.initial
-    }
-
-    /// The double, if the flow is one on it.
-    pub fn double(&self) -> Option<&Double> {
-        self.origin.double.as_ref()
-    }
-
-    /// Isometric flips before the flow.
-    pub fn start_flips(&self) -> usize {
-        self.origin.flips
-    }
-
-    /// A target on the given surface as one on [`Flow::mesh`]: on a double, curvature on both sides of the boundary adds up.
-    ///
-    /// # Errors
-    /// [`Error::Size`] unless the target has an entry per vertex of the given surface.
-    pub fn spread_target(&self, target: &PerVertex<f64>) -> Result<PerVertex<f64>> {
-        self.origin.spread_target(target)
-    }
-}
-
-/// Whether a flow can go on from a metric with its symmetry: `doubled`, or with a boundary that is an end.
-fn suits(from: &Solution, doubled: bool) -> bool {
-    if doubled { from.is_symmetric() } else { from.double().is_none() }
 }
 
 /// Whether these options let edges flip at all.
@@ -262,6 +198,5 @@ fn may_flip(options: &Options, space: Space) -> bool {
 
 /// Whether edges stay as they are: flips have no part in S² and for packings that are Delaunay on any triangulation.
 fn is_rigid(geometry: Space, class: Class, options: &Options) -> bool {
-    let packing = matches!(class.scheme, Scheme::Thurston | Scheme::Tangential);
-    !may_flip(options, class.space) || geometry == Space::S2 || packing
+    !may_flip(options, class.space) || geometry == Space::S2 || class.scheme.is_packing()
 }

@@ -16,6 +16,7 @@ const REFINE_STEPS: usize = 2;
 /// know the pattern: flips of 0.5 % of the edges make a factor of 400,000 rows so much larger that it takes ten times as long.
 const FEW_FLIPS: f64 = 5e-4;
 
+/// The matrix with its factorisation, and the vectors of a solution, whose memory is kept.
 pub(super) struct System {
     pub jacobian: Jacobian,
     cholesky: Cholesky,

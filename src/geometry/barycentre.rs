@@ -19,15 +19,15 @@ use super::sphere::{SOUTH, Similarity, lift, project};
 use super::vector::{Vector, add, dot, norm, scale};
 use crate::error::{Error, Result, check_size};
 
-/// Longest Newton step, a hyperbolic distance: within it the directions, and with them the Hessian, change moderately.
+/// Longest Newton step, a hyperbolic distance: over a distance of 1 the directions, and with them the Hessian, change moderately.
 const LONGEST_STEP: f64 = 1.0;
-/// Most Newton steps. No more are needed: points with coordinates in doubles are within a hyperbolic distance of 1500.
+/// Most Newton steps. Steps of length 1 reach everything in fewer: coordinates in doubles lie within a hyperbolic distance of 1500.
 const MAX_STEPS: usize = 2000;
-/// Most halvings of a step: what is left of it then is rounding.
+/// Most halvings of a step: 2⁻³⁰ of it changes the directions by little more than their rounding.
 const MAX_HALVINGS: usize = 30;
-/// A residual that cannot be lowered further is taken for rounding if it is at most this many times the rounding of its sum.
+/// A residual that cannot be lowered further counts as rounding if it is at most this many times the rounding of its sum.
 const ROUNDING_UNITS: f64 = 8.0;
-/// `|Σ w x|/Σw` at which the points count as balanced: a few roundings.
+/// `|Σ w x|/Σ w` at which the points count as balanced, and least length of a step: a few roundings of 1.
 const BALANCED: f64 = 1e-15;
 
 /// The similarity `z ↦ (z − p)/t` after which the lifts x of the `points` of the plane (∞ has weight `at_infinity`) have
@@ -35,76 +35,98 @@ const BALANCED: f64 = 1e-15;
 ///
 /// # Errors
 ///
-/// Sizes; a weight that is negative or not finite; a point with half of the weight or more, or points that have it and
-/// nearly coincide: then there is no such transformation.
+/// [`Error::Size`]; [`Error::Argument`] for a weight that is negative or not finite, and for a point with half of the weight or more
+/// or points that have it together and nearly coincide: then there is no such transformation.
 pub fn conformal_barycentre(points: &[[f64; 2]], weights: &[f64], at_infinity: f64) -> Result<Similarity> {
     check_size("weights", weights.len(), points.len())?;
     let total = weights.iter().sum::<f64>() + at_infinity;
-    let largest = weights.iter().fold(at_infinity, |m, &w| m.max(w));
     let mut numbers = points.as_flattened().iter().chain(weights).chain([&at_infinity, &total]);
     let negative = weights.iter().chain([&at_infinity]).any(|&w| w < 0.0);
     if negative || total <= 0.0 || numbers.any(|x| !x.is_finite()) {
         let need = "finite, not negative and not all 0, at finite points";
-        return Err(Error::Argument { what: "weights", value: format!("of sum {total}"), need });
+        return Err(Error::argument("weights", format!("of sum {total}"), need));
     }
-    if largest >= 0.5 * total {
-        return Err(heavy(largest / total));
+    let heavy = || {
+        let largest = weights.iter().fold(at_infinity, |m, &w| m.max(w));
+        let value = format!("{} of the whole at one place", largest / total);
+        let need = "points of less than half of the weight each, which do not coincide";
+        Error::argument("largest weight", value, need)
+    };
+    if weights.iter().chain([&at_infinity]).any(|&w| w >= 0.5 * total) {
+        return Err(heavy());
     }
-    let moments = |y: &Similarity| {
-        let (mut mean, mut square) = (scale(at_infinity, SOUTH), [[0.0; 3]; 3]);
-        square[2][2] = at_infinity;
-        for (z, w) in points.iter().zip(weights) {
+    let cloud = Cloud { points, weights, at_infinity, total };
+    let mut y = Similarity::IDENTITY;
+    let mut seen = cloud.moments(&y);
+    for _ in 0..MAX_STEPS {
+        if norm(seen.mean) <= BALANCED {
+            return Ok(y);
+        }
+        let Some(next) = cloud.step(&y, seen) else { break };
+        (y, seen) = next;
+    }
+    // The sum of that many terms is rounded, and so is p in units of t.
+    let terms = points.len() as f64 + complex::norm(y.centre) / y.scale;
+    if norm(seen.mean) <= ROUNDING_UNITS * f64::EPSILON * terms { Ok(y) } else { Err(heavy()) }
+}
+
+/// Weighted points of the sphere at infinity.
+struct Cloud<'a> {
+    points: &'a [[f64; 2]],
+    weights: &'a [f64],
+    at_infinity: f64,
+    total: f64,
+}
+
+/// The directions x in which a point of hyperbolic space sees a cloud.
+#[derive(Clone, Copy)]
+struct Moments {
+    /// `Σ w x/Σ w`.
+    mean: Vector,
+    /// `Σ w x xᵀ/Σ w`, by rows.
+    square: [Vector; 3],
+}
+
+impl Cloud<'_> {
+    fn moments(&self, y: &Similarity) -> Moments {
+        let (mut mean, mut square) = (scale(self.at_infinity, SOUTH), [[0.0; 3]; 3]);
+        square[2][2] = self.at_infinity;
+        for (z, w) in self.points.iter().zip(self.weights) {
             let x = lift(y.apply(*z));
             mean = add(mean, scale(*w, x));
             for (row, a) in square.iter_mut().zip(x) {
                 row.iter_mut().zip(x).for_each(|(s, b)| *s += w * a * b);
             }
         }
-        (scale(1.0 / total, mean), square.map(|row| scale(1.0 / total, row)))
-    };
-    let mut y = Similarity::IDENTITY;
-    let (mut mean, mut square) = moments(&y);
-    for _ in 0..MAX_STEPS {
-        if norm(mean) <= BALANCED {
-            return Ok(y);
-        }
-        let step = newton(mean, square);
+        let share = 1.0 / self.total;
+        Moments { mean: scale(share, mean), square: square.map(|row| scale(share, row)) }
+    }
+
+    /// A Newton step from `y`, halved until it leads to a lower or better balanced point; `None` where it is all rounding.
+    fn step(&self, y: &Similarity, seen: Moments) -> Option<(Similarity, Moments)> {
+        let step = newton(seen);
         let length = norm(step);
         if length <= BALANCED {
-            break;
+            return None;
         }
         let to = scale(1.0 / length, step);
         let mut distance = length.min(LONGEST_STEP);
-        let mut found = None;
         for _ in 0..MAX_HALVINGS {
             let next = y.towards(to, distance);
-            let there = moments(&next);
-            // Downhill still: what lies ahead outweighs the rest. Or, near the end, better balanced.
+            let there = self.moments(&next);
+            // The function still falls at the end of the step if the mean there points ahead, on along the step.
             let ahead = project(to).map_or(SOUTH, |z| lift(next.apply(y.before(z))));
-            if dot(there.0, ahead) >= 0.0 || norm(there.0) < norm(mean) {
-                found = Some((next, there));
-                break;
+            if dot(there.mean, ahead) >= 0.0 || norm(there.mean) < norm(seen.mean) {
+                return Some((next, there));
             }
             distance *= 0.5;
         }
-        match found {
-            Some((next, there)) => (y, (mean, square)) = (next, there),
-            None => break,
-        }
+        None
     }
-    // Rounding: of a sum of that many terms, and of p in units of t.
-    let terms = points.len() as f64 + complex::norm(y.centre) / y.scale;
-    if norm(mean) <= ROUNDING_UNITS * f64::EPSILON * terms { Ok(y) } else { Err(heavy(largest / total)) }
 }
 
-fn heavy(share: f64) -> Error {
-    let value = format!("{share} of the whole at one place");
-    let need = "points of less than half of the weight each, which do not coincide";
-    Error::Argument { what: "largest weight", value, need }
-}
-
-/// `(1 − square)⁻¹ mean`, or `mean` itself where rounding has left nothing to invert: all is seen in one direction.
-fn newton(mean: Vector, square: [Vector; 3]) -> Vector {
+/// `(1 − square)⁻¹ mean`; `mean` itself where that matrix is singular to rounding because all points are seen in one direction.
+fn newton(Moments { mean, square }: Moments) -> Vector {
     let mut m = square.map(|row| row.map(|x| -x));
     (0..3).for_each(|k| m[k][k] += 1.0);
     let minor = |i: usize, j: usize| {

@@ -1,7 +1,7 @@
 //! Points and vectors of the plane, which are also complex numbers: `[x, y]` is x + iy.
 //!
-//! They are plain arrays, as positions and coordinates are everywhere in the library, of doubles or of any other
-//! [`Number`] such as [`super::Twofold`].
+//! They are plain arrays like all positions and coordinates of the library, of doubles or of another [`Number`] such as
+//! [`super::Twofold`].
 //!
 //! ```
 //! use ricci::geometry::complex::{conj, cross, mul, unit};
@@ -17,7 +17,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// A complex number, a point or a vector of the plane: `[Re, Im]`.
 pub type Complex<T = f64> = [T; 2];
 
-/// What real and imaginary parts may be; every type with the four operations is one.
+/// What real and imaginary parts may be: every type that can be added, subtracted, multiplied and negated.
 pub trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {

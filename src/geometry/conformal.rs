@@ -22,6 +22,16 @@
 //! together: so the lengths of one metric may range over e^±5e5. Powers of two are exact: where nothing over- or underflows, the digits
 //! are those of plain doubles. H² and S² have a size of their own, and no such units: lengths in H² lie between
 //! [`MIN_HYPERBOLIC_CHORD`] and [`MAX_HYPERBOLIC_CHORD`].
+//!
+//! ```
+//! use ricci::geometry::Space;
+//! use ricci::geometry::conformal::{Vertex, edge};
+//! // Circles of radius 1 and 2 that touch (ε = 1, η = 1).
+//! let [a, b] = [1.0f64, 2.0].map(|radius| Vertex::new(Space::E2, 1, radius.ln()));
+//! let touching = edge(Space::E2, a, b, 1.0).unwrap();
+//! assert_eq!(touching.gap, 0.0);
+//! assert!((touching.length(Space::E2) - 3.0).abs() < 1e-15);
+//! ```
 
 use super::Space;
 use super::scaled::{exponent, scaled};
@@ -173,11 +183,12 @@ pub(super) fn unit_of_products(e: [(f64, i32); 2], epsilon: [f64; 2], eta: f64) 
 
 /// An edge; `None` when (ε, η, u) give no real positive finite length (in H² none in the range of lengths).
 #[inline]
-pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
+pub fn edge(space: Space, a: Vertex, b: Vertex, eta: impl Into<Twofold>) -> Option<Edge> {
+    let eta = eta.into();
     if space == Space::E2 {
         return plane_edge(a, b, eta);
     }
-    let q2 = squared_chord(a, b, eta) / (a.d * b.d);
+    let q2 = squared_chord(a, b, eta.high) / (a.d * b.d);
     let range = if space == Space::H2 {
         MIN_HYPERBOLIC_CHORD..=MAX_HYPERBOLIC_CHORD
     } else {
@@ -187,40 +198,40 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
         return None;
     }
     let circles = a.epsilon > 0.0 && b.epsilon > 0.0;
-    if circles && eta == 1.0 {
+    if circles && eta == 1.0.into() {
         // sin²(l/2) > 1: the circles together reach around the sphere.
         return (space != Space::S2 || q2 <= 1.0).then_some(Edge { gap: 0.0, low: 0.0, q2, exponent: 0 });
     }
     let length = length(space, q2);
     let sum = a.radius + b.radius;
-    let gap = if circles { circle_gap(space, a, b, eta, length + sum) } else { length - sum };
+    let gap = if circles { circle_gap(space, [a, b], eta, length + sum) } else { length - sum };
     let precise = space == Space::H2 && a.epsilon == 0.0 && b.epsilon == 0.0;
     let low = if precise { lost_length(a, b, eta, gap) } else { 0.0 };
     (gap.is_finite() && low.is_finite()).then_some(Edge { gap, low, q2, exponent: 0 })
 }
 
 /// An edge in E², in a unit in which its length is neither tiny nor huge.
-fn plane_edge(a: Vertex, b: Vertex, eta: f64) -> Option<Edge> {
-    let plain = if a.exponent | b.exponent == 0 { squared_chord(a, b, eta) } else { f64::NAN };
+fn plane_edge(a: Vertex, b: Vertex, eta: Twofold) -> Option<Edge> {
+    let plain = if a.exponent | b.exponent == 0 { squared_chord(a, b, eta.high) } else { f64::NAN };
     let ([a, b], n) = if PLAIN_SQUARES.contains(&exponent(plain)) {
         ([a, b], plain)
     } else {
-        let ends = in_unit_of_edge(a, b, eta);
-        (ends, squared_chord(ends[0], ends[1], eta))
+        let ends = in_unit_of_edge(a, b, eta.high);
+        (ends, squared_chord(ends[0], ends[1], eta.high))
     };
     if !(n > 0.0 && n < f64::INFINITY) {
         return None;
     }
     let (q2, exponent) = (0.25 * n, a.exponent);
     let circles = a.epsilon > 0.0 && b.epsilon > 0.0;
-    if circles && eta == 1.0 {
+    if circles && eta == 1.0.into() {
         // The circles touch: l is the sum of their radii, and what it loses that of what they lose.
         let low = a.radius * a.low + b.radius * b.low;
         return Some(Edge { gap: 0.0, low, q2, exponent });
     }
     let length = 2.0 * q2.sqrt();
     let sum = a.radius + b.radius;
-    let gap = if circles { circle_gap(Space::E2, a, b, eta, length + sum) } else { length - sum };
+    let gap = if circles { circle_gap(Space::E2, [a, b], eta, length + sum) } else { length - sum };
     let low = lost_gap(a, b, eta, gap);
     (gap.is_finite() && low.is_finite()).then_some(Edge { gap, low, q2, exponent })
 }
@@ -252,11 +263,11 @@ pub fn in_one_unit(corners: &mut [Vertex; 3], edges: &mut [Edge; 3]) -> i32 {
 }
 
 /// `l − γ_a − γ_b − gap` in E², to twice the digits: the angles of needles and of triangles in metrics of wide range turn on it.
-fn lost_gap(a: Vertex, b: Vertex, eta: f64, gap: f64) -> f64 {
+fn lost_gap(a: Vertex, b: Vertex, eta: Twofold, gap: f64) -> f64 {
     let (x, y) = (a.scale, b.scale);
     let (xy, xy_low) = two_product(x, y);
-    let (mut n, mut n_low) = two_product(2.0 * eta, xy);
-    n_low += 2.0 * eta * xy_low + n * (a.low + b.low);
+    let (mut n, mut n_low) = two_product(2.0 * eta.high, xy);
+    n_low += 2.0 * (eta.high * xy_low + eta.low * xy) + n * (a.low + b.low);
     for v in [a, b].into_iter().filter(|v| v.epsilon != 0.0) {
         let (square, square_low) = two_product(v.scale, v.scale);
         let (sum, lost) = two_sum(n, v.epsilon * square);
@@ -272,11 +283,11 @@ fn lost_gap(a: Vertex, b: Vertex, eta: f64, gap: f64) -> f64 {
 
 /// The half chord of an edge (l/2, sinh(l/2), sin(l/2) in E², H², S²) with twice the digits, as far as its ends have them
 /// ([`is_precise`]), and the exponent of its unit; 0 for an edge without a real length.
-pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: f64) -> (Twofold, i32) {
-    let [a, b] = if space == Space::E2 { in_unit_of_edge(a, b, eta) } else { [a, b] };
+pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> (Twofold, i32) {
+    let [a, b] = if space == Space::E2 { in_unit_of_edge(a, b, eta.high) } else { [a, b] };
     let [x, y] = [a, b].map(|v| Twofold::from(v.scale) + (v.scale * v.low).into());
     let square = |v: Vertex, x: Twofold| x * x * v.epsilon.into();
-    let n = x * y * (2.0 * eta).into() + square(a, x) + square(b, y);
+    let n = x * y * eta * 2.0.into() + square(a, x) + square(b, y);
     let q = match space {
         Space::E2 => n.sqrt() * 0.5.into(),
         _ => (n / (Twofold::from(a.d) * b.d.into())).sqrt(),
@@ -285,7 +296,7 @@ pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: f64) -> (Twofold, i32
 }
 
 /// `l − length` in H² where ε = 0, from `sinh²(l/2) = 2 η e^{u_a + u_b}` to twice the digits: `2 (q − sinh(length/2))/cosh(length/2)`.
-fn lost_length(a: Vertex, b: Vertex, eta: f64, length: f64) -> f64 {
+fn lost_length(a: Vertex, b: Vertex, eta: Twofold, length: f64) -> f64 {
     let (up, lost) = twofold::exp(0.5 * length);
     let up = Twofold::from(up) + (up * lost).into();
     let down = Twofold::from(1.0) / up;
@@ -318,7 +329,7 @@ pub fn length(space: Space, q2: f64) -> f64 {
     }
 }
 
-/// `N`, with squares completed where signs differ.
+/// `N`. Where its terms have different signs the squares are completed, so that nothing cancels.
 #[inline]
 fn squared_chord(a: Vertex, b: Vertex, eta: f64) -> f64 {
     let (x, y) = (a.scale, b.scale);
@@ -335,15 +346,15 @@ fn squared_chord(a: Vertex, b: Vertex, eta: f64) -> f64 {
     }
 }
 
-/// `l − γ_a − γ_b`, given `l + γ_a + γ_b`.
+/// `l − γ_a − γ_b` of two circles, given `total = l + γ_a + γ_b`.
 #[inline]
-fn circle_gap(space: Space, a: Vertex, b: Vertex, eta: f64, total: f64) -> f64 {
-    let product = 2.0 * (eta - 1.0) * (a.scale * b.scale);
+fn circle_gap(space: Space, [a, b]: [Vertex; 2], eta: Twofold, total: f64) -> f64 {
+    let product = 2.0 * ((eta.high - 1.0) + eta.low) * (a.scale * b.scale);
     match space {
         Space::E2 => product / total,
         Space::H2 => 2.0 * (product / (a.d * b.d * (0.5 * total).sinh())).asinh(),
         Space::S2 if total < PI => 2.0 * (product / (a.d * b.d * (0.5 * total).sin())).asin(),
-        // Circles about as large as the sphere: nothing small is left over.
+        // The circles are about as large as the sphere, and the gap is not small: the plain difference loses no digits.
         Space::S2 => total - 2.0 * (a.radius + b.radius),
     }
 }
@@ -385,6 +396,9 @@ pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], et
     if r.iter().any(|&x| x <= 0.0) {
         return [0.0; 3];
     }
+    if space == Space::E2 && corners.iter().all(|v| v.epsilon == 0.0) {
+        return cotangents(r).map(|cotangent| 0.5 * cotangent);
+    }
     // In units of the longest chord no product under- or overflows.
     let unit = 0.5 / q2.into_iter().fold(0.0, f64::max).sqrt();
     let f = |x: f64| unit * super::triangle::sine(space, x);
@@ -419,4 +433,15 @@ pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], et
     let w = [weight(0), weight(1), weight(2)];
     // Where a triangle is so thin that its area underflows, the quotients are no numbers: it is treated as a broken one.
     if w.iter().all(|w| w.is_finite()) { w } else { [0.0; 3] }
+}
+
+/// The cotangents of the angles of a triangle in E² with half-perimeter differences r, from `tan²(θ_k/2) = r_i r_j/(s r_k)`; 0 where the
+/// triangle is so thin that they are no numbers.
+fn cotangents(r: [f64; 3]) -> [f64; 3] {
+    // In units of the half-perimeter, which is 1 then, no product over- or underflows.
+    let s = r[0] + r[1] + r[2];
+    let r = r.map(|x| x / s);
+    let area = r[0].sqrt() * r[1].sqrt() * r[2].sqrt();
+    let all = [0, 1, 2].map(|k| (r[k] - r[(k + 1) % 3] * r[(k + 2) % 3]) / (2.0 * area));
+    if all.iter().all(|x| x.is_finite()) { all } else { [0.0; 3] }
 }

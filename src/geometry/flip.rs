@@ -1,5 +1,14 @@
 //! Flips inside a conformal class, and the weighted Delaunay condition.
 //!
+//! ```
+//! use ricci::geometry::flip::Hinge;
+//! // A unit square cut by a diagonal: its four corners lie on one circle, and the other diagonal is as long.
+//! let (side, diagonal) = (0.5, 1.0); // η = l²/2 where ε = 0 and u = 0
+//! let hinge = Hinge::new([0.0; 4], [1.0; 4], [diagonal, side, side, side, side]);
+//! assert_eq!(hinge.flipped(), Some(1.0));
+//! assert!(!hinge.wants_flip());
+//! ```
+//!
 //! Vertices are vectors v of Lorentz space with `⟨v_i, v_i⟩ = ε_i`, `⟨v_i, v_j⟩ = −η_ij`, and `l_ij = |e^{u_i} v_i − e^{u_j} v_j|`
 //! in E² \[BL23\]. The triangulation of two triangles ijk, jil may be changed without changing the vectors: what it takes is the
 //! product of v_k and v_l, on different sides of the plane through v_i and v_j.
@@ -18,24 +27,28 @@
 //! Multiplying each vector by its `w > 0` leaves all of this as it is; the products are formed from `ε w²` and `η w w`, whose size
 //! is that of squared lengths, whatever that of η.
 
-use super::Space;
 use super::conformal::{Vertex, unit_of_products};
-use super::scaled::scaled;
+use super::motion::Real;
+use super::{Space, Twofold};
 
-/// Least `D/η_ij²` of an edge that can be flipped. Where it is smaller, circles i and j touch to the rounding of η (1e-16, with room),
-/// and the plane of their vectors has no direction across.
+/// Least `D/η_ij²` of an edge that can be flipped. Where it is smaller, the circles i and j touch within the rounding of η (1e-16; the
+/// factor of 1000 leaves room), and nothing is perpendicular to the plane of their vectors.
 const TANGENT: f64 = 1e-13;
-/// Share of its terms by which the Delaunay condition must fail for an edge to be flipped. The terms are rounded by about 1e-15; shares
-/// from 0 to 1e-10 give the same results on the corpus.
+/// An edge is flipped where the Delaunay condition fails by more than this share of its terms. The terms are rounded by about 1e-15;
+/// shares from 0 to 1e-10 give the same results on the corpus.
 pub const TOLERANCE: f64 = 1e-12;
+/// Square of the sine of an angle opposite the edge below which cosines may not tell whether the edge is Delaunay: those of φ and π − φ'
+/// with φ, φ' below 1e-6 add up to less than [`TOLERANCE`], though φ may be half of φ'. At this bound, sines of 0.01, the cosines compare
+/// the angles to 1e-10.
+const THIN: f64 = 1e-4;
 
-/// The two triangles at an edge ij, with the opposite vertices k and l.
+/// The two triangles at an edge ij, with the opposite vertices k and l, in doubles or with twice the digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hinge {
+pub struct Hinge<T = f64> {
     /// `ε w²` of i, j, k, l, over `unit`.
-    square: [f64; 4],
+    square: [T; 4],
     /// `η w w` of ij, ik, jk, il, jl, over `unit`.
-    product: [f64; 5],
+    product: [T; 5],
     /// The largest of these, by which all are divided, so that products of three stay in the range of doubles.
     unit: f64,
 }
@@ -52,9 +65,9 @@ pub struct Meeting {
 
 /// `w` of a vertex, which may be beyond the doubles: `value · 2^exponent`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weight {
+pub struct Weight<T = f64> {
     /// w in the unit.
-    pub value: f64,
+    pub value: T,
     /// The exponent of the unit: 0 but for vertices in E² that are far from 1 in size.
     pub exponent: i32,
 }
@@ -68,85 +81,128 @@ pub fn weight(space: Space, v: Vertex) -> Weight {
     Weight { value, exponent: v.exponent }
 }
 
-impl Hinge {
+/// [`weight`] with twice the digits, of a vertex that has them ([`super::conformal::is_precise`]): there it is `e^u` or `2 e^u`.
+pub fn precise_weight(space: Space, v: Vertex) -> Weight<Twofold> {
+    let Weight { value, exponent } = weight(space, v);
+    Weight { value: Twofold::from(value) + (value * v.low).into(), exponent }
+}
+
+/// The absolute value, as a double.
+fn size<T: Real>(x: T) -> f64 {
+    let x: f64 = x.into();
+    x.abs()
+}
+
+impl<T: Real> Hinge<T> {
     /// From ε and w of the vertices i, j, k, l and η of the edges ij, ik, jk, il, jl.
-    pub fn new(epsilon: [f64; 4], w: [f64; 4], eta: [f64; 5]) -> Hinge {
+    pub fn new(epsilon: [f64; 4], w: [T; 4], eta: [T; 5]) -> Hinge<T> {
         let [i, j, k, l] = w;
         let ends = [i * j, i * k, j * k, i * l, j * l];
         Hinge::from_products(
-            std::array::from_fn(|v| epsilon[v] * w[v] * w[v]),
+            std::array::from_fn(|v| T::from(epsilon[v]) * w[v] * w[v]),
             std::array::from_fn(|e| eta[e] * ends[e]),
         )
     }
 
     /// The hinge of weights that may be beyond the doubles, and `w_k w_l` in its unit: η of the other diagonal is
     /// [`Hinge::flipped`] over that.
-    pub fn of_weights(epsilon: [f64; 4], w: [Weight; 4], eta: [f64; 5]) -> (Hinge, f64) {
+    pub fn of_weights(epsilon: [f64; 4], w: [Weight<T>; 4], eta: [T; 5]) -> (Hinge<T>, T) {
         let mut values = w.map(|w| w.value);
         if w.iter().any(|w| w.exponent != 0) {
             let unit = |(e, [a, b]): (usize, [usize; 2])| {
-                let ends = [a, b].map(|v| (w[v].value, w[v].exponent));
-                unit_of_products(ends, [epsilon[a], epsilon[b]], eta[e])
+                let ends = [a, b].map(|v| (w[v].value.into(), w[v].exponent));
+                unit_of_products(ends, [epsilon[a], epsilon[b]], eta[e].into())
             };
             let edges = [[0, 1], [0, 2], [1, 2], [0, 3], [1, 3]].into_iter().enumerate();
             let unit = edges.map(unit).fold(i32::MIN, i32::max);
-            values = w.map(|w| scaled(w.value, w.exponent - unit));
+            values = w.map(|w| w.value.times_two_to(w.exponent - unit));
         }
         (Hinge::new(epsilon, values, eta), values[2] * values[3])
     }
 
     /// From `ε w²` of the vertices i, j, k, l and `η w w` of the edges ij, ik, jk, il, jl.
-    pub fn from_products(square: [f64; 4], product: [f64; 5]) -> Hinge {
-        let size = |x: &[f64]| x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        let unit = size(&square).max(size(&product));
-        Hinge { square: square.map(|x| x / unit), product: product.map(|x| x / unit), unit }
+    pub fn from_products(square: [T; 4], product: [T; 5]) -> Hinge<T> {
+        let unit = square.into_iter().chain(product).map(size).fold(0.0, f64::max);
+        let scaled = |x: T| x / T::from(unit);
+        Hinge { square: square.map(scaled), product: product.map(scaled), unit }
     }
 
-    /// D, if the edge can be flipped at all.
-    fn determinant(&self) -> Option<f64> {
-        let [i, j, ..] = self.square;
-        let ij = self.product[0];
-        let d = if i * j > 0.0 {
+    /// D, and a of k and l; `None` where the edge cannot be flipped.
+    fn across(&self) -> Option<(T, [T; 2])> {
+        let [i, j, k, l] = self.square;
+        let [ij, ik, jk, il, jl] = self.product;
+        let d = if (i * j).into() > 0.0 {
             // Both circles, or both imaginary: a product of differences.
-            let mean = (i * j).sqrt();
+            let mean = (i * j).root();
             (ij - mean) * (ij + mean)
         } else {
             ij * ij - i * j
         };
-        (ij > 0.0 && d > TANGENT * ij * ij).then_some(d)
-    }
-
-    /// a of the vertex with this square and these products with i and j.
-    fn across(&self, own: f64, ik: f64, jk: f64, d: f64) -> f64 {
-        let [i, j, ..] = self.square;
-        own + (j * ik * ik + 2.0 * self.product[0] * ik * jk + i * jk * jk) / d
-    }
-
-    fn sides(&self, d: f64) -> Option<[f64; 2]> {
-        let [_, _, k, l] = self.square;
-        let [_, ik, jk, il, jl] = self.product;
-        let across = [self.across(k, ik, jk, d), self.across(l, il, jl, d)];
-        across.iter().all(|&a| a > 0.0 && a < f64::INFINITY).then_some(across)
+        let two = T::from(2.0);
+        let part = |own: T, ik: T, jk: T| own + (j * ik * ik + two * ij * ik * jk + i * jk * jk) / d;
+        let across = [part(k, ik, jk), part(l, il, jl)];
+        let is_positive = |a: &T| (*a).into() > 0.0 && (*a).into() < f64::INFINITY;
+        let has_direction = ij.into() > 0.0 && d.into() > TANGENT * ij.into() * ij.into();
+        (has_direction && across.iter().all(is_positive)).then_some((d, across))
     }
 
     /// `η w w` of the other diagonal kl; `None` where there is none (tangent circles i and j, a vertex whose vector is not
     /// space-like across their plane).
-    pub fn flipped(&self) -> Option<f64> {
-        let d = self.determinant()?;
-        let [across_k, across_l] = self.sides(d)?;
+    pub fn flipped(&self) -> Option<T> {
+        let (d, [across_k, across_l]) = self.across()?;
         let [i, j, ..] = self.square;
         let [ij, ik, jk, il, jl] = self.product;
         let within = (j * ik * il + ij * (ik * jl + jk * il) + i * jk * jl) / d;
-        let kl = (within + across_k.sqrt() * across_l.sqrt()) * self.unit;
-        kl.is_finite().then_some(kl)
+        let kl = (within + across_k.root() * across_l.root()) * self.unit.into();
+        kl.into().is_finite().then_some(kl)
     }
 
+    /// What the Delaunay condition compares, where the edge can be flipped.
+    fn heights(&self) -> Option<Heights<T>> {
+        let (d, across) = self.across()?;
+        let [i, j, ..] = self.square;
+        let [ij, ik, jk, il, jl] = self.product;
+        let (mut sum, mut size_of_terms) = (T::from(0.0), 0.0);
+        let heights = [(ik, jk, across[0]), (il, jl, across[1])].map(|(near_i, near_j, across)| {
+            let x = ((j + ij) * near_i + (i + ij) * near_j) / d;
+            let height = (x - T::from(1.0)) / across.root();
+            sum = sum + height;
+            size_of_terms += (size(x) + 1.0) / across.into().sqrt();
+            height
+        });
+        // √D over the length of ij, in units of w.
+        let unit = (d / (i + j + T::from(2.0) * ij)).root();
+        let sound = sum.into().is_finite() && size_of_terms.is_finite();
+        let cosines = heights.map(|height| height * unit);
+        sound.then_some(Heights { sum: sum.into(), size: size_of_terms, cosines })
+    }
+
+    /// `t_k + t_l`, up to a positive factor: positive for a Delaunay edge, 0 where the four circles have a common orthogonal circle;
+    /// `None` where the edge cannot be flipped.
+    pub fn height(&self) -> Option<f64> {
+        self.heights().map(|heights| heights.sum)
+    }
+}
+
+/// Heights t_k, t_l of the centres of the two face circles over an edge, up to a positive factor that both have: the edge is weighted
+/// Delaunay where `t_k + t_l ≥ 0`. They are defined also where the triangle inequality breaks.
+struct Heights<T> {
+    /// `t_k + t_l`.
+    sum: f64,
+    /// Size of the terms of the sum.
+    size: f64,
+    /// The heights in E² as cosines of the angles under which the face circles meet the edge, which without circles are the angles opposite
+    /// it; beyond ±1 in a broken triangle.
+    cosines: [T; 2],
+}
+
+impl Hinge {
     /// Where the line from k to l crosses the edge ij; `None` where it cannot be flipped.
     ///
     /// With `v_k = p_k + √a_k n`, `v_l = p_l − √a_l n` and p in span(v_i, v_j): `√a_l v_k + √a_k v_l = √a_l p_k + √a_k p_l`.
     pub fn meeting(&self) -> Option<Meeting> {
-        let d = self.determinant()?;
-        let [k, l] = self.sides(d)?.map(f64::sqrt);
+        let (d, across) = self.across()?;
+        let [k, l] = across.map(f64::sqrt);
         let [i, j, ..] = self.square;
         let [ij, ik, jk, il, jl] = self.product;
         let edge = [
@@ -158,34 +214,31 @@ impl Hinge {
         sound.then_some(meeting)
     }
 
-    /// Whether the edge fails the weighted Delaunay condition `t_k + t_l ≥ 0` by more than [`TOLERANCE`] and can be flipped.
-    ///
-    /// t is the signed height of the face circle's centre over the edge, up to a positive factor common to both sides; it is
-    /// defined also where the triangle inequality breaks.
+    /// Whether the edge fails the weighted Delaunay condition by more than [`TOLERANCE`] and can be flipped.
     pub fn wants_flip(&self) -> bool {
-        let Some((sum, size)) = self.heights() else { return false };
-        sum < -TOLERANCE * size
+        self.verdict() == Some(true)
     }
 
-    /// `t_k + t_l` and the size of its terms.
-    fn heights(&self) -> Option<(f64, f64)> {
-        let d = self.determinant()?;
-        let across = self.sides(d)?;
-        let [i, j, ..] = self.square;
-        let [ij, ik, jk, il, jl] = self.product;
-        let (mut sum, mut size) = (0.0, 0.0);
-        for (near_i, near_j, across) in [(ik, jk, across[0]), (il, jl, across[1])] {
-            let x = ((j + ij) * near_i + (i + ij) * near_j) / d;
-            sum += (x - 1.0) / across.sqrt();
-            size += (x.abs() + 1.0) / across.sqrt();
-        }
-        (sum.is_finite() && size.is_finite()).then_some((sum, size))
+    /// [`Hinge::wants_flip`]; `None` where doubles cannot tell: the terms of the condition cancel to less than [`TOLERANCE`] of their size,
+    /// not because the angles do, but because the triangles are needles.
+    pub fn verdict(&self) -> Option<bool> {
+        let Some(Heights { sum, size, cosines: [k, l] }) = self.heights() else { return Some(false) };
+        let is_thin = |cosine: f64| (1.0 - cosine * cosine).abs() < THIN;
+        let is_needle = (k + l).abs() > TOLERANCE || is_thin(k) || is_thin(l);
+        let unclear = sum.abs() <= TOLERANCE * size && is_needle;
+        (!unclear).then_some(sum < -TOLERANCE * size)
     }
+}
 
-    /// `t_k + t_l`, up to a positive factor: positive for a Delaunay edge, 0 where the four circles have a common orthogonal circle;
-    /// `None` where the edge cannot be flipped.
-    pub fn height(&self) -> Option<f64> {
-        self.heights().map(|(sum, _)| sum)
+impl Hinge<Twofold> {
+    /// Whether the edge fails the weighted Delaunay condition and can be flipped, where [`Hinge::verdict`] cannot tell: the angles α, β that
+    /// the condition compares add up to more than π, `sin(α + β) < 0`, by more than [`TOLERANCE`] of `sin α + sin β`.
+    pub fn wants_flip(&self) -> bool {
+        let Some(Heights { cosines: [k, l], .. }) = self.heights() else { return false };
+        // 0 in a broken triangle, whose angles are 0 and π.
+        let [sin_k, sin_l] = [k, l].map(|cosine| (Twofold::from(1.0) - cosine * cosine).sqrt());
+        let sines = (sin_k + sin_l).high;
+        if sines == 0.0 { (k + l).high < 0.0 } else { (sin_k * l + k * sin_l).high < -TOLERANCE * sines }
     }
 }
 

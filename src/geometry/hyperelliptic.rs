@@ -22,9 +22,10 @@ use std::f64::consts::PI;
 
 /// Relative error of the quadrature.
 const ACCURACY: f64 = 1e-15;
-/// Most nodes of the quadrature: enough for branch points 1e-8 of the others' distance apart.
+/// Most nodes of the quadrature: enough for branch points that are 1e-8 apart ([`NEAREST`]) while the others are 1 apart.
 const MOST_NODES: usize = 1 << 20;
-/// Asymmetry, relative to the largest entry, beyond which the matrix is not returned.
+/// Largest asymmetry of a matrix that is returned, relative to its largest entry. A period matrix is symmetric, so the asymmetry
+/// shows what rounding has done.
 const ASYMMETRY: f64 = 1e-9;
 
 /// The period matrix τ (g × g, symmetric, positive definite imaginary part) of `y² = Π (x − e_j)`: with a basis of
@@ -48,11 +49,8 @@ pub fn period_matrix(branch_points: &[Complex64]) -> Result<Vec<Vec<Complex64>>>
     }
     let intersections: Vec<Vec<i64>> =
         cycles.iter().map(|c| cycles.iter().map(|d| c.intersection(d)).collect()).collect();
-    let lost = || Error::Argument {
-        what: "branch points",
-        value: branch_points.len().to_string(),
-        need: "fewer, or further apart: their period matrix is lost in rounding",
-    };
+    let need = "fewer, or further apart: their period matrix is lost in rounding";
+    let lost = || Error::argument("branch points", branch_points.len(), need);
     let basis = symplectic_basis(&intersections).ok_or_else(lost)?;
     // Periods of the forms x^k dx/y along a_1 … a_g, b_1 … b_g.
     let period = |k: usize, cycle: &[i64]| -> Complex64 {
@@ -71,8 +69,7 @@ pub fn period_matrix(branch_points: &[Complex64]) -> Result<Vec<Vec<Complex64>>>
     Ok((0..genus).map(|i| (0..genus).map(|j| entry(i, j)).collect()).collect())
 }
 
-/// `a⁻¹ b` by elimination with partial pivoting; not finite if `a` is singular. (A few rows: no pool of threads is worth
-/// starting.)
+/// `a⁻¹ b` by elimination with partial pivoting; not finite if `a` is singular. The matrices have g ≤ 15 rows.
 fn solve(mut a: Vec<Vec<Complex64>>, mut b: Vec<Vec<Complex64>>) -> Vec<Vec<Complex64>> {
     let n = a.len();
     for k in 0..n {
@@ -101,7 +98,7 @@ fn solve(mut a: Vec<Vec<Complex64>>, mut b: Vec<Vec<Complex64>>) -> Vec<Vec<Comp
 ///
 /// As [`period_matrix`], for the points themselves.
 pub fn normalised(points: &[Complex64]) -> Result<Vec<Complex64>> {
-    let refuse = |value: String, need| Err(Error::Argument { what: "branch points", value, need });
+    let refuse = |value: String, need| Err(Error::argument("branch points", value, need));
     if points.len() < 3 {
         return refuse(points.len().to_string(), "at least three finite points");
     }

@@ -1,5 +1,13 @@
 //! Orientation-preserving isometries of the plane.
+//!
+//! ```
+//! use ricci::geometry::PlaneIsometry;
+//! let quarter_turn = PlaneIsometry::new(0.5 * std::f64::consts::PI, [1.0, 0.0]);
+//! let [x, y] = quarter_turn.apply([2.0, 0.0]);
+//! assert!((x - 1.0).abs() < 1e-15 && (y - 2.0).abs() < 1e-15);
+//! ```
 
+use super::complex::{add, cross, dot, mul, sub};
 use super::{Motion, Twofold};
 use std::f64::consts::{PI, TAU};
 
@@ -23,26 +31,13 @@ impl PlaneIsometry {
 
     /// The image of a point.
     pub fn apply(&self, p: [f64; 2]) -> [f64; 2] {
-        let [x, y] = self.apply_vector(p);
-        [x + self.translation[0], y + self.translation[1]]
+        add(self.apply_vector(p), self.translation)
     }
 
     /// The image of a direction: the rotation alone.
-    pub fn apply_vector(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let (s, c) = self.rotation.sin_cos();
-        [c * x - s * y, s * x + c * y]
-    }
-
-    /// `self ∘ first`: `first` acts first.
-    pub fn compose(&self, first: &PlaneIsometry) -> PlaneIsometry {
-        PlaneIsometry::new(self.rotation + first.rotation, self.apply(first.translation))
-    }
-
-    /// The inverse.
-    pub fn inverse(&self) -> PlaneIsometry {
-        let back = PlaneIsometry::new(-self.rotation, [0.0; 2]);
-        let [x, y] = back.apply_vector(self.translation);
-        PlaneIsometry { translation: [-x, -y], ..back }
+    pub fn apply_vector(&self, direction: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = self.rotation.sin_cos();
+        mul([cos, sin], direction)
     }
 
     /// The isometry that best carries each `p` to its `q`.
@@ -55,16 +50,15 @@ impl PlaneIsometry {
         vectors: impl IntoIterator<Item = ([f64; 2], [f64; 2])>,
         points: impl IntoIterator<Item = ([f64; 2], [f64; 2])>,
     ) -> PlaneIsometry {
-        let (mut dot, mut cross) = (0.0, 0.0);
+        let (mut cos, mut sin) = (0.0, 0.0);
         for (p, q) in vectors {
-            dot += p[0] * q[0] + p[1] * q[1];
-            cross += p[0] * q[1] - p[1] * q[0];
+            cos += dot(p, q);
+            sin += cross(p, q);
         }
-        let turn = PlaneIsometry::new(cross.atan2(dot), [0.0; 2]);
+        let turn = PlaneIsometry::new(sin.atan2(cos), [0.0; 2]);
         let (mut sum, mut n) = ([0.0; 2], 0.0);
         for (p, q) in points {
-            let p = turn.apply_vector(p);
-            sum = [sum[0] + (q[0] - p[0]), sum[1] + (q[1] - p[1])];
+            sum = add(sum, sub(q, turn.apply_vector(p)));
             n += 1.0;
         }
         let n = f64::max(n, 1.0);
@@ -102,12 +96,13 @@ mod tests {
     }
 
     #[test]
-    fn composition_and_inverse_act_as_on_points() {
-        let (g, h) = (PlaneIsometry::new(2.5, [0.3, -1.0]), PlaneIsometry::new(1.7, [2.0, 0.25]));
-        let p = [0.7, -0.2];
-        assert!(close(g.compose(&h).apply(p), g.apply(h.apply(p))));
-        assert!(close(g.inverse().apply(g.apply(p)), p));
-        assert!(g.compose(&h).rotation > -PI && g.compose(&h).rotation <= PI);
+    fn isometries_are_those_of_the_motions_that_they_come_from() {
+        let place = [0.3, -1.0];
+        let g = PlaneIsometry::new(2.5, place);
+        let direction = [g.rotation.cos(), g.rotation.sin()].map(Twofold::from);
+        let from = PlaneIsometry::from(Motion::in_plane(direction, place.map(Twofold::from)));
+        assert!((from.rotation - g.rotation).abs() < 1e-15 && close(from.translation, g.translation));
+        assert!(close(from.apply([0.7, -0.2]), g.apply([0.7, -0.2])));
     }
 
     #[test]

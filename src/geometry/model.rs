@@ -5,8 +5,8 @@
 //! half-plane     i (1 + z)/(1 − z) = (−y + i)/(w − x)
 //! ```
 //!
-//! Points of the hyperboloid keep their digits however far out; of a disk the border is 2e^{−d} (Poincaré) or 2e^{−2d} (Klein) away at
-//! distance d from the origin.
+//! Coordinates on the hyperboloid keep their relative accuracy at any distance d from the origin. In the disks a point lies 2e^{−d}
+//! (Poincaré) or 2e^{−2d} (Klein) from the border, so that coordinates near 1 lose their digits there.
 //!
 //! ```
 //! use ricci::geometry::model::{distance, from_poincare, half_plane};
@@ -78,11 +78,7 @@ impl std::str::FromStr for Model {
         [Model::Poincare, Model::Klein, Model::HalfPlane, Model::Hyperboloid]
             .into_iter()
             .find(|m| m.name().eq_ignore_ascii_case(name))
-            .ok_or_else(|| Error::Argument {
-                what: "model",
-                value: name.into(),
-                need: "poincare, klein, half-plane or hyperboloid",
-            })
+            .ok_or_else(|| Error::argument("model", name, "poincare, klein, half-plane or hyperboloid"))
     }
 }
 
@@ -98,7 +94,7 @@ pub fn klein([x, y, w]: [f64; 3]) -> [f64; 2] {
 
 /// The half-plane's point; the disk's centre is i.
 pub fn half_plane([x, y, w]: [f64; 3]) -> [f64; 2] {
-    // w − x without cancellation
+    // w − x = (1 + y²)/(w + x) on the hyperboloid: the second form does not cancel for positive x.
     let rest = if x > 0.0 { (1.0 + y * y) / (w + x) } else { w - x };
     [-y / rest, 1.0 / rest]
 }

@@ -45,7 +45,7 @@ pub fn modulus(periods: [[f64; 2]; 2]) -> Option<[f64; 2]> {
         }
         let shorter = sub(b, scale(times, a));
         if norm2(shorter) >= norm2(b) {
-            break; // Re τ = ½: both are as short as it gets
+            break; // Re τ = ±½: neither vector can be made shorter.
         }
         b = shorter;
     }
@@ -60,8 +60,8 @@ pub fn modulus(periods: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     Some([if on_border { re.abs() } else { re }, im])
 }
 
-/// Most rounds of the reduction. Squared lengths halve each time and span at most 2²⁰⁹⁸ in doubles, so that no lattice needs
-/// as many.
+/// Bound on the rounds of the reduction, which no lattice reaches: squared lengths halve in each round, and those of doubles span
+/// a ratio of 2²⁰⁹⁸ at most.
 const MAX_ROUNDS: usize = 4096;
 
 #[cfg(test)]

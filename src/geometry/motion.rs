@@ -8,31 +8,36 @@
 //! translation by l along the x axis: a = cos, cosh, 1 of l/2,  b = sin, sinh, identity of l/2       rotation by θ: a = e^{iθ/2}
 //! ```
 //!
-//! that is, unit quaternions in S² (SU(2)), SU(1,1) in H². One text serves the three, and entries keep their *relative* accuracy
-//! far from the origin, where coordinates in the disk run out of digits.
+//! that is, unit quaternions in S² (SU(2)), SU(1,1) in H². The same formulas serve the three spaces, and the entries keep their
+//! *relative* accuracy far from the origin, where coordinates in the disk run out of digits.
+//!
+//! ```
+//! use ricci::geometry::{Motion, Space};
+//! let there = Motion::<f64>::translation(3.0, Space::H2);
+//! assert_eq!(there.compose(&there.inverse()).apply([0.0, 0.0, 1.0])[..2], [0.0, 0.0]);
+//! assert!((there.precise().displacement() - 3.0).abs() < 1e-14);
+//! ```
 
-use super::complex::{add, conj, mul, norm2, scale};
+use super::complex::{Complex, Number, add, conj, mul, norm2, scale};
+use super::scaled::scaled;
 use super::{Space, Twofold};
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::Div;
 
-/// What the entries of a [`Motion`] may be: doubles, or doubles with twice the digits.
-pub trait Real:
-    Copy
-    + From<f64>
-    + Into<f64>
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-{
+/// What the entries of a [`Motion`] and of a [`super::flip::Hinge`] may be: doubles, or numbers with twice the digits of doubles.
+pub trait Real: Number + From<f64> + Into<f64> + Div<Output = Self> {
     /// The square root of a number that is not negative.
     fn root(self) -> Self;
+    /// This number times 2^k: exact while the result is a normal number.
+    fn times_two_to(self, k: i32) -> Self;
 }
 
 impl Real for f64 {
     fn root(self) -> f64 {
         self.sqrt()
+    }
+
+    fn times_two_to(self, k: i32) -> f64 {
+        scaled(self, k)
     }
 }
 
@@ -40,15 +45,16 @@ impl Real for Twofold {
     fn root(self) -> Twofold {
         self.sqrt()
     }
-}
 
-/// A complex number.
-type Complex<T> = [T; 2];
+    fn times_two_to(self, k: i32) -> Twofold {
+        self.scaled(k)
+    }
+}
 
 /// An orientation-preserving isometry of E², H² or S².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion<T = f64> {
-    /// Of which space.
+    /// The space that it moves.
     pub space: Space,
     /// a, as `[Re, Im]`.
     pub a: Complex<T>,
@@ -171,7 +177,7 @@ impl<T: Real> Motion<T> {
 }
 
 impl Motion<f64> {
-    /// With twice the digits, `|a|² + κ|b|² = 1` to all of them.
+    /// The motion with twice the digits, scaled so that `|a|² + κ|b|² = 1` holds to all of them.
     pub fn precise(&self) -> Motion<Twofold> {
         Motion { space: self.space, a: self.a.map(Twofold::from), b: self.b.map(Twofold::from) }.normalised()
     }
@@ -191,7 +197,7 @@ impl Motion<Twofold> {
         Motion { space: Space::E2, a, b: scale(0.5.into(), mul(place, conj(a))) }
     }
 
-    /// The one without a rotation that brings the point with these ambient coordinates to the origin.
+    /// The translation, without a rotation, that brings the point with these ambient coordinates to the origin.
     pub fn to_origin(space: Space, [x, y, w]: [Twofold; 3]) -> Self {
         let (one, two) = (Twofold::from(1.0), Twofold::from(2.0));
         // 2ab is x + iy, with b in that direction and a real: 2a² = 1 + w.
@@ -200,7 +206,7 @@ impl Motion<Twofold> {
         Motion { space, a: [a, Twofold::from(0.0)], b }.normalised().inverse()
     }
 
-    /// To the digits of doubles.
+    /// The motion rounded to doubles.
     pub fn rounded(&self) -> Motion {
         Motion { space: self.space, a: self.a.map(f64::from), b: self.b.map(f64::from) }
     }
@@ -240,7 +246,7 @@ impl Motion<Twofold> {
         }
     }
 
-    /// Which half-plane of matrices it lies in is no property of a map: the one of ±(a, b) with Re a ≥ 0.
+    /// The one of the two equal motions ±(a, b) whose Re a is not negative.
     pub fn positive(&self) -> Self {
         let negative = f64::from(self.a[0]) < 0.0;
         if negative { Motion { a: self.a.map(|x| -x), b: self.b.map(|x| -x), ..*self } } else { *self }

@@ -10,9 +10,10 @@
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
 
-/// Triangles whose coordinates are all below this are scaled by [`LIFT`] first: products of such coordinates could underflow.
+/// Largest coordinate of triangles that are multiplied by [`LIFT`] first: products of their coordinates, below 1e-240, could lose
+/// digits to underflow.
 const TINY: f64 = 1.0e-120;
-/// 2⁵¹², a power of two so that scaling is exact.
+/// 2⁵¹² = 1.3e154, which brings such coordinates back near 1; multiplying by a power of two is exact.
 const LIFT: f64 = f64::from_bits((1023 + 512) << 52);
 
 /// On which side of the directed line ab the point c lies: `Greater` left (a, b, c counterclockwise), `Equal`

@@ -10,7 +10,7 @@
 use crate::error::Error;
 use std::ops::RangeInclusive;
 
-/// Lengths that the library takes, in any space: the squares of others leave the range of doubles.
+/// Lengths that the library accepts, in any space: the squares of smaller and larger ones leave the range of doubles.
 pub const USABLE_LENGTHS: RangeInclusive<f64> = 1e-150..=1e150;
 
 /// Background geometry of constant curvature.
@@ -51,7 +51,7 @@ impl std::str::FromStr for Space {
         [Space::E2, Space::H2, Space::S2]
             .into_iter()
             .find(|s| s.name().eq_ignore_ascii_case(name))
-            .ok_or_else(|| Error::Argument { what: "space", value: name.into(), need: "e2, h2 or s2" })
+            .ok_or_else(|| Error::argument("space", name, "e2, h2 or s2"))
     }
 }
 

@@ -6,8 +6,8 @@
 //! chord:    |lift(a) − lift(b)| = 2 |a − b| / √((1 + |a|²)(1 + |b|²))
 //! ```
 //!
-//! Projected from the south pole, the plane is seen from where the sphere is seen from outside: what is counterclockwise in the one
-//! is so in the other. Similarities of the plane, `z ↦ (z − p)/t` with t > 0, are half of the Möbius transformations of the sphere; the
+//! The projection is from the south pole, so that what is counterclockwise in the plane is counterclockwise on the sphere seen from
+//! outside. Similarities of the plane, `z ↦ (z − p)/t` with t > 0, are half of the Möbius transformations of the sphere; the
 //! other half are its rotations, and each Möbius transformation is a rotation after a similarity. So a similarity is also a
 //! point (p, t) of hyperbolic space in the upper half-space.
 //!
@@ -47,7 +47,7 @@ pub fn project([x, y, w]: Vector) -> Option<[f64; 2]> {
     (d > 0.0).then(|| [x / d, y / d]).filter(|z| z.iter().all(|x| x.is_finite()))
 }
 
-/// `log(1 + |z|²)`, log 2 less what the lift adds to the logarithms of small lengths at z: a double and what it loses.
+/// `log(1 + |z|²)`, as a double and what that double loses. The lift multiplies small lengths at z by `2/(1 + |z|²)`.
 pub fn log_density([x, y]: [f64; 2]) -> (f64, f64) {
     let r = x.hypot(y);
     let log = if r <= 1.0 { (r * r).ln_1p() } else { 2.0 * r.ln() + (1.0 / r / r).ln_1p() };

@@ -28,7 +28,7 @@ pub fn symplectic_basis(form: &[Vec<i64>]) -> Option<Vec<Vec<i64>>> {
     let (mut first, mut second) = (Vec::new(), Vec::new());
     while !rest.is_empty() {
         let a = rest.swap_remove(0);
-        // Euclid: the smallest pairing divides the others, until it is the only one.
+        // Euclid's algorithm: the others are reduced by the vector that pairs least with a, until that one alone pairs with it.
         let b = loop {
             let paired = (0..rest.len()).filter(|&i| pair(&a, &rest[i]) != 0);
             let smallest = paired.min_by_key(|&i| pair(&a, &rest[i]).abs())?;

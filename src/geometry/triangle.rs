@@ -9,8 +9,15 @@
 //!             l_k
 //! ```
 //!
-//! Everything is written in `f(s)` and `f(r)`, so one text serves the three geometries and no difference of
-//! nearly equal numbers is formed.
+//! All formulas are written in `f(s)` and `f(r)`, so that they are the same in the three geometries and no difference of nearly equal
+//! numbers is formed.
+//!
+//! ```
+//! use ricci::geometry::{Space, triangle::{angles, area}};
+//! let right = angles(Space::E2, [5.0, 4.0, 3.0]).at;
+//! assert!((right[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+//! assert!((area(Space::E2, [5.0, 4.0, 3.0]) - 6.0).abs() < 1e-14);
+//! ```
 
 use super::{Space, Twofold};
 use std::f64::consts::PI;
@@ -66,10 +73,10 @@ pub fn sine(space: Space, x: f64) -> f64 {
     }
 }
 
-/// Hyperbolic half perimeters above this are divided by in logarithms: sinh overflows at 710.
+/// Half perimeter in H² above which quotients of sinh are formed from exponentials of differences: sinh overflows at 710.
 const FAR: f64 = 300.0;
 
-/// `f(r_i)/f(s)`: lengths of any size pass, and only ratios of them are multiplied.
+/// `f(r_i)/f(s)`. Products of such ratios neither overflow nor underflow, whatever the size of the lengths.
 #[inline]
 fn ratios(space: Space, s: f64, r: [f64; 3]) -> [f64; 3] {
     match space {

@@ -1,5 +1,5 @@
-//! The largest of many errors, where NaN counts as infinite: [`f64::max`] ignores NaN, and an error that could not be computed would
-//! pass for a small one.
+//! The largest of many errors, where NaN counts as infinite: [`f64::max`] ignores NaN, so that an error that could not be computed
+//! would not be seen.
 //!
 //! ```
 //! use ricci::geometry::largest;

@@ -1,4 +1,4 @@
-//! Supernodal Cholesky (faer) with analysis, factorisation and solution as separate steps.
+//! Supernodal Cholesky (faer) with analysis, factorisation and solution as separate steps; the example is in [`crate::linalg`].
 
 use super::pattern::{Pattern, Symmetric};
 use crate::error::{Error, Result};

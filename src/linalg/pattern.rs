@@ -1,4 +1,11 @@
 //! Symmetric sparse matrices as their lower triangle, with a pattern that outlives the values.
+//!
+//! ```
+//! # use ricci::linalg::Pattern;
+//! let pattern = Pattern::new(3, &[(0, 1), (1, 0), (2, 1)])?;
+//! assert_eq!((pattern.size(), pattern.entries(), pattern.position(0, 2)), (3, 5, None));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::error::{Error, Result};
 

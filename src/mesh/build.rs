@@ -1,4 +1,13 @@
 //! Building connectivity from index buffers and from gluings.
+//!
+//! ```
+//! use ricci::mesh::Mesh;
+//! assert!(Mesh::from_faces(3, &[[0, 1, 2]])?.is_simplicial());
+//! // Two triangles glued along all three edges to a torus with a single vertex.
+//! let torus = Mesh::from_gluing(1, &[[0; 3]; 2], &[[2, -3, 1], [-1, -2, 3]])?;
+//! assert_eq!((torus.genus(), torus.is_simplicial()), (1, false));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::check::{Diagnosis, diagnose_gluing, diagnose_incidence, diagnose_positions};
 use super::halfedge::Mesh;
@@ -13,7 +22,11 @@ impl Mesh {
     ///
     /// Vertices, faces and corners keep their numbers; edges are numbered in the order in which the faces'
     /// sides (first to second corner, second to third, third to first) first name them, and half-edge `2e`
-    /// runs in the direction of that first side. Every defect is found first: see [`Error::Defects`].
+    /// runs in the direction of that first side.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Defects`] with every defect; [`Error::TooLarge`]; [`Error::Argument`] for far more vertices than faces can use.
     pub fn from_faces(n_vertices: usize, faces: &[[u32; 3]]) -> Result<Mesh> {
         check_counts(n_vertices, faces.len())?;
         let incidence = Incidence::new(n_vertices, faces);
@@ -23,6 +36,10 @@ impl Mesh {
 
     /// The surface of a triangle list in space, diagnosed with its positions (zero-area faces, coordinates
     /// that are not finite).
+    ///
+    /// # Errors
+    ///
+    /// As [`Mesh::from_faces`].
     pub fn from_soup(soup: &Soup) -> Result<Mesh> {
         let Soup { positions, faces, .. } = soup;
         check_counts(positions.len(), faces.len())?;
@@ -71,19 +88,45 @@ impl Mesh {
     }
 }
 
+fn refuse<T>(face: usize, message: String) -> Result<T> {
+    Err(Error::Gluing { face, message })
+}
+
+/// The edge numbers of each face, with the face.
+fn numbers(face_edges: &[[i32; 3]]) -> impl Iterator<Item = (usize, usize)> {
+    let of_face = |(f, edges): (usize, &[i32; 3])| edges.map(|e| (e.unsigned_abs() as usize, f));
+    face_edges.iter().enumerate().flat_map(of_face)
+}
+
+/// The highest edge number; there cannot be more edges than sides.
+fn count_edges(face_edges: &[[i32; 3]]) -> Result<usize> {
+    let highest = numbers(face_edges).map(|(e, f)| (e, Reverse(f))).max();
+    match highest {
+        Some((e, Reverse(f))) if e > 3 * face_edges.len() => {
+            let need = "number edges from 1 without gaps";
+            refuse(f, format!("edge number {e} exceeds the number of sides; {need}"))
+        }
+        highest => Ok(highest.map_or(0, |(e, _)| e)),
+    }
+}
+
+/// Check that some face names each of the numbers from 1 to `n_edges`, the highest.
+fn check_gaps(face_edges: &[[i32; 3]], n_edges: usize) -> Result<()> {
+    let mut is_named = vec![false; n_edges + 1];
+    numbers(face_edges).for_each(|(e, _)| is_named[e] = true);
+    let gap = (1..=n_edges).find(|&e| !is_named[e]);
+    match gap.and_then(|gap| Some((gap, numbers(face_edges).find(|&(e, _)| e > gap)?))) {
+        Some((gap, (_, f))) => {
+            let missing = format!("no face names edge {gap}; number edges from 1 without gaps");
+            refuse(f, format!("the edge numbers go up to {n_edges}, but {missing}"))
+        }
+        None => Ok(()),
+    }
+}
+
 /// The origin of each half-edge, and the three half-edges of each face, of a gluing as [`Mesh::from_gluing`] takes it.
 fn glue(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Result<(Vec<u32>, Vec<[u32; 3]>)> {
-    let refuse = |face: usize, message: String| Err(Error::Gluing { face, message });
-    let numbers = |edges: &[i32; 3]| edges.map(|e| e.unsigned_abs() as usize);
-    let named = face_edges.iter().map(numbers).enumerate();
-    let highest = named.flat_map(|(f, edges)| edges.map(|e| (e, Reverse(f)))).max();
-    let n_edges = highest.map_or(0, |(e, _)| e);
-    if let Some((e, Reverse(f))) = highest.filter(|&(e, _)| e > 3 * faces.len()) {
-        return refuse(
-            f,
-            format!("edge number {e} exceeds the number of sides; number edges from 1 without gaps"),
-        );
-    }
+    let n_edges = count_edges(face_edges)?;
     let mut origin = vec![NONE; 2 * n_edges];
     let mut used = vec![false; 2 * n_edges];
     let mut sides = vec![[NONE; 3]; faces.len()];
@@ -100,23 +143,16 @@ fn glue(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Resul
             };
             let h = 2 * e as usize + usize::from(edge < 0);
             if std::mem::replace(&mut used[h], true) {
-                return refuse(
-                    f,
-                    format!(
-                        "edge {} is named twice in this direction; the two faces of an edge run along it in opposite directions",
-                        e + 1
-                    ),
-                );
+                let need = "the two faces of an edge run along it in opposite directions";
+                return refuse(f, format!("edge {} is named twice in this direction; {need}", e + 1));
             }
             for (h, v) in [(h, corners[k]), (h ^ 1, corners[(k + 1) % 3])] {
                 if origin[h] != NONE && origin[h] != v {
+                    let elsewhere =
+                        format!("at vertex {} elsewhere; glue sides with the same ends", origin[h]);
                     return refuse(
                         f,
-                        format!(
-                            "edge {} starts or ends at vertex {v} here, at vertex {} elsewhere; glue sides with the same ends",
-                            e + 1,
-                            origin[h]
-                        ),
+                        format!("edge {} starts or ends at vertex {v} here, {elsewhere}", e + 1),
                     );
                 }
                 origin[h] = v;
@@ -124,19 +160,8 @@ fn glue(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Resul
             sides[f][k] = h as u32;
         }
     }
-    // Some face names a higher number than that of a gap.
-    let gap = (0..n_edges).find(|e| !used[2 * e] && !used[2 * e + 1]);
-    let after = |gap: usize| face_edges.iter().position(|edges| numbers(edges).iter().any(|&e| e > gap + 1));
-    match gap.and_then(|gap| Some((gap, after(gap)?))) {
-        Some((gap, f)) => refuse(
-            f,
-            format!(
-                "the edge numbers go up to {n_edges}, but no face names edge {}; number edges from 1 without gaps",
-                gap + 1
-            ),
-        ),
-        None => Ok((origin, sides)),
-    }
+    check_gaps(face_edges, n_edges)?;
+    Ok((origin, sides))
 }
 
 /// Number the edges of a list without defects.
@@ -161,7 +186,8 @@ fn connect(faces: &[[u32; 3]], incidence: Incidence, diagnosis: Diagnosis) -> Re
     Mesh::assemble(diagnosis.vertices, origin, &sides)
 }
 
-/// Isolated vertices that are diagnosed one by one; more are refused as a count.
+/// Most isolated vertices that are diagnosed one by one, a million; a list with more is refused as a whole, before memory is taken for
+/// each of them.
 const SPARE_VERTICES: usize = 1 << 20;
 
 fn check_counts(n_vertices: usize, n_faces: usize) -> Result<()> {
@@ -171,10 +197,9 @@ fn check_counts(n_vertices: usize, n_faces: usize) -> Result<()> {
             return Err(Error::TooLarge { what, count });
         }
     }
-    // Memory follows what is there, not what is claimed: nearly all of so many vertices would be isolated.
+    // A count of vertices is only a claim of the caller's, for which no memory should be taken.
     if n_vertices > n_faces.saturating_mul(3).saturating_add(SPARE_VERTICES) {
-        let value = n_vertices.to_string();
-        return Err(Error::Argument { what: "number of vertices", value, need: "three per face or fewer" });
+        return Err(Error::argument("number of vertices", n_vertices, "three per face or fewer"));
     }
     Ok(())
 }

@@ -1,5 +1,14 @@
 //! The double of a surface with boundary.
+//!
+//! ```
+//! use ricci::mesh::{Double, Mesh, shapes};
+//! let disk = Mesh::from_soup(&shapes::disk(2)?)?;
+//! let sphere = Double::new(&disk)?.mesh;
+//! assert_eq!((sphere.is_closed(), sphere.genus()), (true, 0));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
+use super::flip::marked;
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 use crate::error::{Error, Result, check_size};
@@ -21,15 +30,13 @@ pub struct Double {
 }
 
 impl Double {
-    /// Double a surface. Errors: [`Error::Argument`] for a closed one, [`Error::TooLarge`].
+    /// Double a surface.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a closed one; [`Error::TooLarge`].
     pub fn new(half: &Mesh) -> Result<Double> {
         if half.is_closed() {
-            let value = "closed".into();
-            return Err(Error::Argument {
-                what: "surface",
-                value,
-                need: "one with boundary: there is nothing to glue",
-            });
+            return Err(Error::argument("surface", "closed", "one with boundary: there is nothing to glue"));
         }
         let (n, e, f) = (half.n_vertices(), half.n_edges(), half.n_faces());
         let interior: Vec<EdgeId> = half.edges().filter(|&e| !half.is_boundary_edge(e)).collect();
@@ -94,16 +101,7 @@ impl Double {
     /// # Errors
     /// [`Error::Argument`] for an edge that the surface does not have.
     pub fn with_images(&self, edges: &[EdgeId]) -> Result<Vec<EdgeId>> {
-        let mut chosen = vec![false; self.counts[1]];
-        for e in edges {
-            match chosen.get_mut(e.index()) {
-                Some(chosen) => *chosen = true,
-                None => {
-                    let need = "an edge of the surface that was doubled";
-                    return Err(Error::Argument { what: "edge", value: e.to_string(), need });
-                }
-            }
-        }
+        let chosen = marked("edge of the surface that was doubled", self.counts[1], edges)?;
         let all = (0..self.edge_origin.len()).filter(|&e| chosen[self.edge_origin[e] as usize]);
         Ok(all.map(EdgeId::from).collect())
     }

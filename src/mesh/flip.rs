@@ -1,16 +1,26 @@
-//! Edge flips, and the edges that are kept from them.
+//! Edge flips, and sets of edges that must not be flipped.
+//!
+//! ```
+//! use ricci::mesh::{EdgeId, Mesh, VertexId};
+//! let mut mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]])?;
+//! let diagonal = EdgeId(2);
+//! assert_eq!(mesh.ends(diagonal), [VertexId(2), VertexId(0)]);
+//! assert!(mesh.flip(diagonal) && !mesh.flip(EdgeId(0))); // edge 0 lies on the boundary
+//! assert_eq!(mesh.ends(diagonal), [VertexId(3), VertexId(1)]);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, HalfedgeId};
 use crate::error::{Error, Result};
 
-/// A flip of an edge that carries a value: its length, or its weight η. Whoever follows flips is told it just before it is made.
+/// A flip of an edge that carries a value: its length, or its weight η. Callbacks that follow flips receive it just before the flip.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flip {
+pub struct Flip<T = f64> {
     /// The edge. The other diagonal keeps its number.
     pub edge: EdgeId,
     /// The value of the edge before the flip.
-    pub value: f64,
+    pub value: T,
 }
 
 /// A set of edges of one surface that are not to be flipped. The default is the empty set, which fits every surface.
@@ -34,17 +44,7 @@ impl FixedEdges {
         if edges.is_empty() {
             return Ok(FixedEdges::none());
         }
-        let mut is_fixed = vec![false; mesh.n_edges()];
-        for e in edges {
-            match is_fixed.get_mut(e.index()) {
-                Some(is_fixed) => *is_fixed = true,
-                None => {
-                    let need = "an existing edge";
-                    return Err(Error::Argument { what: "fixed edge", value: e.to_string(), need });
-                }
-            }
-        }
-        Ok(FixedEdges { is_fixed })
+        Ok(FixedEdges { is_fixed: marked("fixed edge", mesh.n_edges(), edges)? })
     }
 
     /// Whether the edge is in the set. O(1).
@@ -54,8 +54,18 @@ impl FixedEdges {
     }
 }
 
-/// The names that a flip gives away, with which [`Mesh::unflip`] restores a mesh bit for bit: flipping four times turns an edge back,
-/// but leaves its faces with another first corner and its ends with another outgoing half-edge.
+/// Per edge of a surface with `n_edges`, whether it is one of these; [`Error::Argument`] names one that does not exist.
+pub(super) fn marked(what: &'static str, n_edges: usize, edges: &[EdgeId]) -> Result<Vec<bool>> {
+    let mut is_marked = vec![false; n_edges];
+    for e in edges {
+        let mark = is_marked.get_mut(e.index());
+        *mark.ok_or_else(|| Error::argument(what, e, "an existing edge"))? = true;
+    }
+    Ok(is_marked)
+}
+
+/// Which half-edges were the first of their faces and vertices before a flip. [`Mesh::unflip`] restores a mesh bit for bit with them;
+/// three more flips would turn the edge back, but leave other first half-edges.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Unflip {
     /// Which of the sides of the left and the right face, counted from the edge, is at the face's first corner.

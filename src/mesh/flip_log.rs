@@ -1,7 +1,7 @@
 //! A log of flips, by which they are undone.
 //!
-//! A solve that fails must leave its surface as it was. A log costs 16 bytes per flip (and 24 for each set of curves that follows the
-//! flips), where a copy of the surface costs as much for every edge, flipped or not.
+//! A solve that fails must leave its surface as it was. A log takes 16 bytes per flip of a length, 24 per flip of an η, and 24 for each set
+//! of curves that follows the flips; a copy of the surface would take as much for every edge, whether it is flipped or not.
 
 use super::attribute::PerEdge;
 use super::flip::{Flip, Unflip};
@@ -27,25 +27,31 @@ use crate::error::{Result, check_size};
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Debug, Clone, Default)]
-pub struct FlipLog {
-    flips: Vec<Before>,
+#[derive(Debug, Clone)]
+pub struct FlipLog<T = f64> {
+    flips: Vec<Before<T>>,
     /// For every flip in order, the coordinates of its edge in all sets of curves that follow.
     coordinates: Vec<EdgeCoordinates>,
 }
 
 /// The state of an edge before its flip.
 #[derive(Debug, Clone, Copy)]
-struct Before {
-    value: f64,
+struct Before<T> {
+    value: T,
     edge: EdgeId,
     names: Unflip,
 }
 
-impl FlipLog {
+impl<T> Default for FlipLog<T> {
+    fn default() -> FlipLog<T> {
+        FlipLog { flips: Vec::new(), coordinates: Vec::new() }
+    }
+}
+
+impl<T: Copy> FlipLog<T> {
     /// Note a flip, and tell it to the sets of curves that follow ([`NormalCoordinates::record`]), always the same ones. To be called
     /// just before the flip, with the mesh as it is then; only for an edge that will be flipped.
-    pub fn record(&mut self, mesh: &Mesh, flip: Flip, followed: &mut [NormalCoordinates]) {
+    pub fn record(&mut self, mesh: &Mesh, flip: Flip<T>, followed: &mut [NormalCoordinates]) {
         let Flip { edge, value } = flip;
         self.flips.push(Before { value, edge, names: mesh.before_flip(edge) });
         for normal in followed {
@@ -79,7 +85,7 @@ impl FlipLog {
     pub fn undo(
         &mut self,
         mesh: &mut Mesh,
-        values: &mut PerEdge<f64>,
+        values: &mut PerEdge<T>,
         followed: &mut [NormalCoordinates],
     ) -> Result<()> {
         check_size("values of the edges", values.len(), mesh.n_edges())?;

@@ -12,11 +12,20 @@
 //! Two vertices may share several edges, an edge may be a loop, a face may touch itself: nothing here looks an
 //! edge up by its end vertices. Half-edges outside the surface have no face and are chained by `next` into
 //! boundary loops (which run with the surface on their right).
+//!
+//! ```
+//! use ricci::mesh::{Mesh, VertexId};
+//! let mesh = Mesh::from_faces(3, &[[0, 1, 2]])?;
+//! let inside = mesh.halfedges().find(|&h| !mesh.is_outside(h) && mesh.origin(h) == VertexId(1)).unwrap();
+//! assert_eq!(mesh.tip(inside), VertexId(2));
+//! assert!(mesh.is_outside(inside.twin()) && mesh.boundary_loops().len() == 1);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 use crate::error::{Error, Result};
 
-/// In the array of faces: the half-edge lies outside the surface. In arrays that are being filled: nothing is there yet.
+/// The face of a half-edge outside the surface; in arrays that are being filled, the entry that has not been filled yet.
 const OUTSIDE: u32 = u32::MAX;
 
 /// Connectivity of a triangulated surface; knows no position and no length.

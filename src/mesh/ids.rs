@@ -1,4 +1,10 @@
 //! Typed element indices: a vertex id cannot index an edge array.
+//!
+//! ```
+//! use ricci::mesh::EdgeId;
+//! let h = EdgeId(3).halfedge();
+//! assert_eq!((h.0, h.twin().0, h.twin().edge()), (6, 7, EdgeId(3)));
+//! ```
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {

@@ -4,15 +4,18 @@
 //! a vertex twice have no sides.
 
 use super::union_find::UnionFind;
+use std::cmp::Reverse;
 
-/// In an array of faces or sides: there is none.
+/// The entry of an array of faces, sides or vertices where there is none.
 pub(super) const NONE: u32 = u32::MAX;
 
 pub(super) struct Incidence {
     pub n_vertices: usize,
+    /// Per face, whether it has three different existing vertices.
     triangle: Vec<bool>,
-    /// Sides sorted by their unordered end vertices, then by number; `group` delimits equal ends.
+    /// Sides sorted by their unordered end vertices, then by number.
     sides: Vec<u32>,
+    /// Where in `sides` each edge begins, and the end of the last.
     group: Vec<u32>,
 }
 
@@ -29,13 +32,8 @@ impl Incidence {
         }
         keyed.sort_unstable();
         let mut group = vec![0];
-        for i in 1..keyed.len() {
-            if keyed[i].0 != keyed[i - 1].0 {
-                group.push(i as u32);
-            }
-        }
-        if !keyed.is_empty() {
-            group.push(keyed.len() as u32);
+        for edge in keyed.chunk_by(|a, b| a.0 == b.0) {
+            group.push(group[group.len() - 1] + edge.len() as u32);
         }
         Incidence { n_vertices, triangle, sides: keyed.into_iter().map(|(_, side)| side).collect(), group }
     }
@@ -50,14 +48,14 @@ impl Incidence {
         self.group.windows(2).map(|w| &self.sides[w[0] as usize..w[1] as usize])
     }
 
-    /// The corners in sets: those of one fan of faces around a vertex, connected through edges of at most `most` faces.
+    /// The corners in sets: those of one fan of faces around a vertex, connected through edges with at most `most` faces.
     pub fn fans(&self, faces: &[[u32; 3]], most: usize) -> UnionFind {
         let mut corners = UnionFind::new(3 * faces.len());
         self.join_fans(faces, |sides| sides.len() <= most, &mut corners);
         corners
     }
 
-    /// Join the corners of each fan through edges that are to hold it together.
+    /// Join the corners on both sides of each edge for whose sides `through` is true.
     pub fn join_fans(
         &self,
         faces: &[[u32; 3]],
@@ -108,23 +106,34 @@ impl Incidence {
     }
 }
 
-/// First face and number of faces of each piece connected through vertices, by number of vertex.
+/// The vertices in sets: those of one piece of the surface, connected through faces.
+pub(super) fn connected<'a>(
+    n_vertices: usize,
+    triangles: impl Iterator<Item = (u32, &'a [u32; 3])>,
+) -> UnionFind {
+    let mut pieces = UnionFind::new(n_vertices);
+    for (_, face) in triangles {
+        pieces.join(face[0], face[1]);
+        pieces.join(face[0], face[2]);
+    }
+    pieces
+}
+
+/// First face and number of faces of each piece connected through vertices, the pieces with the most faces first.
 pub(super) fn components<'a>(
     n_vertices: usize,
     triangles: impl Iterator<Item = (u32, &'a [u32; 3])> + Clone,
 ) -> Vec<(u32, u32)> {
-    let mut pieces = UnionFind::new(n_vertices);
-    for (_, face) in triangles.clone() {
-        pieces.join(face[0], face[1]);
-        pieces.join(face[0], face[2]);
-    }
+    let mut pieces = connected(n_vertices, triangles.clone());
     let mut count = vec![(NONE, 0); n_vertices];
     for (f, face) in triangles {
         let (first, size) = &mut count[pieces.root(face[0]) as usize];
         *first = f.min(*first);
         *size += 1;
     }
-    count.into_iter().filter(|&(_, size)| size > 0).collect()
+    count.retain(|&(_, size)| size > 0);
+    count.sort_unstable_by_key(|&(first, size)| (Reverse(size), first));
+    count
 }
 
 /// Connected pieces of the edges with one face, given by their ends: on a manifold, the boundary loops.
@@ -139,6 +148,16 @@ pub(super) fn boundary_loops(n_vertices: usize, boundary: impl Iterator<Item = [
     (0..n_vertices as u32).filter(|&v| on_boundary[v as usize] && pieces.root(v) == v).count()
 }
 
+/// Number the vertices that faces use from 0, in their order, and leave out the others; returns the vertices that are used.
+pub(super) fn drop_unused(n_vertices: usize, faces: &mut [[u32; 3]]) -> Vec<u32> {
+    let mut number = vec![NONE; n_vertices];
+    faces.as_flattened().iter().for_each(|&v| number[v as usize] = 0);
+    let used: Vec<u32> = (0..n_vertices as u32).filter(|&v| number[v as usize] != NONE).collect();
+    (0..).zip(&used).for_each(|(k, &v)| number[v as usize] = k);
+    faces.as_flattened_mut().iter_mut().for_each(|v| *v = number[*v as usize]);
+    used
+}
+
 /// Where a side starts and ends.
 pub(super) fn ends(faces: &[[u32; 3]], side: u32) -> [u32; 2] {
     let (face, k) = (faces[side as usize / 3], side as usize % 3);
@@ -151,6 +170,7 @@ pub(super) fn is_forward(faces: &[[u32; 3]], side: u32) -> bool {
     start < end
 }
 
-fn distinct(f: &[u32; 3]) -> bool {
-    f[0] != f[1] && f[1] != f[2] && f[2] != f[0]
+/// Whether a face has three different vertices.
+pub(super) fn distinct([a, b, c]: &[u32; 3]) -> bool {
+    a != b && b != c && c != a
 }

@@ -15,10 +15,10 @@ pub struct RefusedWeld {
 
 /// Faces with their corners at the `first` vertex in the same place, and where that is refused.
 ///
-/// Vertices become one where their faces are connected through edges: faces that meet in a point only stay apart. A cluster is
-/// a set of places connected by edges in which joining would make more than two faces meet, or by faces that joining would make
-/// collapse or repeat another. In a cluster with such an edge, faces are connected through edges of two faces only; and nothing
-/// is joined where that makes such an edge still. An edge that had its faces before is nobody's doing here.
+/// Vertices become one where their faces are connected through edges; faces that meet in a point only stay apart. A cluster is a set of
+/// places connected by *crowded* edges, in which joining would make more than two faces meet, or by faces that joining would make
+/// collapse or repeat another. In a cluster with a crowded edge, faces are connected through edges of two faces only; if an edge is
+/// crowded even so, nothing in the cluster is joined. Edges that had more than two faces before joining are not counted.
 pub(super) fn join(faces: &[[u32; 3]], first: &[u32]) -> (Vec<[u32; 3]>, Vec<RefusedWeld>) {
     let n = first.len();
     let joined: Vec<[u32; 3]> = faces.iter().map(|f| f.map(|v| first[v as usize])).collect();
@@ -38,7 +38,7 @@ pub(super) fn join(faces: &[[u32; 3]], first: &[u32]) -> (Vec<[u32; 3]>, Vec<Ref
     crowds.iter().for_each(|crowd| refused[clusters.root(crowd.vertices[0]) as usize] = true);
 
     let mut corners = Incidence::new(n, faces).fans(faces, usize::MAX);
-    // An edge of more than two faces has both ends in one cluster: some of its faces are repeated, or it is refused.
+    // Both ends of an edge with more than two faces lie in one cluster: some of its faces repeat others, or it is crowded.
     let through =
         |sides: &[u32]| sides.len() <= 2 || !refused[clusters.root(ends(&joined, sides[0])[0]) as usize];
     whole.join_fans(&joined, through, &mut corners);
@@ -86,7 +86,7 @@ fn crowds(before: &[[u32; 3]], joined: &[[u32; 3]], incidence: &Incidence) -> Ve
 }
 
 /// Per face, whether an earlier one has its vertices.
-fn repeats(faces: &[[u32; 3]]) -> Vec<bool> {
+pub(super) fn repeats(faces: &[[u32; 3]]) -> Vec<bool> {
     let mut seen = HashSet::with_capacity(faces.len());
     let mut again = |mut face: [u32; 3]| {
         face.sort_unstable();

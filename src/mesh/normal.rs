@@ -16,13 +16,23 @@
 //! origin, as a number in the given triangulation's order around that vertex. No flip changes the order in which curves leave a vertex.
 //!
 //! A flip changes one coordinate and two roundabouts. All of these are integers, so nothing is rounded.
+//!
+//! ```
+//! use ricci::mesh::{EdgeId, Mesh, NormalCoordinates};
+//! let mut mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]])?;
+//! let mut given = NormalCoordinates::new(&mesh);
+//! given.record(&mesh, EdgeId(2)); // just before the flip
+//! mesh.flip(EdgeId(2));
+//! assert_eq!((given.crossings(EdgeId(2)), given.crossings(EdgeId(0))), (1, -1));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, HalfedgeId};
 use crate::error::{Error, Result, check_size};
 
-/// Largest coordinate that is kept; beyond it the coordinates are marked as out of range. A curve with so many crossings could not be
-/// traced, and sums of up to 16 coordinates stay in the range of i64.
+/// Largest coordinate that is kept, 6e17; beyond it the coordinates are marked as out of range. Sums of up to 16 coordinates stay in the
+/// range of i64, and a curve with so many crossings could not be traced anyway.
 const MOST: i64 = i64::MAX / 16;
 
 /// The given triangulation as curves on the current one.
@@ -91,7 +101,8 @@ impl NormalCoordinates {
 
     /// Follow one flip: to be called with the triangulation as it is just before [`Mesh::flip`] of this edge. O(1).
     ///
-    /// Does nothing where the mesh will not flip either. Errors are kept for [`NormalCoordinates::check`].
+    /// Does nothing for an edge that [`Mesh::flip`] leaves as it is. A coordinate that leaves the range is reported by
+    /// [`NormalCoordinates::check`].
     pub fn record(&mut self, mesh: &Mesh, e: EdgeId) {
         // Names as at Mesh::flip: h = a → b, faces (a, b, c) and (b, a, d); afterwards h = d → c.
         let h = e.halfedge();
@@ -170,8 +181,11 @@ impl NormalCoordinates {
         (self.crossings(h.edge()) < 0).then(|| self.leaving(mesh, h, 0))
     }
 
-    /// Number of crossings of all curves with all edges. Errors: [`Error::Size`] if these are not the coordinates of this mesh;
-    /// [`Error::TooLarge`] if coordinates have left the range, or crossings are more than can be numbered.
+    /// Number of crossings of all curves with all edges.
+    ///
+    /// # Errors
+    /// [`Error::Size`] if these are not the coordinates of this mesh; [`Error::TooLarge`] if coordinates have left the range, or if there
+    /// are more crossings than can be numbered.
     pub fn check(&self, mesh: &Mesh) -> Result<usize> {
         check_size("normal coordinates", self.crossings.len(), mesh.n_edges())?;
         check_size("roundabouts", self.start.len(), mesh.n_vertices() + 1)?;

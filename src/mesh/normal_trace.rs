@@ -1,4 +1,15 @@
 //! The curves of normal coordinates, one by one.
+//!
+//! ```
+//! use ricci::mesh::{Curves, EdgeId, Mesh, NormalCoordinates};
+//! let mut mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]])?;
+//! let mut given = NormalCoordinates::new(&mesh);
+//! given.record(&mesh, EdgeId(2));
+//! mesh.flip(EdgeId(2));
+//! let curves = Curves::trace(&mesh, &given, &ricci::Control::new())?;
+//! assert_eq!(curves.crossings(EdgeId(2))[0].halfedge.edge(), EdgeId(2)); // the old diagonal crosses the new one
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, HalfedgeId};
@@ -6,7 +17,7 @@ use super::normal::{NormalCoordinates, Strands};
 use crate::control::Control;
 use crate::error::{Error, Result};
 
-/// Half-edges or curves that are worked on between two looks at the control: less than a millisecond.
+/// Half-edges or curves between two looks at the control: they take less than a millisecond.
 const PER_STEP: usize = 4096;
 
 /// Where a curve crosses an edge.
@@ -29,8 +40,11 @@ pub struct Curves {
 }
 
 impl Curves {
-    /// Follow every curve, O(edges + crossings). Errors: those of [`NormalCoordinates::check`]; [`Error::Connectivity`] if the
-    /// coordinates are not those of this triangulation; [`Error::Cancelled`].
+    /// Follow every curve, O(edges + crossings).
+    ///
+    /// # Errors
+    /// Those of [`NormalCoordinates::check`]; [`Error::Connectivity`] if the coordinates are not those of this triangulation;
+    /// [`Error::Cancelled`].
     pub fn trace(mesh: &Mesh, normal: &NormalCoordinates, control: &Control) -> Result<Curves> {
         control.check()?;
         let total = normal.check(mesh)?;
@@ -57,51 +71,23 @@ impl Curves {
                 }
             }
         }
-        let mut curves = Curves { start: vec![0], crossings: Vec::with_capacity(total), along };
+        let mut start = vec![0];
+        let mut trace = Trace { mesh, normal, total, crossings: Vec::with_capacity(total) };
         for e in 0..mesh.n_edges() {
             if e.is_multiple_of(PER_STEP) {
                 control.check()?;
             }
-            match (curves.along[e], source[e]) {
+            match (along[e], source[e]) {
                 (Some(_), None) => {}
-                (None, Some((corner, k))) => curves.follow(mesh, normal, corner, k, total)?,
+                (None, Some((corner, k))) => trace.follow(corner, k)?,
                 _ => return Err(lost(e)),
             }
-            curves.start.push(curves.crossings.len() as u32);
+            start.push(trace.crossings.len() as u32);
         }
-        if curves.crossings.len() == total { Ok(curves) } else { Err(lost(0)) }
-    }
-
-    /// Append the crossings of the k-th curve out of a corner.
-    fn follow(
-        &mut self,
-        mesh: &Mesh,
-        normal: &NormalCoordinates,
-        corner: HalfedgeId,
-        k: i64,
-        most: usize,
-    ) -> Result<()> {
-        let n = |h: HalfedgeId| normal.crossings(h.edge());
-        let (mut at, mut position) = (mesh.next(corner), n(corner).max(0) + k);
-        loop {
-            if self.crossings.len() == most || mesh.is_outside(at.twin()) {
-                return Err(lost(at.edge().index()));
-            }
-            self.crossings.push(CurveCrossing { halfedge: at, position: position as u32 });
-            // Into the next face through t, `entry` curves after its first corner.
-            let t = at.twin();
-            let entry = n(t) - 1 - position;
-            let strands = Strands::new(normal.sides(mesh, t));
-            if entry < strands.arc[0] {
-                at = mesh.prev(t);
-                position = n(at) - 1 - entry;
-            } else if entry < strands.arc[0] + strands.fan[2] {
-                return Ok(());
-            } else {
-                at = mesh.next(t);
-                position = n(t) - 1 - entry;
-            }
+        if trace.crossings.len() < total {
+            return Err(lost(0));
         }
+        Ok(Curves { start, crossings: trace.crossings, along })
     }
 
     /// The crossings of a given edge, in order.
@@ -125,7 +111,43 @@ impl Curves {
     }
 }
 
+/// The crossings of the curves that have been followed so far, of `total`.
+struct Trace<'a> {
+    mesh: &'a Mesh,
+    normal: &'a NormalCoordinates,
+    total: usize,
+    crossings: Vec<CurveCrossing>,
+}
+
+impl Trace<'_> {
+    /// Append the crossings of the k-th curve out of a corner.
+    fn follow(&mut self, corner: HalfedgeId, k: i64) -> Result<()> {
+        let (mesh, normal) = (self.mesh, self.normal);
+        let n = |h: HalfedgeId| normal.crossings(h.edge());
+        let (mut at, mut position) = (mesh.next(corner), n(corner).max(0) + k);
+        loop {
+            if self.crossings.len() == self.total || mesh.is_outside(at.twin()) {
+                return Err(lost(at.edge().index()));
+            }
+            self.crossings.push(CurveCrossing { halfedge: at, position: position as u32 });
+            // The curve enters the next face through t, where `entry` curves cross nearer to the first end of t.
+            let t = at.twin();
+            let entry = n(t) - 1 - position;
+            let strands = Strands::new(normal.sides(mesh, t));
+            if entry < strands.arc[0] {
+                at = mesh.prev(t);
+                position = n(at) - 1 - entry;
+            } else if entry < strands.arc[0] + strands.fan[2] {
+                return Ok(());
+            } else {
+                at = mesh.next(t);
+                position = n(t) - 1 - entry;
+            }
+        }
+    }
+}
+
 fn lost(edge: usize) -> Error {
     let message = "the curve of this edge is lost: the coordinates are not those of this triangulation";
-    Error::Connectivity { element: "edge", index: edge, message }
+    Error::connectivity("edge", edge, message)
 }

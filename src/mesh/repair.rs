@@ -10,18 +10,17 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::check::{Defect, Diagnosis, diagnose};
-use super::incidence::{Incidence, NONE, components, is_forward};
+use super::check::{Defect, Diagnosis, Orientation, Piece, diagnose};
+use super::incidence::{Incidence, NONE, components, connected, distinct, drop_unused};
 use super::io::{Attributes, Soup};
 pub use super::join::RefusedWeld;
-use super::join::join;
-use super::union_find::UnionFind;
+use super::join::{join, repeats};
 use super::weld::{check_tolerance, coincident};
 use crate::error::{Error, Result};
-use std::collections::{HashSet, VecDeque};
+use std::collections::HashSet;
 
-/// What a repair may do beyond what is always done: dropping faces that use a vertex twice or repeat a face, giving each fan
-/// of faces a vertex of its own, turning faces until neighbours agree, dropping isolated vertices.
+/// Options of [`repair()`]. Every repair drops faces that use a vertex twice or repeat another face, gives each fan of faces a vertex of
+/// its own, turns faces until neighbours agree, and drops isolated vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Repair {
     /// Vertices within this distance become one (transitively; the first one's position stays); 0: those in exactly the same
@@ -121,15 +120,6 @@ fn refuse_garbage(soup: &Soup) -> Result<()> {
     Err(Error::Defects(Box::new(diagnosis)))
 }
 
-fn is_proper(&[a, b, c]: &[u32; 3]) -> bool {
-    a != b && b != c && c != a
-}
-
-fn sorted(mut face: [u32; 3]) -> [u32; 3] {
-    face.sort_unstable();
-    face
-}
-
 /// The list under repair.
 struct Work {
     faces: Vec<[u32; 3]>,
@@ -166,7 +156,7 @@ impl Work {
         Ok(())
     }
 
-    /// Keep the faces for which `keep` says so; how many went.
+    /// Drop the faces for which `keep` is false; returns their number.
     fn retain(&mut self, keep: &[bool]) -> usize {
         let before = self.faces.len();
         fn chosen<T: Copy>(list: &mut Vec<T>, keep: &[bool]) {
@@ -180,10 +170,9 @@ impl Work {
     }
 
     fn drop_bad_faces(&mut self) {
-        let proper: Vec<bool> = self.faces.iter().map(is_proper).collect();
+        let proper: Vec<bool> = self.faces.iter().map(distinct).collect();
         self.steps.degenerate_faces += self.retain(&proper);
-        let mut seen = HashSet::with_capacity(self.faces.len());
-        let first: Vec<bool> = self.faces.iter().map(|&face| seen.insert(sorted(face))).collect();
+        let first: Vec<bool> = repeats(&self.faces).into_iter().map(|again| !again).collect();
         self.steps.duplicate_faces += self.retain(&first);
     }
 
@@ -214,37 +203,12 @@ impl Work {
 
     /// Turn the smaller part of each piece, so that neighbours agree; one-sided pieces stay as they are.
     fn orient(&mut self) {
-        let partner = self.incidence().partners(self.faces.len());
-        let mut turn = vec![None; self.faces.len()];
-        let mut queue = VecDeque::new();
-        for first in 0..self.faces.len() {
-            if turn[first].is_some() {
-                continue;
-            }
-            turn[first] = Some(false);
-            queue.push_back(first);
-            let (mut piece, mut one_sided) = (Vec::new(), false);
-            while let Some(f) = queue.pop_front() {
-                piece.push(f);
-                for side in 3 * f..3 * f + 3 {
-                    let other = partner[side];
-                    if other == NONE {
-                        continue;
-                    }
-                    let same_way = is_forward(&self.faces, side as u32) == is_forward(&self.faces, other);
-                    let wanted = turn[f].map(|t| t ^ same_way);
-                    let g = other as usize / 3;
-                    if turn[g].is_none() {
-                        turn[g] = wanted;
-                        queue.push_back(g);
-                    }
-                    one_sided |= turn[g] != wanted;
-                }
-            }
-            let turned = piece.iter().filter(|&&f| turn[f] == Some(true)).count();
+        let Orientation { turned, pieces, .. } = Orientation::new(&self.faces, &self.incidence());
+        for Piece { faces, .. } in pieces.into_iter().filter(|piece| piece.clash.is_none()) {
+            let n_turned = faces.iter().filter(|&&f| turned[f as usize]).count();
             // Of two equal parts the one with the first face stays.
-            let smaller = Some(2 * turned <= piece.len());
-            for f in piece.into_iter().filter(|&f| !one_sided && turn[f] == smaller) {
+            let smaller = 2 * n_turned <= faces.len();
+            for f in faces.into_iter().map(|f| f as usize).filter(|&f| turned[f] == smaller) {
                 self.faces[f].swap(1, 2);
                 self.turned[f] = true;
                 self.steps.turned_faces += 1;
@@ -255,17 +219,13 @@ impl Work {
     fn take(&mut self, component: Option<usize>) -> Result<()> {
         let Some(wanted) = component else { return Ok(()) };
         let incidence = self.incidence();
-        let mut pieces = components(self.vertex_origin.len(), incidence.triangles(&self.faces));
-        pieces.sort_unstable_by_key(|&(first, size)| (std::cmp::Reverse(size), first));
+        let (n, triangles) = (self.vertex_origin.len(), incidence.triangles(&self.faces));
+        let pieces = components(n, triangles.clone());
         let Some(&(first, _)) = pieces.get(wanted) else {
             let value = format!("{wanted}, of {} components numbered from 0", pieces.len());
-            return Err(Error::Argument { what: "component", value, need: "one that exists" });
+            return Err(Error::argument("component", value, "one that exists"));
         };
-        let mut connected = UnionFind::new(self.vertex_origin.len());
-        for [a, b, c] in &self.faces {
-            connected.join(*a, *b);
-            connected.join(*a, *c);
-        }
+        let mut connected = connected(n, triangles);
         let root = connected.root(self.faces[first as usize][0]);
         let keep: Vec<bool> = self.faces.iter().map(|f| connected.root(f[0]) == root).collect();
         self.steps.faces_of_other_components = self.retain(&keep);
@@ -275,17 +235,12 @@ impl Work {
     /// Drop unused vertices and carry the attributes over.
     fn finish(mut self, soup: &Soup) -> Repaired {
         let n_before = soup.positions.len();
-        let mut number = vec![NONE; self.vertex_origin.len()];
-        self.faces.as_flattened().iter().for_each(|&v| number[v as usize] = 0);
-        let mut vertex_origin = Vec::new();
-        for (number, &origin) in number.iter_mut().zip(&self.vertex_origin).filter(|(n, _)| **n == 0) {
-            *number = vertex_origin.len() as u32;
-            vertex_origin.push(origin);
-        }
+        let mut faces = std::mem::take(&mut self.faces);
+        let used = drop_unused(self.vertex_origin.len(), &mut faces);
+        let vertex_origin: Vec<u32> = used.into_iter().map(|v| self.vertex_origin[v as usize]).collect();
         let kept: HashSet<u32> = vertex_origin.iter().copied().collect();
         let gone = n_before - kept.len();
         self.steps.isolated_vertices = gone.saturating_sub(self.steps.welded_vertices);
-        let faces: Vec<[u32; 3]> = self.faces.iter().map(|f| f.map(|v| number[v as usize])).collect();
         fn picked<T: Copy>(list: &Option<Vec<T>>, origin: &[u32]) -> Option<Vec<T>> {
             list.as_ref()?.first()?;
             list.as_ref().map(|list| origin.iter().map(|&v| list[v as usize]).collect())

@@ -5,12 +5,12 @@ use super::union_find::UnionFind;
 use crate::error::{Error, Result};
 use std::collections::HashMap;
 
-/// Whether this is a distance within which points can coincide.
+/// Check that a distance is finite and not negative.
 pub(super) fn check_tolerance(weld: f64) -> Result<()> {
     if weld >= 0.0 && weld.is_finite() {
         return Ok(());
     }
-    Err(Error::Argument { what: "weld", value: weld.to_string(), need: "a distance that is not negative" })
+    Err(Error::argument("weld", weld, "a distance that is not negative"))
 }
 
 /// Per point, the first point that it coincides with: in exactly the same place for `tolerance` 0, else within that distance
@@ -46,7 +46,7 @@ fn same_place(positions: &[Point]) -> Vec<u32> {
     (0u32..).zip(positions).map(first).collect()
 }
 
-/// Points of a leaf, at most.
+/// Most points of a leaf: comparing the pairs of so few takes no longer than descending further.
 const LEAF: usize = 8;
 
 /// A tree of boxes, each halved at the median of its longest side.
@@ -177,7 +177,7 @@ impl<'a> Tree<'a> {
             _ if self.widest(a, a) >= self.widest(b, b) => [0, 1],
             _ => [1, 0],
         };
-        // The nearer half first: it may join all.
+        // The nearer half comes first: if it joins everything, the other need not be searched.
         let (first, second) = (pair[large] + 1, self.nodes[pair[large]].second);
         let nearer = self.gap(first, pair[small]) <= self.gap(second, pair[small]);
         for half in if nearer { [first, second] } else { [second, first] } {

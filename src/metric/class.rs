@@ -1,4 +1,10 @@
 //! Where a metric is looked for: the scheme that represents it, and the space that it lives in.
+//!
+//! ```
+//! # use ricci::{Class, geometry::Space, metric::Scheme};
+//! assert_eq!(Class::yamabe(Space::H2), Class::new(Scheme::Yamabe, Space::H2));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::scheme::Scheme;
 use crate::geometry::Space;

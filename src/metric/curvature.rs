@@ -1,4 +1,12 @@
 //! Curvature, area and the Gauss–Bonnet residual of a metric given by its edge lengths.
+//!
+//! ```
+//! # use ricci::{Surface, geometry::Space, mesh::shapes, metric::curvature::curvature};
+//! let sphere = Surface::from_soup(&shapes::icosphere(4)?)?;
+//! let curvature = curvature(sphere.mesh(), Space::E2, sphere.lengths())?;
+//! assert!(curvature.broken.is_empty() && curvature.gauss_bonnet < 1e-12);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::lengths::{Metric, face_differences, face_lengths};
 use crate::error::{Error, Result};
@@ -25,6 +33,9 @@ pub struct Curvature {
 }
 
 /// Curvature of the metric with these edge lengths (E entries).
+///
+/// # Errors
+/// [`Error::Size`]; [`Error::EdgeLength`] for a length that is not positive and finite.
 pub fn curvature(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> Result<Curvature> {
     check_lengths(mesh, lengths)?;
     Ok(curvature_of(mesh, space, |f| (half_differences(face_lengths(mesh, lengths, f)), 0)))
@@ -33,8 +44,9 @@ pub fn curvature(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> Result<Cu
 impl Metric {
     /// Curvature, from the variables themselves: also where lengths are beyond the doubles.
     ///
-    /// Errors: those of [`Metric::check_domain`]; [`Error::Argument`] where the area is beyond the doubles: u is then to be shifted by
-    /// a constant, which changes neither angles nor curvature.
+    /// # Errors
+    /// Those of [`Metric::check_domain`]; [`Error::Argument`] where the area is beyond the doubles: u is then to be shifted by a
+    /// constant, which changes neither angles nor curvature.
     pub fn curvature(&self, mesh: &Mesh) -> Result<Curvature> {
         let (vertices, edges) = self.vertices_and_edges(mesh)?;
         let curvature = curvature_of(mesh, self.space, |f| face_differences(mesh, &vertices, &edges, f));
@@ -65,17 +77,17 @@ fn curvature_of(
 /// |Σ K + λ·area − 2πχ|
 pub(crate) fn gauss_bonnet(mesh: &Mesh, space: Space, curvature: &PerVertex<f64>, area: f64) -> f64 {
     let total: f64 = curvature.iter().sum();
-    // In E² the area may be beyond the doubles, and has no part in this.
+    // In E², where λ = 0, the area may be infinite.
     let curved = if space == Space::E2 { 0.0 } else { space.curvature() * area };
     (total + curved - 2.0 * PI * mesh.euler() as f64).abs()
 }
 
-/// π − (π rounded to a double). Without it every vertex is off by twice this, always to the same side, and the
-/// total curvature of a large closed surface by V times as much.
+/// π − (π rounded to a double). Without it the curvature of every vertex is off by twice this, always to the same side, and the
+/// total curvature of a closed surface by V times as much.
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
-/// K from the corner angles of each face, in face order; what the sums lose is added up too: a hub of a thousand triangles has the
-/// digits of one.
+/// K from the corner angles of each face, in face order. What each sum loses to rounding is added up too and put back at the end, so
+/// that a vertex of a thousand triangles is as exact as one of six.
 pub fn curvature_from_angles(mesh: &Mesh, angles: impl Iterator<Item = [f64; 3]>) -> PerVertex<f64> {
     let halves = |v| if mesh.is_boundary_vertex(v) { 1.0 } else { 2.0 };
     let mut at = PerVertex::from_fn(mesh.n_vertices(), |v| halves(v) * PI);
@@ -90,7 +102,10 @@ pub fn curvature_from_angles(mesh: &Mesh, angles: impl Iterator<Item = [f64; 3]>
     at
 }
 
-/// Total area of the metric.
+/// Total area of the metric with these edge lengths (E entries).
+///
+/// # Errors
+/// As [`curvature`].
 pub fn area(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> Result<f64> {
     check_lengths(mesh, lengths)?;
     Ok(mesh.faces().map(|f| triangle::area(space, face_lengths(mesh, lengths, f))).sum())

@@ -1,14 +1,29 @@
 //! Weighted Delaunay triangulations of a metric, by edge flips inside its conformal class.
 //!
-//! Vertices keep their vectors in Lorentz space ([`crate::geometry::flip`]), and the surface changes wherever a flipped edge was not
-//! weighted Delaunay. Flips that leave the surface as it is are in [`super::isometric`].
+//! A flip keeps the vectors of the vertices in Lorentz space ([`crate::geometry::flip`]), and with them the conformal class. It changes
+//! the surface unless the edge is cocircular. Flips that leave the surface as it is are in [`super::isometric`].
+//!
+//! ```
+//! use ricci::metric::delaunay::{ClassFlips, Queue, failing};
+//! use ricci::{Class, Control, Surface, geometry::Space, mesh::{FixedEdges, Mesh, shapes}};
+//!
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let mut mesh = Mesh::clone(torus.mesh());
+//! let mut metric = torus.initial(Class::yamabe(Space::E2))?.metric;
+//! let (vertices, mut queue) = (metric.vertices(), Queue::all(&mesh, &FixedEdges::none()));
+//! let mut flips = ClassFlips { mesh: &mut mesh, metric: &mut metric, record: &mut |_, _| {} };
+//! flips.restore_delaunay(&vertices, &mut queue, &Control::new())?;
+//! assert!(failing(&mesh, &metric).is_empty());
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::flip_queue::{Flippable, allowance, between_faces, endless};
 use super::lengths::Metric;
 use crate::control::Control;
 use crate::error::{Result, check_size};
 use crate::geometry::conformal::Vertex;
-use crate::geometry::flip::{Hinge, Weight, weight};
+use crate::geometry::flip::{Hinge, precise_weight, weight};
+use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FixedEdges, Flip, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 
 pub use super::flip_queue::Queue;
@@ -21,19 +36,6 @@ fn hinge_of(mesh: &Mesh, h: HalfedgeId) -> ([VertexId; 4], [HalfedgeId; 5]) {
     ([h, h.twin(), ki, lj].map(|h| mesh.origin(h)), [h, ki, jk, il, lj])
 }
 
-/// The Delaunay hinge of half-edge h, `w` per vertex, and the product of the `w` of its left and right vertex in the hinge's unit.
-fn hinge(
-    mesh: &Mesh,
-    h: HalfedgeId,
-    epsilon: &PerVertex<i8>,
-    eta: &PerEdge<f64>,
-    w: &PerVertex<Weight>,
-) -> (Hinge, f64) {
-    let (vertices, sides) = hinge_of(mesh, h);
-    let epsilon = vertices.map(|v| f64::from(epsilon[v]));
-    Hinge::of_weights(epsilon, vertices.map(|v| w[v]), sides.map(|h| eta[h.edge()]))
-}
-
 /// A metric whose edges are flipped inside its conformal class: η changes on the edges flipped.
 pub struct ClassFlips<'a> {
     /// The triangulation.
@@ -41,38 +43,37 @@ pub struct ClassFlips<'a> {
     /// The metric on it.
     pub metric: &'a mut Metric,
     /// Told each flip (the edge with its η) just before it is made.
-    pub record: &'a mut dyn FnMut(&Mesh, Flip),
+    pub record: &'a mut dyn FnMut(&Mesh, Flip<Twofold>),
 }
 
 impl ClassFlips<'_> {
-    /// Flip, from the edges of `queue` on, until every edge is weighted Delaunay at variables `u` (V entries) or cannot be flipped
-    /// (E², H²). Returns the number of flips.
+    /// Flip, from the edges of `queue` on, until every edge is weighted Delaunay where the vertices are those of `vertices` (V entries;
+    /// [`Metric::vertices`]) or cannot be flipped (E², H²). Returns the number of flips.
     ///
     /// # Errors
     /// Some flips are done then.
-    /// - [`crate::Error::Size`]: `u` has not one entry per vertex.
+    /// - [`crate::Error::Size`]: not one entry per vertex.
     /// - [`crate::Error::Connectivity`]: the flips do not end, which rounding alone could cause.
     /// - [`crate::Error::Cancelled`].
     pub fn restore_delaunay(
         &mut self,
-        u: &PerVertex<f64>,
+        vertices: &[Vertex],
         queue: &mut Queue,
         control: &Control,
     ) -> Result<usize> {
         let ClassFlips { mesh, metric, record } = self;
-        check_size("u", u.len(), mesh.n_vertices())?;
-        let w = weights(metric, u);
-        let Metric { epsilon, eta, .. } = &mut **metric;
-        let decide = |mesh: &Mesh, eta: &PerEdge<f64>, h: HalfedgeId| {
-            let (hinge, scale) = hinge(mesh, h, epsilon, eta, &w);
-            if !hinge.wants_flip() {
-                return None;
-            }
-            hinge.flipped().map(|product| product / scale).filter(|eta| eta.is_finite())
+        check_size("vertices", vertices.len(), mesh.n_vertices())?;
+        let (space, is_precise) = (metric.space, metric.is_precise());
+        let decide = |mesh: &Mesh, eta: &PerEdge<Twofold>, h: HalfedgeId| {
+            let hinge = VertexHinge::new(space, mesh, h, |v| vertices[v.index()]);
+            if hinge.wants_flip(eta, is_precise) { hinge.other_diagonal(eta) } else { None }
         };
         let most = allowance(mesh.n_edges());
-        let flips =
-            queue.flip_until_empty(most, &mut Flippable { mesh, values: eta, decide, record }, control)?;
+        let flips = queue.flip_until_empty(
+            most,
+            &mut Flippable { mesh, values: &mut metric.eta, decide, record },
+            control,
+        )?;
         if queue.is_empty() {
             return Ok(flips);
         }
@@ -86,40 +87,71 @@ impl ClassFlips<'_> {
             return false;
         }
         let metric = &mut *self.metric;
-        let (vertices, sides) = hinge_of(self.mesh, h);
-        let w = vertices.map(|v| weight(metric.space, metric.vertex(v)));
-        let epsilon = vertices.map(|v| f64::from(metric.epsilon[v]));
-        let (hinge, scale) = Hinge::of_weights(epsilon, w, sides.map(|h| metric.eta[h.edge()]));
-        let flipped = hinge.flipped().map(|product| product / scale);
-        let Some(eta) = flipped.filter(|eta| eta.is_finite()) else { return false };
+        let hinge = VertexHinge::new(metric.space, self.mesh, h, |v| metric.vertex(v));
+        let Some(eta) = hinge.other_diagonal(&metric.eta) else { return false };
         (self.record)(self.mesh, Flip { edge, value: metric.eta[edge] });
         metric.eta[edge] = eta;
         self.mesh.flip(edge)
     }
 }
 
-/// The edges that fail the weighted Delaunay condition at variables `u` (V entries) and can be flipped, ascending.
-pub fn failing(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>) -> Vec<EdgeId> {
-    let w = weights(metric, u);
-    let fails = |h| hinge(mesh, h, &metric.epsilon, &metric.eta, &w).0.wants_flip();
+/// The four vertices of a hinge at variables of their own, and its five half-edges.
+struct VertexHinge {
+    space: Space,
+    vertices: [Vertex; 4],
+    sides: [HalfedgeId; 5],
+}
+
+impl VertexHinge {
+    fn new(space: Space, mesh: &Mesh, h: HalfedgeId, vertex: impl Fn(VertexId) -> Vertex) -> VertexHinge {
+        let (vertices, sides) = hinge_of(mesh, h);
+        VertexHinge { space, vertices: vertices.map(vertex), sides }
+    }
+
+    fn epsilon(&self) -> [f64; 4] {
+        self.vertices.map(|v| v.epsilon)
+    }
+
+    /// Whether the edge fails the weighted Delaunay condition and can be flipped. `is_precise`: that of the metric, [`Metric::is_precise`].
+    fn wants_flip(&self, eta: &PerEdge<Twofold>, is_precise: bool) -> bool {
+        let w = self.vertices.map(|v| weight(self.space, v));
+        let rounded = Hinge::of_weights(self.epsilon(), w, self.sides.map(|h| eta[h.edge()].high)).0;
+        rounded.verdict().unwrap_or_else(|| is_precise && self.precise(eta).0.wants_flip())
+    }
+
+    /// The hinge to twice the digits, and the product of the `w` of its left and right vertex in the hinge's unit.
+    fn precise(&self, eta: &PerEdge<Twofold>) -> (Hinge<Twofold>, Twofold) {
+        let w = self.vertices.map(|v| precise_weight(self.space, v));
+        Hinge::of_weights(self.epsilon(), w, self.sides.map(|h| eta[h.edge()]))
+    }
+
+    /// η of the other diagonal, to twice the digits whatever the digits of w, on which it does not depend; `None` where there is no other
+    /// diagonal.
+    fn other_diagonal(&self, eta: &PerEdge<Twofold>) -> Option<Twofold> {
+        let (hinge, scale) = self.precise(eta);
+        hinge.flipped().map(|product| product / scale).filter(|eta| eta.high.is_finite())
+    }
+}
+
+/// The edges that fail the weighted Delaunay condition and can be flipped, ascending.
+pub fn failing(mesh: &Mesh, metric: &Metric) -> Vec<EdgeId> {
+    let (vertices, is_precise) = (metric.vertices(), metric.is_precise());
+    let fails =
+        |h| VertexHinge::new(metric.space, mesh, h, |v| vertices[v]).wants_flip(&metric.eta, is_precise);
     Queue::where_holds(mesh, &FixedEdges::none(), fails).into_vec()
 }
 
-/// Whether a boundary edge would be flipped on the surface's double, where its face meets its mirror image; `fixed` ones would not.
+/// Whether some boundary edge would be flipped on the surface's double, where its face meets the mirror image of that face. `fixed`
+/// edges would not be.
 pub fn boundary_fails(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>, fixed: &FixedEdges) -> bool {
     let fails = |h: HalfedgeId| {
         let [jk, ki] = [mesh.next(h), mesh.prev(h)];
         let [i, j, k] = [h, jk, ki].map(|h| mesh.origin(h));
         let corners = [i, j, k, k];
         let w = corners.map(|v| weight(metric.space, Vertex::new(metric.space, metric.epsilon[v], u[v])));
-        let eta = [h, ki, jk, ki, jk].map(|h| metric.eta[h.edge()]);
+        let eta = [h, ki, jk, ki, jk].map(|h| metric.eta[h.edge()].high);
         Hinge::of_weights(corners.map(|v| f64::from(metric.epsilon[v])), w, eta).0.wants_flip()
     };
     let mut along = mesh.edges().flat_map(|e| [e.halfedge(), e.halfedge().twin()]);
     along.any(|h| mesh.is_outside(h.twin()) && !fixed.contains(h.edge()) && fails(h))
-}
-
-/// `w` of every vertex at variables `u`.
-fn weights(metric: &Metric, u: &PerVertex<f64>) -> PerVertex<Weight> {
-    PerVertex::from_fn(u.len(), |v| weight(metric.space, Vertex::new(metric.space, metric.epsilon[v], u[v])))
 }

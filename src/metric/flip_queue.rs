@@ -74,10 +74,10 @@ impl Queue {
     ///
     /// # Errors
     /// [`Error::Cancelled`]; some flips are done then.
-    pub(super) fn flip_until_empty(
+    pub(super) fn flip_until_empty<T: Copy>(
         &mut self,
         most: usize,
-        surface: &mut Flippable<'_, impl FnMut(&Mesh, &PerEdge<f64>, HalfedgeId) -> Option<f64>>,
+        surface: &mut Flippable<'_, T, impl FnMut(&Mesh, &PerEdge<T>, HalfedgeId) -> Option<T>>,
         control: &Control,
     ) -> Result<usize> {
         let Flippable { mesh, values, decide, record } = surface;
@@ -105,14 +105,14 @@ impl Queue {
 }
 
 /// A triangulation with a value per edge, and the rule by which its edges are flipped.
-pub(super) struct Flippable<'a, D> {
+pub(super) struct Flippable<'a, T, D> {
     pub mesh: &'a mut Mesh,
     /// Length or η.
-    pub values: &'a mut PerEdge<f64>,
+    pub values: &'a mut PerEdge<T>,
     /// The value that the edge of a half-edge between two faces gets by its flip, or `None` where it is not to be flipped.
     pub decide: D,
     /// Told each flip just before it is made.
-    pub record: &'a mut dyn FnMut(&Mesh, Flip),
+    pub record: &'a mut dyn FnMut(&Mesh, Flip<T>),
 }
 
 /// Flips that may be made without progress: 100 per edge and a million.

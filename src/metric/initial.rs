@@ -1,12 +1,22 @@
 //! The initial metric of a scheme from the edge lengths of the input surface.
+//!
+//! ```
+//! # use ricci::{Class, Surface, geometry::Space, mesh::shapes};
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let initial = torus.initial(Class::inversive(Space::E2))?;
+//! let lengths = initial.metric.lengths(torus.mesh())?;
+//! assert!(lengths.iter().zip(torus.lengths().iter()).all(|(a, b)| (a / b - 1.0).abs() < 1e-14));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
+use super::class::Class;
 use super::curvature::area;
 use super::lengths::{Metric, face_lengths};
 use super::scheme::Scheme;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{Vertex, radius};
 use crate::geometry::scaled::scaled;
-use crate::geometry::{Space, triangle, worse};
+use crate::geometry::{Space, Twofold, triangle, worse};
 use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
 use crate::topology::check_lengths;
 use std::f64::consts::PI;
@@ -28,7 +38,7 @@ pub struct Initial {
     pub max_length_change: f64,
 }
 
-/// The initial metric of `scheme` for input `lengths` (E entries, read in `input_geometry`), carried into `space`.
+/// The initial metric of a class for input `lengths` (E entries, read in `input_geometry`), carried into the space of the class.
 ///
 /// η is computed once, in the geometry of the input. Radii come from the corners' tangent lengths
 /// `γ_i^{jk} = (l_ij + l_ki − l_jk)/2` \[JKLLG08, §4.1\]: their mean for Thurston's and tangential packings, their
@@ -44,15 +54,17 @@ pub fn initial_metric(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     input_geometry: Space,
-    scheme: Scheme,
-    space: Space,
+    class: Class,
 ) -> Result<Initial> {
+    let Class { scheme, space } = class;
     check_triangles(mesh, lengths, input_geometry)?;
     let epsilon = PerVertex::filled(mesh.n_vertices(), scheme.epsilon());
     let radii = match scheme {
         Scheme::Yamabe => PerVertex::filled(mesh.n_vertices(), 1.0),
-        Scheme::Tangential | Scheme::Thurston => corner_radii(mesh, lengths).mean,
-        Scheme::Inversive | Scheme::Virtual => corner_radii(mesh, lengths).min,
+        _ => {
+            let [mean, min] = corner_radii(mesh, lengths);
+            if scheme.is_packing() { mean } else { min }
+        }
     };
     let range = match scheme {
         Scheme::Thurston => Range::Clamp(0.0, 1.0),
@@ -60,7 +72,7 @@ pub fn initial_metric(
         _ => Range::Refuse,
     };
     let circles = MixedClass { epsilon, radii, space };
-    Represented { mesh, lengths, input_geometry, circles, range }.initial()
+    represented(mesh, lengths, input_geometry, circles, range)
 }
 
 /// A conformal class of vertices of several types, with the radii that a metric is to be represented with.
@@ -88,7 +100,7 @@ pub fn initial_mixed(
     check_triangles(mesh, lengths, input_geometry)?;
     check_size("epsilon", circles.epsilon.len(), mesh.n_vertices())?;
     check_size("radii", circles.radii.len(), mesh.n_vertices())?;
-    Represented { mesh, lengths, input_geometry, circles, range: Range::Refuse }.initial()
+    represented(mesh, lengths, input_geometry, circles, Range::Refuse)
 }
 
 /// What happens to an η that the scheme does not allow.
@@ -100,77 +112,71 @@ enum Range {
     Clamp(f64, f64),
 }
 
-/// A surface that is to be represented in a class.
-struct Represented<'a> {
-    mesh: &'a Mesh,
-    lengths: &'a PerEdge<f64>,
+/// The metric of a class, up to `range`, whose edges have these lengths in the geometry of the input.
+fn represented(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
     input_geometry: Space,
     circles: MixedClass,
     range: Range,
-}
-
-impl Represented<'_> {
-    fn initial(self) -> Result<Initial> {
-        let Represented {
-            mesh,
-            lengths,
-            input_geometry,
-            circles: MixedClass { epsilon, radii, space },
-            range,
-        } = self;
-        let n = mesh.n_vertices();
-        let log = |v| if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) };
-        let input_u = PerVertex::from_fn(n, log);
-        if let Some(v) = mesh.vertices().find(|&v| !input_u[v].is_finite()) {
-            return Err(Error::Domain { vertex: v.index(), u: input_u[v], need: "a positive radius" });
-        }
-        let mut metric = Metric {
-            space: input_geometry,
-            epsilon,
-            eta: PerEdge::filled(mesh.n_edges(), 0.0),
-            u: input_u.clone(),
-            u_low: PerVertex::filled(n, 0.0),
-        };
-        let radii = metric.radii()?;
-        let mut clamped_edges = 0;
-        for e in mesh.edges() {
-            let [i, j] = mesh.ends(e);
-            let epsilon = [metric.epsilon[i], metric.epsilon[j]];
-            let eta = weight_of_length(input_geometry, lengths[e], epsilon, [input_u[i], input_u[j]]);
-            metric.eta[e] = match range {
-                Range::Clamp(low, high) => eta.clamp(low, high),
-                Range::Refuse => allowed_weight(epsilon, e, eta)?,
-            };
-            clamped_edges += usize::from(metric.eta[e] != eta);
-        }
-        let mut max_length_change = 0.0f64;
-        let mut start = lengths.clone();
-        if clamped_edges > 0 {
-            start = metric.lengths(mesh)?;
-            for e in mesh.edges() {
-                max_length_change = worse(max_length_change, (start[e] / lengths[e] - 1.0).abs());
-            }
-        }
-        let shift = start_shift(mesh, &start, &metric, space)?;
-        metric.space = space;
-        metric.u.iter_mut().for_each(|u| *u += shift);
-        Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
+) -> Result<Initial> {
+    let MixedClass { epsilon, radii, space } = circles;
+    let n = mesh.n_vertices();
+    let log = |v| if epsilon[v] == 0 { 0.0 } else { log_radius(input_geometry, radii[v]) };
+    let input_u = PerVertex::from_fn(n, log);
+    if let Some(v) = mesh.vertices().find(|&v| !input_u[v].is_finite()) {
+        return Err(Error::Domain { vertex: v.index(), u: input_u[v], need: "a positive radius" });
     }
+    let mut metric = Metric {
+        space: input_geometry,
+        epsilon,
+        eta: PerEdge::filled(mesh.n_edges(), Twofold::default()),
+        u: input_u.clone(),
+        u_low: PerVertex::filled(n, 0.0),
+    };
+    let radii = metric.radii()?;
+    let mut clamped_edges = 0;
+    for e in mesh.edges() {
+        let [i, j] = mesh.ends(e);
+        let epsilon = [metric.epsilon[i], metric.epsilon[j]];
+        let eta = weight_of_length(input_geometry, lengths[e], epsilon, [input_u[i], input_u[j]]);
+        metric.eta[e] = match range {
+            Range::Clamp(low, _) if (eta - low.into()).high < 0.0 => low.into(),
+            Range::Clamp(_, high) if (eta - high.into()).high > 0.0 => high.into(),
+            Range::Clamp(..) => eta,
+            Range::Refuse => allowed_weight(epsilon, e, eta)?,
+        };
+        clamped_edges += usize::from(metric.eta[e] != eta);
+    }
+    let mut max_length_change = 0.0f64;
+    let mut start = lengths.clone();
+    if clamped_edges > 0 {
+        start = metric.lengths(mesh)?;
+        for e in mesh.edges() {
+            max_length_change = worse(max_length_change, (start[e] / lengths[e] - 1.0).abs());
+        }
+    }
+    let shift = start_shift(mesh, &start, &metric, space)?;
+    metric.space = space;
+    metric.u.iter_mut().for_each(|u| *u += shift);
+    Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
 }
-
 /// η, if two vertices of these types can have it.
-fn allowed_weight(epsilon: [i8; 2], edge: EdgeId, eta: f64) -> Result<f64> {
+fn allowed_weight(epsilon: [i8; 2], edge: EdgeId, eta: Twofold) -> Result<Twofold> {
     let need = match epsilon {
-        [1, 1] if eta <= -1.0 => "above −1: the circles would contain each other; use smaller radii",
-        [-1, -1] if eta <= 1.0 => "above 1 between imaginary circles",
-        _ if !eta.is_finite() => "finite",
+        [1, 1] if eta.high <= -1.0 => "above −1: the circles would contain each other; use smaller radii",
+        [-1, -1] if eta.high <= 1.0 => "above 1 between imaginary circles",
+        _ if !eta.high.is_finite() => "finite",
         _ => return Ok(eta),
     };
-    Err(Error::EdgeWeight { edge: edge.index(), eta, need })
+    Err(Error::EdgeWeight { edge: edge.index(), eta: eta.high, need })
 }
 
 impl Initial {
-    /// A metric that is its own start: read in its own space.
+    /// The initial metric of a flow that starts from a metric as it is, read in its own space.
+    ///
+    /// # Errors
+    /// Those of [`Metric::radii`].
     pub(crate) fn of_metric(metric: Metric) -> Result<Initial> {
         Ok(Initial {
             input_geometry: metric.space,
@@ -184,6 +190,9 @@ impl Initial {
 
     /// The conformal factor λ of [JKLLG08, Eqns 2–5] between the input and `metric`, per vertex: `u − u(0)` where
     /// ε = 0, `log(γ/γ(0))` elsewhere.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a metric with another number of vertices.
     pub fn conformal_factor(&self, metric: &Metric) -> Result<PerVertex<f64>> {
         check_size("u", metric.u.len(), self.radii.len())?;
         check_size("epsilon", metric.epsilon.len(), self.radii.len())?;
@@ -196,7 +205,7 @@ impl Initial {
     }
 }
 
-/// `log γ`, `log tanh(γ/2)`, `log tan(γ/2)`.
+/// u of a circle of this radius: `log γ`, `log tanh(γ/2)`, `log tan(γ/2)`.
 fn log_radius(space: Space, radius: f64) -> f64 {
     match space {
         Space::E2 => radius.ln(),
@@ -205,27 +214,27 @@ fn log_radius(space: Space, radius: f64) -> f64 {
     }
 }
 
-/// η from a length: the length formulas solved for it.
-fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) -> f64 {
-    let [a, b] = [0, 1].map(|k| Vertex::new(space, epsilon[k], u[k]));
-    // Of the larger circle, 2 to this power is the unit of length.
+/// η from a length: the length formulas solved for it. In E² the length that η gives back is the given one, to twice the digits.
+fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) -> Twofold {
+    let [a, b] = [0, 1].map(|k| Vertex::precise(space, epsilon[k], u[k], 0.0));
+    // The unit of length is 2 to the larger exponent of the two circles.
     let unit = a.exponent.max(b.exponent);
     let n = match space {
-        Space::E2 => scaled(length, -unit) * scaled(length, -unit),
-        Space::H2 => (0.5 * length).sinh().powi(2) * a.d * b.d,
-        Space::S2 => (0.5 * length).sin().powi(2) * a.d * b.d,
+        Space::E2 => {
+            let length = Twofold::from(scaled(length, -unit));
+            length * length
+        }
+        Space::H2 => ((0.5 * length).sinh().powi(2) * a.d * b.d).into(),
+        Space::S2 => ((0.5 * length).sin().powi(2) * a.d * b.d).into(),
     };
-    let [x, y] = [a, b].map(|v| scaled(v.scale, v.exponent - unit));
-    (n - a.epsilon * x * x - b.epsilon * y * y) / (2.0 * x * y)
+    let [x, y] =
+        [a, b].map(|v| (Twofold::from(v.scale) + (v.scale * v.low).into()).scaled(v.exponent - unit));
+    let own = |v: Vertex, x: Twofold| x * x * v.epsilon.into();
+    (n - own(a, x) - own(b, y)) / (x * y * 2.0.into())
 }
 
-pub(super) struct CornerRadii {
-    pub mean: PerVertex<f64>,
-    pub min: PerVertex<f64>,
-}
-
-/// Mean and minimum over the corners of each vertex of the tangent length `(l_ij + l_ki − l_jk)/2`.
-pub(super) fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> CornerRadii {
+/// Mean and minimum, in this order, over the corners of each vertex of the tangent length `(l_ij + l_ki − l_jk)/2`.
+pub(super) fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> [PerVertex<f64>; 2] {
     let n = mesh.n_vertices();
     let (mut mean, mut min) = (PerVertex::filled(n, 0.0), PerVertex::filled(n, f64::INFINITY));
     let mut corners = PerVertex::filled(n, 0u32);
@@ -240,7 +249,7 @@ pub(super) fn corner_radii(mesh: &Mesh, lengths: &PerEdge<f64>) -> CornerRadii {
     for v in mesh.vertices() {
         mean[v] /= f64::from(corners[v]);
     }
-    CornerRadii { mean, min }
+    [mean, min]
 }
 
 /// Largest half chord, of the longest edge, that a flow starts with in a curved space, so that it starts from a moderate metric (in S²
@@ -255,7 +264,7 @@ fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, input: &Metric, space: Space
     if input.space == space || space == Space::E2 {
         return Ok(0.0);
     }
-    // N = l² in E²; in the curved spaces N ≈ (l/2)² for short edges: halving, then scaling to the wanted area.
+    // N is l² in E², and nearly (l/2)² for short edges in the curved spaces. Hence the factor 1/4 = (1/2)² beside the wanted area.
     let wanted = match space {
         Space::H2 if mesh.euler() < 0 => -2.0 * PI * mesh.euler() as f64,
         Space::H2 => 1.0,

@@ -2,6 +2,20 @@
 //!
 //! The surface stays as it is: an edge is replaced by the geodesic across its two triangles. The triangulation may be weighted by
 //! circles around the vertices; it depends on the surface and the circles alone, up to ties.
+//!
+//! ```
+//! use ricci::metric::isometric::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
+//! use ricci::{Control, geometry::Space, mesh::{Mesh, PerEdge}};
+//!
+//! // A rhombus with its long diagonal, from vertex 0 to vertex 2.
+//! let mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]])?;
+//! let is_diagonal = |e| mesh.ends(e).iter().all(|v| v.0 % 2 == 0);
+//! let lengths = PerEdge::from_fn(mesh.n_edges(), |e| if is_diagonal(e) { 1.6 } else { 1.0 });
+//! let mut rhombus = Triangulated { mesh, lengths, geometry: Space::E2 };
+//! let flips = intrinsic_delaunay(&mut rhombus, IntrinsicOptions::default(), &mut |_, _| {}, &Control::new())?;
+//! assert!(flips == 1 && rhombus.lengths.iter().any(|l| (l - 1.2).abs() < 1e-15));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::flip_queue::{Flippable, Queue, allowance, endless};
 use super::lengths::face_lengths;
@@ -41,19 +55,20 @@ impl Default for IntrinsicOptions<'_> {
     }
 }
 
-/// Two angles whose cosines add up to more than this add up to less than π, and to more where the sum is below minus this. The cosines
-/// are rounded by a few 1e-16 only, but near π, where one angle is near π and the other near 0, they say nothing of the sum.
+/// Where the cosines of two angles add up to more than this, the angles add up to less than π; where they add up to less than minus
+/// this, to more. Rounding of the cosines is a few 1e-16, far less. Nearer to 0 one angle may be near π and the other near 0, where
+/// cosines do not tell a sum from π.
 const DECISIVE: f64 = 1e-3;
 
 /// Share by which the sum of all cotangents must have fallen for a series of flips to count as progress. The sum has about 16 digits,
-/// of which rounding of the lengths of thin triangles spoils some.
+/// of which the rounded lengths of thin triangles leave fewer.
 const PROGRESS: f64 = 1e-6;
 
-/// Isometric flips until every edge of the triangulation is Delaunay, but the fixed ones and those whose flip would make a triangle
-/// too thin for doubles. Returns the number of flips; `record` is told each flip (the edge with its length) just before it is made.
+/// Isometric flips until every edge of the triangulation is Delaunay, except for fixed edges and those whose flip would make a triangle
+/// too thin for doubles. Returns the number of flips. `record` is told each flip (the edge with its length) just before it is made.
 ///
-/// Every flip towards the plain Delaunay triangulation lowers the sum of all cotangents \[Musin97\]. Rounding could make flips go in
-/// circles on triangles that are nearly degenerate; then the sum does not fall.
+/// Every flip towards the plain Delaunay triangulation lowers the sum of all cotangents \[Musin97\]. On triangles that are nearly
+/// degenerate rounding could repeat the same flips without end; then the sum does not fall.
 ///
 /// # Errors
 /// The surface is left as it was, bit for bit, whatever `record` was told.
@@ -68,81 +83,106 @@ pub fn intrinsic_delaunay(
     control: &Control,
 ) -> Result<usize> {
     control.check()?;
-    let Triangulated { mesh, lengths, geometry } = surface;
+    let Triangulated { mesh, lengths, geometry } = &*surface;
     check_lengths(mesh, lengths)?;
     if let Some(radii) = options.circles {
         check_size("radii", radii.len(), mesh.n_vertices())?;
     }
-    let condition = Condition { geometry: *geometry, circles: options.circles };
-    let mut queue = Queue::where_holds(mesh, options.fixed, |h| condition.fails(mesh, lengths, h));
-    if queue.is_empty() {
-        return Ok(0);
-    }
-    let mut log = FlipLog::default();
-    let mut logged = |mesh: &Mesh, flip: Flip| {
-        log.record(mesh, flip, &mut []);
-        record(mesh, flip);
-    };
-    let flips = flip_to_the_end(mesh, lengths, &mut queue, condition, &mut logged, control);
-    if flips.is_err() {
-        log.undo(mesh, lengths, &mut [])?;
-    }
-    flips
-}
-
-/// [`Queue::flip_until_empty`] with isometric flips, for as long as the sum of cotangents falls.
-fn flip_to_the_end(
-    mesh: &mut Mesh,
-    lengths: &mut PerEdge<f64>,
-    queue: &mut Queue,
-    condition: Condition,
-    record: &mut dyn FnMut(&Mesh, Flip),
-    control: &Control,
-) -> Result<usize> {
     let most = allowance(mesh.n_edges());
-    let mut lowest = condition.cotangents(mesh, lengths);
-    let mut flips = 0;
-    loop {
-        let decide = |mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId| {
-            if condition.fails(mesh, lengths, h) { condition.flipped(mesh, lengths, h) } else { None }
-        };
-        let mut surface = Flippable { mesh, values: lengths, decide, record };
-        flips += queue.flip_until_empty(most, &mut surface, control)?;
-        if queue.is_empty() {
-            return Ok(flips);
-        }
-        let now = condition.cotangents(mesh, lengths);
-        if now >= (1.0 - PROGRESS) * lowest {
-            return Err(endless(
-                "isometric flips towards Delaunay do not end: 100 per edge and a million have not lowered the sum of \
-                 cotangents; its triangles are too thin for doubles",
-            ));
-        }
-        lowest = now;
-    }
+    let flips = IsometricFlips { geometry: *geometry, circles: options.circles, most };
+    flips.make(surface, options.fixed, record, control)
 }
 
-/// The condition that an edge of a surface is tested for.
+/// Flips of the edges that fail a Delaunay condition.
 #[derive(Clone, Copy)]
-struct Condition<'a> {
+struct IsometricFlips<'a> {
     geometry: Space,
+    /// Radii of the circles that weight the condition.
     circles: Option<&'a PerVertex<f64>>,
+    /// Number of flips after which the sum of cotangents must have fallen.
+    most: usize,
 }
 
-impl Condition<'_> {
-    /// Whether the edge of a half-edge between two faces fails it.
+impl IsometricFlips<'_> {
+    /// Flip until no edge fails; where that is an error, the surface is put back.
+    fn make(
+        self,
+        surface: &mut Triangulated,
+        fixed: &FixedEdges,
+        record: &mut dyn FnMut(&Mesh, Flip),
+        control: &Control,
+    ) -> Result<usize> {
+        let Triangulated { mesh, lengths, .. } = surface;
+        let mut queue = Queue::where_holds(mesh, fixed, |h| self.fails(mesh, lengths, h));
+        if queue.is_empty() {
+            return Ok(0);
+        }
+        let mut log = FlipLog::default();
+        let mut logged = |mesh: &Mesh, flip: Flip| {
+            log.record(mesh, flip, &mut []);
+            record(mesh, flip);
+        };
+        let flips = self.flip(surface, &mut queue, &mut logged, control);
+        if flips.is_err() {
+            log.undo(&mut surface.mesh, &mut surface.lengths, &mut [])?;
+        }
+        flips
+    }
+
+    /// [`Queue::flip_until_empty`], for as long as the sum of cotangents falls.
+    fn flip(
+        self,
+        Triangulated { mesh, lengths, .. }: &mut Triangulated,
+        queue: &mut Queue,
+        record: &mut dyn FnMut(&Mesh, Flip),
+        control: &Control,
+    ) -> Result<usize> {
+        let mut lowest = self.cotangents(mesh, lengths);
+        let mut flips = 0;
+        loop {
+            let decide = |mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId| {
+                if self.fails(mesh, lengths, h) { self.flipped(mesh, lengths, h) } else { None }
+            };
+            let mut surface = Flippable { mesh, values: lengths, decide, record };
+            flips += queue.flip_until_empty(self.most, &mut surface, control)?;
+            if queue.is_empty() {
+                return Ok(flips);
+            }
+            let now = self.cotangents(mesh, lengths);
+            if now >= (1.0 - PROGRESS) * lowest {
+                return Err(endless(
+                    "isometric flips towards Delaunay do not end: 100 per edge and a million have not lowered the sum of \
+                     cotangents; its triangles are too thin for doubles",
+                ));
+            }
+            lowest = now;
+        }
+    }
+
+    /// Whether the edge of a half-edge between two faces fails the condition.
     fn fails(self, mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> bool {
         match self.circles {
             None => is_obtuse(self.geometry, sides(mesh, lengths, h)),
-            Some(radii) => weighted_hinge(mesh, lengths, radii, self.geometry, h).wants_flip(),
+            Some(radii) => self.hinge(mesh, lengths, radii, h).wants_flip(),
         }
     }
 
-    /// Length of the other diagonal, if there is one and both triangles at it have an area in doubles.
+    /// The hinge of an edge with circles of these radii around its four vertices, whose w are γ, tanh γ, tan γ.
+    fn hinge(self, mesh: &Mesh, lengths: &PerEdge<f64>, radii: &PerVertex<f64>, h: HalfedgeId) -> Hinge {
+        let [jk, ki, il, lj] = mesh.quadrilateral(h);
+        let vertices = [h, h.twin(), ki, lj].map(|h| mesh.origin(h));
+        let product = |e: HalfedgeId| {
+            circle_product(self.geometry, lengths[e.edge()], mesh.ends(e.edge()).map(|v| radii[v]))
+        };
+        let squares = vertices.map(|v| circle_square(self.geometry, radii[v]));
+        Hinge::from_products(squares, [h, ki, jk, il, lj].map(product))
+    }
+
+    /// Length of the other diagonal, if there is one and both triangles that it makes have an area in doubles.
     fn flipped(self, mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> Option<f64> {
         let sides = sides(mesh, lengths, h);
         let [left, right] = sides.map(|l| triangle::angles(self.geometry, l));
-        // Angle at the origin of h: corner 0 on the left; on the right its twin starts at the other end.
+        // The angle at the origin of h is at corner 0 on the left, and at corner 1 on the right, where the twin of h starts at the tip.
         let at_origin = left.at[0] + right.at[1];
         let at_tip = left.at[1] + right.at[0];
         if left.broken() || right.broken() || at_origin >= PI || at_tip >= PI {
@@ -167,12 +207,12 @@ impl Condition<'_> {
     }
 }
 
-/// Whether doubles hold these lengths apart from those of a triangle without area.
+/// Whether these lengths are, in doubles, those of a triangle with an area.
 fn has_area(l: &[f64; 3]) -> bool {
     triangle::half_differences(*l).into_iter().all(|r| r > 0.0)
 }
 
-/// l, sinh(l/2), sin(l/2).
+/// The half chord of an edge, up to a factor: l, sinh(l/2), sin(l/2).
 fn half_chord(geometry: Space, length: f64) -> f64 {
     match geometry {
         Space::E2 => length,
@@ -181,7 +221,7 @@ fn half_chord(geometry: Space, length: f64) -> f64 {
     }
 }
 
-/// Sides of the faces left and right of h, in the order opposite, next, previous of the corner at the origin of h, of its twin.
+/// Sides of the faces left and right of h, each from the side opposite to the origin of h, or of its twin, to h itself.
 fn sides(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> [[f64; 3]; 2] {
     [h, h.twin()].map(|h| [mesh.next(h), mesh.prev(h), h].map(|side| lengths[side.edge()]))
 }
@@ -200,20 +240,38 @@ fn is_obtuse(geometry: Space, sides: [[f64; 3]; 2]) -> bool {
     sin_k * cos_l + cos_k * sin_l < -TOLERANCE
 }
 
-/// The hinge of an edge with circles of these radii around its four vertices, whose w are γ, tanh γ, tan γ.
-fn weighted_hinge(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
-    radii: &PerVertex<f64>,
-    geometry: Space,
-    h: HalfedgeId,
-) -> Hinge {
-    let [jk, ki, il, lj] = mesh.quadrilateral(h);
-    let vertices = [h, h.twin(), ki, lj].map(|h| mesh.origin(h));
-    let product = |e: HalfedgeId| {
-        let radii = mesh.ends(e.edge()).map(|v| radii[v]);
-        circle_product(geometry, lengths[e.edge()], radii)
-    };
-    let squares = vertices.map(|v| circle_square(geometry, radii[v]));
-    Hinge::from_products(squares, [h, ki, jk, il, lj].map(product))
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::error::Error;
+
+    /// A square of side 1 and its diagonal from vertex 0 to vertex 2, which is Delaunay, but no longer with a circle around vertex 1.
+    fn square() -> (Triangulated, PerVertex<f64>) {
+        let mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+        let is_diagonal = |e| mesh.ends(e).iter().all(|v| v.0 % 2 == 0);
+        let lengths = PerEdge::from_fn(mesh.n_edges(), |e| if is_diagonal(e) { 2f64.sqrt() } else { 1.0 });
+        (Triangulated { mesh, lengths, geometry: Space::E2 }, vec![0.0, 0.3, 0.0, 0.0].into())
+    }
+
+    /// Both diagonals of a square give the same sum of cotangents, so one flip is no progress. After two flips, or after one and a
+    /// look at the sides, the queue is empty.
+    #[test]
+    fn flips_without_progress_are_an_error_that_leaves_the_surface_as_it_was() {
+        let (square, radii) = square();
+        for (most, ends) in [(1, false), (2, true)] {
+            let mut surface = square.clone();
+            let flips = IsometricFlips { geometry: Space::E2, circles: Some(&radii), most };
+            let mut told = 0;
+            let made = flips.make(&mut surface, &NO_EDGES, &mut |_, _| told += 1, &Control::new());
+            assert_eq!(told, 1);
+            match made {
+                Ok(n) => assert!(ends && n == 1 && surface != square),
+                Err(Error::Connectivity { element: "mesh", message, .. }) => {
+                    assert!(!ends && surface == square && message.contains("do not end"), "{message}");
+                }
+                Err(other) => panic!("{other}"),
+            }
+        }
+    }
 }

@@ -1,9 +1,19 @@
 //! A metric as data (ε, η, u), and its edge lengths ([`crate::geometry::conformal`]).
+//!
+//! ```
+//! # use ricci::{Class, Surface, geometry::Space, mesh::shapes};
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let mut metric = torus.initial(Class::yamabe(Space::E2))?.metric;
+//! metric.u.iter_mut().for_each(|u| *u += 2f64.ln());
+//! let lengths = metric.lengths(torus.mesh())?;
+//! assert!(lengths.iter().zip(torus.lengths().iter()).all(|(a, b)| (a / b - 2.0).abs() < 1e-14));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::error::{Error, Result, check_size};
-use crate::geometry::Space;
-use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit, radius};
+use crate::geometry::conformal::{self, Edge, Vertex, differences, in_one_unit, is_precise, radius};
 use crate::geometry::scaled::scaled;
+use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex, Point, VertexId};
 use crate::parallel;
 use crate::topology::check_lengths;
@@ -15,8 +25,9 @@ pub struct Metric {
     pub space: Space,
     /// Vertex type ε ∈ {−1, 0, 1}; V entries, fixed in the class.
     pub epsilon: PerVertex<i8>,
-    /// Edge weight η; E entries, fixed in the class (up to flips).
-    pub eta: PerEdge<f64>,
+    /// Edge weight η; E entries, fixed in the class (up to flips). It has twice the digits, since flips add up their rounding, and the
+    /// angles of a needle magnify it by the needle's length over its width.
+    pub eta: PerEdge<Twofold>,
     /// Conformal variable u; V entries. ε ≠ 0: `log γ`, `log tanh(γ/2)`, `log tan(γ/2)` in E², H², S².
     pub u: PerVertex<f64>,
     /// What the doubles u lose; V entries, at most half an ulp of them. 0 in a metric that no flow has made.
@@ -24,9 +35,10 @@ pub struct Metric {
 }
 
 impl Metric {
-    /// Number of vertices, edges agree with the mesh; ε is −1, 0 or 1; η and u are finite, and `u_low` is at most an ulp of u.
+    /// Number of vertices, edges agree with the mesh; ε is −1, 0 or 1; η and u are finite, and their low parts at most an ulp of them.
     ///
-    /// Errors: [`Error::Size`], [`Error::Argument`] (ε, `u_low`), [`Error::Domain`] (u), [`Error::EdgeWeight`] (η).
+    /// # Errors
+    /// [`Error::Size`], [`Error::Argument`] (ε, `u_low`), [`Error::Domain`] (u), [`Error::EdgeWeight`] (η).
     pub fn check(&self, mesh: &Mesh) -> Result<()> {
         check_size("epsilon", self.epsilon.len(), mesh.n_vertices())?;
         check_size("eta", self.eta.len(), mesh.n_edges())?;
@@ -39,7 +51,7 @@ impl Metric {
         if let Some(v) = mesh.vertices().find(|&v| !self.u[v].is_finite()) {
             return Err(Error::Domain { vertex: v.index(), u: self.u[v], need: "finite" });
         }
-        // An ulp of u is between ε|u|/2 and ε|u|. NaN compares with nothing.
+        // An ulp of u is between ε|u|/2 and ε|u|. The comparison is false where `u_low` is NaN.
         let is_ulp = |v: VertexId| self.u_low[v].abs() <= f64::EPSILON * self.u[v].abs();
         if let Some(v) = mesh.vertices().find(|&v| !is_ulp(v)) {
             let value = format!("{} at vertex {v}, where u is {}", self.u_low[v], self.u[v]);
@@ -49,20 +61,44 @@ impl Metric {
                 need: "what the double u loses, at most an ulp of it",
             });
         }
-        match mesh.edges().find(|&e| !self.eta[e].is_finite()) {
-            Some(e) => Err(Error::EdgeWeight { edge: e.index(), eta: self.eta[e], need: "finite" }),
+        let is_sound = |e: EdgeId| {
+            let Twofold { high, low } = self.eta[e];
+            high.is_finite() && low.abs() <= f64::EPSILON * high.abs()
+        };
+        match mesh.edges().find(|&e| !is_sound(e)) {
+            Some(e) => Err(Error::EdgeWeight {
+                edge: e.index(),
+                eta: self.eta[e].high,
+                need: "finite, with a low part of at most an ulp",
+            }),
             None => Ok(()),
         }
     }
 
-    /// The vertex quantities at variables `u`.
+    /// Whether lengths are formed to twice the digits: [`is_precise`] of all vertices.
+    pub fn is_precise(&self) -> bool {
+        self.epsilon.iter().all(|&epsilon| is_precise(self.space, epsilon))
+    }
+
+    /// η as doubles (E entries).
+    pub fn rounded_eta(&self) -> PerEdge<f64> {
+        PerEdge::from_fn(self.eta.len(), |e| self.eta[e].high)
+    }
+
+    /// The quantities of all vertices (V entries).
+    pub fn vertices(&self) -> PerVertex<Vertex> {
+        PerVertex::from_fn(self.u.len(), |v| self.vertex(v))
+    }
+
+    /// The quantities of a vertex.
     pub fn vertex(&self, v: VertexId) -> Vertex {
         Vertex::precise(self.space, self.epsilon[v], self.u[v], self.u_low[v])
     }
 
     /// Whether this is a metric: every edge has a real positive length, whether doubles hold it or not.
     ///
-    /// Errors: those of [`Metric::check`]; [`Error::Domain`] where u is outside the domain of its vertex type (in E² beyond ±5e5),
+    /// # Errors
+    /// Those of [`Metric::check`]; [`Error::Domain`] where u is outside the domain of its vertex type (in E² beyond ±5e5),
     /// [`Error::EdgeWeight`] for the first edge without a length (in H² without one between 2e-140 and 300).
     pub fn check_domain(&self, mesh: &Mesh) -> Result<()> {
         self.vertices_and_edges(mesh).map(|_| ())
@@ -70,7 +106,8 @@ impl Metric {
 
     /// The edge lengths.
     ///
-    /// Errors: those of [`Metric::check_domain`]; [`Error::EdgeWeight`] for the first edge whose length no double holds, below 2e-308
+    /// # Errors
+    /// Those of [`Metric::check_domain`]; [`Error::EdgeWeight`] for the first edge whose length no double holds, below 2e-308
     /// or above 2e308, which happens in E² alone. Angles, curvature and the flow have no such limit.
     pub fn lengths(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
         self.lengths_of(&self.vertices_and_edges(mesh)?.1)
@@ -81,7 +118,7 @@ impl Metric {
         match lengths.iter().position(|l| !l.is_normal()) {
             Some(edge) => {
                 let need = "one that gives the edge a length between 2e-308 and 2e308 at this u (angles have no such limit)";
-                Err(Error::EdgeWeight { edge, eta: self.eta[EdgeId::from(edge)], need })
+                Err(Error::EdgeWeight { edge, eta: self.eta[EdgeId::from(edge)].high, need })
             }
             None => Ok(lengths),
         }
@@ -89,20 +126,32 @@ impl Metric {
 
     /// The half-perimeter differences `r_k = s − l_k` of every face, in corner order (F entries, `s = Σ r`).
     ///
-    /// They have their full relative accuracy also where circles of very different sizes meet, which the lengths, once
-    /// rounded, have not. Errors: as [`Metric::lengths`].
+    /// They have their full relative accuracy also where circles of very different sizes meet. Differences of rounded lengths do not.
+    ///
+    /// # Errors
+    /// As [`Metric::lengths`].
     pub fn differences(&self, mesh: &Mesh) -> Result<PerFace<[f64; 3]>> {
+        Ok(self.lengths_and_differences(mesh)?.1)
+    }
+
+    /// [`Metric::lengths`] and [`Metric::differences`] of the same edges, which are formed once.
+    pub(crate) fn lengths_and_differences(&self, mesh: &Mesh) -> Result<(PerEdge<f64>, PerFace<[f64; 3]>)> {
         let (vertices, edges) = self.vertices_and_edges(mesh)?;
-        self.lengths_of(&edges)?;
-        Ok(PerFace::from_fn(mesh.n_faces(), |f| {
-            let (r, unit) = face_differences(mesh, &vertices, &edges, f);
+        let lengths = self.lengths_of(&edges)?;
+        let mut differences = vec![[0.0; 3]; mesh.n_faces()];
+        parallel::fill(&mut differences, |f| {
+            let (r, unit) = face_differences(mesh, &vertices, &edges, f.into());
             r.map(|r| scaled(r, unit))
-        }))
+        });
+        Ok((lengths, differences.into()))
     }
 
     /// What the doubles of [`Metric::lengths`] lose, per edge: `l` to twice the digits is `length + remainder`.
     ///
-    /// It matters where circles of very different sizes meet, and far out in H². Where ε is 0 at both ends: in E² and H², 0 in S². Errors: as [`Metric::lengths`].
+    /// It matters where circles of very different sizes meet, and far out in H². It is 0 in S² on edges with ε = 0 at both ends.
+    ///
+    /// # Errors
+    /// As [`Metric::lengths`].
     pub fn length_remainders(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
         let (vertices, edges) = self.vertices_and_edges(mesh)?;
         let lengths = self.lengths_of(&edges)?;
@@ -114,29 +163,32 @@ impl Metric {
 
     pub(super) fn vertices_and_edges(&self, mesh: &Mesh) -> Result<(PerVertex<Vertex>, PerEdge<Edge>)> {
         self.check(mesh)?;
-        let vertices: PerVertex<Vertex> = PerVertex::from_fn(mesh.n_vertices(), |v| self.vertex(v));
+        let vertices = self.vertices();
         if let Some(v) = mesh.vertices().find(|&v| vertices[v].d.is_nan()) {
             let need = "u < 0 where ε has the sign of −λ, in E² between −5e5 and 5e5, in H² above −708";
             return Err(Error::Domain { vertex: v.index(), u: self.u[v], need });
         }
         let mut edges = vec![Edge::default(); mesh.n_edges()];
-        parallel::fill(&mut edges, |e| {
-            let e = EdgeId::from(e);
-            let [i, j] = mesh.ends(e);
-            edge(self.space, vertices[i], vertices[j], self.eta[e]).unwrap_or_default()
-        });
+        parallel::fill(&mut edges, |e| self.edge(mesh, &vertices, e.into()));
         match edges.iter().position(|e| e.q2 == 0.0) {
             Some(e) => {
                 let need = "one that gives the edge a real length at this u (in S² below π, in H² between 2e-140 and 300)";
-                Err(Error::EdgeWeight { edge: e, eta: self.eta[EdgeId::from(e)], need })
+                Err(Error::EdgeWeight { edge: e, eta: self.eta[EdgeId::from(e)].high, need })
             }
             None => Ok((vertices, edges.into())),
         }
     }
 
+    /// An edge from the vertex quantities; one without a real length is the default, whose `q2` is 0.
+    pub(crate) fn edge(&self, mesh: &Mesh, vertices: &[Vertex], e: EdgeId) -> Edge {
+        let [a, b] = mesh.ends(e).map(|v| vertices[v.index()]);
+        conformal::edge(self.space, a, b, self.eta[e]).unwrap_or_default()
+    }
+
     /// Circle radii γ from u (ε = 0: e^u): [`radius`].
     ///
-    /// Errors: [`Error::Domain`] for the first vertex whose radius is no positive number that a double holds.
+    /// # Errors
+    /// [`Error::Domain`] for the first vertex whose radius is no positive number that a double holds.
     pub fn radii(&self) -> Result<PerVertex<f64>> {
         let radii: PerVertex<f64> =
             PerVertex::from_fn(self.u.len(), |v| radius(self.space, self.epsilon[v], self.u[v]));
@@ -150,20 +202,34 @@ impl Metric {
     }
 }
 
-/// Half-perimeter differences of a face, and the exponent of their unit.
-pub(super) fn face_differences(
+/// The corners of a face and the edges opposite them, in one unit of length, and the exponent of that unit.
+pub(crate) fn face_parts(
     mesh: &Mesh,
-    vertices: &PerVertex<Vertex>,
-    edges: &PerEdge<Edge>,
+    vertices: &[Vertex],
+    edges: &[Edge],
+    f: FaceId,
+) -> ([Vertex; 3], [Edge; 3], i32) {
+    let mut corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
+    let mut sides = mesh.opposite_edges(f).map(|e| edges[e.index()]);
+    let unit = in_one_unit(&mut corners, &mut sides);
+    (corners, sides, unit)
+}
+
+/// The half-perimeter differences of a face, and the exponent of their unit.
+pub(crate) fn face_differences(
+    mesh: &Mesh,
+    vertices: &[Vertex],
+    edges: &[Edge],
     f: FaceId,
 ) -> ([f64; 3], i32) {
-    let mut corners = mesh.face_vertices(f).map(|v| vertices[v]);
-    let mut sides = mesh.opposite_edges(f).map(|e| edges[e]);
-    let unit = in_one_unit(&mut corners, &mut sides);
+    let (corners, sides, unit) = face_parts(mesh, vertices, edges, f);
     (differences(corners, sides), unit)
 }
 
-/// Euclidean edge lengths of a mesh in space; an edge of zero or non-finite length is an error that names it.
+/// Euclidean edge lengths of a mesh with a position per vertex (V entries).
+///
+/// # Errors
+/// [`Error::Size`]; [`Error::EdgeLength`] for an edge of zero or non-finite length.
 pub fn lengths_from_positions(mesh: &Mesh, positions: &[Point]) -> Result<PerEdge<f64>> {
     check_size("positions", positions.len(), mesh.n_vertices())?;
     let length = |e: EdgeId| {

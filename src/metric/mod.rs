@@ -1,4 +1,12 @@
 //! Metrics in a conformal class: one formula for five schemes, mixed types and three geometries.
+//!
+//! ```
+//! # use ricci::{Class, Surface, geometry::Space, mesh::shapes};
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let metric = torus.initial(Class::yamabe(Space::E2))?.metric;
+//! assert!(metric.curvature(torus.mesh())?.at.iter().sum::<f64>().abs() < 1e-12);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 pub mod class;
 pub mod curvature;

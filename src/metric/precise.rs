@@ -1,4 +1,13 @@
 //! Chords, angles and curvature of a metric to twice the digits of doubles, from its variables.
+//!
+//! ```
+//! # use ricci::{Class, Surface, geometry::Space, mesh::shapes};
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let metric = torus.initial(Class::yamabe(Space::E2))?.metric;
+//! let (precise, curvature) = (metric.angle_defects(torus.mesh())?, metric.curvature(torus.mesh())?.at);
+//! assert!(precise.iter().zip(curvature.iter()).all(|(a, b)| (a - b).abs() < 1e-14));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::lengths::Metric;
 use crate::error::Result;
@@ -10,31 +19,30 @@ use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex};
 use crate::parallel;
 
 impl Metric {
-    /// The half chords of the edges: l/2, sinh(l/2), sin(l/2) in E², H², S². To 20 digits where lengths are precise
-    /// ([`crate::geometry::conformal::is_precise`]), else to those of doubles. Errors: as [`Metric::lengths`].
-    pub fn half_chords(&self, mesh: &Mesh) -> Result<PerEdge<Twofold>> {
-        self.lengths(mesh)?;
-        Ok(self.scaled_chords(mesh)?.iter().map(|(q, unit)| q.scaled(*unit)).collect::<Vec<_>>().into())
-    }
-
-    /// The half chords in units of their own, with the exponents of these.
-    pub(crate) fn scaled_chords(&self, mesh: &Mesh) -> Result<PerEdge<(Twofold, i32)>> {
-        let vertices = self.vertices_and_edges(mesh)?.0;
+    /// The half chords of the edges, l/2, sinh(l/2), sin(l/2) in E², H², S², in units of their own, with the exponents of these. To 20 digits where
+    /// lengths are precise ([`crate::geometry::conformal::is_precise`]), else to those of doubles. It needs a metric in its domain:
+    /// [`Metric::check_domain`].
+    pub(crate) fn scaled_chords(&self, mesh: &Mesh) -> PerEdge<(Twofold, i32)> {
+        let vertices = self.vertices();
         let mut chords = vec![(Twofold::default(), 0); mesh.n_edges()];
         parallel::fill(&mut chords, |e| {
             let e = EdgeId::from(e);
             let [a, b] = mesh.ends(e).map(|v| vertices[v]);
             half_chord(self.space, a, b, self.eta[e])
         });
-        Ok(chords.into())
+        chords.into()
     }
 
-    /// By how much the angles around each vertex inside miss 2π, in (−2π, 2π], to twice the digits: the curvature of vertices
-    /// that are meant to be flat, where the sum of double angles shows its own rounding. 0 on the boundary.
+    /// By how much the angles around each vertex inside miss 2π, in (−2π, 2π], to twice the digits; 0 on the boundary. It is the
+    /// curvature of vertices that are meant to be flat, where sums of angles in doubles would show their own rounding.
     ///
-    /// The rotations by all the angles are multiplied; no angle is formed. Errors: those of [`Metric::check_domain`].
+    /// The rotations by all the angles are multiplied; no angle is formed.
+    ///
+    /// # Errors
+    /// Those of [`Metric::check_domain`].
     pub fn angle_defects(&self, mesh: &Mesh) -> Result<PerVertex<f64>> {
-        let half_angles = half_angles(self, mesh, &self.scaled_chords(mesh)?);
+        self.check_domain(mesh)?;
+        let half_angles = half_angles(self, mesh, &self.scaled_chords(mesh));
         let mut turn: PerVertex<[Twofold; 2]> =
             PerVertex::filled(mesh.n_vertices(), [1.0.into(), 0.0.into()]);
         for f in mesh.faces() {
@@ -44,7 +52,7 @@ impl Metric {
             }
         }
         Ok(PerVertex::from_fn(mesh.n_vertices(), |v| {
-            // Half the angles add up to π − K/2.
+            // `turn` is the rotation by half of all the angles, which add up to π − K/2.
             let [x, y] = turn[v].map(f64::from);
             if mesh.is_boundary_vertex(v) { 0.0 } else { 2.0 * y.atan2(-x) }
         }))
@@ -60,7 +68,7 @@ pub(crate) fn half_angles(
     let mut angles = vec![[[Twofold::default(); 2]; 3]; mesh.n_faces()];
     parallel::fill(&mut angles, |f| {
         let sides = mesh.opposite_edges(FaceId::from(f)).map(|e| chords[e]);
-        // In E² the longest side is about 1; in H² and S² lengths have no other unit than 1.
+        // In E² the unit of the longest side is used, so that its chord is about 1. In H² and S² lengths have no unit but 1.
         let size = |(q, unit): (Twofold, i32)| unit + exponent(q.high);
         let unit =
             if metric.space == Space::E2 { sides.map(size).into_iter().fold(i32::MIN, i32::max) } else { 0 };

@@ -1,4 +1,10 @@
 //! The five schemes as rows of (ε, η).
+//!
+//! ```
+//! # use ricci::metric::Scheme;
+//! assert_eq!("virtual".parse::<Scheme>()?.epsilon(), -1);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use crate::error::Error;
 
@@ -29,6 +35,11 @@ impl Scheme {
             Scheme::Inversive | Scheme::Thurston | Scheme::Tangential => 1,
             Scheme::Virtual => -1,
         }
+    }
+
+    /// Whether this is Thurston's or a tangential packing, which are Delaunay on any triangulation: flips have no part in them.
+    pub fn is_packing(self) -> bool {
+        matches!(self, Scheme::Thurston | Scheme::Tangential)
     }
 
     /// The name used in files and on the command line.

@@ -1,4 +1,17 @@
 //! The metric that a flow with flips starts from: its triangulation and its circles depend on the surface alone.
+//!
+//! ```
+//! use ricci::{Class, Control, geometry::Space, mesh::{Mesh, PerEdge}, metric::{Triangulated, delaunay_start}};
+//!
+//! // A regular tetrahedron is Delaunay as it is.
+//! let mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])?;
+//! let lengths = PerEdge::filled(mesh.n_edges(), 1.0);
+//! let mut surface = Triangulated { mesh, lengths, geometry: Space::E2 };
+//! let class = Class::yamabe(Space::E2).into();
+//! let initial = delaunay_start(&mut surface, class, &mut |_, _| {}, &Control::new())?;
+//! assert!(initial.metric.lengths(&surface.mesh)?.iter().all(|l| (l - 1.0).abs() < 1e-15));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::class::Class;
 use super::initial::{Initial, MixedClass, check_triangles, corner_radii, initial_metric, initial_mixed};
@@ -24,12 +37,10 @@ pub struct StartOptions<'a> {
     pub fixed: &'a FixedEdges,
 }
 
-static NO_EDGES: FixedEdges = FixedEdges::none();
-
 impl From<Class> for StartOptions<'_> {
     /// No double, no fixed edges.
     fn from(class: Class) -> Self {
-        StartOptions { class, double: None, fixed: &NO_EDGES }
+        StartOptions { class, double: None, fixed: IntrinsicOptions::default().fixed }
     }
 }
 
@@ -53,15 +64,15 @@ pub fn delaunay_start(
     control: &Control,
 ) -> Result<Initial> {
     let StartOptions { class: Class { scheme, space }, double, fixed } = options;
-    if !matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
+    if !scheme.is_packing() {
         let plain = IntrinsicOptions { circles: None, fixed };
         intrinsic_delaunay(surface, plain, record, control)?;
     }
-    if matches!(scheme, Scheme::Thurston | Scheme::Tangential | Scheme::Yamabe) {
-        return initial_metric(&surface.mesh, &surface.lengths, surface.geometry, scheme, space);
+    if scheme.is_packing() || scheme == Scheme::Yamabe {
+        return initial_metric(&surface.mesh, &surface.lengths, surface.geometry, options.class);
     }
     check_triangles(&surface.mesh, &surface.lengths, surface.geometry)?;
-    let mut radii = corner_radii(&surface.mesh, &surface.lengths).min;
+    let [_, mut radii] = corner_radii(&surface.mesh, &surface.lengths);
     if let Some(double) = double {
         check_size("vertices of the double", double.mesh.n_vertices(), radii.len())?;
         radii = PerVertex::from_fn(radii.len(), |v| radii[v].min(radii[double.mirror(v)]));

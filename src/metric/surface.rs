@@ -119,6 +119,6 @@ impl Surface {
     /// # Errors
     /// Those of [`initial_metric`].
     pub fn initial(&self, class: Class) -> Result<Initial> {
-        initial_metric(&self.mesh, &self.lengths, self.geometry, class.scheme, class.space)
+        initial_metric(&self.mesh, &self.lengths, self.geometry, class)
     }
 }

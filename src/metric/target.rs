@@ -1,8 +1,18 @@
 //! Target curvatures and their admissibility.
+//!
+//! ```
+//! # use ricci::{Class, Surface, Target, geometry::Space, mesh::{VertexId, shapes}};
+//! let sphere = Surface::from_soup(&shapes::icosphere(4)?)?;
+//! let cones = Target::Cones((0..8).map(|v| (VertexId(v), std::f64::consts::FRAC_PI_2)).collect());
+//! let target = cones.resolve(&sphere, Class::yamabe(Space::E2))?;
+//! assert_eq!(target.iter().filter(|k| **k != 0.0).count(), 8);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::class::Class;
 use super::scheme::Scheme;
 use super::surface::Surface;
+use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
@@ -42,7 +52,8 @@ impl Target {
             Space::H2 | Space::S2 => Target::Uniform,
             Space::E2 if !mesh.is_closed() => Target::Boundary,
             Space::E2 if mesh.euler() == 2 && mesh.n_vertices() >= 4 => {
-                let cones = topology::farthest_vertices(mesh, surface.lengths(), VertexId(0), 4)?;
+                let free = Control::new();
+                let cones = topology::farthest_vertices(mesh, surface.lengths(), VertexId(0), 4, &free)?;
                 Target::Cones(cones.into_iter().map(|v| (v, PI)).collect())
             }
             Space::E2 => Target::Uniform,
@@ -130,6 +141,9 @@ impl Target {
 
 /// Necessary conditions on a target: [`check_vertices`] and [`check_total`]; for vertex scaling and inversive distance with
 /// flips they are sufficient.
+///
+/// # Errors
+/// Those of [`check_vertices`] and [`check_total`].
 pub fn check_admissible(mesh: &Mesh, class: Class, target: &PerVertex<f64>) -> Result<()> {
     check_vertices(mesh, class.scheme, target)?;
     check_total(mesh, class.space, target)
@@ -143,12 +157,12 @@ pub fn check_admissible(mesh: &Mesh, class: Class, target: &PerVertex<f64>) -> R
 /// Those of [`check_upper`]; [`Error::TargetBelow`].
 pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> Result<()> {
     check_upper(mesh, target)?;
-    if !matches!(scheme, Scheme::Thurston | Scheme::Tangential) {
+    if !scheme.is_packing() {
         return Ok(());
     }
     for v in mesh.vertices() {
         let corners = mesh.outgoing(v).filter(|&h| !mesh.is_outside(h)).count();
-        let limit = upper_limit(mesh, v) - PI * corners as f64;
+        let limit = full_angle(mesh, v) - PI * corners as f64;
         if target[v] <= limit {
             let (curvature, excess) = (target[v], limit - target[v]);
             return Err(Error::TargetBelow { vertex: v.index(), curvature, limit, excess });
@@ -164,7 +178,7 @@ pub fn check_vertices(mesh: &Mesh, scheme: Scheme, target: &PerVertex<f64>) -> R
 pub fn check_upper(mesh: &Mesh, target: &PerVertex<f64>) -> Result<()> {
     check_size("target", target.len(), mesh.n_vertices())?;
     for v in mesh.vertices() {
-        let (curvature, limit) = (target[v], upper_limit(mesh, v));
+        let (curvature, limit) = (target[v], full_angle(mesh, v));
         if !curvature.is_finite() {
             let value = format!("{curvature} at vertex {v}");
             return Err(Error::Argument { what: "target curvature", value, need: "finite everywhere" });
@@ -177,12 +191,15 @@ pub fn check_upper(mesh: &Mesh, target: &PerVertex<f64>) -> Result<()> {
     Ok(())
 }
 
-/// 2π inside, π on the boundary.
-fn upper_limit(mesh: &Mesh, v: VertexId) -> f64 {
+/// Least upper bound of the curvature of a vertex: 2π inside, π on the boundary.
+pub(crate) fn full_angle(mesh: &Mesh, v: VertexId) -> f64 {
     if mesh.is_boundary_vertex(v) { PI } else { 2.0 * PI }
 }
 
 /// Gauss–Bonnet: `Σ K̄ = 2πχ` in E², `> 2πχ` in H², `< 2πχ` in S² (to [`TOTAL_TOLERANCE`]).
+///
+/// # Errors
+/// [`Error::TargetTotal`].
 pub fn check_total(mesh: &Mesh, space: Space, target: &PerVertex<f64>) -> Result<()> {
     let sum: f64 = target.iter().sum();
     let scale = 2.0 * PI + target.iter().map(|k| k.abs()).sum::<f64>();
@@ -199,8 +216,8 @@ pub fn check_total(mesh: &Mesh, space: Space, target: &PerVertex<f64>) -> Result
     Err(Error::TargetTotal { sum, need, miss })
 }
 
-/// In E², where the total must be 2πχ exactly: share what a target misses by rounding equally over the vertices that are not
-/// flat. Without this all of it would remain at whichever vertex the solver holds.
+/// Give a target in E², whose total misses 2πχ by no more than rounding, that total: the difference is shared equally over the vertices
+/// that are not flat. Otherwise all of it would remain at the one vertex that the solver holds. Other targets stay as they are.
 pub fn settle_total(mesh: &Mesh, space: Space, target: &mut PerVertex<f64>) {
     let miss = target.iter().sum::<f64>() - 2.0 * PI * mesh.euler() as f64;
     if space == Space::E2 && check_total(mesh, space, target).is_ok() {
@@ -209,16 +226,22 @@ pub fn settle_total(mesh: &Mesh, space: Space, target: &mut PerVertex<f64>) {
     }
 }
 
+/// Length of the boundary edges at each vertex.
+pub(crate) fn boundary_lengths(mesh: &Mesh, lengths: &PerEdge<f64>) -> PerVertex<f64> {
+    let mut sum = PerVertex::filled(mesh.n_vertices(), 0.0);
+    for h in mesh.boundary_loops().into_iter().flatten() {
+        sum[mesh.origin(h)] += lengths[h.edge()];
+        sum[mesh.tip(h)] += lengths[h.edge()];
+    }
+    sum
+}
+
 /// 2πχ over the boundary vertices in proportion to the boundary length adjacent to each.
 fn boundary_target(mesh: &Mesh, lengths: &PerEdge<f64>) -> PerVertex<f64> {
     let total = 2.0 * PI * mesh.euler() as f64;
-    let mut share = PerVertex::filled(mesh.n_vertices(), 0.0);
-    let mut boundary = Vec::new();
-    for h in mesh.boundary_loops().into_iter().flatten() {
-        share[mesh.origin(h)] += lengths[h.edge()];
-        share[mesh.tip(h)] += lengths[h.edge()];
-        boundary.push(mesh.origin(h));
-    }
+    let mut share = boundary_lengths(mesh, lengths);
+    let boundary: Vec<VertexId> =
+        mesh.boundary_loops().into_iter().flatten().map(|h| mesh.origin(h)).collect();
     let length: f64 = boundary.iter().map(|&v| share[v]).sum();
     let largest = boundary.iter().map(|&v| share[v]).fold(0.0, f64::max);
     let equal = total * largest / length >= PI;

@@ -28,7 +28,7 @@ pub(super) struct Prefix {
     pub n_ends: usize,
 }
 
-/// Starts of reading that are tried: all of them up to genus 32.
+/// Most places of the word from which it is read. A surface of genus 32 has 128 places, so that up to there all are tried.
 const MAX_STARTS: usize = 128;
 
 /// The places of a polygon's word from which to start to read it, those with the shortest handles first: a

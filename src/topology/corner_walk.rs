@@ -27,11 +27,8 @@ pub(crate) fn corner_walk<'a>(
     let starts =
         |h: HalfedgeId| !mesh.is_outside(h) && path.first().is_none_or(|&p| mesh.origin(p) == mesh.origin(h));
     if corner.index() >= mesh.n_halfedges() || !starts(corner) {
-        return Err(Error::Argument {
-            what: "corner",
-            value: format!("half-edge {corner}"),
-            need: "take a half-edge of a face at the vertex where the path starts",
-        });
+        let need = "take a half-edge of a face at the vertex where the path starts";
+        return Err(Error::argument("corner", format!("half-edge {corner}"), need));
     }
     Ok(CornerWalk { mesh, at: corner, path })
 }

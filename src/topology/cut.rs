@@ -1,8 +1,18 @@
 //! Cut graphs: edges along which a surface opens into a disk.
+//!
+//! ```
+//! use ricci::mesh::{VertexId, shapes};
+//! use ricci::{Control, topology::cut_graph};
+//! let (sphere, lengths) = shapes::two_triangle_sphere().build()?;
+//! let cones = [VertexId(0), VertexId(1), VertexId(2)];
+//! let cut = cut_graph(&sphere, &lengths, &cones, &Control::new())?;
+//! assert_eq!(cut.length(&lengths), 2.0); // two of the three edges join the cones
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::check_lengths;
 use super::shorten::{LEAST_SAVING, MOVES_PER_FACE, fan};
-use super::spanning::{leftover, shortest_paths_under};
+use super::spanning::{leftover, shortest_paths};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
@@ -22,8 +32,7 @@ pub struct CutGraph {
 }
 
 impl CutGraph {
-    /// What is left of marked interior edges when branches that end nowhere, neither at a branch point nor on the boundary, are taken
-    /// away one edge after the other.
+    /// The marked interior edges without the branches whose end is neither a branch point nor on the boundary.
     pub(crate) fn around(mesh: &Mesh, marked: PerEdge<bool>) -> CutGraph {
         let fixed = PerVertex::from_fn(mesh.n_vertices(), |v| mesh.is_boundary_vertex(v));
         let mut cut = Cut::new(mesh, fixed);
@@ -65,7 +74,8 @@ pub fn cut_graph(
     let fixed = fixed_vertices(mesh, lengths, cones)?;
     let sources: Vec<_> = mesh.vertices().filter(|&v| fixed[v]).collect();
     let open = |sources: &[VertexId]| -> Result<_> {
-        let (mut cut, shortest_arc) = tree_cotree_cut(mesh, lengths, &fixed, sources, control)?;
+        let mut cut = Cut::new(mesh, fixed.clone());
+        let shortest_arc = cut.tree_cotree(lengths, sources, control)?;
         cut.shorten(lengths, control)?;
         Ok((cut, shortest_arc))
     };
@@ -88,10 +98,12 @@ pub fn cut_graph(
     Ok(cut.into_graph())
 }
 
-/// Vertices looked at between two looks at the control; at each a few fans of triangles are measured.
+/// Vertices of the cut between two looks at the control. At each a few fans of triangles are measured, so that these take a fraction
+/// of a millisecond.
 const VERTICES_PER_LOOK: usize = 1024;
 
-/// Sources tried on a closed surface without cones, besides the first. Two or three are usual.
+/// Most sources that are tried on a closed surface without cones, besides the first. Usually the second or third is not better than
+/// the one before it and ends the search.
 const MAX_ROOTS: usize = 8;
 
 /// Whether the surface opened along the marked edges is a disk: connected with Euler characteristic 1. O(E).
@@ -109,7 +121,7 @@ pub fn is_disk(mesh: &Mesh, is_cut: &PerEdge<bool>) -> bool {
     euler == 1 && is_connected(mesh, |e| is_cut[e])
 }
 
-/// The surface is connected and not empty; `advice` says what to do with one that is not.
+/// Check that the surface is connected and not empty; `advice` says what to do with each component of another.
 pub(super) fn check_connected(mesh: &Mesh, advice: &str) -> Result<()> {
     if is_connected(mesh, |_| false) {
         return Ok(());
@@ -194,7 +206,34 @@ impl<'a> Cut<'a> {
         CutGraph { is_cut: self.is_cut, nodes, segments }
     }
 
-    /// Close the branches that end nowhere: not at a cone and not on the boundary.
+    /// Mark the edges that the forest of the sources and its dual tree leave over, with the paths from their ends to the sources;
+    /// returns the one of those edges with the shortest arc.
+    fn tree_cotree(
+        &mut self,
+        lengths: &PerEdge<f64>,
+        sources: &[VertexId],
+        control: &Control,
+    ) -> Result<Option<EdgeId>> {
+        let mesh = self.mesh;
+        let forest = shortest_paths(mesh, lengths, sources.iter().copied(), control)?;
+        let arcs = leftover(mesh, lengths, &forest, |e| mesh.is_boundary_edge(e));
+        control.check()?;
+        for &e in &arcs {
+            self.set(e, true);
+            for v in mesh.ends(e) {
+                for h in forest.path(mesh, v) {
+                    if self.is_cut[h.edge()] {
+                        break;
+                    }
+                    self.set(h.edge(), true);
+                }
+            }
+        }
+        self.prune();
+        Ok(arcs.first().copied())
+    }
+
+    /// Close the branches that end at a vertex which is neither a cone nor on the boundary.
     fn prune(&mut self) {
         for mut v in self.mesh.vertices() {
             while self.degree[v] == 1 && !self.fixed[v] {
@@ -221,10 +260,7 @@ impl<'a> Cut<'a> {
         let mut budget = MOVES_PER_FACE * mesh.n_faces();
         let mut looked_at = 0;
         while let (Some(v), 1..) = (waiting.pop_front(), budget) {
-            if usize::is_multiple_of(looked_at, VERTICES_PER_LOOK) {
-                control.check()?;
-            }
-            looked_at += 1;
+            control.check_every(VERTICES_PER_LOOK, &mut looked_at)?;
             let Some((closed, opened)) = self.best_slide(lengths, v) else { continue };
             budget -= 1;
             for (edges, open) in [(closed, false), (opened, true)] {
@@ -277,7 +313,7 @@ impl<'a> Cut<'a> {
         limit: f64,
     ) -> Option<(Vec<HalfedgeId>, f64)> {
         let mesh = self.mesh;
-        let (way, length) = fan(mesh, lengths, a, b, limit)?;
+        let (way, length) = fan(mesh, lengths, [a, b], limit)?;
         let is_open = |h: &HalfedgeId| self.is_cut[h.edge()] || mesh.is_boundary_edge(h.edge());
         if way.iter().any(is_open) {
             return None;
@@ -294,11 +330,7 @@ impl<'a> Cut<'a> {
 fn fixed_vertices(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Result<PerVertex<bool>> {
     check_lengths(mesh, lengths)?;
     if let Some(v) = cones.iter().find(|v| v.index() >= mesh.n_vertices()) {
-        return Err(Error::Argument {
-            what: "cone vertex",
-            value: v.to_string(),
-            need: "it must be below the number of vertices",
-        });
+        return Err(Error::argument("cone vertex", v, "it must be below the number of vertices"));
     }
     check_connected(mesh, "lay out")?;
     let mut fixed = PerVertex::from_fn(mesh.n_vertices(), |v| mesh.is_boundary_vertex(v));
@@ -312,53 +344,15 @@ fn fixed_vertices(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Re
     Ok(fixed)
 }
 
-/// The cut of tree and cotree with the given sources, and its shortest leftover edge.
-fn tree_cotree_cut<'a>(
-    mesh: &'a Mesh,
-    lengths: &PerEdge<f64>,
-    fixed: &PerVertex<bool>,
-    sources: &[VertexId],
-    control: &Control,
-) -> Result<(Cut<'a>, Option<EdgeId>)> {
-    let forest = shortest_paths_under(mesh, lengths, sources.iter().copied(), control)?;
-    let arcs = leftover(mesh, lengths, &forest, |e| mesh.is_boundary_edge(e));
-    control.check()?;
-    let mut cut = Cut::new(mesh, fixed.clone());
-    for &e in &arcs {
-        cut.set(e, true);
-        for v in mesh.ends(e) {
-            for h in forest.path(mesh, v) {
-                if cut.is_cut[h.edge()] {
-                    break;
-                }
-                cut.set(h.edge(), true);
-            }
-        }
-    }
-    cut.prune();
-    Ok((cut, arcs.first().copied()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::shapes;
 
-    /// An n × n grid of squares with diagonals, opposite sides glued: a torus, legal down to n = 1.
+    /// An n × n grid of squares with diagonals, opposite sides glued. Edge 3 (i + n j) + k leaves vertex (i, j) along the row (k = 0),
+    /// the column or the diagonal.
     fn torus(n: usize) -> Mesh {
-        let vertex = |i: usize, j: usize| (i % n + n * (j % n)) as u32;
-        let half = |kind: u32, i: usize, j: usize| 2 * (3 * vertex(i, j) + kind);
-        let (mut origin, mut sides) = (vec![0; 6 * n * n], Vec::new());
-        for j in 0..n {
-            for i in 0..n {
-                for (kind, tip) in [(0, vertex(i + 1, j)), (1, vertex(i, j + 1)), (2, vertex(i + 1, j + 1))] {
-                    let h = half(kind, i, j) as usize;
-                    (origin[h], origin[h + 1]) = (vertex(i, j), tip);
-                }
-                sides.push([half(0, i, j), half(1, i + 1, j), half(2, i, j) + 1]);
-                sides.push([half(2, i, j), half(0, i, j + 1) + 1, half(1, i, j) + 1]);
-            }
-        }
-        Mesh::assemble(n * n, origin, &sides).unwrap()
+        shapes::flat_torus([0.0, 1.0], n, n).unwrap().build().unwrap().0
     }
 
     #[test]
@@ -372,7 +366,8 @@ mod tests {
             let cones: Vec<_> = (0..seed % 4).map(|k| VertexId::from(k * 37 % mesh.n_vertices())).collect();
             let fixed = fixed_vertices(&mesh, &lengths, &cones).unwrap();
             let sources = if cones.is_empty() { &[VertexId(0)] } else { &cones[..] };
-            let (mut cut, _) = tree_cotree_cut(&mesh, &lengths, &fixed, sources, &Control::new()).unwrap();
+            let mut cut = Cut::new(&mesh, fixed);
+            cut.tree_cotree(&lengths, sources, &Control::new()).unwrap();
             assert!(is_disk(&mesh, &cut.is_cut));
             let before = cut.length(&lengths);
             cut.shorten(&lengths, &Control::new()).unwrap();

@@ -1,5 +1,16 @@
 //! Fundamental domains: a surface opened along a cut, as a polygon whose sides are paired by deck
 //! transformations.
+//!
+//! ```
+//! use ricci::topology::{FundamentalDomain, homotopy_basis};
+//! use ricci::{Control, mesh::shapes};
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let basis = homotopy_basis(&mesh, &lengths, None, &Control::new())?;
+//! let domain = FundamentalDomain::new(&mesh, &basis.cut(&mesh), &basis)?;
+//! let (side, partner) = (&domain.sides[0], domain.sides[0].partner.unwrap());
+//! assert_eq!(side.element, domain.sides[partner].element.inverse());
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::corner_walk::crossed_halfedges;
 use super::cut::is_disk;

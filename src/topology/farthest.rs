@@ -2,61 +2,62 @@
 //!
 //! ```
 //! use ricci::mesh::{VertexId, shapes};
-//! use ricci::topology::farthest_vertices;
+//! use ricci::{Control, topology::farthest_vertices};
 //! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
-//! let far = farthest_vertices(&mesh, &lengths, VertexId(0), 2)?;
+//! let far = farthest_vertices(&mesh, &lengths, VertexId(0), 2, &Control::new())?;
 //! assert_eq!(far.len(), 2);
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
 use super::check_vertex;
-use super::spanning::shortest_paths;
-use super::spanning::{Forest, shortest_paths_under};
+use super::spanning::{Forest, shortest_paths};
 use crate::control::Control;
 use crate::error::Result;
-use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
+use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 
 /// `count` vertices (at most V): `first`, then again and again the vertex farthest along edges from those
 /// chosen (the smallest index among equals). Deterministic; O(count · E log V).
 ///
 /// # Errors
 ///
-/// As
-/// [`shortest_paths`].
+/// As [`shortest_paths`].
 pub fn farthest_vertices(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     first: VertexId,
     count: usize,
+    control: &Control,
 ) -> Result<Vec<VertexId>> {
     check_vertex(mesh, first)?;
     let mut chosen = Vec::new();
     let mut next = first;
     while chosen.len() < count.min(mesh.n_vertices()) {
         chosen.push(next);
-        let distance = shortest_paths(mesh, lengths, chosen.iter().copied())?.distance;
-        let farther = |best, v| if distance[v] > distance[best] { v } else { best };
-        next = mesh.vertices().fold(VertexId(0), farther);
+        let distance = shortest_paths(mesh, lengths, chosen.iter().copied(), control)?.distance;
+        next = farthest(mesh, &distance, VertexId(0));
     }
     Ok(chosen)
 }
 
-/// Moves of the search for a central vertex; on the closed meshes of the corpus the distance changes little after three.
+/// The vertex of largest distance; of equal ones `start` if it is among them, else the one of lowest index.
+pub(super) fn farthest(mesh: &Mesh, distance: &PerVertex<f64>, start: VertexId) -> VertexId {
+    mesh.vertices().fold(start, |far, v| if distance[v] > distance[far] { v } else { far })
+}
+
+/// Most moves of the search for a central vertex. On the closed meshes of the corpus the distance changes little after three.
 const MAX_MOVES: usize = 6;
 
-/// A vertex from which none is far along edges: the search goes on from the middle of the path to the farthest vertex as long as that
-/// helps.
-/// Deterministic; O(E log V).
+/// A vertex from which no other is far along edges. The search goes on from the middle of the path to the farthest vertex as long as
+/// that makes the largest distance smaller. Deterministic; O(E log V).
 ///
 /// # Errors
 ///
-/// As [`shortest_paths`]; [`crate::Error::Cancelled`].
+/// As [`shortest_paths`].
 pub fn central_vertex(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<VertexId> {
     let (mut best, mut at) = ((f64::INFINITY, VertexId(0)), VertexId(0));
     for _ in 0..MAX_MOVES {
-        let Forest { distance, parent } = shortest_paths_under(mesh, lengths, [at], control)?;
-        let farther = |far, v| if distance[v] > distance[far] { v } else { far };
-        let far = mesh.vertices().fold(at, farther);
+        let Forest { distance, parent } = shortest_paths(mesh, lengths, [at], control)?;
+        let far = farthest(mesh, &distance, at);
         if distance[far] >= best.0 {
             break;
         }

@@ -56,16 +56,18 @@ impl SurfaceGroup {
     }
 
     /// The word that a text like `a1 b1 a1^-1` means, freely reduced; `1` stands for the identity.
-    /// [`Error::Argument`] names what is no letter.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Argument`] for a token that is no letter.
     pub fn parse(&self, text: &str) -> Result<Word> {
         let mut word = Word::identity();
         for token in text.split_whitespace().filter(|&token| token != "1") {
             let (name, inverse) = token.strip_suffix("^-1").map_or((token, false), |name| (name, true));
-            let letter = self.number(name).map(Letter::generator).ok_or_else(|| Error::Argument {
-                what: "letter",
-                value: token.into(),
-                need: "write generators of the surface's group as a1, b1, c1, inverses as a1^-1, spaced apart",
-            })?;
+            let need =
+                "write generators of the surface's group as a1, b1, c1, inverses as a1^-1, spaced apart";
+            let letter = self.number(name).map(Letter::generator);
+            let letter = letter.ok_or_else(|| Error::argument("letter", token, need))?;
             word.push(if inverse { letter.inverse() } else { letter });
         }
         Ok(word)

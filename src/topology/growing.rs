@@ -1,28 +1,30 @@
 //! The cut where a growing disk meets itself.
 
 use super::cut::CutGraph;
-use super::spanning::{Key, shortest_paths_under};
+use super::spanning::{Key, shortest_paths};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, VertexId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Faces between two looks at the control.
+/// Faces that the disk takes in between two looks at the control: they take a fraction of a millisecond.
 const FACES_PER_LOOK: usize = 1024;
 
-/// Where a disk that grows about a vertex, next over the face whose far corner is nearest along edges, meets itself: for a surface
-/// without cones, a short way from everywhere to the vertex. Empty on a sphere.
+/// The cut where a disk that grows about `root` meets itself. The disk takes in one face after the other, next the one whose far corner
+/// is nearest to the root along edges, so that paths inside the disk to the root are short. Empty on a sphere.
 ///
-/// Errors: [`Error::EdgeLength`]; [`Error::Argument`] for a vertex that does not exist; [`Error::Layout`] for a surface of
-/// several components; [`Error::Cancelled`].
+/// # Errors
+///
+/// [`Error::EdgeLength`]; [`Error::Argument`] for a vertex that does not exist; [`Error::Layout`] for a surface of several components;
+/// [`Error::Cancelled`].
 pub(crate) fn cut_about(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     root: VertexId,
     control: &Control,
 ) -> Result<CutGraph> {
-    let distance = shortest_paths_under(mesh, lengths, [root], control)?.distance;
+    let distance = shortest_paths(mesh, lengths, [root], control)?.distance;
     let mut reached = PerFace::filled(mesh.n_faces(), false);
     let mut closed = PerEdge::filled(mesh.n_edges(), false);
     let mut queue = BinaryHeap::new();
@@ -31,10 +33,7 @@ pub(crate) fn cut_about(
     let (mut n_reached, mut is_first) = (0, true);
     while let Some(entry) = next {
         if let Some(f) = mesh.face(entry).filter(|&f| !std::mem::replace(&mut reached[f], true)) {
-            if usize::is_multiple_of(n_reached, FACES_PER_LOOK) {
-                control.check()?;
-            }
-            n_reached += 1;
+            control.check_every(FACES_PER_LOOK, &mut n_reached)?;
             closed[entry.edge()] |= !std::mem::replace(&mut is_first, false);
             for h in mesh.face_halfedges(f).map(HalfedgeId::twin) {
                 if let Some(g) = mesh.face(h).filter(|&g| !reached[g]) {
@@ -69,8 +68,7 @@ mod tests {
             let edges: usize = cut.segments.iter().map(Vec::len).sum();
             assert_eq!(edges, cut.is_cut.iter().filter(|&&c| c).count());
             // It stays away from the vertex.
-            let near =
-                shortest_paths_under(&mesh, &lengths, [VertexId(0)], &Control::new()).unwrap().distance;
+            let near = shortest_paths(&mesh, &lengths, [VertexId(0)], &Control::new()).unwrap().distance;
             let ends = |e: EdgeId| mesh.ends(e).map(|v| near[v]);
             let least = mesh.edges().filter(|&e| cut.is_cut[e]).flat_map(ends).fold(f64::INFINITY, f64::min);
             assert!(least >= (n.min(m) / 3) as f64, "{n}, {m}: {least}");

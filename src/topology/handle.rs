@@ -6,7 +6,7 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge};
 
-/// Twists tried per handle at most: the shorter loop is wound off the longer one, a few times in all.
+/// Most twists of a handle. A few are usual: they unwind the longer loop from the shorter one.
 const MAX_TWISTS: usize = 32;
 
 /// The loops a and b of a handle.

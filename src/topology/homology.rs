@@ -1,7 +1,7 @@
 //! Homology generators by tree and cotree.
 
-use super::check_lengths;
 use super::spanning::{leftover, shortest_paths};
+use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
 
@@ -14,11 +14,27 @@ use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
 /// way to vertex 0 and back that a loop starts and ends with is removed. Shortest loops come first. O(E log E
 /// + total length).
 ///
-/// `lengths` are finite and positive, one per edge ([`crate::Error::EdgeLength`] otherwise).
-pub fn homology_generators(mesh: &Mesh, lengths: &PerEdge<f64>) -> Result<Vec<Vec<HalfedgeId>>> {
-    check_lengths(mesh, lengths)?;
+/// `lengths`: finite and positive, one per edge.
+///
+/// ```
+/// use ricci::{Control, mesh::shapes, topology::homology_generators};
+/// let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+/// let loops = homology_generators(&mesh, &lengths, &Control::new())?;
+/// assert_eq!(loops.iter().map(Vec::len).collect::<Vec<_>>(), [4, 4]);
+/// # Ok::<(), ricci::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// [`crate::Error::Size`], [`crate::Error::EdgeLength`]; [`crate::Error::Cancelled`].
+pub fn homology_generators(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    control: &Control,
+) -> Result<Vec<Vec<HalfedgeId>>> {
     let root = (mesh.n_vertices() > 0).then_some(VertexId(0));
-    let tree = shortest_paths(mesh, lengths, root)?;
+    let tree = shortest_paths(mesh, lengths, root, control)?;
+    control.check()?;
     let close = |h: HalfedgeId| {
         let mut there: Vec<_> = tree.path(mesh, mesh.origin(h)).collect();
         let mut back: Vec<_> = tree.path(mesh, mesh.tip(h)).collect();

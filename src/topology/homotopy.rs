@@ -1,4 +1,14 @@
 //! Canonical homotopy bases, and the group element of any edge path.
+//!
+//! ```
+//! use ricci::topology::homotopy_basis;
+//! use ricci::{Control, mesh::shapes};
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let basis = homotopy_basis(&mesh, &lengths, None, &Control::new())?;
+//! let both = [&basis.loops[0][..], &basis.loops[1]].concat();
+//! assert_eq!(basis.group.text(&basis.path_word(&mesh, &both)?), "a1 b1");
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::brahana::{NormalForm, best_starts, normal_form};
 use super::group::SurfaceGroup;
@@ -48,8 +58,8 @@ pub struct HomotopyBasis {
     places: Places,
 }
 
-/// The loops of several starts of reading the polygon are pulled straight, to choose among them: as many as
-/// together have this number of edges per edge of the mesh.
+/// The polygon's word is read from several starts, whose loops are pulled straight and compared, until these loops have had this number
+/// of edges together per edge of the mesh, which bounds the time.
 const WORK_PER_EDGE: usize = 8;
 
 /// A canonical homotopy basis of a connected surface, with short loops.
@@ -81,9 +91,8 @@ pub fn homotopy_basis(
         }
         None => RootedTree::central(mesh, lengths, control)?,
     };
-    let polygon = Polygon::new(mesh, &rooted);
-    let (NormalForm { ends, prefixes, .. }, pairs) =
-        shortest_handles(mesh, lengths, &rooted, &polygon, control)?;
+    let polygon = Polygon::new(mesh, rooted);
+    let (NormalForm { ends, prefixes, .. }, pairs) = shortest_handles(mesh, lengths, &polygon, control)?;
     let mut loops = Vec::with_capacity(2 * pairs.len() + ends.len());
     let mut products = Vec::with_capacity(pairs.len());
     for (i, pair) in pairs.into_iter().enumerate() {
@@ -93,17 +102,17 @@ pub fn homotopy_basis(
         loops.extend(handle.loops);
     }
     for &end in &ends {
-        let path = letter_loop(mesh, &rooted.tree, &polygon, end);
+        let path = polygon.letter_loop(mesh, end);
         loops.push(shorten(mesh, lengths, path.into_iter(), control)?);
     }
     Ok(HomotopyBasis {
-        base: rooted.root,
+        base: polygon.rooted.root,
         group: SurfaceGroup { genus: products.len(), boundaries: ends.len() },
         loops,
         rims: ends.iter().map(|end| polygon.halfedges[end.index()]).collect(),
-        tree: rooted.tree,
+        tree: polygon.rooted.tree,
         place: polygon.place,
-        places: Places::new(prefixes, products),
+        places: Places { prefixes, products },
     })
 }
 
@@ -112,14 +121,13 @@ pub fn homotopy_basis(
 fn shortest_handles(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
-    rooted: &RootedTree,
     polygon: &Polygon,
     control: &Control,
 ) -> Result<(NormalForm, Vec<LoopPair>)> {
-    let cost: Vec<_> = polygon.halfedges.iter().map(|h| rooted.arc(mesh, lengths, h.edge())).collect();
+    let cost: Vec<_> =
+        polygon.halfedges.iter().map(|h| polygon.rooted.tree.arc(mesh, lengths, h.edge())).collect();
     let path = |word: &Word| -> Vec<HalfedgeId> {
-        let letters = word.letters().iter();
-        letters.flat_map(|&letter| letter_loop(mesh, &rooted.tree, polygon, letter)).collect()
+        word.letters().iter().flat_map(|&letter| polygon.letter_loop(mesh, letter)).collect()
     };
     let read_from = |start: usize| -> Result<_> {
         let form = normal_form(&polygon.letters, &cost, start);
@@ -146,17 +154,6 @@ fn shortest_handles(
     Ok(best)
 }
 
-/// The loop of a polygon letter: from the base to its edge, along it, and back.
-fn letter_loop(mesh: &Mesh, tree: &Forest, polygon: &Polygon, letter: Letter) -> Vec<HalfedgeId> {
-    let h = polygon.halfedges[letter.index()];
-    let h = if letter.is_inverse() { h.twin() } else { h };
-    let mut path: Vec<_> = tree.path(mesh, mesh.origin(h)).collect();
-    path.reverse();
-    path.push(h);
-    path.extend(tree.path(mesh, mesh.tip(h)).map(HalfedgeId::twin));
-    path
-}
-
 impl HomotopyBasis {
     /// Total length of the loops.
     pub fn length(&self, lengths: &PerEdge<f64>) -> f64 {
@@ -171,9 +168,7 @@ impl HomotopyBasis {
     pub fn tree_path(&self, mesh: &Mesh, v: VertexId) -> Result<Vec<HalfedgeId>> {
         self.check_fits(mesh)?;
         check_vertex(mesh, v)?;
-        let mut path: Vec<_> = self.tree.path(mesh, v).collect();
-        path.reverse();
-        Ok(path)
+        Ok(self.tree.path_down(mesh, v))
     }
 
     /// The lift of a face's corner: the corner at the origin v of `h`, a half-edge of a face, is the place `γ
@@ -207,7 +202,7 @@ impl HomotopyBasis {
         self.check_fits(mesh)?;
         check_path(mesh, path)?;
         let mut reduction = Reduction::new(self.group);
-        path.iter().for_each(|&h| reduction.extend(self.halfedge_letters(mesh, h)));
+        path.iter().for_each(|&h| self.advance(mesh, &mut reduction, h));
         Ok(reduction.word())
     }
 
@@ -241,8 +236,7 @@ impl HomotopyBasis {
         check_size("vertices of the basis", self.tree.parent.len(), mesh.n_vertices())
     }
 
-    /// The reduction of a product in this group, letter by letter, with the element of `h` multiplied to its
-    /// right.
+    /// Multiply a product by the element of `h` from the right.
     pub(super) fn advance(&self, mesh: &Mesh, reduction: &mut Reduction, h: HalfedgeId) {
         reduction.extend(self.halfedge_letters(mesh, h));
     }

@@ -1,4 +1,13 @@
 //! Algebraic intersection numbers of closed edge paths.
+//!
+//! ```
+//! use ricci::topology::{homology_generators, intersection_number};
+//! use ricci::{Control, mesh::shapes};
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let loops = homology_generators(&mesh, &lengths, &Control::new())?;
+//! assert_eq!(intersection_number(&mesh, &loops[0], &loops[1])?.abs(), 1);
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::check_loop;
 use crate::error::Result;
@@ -10,7 +19,10 @@ use crate::mesh::{HalfedgeId, Mesh, PerHalfedge};
 /// It is antisymmetric, depends on the homology classes alone, and loops that bound (also those around a
 /// boundary loop of the surface) have 0 with every other. `a · b = +1` where the directions of a and b, in
 /// this order, are a positively oriented frame. Vertices and edges may be common, loops, or repeated.
-/// [`crate::Error::Argument`] for what is no closed path.
+///
+/// # Errors
+///
+/// [`crate::Error::Argument`] for half-edges that form no closed path.
 pub fn intersection_number(mesh: &Mesh, a: &[HalfedgeId], b: &[HalfedgeId]) -> Result<i64> {
     check_loop(mesh, a)?;
     check_loop(mesh, b)?;
@@ -23,6 +35,10 @@ pub fn intersection_number(mesh: &Mesh, a: &[HalfedgeId], b: &[HalfedgeId]) -> R
 ///
 /// For a [`crate::topology::HomotopyBasis`] it has blocks `(0, 1; −1, 0)` for each pair a_i, b_i, and 0
 /// elsewhere.
+///
+/// # Errors
+///
+/// As [`intersection_number`].
 pub fn intersection_matrix(mesh: &Mesh, loops: &[Vec<HalfedgeId>]) -> Result<Vec<Vec<i64>>> {
     loops.iter().try_for_each(|path| check_loop(mesh, path))?;
     let mut crossing = PerHalfedge::filled(mesh.n_halfedges(), 0);

@@ -1,4 +1,15 @@
 //! Lifts of edge paths to the universal cover.
+//!
+//! ```
+//! use ricci::topology::homotopy_basis;
+//! use ricci::{Control, mesh::shapes};
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let basis = homotopy_basis(&mesh, &lengths, None, &Control::new())?;
+//! let start = basis.tree_lift(basis.base);
+//! let end = basis.lift(&mesh, &start, &basis.loops[0])?.last().unwrap();
+//! assert_eq!((end.vertex, basis.group.text(&end.element)), (basis.base, "a1".into()));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::homotopy::HomotopyBasis;
 use super::reduction::Reduction;
@@ -23,7 +34,7 @@ pub struct LiftedPath<'a> {
     mesh: &'a Mesh,
     basis: &'a HomotopyBasis,
     reduction: Reduction,
-    /// The vertex to give next, and the edges from there on.
+    /// The vertex of the next item, and the edges from there on.
     at: Option<VertexId>,
     path: &'a [HalfedgeId],
 }
@@ -33,8 +44,12 @@ impl HomotopyBasis {
     /// the word.
     ///
     /// A loop's lift closes exactly if the loop is contractible; the lift from p̃ of a loop at the base ends
-    /// at `γ p̃`, γ being the loop's element. [`Error::Argument`] for a path that is none or does not start
-    /// at a vertex below `start`.
+    /// at `γ p̃`, γ being the loop's element.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Size`] for another mesh; [`Error::Argument`] for half-edges that are no path, or a path that does not start at the
+    /// vertex below `start`.
     pub fn lift<'a>(
         &'a self,
         mesh: &'a Mesh,
@@ -45,11 +60,8 @@ impl HomotopyBasis {
         check_path(mesh, path)?;
         check_vertex(mesh, start.vertex)?;
         if let Some(&h) = path.first().filter(|&&h| mesh.origin(h) != start.vertex) {
-            return Err(Error::Argument {
-                what: "path to lift",
-                value: format!("a path from half-edge {h}"),
-                need: "its first half-edge must leave the vertex below the lift it starts at",
-            });
+            let need = "its first half-edge must leave the vertex below the lift it starts at";
+            return Err(Error::argument("path to lift", format!("a path from half-edge {h}"), need));
         }
         let mut reduction = Reduction::new(self.group);
         reduction.extend(start.element.letters().iter().copied());

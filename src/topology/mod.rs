@@ -1,5 +1,7 @@
 //! Spanning trees, homology generators, cut graphs, homotopy bases and lifts to the universal cover.
-//! Everything is walked through half-edges, so loops and repeated edges of a Δ-complex are no special cases.
+//!
+//! All paths are sequences of half-edges, so that edges which are loops or have the same ends, as a Δ-complex may have, need no special
+//! treatment. Calls that take long have a [`crate::Control`] and can be cancelled.
 //!
 //! ```
 //! use ricci::mesh::shapes;

@@ -1,24 +1,21 @@
-//! Words of the places of a polygon, put together when they are asked for.
+//! Words of the places of a polygon, which are composed on demand.
 
 use super::brahana::Prefix;
 use super::word::{Letter, Word};
 
 /// What it takes to spell the way along a polygon's boundary from one place to another.
 ///
-/// A word has up to 4g + b letters (twice that between two places), and there are as many places; per place only a
-/// number per handle is kept, so the memory is O(g (g + b)).
+/// There are 4g + b places, and a word has as many letters (twice as many between two places). Only a number per handle is stored for
+/// each place, so that the memory is O(g (g + b)).
 #[derive(Debug, Clone)]
 pub(super) struct Places {
-    prefixes: Vec<Prefix>,
+    /// Per place of the polygon.
+    pub prefixes: Vec<Prefix>,
     /// Per handle the first k letters of `a b a⁻¹ b⁻¹`, k = 0 … 4, spelled in the generators.
-    products: Vec<[Word; 5]>,
+    pub products: Vec<[Word; 5]>,
 }
 
 impl Places {
-    pub fn new(prefixes: Vec<Prefix>, products: Vec<[Word; 5]>) -> Places {
-        Places { prefixes, products }
-    }
-
     /// The word of the boundary between two places: `P(from)⁻¹ P(to)`, with what the two have in common left out.
     pub fn between(&self, from: u32, to: u32) -> impl Iterator<Item = Letter> + '_ {
         let [from, to] = [from, to].map(|place| &self.prefixes[place as usize]);

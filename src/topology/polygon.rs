@@ -10,6 +10,8 @@ use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge};
 /// Sides on tree edges have no letter. Every vertex of the mesh lies on the boundary of the polygon, so every
 /// corner of a face is a place there: the polygon's corners between letter k − 1 and letter k have place k.
 pub(super) struct Polygon {
+    /// The tree along which the surface was opened.
+    pub rooted: RootedTree,
     /// Each generator of an interior edge twice, once as its inverse; each of a boundary edge once, not
     /// inverted.
     pub letters: Vec<Letter>,
@@ -21,7 +23,7 @@ pub(super) struct Polygon {
 
 impl Polygon {
     /// Reading starts at a corner of the root. O(E).
-    pub fn new(mesh: &Mesh, rooted: &RootedTree) -> Polygon {
+    pub fn new(mesh: &Mesh, rooted: RootedTree) -> Polygon {
         let mut letter_of = vec![None; mesh.n_halfedges()];
         let mut open = PerEdge::from_fn(mesh.n_edges(), |e| mesh.is_boundary_edge(e));
         rooted.tree.parent.iter().flatten().for_each(|h| open[h.edge()] = true);
@@ -51,6 +53,17 @@ impl Polygon {
             }
             at = Some(h).filter(|&h| Some(h) != start);
         }
-        Polygon { letters, halfedges, place }
+        Polygon { rooted, letters, halfedges, place }
+    }
+
+    /// The loop of a letter: from the root to its edge, along the edge, and back to the root.
+    pub fn letter_loop(&self, mesh: &Mesh, letter: Letter) -> Vec<HalfedgeId> {
+        let h = self.halfedges[letter.index()];
+        let h = if letter.is_inverse() { h.twin() } else { h };
+        let tree = &self.rooted.tree;
+        let mut path = tree.path_down(mesh, mesh.origin(h));
+        path.push(h);
+        path.extend(tree.path(mesh, mesh.tip(h)).map(HalfedgeId::twin));
+        path
     }
 }

@@ -1,4 +1,12 @@
 //! Reduction of words in surface groups, letter by letter.
+//!
+//! ```
+//! use ricci::topology::SurfaceGroup;
+//! let group = SurfaceGroup { genus: 2, boundaries: 0 };
+//! assert!(group.is_trivial(&group.relator()));
+//! assert!(!group.equal(&group.parse("a1 b1")?, &group.parse("b1 a1")?));
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::group::SurfaceGroup;
 use super::word::{Letter, Word, inverse};
@@ -64,11 +72,6 @@ impl Reduction {
             std::iter::repeat_n(letter, self.exponents[k].unsigned_abs() as usize)
         };
         self.stack.iter().map(|entry| entry.letter).chain((0..2).flat_map(power)).collect()
-    }
-
-    /// Whether the product is the identity.
-    pub fn is_identity(&self) -> bool {
-        self.stack.is_empty() && self.exponents == [0; 2]
     }
 
     /// Multiply by letters from the right, one after the other.

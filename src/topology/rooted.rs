@@ -1,15 +1,15 @@
 //! Shortest-path trees that contain every boundary loop but one edge of it, and where to root them.
 
-use super::spanning::{Forest, Key, VERTICES_PER_LOOK, leftover};
+use super::farthest::farthest;
+use super::spanning::{Forest, Key, Reached, leftover, shortest_paths_through};
 use crate::control::Control;
 use crate::error::Result;
-use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, VertexId};
 
-/// Roots sampled, and moves made from the best of them. On the closed meshes and disks of the corpus the
-/// loops are then within a few percent of the best of forty sampled roots.
+/// Roots that are sampled. With [`MAX_MOVES`] moves from the best of them, the loops on the closed meshes and disks of the corpus are
+/// within a few percent of those of the best of forty roots.
 const SAMPLED_ROOTS: usize = 8;
+/// Moves of the root towards shorter loops.
 const MAX_MOVES: usize = 4;
 
 /// A spanning tree T with the edges that T and a dual tree leave over.
@@ -22,14 +22,16 @@ pub(super) struct RootedTree {
 }
 
 impl RootedTree {
-    /// The tree of `root`, on a connected surface; lengths are checked.
+    /// The shortest-path tree of `root` on a connected surface, except that a boundary loop, once reached, is walked around from there
+    /// to both sides until one edge of it is left.
     ///
     /// The interior edges left over are those of \[EW05\], whose loops through the root are short: their dual
-    /// tree is a maximum spanning tree. T has all of a boundary loop but one edge, so with a disk glued into
-    /// each loop the dual graph stays connected without T, and those disks are leaves of it: it is connected
-    /// without them, too.
+    /// tree is a maximum spanning tree. The dual graph of the faces is connected without the edges of T: it would be if a disk were
+    /// glued into each boundary loop, and each disk then is a leaf, since T has all edges of its loop but one.
     pub fn new(mesh: &Mesh, lengths: &PerEdge<f64>, root: VertexId, control: &Control) -> Result<RootedTree> {
-        let tree = tree_along_boundary(mesh, lengths, root, control)?;
+        let around =
+            |v| if mesh.is_boundary_vertex(v) { around_boundary(mesh, lengths, v) } else { Vec::new() };
+        let tree = shortest_paths_through(mesh, lengths, [root], control, around)?;
         control.check()?;
         let mut left = leftover(mesh, lengths, &tree, |e| mesh.is_boundary_edge(e));
         let enters = |h: HalfedgeId| tree.parent[mesh.tip(h)] == Some(h);
@@ -46,15 +48,14 @@ impl RootedTree {
         let mut best = RootedTree::new(mesh, lengths, VertexId(0), control)?;
         let mut nearest = best.tree.distance.clone();
         for _ in 1..SAMPLED_ROOTS.min(mesh.n_vertices()) {
-            let farther = |far, v| if nearest[v] > nearest[far] { v } else { far };
-            let next = RootedTree::new(mesh, lengths, mesh.vertices().fold(best.root, farther), control)?;
+            let next = RootedTree::new(mesh, lengths, farthest(mesh, &nearest, best.root), control)?;
             nearest.iter_mut().zip(&next.tree.distance).for_each(|(near, d)| *near = near.min(*d));
             if next.total(mesh, lengths) < best.total(mesh, lengths) {
                 best = next;
             }
         }
         for _ in 0..MAX_MOVES {
-            let arc = |e: &EdgeId| Key(best.arc(mesh, lengths, *e));
+            let arc = |e: &EdgeId| Key(best.tree.arc(mesh, lengths, *e));
             let Some(shortest) = best.left.iter().copied().min_by_key(arc) else { break };
             let next = RootedTree::new(mesh, lengths, mesh.tip(shortest.halfedge()), control)?;
             if next.total(mesh, lengths) >= best.total(mesh, lengths) {
@@ -65,63 +66,14 @@ impl RootedTree {
         Ok(best)
     }
 
-    /// Length of an edge's loop: from the root to one end, along the edge, and back from the other.
-    pub fn arc(&self, mesh: &Mesh, lengths: &PerEdge<f64>, e: EdgeId) -> f64 {
-        let [u, v] = mesh.ends(e);
-        self.tree.distance[u] + self.tree.distance[v] + lengths[e]
-    }
-
+    /// Total length of the loops of the edges left over.
     fn total(&self, mesh: &Mesh, lengths: &PerEdge<f64>) -> f64 {
-        self.left.iter().fold(0.0, |sum, &e| sum + self.arc(mesh, lengths, e))
+        self.left.iter().fold(0.0, |sum, &e| sum + self.tree.arc(mesh, lengths, e))
     }
 }
 
-/// The shortest-path tree of `root` (Dijkstra, ties as in [`super::shortest_paths`]), except that a boundary
-/// loop, once reached, is walked around from there to both sides until one edge of it is left.
-fn tree_along_boundary(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
-    root: VertexId,
-    control: &Control,
-) -> Result<Forest> {
-    let n = mesh.n_vertices();
-    let mut distance = PerVertex::filled(n, f64::INFINITY);
-    let mut parent = PerVertex::filled(n, None);
-    // Settled, or on a boundary loop that has been walked: the path to it stays.
-    let mut fixed = PerVertex::filled(n, false);
-    let mut settled = PerVertex::filled(n, false);
-    let mut queue = BinaryHeap::new();
-    distance[root] = 0.0;
-    queue.push(Reverse((Key(0.0), root)));
-    let mut steps = 0;
-    while let Some(Reverse((Key(d), v))) = queue.pop() {
-        if usize::is_multiple_of(steps, VERTICES_PER_LOOK) {
-            control.check()?;
-        }
-        steps += 1;
-        if d != distance[v] || std::mem::replace(&mut settled[v], true) {
-            continue;
-        }
-        if !std::mem::replace(&mut fixed[v], true) && mesh.is_boundary_vertex(v) {
-            for (w, through, h) in around_boundary(mesh, lengths, v) {
-                (distance[w], parent[w], fixed[w]) = (d + through, Some(h), true);
-                queue.push(Reverse((Key(d + through), w)));
-            }
-        }
-        for h in mesh.outgoing(v) {
-            let (w, through) = (mesh.tip(h), d + lengths[h.edge()]);
-            if !fixed[w] && through < distance[w] {
-                (distance[w], parent[w]) = (through, Some(h));
-                queue.push(Reverse((Key(through), w)));
-            }
-        }
-    }
-    Ok(Forest { distance, parent })
-}
-
-/// The other vertices of the boundary loop through `v`, with their distance from it along the loop and the
-/// half-edge that enters them.
-fn around_boundary(mesh: &Mesh, lengths: &PerEdge<f64>, v: VertexId) -> Vec<(VertexId, f64, HalfedgeId)> {
+/// The other vertices of the boundary loop through `v`, reached along the loop from both sides until one edge of it is left.
+fn around_boundary(mesh: &Mesh, lengths: &PerEdge<f64>, v: VertexId) -> Vec<Reached> {
     let start = mesh.out(v);
     let onwards = |&h: &HalfedgeId| Some(mesh.next(h)).filter(|&next| next != start);
     let boundary: Vec<_> = std::iter::successors(Some(start), onwards).collect();

@@ -8,11 +8,11 @@ use crate::mesh::{HalfedgeId, Mesh, PerEdge};
 /// rounding of a sum of lengths, so that no sequence of moves comes back to where it was.
 pub(super) const LEAST_SAVING: f64 = 1e-12;
 
-/// Moves allowed per face of the mesh, besides those that take out a spur of a path. What is made of shortest
-/// paths needs far fewer; the bound keeps the worst case linear.
+/// Most moves of one path or cut, per face of the mesh; taking a spur out of a path does not count. Paths and cuts made of shortest
+/// paths need far fewer moves; the bound keeps the worst case linear.
 pub(super) const MOVES_PER_FACE: usize = 8;
 
-/// Steps between two looks at the control.
+/// Half-edges of a path that are looked at between two looks at the control: they take a fraction of a millisecond.
 const STEPS_PER_LOOK: usize = 4096;
 
 /// A path with the same ends, homotopic to `path` and no longer.
@@ -24,8 +24,8 @@ const STEPS_PER_LOOK: usize = 4096;
 ///   u ---- v --- w
 /// ```
 ///
-/// No move is left at the end: what lies behind the vertex looked at has been looked at with the edges it
-/// has. Moves are of paths, not of curves: a path may pass a vertex or an edge as often as it likes.
+/// At the end no vertex of the path allows another move: every vertex was looked at again after its edges had changed. A path may
+/// pass a vertex or an edge several times.
 pub(super) fn shorten(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -37,10 +37,7 @@ pub(super) fn shorten(
     let mut budget = MOVES_PER_FACE * mesh.n_faces();
     let mut steps = 0;
     while let Some(leave) = ahead.pop() {
-        if usize::is_multiple_of(steps, STEPS_PER_LOOK) {
-            control.check()?;
-        }
-        steps += 1;
+        control.check_every(STEPS_PER_LOOK, &mut steps)?;
         match behind.last() {
             Some(&enter) if enter == leave.twin() => drop(behind.pop()),
             Some(&enter) if budget > 0 => match shorter_side(mesh, lengths, enter, leave) {
@@ -66,9 +63,9 @@ fn shorter_side(
 ) -> Option<Vec<HalfedgeId>> {
     let old = lengths[enter.edge()] + lengths[leave.edge()];
     let limit = old * (1.0 - LEAST_SAVING);
-    let right = fan(mesh, lengths, enter.twin(), leave, limit);
+    let right = fan(mesh, lengths, [enter.twin(), leave], limit);
     let limit = right.as_ref().map_or(limit, |&(_, length)| length);
-    match fan(mesh, lengths, leave, enter.twin(), limit) {
+    match fan(mesh, lengths, [leave, enter.twin()], limit) {
         Some((left, _)) => Some(left.into_iter().rev().map(HalfedgeId::twin).collect()),
         None => right.map(|(way, _)| way),
     }
@@ -79,8 +76,7 @@ fn shorter_side(
 pub(super) fn fan(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
-    from: HalfedgeId,
-    to: HalfedgeId,
+    [from, to]: [HalfedgeId; 2],
     limit: f64,
 ) -> Option<(Vec<HalfedgeId>, f64)> {
     let (mut way, mut length, mut h) = (Vec::new(), 0.0, from);

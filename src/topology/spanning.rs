@@ -1,4 +1,13 @@
 //! Shortest-path forests, and the edges that a tree and a dual tree leave over.
+//!
+//! ```
+//! use ricci::mesh::{VertexId, shapes};
+//! use ricci::{Control, topology::shortest_paths};
+//! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
+//! let forest = shortest_paths(&mesh, &lengths, [VertexId(0)], &Control::new())?;
+//! assert_eq!(forest.distance[VertexId(2)], 0.5); // two edges of length 1/4
+//! # Ok::<(), ricci::Error>(())
+//! ```
 
 use super::{check_lengths, check_vertex};
 use crate::control::Control;
@@ -8,10 +17,10 @@ use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-/// Vertices settled between two looks at the control: a fraction of a millisecond.
-pub(super) const VERTICES_PER_LOOK: usize = 4096;
+/// Vertices settled between two looks at the control: they take a fraction of a millisecond.
+const VERTICES_PER_LOOK: usize = 4096;
 
-/// A real priority-queue key in the total order of `f64`.
+/// A number as a key of a priority queue, in the total order of `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Key(pub f64);
 
@@ -41,6 +50,19 @@ impl Forest {
     pub fn path<'a>(&'a self, mesh: &'a Mesh, v: VertexId) -> impl Iterator<Item = HalfedgeId> + 'a {
         std::iter::successors(self.parent[v], |&h| self.parent[mesh.origin(h)])
     }
+
+    /// Length of an edge's arc: from a source to one end, along the edge, and from the other end to a source.
+    pub(super) fn arc(&self, mesh: &Mesh, lengths: &PerEdge<f64>, e: EdgeId) -> f64 {
+        let [u, v] = mesh.ends(e);
+        self.distance[u] + self.distance[v] + lengths[e]
+    }
+
+    /// The path from the source of `v` down to it.
+    pub(super) fn path_down(&self, mesh: &Mesh, v: VertexId) -> Vec<HalfedgeId> {
+        let mut path: Vec<_> = self.path(mesh, v).collect();
+        path.reverse();
+        path
+    }
 }
 
 /// Shortest-path forest along edges (Dijkstra), O(E log V).
@@ -51,26 +73,35 @@ impl Forest {
 ///
 /// # Errors
 ///
-/// Lengths that are not E positive numbers, a source that is no vertex.
+/// [`crate::Error::Size`] and [`crate::Error::EdgeLength`] for lengths that are not E positive numbers;
+/// [`crate::Error::Argument`] for a source that is no vertex; [`crate::Error::Cancelled`].
 pub fn shortest_paths(
-    mesh: &Mesh,
-    lengths: &PerEdge<f64>,
-    sources: impl IntoIterator<Item = VertexId>,
-) -> Result<Forest> {
-    shortest_paths_under(mesh, lengths, sources, &Control::new())
-}
-
-/// [`shortest_paths`], unless it is cancelled.
-pub(crate) fn shortest_paths_under(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     sources: impl IntoIterator<Item = VertexId>,
     control: &Control,
 ) -> Result<Forest> {
+    shortest_paths_through(mesh, lengths, sources, control, |_| Vec::new())
+}
+
+/// A vertex that is reached by a path of this length from another vertex, and the half-edge that enters it.
+pub(super) type Reached = (VertexId, f64, HalfedgeId);
+
+/// [`shortest_paths`], where the vertices that `at_once` returns for a settled vertex keep the paths from there that it returns, even
+/// if there are shorter ones.
+pub(super) fn shortest_paths_through(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    sources: impl IntoIterator<Item = VertexId>,
+    control: &Control,
+    at_once: impl Fn(VertexId) -> Vec<Reached>,
+) -> Result<Forest> {
     check_lengths(mesh, lengths)?;
     let mut distance = PerVertex::filled(mesh.n_vertices(), f64::INFINITY);
     let mut parent = PerVertex::filled(mesh.n_vertices(), None);
     let mut settled = PerVertex::filled(mesh.n_vertices(), false);
+    // The path to a vertex stays once the vertex is settled or was returned by `at_once`.
+    let mut is_fixed = PerVertex::filled(mesh.n_vertices(), false);
     let mut queue = BinaryHeap::new();
     for v in sources {
         check_vertex(mesh, v)?;
@@ -81,16 +112,19 @@ pub(crate) fn shortest_paths_under(
     let mut steps = 0;
     loop {
         while let Some(Reverse((Key(d), v))) = queue.pop() {
-            if usize::is_multiple_of(steps, VERTICES_PER_LOOK) {
-                control.check()?;
-            }
-            steps += 1;
-            if std::mem::replace(&mut settled[v], true) {
+            control.check_every(VERTICES_PER_LOOK, &mut steps)?;
+            if d != distance[v] || std::mem::replace(&mut settled[v], true) {
                 continue;
+            }
+            if !std::mem::replace(&mut is_fixed[v], true) {
+                for (w, through, h) in at_once(v) {
+                    (distance[w], parent[w], is_fixed[w]) = (d + through, Some(h), true);
+                    queue.push(Reverse((Key(d + through), w)));
+                }
             }
             for h in mesh.outgoing(v) {
                 let (w, through) = (mesh.tip(h), d + lengths[h.edge()]);
-                if through < distance[w] {
+                if !is_fixed[w] && through < distance[w] {
                     (distance[w], parent[w]) = (through, Some(h));
                     queue.push(Reverse((Key(through), w)));
                 }
@@ -120,13 +154,10 @@ pub(crate) fn leftover(
     for h in forest.parent.iter().flatten() {
         in_forest[h.edge()] = true;
     }
-    let arc = |e: EdgeId| {
-        let [u, v] = mesh.ends(e);
-        forest.distance[u] + forest.distance[v] + lengths[e]
-    };
-    let mut arcs: Vec<(Key, EdgeId)> =
-        mesh.edges().filter(|&e| !in_forest[e] && !wall(e)).map(|e| (Key(arc(e)), e)).collect();
+    let free = mesh.edges().filter(|&e| !in_forest[e] && !wall(e));
+    let mut arcs: Vec<(Key, EdgeId)> = free.map(|e| (Key(forest.arc(mesh, lengths, e)), e)).collect();
     arcs.sort_unstable_by(|a, b| b.cmp(a));
+    // In the dual graph the outside is one more node.
     let outside = mesh.n_faces() as u32;
     let node = |h: HalfedgeId| mesh.face(h).map_or(outside, |f| f.0);
     let mut joined = UnionFind::new(mesh.n_faces() + 1);

@@ -1,5 +1,10 @@
-# Installs BUILD below WORK, moves the installation, and builds SOURCE against it with CMake and with
-# pkg-config.
+# Installs BUILD below WORK, moves the installation, and builds SOURCE and EXAMPLES against it with CMake and with
+# pkg-config, without Rust on the path; without the installation they are not built.
+set(ENV{PATH} /usr/local/bin:/usr/bin:/bin)
+find_program(_cargo cargo PATHS ENV PATH NO_DEFAULT_PATH)
+if(_cargo)
+  message(FATAL_ERROR "there is a Rust toolchain on the path: ${_cargo}")
+endif()
 file(REMOVE_RECURSE ${WORK})
 set(_prefix ${WORK}/moved)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first OUTPUT_QUIET
@@ -11,6 +16,66 @@ execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/consumer -DCMAK
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK}/consumer COMMAND_ERROR_IS_FATAL ANY)
 foreach(_program with_shared with_static)
   execute_process(COMMAND ${WORK}/consumer/${_program} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${EXAMPLES} -B ${WORK}/examples -DCMAKE_PREFIX_PATH=${_prefix}
+  COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK}/examples COMMAND_ERROR_IS_FATAL ANY)
+foreach(_program example_openmesh example_eigen)
+  if(EXISTS ${WORK}/examples/${_program})
+    execute_process(COMMAND ${WORK}/examples/${_program} ${MESH} COMMAND_ERROR_IS_FATAL ANY)
+  endif()
+endforeach()
+foreach(_source ${SOURCE} ${EXAMPLES})
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${_source} -B ${WORK}/without RESULT_VARIABLE _result OUTPUT_QUIET ERROR_QUIET)
+  if(_result EQUAL 0)
+    message(FATAL_ERROR "${_source} was configured without an installation")
+  endif()
+  file(REMOVE_RECURSE ${WORK}/without)
+endforeach()
+
+# As a part of another build: FetchContent and add_subdirectory.
+file(WRITE ${WORK}/part/CMakeLists.txt "cmake_minimum_required(VERSION 3.19)
+project(part LANGUAGES C)
+include(FetchContent)
+FetchContent_Declare(ricci SOURCE_DIR ${ROOT})
+FetchContent_MakeAvailable(ricci)
+add_executable(part ${SOURCE}/main.c)
+target_link_libraries(part PRIVATE ricci::ricci)
+")
+foreach(_shared ON OFF)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK}/part -B ${WORK}/part_${_shared} -DBUILD_SHARED_LIBS=${_shared} ${CARGO_SETTINGS}
+    OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK}/part_${_shared} --target part OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${WORK}/part_${_shared}/part COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+
+# The Debian package has the same, and a program is built against what it unpacks.
+find_program(CPACK cpack)
+find_program(DPKG_DEB dpkg-deb)
+if(CPACK AND DPKG_DEB)
+  execute_process(COMMAND ${CPACK} -G DEB -B ${WORK}/deb WORKING_DIRECTORY ${BUILD} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  file(GLOB _deb ${WORK}/deb/*.deb)
+  execute_process(COMMAND ${DPKG_DEB} -x ${_deb} ${WORK}/unpacked COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${CC} ${SOURCE}/main.c -o ${WORK}/with_deb -I${WORK}/unpacked/usr/include
+    -L${WORK}/unpacked/usr/${LIBDIR} -lricci -Wl,-rpath,${WORK}/unpacked/usr/${LIBDIR} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${WORK}/with_deb COMMAND_ERROR_IS_FATAL ANY)
+else()
+  message(STATUS "cpack or dpkg-deb is not installed; the test of the Debian package is left out")
+endif()
+
+# Without debug information, with licences, and of the size that one expects.
+file(GLOB _shared ${_prefix}/${LIBDIR}/libricci.so.*.*.*)
+file(SIZE ${_shared} _shared_size)
+file(SIZE ${_prefix}/${LIBDIR}/libricci.a _static_size)
+message(STATUS "shared library ${_shared_size} bytes, static library ${_static_size} bytes")
+if(RELEASE AND (_shared_size GREATER 6500000 OR _static_size GREATER 31500000))
+  message(FATAL_ERROR "the installed libraries are too large")
+endif()
+foreach(_licence LICENSE-MIT LICENSE-APACHE THIRD-PARTY.txt)
+  if(NOT EXISTS ${_prefix}/share/doc/ricci/${_licence})
+    message(FATAL_ERROR "${_licence} was not installed")
+  endif()
 endforeach()
 
 find_program(PKG_CONFIG pkg-config)
@@ -25,3 +90,29 @@ separate_arguments(_flags)
 execute_process(COMMAND ${CC} ${SOURCE}/main.c -o ${WORK}/with_pkg_config ${_flags}
   -Wl,-rpath,${_prefix}/${LIBDIR} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK}/with_pkg_config COMMAND_ERROR_IS_FATAL ANY)
+# The static library, as pkg-config --static has it.
+execute_process(COMMAND ${PKG_CONFIG} --cflags --libs --static ricci OUTPUT_VARIABLE _static
+  OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE "-lricci" "-l:libricci.a" _static "${_static}")
+separate_arguments(_static)
+execute_process(COMMAND ${CC} ${SOURCE}/main.c -o ${WORK}/static_with_pkg_config ${_static} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${WORK}/static_with_pkg_config COMMAND_ERROR_IS_FATAL ANY)
+
+find_path(_eigen Eigen/Core PATH_SUFFIXES eigen3)
+if(_eigen)
+  execute_process(COMMAND ${CXX} -std=c++14 -isystem ${_eigen} ${EXAMPLES}/eigen.cpp -o ${WORK}/eigen ${_flags}
+    -Wl,-rpath,${_prefix}/${LIBDIR} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${WORK}/eigen ${MESH} COMMAND_ERROR_IS_FATAL ANY)
+endif()
+find_path(_openmesh OpenMesh/Core/IO/MeshIO.hh)
+find_library(_openmesh_core OpenMeshCore)
+if(_openmesh AND _openmesh_core)
+  execute_process(COMMAND ${CXX} -std=c++14 ${EXAMPLES}/openmesh.cpp -o ${WORK}/openmesh ${_flags} ${_openmesh_core}
+    -Wl,-rpath,${_prefix}/${LIBDIR} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${WORK}/openmesh ${MESH} COMMAND_ERROR_IS_FATAL ANY)
+endif()
+set(ENV{PKG_CONFIG_PATH} "")
+execute_process(COMMAND ${PKG_CONFIG} --exists ricci RESULT_VARIABLE _result)
+if(_result EQUAL 0)
+  message(FATAL_ERROR "pkg-config finds a ricci that was not installed here")
+endif()

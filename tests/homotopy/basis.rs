@@ -246,8 +246,11 @@ fn loops_are_short() {
     // vertices.
     for g in 2..=5 {
         let (name, mesh, lengths) = from_soup(&format!("genus {g}"), &shapes::genus(g, 3).unwrap());
-        let greedy: f64 =
-            homology_generators(&mesh, &lengths).unwrap().iter().map(|path| length(path, &lengths)).sum();
+        let greedy: f64 = homology_generators(&mesh, &lengths, &Control::new())
+            .unwrap()
+            .iter()
+            .map(|path| length(path, &lengths))
+            .sum();
         let total = basis_of(&mesh, &lengths).length(&lengths);
         assert!(total < 3.0 * greedy, "{name}: {total} against {greedy}");
     }

@@ -121,8 +121,7 @@ pub fn check(r: &Refinement, input: &Mesh, flown: &Flown, positions: &[Point], w
 
 pub fn check_layout(
     r: &Refinement,
-    input: &Mesh,
-    lengths: &PerEdge<f64>,
+    (input, lengths): (&Mesh, &PerEdge<f64>),
     flown: &Flown,
     target: &PerVertex<f64>,
     what: &str,

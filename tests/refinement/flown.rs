@@ -2,7 +2,7 @@
 
 use crate::common::flow::{attempt, euclidean};
 use ricci::flow::Options;
-use ricci::geometry::Space;
+use ricci::geometry::{Space, Twofold};
 use ricci::mesh::{Double, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use ricci::metric::delaunay::{ClassFlips, Queue, failing};
 use ricci::metric::refinement::{Final, Input, Intrinsic, Triangulations};
@@ -35,7 +35,7 @@ pub fn flow(
 ) -> Option<Flown> {
     let mut flown = Flown::start(input, lengths, kind, double);
     let Flown { mesh, metric, normal, flips, start, .. } = &mut flown;
-    let mut record = |mesh: &Mesh, flip: Flip| {
+    let mut record = |mesh: &Mesh, flip: Flip<Twofold>| {
         *flips += 1;
         normal.record(mesh, flip.edge);
         if let Some((.., its_own)) = start {
@@ -51,11 +51,12 @@ pub fn flow(
         let s = f64::from(step) / 20.0;
         let u = PerVertex::from_fn(from.len(), |v: VertexId| (1.0 - s) * from[v] + s * to[v]);
         let mut queue = Queue::new(mesh.n_edges(), &FixedEdges::none());
-        failing(mesh, metric, &u).into_iter().for_each(|e| queue.push(e));
-        ClassFlips { mesh, metric, record: &mut record }
-            .restore_delaunay(&u, &mut queue, &Control::new())
-            .unwrap();
         metric.u = u;
+        failing(mesh, metric).into_iter().for_each(|e| queue.push(e));
+        let vertices = metric.vertices();
+        ClassFlips { mesh, metric, record: &mut record }
+            .restore_delaunay(&vertices, &mut queue, &Control::new())
+            .unwrap();
     }
     Some(flown)
 }

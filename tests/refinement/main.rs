@@ -60,7 +60,7 @@ fn every_closed_mesh_is_refined_with_its_flat_and_hyperbolic_metrics() {
                 r.mesh.n_vertices()
             );
             if space == Space::E2 {
-                check_layout(&r, &mesh, &lengths, &flown, &target, &what);
+                check_layout(&r, (&mesh, &lengths), &flown, &target, &what);
             }
         }
     }
@@ -92,7 +92,7 @@ fn every_open_mesh_is_refined_in_its_half_of_the_double() {
                 half.n_vertices(),
                 r.mesh.n_vertices()
             );
-            check_layout(&r, &half, &lengths, &flown, &target, &name);
+            check_layout(&r, (&half, &lengths), &flown, &target, &name);
         }
     }
 }

@@ -4,11 +4,11 @@ use crate::check::determinant;
 use crate::common::Random;
 use crate::flown::{default_target, flow};
 use ricci::Control;
-use ricci::geometry::Space;
 use ricci::geometry::flip::Hinge;
+use ricci::geometry::{Space, Twofold};
 use ricci::mesh::{EdgeId, FaceId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::refinement::{Final, Input, Triangulations};
-use ricci::metric::{Metric, Refinement, Scheme, initial_metric, lengths_from_positions};
+use ricci::metric::{Class, Metric, Refinement, Scheme, initial_metric, lengths_from_positions};
 use std::f64::consts::PI;
 
 #[test]
@@ -16,7 +16,7 @@ fn without_flips_the_refinement_is_the_input() {
     let soup = shapes::genus(2, 3).unwrap();
     let mesh = Mesh::from_soup(&soup).unwrap();
     let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Inversive, Space::E2).unwrap();
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Class::inversive(Space::E2)).unwrap();
     let normal = NormalCoordinates::new(&mesh);
     let mut metric = initial.metric;
     metric.u.iter_mut().for_each(|u| *u += 0.5);
@@ -55,7 +55,8 @@ fn ptolemy(mesh: &mut Mesh, metric: &mut Metric, normal: &mut NormalCoordinates,
         return false;
     }
     let sides = [h, mesh.prev(h), mesh.next(h), mesh.next(h.twin()), mesh.prev(h.twin())];
-    metric.eta[e] = Hinge::from_products([0.0; 4], sides.map(|h| metric.eta[h.edge()])).flipped().unwrap();
+    metric.eta[e] =
+        Hinge::from_products([Twofold::default(); 4], sides.map(|h| metric.eta[h.edge()])).flipped().unwrap();
     normal.record(mesh, e);
     mesh.flip(e)
 }
@@ -76,7 +77,7 @@ fn refined_from_either_side_the_crossings_are_the_same() {
         let class = Metric {
             space: Space::E2,
             epsilon: PerVertex::filled(before.n_vertices(), 0),
-            eta: PerEdge::from_fn(before.n_edges(), |_| (3.0 * random.symmetric()).exp()),
+            eta: PerEdge::from_fn(before.n_edges(), |_| (3.0 * random.symmetric()).exp().into()),
             u: PerVertex::from_fn(before.n_vertices(), |_| random.symmetric()),
             u_low: PerVertex::filled(before.n_vertices(), 0.0),
         };
@@ -192,11 +193,11 @@ fn edges_across_a_cocircular_quadrilateral_stay_straight() {
         let metric = Metric {
             space,
             epsilon: PerVertex::filled(4, epsilon),
-            eta: PerEdge::from_fn(5, |e| eta(&mesh, e)),
+            eta: PerEdge::from_fn(5, |e| eta(&mesh, e).into()),
             u: u.clone(),
             u_low: PerVertex::filled(4, 0.0),
         };
-        if epsilon == 1 && metric.eta.iter().any(|&eta| eta < 1.001) {
+        if epsilon == 1 && metric.eta.iter().any(|eta| eta.high < 1.001) {
             continue;
         }
         seen += 1;
@@ -289,7 +290,7 @@ fn any_number_of_threads_gives_the_same_and_a_cancelled_call_says_so() {
     let soup = shapes::icosphere(16).unwrap();
     let mesh = Mesh::from_soup(&soup).unwrap();
     let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
-    let initial = initial_metric(&mesh, &lengths, Space::E2, Scheme::Yamabe, Space::E2).unwrap();
+    let initial = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2)).unwrap();
     let (mut after, mut metric, mut normal) = (mesh.clone(), initial.metric, NormalCoordinates::new(&mesh));
     shuffle(&mut after, &mut metric, &mut normal, 2 * mesh.n_edges(), 2);
     let refine = |control: &Control| {

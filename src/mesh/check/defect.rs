@@ -49,7 +49,7 @@ pub enum Defect {
         sheets: u32,
     },
     /// Faces run along their common edge in the same direction. Two faces that meet in an edge of a one-sided
-    /// piece are not listed: there that is nobody's mistake.
+    /// piece are not listed, since no turning of faces makes all of them agree there.
     InconsistentOrientation {
         /// Where the edge starts and where it ends, as these faces run along it.
         vertices: [u32; 2],
@@ -209,7 +209,7 @@ impl std::fmt::Display for Defect {
     }
 }
 
-/// The head of a list that may be long.
+/// The first eight numbers of a list, and how many there are in all.
 fn few(numbers: &[u32]) -> String {
     const SHOWN: usize = 8;
     let mut text = numbers.iter().take(SHOWN).map(u32::to_string).collect::<Vec<_>>().join(", ");

@@ -14,15 +14,15 @@ mod orientation;
 
 pub use defect::Defect;
 pub(super) use gluing::diagnose_gluing;
+pub(super) use orientation::{Orientation, Piece};
 
 use super::Point;
 use super::incidence::{Incidence, boundary_loops, components, ends};
 use crate::geometry::triangle::half_differences;
 use orientation::orientation;
 
-/// A face counts as zero-area when its lengths, as computed in doubles, satisfy the triangle inequality by
-/// less than this fraction of the longest side: four roundings of a length, below which the inequality is an
-/// accident.
+/// A face counts as zero-area when its lengths, as computed in doubles, satisfy the triangle inequality by less than this fraction of
+/// the longest side. It is four roundings of a length: below it rounding decides whether the inequality holds.
 pub const ZERO_AREA: f64 = 4.0 * f64::EPSILON;
 
 /// Every defect of a triangle list, or of a gluing, and its counts. All defects keep a metric from being
@@ -44,7 +44,7 @@ pub struct Diagnosis {
     pub boundary_loops: usize,
     /// Genus of a connected, orientable manifold (its faces need not be oriented yet).
     pub genus: Option<usize>,
-    /// The defects, kind by kind: first those of the faces' indices, then those of the positions.
+    /// The defects, grouped by kind: first those of the faces' indices, then those of the positions.
     pub defects: Vec<Defect>,
 }
 
@@ -147,11 +147,10 @@ pub(super) fn diagnose_incidence(faces: &[[u32; 3]], incidence: &Incidence) -> D
     Diagnosis { vertices: n, edges, faces: faces.len(), components, euler, boundary_loops, genus, defects }
 }
 
-/// Adds the defect that there are several pieces; returns how many.
-fn several_components(mut pieces: Vec<(u32, u32)>, defects: &mut Vec<Defect>) -> usize {
+/// Number of pieces; several are a defect, which is added.
+fn several_components(pieces: Vec<(u32, u32)>, defects: &mut Vec<Defect>) -> usize {
     let n = pieces.len();
     if n > 1 {
-        pieces.sort_unstable_by_key(|&(first, size)| (std::cmp::Reverse(size), first));
         let (first_faces, sizes) = pieces.into_iter().unzip();
         defects.push(Defect::SeveralComponents { sizes, first_faces });
     }

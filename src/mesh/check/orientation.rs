@@ -2,10 +2,8 @@
 
 use super::defect::Defect;
 use crate::mesh::incidence::{Incidence, NONE, ends, is_forward};
-use std::collections::VecDeque;
-
-/// Adds the edges at which orientations clash and a Möbius band for each piece that no turning of faces can
-/// orient (pieces are joined through edges of two faces). Returns whether there is none of the latter.
+/// Add the edges along which faces run in the same direction, and a Möbius band of each one-sided piece (pieces are connected through
+/// edges of two faces). Returns whether all pieces are two-sided.
 pub(super) fn orientation(faces: &[[u32; 3]], incidence: &Incidence, defects: &mut Vec<Defect>) -> bool {
     let forward = |sides: &[u32]| sides.iter().filter(|&&s| is_forward(faces, s)).count();
     let clashes =
@@ -13,9 +11,17 @@ pub(super) fn orientation(faces: &[[u32; 3]], incidence: &Incidence, defects: &m
     if !incidence.edges().any(|sides| clashes(&sides)) {
         return true;
     }
-    let pieces = Pieces::new(faces, incidence);
+    let Orientation { parent, pieces, .. } = Orientation::new(faces, incidence);
+    let mut one_sided = vec![false; faces.len()];
+    let mut strips = Vec::new();
+    for Piece { faces, clash } in pieces {
+        if let Some([f, g]) = clash {
+            faces.into_iter().for_each(|f| one_sided[f as usize] = true);
+            strips.push(tree_path(&parent, f, g));
+        }
+    }
     for sides in incidence.edges().filter(clashes) {
-        if sides.len() == 2 && pieces.one_sided[sides[0] as usize / 3] {
+        if sides.len() == 2 && one_sided[sides[0] as usize / 3] {
             continue;
         }
         for direction in [true, false] {
@@ -30,59 +36,59 @@ pub(super) fn orientation(faces: &[[u32; 3]], incidence: &Incidence, defects: &m
             }
         }
     }
-    let orientable = pieces.strips.is_empty();
-    defects.extend(pieces.strips.into_iter().map(|strip| Defect::NonOrientable { strip }));
+    let orientable = strips.is_empty();
+    defects.extend(strips.into_iter().map(|strip| Defect::NonOrientable { strip }));
     orientable
 }
 
-struct Pieces {
-    /// Per face: whether its piece is one-sided.
-    one_sided: Vec<bool>,
-    /// A Möbius band of each one-sided piece.
-    strips: Vec<Vec<u32>>,
+/// Faces turned until neighbours agree, where that can be: each piece is searched breadth first from its first face.
+pub(in crate::mesh) struct Orientation {
+    /// Per face, whether it has to be turned to agree with the first face of its piece.
+    pub turned: Vec<bool>,
+    pub pieces: Vec<Piece>,
+    /// Per face, the face from which it was reached; itself for the first of a piece.
+    parent: Vec<u32>,
 }
 
-impl Pieces {
-    /// Orient each piece by breadth-first search from its first face; the first contradiction closes a Möbius
-    /// band.
-    fn new(faces: &[[u32; 3]], incidence: &Incidence) -> Pieces {
+/// Faces that are connected through edges of two faces.
+pub(in crate::mesh) struct Piece {
+    pub faces: Vec<u32>,
+    /// The first two neighbours found that turning does not make agree. With the ways by which they were reached they close a Möbius
+    /// band: the piece is one-sided.
+    pub clash: Option<[u32; 2]>,
+}
+
+impl Orientation {
+    pub fn new(faces: &[[u32; 3]], incidence: &Incidence) -> Orientation {
         let partner = incidence.partners(faces.len());
         let mut parent = vec![NONE; faces.len()];
         let mut turned = vec![false; faces.len()];
-        let mut pieces = Pieces { one_sided: vec![false; faces.len()], strips: Vec::new() };
-        let mut queue = VecDeque::new();
+        let mut pieces = Vec::new();
         for first in 0..faces.len() as u32 {
             if parent[first as usize] != NONE {
                 continue;
             }
             parent[first as usize] = first;
-            queue.push_back(first);
-            let mut piece = Vec::new();
-            let mut contradiction = None;
-            while let Some(f) = queue.pop_front() {
-                piece.push(f);
-                for side in 3 * f..3 * f + 3 {
+            let mut piece = Piece { faces: vec![first], clash: None };
+            let mut next = 0;
+            while let Some(&f) = piece.faces.get(next) {
+                next += 1;
+                for side in (3 * f..3 * f + 3).filter(|&side| partner[side as usize] != NONE) {
                     let other = partner[side as usize];
-                    if other == NONE {
-                        continue;
-                    }
                     let g = other / 3;
                     let same_way = is_forward(faces, side) == is_forward(faces, other);
                     let turn = turned[f as usize] ^ same_way;
                     if parent[g as usize] == NONE {
                         (parent[g as usize], turned[g as usize]) = (f, turn);
-                        queue.push_back(g);
+                        piece.faces.push(g);
                     } else if turned[g as usize] != turn {
-                        contradiction = contradiction.or(Some((f, g)));
+                        piece.clash.get_or_insert([f, g]);
                     }
                 }
             }
-            if let Some((f, g)) = contradiction {
-                piece.into_iter().for_each(|f| pieces.one_sided[f as usize] = true);
-                pieces.strips.push(tree_path(&parent, f, g));
-            }
+            pieces.push(piece);
         }
-        pieces
+        Orientation { turned, pieces, parent }
     }
 }
 
@@ -93,7 +99,7 @@ fn tree_path(parent: &[u32], f: u32, g: u32) -> Vec<u32> {
         std::iter::successors(Some(f), up).collect::<Vec<_>>()
     };
     let (mut there, mut back) = (to_root(f), to_root(g));
-    // What both share is the way from their last common ancestor to the root.
+    // The two ways to the root share their ends, from the last common ancestor on.
     while let ([.., a, _], [.., b, _]) = (&there[..], &back[..])
         && a == b
     {

@@ -9,6 +9,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Write a file through `write` into a temporary beside it, then rename. On any error the temporary is removed and
 /// an existing file stays as it was. A symbolic link stays one, and its file is replaced; permissions stay those of the
 /// file that was there.
+///
+/// # Errors
+///
+/// [`Error::Io`].
 pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
@@ -39,7 +43,7 @@ pub fn destination(path: &Path) -> (PathBuf, Option<Permissions>) {
         let permissions = fs::metadata(&target).ok().filter(fs::Metadata::is_file);
         return (target, permissions.map(|found| found.permissions()));
     }
-    // A link to a file that is not there yet.
+    // The path may be a link to a file that does not exist yet.
     match fs::read_link(path) {
         Ok(link) => (path.parent().unwrap_or(Path::new("")).join(link), None),
         Err(_) => (path.into(), None),

@@ -1,11 +1,13 @@
-//! How much a file may unfold to. Compression, instances and polygons are the ways in which a small file becomes a large mesh.
+//! A bound on the memory that reading a file takes. Without one, compression, instances and polygons could make a small file a mesh of
+//! any size.
 
 use super::scan::Location;
 use crate::error::Result;
 
-/// Bytes that any file may unfold to, and more for each of its own: honest files need less, and a reader that stays within them
-/// takes at most 64 MB + 20 times its file, scratch included.
+/// Bytes that the data of any file may take in memory, 32 MB. With [`PER_BYTE`] more for each byte of the file, real files stay below
+/// the bound, and a reader takes at most 64 MB and 20 times its file, scratch included.
 const ANY_FILE: usize = 32 << 20;
+/// Further bytes for each byte of the file.
 const PER_BYTE: usize = 8;
 
 /// What is left of the bytes that a reader may hold for one file.

@@ -2,7 +2,7 @@
 //! <https://www.nitrc.org/projects/gifti>, version 1.0.
 
 use super::budget::Budget;
-use super::gifti_data::{Header, Table};
+use super::gifti_data::{Header, Table, Text};
 use super::scan::Location;
 use super::{Attributes, Soup};
 use crate::error::Result;
@@ -16,6 +16,10 @@ use quick_xml::events::Event;
 ///
 /// Positions are as stored: `CoordinateSystemTransformMatrix`, which leads to the coordinates of another space, is not applied.
 /// Entities are not expanded. `path` is used in errors.
+///
+/// # Errors
+///
+/// [`crate::Error::Parse`] with the line.
 pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
     let mut reader = Reader::from_reader(bytes);
     reader.config_mut().expand_empty_elements = true;
@@ -81,20 +85,17 @@ struct Arrays {
 
 impl Arrays {
     fn take(&mut self, header: &Header, text: &str, place: Location<'_>) -> Result<()> {
-        let rows = |what: &'static str, budget: &mut Budget| header.table(what, text, budget, place);
+        let budget = &mut self.budget;
+        let mut rows = |what| header.table(&Text { what, text, place }, budget);
         let points = |table: Table| (0..table.rows).map(|i| table.row(i)).collect();
         match header.intent.as_str() {
-            "NIFTI_INTENT_POINTSET" if self.points.is_none() => {
-                self.points = Some(points(rows("points", &mut self.budget)?));
-            }
+            "NIFTI_INTENT_POINTSET" if self.points.is_none() => self.points = Some(points(rows("points")?)),
             "NIFTI_INTENT_TRIANGLE" if self.faces.is_none() => {
-                let table = rows("triangles", &mut self.budget)?;
+                let table = rows("triangles")?;
                 let face = |i: usize| -> Result<[u32; 3]> {
-                    let row = table.row(i);
-                    match row.iter().find(|&&v| !(v >= 0.0 && v <= f64::from(u32::MAX) && v.fract() == 0.0)) {
-                        Some(v) => place.error(format!("triangle {i} names vertex {v}, which cannot be")),
-                        None => Ok(row.map(|v| v as u32)),
-                    }
+                    let vertex = |v: f64| place.vertex(v, format_args!("triangle {i}"));
+                    let [a, b, c] = table.row(i).map(vertex);
+                    Ok([a?, b?, c?])
                 };
                 self.faces = Some((0..table.rows).map(face).collect::<Result<_>>()?);
             }
@@ -102,7 +103,7 @@ impl Arrays {
                 return place.error(format!("a second {}: the file holds several surfaces", header.intent));
             }
             "NIFTI_INTENT_VECTOR" if header.is_vectors() => {
-                self.vectors.push(points(rows("vectors", &mut self.budget)?));
+                self.vectors.push(points(rows("vectors")?));
             }
             _ => {}
         }

@@ -9,8 +9,21 @@ use flate2::read::{GzDecoder, ZlibDecoder};
 use quick_xml::events::BytesStart;
 use std::io::Read;
 
-/// Deflate makes at most this many bytes out of one.
+/// Most bytes that deflate makes out of one, by the definition of its format.
 const MOST_INFLATION: usize = 1032;
+
+/// The text of an array, `what` it holds, and where it begins.
+pub(super) struct Text<'a> {
+    pub what: &'static str,
+    pub text: &'a str,
+    pub place: Location<'a>,
+}
+
+impl Text<'_> {
+    fn error<T>(&self, message: impl std::fmt::Display) -> Result<T> {
+        self.place.error(format!("{}: {message}", self.what))
+    }
+}
 
 #[derive(Clone, Copy, PartialEq)]
 enum Encoding {
@@ -19,7 +32,8 @@ enum Encoding {
     Compressed,
 }
 
-/// The attributes of an array.
+/// The attributes of an array; words are empty where the file does not say.
+#[derive(Default)]
 pub(super) struct Header {
     pub intent: String,
     data_type: String,
@@ -34,16 +48,7 @@ pub(super) struct Header {
 
 impl Header {
     pub fn new(tag: &BytesStart<'_>, place: Location<'_>) -> Result<Header> {
-        let mut header = Header {
-            intent: String::new(),
-            data_type: String::new(),
-            encoding: String::new(),
-            external: String::new(),
-            big_endian: false,
-            column_major: false,
-            dims: [-1; 2],
-            dimensionality: -1,
-        };
+        let mut header = Header { dims: [-1; 2], dimensionality: -1, ..Header::default() };
         for attribute in tag.attributes().with_checks(false) {
             let attribute = match attribute {
                 Ok(attribute) => attribute,
@@ -77,14 +82,9 @@ impl Header {
         self.dimensionality == 2 && self.dims[1] == 3 && self.data_type.starts_with("NIFTI_TYPE_FLOAT")
     }
 
-    /// The rows of three numbers that `text` holds.
-    pub fn table(
-        &self,
-        what: &'static str,
-        text: &str,
-        budget: &mut Budget,
-        place: Location<'_>,
-    ) -> Result<Table> {
+    /// The rows of three numbers that a text holds.
+    pub fn table(&self, data: &Text<'_>, budget: &mut Budget) -> Result<Table> {
+        let &Text { what, text, place } = data;
         let name = self.data_type.strip_prefix("NIFTI_TYPE_").map(str::to_ascii_lowercase);
         let Some(kind) = name.and_then(|name| Kind::named(&name)) else {
             return place.error(format!("{what} of DataType=\"{}\" are not known", self.data_type));
@@ -120,50 +120,43 @@ impl Header {
         let kept = if what == "triangles" { size_of::<[u32; 3]>() } else { size_of::<[f64; 3]>() };
         budget.take(rows, 3 * stored + kept, what, place)?;
         let numbers = match encoding {
-            Encoding::Ascii => Numbers::Text(ascii(what, text, 3 * rows, place)?),
-            _ => Numbers::Binary(self.binary(what, text, encoding, 3 * rows * stored, place)?, kind),
+            Encoding::Ascii => Numbers::Text(ascii(data, 3 * rows)?),
+            _ => Numbers::Binary(binary(data, encoding, 3 * rows * stored)?, kind),
         };
         Ok(Table { rows, numbers, big_endian: self.big_endian, column_major: self.column_major })
     }
+}
 
-    fn binary(
-        &self,
-        what: &str,
-        text: &str,
-        encoding: Encoding,
-        size: usize,
-        place: Location<'_>,
-    ) -> Result<Vec<u8>> {
-        let mut bytes = match base64::decode(text.as_bytes()) {
-            Ok(bytes) => bytes,
-            Err(message) => return place.error(format!("{what}: {message}")),
+/// The `size` bytes that a text in base64 stands for, plain or compressed.
+fn binary(data: &Text<'_>, encoding: Encoding, size: usize) -> Result<Vec<u8>> {
+    let mut bytes = match base64::decode(data.text.as_bytes()) {
+        Ok(bytes) => bytes,
+        Err(message) => return data.error(message),
+    };
+    if encoding == Encoding::Compressed {
+        let n = bytes.len();
+        if size > MOST_INFLATION.saturating_mul(n) {
+            return data.error(format!("{n} compressed bytes cannot hold the {size} of the table"));
+        }
+        let mut plain = Vec::with_capacity(size);
+        // One byte more than the table has shows that there are too many. The format says zlib; some programs write gzip, which the
+        // name of the encoding says.
+        let most = size as u64 + 1;
+        let inflated = if bytes.starts_with(&[0x1f, 0x8b]) {
+            GzDecoder::new(bytes.as_slice()).take(most).read_to_end(&mut plain)
+        } else {
+            ZlibDecoder::new(bytes.as_slice()).take(most).read_to_end(&mut plain)
         };
-        if encoding == Encoding::Compressed {
-            if size > MOST_INFLATION.saturating_mul(bytes.len()) {
-                let n = bytes.len();
-                return place
-                    .error(format!("{what}: {n} compressed bytes cannot hold the {size} of the table"));
-            }
-            let mut plain = Vec::with_capacity(size);
-            // One byte more shows that there is more. The format says zlib; some write gzip, as its name does.
-            let most = size as u64 + 1;
-            let inflated = if bytes.starts_with(&[0x1f, 0x8b]) {
-                GzDecoder::new(bytes.as_slice()).take(most).read_to_end(&mut plain)
-            } else {
-                ZlibDecoder::new(bytes.as_slice()).take(most).read_to_end(&mut plain)
-            };
-            if let Err(e) = inflated {
-                return place.error(format!("{what}: the compressed data are damaged: {e}"));
-            }
-            bytes = plain;
+        if let Err(e) = inflated {
+            return data.error(format!("the compressed data are damaged: {e}"));
         }
-        if bytes.len() != size {
-            let more = if bytes.len() > size { "at least " } else { "" };
-            let n = bytes.len();
-            return place.error(format!("{what}: the data have {more}{n} bytes, the table has {size}"));
-        }
-        Ok(bytes)
+        bytes = plain;
     }
+    if bytes.len() != size {
+        let (n, more) = (bytes.len(), if bytes.len() > size { "at least " } else { "" });
+        return data.error(format!("the data have {more}{n} bytes, the table has {size}"));
+    }
+    Ok(bytes)
 }
 
 /// Which of two words is in the value of an attribute: files say `LittleEndian` and `GIFTI_ENDIAN_LITTLE`.
@@ -176,8 +169,9 @@ fn choice(name: &str, value: &str, [first, second]: [&str; 2], place: Location<'
     }
 }
 
-/// The `count` numbers of a text; `place` is where it begins.
-fn ascii(what: &str, text: &str, count: usize, place: Location<'_>) -> Result<Vec<f64>> {
+/// The `count` numbers of a text.
+fn ascii(data: &Text<'_>, count: usize) -> Result<Vec<f64>> {
+    let &Text { what, text, place } = data;
     let mut numbers = Vec::new();
     let mut last = place;
     for (i, line) in text.split('\n').enumerate() {
@@ -220,15 +214,7 @@ impl Table {
     fn number(&self, at: usize) -> f64 {
         match &self.numbers {
             Numbers::Text(numbers) => numbers[at],
-            Numbers::Binary(bytes, kind) => {
-                let size = kind.size();
-                let mut word = [0; 8];
-                word[..size].copy_from_slice(&bytes[size * at..size * (at + 1)]);
-                if self.big_endian {
-                    word[..size].reverse();
-                }
-                kind.number(word)
-            }
+            Numbers::Binary(bytes, kind) => kind.read(&bytes[kind.size() * at..], self.big_endian),
         }
     }
 }

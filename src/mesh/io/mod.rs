@@ -44,7 +44,7 @@ pub use textured::Textured;
 use crate::error::{Error, Result};
 use std::path::Path;
 
-/// What reads a file of each extension: bytes and, for errors, the path.
+/// The reader of files of each extension, which takes the bytes and, for errors, the path.
 const READERS: &[(&str, fn(&[u8], &str) -> Result<Soup>)] = &[
     ("obj", parse_obj),
     ("off", parse_off),
@@ -67,8 +67,9 @@ const WRITERS: &[(&str, Format)] = &[
     ("glb", Format::Glb),
 ];
 
-/// Extensions whose readers, and those whose writers, need a cargo feature, with its name.
+/// Extensions whose readers need a cargo feature, with its name.
 const READER_FEATURES: &[(&str, &str)] = &[("glb", "gltf"), ("gltf", "gltf"), ("gii", "gifti")];
+/// Extensions whose writers need a cargo feature, with its name.
 const WRITER_FEATURES: &[(&str, &str)] = &[("glb", "gltf")];
 
 /// The entry of `table` for the extension of a path (case does not matter), or the error that names the extensions of the table or
@@ -105,7 +106,11 @@ pub fn read(path: &Path) -> Result<Soup> {
     parse(&content(path)?, &path.display().to_string())
 }
 
-/// Read an STL file, whatever its name, and weld it within a distance: [`parse_stl_welded`].
+/// Read an STL file, whatever its name, and weld it within a distance.
+///
+/// # Errors
+///
+/// Those of [`parse_stl_welded`]; [`Error::Io`].
 pub fn read_stl(path: &Path, weld: f64) -> Result<Soup> {
     parse_stl_welded(&content(path)?, &path.display().to_string(), weld)
 }
@@ -139,13 +144,21 @@ impl Format {
     }
 }
 
-/// Write a mesh file by its extension: [`write_as`] the format of that.
+/// Write a mesh file in the format that its extension names.
+///
+/// # Errors
+///
+/// Those of [`Format::of`] and [`write_as`].
 pub fn write(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     write_as(path, Format::of(path)?, soup)
 }
 
+/// Write binary glTF with a texture over the texture coordinates of a mesh.
+///
+/// # Errors
+///
+/// Those of [`write_glb`].
 #[cfg(feature = "gltf")]
-/// Write binary glTF with a texture over the texture coordinates of a mesh: [`write_glb`].
 pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Result<()> {
     textured::with_textured(soup, |data| write_glb(path, data, Some(texture))).map(drop)
 }

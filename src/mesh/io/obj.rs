@@ -1,5 +1,4 @@
-//! Wavefront OBJ. Our own reader, because the contract needs the file's vertex numbering, which the OBJ
-//! crates replace by one of their own.
+//! Wavefront OBJ. This reader keeps the file's vertex numbering, which the readers of other crates replace by one of their own.
 
 use super::budget::Budget;
 use super::polygon::Polygons;
@@ -16,6 +15,10 @@ use std::path::Path;
 ///
 /// Normals are those of the vertices where all corners of each vertex name equal ones, else those of the corners. What is missing,
 /// or no number, has the default of [`Attributes`].
+///
+/// # Errors
+///
+/// [`crate::Error::Parse`] with the line.
 pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
     let text = String::from_utf8_lossy(bytes);
     let mut file = File::default();
@@ -64,7 +67,7 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
     file.soup(Budget::of(bytes), Location::whole(path))
 }
 
-/// In a list of entries that corners name: this corner names none.
+/// The entry of a corner that names no texture coordinate or no normal.
 const NO_ENTRY: u32 = u32::MAX;
 
 /// What has been read so far.
@@ -92,17 +95,15 @@ impl File {
         let uv = |t: &[usize; 3]| t.map(|corner| texcoord(corner).unwrap_or(NO_TEXCOORD));
         let uv = any.then(|| triangles.iter().map(uv).collect());
         let normal = |corner: usize| of(&self.normals, &self.corner_normals, corner);
-        let (mut normals, mut corner_normals) = (None, None);
-        match self.vertex_normals(&triangles, normal) {
-            VertexNormals::None => {}
-            VertexNormals::Single(list) => normals = Some(list),
-            VertexNormals::Several => {
-                budget.take(triangles.len(), size_of::<[Point; 3]>(), "normals", place)?;
-                let of = |t: &[usize; 3]| t.map(|corner| normal(corner).unwrap_or(NO_NORMAL));
-                corner_normals = Some(triangles.iter().map(of).collect());
-            }
+        let mut corner_normals = None;
+        let normals = self.vertex_normals(&triangles, normal);
+        if normals.is_none() {
+            budget.take(triangles.len(), size_of::<[Point; 3]>(), "normals", place)?;
+            let of = |t: &[usize; 3]| t.map(|corner| normal(corner).unwrap_or(NO_NORMAL));
+            corner_normals = Some(triangles.iter().map(of).collect());
         }
-        let faces = triangles.iter().map(|&t| self.polygons.face(t)).collect();
+        let normals = normals.filter(|normals| !normals.is_empty());
+        let faces = self.polygons.faces(&triangles);
         let colors = (!self.colors.is_empty()).then(|| {
             self.colors.resize(self.positions.len(), WHITE);
             self.colors
@@ -111,37 +112,25 @@ impl File {
         Ok(Soup { positions: self.positions, faces, attributes })
     }
 
-    /// What the corners of each vertex say of its normal.
+    /// The normals of the vertices, empty if corners name none; `None` where corners of a vertex name different ones.
     fn vertex_normals(
         &self,
         triangles: &[[usize; 3]],
         normal: impl Fn(usize) -> Option<Point>,
-    ) -> VertexNormals {
+    ) -> Option<Vec<Point>> {
         let mut normals: Vec<Option<Point>> = Vec::new();
         for &corner in triangles.as_flattened() {
             let Some(normal) = normal(corner) else { continue };
             normals.resize(self.positions.len(), None);
-            // A vertex that does not exist has no entry; the diagnosis finds it.
+            // The diagnosis finds corners that name a vertex which does not exist.
             if let Some(slot) = normals.get_mut(self.polygons.corners[corner] as usize)
                 && *slot.get_or_insert(normal) != normal
             {
-                return VertexNormals::Several;
+                return None;
             }
         }
-        if normals.is_empty() {
-            return VertexNormals::None;
-        }
-        VertexNormals::Single(normals.into_iter().map(|n| n.unwrap_or(NO_NORMAL)).collect())
+        Some(normals.into_iter().map(|n| n.unwrap_or(NO_NORMAL)).collect())
     }
-}
-
-enum VertexNormals {
-    /// There are none.
-    None,
-    /// One per vertex.
-    Single(Vec<Point>),
-    /// Some vertex has more than one.
-    Several,
 }
 
 /// The colour behind the three coordinates of a vertex: red, green, blue and perhaps opacity (a fourth coordinate alone is a

@@ -5,7 +5,7 @@ use super::budget::Budget;
 use super::off_binary::parse_off_binary;
 use super::off_extras::{Columns, Extras};
 use super::polygon::Polygons;
-use super::scan::{Location, Quoted, tokens};
+use super::scan::{Location, Quoted, Tokens, tokens};
 use super::soup::{Attributes, Soup};
 use super::write_atomically;
 use crate::error::Result;
@@ -14,6 +14,10 @@ use std::io::Write;
 use std::path::Path;
 
 /// Parse an OFF file, text or binary. Indices count from 0. `path` is used in errors.
+///
+/// # Errors
+///
+/// [`crate::Error::Parse`] with the line or byte.
 pub fn parse_off(bytes: &[u8], path: &str) -> Result<Soup> {
     match binary(bytes, path)? {
         Some((columns, body, place)) => parse_off_binary(bytes, body, columns, place),
@@ -42,8 +46,7 @@ fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Loc
     Ok(None)
 }
 
-/// What is before and behind `OFF`. In a header that begins in lower case throughout, as some programs write it, the letters mean
-/// what their capitals do.
+/// What is before and behind `OFF`. Some programs write the header in lower case; its letters then mean the same as the capitals.
 fn split_header(word: &str) -> Option<(String, &str)> {
     let upper = word.split_once("OFF").map(|(prefix, rest)| (prefix.to_string(), rest));
     upper.or_else(|| word.split_once("off").map(|(prefix, rest)| (prefix.to_ascii_uppercase(), rest)))
@@ -74,37 +77,22 @@ fn columns(prefix: &str, place: Location<'_>) -> Result<Columns> {
     }
 }
 
-/// Without letters before `OFF` a vertex has three numbers, and what is behind them on its line can be one of two things: columns
-/// that the header does not announce, or the next vertex. Only with the right one do the counts come out; vertices that share a
-/// line are whole ones, so that a file with a number missing is not taken for one of these.
+/// Read a text file. Without letters before `OFF` a vertex has three numbers, and what follows them on the line is either columns that
+/// the header does not announce, or the next vertex: the reading is taken with which the counts of the header come out. Where vertices
+/// share a line each stands on one line as a whole, so that a file in which a number is missing is not read in this way.
 fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
-    match (read_text(text, path, true), Layout::of(text)) {
-        (Err(error), Layout::Lines) => Err(error),
-        (Err(error), Layout::Open) => read_text(text, path, false).or(Err(error)),
-        (soup, _) => soup,
+    let header = tokens(text, "").next().and_then(split_header);
+    let has_letters = header.is_some_and(|(prefix, _)| !prefix.trim_start_matches('\u{feff}').is_empty());
+    match read_text(text, path, true) {
+        Err(error) if !has_letters => read_text(text, path, false).or(Err(error)),
+        soup => soup,
     }
 }
 
-/// Whether each vertex must have a line of its own.
-enum Layout {
-    Lines,
-    Open,
-}
-
-impl Layout {
-    fn of(text: &str) -> Layout {
-        let header = tokens(text, "").next().and_then(split_header);
-        if header.is_some_and(|(prefix, _)| !prefix.trim_start_matches('\u{feff}').is_empty()) {
-            Layout::Lines
-        } else {
-            Layout::Open
-        }
-    }
-}
-
-/// Read the text; `by_line`: each vertex on a line of its own, perhaps with further columns.
-fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
-    let mut tokens = tokens(text, path);
+/// Read the header: what vertices have, their number and that of the faces.
+fn header<'a>(
+    tokens: &mut Tokens<'a, impl Iterator<Item = (usize, &'a str)>>,
+) -> Result<(Columns, usize, usize)> {
     let Some(header) = tokens.next() else {
         return tokens.place().error("the file is empty; OFF begins with `OFF` and its counts".into());
     };
@@ -130,6 +118,13 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
         tokens.next();
     }
     tokens.end_line();
+    Ok((has, n_vertices, n_faces))
+}
+
+/// Read the text; `by_line`: each vertex has a line of its own, perhaps with further columns.
+fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
+    let mut tokens = tokens(text, path);
+    let (has, n_vertices, n_faces) = header(&mut tokens)?;
     let (mut positions, mut extras, mut polygons) = (Vec::new(), Extras::new(has), Polygons::default());
     for v in 0..n_vertices {
         let mut point: Point = [0.0; 3];
@@ -156,14 +151,11 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
         for k in 0..size {
             let token = tokens.next();
             let index = tokens.place().count(token, format_args!("corner {k} of face {f}"))?;
-            match u32::try_from(index) {
-                Ok(v) => corners.push(v),
-                Err(_) => {
-                    return tokens
-                        .place()
-                        .error(format!("face {f} names vertex {index}, more than can be numbered"));
-                }
-            }
+            let Ok(v) = u32::try_from(index) else {
+                let message = format!("face {f} names vertex {index}, more than can be numbered");
+                return tokens.place().error(message);
+            };
+            corners.push(v);
         }
         tokens.end_line();
         // Points and segments are legal in OFF and no part of the surface.

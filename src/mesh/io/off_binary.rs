@@ -18,9 +18,9 @@ struct Dialect {
     color: usize,
 }
 
-/// As Geomview's manual defines the format.
+/// The layout that Geomview's manual defines.
 const GEOMVIEW: Dialect = Dialect { big_endian: true, face_colors: true, color: 4 };
-/// As programs write it that copy their memory to the file.
+/// The layout that programs write by copying their memory to the file.
 const COPIED: Dialect = Dialect { big_endian: false, face_colors: false, color: 4 };
 
 /// Parse the data that begin at `start`: three `i32` counts, `columns` `f32` per vertex of which the first
@@ -41,8 +41,8 @@ pub(super) fn parse_off_binary(
     if second.is_ok() {
         return second;
     }
-    // OpenMesh writes either byte order, and colours of three components. What is left of a file that is cut off may end as these
-    // do, but for its corners.
+    // OpenMesh writes either byte order, and colours of three components. The rest of a file that is cut off may end where one of
+    // these dialects does, but its corners then name vertices that do not exist.
     let opaque = Dialect { color: 3, ..COPIED };
     let others = [Dialect { big_endian: true, ..COPIED }, opaque, Dialect { big_endian: true, ..opaque }];
     let known = others.into_iter().filter(|dialect| has.color || dialect.color == 4);
@@ -50,7 +50,7 @@ pub(super) fn parse_off_binary(
     if let Some(soup) = known.filter_map(|dialect| read(dialect).ok()).find(sound) {
         return Ok(soup);
     }
-    // Of two errors that of the likelier byte order: a number of vertices below 2¹⁶ is above it when misread.
+    // The error is that of the likelier byte order: a number of vertices below 2¹⁶ is above 2¹⁶ in the other order.
     let count = bytes[start..].first_chunk::<4>().copied().unwrap_or([0; 4]);
     if u32::from_le_bytes(count) < u32::from_be_bytes(count) { second } else { first }
 }

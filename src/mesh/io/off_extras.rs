@@ -18,7 +18,7 @@ pub(super) struct Columns {
 /// The attributes of the vertices read so far.
 pub(super) struct Extras {
     has: Columns,
-    /// What some vertex has.
+    /// What at least one vertex has.
     any: Columns,
     normals: Vec<Point>,
     colors: Vec<[f64; 4]>,
@@ -75,6 +75,6 @@ impl Extras {
             uv: self.any.texture.then(|| triangles.iter().map(|&t| polygons.face(t).map(uv)).collect()),
             ..Attributes::default()
         };
-        Ok(Soup { faces: triangles.iter().map(|&t| polygons.face(t)).collect(), positions, attributes })
+        Ok(Soup { faces: polygons.faces(&triangles), positions, attributes })
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct Polygons {
     ends: Vec<usize>,
 }
 
-/// Most corners of a polygon that is cut ear by ear. A larger one becomes a fan: the time to find its ears grows with the square of
+/// Most corners of a polygon that is cut ear by ear. A larger one becomes a fan, since the time to find ears grows with the square of
 /// the number of corners.
 const MOST_CORNERS: usize = 1000;
 
@@ -36,8 +36,8 @@ impl Polygons {
 
     /// The triangles, three flat corner numbers each. Faces of one or two corners occur in the wild and have none.
     ///
-    /// A convex polygon is a fan from its first corner; another one is cut ear by ear in the plane of its area vector. A corner of
-    /// a polygon takes a byte in some files, its triangle many: they are accounted for first.
+    /// A convex polygon is a fan from its first corner; another one is cut ear by ear in the plane of its area vector. The triangles
+    /// are charged to the budget first, since a corner that takes one byte of a file becomes a triangle of many.
     pub fn triangles(
         &self,
         positions: &[Point],
@@ -61,16 +61,21 @@ impl Polygons {
         Ok(triangles)
     }
 
+    /// The vertices of each of these triangles.
+    pub fn faces(&self, triangles: &[[usize; 3]]) -> Vec<[u32; 3]> {
+        triangles.iter().map(|&t| self.face(t)).collect()
+    }
+
     /// The vertices of a triangle of [`Polygons::triangles`].
     pub fn face(&self, triangle: [usize; 3]) -> [u32; 3] {
         triangle.map(|k| self.corners[k])
     }
 }
 
-/// What is known of a corner of a polygon while ears are cut off it.
+/// Whether a corner of a polygon is an ear, as far as it is known while ears are cut off.
 #[derive(Clone, Copy)]
 enum Corner {
-    /// Nothing, since one of its neighbours was cut off.
+    /// Not known, since a neighbour was cut off.
     New,
     /// It turns inwards.
     Reflex,

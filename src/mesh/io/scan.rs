@@ -39,12 +39,20 @@ impl<'a> Location<'a> {
         Err(Error::Parse { path: self.path.into(), at: self.at, message })
     }
 
-    /// A coordinate; `nan` and `inf` are numbers here, the diagnosis refuses them by vertex.
+    /// A coordinate. `nan` and `inf` are accepted here; the diagnosis names their vertices.
     pub fn number(self, token: Option<&str>, what: Arguments<'_>) -> Result<f64> {
         match token {
             Some(t) => t.parse().or_else(|_| self.error(format!("{what} {} is not a number", Quoted(t)))),
             None => self.error(format!("{what} is missing")),
         }
+    }
+
+    /// A number that `what` gives as that of a vertex: a whole one that is not negative. Whether the vertex exists the diagnosis finds.
+    pub fn vertex(self, number: f64, what: Arguments<'_>) -> Result<u32> {
+        if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {
+            return Ok(number as u32);
+        }
+        self.error(format!("{what} names vertex {number}, which cannot be"))
     }
 
     pub fn count(self, token: Option<&str>, what: Arguments<'_>) -> Result<usize> {
@@ -55,7 +63,7 @@ impl<'a> Location<'a> {
     }
 }
 
-/// Text of a file inside a message: between quotes, and cut where it goes on.
+/// Text of a file inside a message: between quotes, and cut after 80 characters.
 pub(super) struct Quoted<'a>(pub &'a str);
 
 impl fmt::Display for Quoted<'_> {
@@ -85,7 +93,7 @@ pub(super) fn tokens<'a>(
 }
 
 impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
-    /// That of the last token.
+    /// Where the last token stands.
     pub fn place(&self) -> Location<'a> {
         if self.line == 0 { Location::whole(self.path) } else { Location::line(self.path, self.line) }
     }

@@ -35,7 +35,8 @@ pub(super) const WHITE: [f64; 4] = [1.0; 4];
 pub(super) const NO_TEXCOORD: [f64; 2] = [0.0; 2];
 
 impl Attributes {
-    /// What a format leaves out that has one normal per vertex only and, unless `corner_uv`, one pair of texture coordinates.
+    /// The names of the attributes that are left out of a format with one normal per vertex and, unless `corner_uv`, with one pair of
+    /// texture coordinates per vertex.
     pub(super) fn left_out(&self, corner_uv: bool) -> Vec<&'static str> {
         let corner_normals = self.corner_normals.as_ref().map(|_| "normals at hard edges");
         let seams =
@@ -67,33 +68,29 @@ impl Soup {
     pub(crate) fn check_writable(&self) -> Result<()> {
         let Soup { positions, faces, attributes } = self;
         let Attributes { normals, corner_normals, colors, uv } = attributes;
+        let (n, f) = (positions.len(), faces.len());
+        sized("normals", normals, n)?;
+        sized("corner_normals", corner_normals, f)?;
+        sized("colors", colors, n)?;
+        sized("uv", uv, f)?;
         finite("position", positions)?;
-        in_range("vertex", faces, positions.len())?;
-        if let Some(normals) = normals {
-            check_size("normals", normals.len(), positions.len())?;
-            finite("normal", normals)?;
-        }
-        if let Some(normals) = corner_normals {
-            check_size("corner_normals", normals.len(), faces.len())?;
-            finite("normal", normals.as_flattened())?;
-        }
-        if let Some(colors) = colors {
-            check_size("colors", colors.len(), positions.len())?;
-            finite("colour", colors)?;
-        }
-        if let Some(uv) = uv {
-            check_size("uv", uv.len(), faces.len())?;
-            finite("texture coordinate", uv.as_flattened())?;
-        }
-        Ok(())
+        in_range("vertex", faces, n)?;
+        finite("normal", normals.as_deref().unwrap_or_default())?;
+        finite("normal", corner_normals.as_deref().unwrap_or_default().as_flattened())?;
+        finite("colour", colors.as_deref().unwrap_or_default())?;
+        finite("texture coordinate", uv.as_deref().unwrap_or_default().as_flattened())
     }
+}
+
+fn sized<T>(what: &'static str, list: &Option<Vec<T>>, n: usize) -> Result<()> {
+    list.as_ref().map_or(Ok(()), |list| check_size(what, list.len(), n))
 }
 
 pub(super) fn finite<const N: usize>(what: &'static str, points: &[[f64; N]]) -> Result<()> {
     match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         Some(i) => {
             let value = format!("{:?} at entry {i}", points[i]);
-            Err(Error::Argument { what, value, need: "a file holds finite numbers only" })
+            Err(Error::argument(what, value, "a file holds finite numbers only"))
         }
         None => Ok(()),
     }
@@ -103,11 +100,7 @@ pub(super) fn in_range(what: &'static str, faces: &[[u32; 3]], n: usize) -> Resu
     match faces.iter().position(|corners| corners.iter().any(|&v| v as usize >= n)) {
         Some(f) => {
             let value = format!("one of {:?} in face {f}", faces[f]);
-            Err(Error::Argument {
-                what,
-                value,
-                need: "corners must be below the number of entries they name",
-            })
+            Err(Error::argument(what, value, "corners must be below the number of entries they name"))
         }
         None => Ok(()),
     }

@@ -1,5 +1,5 @@
-//! STL, ascii and binary. Our own reader: what says `solid` may be binary, counts in headers may be wrong, and errors name
-//! the line or the byte.
+//! STL, ascii and binary. This reader takes a file that begins with `solid` for a binary one where its bytes say so, notices wrong
+//! counts in headers, and its errors name the line or the byte.
 
 use super::Soup;
 use super::budget::Budget;
@@ -7,11 +7,13 @@ use super::polygon::Polygons;
 use super::scan::{Location, Quoted, tokens};
 use crate::error::Result;
 use crate::mesh::Point;
+use crate::mesh::incidence::drop_unused;
 use crate::mesh::weld::{check_tolerance, coincident, place_key};
 use std::collections::HashMap;
 
-/// Bytes of text before the number of triangles in a binary file, and of each triangle.
+/// Bytes of text before the number of triangles in a binary file.
 const HEADER: usize = 80;
+/// Bytes of a triangle in a binary file: its normal and corners, twelve `f32`, and two bytes of attributes.
 const TRIANGLE: usize = 50;
 
 /// Parse an STL file. Corners in exactly the same place are one vertex, numbered in order of appearance; normals, which the
@@ -20,6 +22,10 @@ const TRIANGLE: usize = 50;
 /// A file is binary if its size is that of the triangles it promises, or if it begins with bytes that no text has: what its
 /// first word is says nothing. A binary file may end in less than another triangle, and promise none at all as programs do that
 /// write the number last; any other disagreement is an error that names both numbers.
+///
+/// # Errors
+///
+/// [`crate::Error::Parse`] with the line or byte.
 pub fn parse_stl(bytes: &[u8], path: &str) -> Result<Soup> {
     let count = bytes.get(HEADER..HEADER + 4).and_then(|b| b.first_chunk()).map(|b| u32::from_le_bytes(*b));
     let exact =
@@ -30,8 +36,8 @@ pub fn parse_stl(bytes: &[u8], path: &str) -> Result<Soup> {
     }
 }
 
-/// Whether there are no control characters but those of text at the beginning: the number of triangles has them, or what
-/// fills up the 80 bytes before it, or the first numbers.
+/// Whether the beginning has no control characters but those of text. A binary file has others in the filling of its first 80 bytes, in
+/// the number of triangles or in the first coordinates.
 fn is_text(bytes: &[u8]) -> bool {
     const BEGINNING: usize = 1024;
     let of_text = |b: &u8| *b >= b' ' || b.is_ascii_whitespace() || matches!(*b, 0x0b | 0x1a);
@@ -47,19 +53,11 @@ fn is_text(bytes: &[u8]) -> bool {
 /// [`crate::Error::Argument`] for a distance that is negative or not finite; [`crate::Error::Parse`].
 pub fn parse_stl_welded(bytes: &[u8], path: &str, weld: f64) -> Result<Soup> {
     check_tolerance(weld)?;
-    let mut soup = parse_stl(bytes, path)?;
-    let first = coincident(&soup.positions, weld);
-    let mut number = vec![0; first.len()];
-    let mut positions = Vec::new();
-    for (v, &to) in first.iter().enumerate() {
-        if v as u32 == to {
-            number[v] = positions.len() as u32;
-            positions.push(soup.positions[v]);
-        }
-    }
-    soup.faces.as_flattened_mut().iter_mut().for_each(|v| *v = number[first[*v as usize] as usize]);
-    soup.positions = positions;
-    Ok(soup)
+    let Soup { positions, mut faces, .. } = parse_stl(bytes, path)?;
+    let first = coincident(&positions, weld);
+    faces.as_flattened_mut().iter_mut().for_each(|v| *v = first[*v as usize]);
+    let kept = drop_unused(positions.len(), &mut faces);
+    Ok(Soup::new(kept.into_iter().map(|v| positions[v as usize]).collect(), faces))
 }
 
 /// Corners that are in the same place become one vertex.
@@ -71,7 +69,7 @@ struct Weld {
 
 impl Weld {
     fn vertex(&mut self, point: Point) -> u32 {
-        // Every NaN is a vertex of its own kind, which the diagnosis finds.
+        // Coordinates that are NaN make a vertex, which the diagnosis names.
         *self.known.entry(place_key(point)).or_insert_with(|| {
             self.soup.positions.push(point);
             self.soup.positions.len() as u32 - 1
@@ -119,7 +117,7 @@ enum Expect {
     Corner(Vec<u32>),
 }
 
-/// The words count, whatever lines they are on.
+/// Read the text word by word. Line ends mean nothing, except that one ends the name of a solid.
 fn ascii(text: &str, path: &str) -> Result<Soup> {
     let mut words = tokens(text, path);
     let (mut weld, mut polygons) = (Weld::default(), Polygons::default());
@@ -177,7 +175,7 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     }
     let mut budget = Budget::of(text.as_bytes());
     let triangles = polygons.triangles(&weld.soup.positions, &mut budget, Location::whole(path))?;
-    weld.soup.faces = triangles.iter().map(|&t| polygons.face(t)).collect();
+    weld.soup.faces = polygons.faces(&triangles);
     Ok(weld.soup)
 }
 

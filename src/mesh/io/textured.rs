@@ -30,19 +30,18 @@ pub struct Textured<'a> {
 impl Textured<'_> {
     /// Numbers are finite, corners name entries, attributes have an entry for each element.
     pub(super) fn check(&self) -> Result<()> {
-        if !self.face_texcoords.is_empty() {
-            check_size("face_texcoords", self.face_texcoords.len(), self.faces.len())?;
-        }
-        if !self.face_normals.is_empty() {
-            check_size("face_normals", self.face_normals.len(), self.faces.len())?;
-        } else if !self.normals.is_empty() {
-            check_size("normals", self.normals.len(), self.positions.len())?;
-        }
-        if !self.colors.is_empty() {
-            check_size("colors", self.colors.len(), self.positions.len())?;
-        }
-        if !self.texcoord_weights.is_empty() {
-            check_size("texcoord_weights", self.texcoord_weights.len(), self.texcoords.len())?;
+        let (n, f) = (self.positions.len(), self.faces.len());
+        let vertex_normals = if self.face_normals.is_empty() { self.normals.len() } else { 0 };
+        for (what, size, expected) in [
+            ("face_texcoords", self.face_texcoords.len(), f),
+            ("face_normals", self.face_normals.len(), f),
+            ("normals", vertex_normals, n),
+            ("colors", self.colors.len(), n),
+            ("texcoord_weights", self.texcoord_weights.len(), self.texcoords.len()),
+        ] {
+            if size > 0 {
+                check_size(what, size, expected)?;
+            }
         }
         finite("position", self.positions)?;
         finite("colour", self.colors)?;

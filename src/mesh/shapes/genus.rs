@@ -22,10 +22,11 @@ const TUBE: f64 = 0.35;
 pub(super) const RIM: f64 = HOLE + 2.0 * TUBE;
 /// Half the distance of neighbouring holes.
 pub(super) const HALF_STEP: f64 = HOLE + TUBE;
-/// Temperature of the smooth union of the rim's disks: larger fills the waists between the holes.
+/// Temperature of the smooth union of the rim's disks, in squared lengths: the larger it is, the more the waists between the holes are
+/// filled.
 const BLEND: f64 = 2.0;
-/// Disks more than this many steps from the nearest one change the rim by less than rounding: their weight is
-/// at most `exp(−((2·REACH + 1)² − 1) HALF_STEP² / BLEND)` ≈ 1e−19 of the nearest one's.
+/// Number of disks on each side of the nearest one that are summed over. The weight of all others is below rounding: at most
+/// `exp(−((2·REACH + 1)² − 1) HALF_STEP² / BLEND)` ≈ 1e−19 of the nearest one's.
 const REACH: usize = 3;
 
 type Point2 = [f64; 2];
@@ -60,15 +61,15 @@ pub fn genus(genus: usize, n: usize) -> Result<Soup> {
     check_count("layers", n, 1, vertices)?;
     let plate = Plate { genus };
     let Skeleton { points, holes, rim } = plate.skeleton(n);
-    let mut sheets = Sheets { plate, layers: n, positions: Vec::new(), faces: Vec::new() };
+    let mut sheets = Sheets { plate, layers: n, points: &points, positions: Vec::new(), faces: Vec::new() };
     let heights: Vec<f64> = points.iter().map(|&p| plate.height(p)).collect();
     for side in [1.0, -1.0] {
         sheets.positions.extend(points.iter().zip(&heights).map(|(p, z)| [p[0], p[1], side * z]));
     }
     for (k, ring) in holes.iter().enumerate() {
-        sheets.ring(&points, ring, |p| plate.foot_on_hole(k, p), Side::Hole);
+        sheets.ring(ring, |p| plate.foot_on_hole(k, p), Side::Hole);
     }
-    sheets.ring(&points, &rim, |p| plate.foot_on_rim(p), Side::Rim);
+    sheets.ring(&rim, |p| plate.foot_on_rim(p), Side::Rim);
     Ok(Soup::new(sheets.positions, sheets.faces))
 }
 
@@ -197,16 +198,19 @@ enum Side {
 }
 
 /// The mesh under construction.
-struct Sheets {
+struct Sheets<'a> {
     plate: Plate,
+    /// The points of the medial graph.
+    points: &'a [Point2],
     layers: usize,
     positions: Vec<Point>,
     faces: Vec<[u32; 3]>,
 }
 
-impl Sheets {
+impl Sheets<'_> {
     /// Add the quads from the medial loop above, around the tube through `foot`, to the medial loop below.
-    fn ring(&mut self, points: &[Point2], ring: &[usize], foot: impl Fn(Point2) -> Point2, side: Side) {
+    fn ring(&mut self, ring: &[usize], foot: impl Fn(Point2) -> Point2, side: Side) {
+        let points = self.points;
         let feet: Vec<Point2> = ring.iter().map(|&v| foot(points[v])).collect();
         let mut above = ring.to_vec();
         for layer in 1..=2 * self.layers {

@@ -1,5 +1,6 @@
 //! Bad triangles on demand: grading towards a vertex, and slivers.
 
+use super::check_corners;
 use super::noise::SplitMix64;
 use crate::error::{Error, Result};
 use crate::geometry::vector::{add, cross, distance, lerp, norm, normalised, scale, sub, triangle_normal};
@@ -26,13 +27,12 @@ pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
     let star: Vec<usize> = (0..soup.faces.len()).filter(|&f| soup.faces[f].contains(&vertex)).collect();
     check_corners(soup)?;
     if star.is_empty() {
-        let need = "a vertex of a face";
-        return Err(Error::Argument { what: "vertex to grade towards", value: vertex.to_string(), need });
+        return Err(Error::argument("vertex to grade towards", vertex, "a vertex of a face"));
     }
     let most = most_levels(soup, vertex, &star);
     if levels > most {
         let value = format!("{levels}, of at most {most} at vertex {vertex}");
-        return Err(Error::Argument { what: "levels", value, need: "fewer: edges would vanish in rounding" });
+        return Err(Error::argument("levels", value, "fewer: edges would vanish in rounding"));
     }
     check_room(soup, 2 * levels * star.len())?;
     for _ in 0..levels {
@@ -50,11 +50,7 @@ pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
         let middle_of = |a: u32| middle.iter().find(|&&(known, _)| known == a).map_or(a, |&(_, m)| m);
         for &f in &star {
             let Some(corner) = soup.faces[f].iter().position(|&v| v == vertex) else {
-                return Err(Error::Connectivity {
-                    element: "face",
-                    index: f,
-                    message: "left the graded vertex",
-                });
+                return Err(Error::connectivity("face", f, "left the graded vertex"));
             };
             let (a, b) = (soup.faces[f][(corner + 1) % 3], soup.faces[f][(corner + 2) % 3]);
             let (near_a, near_b) = (middle_of(a), middle_of(b));
@@ -66,7 +62,8 @@ pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
     Ok(())
 }
 
-/// Most levels of grading. At the origin doubles would resolve shorter edges, but 2⁻¹⁰⁰ of an edge is of no use.
+/// Most levels of grading. Around the origin doubles resolve even shorter edges, but edges of 2⁻¹⁰⁰ of their first length are of no
+/// use.
 const MOST_LEVELS: usize = 100;
 /// Least length of the edges at the graded vertex, in units of its largest coordinate: 1024 roundings of that.
 const RESOLVED: f64 = 1024.0 * f64::EPSILON;
@@ -77,11 +74,11 @@ fn most_levels(soup: &Soup, vertex: u32, star: &[usize]) -> usize {
     let shortest = others.map(|v| distance(at(v), at(vertex))).fold(f64::INFINITY, f64::min);
     let largest = at(vertex).into_iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     let levels = (shortest / (RESOLVED * largest)).log2().floor();
-    // Infinite at the origin; not a number for positions that are none, which the mesh refuses.
+    // Infinite at the origin; NaN for positions that are not finite, which building a mesh refuses.
     if levels < MOST_LEVELS as f64 { levels.max(0.0) as usize } else { MOST_LEVELS }
 }
 
-/// Which sliver.
+/// The kind of a sliver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sliver {
     /// A vertex close to the middle of a side: one angle near π, two small ones.
@@ -102,13 +99,11 @@ pub enum Sliver {
 pub fn slivers(soup: &mut Soup, kind: Sliver, count: usize, angle: f64, seed: u64) -> Result<()> {
     check_corners(soup)?;
     if !(THINNEST..=0.1).contains(&angle) {
-        let need = "between 1e-7 and 0.1 radians";
-        return Err(Error::Argument { what: "angle of a sliver", value: angle.to_string(), need });
+        return Err(Error::argument("angle of a sliver", angle, "between 1e-7 and 0.1 radians"));
     }
     let n_faces = soup.faces.len();
     if count > n_faces {
-        let need = "at most the number of faces";
-        return Err(Error::Argument { what: "slivers", value: count.to_string(), need });
+        return Err(Error::argument("slivers", count, "at most the number of faces"));
     }
     check_room(soup, 2 * count)?;
     let mut random = SplitMix64::new(seed);
@@ -134,8 +129,8 @@ pub fn slivers(soup: &mut Soup, kind: Sliver, count: usize, angle: f64, seed: u6
     Ok(())
 }
 
-/// Least angle of a sliver, radians. The sides of a cap with this angle exceed its base by a few ulps together, `2 (1 − cos 1e-7) =
-/// 1e-14` of it; of a thinner one the lengths say that it has no area.
+/// Least angle of a sliver, radians. Two sides of a cap with this angle together exceed its base by `2 (1 − cos 1e-7) = 1e-14` of it, a
+/// few ulps; by its lengths in doubles a thinner cap may have no area.
 const THINNEST: f64 = 1e-7;
 
 /// Above the middle of pq, seen from p and q under `angle`.
@@ -154,17 +149,7 @@ fn needle([p, q, r]: [Point; 3], angle: f64) -> Point {
     add(p, scale((far * angle / sine).min(near / 3.0), bisector))
 }
 
-fn check_corners(soup: &Soup) -> Result<()> {
-    match soup.faces.iter().flatten().find(|&&v| v as usize >= soup.positions.len()) {
-        Some(v) => {
-            let need = "an existing vertex";
-            Err(Error::Argument { what: "vertex of a face", value: v.to_string(), need })
-        }
-        None => Ok(()),
-    }
-}
-
-/// Half-edges are numbered in u32, six to a vertex.
+/// Check that the half-edges of that many more faces, three to a face, can be numbered in u32.
 fn check_room(soup: &Soup, new_faces: usize) -> Result<()> {
     let count = soup.faces.len() + new_faces;
     if count > u32::MAX as usize / 3 { Err(Error::TooLarge { what: "faces", count }) } else { Ok(()) }

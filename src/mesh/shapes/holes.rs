@@ -2,16 +2,18 @@
 
 use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, add, distance, dot, lerp, norm, normalised, sub, triangle_normal};
+use crate::mesh::incidence::drop_unused;
 use crate::mesh::io::Soup;
 use crate::mesh::{HalfedgeId, Mesh, PerVertex, Point, VertexId};
 
-/// A hole's radius as a share of the distance from its centre to the nearest other centre or boundary vertex.
+/// A hole's radius as a share of the distance from its centre to the nearest other centre or boundary vertex: below a half, so that
+/// some surface stays between two holes.
 const RADIUS_SHARE: f64 = 0.3;
-/// A hole stays where the surface faces the same way as at its centre, within this cosine.
+/// Least cosine of the angle, 60°, between the normals at a hole's centre and at any vertex in the hole.
 const LEAST_FACING_COSINE: f64 = 0.5;
-/// What a hole's radius shrinks by from one attempt to the next.
+/// Ratio of a hole's radii in successive attempts.
 const SHRINK: f64 = 0.95;
-/// Radii down to this share of the largest possible one are tried; the one with the fattest triangles is taken.
+/// Least radius that is tried, as a share of the largest that can be cut; of all these the one with the largest angles is taken.
 const LEAST_RADIUS_SHARE: f64 = 0.7;
 
 /// Cut `count` round holes out of a surface, as far from each other and from the boundary as its vertices allow: the
@@ -39,7 +41,7 @@ pub fn punch(soup: &Soup, count: usize) -> Result<Soup> {
         return Ok(punched);
     }
     let need = "fewer, or more vertices: there is no room for one more hole";
-    Err(Error::Argument { what: "holes", value: count.to_string(), need })
+    Err(Error::argument("holes", count, need))
 }
 
 /// The sine of the smallest angle, nearly: the least height over the longest side.
@@ -92,7 +94,7 @@ impl<'a> Surface<'a> {
         for (done, &c) in centres.iter().enumerate() {
             let attempt = |radius: f64| {
                 let mut next = state.clone();
-                self.cut(c, radius, &mut next)?;
+                self.cut(Ball { centre: c, radius }, &mut next)?;
                 let rest = self.rest(&next);
                 self.is_punched(&rest, done + 1).then(|| (smallest_sine(&rest), next))
             };
@@ -119,12 +121,9 @@ impl<'a> Surface<'a> {
     /// The surface without the faces around some vertices, each the farthest from those before it and from the boundary.
     fn stars(&self, count: usize) -> Option<Soup> {
         let mut state = State::new(self.mesh, self.positions);
-        let mut free = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
-        // On a hole's rim or on the boundary.
+        let mut free = self.off_boundary();
+        // Whether a vertex lies on a hole's rim or on the boundary.
         let mut taken = PerVertex::from_fn(self.mesh.n_vertices(), |v| self.mesh.is_boundary_vertex(v));
-        for v in self.mesh.vertices().filter(|&v| self.mesh.is_boundary_vertex(v)) {
-            self.keep_off(&mut free, self.at(v));
-        }
         let ring = |v: VertexId| self.mesh.outgoing(v).map(|h| self.mesh.tip(h));
         for _ in 0..count {
             let open = |v: &VertexId| !taken[*v] && ring(*v).all(|w| !taken[w]);
@@ -145,7 +144,16 @@ impl<'a> Surface<'a> {
         Mesh::from_soup(rest).is_ok_and(right)
     }
 
-    /// Take the distance to a point into account.
+    /// Per vertex, the distance to the boundary.
+    fn off_boundary(&self) -> PerVertex<f64> {
+        let mut free = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
+        for v in self.mesh.vertices().filter(|&v| self.mesh.is_boundary_vertex(v)) {
+            self.keep_off(&mut free, self.at(v));
+        }
+        free
+    }
+
+    /// Lower distances to those from one more point.
     fn keep_off(&self, free: &mut PerVertex<f64>, p: Point) {
         for v in self.mesh.vertices() {
             free[v] = free[v].min(distance(self.at(v), p));
@@ -154,10 +162,7 @@ impl<'a> Surface<'a> {
 
     /// Farthest-point centres, and the least distance among them and to the boundary.
     fn centres(&self, count: usize) -> Option<(Vec<VertexId>, f64)> {
-        let mut free = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
-        for v in self.mesh.vertices().filter(|&v| self.mesh.is_boundary_vertex(v)) {
-            self.keep_off(&mut free, self.at(v));
-        }
+        let mut free = self.off_boundary();
         let flat: Vec<VertexId> = self.mesh.vertices().filter(|&v| self.is_flat(v)).collect();
         let farthest =
             |free: &PerVertex<f64>| flat.iter().copied().max_by(|&v, &w| free[v].total_cmp(&free[w]));
@@ -190,10 +195,10 @@ impl<'a> Surface<'a> {
         self.mesh.outgoing(v).map(|h| distance(self.at(v), self.at(self.mesh.tip(h)))).fold(0.0, f64::max)
     }
 
-    /// Cut the ball about `c` out; `None` where the piece does not face the centre's way, or meets another hole.
-    fn cut(&self, c: VertexId, radius: f64, state: &mut State) -> Option<()> {
-        let inside = self.inside(c, radius, &mut state.region)?;
-        self.snap(c, radius, &inside, state)
+    /// Cut a ball out; `None` where the piece of the surface in it does not face the centre's way, or meets another hole.
+    fn cut(&self, ball: Ball, state: &mut State) -> Option<()> {
+        let inside = self.inside(ball, &mut state.region)?;
+        self.snap(ball, &inside, state)
     }
 
     /// What is left.
@@ -202,22 +207,15 @@ impl<'a> Surface<'a> {
         let gone = |f: &[VertexId; 3]| {
             f.iter().any(|&v| region[v] == Region::Inside) || f.iter().all(|&v| region[v] == Region::Rim)
         };
-        let faces: Vec<[VertexId; 3]> =
-            self.mesh.faces().map(|f| self.mesh.face_vertices(f)).filter(|f| !gone(f)).collect();
-        let mut number = vec![u32::MAX; positions.len()];
-        for v in faces.iter().flatten() {
-            number[v.index()] = 0;
-        }
-        let mut kept = Vec::with_capacity(positions.len());
-        for (slot, p) in number.iter_mut().zip(positions).filter(|(slot, _)| **slot == 0) {
-            *slot = kept.len() as u32;
-            kept.push(*p);
-        }
-        Soup::new(kept, faces.iter().map(|f| f.map(|v| number[v.index()])).collect())
+        let left = self.mesh.faces().map(|f| self.mesh.face_vertices(f)).filter(|f| !gone(f));
+        let mut faces: Vec<[u32; 3]> = left.map(|f| f.map(|v| v.0)).collect();
+        let used = drop_unused(positions.len(), &mut faces);
+        Soup::new(used.into_iter().map(|v| positions[v as usize]).collect(), faces)
     }
 
     /// The vertices within the ball, from its centre along edges.
-    fn inside(&self, c: VertexId, radius: f64, region: &mut PerVertex<Region>) -> Option<Vec<VertexId>> {
+    fn inside(&self, ball: Ball, region: &mut PerVertex<Region>) -> Option<Vec<VertexId>> {
+        let Ball { centre: c, radius } = ball;
         let mut inside = vec![c];
         if region[c] != Region::Outside {
             return None;
@@ -248,7 +246,8 @@ impl<'a> Surface<'a> {
     }
 
     /// Move the vertices nearest to the rim onto it, each along the edge on which it is nearest.
-    fn snap(&self, c: VertexId, radius: f64, inside: &[VertexId], state: &mut State) -> Option<()> {
+    fn snap(&self, ball: Ball, inside: &[VertexId], state: &mut State) -> Option<()> {
+        let Ball { centre: c, radius } = ball;
         let State { region, positions } = state;
         // Distance moved, vertex, new position.
         let mut moves: Vec<(f64, VertexId, Point)> = Vec::new();
@@ -272,6 +271,13 @@ impl<'a> Surface<'a> {
         }
         (region[c] == Region::Inside).then_some(())
     }
+}
+
+/// The ball that a hole is cut out with.
+#[derive(Clone, Copy)]
+struct Ball {
+    centre: VertexId,
+    radius: f64,
 }
 
 /// Where a vertex is with respect to the holes.

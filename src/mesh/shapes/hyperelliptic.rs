@@ -10,7 +10,8 @@ use crate::mesh::io::Soup;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge, PerVertex, VertexId};
 use num_complex::Complex64;
 
-/// Rounds of smoothing after vertices have been moved onto the branch points.
+/// Rounds of smoothing after vertices have been moved onto the branch points. Each spreads the dent of a move to one more ring of
+/// vertices.
 const SMOOTHING_ROUNDS: usize = 10;
 
 /// The Riemann surface of `y² = Π (x − e_j)` as the double cover of the round sphere, branched over the points `e_j` and,
@@ -70,11 +71,8 @@ fn sphere(points: &[Vector], n: usize) -> Result<(Soup, Vec<u32>)> {
         let Some(v) = mesh.vertices().min_by(nearer) else { break };
         let taken = |w: u32| branch.contains(&w);
         if taken(v.0) || mesh.outgoing(v).any(|h| taken(mesh.tip(h).0)) {
-            return Err(Error::Argument {
-                what: "frequency",
-                value: n.to_string(),
-                need: "larger: vertices next to each other would sit on two branch points",
-            });
+            let need = "larger: vertices next to each other would sit on two branch points";
+            return Err(Error::argument("frequency", n, need));
         }
         branch.push(v.0);
         soup.positions[v.index()] = points[j];

@@ -2,6 +2,7 @@
 
 use super::{THIN, check_count};
 use crate::error::{Error, Result};
+use crate::geometry::flip::diagonal;
 use crate::geometry::space::USABLE_LENGTHS;
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Mesh, PerEdge};
@@ -24,10 +25,23 @@ pub struct Intrinsic {
 
 impl Intrinsic {
     /// Connectivity and edge lengths.
+    ///
+    /// # Errors
+    ///
+    /// As [`Mesh::from_gluing`]; [`Error::Size`] unless there is one length per edge.
     pub fn build(&self) -> Result<(Mesh, PerEdge<f64>)> {
         let mesh = Mesh::from_gluing(self.n_vertices, &self.faces, &self.face_edges)?;
         crate::error::check_size("lengths", self.lengths.len(), mesh.n_edges())?;
         Ok((mesh, self.lengths.clone().into()))
+    }
+
+    /// The surface after `level` rounds of [`Intrinsic::subdivide`]; it has about 8 faces.
+    pub(super) fn subdivided(mut self, level: usize) -> Result<Intrinsic> {
+        check_count("level", level, 0, 8.0 * 4f64.powi(level.min(60) as i32))?;
+        for _ in 0..level {
+            self = self.subdivide()?;
+        }
+        Ok(self)
     }
 
     /// Each triangle cut into four at the midpoints of its sides, in its own geometry.
@@ -70,7 +84,11 @@ impl Intrinsic {
             // The inner edge near corner k, from the middle of side k to the middle of side k + 2.
             let inner = |k: usize| (2 * edges + 3 * f + k % 3 + 1) as i32;
             for k in 0..3 {
-                fine.lengths.push(midline(self.geometry, l[(k + 1) % 3], l[(k + 2) % 3], l[k], angles[k]));
+                // Midpoints are joined by the third side of a triangle with half of the two sides.
+                fine.lengths.push(match self.geometry {
+                    Space::E2 => 0.5 * l[k],
+                    space => diagonal(space, 0.5 * l[(k + 1) % 3], 0.5 * l[(k + 2) % 3], angles[k]),
+                });
                 fine.faces.push([corners[k], middle(k), middle(k + 2)]);
                 fine.face_edges.push([inner(k), half(k + 2, true), half(k, false)]);
             }
@@ -91,7 +109,7 @@ impl Intrinsic {
             self.lengths.iter().find(|&&l| self.geometry == Space::H2 && l > LONGEST_HYPERBOLIC_SIDE)
         {
             let need = "at most 700: its triangles' midlines are beyond doubles";
-            return Err(Error::Argument { what: "length in H²", value: l.to_string(), need });
+            return Err(Error::argument("length in H²", l, need));
         }
         for (face, edge) in self.face_edges.iter().enumerate() {
             let l = edge.map(|e| self.lengths[e.unsigned_abs() as usize - 1]);
@@ -106,26 +124,9 @@ impl Intrinsic {
     }
 }
 
-/// Longest side in H² whose midlines are found: the square of their half chord grows like e^l, up to e^709.
+/// Longest side in H² of a triangle that is subdivided: the square of the half chord of a midline grows like e^l, and doubles end at
+/// e^709.
 const LONGEST_HYPERBOLIC_SIDE: f64 = 700.0;
-
-/// Distance of the midpoints of two sides b, c that meet at `angle` (a: the third side): the cosine law for
-/// half the sides, in half-chord form.
-fn midline(geometry: Space, b: f64, c: f64, a: f64, angle: f64) -> f64 {
-    let (b, c) = (0.5 * b, 0.5 * c);
-    let sine = (0.5 * angle).sin();
-    match geometry {
-        Space::E2 => 0.5 * a,
-        Space::H2 => {
-            let q2 = (0.5 * (b - c)).sinh().powi(2) + b.sinh() * c.sinh() * sine * sine;
-            2.0 * q2.sqrt().asinh()
-        }
-        Space::S2 => {
-            let q2 = (0.5 * (b - c)).sin().powi(2) + b.sin() * c.sin() * sine * sine;
-            2.0 * q2.sqrt().asin()
-        }
-    }
-}
 
 /// The flat torus ℂ/(ℤ + τℤ), Im τ > 0, as an n × m grid of parallelograms, each halved by its diagonal from
 /// z to z + 1/n + τ/m; legal down to 1 × 1 (one vertex). Vertex (i, j) is i + n j.
@@ -137,7 +138,7 @@ fn midline(geometry: Space, b: f64, c: f64, a: f64, angle: f64) -> f64 {
 pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
     if !(tau[0].is_finite() && tau[1].is_finite() && tau[1] > 0.0) {
         let value = format!("{} + {} i", tau[0], tau[1]);
-        return Err(Error::Argument { what: "τ", value, need: "in the upper half plane" });
+        return Err(Error::argument("τ", value, "in the upper half plane"));
     }
     let vertices = n as f64 * m as f64;
     check_count("steps along 1", n, 1, vertices)?;
@@ -150,11 +151,7 @@ pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
     let longest = sides.into_iter().fold(0.0, f64::max);
     if (x[0] / longest) * (y[1] / longest) <= THIN {
         let value = format!("{} + {} i", tau[0], tau[1]);
-        return Err(Error::Argument {
-            what: "τ",
-            value,
-            need: "such that its triangles have an area in doubles",
-        });
+        return Err(Error::argument("τ", value, "such that its triangles have an area in doubles"));
     }
     let (mut faces, mut face_edges, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
     for j in 0..m {
@@ -172,20 +169,23 @@ pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
 
 /// The Bolza surface: the regular hyperbolic octagon with angles π/4, opposite sides identified, as eight
 /// triangles around its centre, subdivided `level` times. Every vertex has curvature 0; the area is 4π.
+///
+/// # Errors
+///
+/// [`Error::Argument`] for too many levels.
 pub fn bolza(level: usize) -> Result<Intrinsic> {
-    check_count("level", level, 0, 8.0 * 4f64.powi(level.min(60) as i32))?;
     // Side i and side i + 4 are the same edge, run through in opposite directions.
     let sides: Vec<i32> = (1..=4).chain((1..=4).map(|e| -e)).collect();
-    let mut surface = centre_fan(&sides, 2);
-    for _ in 0..level {
-        surface = surface.subdivide()?;
-    }
-    Ok(surface)
+    centre_fan(&sides, 2).subdivided(level)
 }
 
 /// The regular 4g-gon with sides `a1 b1 a1⁻¹ b1⁻¹ …` glued (all corners are one vertex of curvature 0), as a
 /// fan around its centre: two vertices, 6g edges. Hyperbolic with angles 2π/4g for g ≥ 2, the unit square for
 /// g = 1.
+///
+/// # Errors
+///
+/// [`Error::Argument`] for genus 0, or one that is too large to number the vertices.
 pub fn two_vertex(genus: usize) -> Result<Intrinsic> {
     check_count("genus", genus, 1, 8.0 * genus as f64)?;
     Ok(centre_fan(&commutators(genus), genus))
@@ -193,6 +193,10 @@ pub fn two_vertex(genus: usize) -> Result<Intrinsic> {
 
 /// The polygon of [`two_vertex`] as a fan of diagonals from one corner: one vertex, 6g − 3 edges, every edge
 /// a loop.
+///
+/// # Errors
+///
+/// As [`two_vertex`].
 pub fn one_vertex(genus: usize) -> Result<Intrinsic> {
     check_count("genus", genus, 1, 8.0 * genus as f64)?;
     let sides = commutators(genus);

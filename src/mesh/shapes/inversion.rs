@@ -20,8 +20,11 @@ pub fn invert(soup: &mut Soup, centre: Vector, radius: f64) -> Result<()> {
     check_size("radius of the inversion", radius)?;
     let near = |p: &Vector| dot(sub(*p, centre), sub(*p, centre)) < (1e-12 * radius).powi(2);
     if let Some(v) = soup.positions.iter().position(near) {
-        let need = "away from every vertex";
-        return Err(Error::Argument { what: "centre of the inversion", value: format!("vertex {v}"), need });
+        return Err(Error::argument(
+            "centre of the inversion",
+            format!("vertex {v}"),
+            "away from every vertex",
+        ));
     }
     for p in &mut soup.positions {
         let d = sub(*p, centre);
@@ -31,8 +34,8 @@ pub fn invert(soup: &mut Soup, centre: Vector, radius: f64) -> Result<()> {
     Ok(())
 }
 
-/// The inversion's centre stays this far from the last handle's rim, in radii of the rim: nearer, the image of that
-/// rim grows without bound.
+/// Least distance of the inversion's centre from the middle of the last handle, in radii of its rim: as it approaches the rim, the
+/// image of the rim grows without bound.
 const CLEARANCE: f64 = 1.2;
 
 /// [`genus`] with handles of different size: the first hole is `ratio` ≥ 1 times as wide as the last, the others fall
@@ -41,10 +44,9 @@ const CLEARANCE: f64 = 1.2;
 /// The row of equal handles is inverted in a sphere about a point of its axis, which leaves all angles as they are up
 /// to the mesh's fineness, and so the conformal structure. The scale is 1 at the middle of the row.
 ///
-/// The map is one of all space, so that one number says everything: handles cannot be sized one by one, for equal holes
-/// are what the smooth plate of [`genus`] and its regular mesh are built on. Nor can the ratio be any: the inversion's centre
-/// lies beyond the last rim. The largest is 6.8 for two handles, 17 for three, 32 for four, in proportion to the square of
-/// their number.
+/// One inversion maps all of space, so that the ratio determines the sizes of all handles. Since the centre of the inversion lies
+/// beyond the last rim, the ratio is bounded: by 6.8 for two handles, 17 for three, 32 for four, in proportion to the square of their
+/// number.
 ///
 /// # Errors
 ///
@@ -52,7 +54,7 @@ const CLEARANCE: f64 = 1.2;
 /// one too large for so few handles.
 pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
     let mut soup = genus(handles, n)?;
-    let refuse = |need| Err(Error::Argument { what: "ratio of the handles", value: ratio.to_string(), need });
+    let refuse = |need| Err(Error::argument("ratio of the handles", ratio, need));
     if !(1.0..=MOST_RATIO).contains(&ratio) {
         return refuse("between 1 and 1000");
     }
@@ -72,7 +74,7 @@ pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
         let most = ((2.0 * c + reach).powi(2) - HOLE) / (reach * reach - HOLE);
         let value = format!("{ratio}, of at most {most:.1} for {handles} handles");
         let need = "smaller: the largest handle would swallow the rest";
-        return Err(Error::Argument { what: "ratio of the handles", value, need });
+        return Err(Error::argument("ratio of the handles", value, need));
     }
     invert(&mut soup, [-centre, 0.0, 0.0], centre)?;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

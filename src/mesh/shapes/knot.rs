@@ -1,16 +1,17 @@
 //! Knotted tori.
 
-use super::{THIN, check_count, check_size};
+use super::{THIN, check_count, check_size, torus_grid};
 use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, add, cross, distance, dot, norm, normalised, scale, sub};
 use crate::mesh::Point;
 use crate::mesh::io::Soup;
 use std::f64::consts::{PI, TAU};
 
-/// Points of the core curve at which the room for a tube is measured, for each time it goes round.
+/// Points of the core curve, per turn around the axis or the tube, at which the room for a tube is measured: neighbours are less than
+/// 3° of a turn apart.
 const SAMPLES_PER_ROUND: usize = 128;
 
-/// Largest turn of the curve from one cross-section to the next.
+/// Largest angle, in radians, by which the curve turns from one cross-section to the next.
 const MOST_TURN: f64 = 0.25 * PI;
 
 /// The core of a knotted torus: the curve on the torus of revolution with radii `big` and `small` that goes `p`
@@ -87,7 +88,7 @@ impl TorusKnot {
         let TorusKnot { p, q, big, small } = *self;
         if p.min(q) == 0 || p.max(q) > 1000 || gcd(p, q) != 1 {
             let need = "coprime and between 1 and 1000: the curve has gcd(p, q) pieces otherwise";
-            return Err(Error::Argument { what: "p and q", value: format!("{p} and {q}"), need });
+            return Err(Error::argument("p and q", format!("{p} and {q}"), need));
         }
         check_size("radius of the centre circle", big)?;
         check_size("radius of the knot's torus", small)?;
@@ -97,22 +98,17 @@ impl TorusKnot {
         check_count("steps around the tube", m, 3, vertices)?;
         if !(THIN * big..=(1.0 - THIN) * big).contains(&small) {
             let need = "below that of the centre circle, by more than rounding";
-            return Err(Error::Argument {
-                what: "radius of the knot's torus",
-                value: small.to_string(),
-                need,
-            });
+            return Err(Error::argument("radius of the knot's torus", small, need));
         }
         let room = self.room();
         if !(THIN * big..room).contains(&tube) {
             let need = "thinner than the room between the strands, and not lost in rounding";
-            return Err(Error::Argument { what: "radius of the tube", value: tube.to_string(), need });
+            return Err(Error::argument("radius of the tube", tube, need));
         }
         let least = self.least_sections(room - tube);
         if n < least {
             let value = format!("{n}, of at least {least} for this curve and tube");
-            let need = "enough for the tube to follow the curve";
-            return Err(Error::Argument { what: "cross-sections", value, need });
+            return Err(Error::argument("cross-sections", value, "enough for the tube to follow the curve"));
         }
         Ok(self.sweep(tube, n, m))
     }
@@ -141,25 +137,14 @@ impl TorusKnot {
             across.push(normalised(reject(carried, tangent((i + 1) % n))));
         }
         let lag = signed_angle(across[n], across[0], tangent(0));
-        let mut soup = Soup::default();
-        for j in 0..m {
-            for i in 0..n {
-                let (a, along) = (across[i], tangent(i));
-                // Clockwise around the curve, so that faces look outwards.
-                let angle = lag * i as f64 / n as f64 - TAU * j as f64 / m as f64;
-                let (sin, cos) = angle.sin_cos();
-                let out = add(scale(cos, a), scale(sin, cross(along, a)));
-                soup.positions.push(add(self.at(i as f64 / n as f64), scale(tube, out)));
-            }
-        }
-        let at = |i: usize, j: usize| ((i % n) + n * (j % m)) as u32;
-        for j in 0..m {
-            for i in 0..n {
-                let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-                soup.faces.extend([[a, b, c], [a, c, d]]);
-            }
-        }
-        soup
+        torus_grid(n, m, |i, j| {
+            let (a, along) = (across[i], tangent(i));
+            // Clockwise around the curve, so that faces look outwards.
+            let angle = lag * i as f64 / n as f64 - TAU * j as f64 / m as f64;
+            let (sin, cos) = angle.sin_cos();
+            let out = add(scale(cos, a), scale(sin, cross(along, a)));
+            add(self.at(i as f64 / n as f64), scale(tube, out))
+        })
     }
 }
 

@@ -35,32 +35,52 @@ pub use torus::torus;
 
 use crate::error::{Error, Result};
 use crate::geometry::space::USABLE_LENGTHS;
+use crate::mesh::Point;
+use crate::mesh::io::Soup;
 
-/// Largest number of vertices a generator makes (half-edges are numbered in u32, six to a vertex).
+/// Largest number of vertices of a sample surface: a vertex has about six half-edges, and these are numbered in u32.
 const MAX_VERTICES: f64 = 5e8;
 
-/// A count that is at least `least`, of a shape with about `vertices` vertices.
+/// Check that a count is at least `least`, and that its shape, of about `vertices` vertices, is not too large.
 fn check_count(what: &'static str, count: usize, least: usize, vertices: f64) -> Result<()> {
-    let value = count.to_string();
     if count < least {
-        return Err(Error::Argument { what, value, need: "larger: the surface would be degenerate" });
+        return Err(Error::argument(what, count, "larger: the surface would be degenerate"));
     }
     if vertices > MAX_VERTICES {
-        return Err(Error::Argument {
-            what, value, need: "smaller: the mesh would exceed 5·10⁸ vertices"
-        });
+        return Err(Error::argument(what, count, "smaller: the mesh would exceed 5·10⁸ vertices"));
     }
     Ok(())
 }
 
-/// Least ratio of two sizes of a shape: points that differ by the smaller one alone keep four of their
+/// Check that the corners of all faces are vertices of the list.
+fn check_corners(soup: &Soup) -> Result<()> {
+    match soup.faces.iter().flatten().find(|&&v| v as usize >= soup.positions.len()) {
+        Some(v) => Err(Error::argument("vertex of a face", v, "an existing vertex")),
+        None => Ok(()),
+    }
+}
+
+/// A torus of `n` × `m` vertices: vertex (i, j), at `at(i, j)`, is `i + n j`, and each cell of the grid is halved by its diagonal from
+/// (i, j) to (i + 1, j + 1).
+fn torus_grid(n: usize, m: usize, at: impl Fn(usize, usize) -> Point) -> Soup {
+    let mut soup = Soup::default();
+    let number = |i: usize, j: usize| ((i % n) + n * (j % m)) as u32;
+    for (j, i) in (0..m).flat_map(|j| (0..n).map(move |i| (j, i))) {
+        soup.positions.push(at(i, j));
+        let (a, b, c, d) = (number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1));
+        soup.faces.extend([[a, b, c], [a, c, d]]);
+    }
+    soup
+}
+
+/// Least ratio of two sizes of a shape: the coordinates of points that are the smaller size apart then differ in their last four
 /// digits.
 const THIN: f64 = 1e-12;
 
-/// A size within [`USABLE_LENGTHS`].
+/// Check that a size is one of [`USABLE_LENGTHS`].
 fn check_size(what: &'static str, size: f64) -> Result<()> {
     if USABLE_LENGTHS.contains(&size) {
         return Ok(());
     }
-    Err(Error::Argument { what, value: format!("{size:e}"), need: "a number between 1e-150 and 1e150" })
+    Err(Error::argument(what, format!("{size:e}"), "a number between 1e-150 and 1e150"))
 }

@@ -1,6 +1,8 @@
 //! Seeded noise, the same on every machine.
 
+use super::check_corners;
 use crate::error::{Error, Result};
+use crate::geometry::vector::distance;
 use crate::mesh::io::Soup;
 
 /// SplitMix64 \[SLF14\]: a small generator whose sequence is part of its definition.
@@ -31,27 +33,16 @@ impl SplitMix64 {
 ///
 /// # Errors
 ///
-/// [`Error::Argument`] for an amplitude out of range.
+/// [`Error::Argument`] for an amplitude that is not between 0 and 1000, and for faces that name a vertex that does not exist.
 pub fn noise(soup: &mut Soup, amplitude: f64, seed: u64) -> Result<()> {
     if !(0.0..=1e3).contains(&amplitude) {
-        return Err(Error::Argument {
-            what: "noise",
-            value: amplitude.to_string(),
-            need: "between 0 and 1000",
-        });
+        return Err(Error::argument("noise", amplitude, "between 0 and 1000"));
     }
-    let n = soup.positions.len();
-    if let Some(v) = soup.faces.iter().flatten().find(|&&v| v as usize >= n) {
-        return Err(Error::Argument {
-            what: "vertex of a face",
-            value: v.to_string(),
-            need: "an existing vertex",
-        });
-    }
+    check_corners(soup)?;
     let (mut total, mut count) = (0.0, 0usize);
     for [a, b, c] in soup.faces.iter().map(|f| f.map(|v| soup.positions[v as usize])) {
         for (p, q) in [(a, b), (b, c), (c, a)] {
-            total += (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
+            total += distance(p, q);
             count += 1;
         }
     }

@@ -1,13 +1,12 @@
 //! Pairs of pants with prescribed boundary lengths.
 
-use super::check_count;
 use super::intrinsic::Intrinsic;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use std::ops::RangeInclusive;
 
-/// Boundary lengths that are allowed: the seams next to a boundary of length l are about log(4/l) long each, and a
-/// side of half the longest is far from where subdivision ends.
+/// Boundary lengths that are allowed. The seams next to a boundary of length l are about log(4/l) long, 15 for the shortest; half of
+/// the longest is far below the sides at which subdivision ends.
 const BOUNDARY_LENGTHS: RangeInclusive<f64> = 1e-6..=200.0;
 
 /// The hyperbolic pair of pants whose three boundary loops are geodesics of these `lengths` l₁, l₂, l₃: a sphere with
@@ -32,10 +31,8 @@ const BOUNDARY_LENGTHS: RangeInclusive<f64> = 1e-6..=200.0;
 /// subdivided triangles next to a very long or short boundary are too thin for doubles.
 pub fn pants(lengths: [f64; 3], level: usize) -> Result<Intrinsic> {
     if let Some(l) = lengths.iter().find(|l| !BOUNDARY_LENGTHS.contains(*l)) {
-        let need = "between 1e-6 and 200";
-        return Err(Error::Argument { what: "boundary length", value: l.to_string(), need });
+        return Err(Error::argument("boundary length", l, "between 1e-6 and 200"));
     }
-    check_count("level", level, 0, 8.0 * 4f64.powi(level.min(60) as i32))?;
     let half = lengths.map(|l| 0.5 * l);
     // The seam between the boundaries k and k + 1, by 2 sinh²(s/2) = cosh s − 1.
     let seam = |k: usize| {
@@ -64,9 +61,7 @@ pub fn pants(lengths: [f64; 3], level: usize) -> Result<Intrinsic> {
     }
     surface.faces.extend([[0, 2, 4], [4, 2, 0]]);
     surface.face_edges.extend([[8, 9, 7], [-13, -15, -14]]);
-    for _ in 0..level {
-        surface = surface.subdivide()?;
-    }
+    let surface = surface.subdivided(level)?;
     surface.check_triangles()?;
     Ok(surface)
 }

@@ -7,6 +7,10 @@ use std::f64::consts::TAU;
 
 /// The unit disk: a centre and n rings, 6k vertices on ring k at radius k/n, joined by nearly equilateral
 /// triangles. 3n(n + 1) + 1 vertices, 6n² faces. n ≥ 1.
+///
+/// # Errors
+///
+/// [`Error::Argument`] for n out of range.
 pub fn disk(n: usize) -> Result<Soup> {
     check_count("rings", n, 1, 3.0 * (n as f64).powi(2))?;
     let mut soup = Soup::new(vec![[0.0; 3]], Vec::new());
@@ -45,8 +49,7 @@ pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Resu
     check_size("inner radius", inner)?;
     check_size("outer radius", outer)?;
     if inner >= outer {
-        let value = inner.to_string();
-        return Err(Error::Argument { what: "inner radius", value, need: "below the outer radius" });
+        return Err(Error::argument("inner radius", inner, "below the outer radius"));
     }
     let vertices = n_radial as f64 * n_around as f64;
     check_count("radial steps", n_radial, 1, vertices)?;
@@ -59,7 +62,7 @@ pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Resu
         } else {
             "more: a step has no area in doubles"
         };
-        return Err(Error::Argument { what: "radial steps", value: n_radial.to_string(), need });
+        return Err(Error::argument("radial steps", n_radial, need));
     }
     let mut soup = Soup::default();
     for k in 0..=n_radial {

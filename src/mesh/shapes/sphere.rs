@@ -2,13 +2,17 @@
 
 use super::{THIN, check_count, check_size};
 use crate::error::{Error, Result};
-use crate::geometry::vector::{cross, dot};
+use crate::geometry::vector::{cross, distance, dot, norm};
 use crate::mesh::Point;
 use crate::mesh::io::Soup;
 use std::collections::HashMap;
 
 /// The unit sphere: each face of the icosahedron cut into n² triangles, radially projected. 10n² + 2
 /// vertices, 20n² faces; the icosahedron's twelve corners come first. n ≥ 1.
+///
+/// # Errors
+///
+/// [`Error::Argument`] for n out of range.
 pub fn icosphere(n: usize) -> Result<Soup> {
     check_count("frequency", n, 1, 10.0 * (n as f64).powi(2))?;
     let golden = 0.5 * (1.0 + 5.0f64.sqrt());
@@ -51,7 +55,7 @@ pub fn icosphere(n: usize) -> Result<Soup> {
         }
     }
     for p in &mut positions {
-        let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let length = norm(*p);
         p.iter_mut().for_each(|x| *x /= length);
     }
     Ok(Soup::new(positions, faces))
@@ -67,8 +71,7 @@ pub fn ellipsoid(axes: [f64; 3], n: usize) -> Result<Soup> {
     for (what, axis) in ["first half axis", "second half axis", "third half axis"].into_iter().zip(axes) {
         check_size(what, axis)?;
         if axes.iter().any(|&other| axis < THIN * other) {
-            let value = format!("{axis:e}");
-            return Err(Error::Argument { what, value, need: "at least 1e-12 of the longest" });
+            return Err(Error::argument(what, format!("{axis:e}"), "at least 1e-12 of the longest"));
         }
     }
     let mut soup = icosphere(n)?;
@@ -80,7 +83,8 @@ pub fn ellipsoid(axes: [f64; 3], n: usize) -> Result<Soup> {
 
 /// The twenty faces: triples of corners at the least distance, counterclockwise from outside.
 fn icosahedron_faces(p: &[Point]) -> Vec<[u32; 3]> {
-    let near = |a: usize, b: usize| (0..3).map(|k| (p[a][k] - p[b][k]).powi(2)).sum::<f64>() < 5.0;
+    // Corners of an edge are 2 apart, others at least 3.2.
+    let near = |a: usize, b: usize| distance(p[a], p[b]) < 2.5;
     let mut faces = Vec::new();
     for a in 0..12 {
         for b in a + 1..12 {

@@ -1,6 +1,6 @@
 //! The torus of revolution.
 
-use super::{THIN, check_count, check_size};
+use super::{THIN, check_count, check_size, torus_grid};
 use crate::error::{Error, Result};
 use crate::mesh::io::Soup;
 use std::f64::consts::TAU;
@@ -19,30 +19,16 @@ pub fn torus(big: f64, small: f64, n_u: usize, n_v: usize) -> Result<Soup> {
     check_size("radius of the centre circle", big)?;
     check_size("radius of the tube", small)?;
     if !(THIN * big..=(1.0 - THIN) * big).contains(&small) {
-        return Err(Error::Argument {
-            what: "radius of the tube",
-            value: format!("{small:e}"),
-            need: "below that of the centre circle, and neither the tube nor its hole lost in rounding",
-        });
+        let need = "below that of the centre circle, and neither the tube nor its hole lost in rounding";
+        return Err(Error::argument("radius of the tube", format!("{small:e}"), need));
     }
     let vertices = n_u as f64 * n_v as f64;
     check_count("steps around the axis", n_u, 3, vertices)?;
     check_count("steps around the tube", n_v, 3, vertices)?;
-    let mut soup = Soup::default();
-    for j in 0..n_v {
+    Ok(torus_grid(n_u, n_v, |i, j| {
+        let (sin_u, cos_u) = (TAU * i as f64 / n_u as f64).sin_cos();
         let (sin_v, cos_v) = (TAU * j as f64 / n_v as f64).sin_cos();
-        for i in 0..n_u {
-            let (sin_u, cos_u) = (TAU * i as f64 / n_u as f64).sin_cos();
-            let radius = big + small * cos_v;
-            soup.positions.push([radius * cos_u, radius * sin_u, small * sin_v]);
-        }
-    }
-    let at = |i: usize, j: usize| ((i % n_u) + n_u * (j % n_v)) as u32;
-    for j in 0..n_v {
-        for i in 0..n_u {
-            let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-            soup.faces.extend([[a, b, c], [a, c, d]]);
-        }
-    }
-    Ok(soup)
+        let radius = big + small * cos_v;
+        [radius * cos_u, radius * sin_u, small * sin_v]
+    }))
 }

@@ -1,11 +1,11 @@
-//! From pieces to a refinement: what was kept gets numbers without gaps.
+//! From pieces to a refinement: the vertices and edges that were kept are numbered without gaps.
 
-use super::pieces::{Corner, Pieces, torn};
-use super::{Crossing, OnFace, Refinement};
+use super::parts::{Crossing, OnFace, Refinement, torn};
+use super::pieces::{Corner, Pieces};
 use crate::error::Result;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace};
 
-/// "Not in any piece that is kept".
+/// Marks a vertex or edge that is in no piece that is kept.
 const UNUSED: u32 = u32::MAX;
 
 /// New numbers of the elements that are not [`UNUSED`], in order, and how many these are.
@@ -18,7 +18,10 @@ fn numbered(mut all: Vec<u32>) -> (Vec<u32>, usize) {
     (all, n as usize)
 }
 
-/// The refinement of these pieces. `crossings` and `weight` are those of all faces, kept or not.
+/// The refinement of these pieces. `crossings` and `weight` are those of all faces, also of those that are not kept.
+///
+/// # Errors
+/// [`crate::Error::Connectivity`] where a corner of a piece lies outside the input or the final triangulation.
 pub(super) fn assemble(pieces: Pieces, crossings: Vec<Crossing>, weight: Vec<f64>) -> Result<Refinement> {
     let [input, result] = [pieces.overlay.input, pieces.overlay.result.mesh];
     let mut vertex = vec![UNUSED; weight.len()];
@@ -61,19 +64,14 @@ fn faces_of(
     meshes: [&Mesh; 2],
 ) -> Result<(Vec<[[OnFace; 2]; 3]>, [PerFace<FaceId>; 2])> {
     let lies_on = |mesh: &Mesh, h: HalfedgeId| {
-        let (face, corner) = mesh.corner(h).ok_or_else(torn)?;
-        Ok((face, OnFace { corner: corner as u8, backward: h.0 & 1 == 1 }))
+        let (face, corner) = mesh.corner(h)?;
+        Some((face, OnFace { corner: corner as u8, backward: h.0 & 1 == 1 }))
     };
+    let of = |c: Corner| lies_on(meshes[0], c.input).zip(lies_on(meshes[1], c.result));
     let mut places = Vec::with_capacity(all.len());
     let mut faces = [Vec::with_capacity(all.len()), Vec::with_capacity(all.len())];
     for corners in all {
-        let mut of_triangle = [None; 3];
-        for (corner, place) in corners.iter().zip(&mut of_triangle) {
-            let halfedges = [corner.input, corner.result];
-            let [a, b] = [lies_on(meshes[0], halfedges[0])?, lies_on(meshes[1], halfedges[1])?];
-            *place = Some((a, b));
-        }
-        let [Some(first), Some(second), Some(third)] = of_triangle else { return Err(torn()) };
+        let [Some(first), Some(second), Some(third)] = corners.map(of) else { return Err(torn()) };
         faces[0].push(first.0.0);
         faces[1].push(first.1.0);
         places.push([first, second, third].map(|(a, b)| [a.1, b.1]));

@@ -1,23 +1,24 @@
 //! Final edges inside intrinsic faces, and where a straight line through such a face crosses them.
 //!
-//! Within an intrinsic face the map to the final triangulation is projective on each of the parts into which
-//! final edges cut it, and final edges are straight in it: *chords* that cut off a corner or leave one
-//! ([`Strands`]). The line from one place on the face's border to another crosses those that separate the
-//! two: first outward those around the corner near which it starts, then some of the fan, then inward those
-//! around the corner near which it ends.
+//! Final edges cut an intrinsic face into parts. The map to the final triangulation is projective on each part, and the final edges are
+//! straight lines in the face: *chords*, each of which cuts off a corner or ends in one ([`Strands`]). The chords that end in a corner
+//! are the *fan* of that corner. A straight line from one place on the border of the face to another crosses the chords that separate
+//! the two places: first, outward, those that cut off the corner near which it starts; then some of the fan; then, inward, those that
+//! cut off the corner near which it ends.
 //!
 //! ```text
 //!            2               All vectors are combinations of those of the corners. A line from A to B and a chord from C to D meet in
 //!           / \                  P = |CDB| A + |CDA| B = |ABD| C + |ABC| D     up to a factor,
-//!          D   \             |XYZ| being determinants: of places on sides they are products and sums of positive numbers, or
-//!         /·\   \            have one difference, of two places on one side.
+//!          D   \             where |XYZ| is a determinant. For places on the sides it is a sum of products of positive numbers, or
+//!         /·\   \            it has one difference, of two places on one side.
 //!     A  / · \   \
 //!       0——C———B——1
 //! ```
 
-use super::Crossing;
 use super::geodesic::place;
 use super::order::{OnEdge, TIP, before, between};
+use super::parts::Crossing;
+use crate::geometry::vector::{cross, dot};
 use crate::mesh::normal::Strands;
 use crate::mesh::{Curves, FaceId, HalfedgeId, Mesh};
 
@@ -26,7 +27,8 @@ pub(super) struct Chords<'a> {
     pub mesh: &'a Mesh,
     /// The intrinsic edges on the final triangulation.
     pub curves: Curves,
-    /// Their crossings with final edges, "input" being the intrinsic triangulation, with homogeneous weights.
+    /// Their crossings with final edges, each with its homogeneous weight. The fields of [`Crossing`] that speak of the input mean the
+    /// intrinsic triangulation here.
     pub crossings: Vec<(Crossing, f64)>,
     /// Homogeneous weights of the vertices.
     pub weight: Vec<f64>,
@@ -36,17 +38,17 @@ pub(super) struct Chords<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Border {
     Corner(usize),
-    /// On the side k → k + 1, beyond this many chords.
+    /// On the side k → k + 1, where this many chords cross it nearer to k.
     Side(usize, i64),
 }
 
-/// A point of a line, where it meets the border of a face.
+/// A point where a line meets the border of a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Station {
     pub border: Border,
     /// Where on the line.
     pub line: OnEdge,
-    /// As a vector: weights of the corners of the face.
+    /// The point as a vector: weights of the corners of the face.
     pub vector: [f64; 3],
 }
 
@@ -85,7 +87,7 @@ impl Chords<'_> {
         let n = sides.map(|h| self.count(h));
         let Strands { arc, fan } = Strands::new(n);
         let before = |k: usize| (k + 2) % 3;
-        // Chords around corner k that lie between it and the place.
+        // The number of chords that cut off corner k and lie between that corner and the place.
         let around = |k: usize, at: Station| match at.border {
             Border::Corner(corner) if corner == k => 0,
             Border::Side(side, rank) if side == k => rank.min(arc[k]),
@@ -103,8 +105,8 @@ impl Chords<'_> {
             }
         }
         if let Some(k) = (0..3).find(|&k| fan[k] > 0) {
-            // Chords of the fan that lie between the side k → k + 1 and the place; the fan's own corner lies
-            // on all of them.
+            // The number of chords of the fan that lie between the side k → k + 1 and the place. It has no meaning at corner k, in
+            // which all of them end.
             let (far, skip) = ((k + 1) % 3, arc[(k + 1) % 3]);
             let beyond = |at: Station| match at.border {
                 Border::Corner(corner) if corner == k => None,
@@ -133,8 +135,8 @@ impl Chords<'_> {
         }
     }
 
-    /// The end of a chord at this position along side k → k + 1; and the final half-edge that the side
-    /// crosses there from left to right, along which, or along `halfedge`, its place is given.
+    /// The final half-edge that the side k → k + 1 crosses at this position, from left to right, and the end of its chord there. The
+    /// place of the end is given along that half-edge, or along `halfedge` if there is one.
     fn end(
         &self,
         sides: [HalfedgeId; 3],
@@ -160,7 +162,7 @@ impl Chords<'_> {
         let (a, b) = (from.vector, to.vector);
         let line = place([determinant(c.0, d.0, b).abs(), determinant(c.0, d.0, a).abs()]);
         let chord = place([determinant(a, b, d.0).abs(), determinant(a, b, c.0).abs()]);
-        // The same vector twice, up to a factor.
+        // Both combinations are the same vector up to a factor, which the sums of their components give.
         let whole = |v: [f64; 3]| v[0] + v[1] + v[2];
         let factor =
             (line[0] * whole(a) + line[1] * whole(b)) / (chord[0] * whole(c.0) + chord[1] * whole(d.0));
@@ -176,7 +178,7 @@ impl Chords<'_> {
 }
 
 impl Passing {
-    /// From the other side.
+    /// The same crossing for a line that comes from the other side.
     fn turned(self) -> Passing {
         let [x, y] = self.across;
         Passing { halfedge: self.halfedge.twin(), across: [y, x], ..self }
@@ -184,7 +186,5 @@ impl Passing {
 }
 
 fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    a[0] * (b[1] * c[2] - b[2] * c[1])
-        + a[1] * (b[2] * c[0] - b[0] * c[2])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    dot(a, cross(b, c))
 }

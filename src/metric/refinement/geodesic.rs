@@ -1,22 +1,22 @@
 //! Where the edges of the input, straight on the surface, cross those of an intrinsic triangulation of it.
 //!
-//! An edge a → b of the input runs through a strip of intrinsic triangles. Points are vectors of R³ in which
-//! lines are planes: (x, y, 1) in E², the hyperboloid in H², the sphere in S². Each crossed edge ij has a
-//! frame, with i at (0, 0, 1) and j on the x axis:
+//! An edge a → b of the input runs through a strip of intrinsic triangles. Points are vectors of R³, and a line is the intersection of
+//! the surface of all points with a plane through 0: points are (x, y, 1) in E², on the hyperboloid in H², on the sphere in S². Each
+//! edge ij that is crossed has a frame of coordinates, with i at (0, 0, 1) and j on the x axis:
 //!
 //! ```text
-//!         a ·  y_a > 0               In it a is carried forward from edge to edge, b backward: turns about a common vertex of
-//!            ·                       two edges, shifts along an edge. The line from a to b meets ij at
+//!         a ·  y_a > 0               The coordinates of a are carried forward from frame to frame, those of b backward, by turns
+//!            ·                       about a common vertex of two edges and shifts along an edge. The line from a to b meets ij at
 //!     i ——————·—————— j  → x             P = −y_b A + y_a B = w_i I + w_j J,
-//!              ·                     w_j = x_P/S(l), w_i = x'_P/S(l), x' being measured from j toward i
-//!               ·  b  y_b < 0        (S(l) = l, sinh l, sin l).
+//!              ·                     w_j = x_P/S(l), w_i = x'_P/S(l), where x' is measured from j toward i
+//!               ·  b  y_b < 0        and S(l) = l, sinh l, sin l.
 //! ```
 //!
-//! The error is that of a chain of triangles whose sides and angles are rounded: a few ulp of the length of
-//! the edge, which is what rounding of the intrinsic lengths does too.
+//! Rounding of the sides and angles moves the crossings by a few ulp of the length of the edge, as rounding of the intrinsic lengths
+//! does anyway.
 
-use super::Intrinsic;
 use super::order::{OnEdge, restore_order, restore_order_across};
+use super::triangulations::Intrinsic;
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Curves, EdgeId, HalfedgeId, PerEdge, PerHalfedge};
 use crate::parallel;
@@ -25,19 +25,18 @@ use crate::parallel;
 /// this weight, the rounding of a weight near 1, moves it back inside.
 const LEAST: f64 = f64::EPSILON;
 
-/// A crossing of an edge of the input with an intrinsic half-edge, from its left to its right. Weights are
-/// those of positions.
+/// A crossing of an edge of the input with an intrinsic half-edge, from the left of the half-edge to its right.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Straight {
-    /// Of the ends of the input's edge.
+    /// Weights of the positions of the ends of the input's edge.
     pub edge: OnEdge,
-    /// Of the origin and tip of the half-edge.
+    /// Weights of the positions of the origin and tip of the half-edge.
     pub across: OnEdge,
-    /// The point as vector, with the weights `across`, over that with the weights `edge`: 1 in E².
+    /// The quotient of the two vectors of the crossing, that with the weights `across` by that with the weights `edge`: 1 in E².
     pub ratio: f64,
 }
 
-/// Frames of the intrinsic triangulation.
+/// What leads from frame to frame in the intrinsic triangulation.
 struct Frames<'a> {
     intrinsic: &'a Intrinsic<'a>,
     curvature: f64,
@@ -47,8 +46,8 @@ struct Frames<'a> {
     turn: PerHalfedge<[f64; 2]>,
 }
 
-/// All crossings, in the order of `curves`: those of every edge follow each other along it, and so do those
-/// of every intrinsic edge.
+/// All crossings, in the order of `curves`. Those of each edge of the input are in order along it, and those of each intrinsic edge
+/// along that.
 pub(super) fn straight(intrinsic: &Intrinsic, geometry: Space, curves: &Curves) -> Vec<Straight> {
     let frames = Frames::new(intrinsic, geometry);
     let mut found = vec![Vec::new(); intrinsic.mesh.n_edges()];
@@ -91,7 +90,7 @@ impl<'a> Frames<'a> {
         let strip = curves.crossings(e);
         let (Some(first), Some(last)) = (strip.first(), strip.last()) else { return Vec::new() };
         let mesh = self.intrinsic.mesh;
-        // The third corners of the first and of the last face.
+        // The line starts at the third corner of the first face and ends at that of the last one.
         let x = first.halfedge;
         let ([c, s], [sine, cosine]) = (self.turn[x], self.shift[mesh.prev(x).edge()]);
         let mut a = [sine * c, sine * s, cosine];
@@ -114,7 +113,7 @@ impl<'a> Frames<'a> {
         all
     }
 
-    /// From the frame of `x` to that of `y`, a side of the face on the right of x.
+    /// A point in the frame of `y`, a side of the face on the right of `x`, from its coordinates in the frame of `x`.
     fn forward(&self, p: [f64; 3], x: HalfedgeId, y: HalfedgeId) -> [f64; 3] {
         let t = x.twin();
         if y == self.intrinsic.mesh.next(t) {
@@ -127,6 +126,7 @@ impl<'a> Frames<'a> {
         self.shifted(at_tip, back(self.shift[y.edge()]))
     }
 
+    /// A point in the frame of `x` from its coordinates in the frame of `y`, the inverse of [`Frames::forward`].
     fn backward(&self, p: [f64; 3], x: HalfedgeId, y: HalfedgeId) -> [f64; 3] {
         let t = x.twin();
         if y == self.intrinsic.mesh.next(t) {
@@ -137,7 +137,7 @@ impl<'a> Frames<'a> {
         self.shifted(at_tip, back(self.shift[x.edge()]))
     }
 
-    /// In the frame that starts a length farther along the x axis.
+    /// A point in the frame that starts farther along the x axis, by the length whose S and C are given.
     fn shifted(&self, [x, y, t]: [f64; 3], [sine, cosine]: [f64; 2]) -> [f64; 3] {
         [x * cosine - t * sine, y, t * cosine + self.curvature * x * sine]
     }
@@ -155,11 +155,12 @@ impl<'a> Frames<'a> {
     }
 }
 
-/// In the frame whose x axis has this direction (cosine, sine).
+/// A point in the frame whose x axis has this direction (cosine, sine).
 fn rotate([x, y, t]: [f64; 3], [c, s]: [f64; 2]) -> [f64; 3] {
     [c * x + s * y, c * y - s * x, t]
 }
 
+/// S and C of the same length in the opposite direction.
 fn back([sine, cosine]: [f64; 2]) -> [f64; 2] {
     [-sine, cosine]
 }

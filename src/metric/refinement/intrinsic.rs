@@ -1,42 +1,28 @@
-//! Crossings where the input's edges are straight on the surface, not in the class.
+//! Crossings of the input's edges with final edges where the input's edges are drawn straight on the surface, not in the class.
 //!
-//! Isometric flips have led from the input to an intrinsic triangulation of the same surface, flips inside
-//! the class from there to the final one. The map of the first step is the identity, that of the second
-//! projective on the pieces into which intrinsic edges cut the final triangles. A line that is straight in
-//! the class is straight on the surface only where it follows an intrinsic edge. Any other edge of the input
-//! is followed through the intrinsic faces, on a straight line ([`super::geodesic`]), and its crossings with
-//! the final edges there ([`super::chords`]) are those of the map itself.
+//! Isometric flips have led from the input to an intrinsic triangulation of the same surface, and flips inside the class from there to
+//! the final one. The map of the first step is the identity. That of the second is projective on each of the pieces into which
+//! intrinsic edges cut the final triangles. A line that is straight in the class is straight on the surface only where it follows an
+//! intrinsic edge. Every other edge of the input is followed through the intrinsic faces on a straight line ([`super::geodesic`]), and
+//! its crossings with the final edges in these faces ([`super::chords`]) are those of the map itself.
 //!
-//! That line may cross final edges forth and back, which a curve pulled tight does not: what it meets is
-//! reduced to the crossings that normal coordinates tell of, by taking out passages forth and at once back,
-//! and around its ends. What is left may be out of order along either edge, there or by rounding: it is
-//! pooled ([`restore_order`]). The order of the crossings along both edges is all that a bijection takes.
+//! That line may cross a final edge and at once cross it back, or cross final edges around its own ends. Curves in normal coordinates do
+//! neither. So these passages are taken out, and the crossings that normal coordinates know of are left. They may be out of order along
+//! either edge, because passages were taken out or by rounding, and are brought into order ([`restore_order`]): the crossings define a
+//! bijection if their order is right along both edges.
 
-use super::Crossing;
 use super::chords::{Border, Chords, Passing, Station};
-use super::crossings::Lines;
 use super::geodesic::{Straight, straight};
+use super::lines::Lines;
 use super::order::{ORIGIN, OnEdge, TIP, restore_order, restore_order_across};
-use super::pieces::torn;
+use super::parts::{Crossing, torn};
+use super::triangulations::Intrinsic;
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::normal_trace::CurveCrossing;
-use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh, NormalCoordinates, PerEdge};
+use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh, PerEdge};
 
-/// Another triangulation of the same surface, which a flow starts from.
-#[derive(Debug, Clone, Copy)]
-pub struct Intrinsic<'a> {
-    /// The triangulation.
-    pub mesh: &'a Mesh,
-    /// Lengths of its edges, in the geometry of the input.
-    pub lengths: &'a PerEdge<f64>,
-    /// The input's edges on it.
-    pub given: &'a NormalCoordinates,
-    /// Its edges on the final triangulation.
-    pub normal: &'a NormalCoordinates,
-}
-
-/// Where crossings are to be placed.
+/// What the places of crossings are found from.
 pub(super) struct Placement<'a> {
     /// The input's edges on the intrinsic triangulation, with their crossings.
     curves: Curves,
@@ -62,8 +48,8 @@ impl<'a> Placement<'a> {
         Ok(Placement { curves, straight, stays, chords })
     }
 
-    /// Place the crossings of an edge of the input, which are on straight lines of the class; whether they
-    /// have been moved.
+    /// Move the crossings of an edge of the input, which come on a straight line of the class, to the straight line on the surface;
+    /// whether that has changed any.
     pub fn place(&self, e: EdgeId, strip: &[CurveCrossing], placed: &mut [(Crossing, f64)]) -> Result<bool> {
         let along_intrinsic = self.curves.along(e).is_some();
         if !along_intrinsic && !strip.is_empty() {
@@ -84,8 +70,7 @@ impl<'a> Placement<'a> {
         Ok(moved)
     }
 
-    /// Bring the crossings of each final edge with the input's edges into order, once all are placed: marks
-    /// those that this moves.
+    /// Once all crossings are placed, bring those on each final edge into order, and mark in `moved` those that this moves.
     pub fn settle(result: &Mesh, curves: &Curves, crossings: &mut [Crossing], moved: &mut [bool]) {
         let mut places: Vec<OnEdge> = crossings.iter().map(|c| c.final_weights).collect();
         restore_order_across(result, curves, &mut places);
@@ -136,7 +121,7 @@ impl<'a> Placement<'a> {
         Ok(passed)
     }
 
-    /// The passage through an intrinsic half-edge itself, where a final edge runs along it.
+    /// The passage of a line through an intrinsic half-edge, if a final edge runs along that.
     fn along_final(&self, h: HalfedgeId, straight: &Straight) -> Option<Passing> {
         let along = self.stays[h.edge()]?;
         let mesh = self.chords.mesh;
@@ -153,7 +138,7 @@ impl<'a> Placement<'a> {
     }
 }
 
-/// What a line passes, pulled tight: the passages of `strip`.
+/// The passages of `strip` among all that a line passes.
 fn reduced(passed: Vec<Passing>, strip: &[CurveCrossing]) -> Result<Vec<Passing>> {
     let mut tight: Vec<Passing> = Vec::with_capacity(strip.len());
     for passing in passed {
@@ -162,7 +147,7 @@ fn reduced(passed: Vec<Passing>, strip: &[CurveCrossing]) -> Result<Vec<Passing>
             _ => tight.push(passing),
         }
     }
-    // Before and after come passages around the ends.
+    // Passages around the ends of the line come before and after those of the strip.
     let same =
         |window: &[Passing]| window.iter().zip(strip).all(|(passing, at)| passing.halfedge == at.halfedge);
     let start = tight.windows(strip.len()).position(same).ok_or_else(torn)?;

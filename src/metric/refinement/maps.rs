@@ -1,107 +1,112 @@
 //! Values and points, carried between the input, the refinement and the final triangulation.
 
-use super::Refinement;
+use super::parts::{Refinement, Side};
 use crate::error::{Result, check_size};
-use crate::mesh::{FaceId, VertexId};
+use crate::geometry::vector::{cross, dot};
+use crate::mesh::FaceId;
 
-/// Values at vertices or corners with N components: positions, colours, normals, texture coordinates.
+/// Values at vertices with N components: positions, colours, normals.
 pub type Values<const N: usize> = Vec<[f64; N]>;
+/// Values at the corners of every face with N components: normals, texture coordinates.
+pub type CornerValues<const N: usize> = Vec<[[f64; N]; 3]>;
 
 impl Refinement {
     /// Values at the refinement's vertices of values at the input's (`n_input_vertices` at least, linear along the input's edges):
     /// of positions in space, those on the input's surface.
+    ///
+    /// # Errors
+    /// [`crate::Error::Size`].
     pub fn from_input_vertices<const N: usize>(&self, values: &[[f64; N]]) -> Result<Values<N>> {
-        self.at_vertices(values, |c| (c.input_ends, c.input_weights))
+        self.at_vertices(values, Side::Input)
     }
 
     /// Values at the refinement's vertices of values at the final triangulation's, linear along its edges in the final metric.
     ///
-    /// Of a part that was kept, the vertices at the ends of final edges may lie outside: `values` has one entry per vertex of
-    /// the final triangulation.
+    /// `values` has one entry per vertex of the final triangulation: where only a part of the surface was kept, an edge that is cut
+    /// may end outside of it.
+    ///
+    /// # Errors
+    /// [`crate::Error::Size`].
     pub fn from_final_vertices<const N: usize>(&self, values: &[[f64; N]]) -> Result<Values<N>> {
-        self.at_vertices(values, |c| (c.final_ends, c.final_weights))
+        self.at_vertices(values, Side::Final)
     }
 
-    fn at_vertices<const N: usize>(
-        &self,
-        values: &[[f64; N]],
-        on_edge: impl Fn(&super::Crossing) -> ([VertexId; 2], [f64; 2]),
-    ) -> Result<Values<N>> {
-        let ends = self.crossings.iter().flat_map(|c| on_edge(c).0);
+    fn at_vertices<const N: usize>(&self, values: &[[f64; N]], side: Side) -> Result<Values<N>> {
+        let ends = self.crossings.iter().flat_map(|c| c.on(side).0);
         let need = ends.map(|v| v.index() + 1).fold(self.n_input_vertices, usize::max);
         check_size("vertex values", values.len().min(need), need)?;
         let crossings = self.crossings.iter().map(|c| {
-            let (ends, weights) = on_edge(c);
+            let (ends, weights) = c.on(side);
             combine(&ends.map(|v| values[v.index()]), &weights)
         });
         Ok(values[..self.n_input_vertices].iter().copied().chain(crossings).collect())
     }
 
     /// Values at the corners of the refinement's triangles of values at the corners of the input's faces, linear in them.
-    pub fn from_input_corners<const N: usize>(&self, values: &[[[f64; N]; 3]]) -> Result<Vec<[[f64; N]; 3]>> {
-        self.at_corners(values, &self.input_face, |f| self.input_barycentric(f))
+    ///
+    /// # Errors
+    /// [`crate::Error::Size`].
+    pub fn from_input_corners<const N: usize>(&self, values: &[[[f64; N]; 3]]) -> Result<CornerValues<N>> {
+        self.at_corners(values, Side::Input)
     }
 
     /// Values at the corners of the refinement's triangles of values at the corners of the final faces, linear in them.
-    pub fn from_final_corners<const N: usize>(&self, values: &[[[f64; N]; 3]]) -> Result<Vec<[[f64; N]; 3]>> {
-        self.at_corners(values, &self.final_face, |f| self.final_barycentric(f))
+    ///
+    /// # Errors
+    /// [`crate::Error::Size`].
+    pub fn from_final_corners<const N: usize>(&self, values: &[[[f64; N]; 3]]) -> Result<CornerValues<N>> {
+        self.at_corners(values, Side::Final)
     }
 
-    fn at_corners<const N: usize>(
-        &self,
-        values: &[[[f64; N]; 3]],
-        face: &[FaceId],
-        barycentric: impl Fn(FaceId) -> [[f64; 3]; 3],
-    ) -> Result<Vec<[[f64; N]; 3]>> {
+    fn at_corners<const N: usize>(&self, values: &[[[f64; N]; 3]], side: Side) -> Result<CornerValues<N>> {
+        let face = self.faces(side);
         let need = face.iter().map(|f| f.index() + 1).fold(0, usize::max);
         check_size("corner values", values.len().min(need), need)?;
-        let of = |f: FaceId| barycentric(f).map(|b| combine(&values[face[f.index()].index()], &b));
+        let of = |f: FaceId| self.barycentric(f, side).map(|b| combine(&values[face[f].index()], &b));
         Ok(self.mesh.faces().map(of).collect())
     }
 
     /// The map of points from faces of the input to final faces.
     pub fn forward(&self) -> PointMap<'_> {
-        PointMap::new(self, true)
+        PointMap::new(self, [Side::Input, Side::Final])
     }
 
     /// The map of points from final faces to faces of the input.
     pub fn backward(&self) -> PointMap<'_> {
-        PointMap::new(self, false)
+        PointMap::new(self, [Side::Final, Side::Input])
     }
 }
 
 /// A map of points between the two triangulations: projective in each piece.
 pub struct PointMap<'a> {
     refinement: &'a Refinement,
-    forward: bool,
+    /// From where, and to where.
+    sides: [Side; 2],
     /// The triangles, sorted by the face they are mapped from.
     order: Vec<FaceId>,
 }
 
 impl<'a> PointMap<'a> {
-    fn new(refinement: &'a Refinement, forward: bool) -> PointMap<'a> {
+    fn new(refinement: &'a Refinement, sides: [Side; 2]) -> PointMap<'a> {
         let mut order: Vec<_> = refinement.mesh.faces().collect();
-        let map = PointMap { refinement, forward, order: Vec::new() };
-        order.sort_by_key(|&f| (map.from(f), f));
-        PointMap { order, ..map }
-    }
-
-    fn from(&self, f: FaceId) -> FaceId {
-        if self.forward { self.refinement.input_face[f] } else { self.refinement.final_face[f] }
+        let from = refinement.faces(sides[0]);
+        order.sort_by_key(|&f| (from[f], f));
+        PointMap { refinement, sides, order }
     }
 
     /// The image of the point with these barycentric coordinates in a face: face and coordinates. `None` if the refinement has no
-    /// piece of that face. Linear in the pieces of the face, besides a search.
+    /// piece of that face. Takes time linear in the number of pieces of the face, besides a search.
     pub fn image(&self, face: FaceId, barycentric: [f64; 3]) -> Option<(FaceId, [f64; 3])> {
-        let r = self.refinement;
-        let begin = self.order.partition_point(|&f| self.from(f) < face);
-        let pieces = self.order[begin..].iter().copied().take_while(|&f| self.from(f) == face);
-        // The triangle that contains the point, or fails to by least.
+        let (r, [from, to]) = (self.refinement, self.sides);
+        let faces = r.faces(from);
+        let begin = self.order.partition_point(|&f| faces[f] < face);
+        let pieces = self.order[begin..].iter().copied().take_while(|&f| faces[f] == face);
+        // The triangle that contains the point, or the one that the point is nearest to being inside of.
         let mut best: Option<(f64, FaceId, [f64; 3])> = None;
         for f in pieces {
-            let corners = if self.forward { r.input_barycentric(f) } else { r.final_barycentric(f) };
+            let corners = r.barycentric(f, from);
             let parts =
-                [0, 1, 2].map(|k| determinant(barycentric, corners[(k + 1) % 3], corners[(k + 2) % 3]));
+                [0, 1, 2].map(|k| dot(barycentric, cross(corners[(k + 1) % 3], corners[(k + 2) % 3])));
             let total = parts[0] + parts[1] + parts[2];
             if total > 0.0 {
                 let local = parts.map(|x| x / total);
@@ -113,27 +118,17 @@ impl<'a> PointMap<'a> {
         }
         let (_, f, local) = best?;
         // Relative to the largest weight, so that none overflows.
-        let q = r.weights(f).map(|q| if self.forward { q } else { 1.0 / q });
+        let q = r.weights(f).map(|q| if from == Side::Input { q } else { 1.0 / q });
         let largest = q.into_iter().fold(0.0, f64::max);
         let weights = [0, 1, 2].map(|k| local[k].max(0.0) * (q[k] / largest));
-        let (to, corners) = if self.forward {
-            (r.final_face[f], r.final_barycentric(f))
-        } else {
-            (r.input_face[f], r.input_barycentric(f))
-        };
+        let corners = r.barycentric(f, to);
         let image = combine(&corners, &weights);
         let total = image[0] + image[1] + image[2];
-        Some((to, if total > 0.0 { image.map(|x| x / total) } else { corners[0] }))
+        Some((r.faces(to)[f], if total > 0.0 { image.map(|x| x / total) } else { corners[0] }))
     }
 }
 
 /// Σ weights · values.
 fn combine<const M: usize, const N: usize>(values: &[[f64; N]; M], weights: &[f64; M]) -> [f64; N] {
     std::array::from_fn(|i| (0..M).map(|k| weights[k] * values[k][i]).sum())
-}
-
-fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    a[0] * (b[1] * c[2] - b[2] * c[1])
-        + a[1] * (b[2] * c[0] - b[0] * c[2])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
 }

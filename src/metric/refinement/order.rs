@@ -19,7 +19,7 @@ pub(super) const TIP: OnEdge = [0.0, 1.0];
 /// differ afterwards.
 const SPREAD: f64 = 1.0 / (1 << 20) as f64;
 
-/// Whether a lies nearer to the origin than b, and neither weight says otherwise.
+/// Whether a lies nearer to the origin than b by one weight and not farther by the other.
 pub(super) fn before(a: OnEdge, b: OnEdge) -> bool {
     a[1] <= b[1] && a[0] >= b[0] && a != b
 }
@@ -29,12 +29,11 @@ pub(super) fn between(a: OnEdge, b: OnEdge, t: f64) -> OnEdge {
     [0, 1].map(|k| (1.0 - t) * a[k] + t * b[k])
 }
 
-/// Bring points into strict order that would be in order without rounding.
+/// Bring points into strict order that would be in order without rounding. Points in order stay as they are, bit for bit.
 ///
-/// Points out of order, or equal to their neighbour, are pooled: the least change (in the mean square) that leaves none out of order
-/// moves them to one point. They are then spread evenly around it, over [`SPREAD`] of the way to the next point on both sides.
-/// Points in order stay as they are, bit for bit. Points between which there is no double still coincide, but are not swapped:
-/// afterwards neither weight runs back anywhere.
+/// Points out of order, or equal to their neighbour, are moved to their mean, which is the least change (in the mean square) that
+/// leaves none out of order. Then they are spread evenly around it, over [`SPREAD`] of the way to the next point on both sides. Points
+/// between which there is no double still coincide afterwards, but none is in the wrong order.
 pub(super) fn restore_order(places: &mut [OnEdge]) {
     if places.windows(2).all(|pair| before(pair[0], pair[1])) {
         return;

@@ -1,17 +1,18 @@
 //! The pieces into which the input's edges cut the final triangles, as a triangulated surface.
 //!
 //! ```text
-//!            2                 A final triangle: curves cut off its corners, and some may leave one corner (a fan). From the
-//!           / \                counts of both the pieces follow: at a corner a triangle and then strips between its curves;
-//!          /———\               between the curves of a fan triangles; what is left over is one piece with up to six corners.
-//!         /   / \              Every corner of a piece is a vertex or a crossing, every side a part of a final edge or of an
-//!        /\  /  /\             edge of the input: it knows its half-edge of the input triangle and of the final triangle.
+//!            2                 The curves through a final triangle are edges of the input. They cut off corners, and some may end
+//!           / \                in one corner (a fan). The numbers of both give the pieces: at each corner a triangle and then strips
+//!          /———\               between its curves; triangles between the curves of a fan; and one last piece with up to six corners.
+//!         /   / \              A corner of a piece is a vertex or a crossing, a side is part of a final edge or of an edge of the
+//!        /\  /  /\             input. Each corner knows its half-edge in the face of the input and in the final triangle.
 //!       0——\———/——1
 //! ```
 
-use super::Final;
+use super::parts::{Origin, torn};
+use super::triangulations::Final;
 use crate::control::{Control, Stage};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::mesh::normal::Strands;
 use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh};
 
@@ -20,21 +21,21 @@ const NONE: u32 = u32::MAX;
 /// Faces that are cut between two looks at the control: less than a millisecond.
 const FACES_PER_STEP: usize = 1024;
 
-/// A corner of a piece within its final triangle.
+/// Where in its final triangle a corner of a piece is.
 #[derive(Debug, Clone, Copy)]
 enum Spot {
-    /// Corner k, after this many curves of its fan.
+    /// At corner k, after this many curves of its fan.
     Corner(usize, i64),
     /// The crossing at this position along side k → k + 1.
     Side(usize, i64),
 }
 
-/// What follows a corner of a piece, counterclockwise.
+/// The side of a piece that follows a corner, counterclockwise.
 #[derive(Debug, Clone, Copy)]
 enum Way {
     /// Part number `.1` of side `.0` → `.0` + 1.
     Side(usize, i64),
-    /// A curve of the input.
+    /// Part of a curve.
     Curve,
 }
 
@@ -47,15 +48,6 @@ pub(super) struct Corner {
     pub result: HalfedgeId,
 }
 
-/// Which edges an edge of the refinement is part of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Origin {
-    /// The edge of the input.
-    pub input: Option<EdgeId>,
-    /// The edge of the final triangulation.
-    pub result: Option<EdgeId>,
-}
-
 /// Two triangulations of a surface, one drawn on the other.
 #[derive(Clone, Copy)]
 pub(super) struct Overlay<'a> {
@@ -63,20 +55,20 @@ pub(super) struct Overlay<'a> {
     pub result: &'a Final<'a>,
     /// The input's edges on the final triangulation.
     pub curves: &'a Curves,
-    /// Per crossing, or empty: whether it is off the class's straight line, so that the map of a piece at it is projective in each
-    /// triangle only.
+    /// Per crossing, whether it is off the class's straight line, so that the map of a piece at it is projective in each triangle
+    /// only; empty where no crossing is.
     pub moved: &'a [bool],
 }
 
-/// The pieces as triangles, half-edges not yet numbered without gaps.
+/// The pieces as triangles. The numbers of vertices and half-edges have gaps, where faces are not kept.
 pub(super) struct Pieces<'a> {
     pub overlay: Overlay<'a>,
-    /// Per final edge: its first slot; slots hold the crossings in order along half-edge 2e.
+    /// Per final edge, its first entry in `slots`, which holds the crossings of each edge in order along half-edge 2e.
     slot_start: Vec<u32>,
     slots: Vec<u32>,
     /// Per crossing: the edge of the input.
     crossed_by: Vec<u32>,
-    /// Per final edge: its first part; per edge of the input the same for those that cross anything.
+    /// Per final edge, the number of its first part; per edge of the input that crosses any, the same.
     parts: Vec<u32>,
     curve_parts: Vec<u32>,
     /// Per edge of the output.
@@ -166,7 +158,7 @@ impl<'a> Pieces<'a> {
                 self.emit(h, &polygon, keep)?;
             }
         }
-        // What is left over runs around the outermost arcs.
+        // The last piece runs around the outermost curve at each corner.
         let around = |polygon: &mut Vec<(Spot, Way)>, k: usize| {
             let before = (k + 2) % 3;
             if arc[k] == 0 {
@@ -181,7 +173,7 @@ impl<'a> Pieces<'a> {
             (0..3).for_each(|k| around(&mut polygon, k));
             return self.emit(h, &polygon, keep);
         };
-        // The fan of corner k crosses the side `far` after its first `skip` curves; `last` crossings of it are on the way.
+        // The curves of the fan of corner k cross the opposite side, `far`, behind the `skip` curves that cut off its first corner.
         let (far, skip) = (next(k), arc[next(k)]);
         polygon.push((Spot::Corner(k, 0), Way::Side(k, 0)));
         around(&mut polygon, far);
@@ -251,8 +243,8 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Append the triangles of a piece with these sides, side i following corner i: a fan around corner 0, whose triangles are cut off
-    /// by new edges.
+    /// Append the triangles of a piece with these corners and sides (side i follows corner i): they lie around corner 0, with new edges
+    /// between them.
     fn triangulate(&mut self, sides: &[u32], corners: &[Corner]) {
         let (size, n) = (sides.len(), self.overlay.result.mesh.n_vertices());
         // Numbers of crossings follow those of the vertices.
@@ -286,25 +278,19 @@ impl<'a> Pieces<'a> {
 
     /// The half-edge of the part of a curve that runs from one spot to the next, and the half-edge of the input it is part of.
     fn curve_part(&self, h: [HalfedgeId; 3], from: Spot, to: Spot) -> Result<(u32, HalfedgeId)> {
-        let crossing = |k: usize, at: i64| {
-            let c = self.slots[self.slot(h[k], at)] as usize;
-            let e = EdgeId(self.crossed_by[c]);
-            let number = c - self.overlay.curves.numbers(e).start;
-            // Whether the curve leaves the face here.
-            (e, number as u32, self.overlay.curves.crossings(e)[number].halfedge == h[k])
-        };
-        let (e, part, forward) = match (from, to) {
-            (Spot::Side(k, at), _) => {
-                let (e, number, leaves) = crossing(k, at);
-                (e, if leaves { number } else { number + 1 }, !leaves)
-            }
-            (_, Spot::Side(k, at)) => {
-                let (e, number, leaves) = crossing(k, at);
-                (e, if leaves { number } else { number + 1 }, leaves)
-            }
+        // A crossing at one end, and whether that is the start.
+        let (k, at, starts) = match (from, to) {
+            (Spot::Side(k, at), _) => (k, at, true),
+            (_, Spot::Side(k, at)) => (k, at, false),
             _ => return Err(torn()),
         };
-        let odd = u32::from(!forward);
+        let c = self.slots[self.slot(h[k], at)] as usize;
+        let e = EdgeId(self.crossed_by[c]);
+        let number = c - self.overlay.curves.numbers(e).start;
+        let leaves_face = self.overlay.curves.crossings(e)[number].halfedge == h[k];
+        let part = number as u32 + u32::from(!leaves_face);
+        // The piece's side runs against the curve if it starts where the curve leaves the face, or ends where the curve enters it.
+        let odd = u32::from(leaves_face == starts);
         Ok((2 * (self.curve_parts[e.index()] + part) + odd, HalfedgeId(e.halfedge().0 + odd)))
     }
 }
@@ -316,9 +302,4 @@ fn running_sum(counts: impl Iterator<Item = u32>) -> Vec<u32> {
         sum
     });
     std::iter::once(0).chain(sums.collect::<Vec<_>>()).collect()
-}
-
-pub(super) fn torn() -> Error {
-    let message = "its faces and those of the final triangulation do not overlap as the flips say";
-    Error::Connectivity { element: "mesh", index: 0, message }
 }

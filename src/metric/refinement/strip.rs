@@ -4,14 +4,14 @@
 //! square ε and an edge has the product −η ([`crate::geometry::flip`]), it becomes the straight line from v_a to v_b:
 //!
 //! ```text
-//!         i₁————i₂————i₄            crossing edge ij, v_a on its left and v_b on its right, form a hinge: what their products
-//!       / ·\    ·\   · \            with v_i and v_j are, decides the crossing. Products of v_a are carried forward from edge
-//!      a ——·\———·—\——·—— b          to edge by the flip rule, those of v_b backward; every term is positive (ε = 0, 1), so
+//!         i₁————i₂————i₄            An edge ij that is crossed, with v_a on its left and v_b on its right, is a hinge. The products
+//!       / ·\    ·\   · \            of v_a and v_b with v_i and v_j determine the crossing. Products of v_a are carried forward from
+//!      a ——·\———·—\——·—— b          edge to edge by the flip rule, those of v_b backward. Every term is positive (ε = 0, 1), so
 //!       \ ·  \ ·   \·  /            strips of any length keep the relative accuracy of doubles.
 //!         i₀———i₃———i₅
 //! ```
 
-use super::Final;
+use super::triangulations::Final;
 use crate::error::{Error, Result};
 use crate::geometry::flip::{Hinge, Meeting};
 use crate::mesh::normal_trace::CurveCrossing;
@@ -26,7 +26,7 @@ const LEAST_GAP: f64 = 1e-6;
 /// them, so that 1e90 stays far inside the range of doubles.
 const LARGE: f64 = 1e30;
 
-/// A vertex of the strip's line with its products with the ends of one edge of the strip, all multiplied by 2^exponent.
+/// An end of the line, and the products of its vector with those of the ends of one edge of the strip, multiplied by 2^exponent.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     vertex: VertexId,
@@ -34,14 +34,15 @@ struct Seen {
     exponent: i32,
 }
 
-/// A crossing in vectors: weights of the ends of the input's edge, times 2^exponent each, and of the final edge's ends.
+/// A crossing as a combination of vectors: weights of the ends of the input's edge, each times 2 to its exponent, and weights of the
+/// ends of the final edge.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Raw {
     pub meeting: Meeting,
     pub exponent: [i32; 2],
 }
 
-/// The final class with circles kept apart.
+/// The final triangulation with weights η under which no two circles touch.
 pub(super) struct Strips<'a> {
     result: &'a Final<'a>,
     eta: PerEdge<f64>,
@@ -52,17 +53,20 @@ impl<'a> Strips<'a> {
         let metric = result.metric;
         // Without circles (ε = 0) all vectors may be made longer or shorter alike: a power of 2 brings their products near 1.
         let scaling = metric.epsilon.iter().all(|&e| e == 0);
-        let most = metric.eta.iter().copied().fold(0.0, f64::max);
+        let most = metric.eta.iter().map(|eta| eta.high).fold(0.0, f64::max);
         let unit = if scaling && most.is_normal() { power(-(most.log2() as i32)) } else { 1.0 };
         let eta = PerEdge::from_fn(metric.eta.len(), |e| {
             let [i, j] = result.mesh.ends(e).map(|v| metric.epsilon[v]);
-            if i * j == 1 { metric.eta[e].max(1.0 + LEAST_GAP) } else { unit * metric.eta[e] }
+            let eta = metric.eta[e].high;
+            if i * j == 1 { eta.max(1.0 + LEAST_GAP) } else { unit * eta }
         });
         Strips { result, eta }
     }
 
-    /// All crossings, in the order of `curves`. Errors: [`Error::EdgeWeight`] at a final edge where an imaginary circle leaves no
-    /// straight line.
+    /// All crossings, in the order of `curves`.
+    ///
+    /// # Errors
+    /// [`Error::EdgeWeight`] at a final edge where an imaginary circle leaves no straight line.
     pub fn crossings(&self, input_ends: &[[VertexId; 2]], curves: &Curves) -> Result<Vec<Raw>> {
         let mut found = vec![Ok(Vec::new()); input_ends.len()];
         parallel::fill(&mut found, |e| {
@@ -81,7 +85,8 @@ impl<'a> Strips<'a> {
         let (Some(first), Some(last)) = (strip.first(), strip.last()) else { return Ok(Vec::new()) };
         let mesh = self.result.mesh;
         let eta = |h: HalfedgeId| self.eta[h.edge()];
-        // Of an edge i → j and a side l of the other face of j → i: the products with the ends of that side.
+        // The products with the ends of `side`, the next edge of the strip, from those with the ends i, j of this one and with the
+        // third vertex of the face between them, `far`.
         let turned = |seen: Seen, far: f64, side: HalfedgeId, entry: HalfedgeId| {
             let [i, j] = seen.products;
             Seen { products: if side == mesh.next(entry) { [i, far] } else { [far, j] }, ..seen }.scaled()
@@ -110,7 +115,7 @@ impl<'a> Strips<'a> {
         Ok(all)
     }
 
-    /// The product with the third vertex of the face of `side`, which is `at` or its twin, seen from across.
+    /// The product of `seen` with the third vertex of the face of `side`, which is `at` or its twin and has `seen` on its other side.
     fn far(&self, seen: Seen, at: HalfedgeId, side: HalfedgeId) -> Result<f64> {
         let mesh = self.result.mesh;
         let [next, prev] = [mesh.next(side), mesh.prev(side)];
@@ -119,7 +124,7 @@ impl<'a> Strips<'a> {
         self.hinge(at, seen, third).flipped().ok_or_else(|| self.refusal(at))
     }
 
-    /// The edge of `at` with the vertices seen from it on its two sides.
+    /// The hinge of the edge of `at` with the vertices on its two sides.
     fn hinge(&self, at: HalfedgeId, left: Seen, right: Seen) -> Hinge {
         let mesh = self.result.mesh;
         let epsilon = |v: VertexId| f64::from(self.result.metric.epsilon[v]);
@@ -136,7 +141,7 @@ impl<'a> Strips<'a> {
 }
 
 impl Seen {
-    /// The same with products near 1.
+    /// The same, with products near 1 and the exponent that makes up for it.
     fn scaled(self) -> Seen {
         let size = self.products[0].max(self.products[1]);
         if !(size > 0.0 && size < f64::INFINITY) || (1.0 / LARGE..LARGE).contains(&size) {

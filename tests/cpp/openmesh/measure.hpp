@@ -39,7 +39,7 @@ struct Angle {
     Real value, rounding;
 };
 
-inline Angle angle(Real a, Real b, Real c, ricci_space space) {
+inline Angle angle(Real a, Real b, Real c, uint32_t space) {
     const auto s = [&](Real x) { return space == RICCI_SPACE_H2 ? std::sinh(x) : x; };
     const Real p = (a + b + c) / 2;
     const Real value = 2 * std::atan2(std::sqrt(s(p - a) * s(p - b)), std::sqrt(s(p) * s(p - c)));
@@ -61,7 +61,7 @@ struct Surface {
     }
 
     // Curvature of every vertex, and a bound on what rounding the lengths does to it.
-    void curvature(const std::vector<double> &lengths, ricci_space space, std::vector<Real> &at,
+    void curvature(const std::vector<double> &lengths, uint32_t space, std::vector<Real> &at,
                    std::vector<Real> &rounding) const {
         at.assign(n_vertices, 2 * pi);
         rounding.assign(n_vertices, 0);

@@ -9,6 +9,13 @@
 
 namespace {
 
+ricci_target given_target(const std::vector<double> &curvatures) {
+    ricci_target target;
+    OK(ricci_init(&target, sizeof target));
+    target.kind = RICCI_TARGET_GIVEN, target.curvatures = curvatures.data(), target.n = curvatures.size();
+    return target;
+}
+
 // Counts and loops are OpenMesh's.
 Surface compare_topology(const Mesh &input, const ricci_mesh *mesh) {
     ricci_mesh_summary summary;
@@ -55,7 +62,7 @@ Surface compare_topology(const Mesh &input, const ricci_mesh *mesh) {
 // Corner angles from ricci's lengths are CGAL's from the positions; so is curvature.
 void compare_angles(const Mesh &input, const ricci_mesh *mesh, const Surface &surface) {
     std::vector<double> lengths(surface.n_edges), curvature(surface.n_vertices);
-    OK(ricci_mesh_lengths(mesh, lengths.data(), lengths.size()));
+    OK(ricci_mesh_values(mesh, RICCI_LENGTHS, lengths.data(), lengths.size()));
     std::vector<Real> expected(surface.n_vertices, 2 * pi), rounding(surface.n_vertices, 0);
     for (std::size_t v = 0; v < surface.n_vertices; v++)
         if (surface.boundary[v]) expected[v] = pi;
@@ -74,7 +81,7 @@ void compare_angles(const Mesh &input, const ricci_mesh *mesh, const Surface &su
     }
     ricci_metric *metric = nullptr;
     OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
-    OK(ricci_metric_curvature(metric, curvature.data(), curvature.size()));
+    OK(ricci_metric_values(metric, RICCI_METRIC_CURVATURE, curvature.data(), curvature.size()));
     ricci_metric_free(metric);
     Real off = 0;
     for (std::size_t v = 0; v < surface.n_vertices; v++) {
@@ -87,9 +94,9 @@ void compare_angles(const Mesh &input, const ricci_mesh *mesh, const Surface &su
 // In E2 a vertex scaling multiplies each length by exp((f_i + f_j) / 2).
 void check_conformality(const ricci_mesh *mesh, const ricci_metric *end, const Surface &surface) {
     std::vector<double> before(surface.n_edges), after(surface.n_edges), factor(surface.n_vertices);
-    OK(ricci_mesh_lengths(mesh, before.data(), before.size()));
-    OK(ricci_metric_lengths(end, after.data(), after.size()));
-    OK(ricci_metric_conformal_factor(end, factor.data(), factor.size()));
+    OK(ricci_mesh_values(mesh, RICCI_LENGTHS, before.data(), before.size()));
+    OK(ricci_metric_values(end, RICCI_METRIC_LENGTH, after.data(), after.size()));
+    OK(ricci_metric_values(end, RICCI_METRIC_FACTOR, factor.data(), factor.size()));
     for (std::size_t f = 0; f < surface.n_faces; f++)
         for (int k = 0; k < 3; k++) {
             const auto e = std::abs(surface.face_edges[f][k]) - 1;
@@ -101,16 +108,18 @@ void check_conformality(const ricci_mesh *mesh, const ricci_metric *end, const S
 
 // The layout has the metric's lengths up to one factor, the input's area, and no triangle that CGAL calls
 // clockwise.
-void check_layout(const Mesh &input, const ricci_metric *end, const std::vector<double> &target,
-                  const Surface &surface) {
+void check_layout(const Mesh &input, const ricci_metric *end, const Surface &surface) {
     ricci_layout *layout = nullptr;
     ricci_layout_summary summary;
     std::vector<double> uv(6 * surface.n_faces), lengths(surface.n_edges), qc(surface.n_faces);
-    OK(ricci_layout_new(end, target.data(), target.size(), nullptr, &layout));
+    OK(ricci_layout_new(end, nullptr, nullptr, &layout));
     OK(ricci_layout_summarise(layout, &summary, sizeof summary));
-    OK(ricci_layout_uv(layout, uv.data(), uv.size()));
-    OK(ricci_layout_qc(layout, qc.data(), qc.size()));
-    OK(ricci_metric_lengths(end, lengths.data(), lengths.size()));
+    OK(ricci_layout_uv(layout, RICCI_ON_REFINEMENT, uv.data(), uv.size()));
+    std::vector<double> ratio(surface.n_faces), input_uv(uv.size());
+    OK(ricci_layout_distortion(layout, qc.data(), ratio.data(), qc.size()));
+    OK(ricci_layout_uv(layout, RICCI_ON_INPUT, input_uv.data(), input_uv.size()));
+    CHECK(input_uv == uv); // no edge was flipped
+    OK(ricci_metric_values(end, RICCI_METRIC_LENGTH, lengths.data(), lengths.size()));
     const auto point = [&](std::size_t f, int k) {
         return Exact::Point_2(uv[6 * f + 2 * (k % 3)], uv[6 * f + 2 * (k % 3) + 1]);
     };
@@ -143,11 +152,12 @@ void check_layout(const Mesh &input, const ricci_metric *end, const std::vector<
 
     // A seam's motion z -> e^(i rotation) z + t carries its left side onto its right: each edge of it, looked
     // up in the two faces that have it.
-    std::vector<double> seams(4 * summary.n_seams);
+    std::vector<double> seams(9 * summary.n_seams);
     std::vector<int32_t> edges(summary.n_seam_edges);
     std::vector<std::size_t> starts(summary.n_seams + 1);
     OK(ricci_layout_seams(layout, seams.data(), seams.size()));
-    OK(ricci_layout_seam_edges(layout, edges.data(), edges.size(), starts.data(), starts.size()));
+    OK(ricci_layout_seam_edges(layout, RICCI_ON_REFINEMENT, edges.data(), edges.size(), starts.data(),
+                               starts.size()));
     std::vector<std::size_t> side(2 * surface.n_edges); // face and opposite corner of +e and of -e
     for (std::size_t f = 0; f < surface.n_faces; f++)
         for (int k = 0; k < 3; k++) {
@@ -160,16 +170,16 @@ void check_layout(const Mesh &input, const ricci_metric *end, const std::vector<
         return Complex(p.x(), p.y());
     };
     for (std::size_t i = 0; i < summary.n_seams; i++) {
-        const Complex turn = std::polar(Real(1), Real(seams[4 * i])), t(seams[4 * i + 1], seams[4 * i + 2]);
+        const Complex turn(seams[9 * i], seams[9 * i + 1]), t(seams[9 * i + 2], seams[9 * i + 3]);
         for (auto k = starts[i]; k < starts[i + 1]; k++) {
             const auto e = edges[k];
             const auto left = side[2 * (std::abs(e) - 1) + (e < 0)],
                        right = side[2 * (std::abs(e) - 1) + (e > 0)];
             const Real tail = std::abs(turn * corner(left, 1) + t - corner(right, 2));
             const Real tip = std::abs(turn * corner(left, 2) + t - corner(right, 1));
-            CHECK(std::max(tail, tip) <= (seams[4 * i + 3] + 1e-13L) * summary.diameter);
+            CHECK(std::max(tail, tip) <= (seams[9 * i + 8] + 1e-13L) * summary.diameter);
         }
-        CHECK(seams[4 * i + 3] <= 1e-7);
+        CHECK(seams[9 * i + 8] <= 1e-7);
     }
     std::printf("  layout: %zu seams, lengths within %.1Le of the metric's (of %.3g)\n", summary.n_seams,
                 worst, summary.diameter);
@@ -177,23 +187,23 @@ void check_layout(const Mesh &input, const ricci_metric *end, const std::vector<
 }
 
 // The flow, and its residual recomputed here from the lengths that it returns.
-bool check_flow(const Mesh &input, const ricci_mesh *mesh, const Surface &surface, ricci_scheme scheme,
-                ricci_space space) {
+bool check_flow(const Mesh &input, const ricci_mesh *mesh, const Surface &surface, uint32_t scheme,
+                uint32_t space) {
     ricci_metric *metric = nullptr, *end = nullptr;
-    ricci_report *report = nullptr;
     ricci_report_summary done;
     ricci_flow_options options; // the faces stay the kernel's; refined.cpp has flips
-    OK(ricci_flow_options_init(&options, sizeof options));
+    OK(ricci_init(&options, sizeof options));
     options.flips = RICCI_FLIPS_NEVER;
     std::vector<double> target(surface.n_vertices), lengths(surface.n_edges), curvature(surface.n_vertices);
     OK(ricci_metric_new(mesh, scheme, space, &metric));
-    OK(ricci_target_default(metric, target.data(), target.size()));
-    OK(ricci_flow(metric, target.data(), target.size(), &options, nullptr, &end, &report));
-    OK(ricci_report_summarise(report, &done, sizeof done));
-    OK(ricci_metric_lengths(end, lengths.data(), lengths.size()));
-    OK(ricci_metric_curvature(end, curvature.data(), curvature.size()));
-    std::printf("  scheme %d, space %d: %s, %zu iterations, max |K - target| = %.1e", scheme, space,
-                ricci_stop_reason_text(done.stop_reason), done.iterations, done.max_curvature_error);
+    OK(ricci_target_fill(metric, nullptr, nullptr, target.data(), target.size()));
+    const ricci_target given = given_target(target);
+    OK(ricci_flow(metric, &given, &options, nullptr, &end));
+    OK(ricci_report_summarise(end, &done, sizeof done));
+    OK(ricci_metric_values(end, RICCI_METRIC_LENGTH, lengths.data(), lengths.size()));
+    OK(ricci_metric_values(end, RICCI_METRIC_CURVATURE, curvature.data(), curvature.size()));
+    std::printf("  scheme %u, space %u: %s, %zu iterations, max |K - target| = %.1e", scheme, space,
+                done.stop_reason_text, done.iterations, done.max_curvature_error);
 
     std::size_t broken = 0;
     for (std::size_t f = 0; f < surface.n_faces; f++) {
@@ -220,9 +230,8 @@ bool check_flow(const Mesh &input, const ricci_mesh *mesh, const Surface &surfac
     CHECK(done.converged || done.stop_reason != RICCI_STOP_CONVERGED);
     if (done.converged && space == RICCI_SPACE_E2) {
         if (scheme == RICCI_SCHEME_YAMABE) check_conformality(mesh, end, surface);
-        check_layout(input, end, target, surface);
+        check_layout(input, end, surface);
     }
-    ricci_report_free(report);
     ricci_metric_free(end);
     ricci_metric_free(metric);
     return done.converged;
@@ -239,17 +248,17 @@ int check(const std::string &name, const Mesh &input) {
         faces.push_back(corners);
     }
     ricci_mesh *mesh = nullptr;
-    OK(ricci_mesh_from_arrays_i32(input.points()->data(), sizeof(Mesh::Point), input.n_vertices(),
-                                  faces.data()->data(), faces.size(), &mesh));
+    OK(ricci_mesh_from_arrays(input.points()->data(), sizeof(Mesh::Point), input.n_vertices(),
+                              reinterpret_cast<const uint32_t *>(faces.data()), faces.size(), &mesh));
     const Surface surface = compare_topology(input, mesh);
     CHECK(std::equal(faces.begin(), faces.end(), surface.faces.begin()));
     compare_angles(input, mesh, surface);
     const long euler = long(surface.n_vertices) - long(surface.n_edges) + long(surface.n_faces);
     const auto &boundary = surface.boundary;
     const bool closed = std::find(boundary.begin(), boundary.end(), true) == boundary.end();
-    const ricci_space space = closed && euler < 0 ? RICCI_SPACE_H2 : RICCI_SPACE_E2;
+    const uint32_t space = closed && euler < 0 ? RICCI_SPACE_H2 : RICCI_SPACE_E2;
     int reached = 0;
-    for (auto scheme : {RICCI_SCHEME_YAMABE, RICCI_SCHEME_INVERSIVE, RICCI_SCHEME_TANGENTIAL})
+    for (uint32_t scheme : {RICCI_SCHEME_YAMABE, RICCI_SCHEME_INVERSIVE, RICCI_SCHEME_TANGENTIAL})
         reached += check_flow(input, mesh, surface, scheme, space);
     ricci_mesh_free(mesh);
     return reached;

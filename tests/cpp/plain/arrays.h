@@ -37,12 +37,6 @@ typedef struct {
     double *lengths, *positions;
 } arrays;
 
-static inline void *room(size_t n, size_t size) {
-    void *p = calloc(n + 1, size);
-    CHECK(p);
-    return p;
-}
-
 static inline arrays arrays_of(const ricci_mesh *mesh, int in_space) {
     arrays a = {0};
     OK(ricci_mesh_summarise(mesh, &a.n, sizeof a.n));
@@ -53,10 +47,10 @@ static inline arrays arrays_of(const ricci_mesh *mesh, int in_space) {
     OK(ricci_mesh_faces(mesh, a.faces, 3 * a.n.n_faces));
     OK(ricci_mesh_edges(mesh, a.ends, 2 * a.n.n_edges));
     OK(ricci_mesh_face_edges(mesh, a.face_edges, 3 * a.n.n_faces));
-    OK(ricci_mesh_lengths(mesh, a.lengths, a.n.n_edges));
+    OK(ricci_mesh_values(mesh, RICCI_LENGTHS, a.lengths, a.n.n_edges));
     if (in_space) {
         a.positions = (double *)room(3 * a.n.n_vertices, sizeof *a.positions);
-        OK(ricci_mesh_positions(mesh, a.positions, 3 * a.n.n_vertices));
+        OK(ricci_mesh_values(mesh, RICCI_POSITIONS, a.positions, 3 * a.n.n_vertices));
     }
     return a;
 }
@@ -76,7 +70,7 @@ static inline double heron(const arrays *a, size_t f) {
 }
 
 /* The angle at corner k, by half-angles. */
-static inline double angle(const arrays *a, size_t f, int k, ricci_space space) {
+static inline double angle(const arrays *a, size_t f, int k, uint32_t space) {
     double x = side(a, f, k), y = side(a, f, k + 1), z = side(a, f, k + 2), s = 0.5 * (x + y + z);
     double p = s - y, q = s - z, r = s - x;
     if (space == RICCI_SPACE_H2) s = sinh(s), p = sinh(p), q = sinh(q), r = sinh(r);

@@ -5,14 +5,14 @@
 #include <fenv.h>
 
 /* u of the flat metric. */
-static double *solve(const torus *t, ricci_space space, const double *target) {
+static double *solve(const torus *t, uint32_t space, const double *target) {
     ricci_mesh *mesh = torus_mesh(t);
     ricci_metric *metric = NULL, *end = NULL;
     double *u = (double *)malloc(t->n_vertices * sizeof *u);
     CHECK(u);
     OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, space, &metric));
-    OK(ricci_flow(metric, target, t->n_vertices, NULL, NULL, &end, NULL));
-    OK(ricci_metric_u(end, u, t->n_vertices));
+    OK(flow_to(metric, target, t->n_vertices, NULL, NULL, &end));
+    OK(ricci_metric_values(end, RICCI_METRIC_U, u, t->n_vertices));
     ricci_metric_free(end);
     ricci_metric_free(metric);
     ricci_mesh_free(mesh);
@@ -26,19 +26,23 @@ static long extremes(const torus *t) {
     double *lengths = (double *)malloc(3 * t->n_vertices * sizeof *lengths);
     double *curvature = (double *)malloc(t->n_vertices * sizeof *curvature);
     const double scales[4] = {1e200, 1e-200, 1e308, 0};
-    const ricci_space spaces[2] = {RICCI_SPACE_E2, RICCI_SPACE_H2};
+    const uint32_t spaces[2] = {RICCI_SPACE_E2, RICCI_SPACE_H2};
     long answers = 0;
     CHECK(lengths && curvature);
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 2; k++) {
             ricci_metric *metric = NULL;
             ricci_metric_summary summary;
-            OK(ricci_mesh_lengths(mesh, lengths, 3 * t->n_vertices));
+            OK(ricci_mesh_values(mesh, RICCI_LENGTHS, lengths, 3 * t->n_vertices));
             for (size_t e = 0; e < 3 * t->n_vertices; e++) lengths[e] *= scales[i];
-            ricci_status status = ricci_metric_from_lengths(mesh, lengths, 3 * t->n_vertices, spaces[k],
-                                                            RICCI_SCHEME_INVERSIVE, spaces[k], &metric);
+            ricci_mesh *scaled = NULL;
+            ricci_status status =
+                ricci_mesh_with_lengths(mesh, lengths, 3 * t->n_vertices, spaces[k], &scaled);
+            if (status == RICCI_OK)
+                status = ricci_metric_new(scaled, RICCI_SCHEME_INVERSIVE, spaces[k], &metric);
+            ricci_mesh_free(scaled);
             if (status == RICCI_OK) {
-                status = ricci_metric_curvature(metric, curvature, t->n_vertices);
+                status = ricci_metric_values(metric, RICCI_METRIC_CURVATURE, curvature, t->n_vertices);
                 CHECK(status != RICCI_OK ||
                       ricci_metric_summarise(metric, &summary, sizeof summary) == RICCI_OK);
             }

@@ -1,5 +1,6 @@
 /* A torus with attributes goes through every format and comes back. */
 #include "torus.h"
+#include <ricci/repair.h>
 
 static torus t;
 static double *normals, *colors, *uv;
@@ -18,19 +19,19 @@ static void compare(const char *path, double positions_off, int uv_kept) {
     CHECK(size.n_uv == (uv_kept ? t.n_faces : 0));
     OK(ricci_mesh_faces(mesh, faces, 3 * t.n_faces));
     CHECK(memcmp(faces, t.faces, 3 * t.n_faces * sizeof *faces) == 0);
-    OK(ricci_mesh_positions(mesh, numbers, 3 * t.n_vertices));
+    OK(ricci_mesh_values(mesh, RICCI_POSITIONS, numbers, 3 * t.n_vertices));
     for (size_t k = 0; k < 3 * t.n_vertices; k++) CHECK(fabs(numbers[k] - t.positions[k]) <= positions_off);
-    FAILS(ricci_mesh_normals(mesh, numbers, 3), RICCI_BUFFER_TOO_SMALL, "normals");
-    OK(ricci_mesh_normals(mesh, numbers, 3 * t.n_vertices));
+    FAILS(ricci_mesh_values(mesh, RICCI_NORMALS, numbers, 3), RICCI_BUFFER_TOO_SMALL, "values");
+    OK(ricci_mesh_values(mesh, RICCI_NORMALS, numbers, 3 * t.n_vertices));
     for (size_t k = 0; k < 3 * t.n_vertices; k++) CHECK(fabs(numbers[k] - normals[k]) <= 1e-7);
-    OK(ricci_mesh_colors(mesh, numbers, 4 * t.n_vertices));
+    OK(ricci_mesh_values(mesh, RICCI_COLORS, numbers, 4 * t.n_vertices));
     /* Bytes, six decimals or floats. */
     for (size_t k = 0; k < 4 * t.n_vertices; k++) CHECK(fabs(numbers[k] - colors[k]) <= 1 / 509.0);
     if (uv_kept) {
-        OK(ricci_mesh_uv(mesh, numbers, 6 * t.n_faces));
+        OK(ricci_mesh_values(mesh, RICCI_UV, numbers, 6 * t.n_faces));
         for (size_t k = 0; k < 6 * t.n_faces; k++) CHECK(fabs(numbers[k] - uv[k]) <= 1e-7);
     } else {
-        FAILS(ricci_mesh_uv(mesh, numbers, 6 * t.n_faces), RICCI_ARGUMENT, "uv");
+        FAILS(ricci_mesh_values(mesh, RICCI_UV, numbers, 6 * t.n_faces), RICCI_ARGUMENT, "uv");
     }
     /* What was read is written again as it is. */
     OK(ricci_mesh_write(mesh, NULL, "again.ply"));
@@ -46,7 +47,7 @@ static void compare(const char *path, double positions_off, int uv_kept) {
 
 static int warnings = 0;
 
-static void listen(ricci_log_level level, const char *message, void *user_data) {
+static void listen(uint32_t level, const char *message, void *user_data) {
     (void)user_data;
     warnings += level == RICCI_LOG_WARN && strstr(message, "seams") != NULL;
 }
@@ -55,21 +56,21 @@ static void listen(ricci_log_level level, const char *message, void *user_data) 
 static void hard_edges(const ricci_mesh *mesh) {
     const size_t count = 9 * t.n_faces;
     ricci_mesh *read = NULL;
-    ricci_mesh_attributes attributes;
+    ricci_attributes attributes;
     ricci_mesh_summary size;
     double *given = (double *)malloc(count * sizeof *given), *got = (double *)malloc(count * sizeof *got);
     CHECK(given && got);
     for (size_t k = 0; k < count; k++) given[k] = (double)k;
-    OK(ricci_mesh_attributes_init(&attributes, sizeof attributes));
+    INIT(attributes);
     attributes.corner_normals = given;
     OK(ricci_mesh_write(mesh, &attributes, "hard.obj"));
     OK(ricci_mesh_read("hard.obj", &read));
     OK(ricci_mesh_summarise(read, &size, sizeof size));
     CHECK(size.n_vertices == t.n_vertices && size.n_normals == 0 && size.n_corner_normals == t.n_faces);
-    FAILS(ricci_mesh_corner_normals(read, got, count - 1), RICCI_BUFFER_TOO_SMALL, "corner_normals");
-    OK(ricci_mesh_corner_normals(read, got, count));
+    FAILS(ricci_mesh_values(read, RICCI_CORNER_NORMALS, got, count - 1), RICCI_BUFFER_TOO_SMALL, "values");
+    OK(ricci_mesh_values(read, RICCI_CORNER_NORMALS, got, count));
     CHECK(memcmp(given, got, count * sizeof *got) == 0);
-    FAILS(ricci_mesh_corner_normals(mesh, got, count), RICCI_ARGUMENT, "corner normals");
+    FAILS(ricci_mesh_values(mesh, RICCI_CORNER_NORMALS, got, count), RICCI_ARGUMENT, "corner normals");
     ricci_mesh_free(read);
     free(given);
     free(got);
@@ -82,16 +83,21 @@ static void welded(void) {
                                     "vertex 0.001 0 0\nvertex 1.001 1 0\nvertex 0 1 0\nendloop\nendfacet\n"
                                     "endsolid s\n";
     ricci_mesh *mesh = NULL;
+    ricci_soup *soup = NULL, *welded_soup = NULL;
+    ricci_repair_options options;
     ricci_mesh_summary size;
     FILE *file = fopen("slit.stl", "w");
     CHECK(file && fputs(text, file) >= 0 && fclose(file) == 0);
     FAILS(ricci_mesh_read("slit.stl", &mesh), RICCI_DEFECTS, "components");
-    FAILS(ricci_mesh_read_stl("slit.stl", 0, &mesh), RICCI_DEFECTS, "components");
-    FAILS(ricci_mesh_read_stl("slit.stl", -1, &mesh), RICCI_ARGUMENT, "weld");
-    FAILS(ricci_mesh_read_stl("slit.stl", NAN, &mesh), RICCI_ARGUMENT, "weld");
-    FAILS(ricci_mesh_read_stl(NULL, 0, &mesh), RICCI_NULL_POINTER, "path");
+    FAILS(ricci_soup_read(NULL, &soup), RICCI_NULL_POINTER, "path");
+    OK(ricci_soup_read("slit.stl", &soup));
+    FAILS(ricci_soup_mesh(soup, &mesh), RICCI_DEFECTS, "components");
     CHECK(mesh == NULL);
-    OK(ricci_mesh_read_stl("slit.stl", 0.002, &mesh));
+    INIT(options);
+    options.weld = 0.002;
+    OK(ricci_soup_repair(soup, &options, &welded_soup));
+    OK(ricci_soup_mesh(welded_soup, &mesh));
+    ricci_soup_free(soup), ricci_soup_free(welded_soup);
     OK(ricci_mesh_summarise(mesh, &size, sizeof size));
     CHECK(size.n_vertices == 4 && size.n_faces == 2);
     CHECK(size.n_normals == 0 && size.n_colors == 0 && size.n_uv == 0);
@@ -100,7 +106,7 @@ static void welded(void) {
 
 int main(void) {
     ricci_mesh *mesh = NULL, *read = NULL;
-    ricci_mesh_attributes attributes;
+    ricci_attributes attributes;
     ricci_mesh_summary size;
     double few[3];
     t = torus_new(12, 8);
@@ -119,7 +125,7 @@ int main(void) {
         uv[2 * k + 1] = (double)t.faces[k] / (double)t.n_vertices;
     }
     mesh = torus_mesh(&t);
-    OK(ricci_mesh_attributes_init(&attributes, sizeof attributes));
+    INIT(attributes);
     CHECK(attributes.normals == NULL && attributes.colors == NULL && attributes.uv == NULL);
     attributes.normals = normals;
     attributes.colors = colors;
@@ -152,8 +158,8 @@ int main(void) {
     OK(ricci_mesh_read("plain.ply", &read));
     OK(ricci_mesh_summarise(read, &size, sizeof size));
     CHECK(size.n_normals == 0 && size.n_colors == 0 && size.n_uv == 0);
-    FAILS(ricci_mesh_normals(read, few, 3), RICCI_ARGUMENT, "normals");
-    FAILS(ricci_mesh_colors(read, few, 3), RICCI_ARGUMENT, "colors");
+    FAILS(ricci_mesh_values(read, RICCI_NORMALS, few, 3), RICCI_ARGUMENT, "normals");
+    FAILS(ricci_mesh_values(read, RICCI_COLORS, few, 3), RICCI_ARGUMENT, "colors");
     ricci_mesh_free(read);
 
     FAILS(ricci_mesh_write(mesh, NULL, "files.stl"), RICCI_UNKNOWN_FORMAT, ".glb");

@@ -20,11 +20,15 @@ static size_t row_length(const rows *r, size_t i) { return r->starts[i + 1] - r-
 
 static const int32_t *row(const rows *r, size_t i) { return r->entries + r->starts[i]; }
 
+/* Two words are one element if the one times the inverse of the other reduces to nothing. */
 static int equal(const ricci_homotopy *basis, const int32_t *u, size_t n_u, const int32_t *v, size_t n_v) {
-    int32_t same = -1;
-    OK(ricci_homotopy_equal(basis, u, n_u, v, n_v, &same));
-    CHECK(same == 0 || same == 1);
-    return same;
+    int32_t *word = (int32_t *)room(n_u + n_v, sizeof *word);
+    size_t n = 0;
+    for (size_t i = 0; i < n_u; i++) word[i] = u[i];
+    for (size_t i = 0; i < n_v; i++) word[n_u + i] = -v[n_v - 1 - i];
+    OK(ricci_homotopy_reduce(basis, word, n_u + n_v, NULL, 0, &n));
+    free(word);
+    return n == 0;
 }
 
 static ricci_homotopy_summary summary_of(const ricci_homotopy *basis) {
@@ -33,15 +37,27 @@ static ricci_homotopy_summary summary_of(const ricci_homotopy *basis) {
     return s;
 }
 
+/* The relation, as the header spells it. */
+static int32_t *relator_of(const ricci_homotopy_summary *s) {
+    int32_t *relator = (int32_t *)room(s->n_relator, sizeof *relator);
+    CHECK(s->n_relator == 4 * s->genus + s->n_boundary_loops);
+    for (size_t i = 0; i < s->genus; i++) {
+        const int32_t a = 2 * (int32_t)i + 1;
+        relator[4 * i] = a, relator[4 * i + 1] = a + 1;
+        relator[4 * i + 2] = -a, relator[4 * i + 3] = -a - 1;
+    }
+    for (size_t j = 0; j < s->n_boundary_loops; j++)
+        relator[4 * s->genus + j] = (int32_t)(2 * s->genus + j) + 1;
+    return relator;
+}
+
 /* Loops run along edges of the mesh from base to base; their words are their letters; they meet as they
  * should. */
 static rows check_loops(const ricci_homotopy *basis, const ricci_mesh *mesh) {
     const ricci_homotopy_summary s = summary_of(basis);
     arrays a = arrays_of(mesh, 0);
     rows loops = rows_new(s.n_generators, s.n_loop_edges);
-    uint32_t *vertices = (uint32_t *)room(s.n_loop_edges, sizeof *vertices);
     int64_t *matrix = (int64_t *)room(s.n_generators * s.n_generators, sizeof *matrix);
-    OK(ricci_homotopy_loop_vertices(basis, vertices, s.n_loop_edges, loops.starts, s.n_generators + 1));
     OK(ricci_homotopy_loops(basis, loops.entries, s.n_loop_edges, loops.starts, s.n_generators + 1));
     OK(ricci_homotopy_intersections(basis, matrix, s.n_generators * s.n_generators));
     for (size_t k = 0; k < s.n_generators; k++) {
@@ -50,7 +66,7 @@ static rows check_loops(const ricci_homotopy *basis, const ricci_mesh *mesh) {
         for (size_t i = 0; i < n; i++) {
             const int32_t e = row(&loops, k)[i];
             const size_t from = 2 * (size_t)(abs(e) - 1) + (e < 0);
-            CHECK(a.ends[from] == at && vertices[loops.starts[k] + i] == at);
+            CHECK(a.ends[from] == at);
             at = a.ends[from ^ 1];
         }
         CHECK(n > 0 && at == s.base);
@@ -70,21 +86,15 @@ static rows check_loops(const ricci_homotopy *basis, const ricci_mesh *mesh) {
             CHECK(matrix[s.n_generators * k + j] == (pair ? (k % 2 == 0 ? 1 : -1) : 0));
         }
     }
-    free(vertices), free(matrix), arrays_free(&a);
+    free(matrix), arrays_free(&a);
     return loops;
 }
 
 /* Words are reduced, compared, written and read. */
 static void check_words(const ricci_homotopy *basis) {
     const ricci_homotopy_summary s = summary_of(basis);
-    int32_t *relator = (int32_t *)room(s.n_relator, sizeof *relator);
-    OK(ricci_homotopy_relator(basis, relator, s.n_relator));
-    CHECK(s.n_relator == 4 * s.genus + s.n_boundary_loops && equal(basis, relator, s.n_relator, NULL, 0));
-    for (size_t i = 0; i < s.genus; i++) {
-        const int32_t a = 2 * (int32_t)i + 1, b = a + 1;
-        CHECK(relator[4 * i] == a && relator[4 * i + 1] == b);
-        CHECK(relator[4 * i + 2] == -a && relator[4 * i + 3] == -b);
-    }
+    int32_t *relator = relator_of(&s);
+    CHECK(equal(basis, relator, s.n_relator, NULL, 0));
     /* The relation says what its first letter is: the inverse of the rest. */
     int32_t *rest = (int32_t *)room(s.n_relator, sizeof *rest);
     for (size_t i = 1; i < s.n_relator; i++) rest[i - 1] = -relator[s.n_relator - i];
@@ -109,7 +119,7 @@ static void check_words(const ricci_homotopy *basis) {
     OK(ricci_homotopy_word_parse(basis, text, read, 3, &n));
     CHECK(n == 3 && memcmp(read, word, sizeof word) == 0);
     FAILS(ricci_homotopy_word_parse(basis, "a1 z3", read, 3, &n), RICCI_ARGUMENT, "z3");
-    FAILS(ricci_homotopy_word_parse(basis, NULL, read, 3, &n), RICCI_NULL_POINTER, "text");
+    FAILS(ricci_homotopy_word_parse(basis, NULL, read, 3, &n), RICCI_NULL_POINTER, "word");
     FAILS(ricci_homotopy_word_text(basis, word, 3, text, 4, &n), RICCI_BUFFER_TOO_SMALL, "15 entries");
     FAILS(ricci_homotopy_reduce(basis, none, 1, read, 3, &n), RICCI_ARGUMENT, "word[0] is 0");
     FAILS(ricci_homotopy_reduce(basis, far, 2, read, 3, &n), RICCI_ARGUMENT, "word[1] is 99");
@@ -120,10 +130,9 @@ static void check_words(const ricci_homotopy *basis) {
 }
 
 /* A path that runs a loop and then the relation ends at that loop's element. */
-static void check_lifts(const ricci_homotopy *basis, const rows *loops, const ricci_quotient *quotient) {
+static void check_lifts(const ricci_homotopy *basis, const rows *loops, const ricci_uniform *quotient) {
     const ricci_homotopy_summary s = summary_of(basis);
-    int32_t *relator = (int32_t *)room(s.n_relator, sizeof *relator);
-    OK(ricci_homotopy_relator(basis, relator, s.n_relator));
+    int32_t *relator = relator_of(&s);
     int32_t *path = (int32_t *)room(4 * s.n_loop_edges + s.n_loop_edges, sizeof *path);
     size_t n = 0;
     for (size_t i = 0; i <= s.n_relator; i++) {
@@ -133,9 +142,13 @@ static void check_lifts(const ricci_homotopy *basis, const rows *loops, const ri
     }
     size_t *starts = (size_t *)room(n + 2, sizeof *starts), n_word = 0;
     const int32_t from[1] = {-1};
-    OK(ricci_homotopy_lift(basis, (uint32_t)s.base, from, 1, path, n, NULL, 0, starts, n + 2));
+    ricci_lift lift;
+    INIT(lift);
+    lift.vertex = (uint32_t)s.base, lift.element = from, lift.n_element = 1, lift.path = path,
+    lift.n_path = n;
+    OK(ricci_homotopy_lift(basis, &lift, NULL, 0, starts, n + 2));
     int32_t *letters = (int32_t *)room(starts[n + 1], sizeof *letters), word = 0;
-    OK(ricci_homotopy_lift(basis, (uint32_t)s.base, from, 1, path, n, letters, starts[n + 1], starts, n + 2));
+    OK(ricci_homotopy_lift(basis, &lift, letters, starts[n + 1], starts, n + 2));
     CHECK(starts[1] == 1 && letters[0] == -1);
     const int32_t end[2] = {-1, 2};
     CHECK(equal(basis, letters + starts[n], starts[n + 1] - starts[n], end, 2));
@@ -146,12 +159,12 @@ static void check_lifts(const ricci_homotopy *basis, const rows *loops, const ri
     FAILS(ricci_homotopy_path_word(basis, path, n, &word, 0, &n_word), RICCI_BUFFER_TOO_SMALL, "letters");
     if (quotient) {
         /* In coordinates too: it ends where the generator carries the base lift. */
-        ricci_quotient_summary q;
+        ricci_uniform_summary q;
         double *points = (double *)room(3 * (n + 1), sizeof *points), there[3];
         ricci_deck *generators = NULL;
-        OK(ricci_quotient_summarise(quotient, &q, sizeof q));
-        OK(ricci_quotient_lift(quotient, path, n, points, 3 * (n + 1)));
-        OK(ricci_quotient_generators(quotient, &generators));
+        OK(ricci_uniform_summarise(quotient, &q, sizeof q));
+        OK(ricci_uniform_lift(quotient, path, n, points, 3 * (n + 1)));
+        OK(deck_of(quotient, RICCI_DECK_GENERATORS, NULL, &generators));
         elements e = elements_of(generators);
         OK(ricci_deck_apply(generators, 1, q.base_lift, 1, there, 3));
         CHECK(distance(points, q.base_lift, q.space) < 1e-12 &&
@@ -159,11 +172,11 @@ static void check_lifts(const ricci_homotopy *basis, const rows *loops, const ri
         double *first = (double *)room(3 * (n + 1), sizeof *first);
         for (size_t k = 0; k < s.n_generators; k++) {
             const size_t m = row_length(loops, k);
-            OK(ricci_quotient_lift(quotient, row(loops, k), m, first, 3 * (m + 1)));
+            OK(ricci_uniform_lift(quotient, row(loops, k), m, first, 3 * (m + 1)));
             image(e.matrices + 9 * k, q.base_lift, there);
             CHECK(distance(first + 3 * m, there, q.space) < 1e-8);
         }
-        FAILS(ricci_quotient_lift(quotient, path, n, points, 3 * n), RICCI_BUFFER_TOO_SMALL, "points");
+        FAILS(ricci_uniform_lift(quotient, path, n, points, 3 * n), RICCI_BUFFER_TOO_SMALL, "points");
         free(points), free(first), elements_free(&e), ricci_deck_free(generators);
     }
     const int32_t jump[2] = {path[0], path[0]}, missing[1] = {1000000};
@@ -171,8 +184,8 @@ static void check_lifts(const ricci_homotopy *basis, const rows *loops, const ri
         FAILS(ricci_homotopy_path_word(basis, jump, 2, &word, 1, &n_word), RICCI_ARGUMENT, "half-edge");
     FAILS(ricci_homotopy_path_word(basis, missing, 1, &word, 1, &n_word), RICCI_ARGUMENT,
           "path[0] is 1000000");
-    FAILS(ricci_homotopy_lift(basis, 1000000, NULL, 0, path, n, NULL, 0, starts, n + 2), RICCI_ARGUMENT,
-          "1000000");
+    lift.vertex = 1000000, lift.n_element = 0;
+    FAILS(ricci_homotopy_lift(basis, &lift, NULL, 0, starts, n + 2), RICCI_ARGUMENT, "1000000");
     free(relator), free(path), free(starts), free(letters);
 }
 
@@ -219,16 +232,16 @@ static void check_domain(const ricci_homotopy *basis, const ricci_domain *domain
 
 /* In C, with the matrices: the relation's product is the identity, as far as its partial products allow in
  * doubles: an error of theirs is carried on by what leads back from there. */
-static void the_relation_holds_for_the_matrices(const ricci_quotient *quotient) {
-    ricci_quotient_summary q;
+static void the_relation_holds_for_the_matrices(const ricci_uniform *quotient) {
+    ricci_uniform_summary q;
     ricci_deck *generators = NULL;
-    OK(ricci_quotient_summarise(quotient, &q, sizeof q));
-    OK(ricci_quotient_generators(quotient, &generators));
+    OK(ricci_uniform_summarise(quotient, &q, sizeof q));
+    OK(deck_of(quotient, RICCI_DECK_GENERATORS, NULL, &generators));
     elements e = elements_of(generators);
     double *corners = (double *)room(3 * q.n_polygon, sizeof *corners);
     double *angles = (double *)room(q.n_polygon, sizeof *angles), sum = 0, largest = 1;
     double product[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, back[9], there[3];
-    OK(ricci_quotient_polygon(quotient, corners, angles, q.n_polygon));
+    OK(ricci_uniform_polygon(quotient, corners, angles, q.n_polygon));
     for (size_t i = 0; i < q.n_polygon; i++) {
         const size_t handle = i / 4, k = 2 * handle + i % 2;
         image(product, q.base_lift, there);
@@ -251,28 +264,31 @@ static void closed_surfaces(void) {
     ricci_mesh *meshes[4] = {NULL, NULL, NULL, NULL};
     torus t = torus_new(12, 8);
     meshes[0] = torus_mesh(&t);
-    OK(ricci_shape_genus(2, 2, 1, &meshes[1]));
-    OK(ricci_shape_genus(3, 1, 1, &meshes[2]));
-    OK(ricci_shape_one_vertex(2, &meshes[3])); /* loops on every edge */
+    OK(make_genus(2, 2, 1, &meshes[1]));
+    OK(make_genus(3, 1, 1, &meshes[2]));
+    OK(make_glued(RICCI_SHAPE_ONE_VERTEX, 2, &meshes[3])); /* loops on every edge */
     for (int i = 0; i < 4; i++) {
-        ricci_quotient *quotient = NULL;
+        ricci_uniform *quotient = NULL;
         ricci_homotopy *basis = NULL, *own = NULL;
         ricci_domain *domain = NULL, *layout = NULL;
         ricci_mesh *mesh = NULL;
-        OK(ricci_homotopy_new(meshes[i], -1, NULL, &own));
+        ricci_metric *metric = NULL;
+        OK(ricci_homotopy_new(meshes[i], NULL, NULL, &own));
         rows loops = check_loops(own, meshes[i]);
         check_words(own), check_lifts(own, &loops, NULL);
         rows_free(&loops);
-        OK(ricci_quotient_new(meshes[i], NULL, NULL, &quotient));
-        OK(ricci_quotient_homotopy(quotient, &basis));
-        OK(ricci_quotient_mesh(quotient, &mesh));
-        OK(ricci_quotient_domain(quotient, &layout));
+        OK(ricci_uniformize(meshes[i], NULL, NULL, &quotient));
+        OK(ricci_uniform_homotopy(quotient, &basis));
+        OK(ricci_uniform_metric(quotient, &metric));
+        OK(ricci_metric_mesh(metric, &mesh));
+        ricci_metric_free(metric);
+        OK(ricci_uniform_domain(quotient, &layout));
         OK(ricci_domain_new(basis, NULL, 0, &domain));
         loops = check_loops(basis, mesh);
         check_words(basis), check_lifts(basis, &loops, quotient);
         check_domain(basis, domain, 0), check_domain(basis, layout, 0);
         the_relation_holds_for_the_matrices(quotient);
-        ricci_quotient_free(quotient);
+        ricci_uniform_free(quotient);
         CHECK(summary_of(basis).base < 1000000); /* lives on */
         rows_free(&loops);
         ricci_domain_free(domain), ricci_domain_free(layout);
@@ -289,9 +305,10 @@ static void surfaces_with_boundary(void) {
     ricci_domain *domain = NULL;
     ricci_mesh_summary m;
     uint32_t cut[1] = {1000000};
-    OK(ricci_mesh_punch(whole, 2, &mesh));
+    OK(change(whole, RICCI_CHANGE_PUNCH, 2, 0, 0, &mesh));
     OK(ricci_mesh_summarise(mesh, &m, sizeof m));
-    OK(ricci_homotopy_new(mesh, 5, NULL, &basis));
+    const uint32_t five = 5, beyond = 1000000;
+    OK(ricci_homotopy_new(mesh, &five, NULL, &basis));
     const ricci_homotopy_summary s = summary_of(basis);
     CHECK(s.base == 5 && s.genus == 1 && s.n_boundary_loops == 2 && s.n_generators == 4);
     rows loops = check_loops(basis, mesh);
@@ -310,9 +327,8 @@ static void surfaces_with_boundary(void) {
     FAILS(ricci_domain_new(basis, cut, 1, &domain), RICCI_ARGUMENT, "1000000");
     cut[0] = 0;
     FAILS(ricci_domain_new(basis, cut, 1, &domain), RICCI_LAYOUT, "disk");
-    FAILS(ricci_homotopy_new(mesh, 1000000, NULL, &none), RICCI_ARGUMENT, "1000000");
-    FAILS(ricci_homotopy_new(mesh, -7, NULL, &none), RICCI_ARGUMENT, "-7");
-    FAILS(ricci_homotopy_new(NULL, -1, NULL, &none), RICCI_NULL_POINTER, "mesh");
+    FAILS(ricci_homotopy_new(mesh, &beyond, NULL, &none), RICCI_ARGUMENT, "1000000");
+    FAILS(ricci_homotopy_new(NULL, NULL, NULL, &none), RICCI_NULL_POINTER, "mesh");
     FAILS(ricci_homotopy_loops(basis, path, 1, NULL, 0), RICCI_BUFFER_TOO_SMALL, "entries");
     CHECK(domain == NULL && none == NULL);
     ricci_homotopy_free(NULL), ricci_domain_free(NULL);

@@ -1,6 +1,7 @@
 /* Hyperbolic metrics of closed surfaces and of surfaces with boundary, with and without cones, unrolled into
  * the hyperbolic plane. */
 #include "arrays.h"
+#include "samples.h"
 #include <math.h>
 
 /* The angle at p of a triangle in the Poincare disk, counterclockwise from q to r: p is moved to the centre.
@@ -27,8 +28,8 @@ static void check_angles(const arrays *given, const double *target, const ricci_
     uint32_t *corners = (uint32_t *)room(3 * s.n_faces, sizeof *corners);
     double *total = (double *)room(s.n_vertices, sizeof *total);
     int *on_boundary = (int *)room(s.n_vertices, sizeof *on_boundary);
-    OK(ricci_layout_points(layout, points, 2 * s.n_points));
-    OK(ricci_layout_corners(layout, corners, 3 * s.n_faces));
+    OK(ricci_layout_points(layout, RICCI_MODEL_POINCARE, points, 2 * s.n_points));
+    OK(ricci_layout_corners(layout, RICCI_ON_REFINEMENT, corners, 3 * s.n_faces));
     double area = 0;
     for (size_t f = 0; f < s.n_faces; f++) {
         const double *z[3];
@@ -61,6 +62,13 @@ static void check_angles(const arrays *given, const double *target, const ricci_
 }
 
 /* Flow to the target, unroll in the Poincare and the Klein disk, compare. `area`: by Gauss-Bonnet. */
+static ricci_status in_model(const ricci_metric *metric, uint32_t model, ricci_layout **layout) {
+    ricci_layout_options options;
+    INIT(options);
+    options.model = model;
+    return ricci_layout_new(metric, &options, NULL, layout);
+}
+
 static void unroll(ricci_mesh *mesh, const double *target, double area, size_t n_seams) {
     ricci_metric *metric = NULL, *end = NULL;
     ricci_layout *disk = NULL, *klein = NULL;
@@ -68,9 +76,9 @@ static void unroll(ricci_mesh *mesh, const double *target, double area, size_t n
     arrays given = arrays_of(mesh, 1);
     const size_t n = given.n.n_vertices;
     OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_H2, &metric));
-    OK(ricci_flow(metric, target, n, NULL, NULL, &end, NULL));
-    OK(ricci_layout_hyperbolic(end, target, n, RICCI_MODEL_POINCARE, NULL, &disk));
-    OK(ricci_layout_hyperbolic(end, target, n, RICCI_MODEL_KLEIN, NULL, &klein));
+    OK(flow_to(metric, target, n, NULL, NULL, &end));
+    OK(in_model(end, RICCI_MODEL_POINCARE, &disk));
+    OK(in_model(end, RICCI_MODEL_KLEIN, &klein));
     OK(ricci_layout_summarise(disk, &s, sizeof s));
     OK(ricci_layout_summarise(klein, &t, sizeof t));
     CHECK(s.n_flipped == 0 && s.consistency < 1e-8 && s.n_points == t.n_points && s.n_faces == t.n_faces);
@@ -78,25 +86,39 @@ static void unroll(ricci_mesh *mesh, const double *target, double area, size_t n
     CHECK(n_seams == 0 ? s.n_seams == 0 : s.n_seams >= n_seams);
     check_angles(&given, target, disk);
     double *z = (double *)room(2 * s.n_points, sizeof *z), *k = (double *)room(2 * s.n_points, sizeof *k);
-    OK(ricci_layout_points(disk, z, 2 * s.n_points));
-    OK(ricci_layout_points(klein, k, 2 * s.n_points));
+    OK(ricci_layout_points(disk, RICCI_MODEL_POINCARE, z, 2 * s.n_points));
+    OK(ricci_layout_points(disk, RICCI_MODEL_KLEIN, k, 2 * s.n_points));
     for (size_t i = 0; i < s.n_points; i++) {
         const double r = z[2 * i] * z[2 * i] + z[2 * i + 1] * z[2 * i + 1];
         for (int j = 0; j < 2; j++) CHECK(fabs(k[2 * i + j] - 2 * z[2 * i + j] / (1 + r)) < 1e-14);
     }
     /* In the Klein disk the way there is projective, in the Poincare disk it is not. */
     double *q = (double *)room(s.n_faces * 3, sizeof *q);
-    OK(ricci_layout_write_obj_homogeneous(klein, "hyperbolic_klein.obj"));
-    FAILS(ricci_layout_write_obj_homogeneous(disk, "hyperbolic_disk.obj"), RICCI_LAYOUT, "KLEIN");
-    FAILS(ricci_layout_seams(disk, q, 4 * s.n_seams), RICCI_LAYOUT, "");
+    OK(ricci_layout_write(klein, RICCI_ON_REFINEMENT, 1, "hyperbolic_klein.obj"));
+    FAILS(ricci_layout_write(disk, RICCI_ON_REFINEMENT, 1, "hyperbolic_disk.obj"), RICCI_LAYOUT, "KLEIN");
+    /* Seams are isometries of the disk, which carry the middle of an edge's left side to that of its right
+     * side. */
+    double *seams = (double *)room(9 * s.n_seams, sizeof *seams);
+    OK(ricci_layout_seams(disk, seams, 9 * s.n_seams));
+    for (size_t i = 0; i < s.n_seams; i++) {
+        const double *m = seams + 9 * i;
+        CHECK(fabs(m[0] * m[0] + m[1] * m[1] - m[2] * m[2] - m[3] * m[3] - 1) < 1e-12 && m[8] < 1e-8);
+        CHECK(m[4] == m[2] && m[5] == -m[3] && m[6] == m[0] && m[7] == -m[1]);
+    }
+    free(seams);
     ricci_layout *none = NULL;
-    FAILS(ricci_layout_new(end, target, n, NULL, &none), RICCI_LAYOUT, "ricci_layout_hyperbolic");
-    FAILS(ricci_layout_hyperbolic(end, target, n, RICCI_MODEL_HYPERBOLOID, NULL, &none), RICCI_ARGUMENT,
-          "two coordinates");
-    FAILS(ricci_layout_hyperbolic(end, target, n - 1, RICCI_MODEL_KLEIN, NULL, &none), RICCI_WRONG_SIZE,
-          "target");
-    FAILS(ricci_layout_hyperbolic(end, NULL, n, RICCI_MODEL_KLEIN, NULL, &none), RICCI_NULL_POINTER,
-          "target");
+    FAILS(in_model(end, RICCI_MODEL_AMBIENT, &none), RICCI_ARGUMENT, "two coordinates");
+    FAILS(in_model(end, 4, &none), RICCI_ARGUMENT, "model is 4");
+    FAILS(in_model(NULL, RICCI_MODEL_KLEIN, &none), RICCI_NULL_POINTER, "metric");
+    const uint32_t beyond = 1000000;
+    ricci_layout_options options;
+    INIT(options);
+    options.cones = &beyond, options.n_cones = 1;
+    FAILS(ricci_layout_new(end, &options, NULL, &none), RICCI_ARGUMENT, "1000000");
+    options.cones = NULL;
+    FAILS(ricci_layout_new(end, &options, NULL, &none), RICCI_NULL_POINTER, "vertices");
+    options.n_cones = 0, options.root = &beyond;
+    FAILS(ricci_layout_new(end, &options, NULL, &none), RICCI_ARGUMENT, "1000000");
     CHECK(none == NULL);
     free(z), free(k), free(q);
     ricci_layout_free(disk), ricci_layout_free(klein);
@@ -121,9 +143,9 @@ static void with_boundary(ricci_mesh *mesh, double area, size_t n_seams) {
 int main(void) {
     ricci_mesh *disk = bump(13), *annulus = NULL, *closed = NULL;
     with_boundary(disk, 0.5, 0);
-    OK(ricci_shape_annulus(0.5, 1, 24, 6, &annulus));
+    OK(make_sized(RICCI_SHAPE_ANNULUS, 24, 6, 0.5, 1, 0, &annulus));
     with_boundary(annulus, 1, 1);
-    OK(ricci_shape_genus(2, 4, 1, &closed));
+    OK(make_genus(2, 4, 1, &closed));
     ricci_mesh_summary c;
     OK(ricci_mesh_summarise(closed, &c, sizeof c));
     double *target = (double *)room(c.n_vertices, sizeof *target);
@@ -134,15 +156,6 @@ int main(void) {
     double *one = (double *)room(t.n_vertices, sizeof *one);
     one[5] = pi;
     unroll(cone, one, pi, 2);
-    /* A metric in the plane is unrolled by the other function. */
-    ricci_metric *flat = NULL;
-    ricci_layout *none = NULL;
-    OK(ricci_metric_new(cone, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &flat));
-    FAILS(ricci_layout_hyperbolic(flat, one, t.n_vertices, RICCI_MODEL_KLEIN, NULL, &none), RICCI_LAYOUT,
-          "ricci_layout_new");
-    FAILS(ricci_layout_hyperbolic(NULL, one, t.n_vertices, RICCI_MODEL_KLEIN, NULL, &none),
-          RICCI_NULL_POINTER, "metric");
-    ricci_metric_free(flat);
     free(one), free(target);
     torus_free(&t);
     ricci_mesh_free(disk), ricci_mesh_free(annulus), ricci_mesh_free(closed), ricci_mesh_free(cone);

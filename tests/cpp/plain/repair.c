@@ -1,5 +1,16 @@
 /* A torn and shuffled torus through the C face: mended, and every element traced back. */
 #include "torus.h"
+#include <ricci/repair.h>
+
+/* ricci_soup_repair of arrays. */
+static ricci_status mend(const double *positions, size_t n_vertices, const uint32_t *faces, size_t n_faces,
+                         const ricci_repair_options *options, ricci_soup **repair) {
+    ricci_soup *soup = NULL;
+    OK(ricci_soup_from_arrays(positions, 0, n_vertices, faces, n_faces, &soup));
+    const ricci_status status = ricci_soup_repair(soup, options, repair);
+    ricci_soup_free(soup);
+    return status;
+}
 
 /* A closed cube and a fin, as loose triangles: the fin stays apart, and its edge is reported. */
 static void fin(void) {
@@ -10,25 +21,25 @@ static void fin(void) {
     double positions[39][3];
     uint32_t faces[39], vertices[2], meeting[3];
     size_t starts[2];
-    ricci_repair *repair = NULL;
-    ricci_repair_summary summary;
+    ricci_soup *repair = NULL;
+    ricci_soup_summary summary;
     for (uint32_t k = 0; k < 39; k++) {
         memcpy(positions[k], place[corner[k]], sizeof positions[k]);
         faces[k] = k;
     }
-    OK(ricci_repair_arrays(positions[0], 0, 39, faces, 13, NULL, &repair));
-    OK(ricci_repair_summarise(repair, &summary, sizeof summary));
+    OK(mend(positions[0], 39, faces, 13, NULL, &repair));
+    OK(ricci_soup_summarise(repair, &summary, sizeof summary));
     CHECK(summary.n_vertices == 11 && summary.refused_edges == 1 && summary.refused_faces == 3);
-    FAILS(ricci_repair_refused(repair, vertices, 2, meeting, 2, starts, 2), RICCI_BUFFER_TOO_SMALL, "faces");
-    OK(ricci_repair_refused(repair, vertices, 2, meeting, 3, starts, 2));
+    FAILS(ricci_soup_refused(repair, vertices, 2, meeting, 2, starts, 2), RICCI_BUFFER_TOO_SMALL, "faces");
+    OK(ricci_soup_refused(repair, vertices, 2, meeting, 3, starts, 2));
     CHECK(starts[0] == 0 && starts[1] == 3 && meeting[0] == 1 && meeting[1] == 4 && meeting[2] == 12);
     CHECK(corner[vertices[0]] + corner[vertices[1]] == 1);
-    FAILS(ricci_repair_uv(repair, positions[0], 117), RICCI_ARGUMENT, "uv");
+    FAILS(ricci_soup_values(repair, RICCI_UV, positions[0], 117), RICCI_ARGUMENT, "uv");
     /* Two components are a defect of a mesh, and none of a file. */
     CHECK(summary.n_defects == 1);
-    OK(ricci_repair_write(repair, "fin.ply"));
-    FAILS(ricci_repair_write(repair, "fin.stl"), RICCI_UNKNOWN_FORMAT, ".glb");
-    ricci_repair_free(repair);
+    OK(ricci_soup_write(repair, "fin.ply"));
+    FAILS(ricci_soup_write(repair, "fin.stl"), RICCI_UNKNOWN_FORMAT, ".glb");
+    ricci_soup_free(repair);
 }
 
 /* Attributes stay with their elements: a triangle, given twice, the second time turned and with an unused
@@ -37,22 +48,25 @@ static void attributes(void) {
     const char *text = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 9\nvn 0 0 1\nvn 0 0 2\nvn 0 0 3\n"
                        "vt 0 0.5\nvt 1 0\nvt 0.25 1\nf 2/1/2 3/2/3 4/3/4\nf 3/2/3 2/1/2 4/3/4\n";
     double normals[9], uv[6], colors[12];
-    ricci_repair *repair = NULL;
+    ricci_soup *soup = NULL, *repair = NULL;
     ricci_mesh *mesh = NULL;
-    ricci_repair_summary summary;
+    ricci_soup_summary summary;
+    ricci_attributes textured;
     FILE *file = fopen("attributes.obj", "w");
     CHECK(file && fputs(text, file) >= 0 && fclose(file) == 0);
-    OK(ricci_repair_file("attributes.obj", NULL, &repair));
-    OK(ricci_repair_summarise(repair, &summary, sizeof summary));
+    OK(ricci_soup_read("attributes.obj", &soup));
+    OK(ricci_soup_repair(soup, NULL, &repair));
+    ricci_soup_free(soup);
+    OK(ricci_soup_summarise(repair, &summary, sizeof summary));
     CHECK(summary.n_vertices == 3 && summary.n_faces == 1 && summary.isolated_vertices == 1);
-    FAILS(ricci_repair_normals(repair, normals, 8), RICCI_BUFFER_TOO_SMALL, "normals");
-    OK(ricci_repair_normals(repair, normals, 9));
-    OK(ricci_repair_uv(repair, uv, 6));
-    FAILS(ricci_repair_colors(repair, colors, 12), RICCI_ARGUMENT, "colors");
+    FAILS(ricci_soup_values(repair, RICCI_NORMALS, normals, 8), RICCI_BUFFER_TOO_SMALL, "values");
+    OK(ricci_soup_values(repair, RICCI_NORMALS, normals, 9));
+    OK(ricci_soup_values(repair, RICCI_UV, uv, 6));
+    FAILS(ricci_soup_values(repair, RICCI_COLORS, colors, 12), RICCI_ARGUMENT, "colors");
     CHECK(normals[2] == 1 && normals[5] == 2 && normals[8] == 3);
     CHECK(uv[1] == 0.5 && uv[2] == 1 && uv[4] == 0.25 && uv[5] == 1);
-    OK(ricci_repair_write(repair, "attributes.ply"));
-    ricci_repair_free(repair);
+    OK(ricci_soup_write(repair, "attributes.ply"));
+    ricci_soup_free(repair);
 
     /* And go out again with a texture. */
     const unsigned char png[] = {0x89, 'P', 'N',  'G', '\r', '\n', 0x1a, '\n', 0,    0,    0,    13,
@@ -62,17 +76,22 @@ static void attributes(void) {
                                  0,    5,   0xfe, 2,   0xfe, 0xdc, 0xcc, 0x59, 0xe7, 0,    0,    0,
                                  0,    'I', 'E',  'N', 'D',  0xae, 0x42, 0x60, 0x82};
     OK(ricci_mesh_read("attributes.ply", &mesh));
-    OK(ricci_mesh_write_textured(mesh, NULL, png, sizeof png, RICCI_WRAP_MIRROR, "attributes.glb"));
-    FAILS(ricci_mesh_write_textured(mesh, NULL, png + 1, sizeof png - 1, RICCI_WRAP_CLAMP, "x.glb"),
-          RICCI_ARGUMENT, "PNG");
-    FAILS(ricci_mesh_write_textured(mesh, NULL, NULL, 9, RICCI_WRAP_CLAMP, "x.glb"), RICCI_NULL_POINTER,
-          "png");
-    FAILS(ricci_mesh_write_textured(mesh, NULL, png, sizeof png, (ricci_wrap)3, "x.glb"), RICCI_ARGUMENT,
-          "wrap");
+    INIT(textured);
+    textured.uv = uv, textured.png = png, textured.png_size = sizeof png, textured.wrap = RICCI_WRAP_MIRROR;
+    OK(ricci_mesh_write(mesh, &textured, "attributes.glb"));
+    FAILS(ricci_mesh_write(mesh, &textured, "x.obj"), RICCI_ARGUMENT, ".glb");
+    textured.wrap = 3;
+    FAILS(ricci_mesh_write(mesh, &textured, "x.glb"), RICCI_ARGUMENT, "wrap is 3");
+    textured.wrap = RICCI_WRAP_CLAMP, textured.png = png + 1, textured.png_size--;
+    FAILS(ricci_mesh_write(mesh, &textured, "x.glb"), RICCI_ARGUMENT, "PNG");
+    textured.png = NULL;
+    FAILS(ricci_mesh_write(mesh, &textured, "x.glb"), RICCI_NULL_POINTER, "png");
+    textured.png = png, textured.png_size = sizeof png, textured.uv = NULL;
+    FAILS(ricci_mesh_write(mesh, &textured, "x.glb"), RICCI_ARGUMENT, "uv");
     ricci_mesh_free(mesh);
     mesh = NULL;
     OK(ricci_mesh_read("attributes.glb", &mesh));
-    OK(ricci_mesh_uv(mesh, uv, 6));
+    OK(ricci_mesh_values(mesh, RICCI_UV, uv, 6));
     CHECK(uv[1] == 0.5 && uv[2] == 1 && uv[4] == 0.25 && uv[5] == 1);
     ricci_mesh_free(mesh);
 }
@@ -88,10 +107,9 @@ int main(void) {
     uint32_t *result = (uint32_t *)malloc(3 * n_faces * sizeof *result);
     uint32_t *vertex_origin = (uint32_t *)malloc(n_vertices * sizeof *vertex_origin);
     uint32_t *face_origin = (uint32_t *)malloc(n_faces * sizeof *face_origin);
-    ricci_repair *repair = NULL;
+    ricci_soup *repair = NULL;
     ricci_repair_options options;
-    ricci_repair_summary summary;
-    ricci_diagnosis *diagnosis = NULL;
+    ricci_soup_summary summary;
     ricci_mesh *mesh = NULL, *whole = torus_mesh(&t);
     ricci_mesh_summary size, expected;
     CHECK(positions && mended && faces && result && vertex_origin && face_origin);
@@ -111,59 +129,56 @@ int main(void) {
         positions[3 * n_vertices - 3 + k] = 9;
     }
 
-    OK(ricci_repair_arrays(positions, 0, n_vertices, faces, n_faces, NULL, &repair));
-    OK(ricci_repair_summarise(repair, &summary, sizeof summary));
+    OK(mend(positions, n_vertices, faces, n_faces, NULL, &repair));
+    OK(ricci_soup_summarise(repair, &summary, sizeof summary));
     CHECK(summary.n_vertices == t.n_vertices && summary.n_faces == t.n_faces && summary.n_defects == 0);
     CHECK(summary.welded_vertices == 3 * t.n_faces - t.n_vertices && summary.isolated_vertices == 1);
     CHECK(summary.duplicate_faces == 1 && summary.degenerate_faces == 1);
     CHECK(summary.turned_faces == (t.n_faces + 4) / 5 && summary.split_vertices == 0 &&
           summary.cut_edges == 0);
-    FAILS(ricci_repair_result(repair, mended, 3 * n_vertices, result, 3), RICCI_BUFFER_TOO_SMALL, "faces");
-    OK(ricci_repair_result(repair, mended, 3 * n_vertices, result, 3 * n_faces));
-    OK(ricci_repair_origins(repair, vertex_origin, n_vertices, face_origin, n_faces));
+    FAILS(ricci_soup_faces(repair, result, 3), RICCI_BUFFER_TOO_SMALL, "faces");
+    OK(ricci_soup_values(repair, RICCI_POSITIONS, mended, 3 * n_vertices));
+    FAILS(ricci_soup_values(repair, RICCI_LENGTHS, mended, 3 * n_vertices), RICCI_ARGUMENT, "no lengths");
+    OK(ricci_soup_faces(repair, result, 3 * n_faces));
+    OK(ricci_soup_origins(repair, vertex_origin, n_vertices, face_origin, n_faces));
     for (size_t v = 0; v < summary.n_vertices; v++)
         CHECK(memcmp(mended + 3 * v, positions + 3 * vertex_origin[v], 3 * sizeof(double)) == 0);
     for (size_t f = 0; f < summary.n_faces; f++) CHECK(face_origin[f] == f);
-    OK(ricci_mesh_from_arrays(mended, 0, summary.n_vertices, result, summary.n_faces, &mesh));
+    OK(ricci_soup_mesh(repair, &mesh));
     OK(ricci_mesh_summarise(mesh, &size, sizeof size));
     OK(ricci_mesh_summarise(whole, &expected, sizeof expected));
     CHECK(size.genus == expected.genus && size.n_edges == expected.n_edges && size.n_boundary_loops == 0);
     ricci_mesh_free(whole);
-    OK(ricci_repair_diagnosis(repair, &diagnosis));
-    ricci_diagnosis_free(diagnosis);
+    FAILS(ricci_soup_defect(repair, 0, NULL, 0), RICCI_ARGUMENT, "defect 0 does not exist");
     ricci_mesh_free(mesh);
-    ricci_repair_free(repair);
+    ricci_soup_free(repair);
     repair = NULL;
 
     /* Without welding there are only loose triangles. */
-    OK(ricci_repair_options_init(&options, sizeof options));
+    INIT(options);
     options.weld = -1;
-    options.component = 0;
-    OK(ricci_repair_arrays(positions, 0, n_vertices, faces, t.n_faces, &options, &repair));
-    OK(ricci_repair_summarise(repair, &summary, sizeof summary));
+    options.component = 1;
+    OK(mend(positions, n_vertices, faces, t.n_faces, &options, &repair));
+    OK(ricci_soup_summarise(repair, &summary, sizeof summary));
     CHECK(summary.n_faces == 1 && summary.faces_of_other_components == t.n_faces - 1);
-    ricci_repair_free(repair);
+    ricci_soup_free(repair);
     repair = NULL;
 
     options.component = 1000000;
-    FAILS(ricci_repair_arrays(positions, 0, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT,
-          "component");
-    options.component = -1;
+    FAILS(mend(positions, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT, "component");
+    options.component = 0;
     options.weld = NAN;
-    FAILS(ricci_repair_arrays(positions, 0, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT,
-          "weld");
+    FAILS(mend(positions, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT, "weld");
     options.weld = 0;
     options.cut_non_manifold_edges = 7;
-    FAILS(ricci_repair_arrays(positions, 0, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT,
+    FAILS(mend(positions, n_vertices, faces, t.n_faces, &options, &repair), RICCI_ARGUMENT,
           "cut_non_manifold_edges");
     faces[0] = 4000000;
-    FAILS(ricci_repair_arrays(positions, 0, n_vertices, faces, t.n_faces, NULL, &repair), RICCI_DEFECTS,
-          "4000000");
-    FAILS(ricci_repair_file("no such file.obj", NULL, &repair), RICCI_IO, "no such file.obj");
-    FAILS(ricci_repair_arrays(positions, 0, n_vertices, faces, t.n_faces, NULL, NULL), RICCI_NULL_POINTER,
-          "repair");
+    FAILS(mend(positions, n_vertices, faces, t.n_faces, NULL, &repair), RICCI_DEFECTS, "4000000");
+    FAILS(ricci_soup_read("no such file.obj", &repair), RICCI_IO, "no such file.obj");
+    FAILS(mend(positions, n_vertices, faces, t.n_faces, NULL, NULL), RICCI_NULL_POINTER, "soup");
     CHECK(repair == NULL);
-    ricci_repair_free(NULL);
+    ricci_soup_free(NULL);
     free(positions);
     free(mended);
     free(faces);

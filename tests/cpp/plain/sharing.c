@@ -18,10 +18,11 @@ static void *work(void *argument) {
     for (int round = 0; round < 3; round++) {
         ricci_metric *end = NULL;
         ricci_layout *layout = NULL;
-        FAILS(ricci_target_single(j->metric, j->no_vertex, j->u, j->n_vertices), RICCI_ARGUMENT, number);
-        OK(ricci_flow(j->metric, j->target, j->n_vertices, NULL, NULL, &end, NULL));
-        OK(ricci_metric_u(end, j->u, j->n_vertices));
-        OK(ricci_layout_new(end, j->target, j->n_vertices, NULL, &layout));
+        FAILS(fill(j->metric, target_of(RICCI_TARGET_SINGLE, &j->no_vertex, NULL, 1), j->u, j->n_vertices),
+              RICCI_ARGUMENT, number);
+        OK(flow_to(j->metric, j->target, j->n_vertices, NULL, NULL, &end));
+        OK(ricci_metric_values(end, RICCI_METRIC_U, j->u, j->n_vertices));
+        OK(ricci_layout_new(end, NULL, NULL, &layout));
         CHECK(strstr(ricci_last_error(), number) != NULL);
         ricci_layout_free(layout);
         ricci_metric_free(end);

@@ -1,5 +1,6 @@
 /* Attributes carried to layouts, and homogeneous texture coordinates, against formulas written here. */
 #include "arrays.h"
+#include <ricci/uniformize.h>
 
 enum { COMPONENTS = 2 };
 
@@ -10,48 +11,55 @@ static double *values(size_t n) {
     return x;
 }
 
-typedef ricci_status carry(const ricci_layout *, const double *, size_t, size_t, double *, size_t);
-typedef ricci_status crossings(const ricci_layout *, uint32_t *, double *, size_t);
-typedef ricci_status faces_of(const ricci_layout *, uint32_t *, size_t);
-typedef ricci_status barycentric(const ricci_layout *, double *, size_t);
+/* ricci_map_carry from `on`, values at vertices or corners. */
+static ricci_status carry(const ricci_map *map, uint32_t on, uint32_t at, const double *x, size_t n,
+                          size_t components, double *y, size_t capacity) {
+    ricci_carried values;
+    INIT(values);
+    values.on = on, values.at = at, values.values = x, values.n_values = n, values.n_components = components;
+    return ricci_map_carry(map, &values, y, capacity);
+}
 
 /* Values at vertices are linear along the edges of the triangulation that they come from. */
-static void check_vertices(const ricci_layout *layout, const ricci_layout_summary *s, const arrays *from,
-                           carry *carry, crossings *crossings) {
-    const size_t n = from->n.n_vertices, all = COMPONENTS * s->n_vertices;
+static void check_vertices(const ricci_map *map, const ricci_map_summary *s, const arrays *from,
+                           uint32_t on) {
+    const size_t n = from->n.n_vertices, all = COMPONENTS * s->n_vertices,
+                 given = s->n_vertices - s->n_crossings;
     double *x = values(COMPONENTS * n), *y = (double *)room(all, sizeof *y);
     double *t = (double *)room(s->n_crossings, sizeof *t);
     uint32_t *edges = (uint32_t *)room(s->n_crossings, sizeof *edges);
-    OK(carry(layout, x, n, COMPONENTS, y, all));
-    OK(crossings(layout, edges, t, s->n_crossings));
-    CHECK(memcmp(x, y, COMPONENTS * s->n_given_vertices * sizeof *x) == 0);
+    OK(carry(map, on, RICCI_AT_VERTICES, x, n, COMPONENTS, y, all));
+    OK(ricci_map_crossings(map, on, edges, t, s->n_crossings));
+    CHECK(memcmp(x, y, COMPONENTS * given * sizeof *x) == 0);
     for (size_t k = 0; k < s->n_crossings; k++)
         for (size_t i = 0; i < COMPONENTS; i++) {
             const double a = x[COMPONENTS * from->ends[2 * edges[k]] + i];
             const double b = x[COMPONENTS * from->ends[2 * edges[k] + 1] + i];
-            CHECK(fabs(y[COMPONENTS * (s->n_given_vertices + k) + i] - (1 - t[k]) * a - t[k] * b) < 1e-14);
+            CHECK(fabs(y[COMPONENTS * (given + k) + i] - (1 - t[k]) * a - t[k] * b) < 1e-14);
         }
-    FAILS(carry(layout, x, n, COMPONENTS, y, all - 1), RICCI_BUFFER_TOO_SMALL, "carried");
-    FAILS(carry(layout, x, n + 1, COMPONENTS, y, all), RICCI_WRONG_SIZE, "values");
-    FAILS(carry(layout, x, n, SIZE_MAX / 2, y, all), RICCI_TOO_LARGE, "values");
-    FAILS(carry(layout, NULL, n, COMPONENTS, y, all), RICCI_NULL_POINTER, "values");
-    FAILS(carry(NULL, x, n, COMPONENTS, y, all), RICCI_NULL_POINTER, "layout");
-    OK(carry(layout, NULL, n, 0, NULL, 0));
+    FAILS(carry(map, on, RICCI_AT_VERTICES, x, n, COMPONENTS, y, all - 1), RICCI_BUFFER_TOO_SMALL, "carried");
+    FAILS(carry(map, on, RICCI_AT_VERTICES, x, n + 1, COMPONENTS, y, all), RICCI_WRONG_SIZE, "values");
+    FAILS(carry(map, on, RICCI_AT_VERTICES, x, n, SIZE_MAX / 2, y, all), RICCI_TOO_LARGE, "values");
+    FAILS(carry(map, on, RICCI_AT_VERTICES, NULL, n, COMPONENTS, y, all), RICCI_NULL_POINTER, "values");
+    FAILS(carry(NULL, on, RICCI_AT_VERTICES, x, n, COMPONENTS, y, all), RICCI_NULL_POINTER, "map");
+    FAILS(ricci_map_carry(map, NULL, y, all), RICCI_NULL_POINTER, "values");
+    FAILS(carry(map, RICCI_ON_REFINEMENT, RICCI_AT_VERTICES, x, n, 1, y, all), RICCI_ARGUMENT, "on is");
+    FAILS(carry(map, on, 2, x, n, COMPONENTS, y, all), RICCI_ARGUMENT, "at is 2");
+    OK(carry(map, on, RICCI_AT_VERTICES, NULL, n, 0, NULL, 0));
     x[3] = NAN;
-    FAILS(carry(layout, x, n, COMPONENTS, y, all), RICCI_ARGUMENT, "values[3]");
+    FAILS(carry(map, on, RICCI_AT_VERTICES, x, n, COMPONENTS, y, all), RICCI_ARGUMENT, "values[3]");
     free(x), free(y), free(t), free(edges);
 }
 
 /* Values at corners are linear in the faces of the triangulation that they come from. */
-static void check_corners(const ricci_layout *layout, const ricci_layout_summary *s, const arrays *from,
-                          carry *carry, faces_of *faces_of, barycentric *barycentric) {
+static void check_corners(const ricci_map *map, const ricci_map_summary *s, const arrays *from, uint32_t on) {
     const size_t n = from->n.n_faces, all = 3 * COMPONENTS * s->n_faces;
     double *x = values(3 * COMPONENTS * n), *y = (double *)room(all, sizeof *y);
     double *b = (double *)room(9 * s->n_faces, sizeof *b);
     uint32_t *of = (uint32_t *)room(s->n_faces, sizeof *of);
-    OK(carry(layout, x, n, COMPONENTS, y, all));
-    OK(faces_of(layout, of, s->n_faces));
-    OK(barycentric(layout, b, 9 * s->n_faces));
+    OK(carry(map, on, RICCI_AT_CORNERS, x, n, COMPONENTS, y, all));
+    OK(ricci_map_faces(map, on, of, s->n_faces));
+    OK(ricci_map_barycentric(map, on, b, 9 * s->n_faces));
     for (size_t f = 0; f < s->n_faces; f++)
         for (size_t k = 0; k < 3; k++)
             for (size_t i = 0; i < COMPONENTS; i++) {
@@ -60,8 +68,8 @@ static void check_corners(const ricci_layout *layout, const ricci_layout_summary
                     expected += b[9 * f + 3 * k + c] * x[COMPONENTS * (3 * of[f] + c) + i];
                 CHECK(fabs(y[COMPONENTS * (3 * f + k) + i] - expected) < 1e-14);
             }
-    FAILS(carry(layout, x, n, COMPONENTS, y, all - 1), RICCI_BUFFER_TOO_SMALL, "carried");
-    FAILS(carry(layout, x, n - 1, COMPONENTS, y, all), RICCI_WRONG_SIZE, "values");
+    FAILS(carry(map, on, RICCI_AT_CORNERS, x, n, COMPONENTS, y, all - 1), RICCI_BUFFER_TOO_SMALL, "carried");
+    FAILS(carry(map, on, RICCI_AT_CORNERS, x, n - 1, COMPONENTS, y, all), RICCI_WRONG_SIZE, "values");
     free(x), free(y), free(b), free(of);
 }
 
@@ -83,12 +91,12 @@ static double *texture_coordinates(const char *path, size_t n_points) {
 }
 
 /* Divided by the third they are the plane points; the third is the weight of the vertex at every corner. */
-static void check_homogeneous(const char *path, const ricci_layout *layout, const ricci_layout_summary *s,
+static void check_homogeneous(const char *path, const ricci_map *map, const ricci_layout_summary *s,
                               const uint32_t *faces, const double *points, const uint32_t *corners,
                               size_t n_points) {
     double *vt = texture_coordinates(path, n_points), *q = (double *)room(s->n_vertices, sizeof *q);
     double least = INFINITY, most = 0;
-    OK(ricci_layout_weights(layout, q, s->n_vertices));
+    OK(ricci_map_weights(map, q, s->n_vertices));
     for (size_t c = 0; c < 3 * s->n_faces; c++) CHECK(vt[3 * corners[c] + 2] == q[faces[c]]);
     for (size_t p = 0; p < n_points; p++) {
         least = fmin(least, vt[3 * p + 2]), most = fmax(most, vt[3 * p + 2]);
@@ -99,63 +107,66 @@ static void check_homogeneous(const char *path, const ricci_layout *layout, cons
     free(vt), free(q);
 }
 
-static void check_layout(const ricci_mesh *mesh, ricci_flips flips, const char *path) {
+static void check_layout(const ricci_mesh *mesh, uint32_t flips, const char *path) {
     arrays given = arrays_of(mesh, 1);
     const size_t n = given.n.n_vertices;
     ricci_metric *metric = NULL, *flat = NULL;
     ricci_layout *layout = NULL;
-    ricci_charts *charts = NULL;
+    ricci_map *map = NULL;
+    ricci_map_summary counts;
+    ricci_atlas *charts = NULL;
     ricci_mesh *refined = NULL, *final_mesh = NULL;
     ricci_layout_summary s;
-    ricci_charts_summary c;
+    ricci_atlas_summary c;
     ricci_flow_options options;
     double *target = (double *)room(n, sizeof *target);
-    OK(ricci_flow_options_init(&options, sizeof options));
+    INIT(options);
     options.flips = flips;
     OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
-    OK(ricci_target_default(metric, target, n));
-    OK(ricci_flow(metric, target, n, &options, NULL, &flat, NULL));
-    OK(ricci_layout_new(flat, target, n, NULL, &layout));
+    OK(ricci_target_fill(metric, NULL, NULL, target, n));
+    OK(flow_to(metric, target, n, &options, NULL, &flat));
+    OK(ricci_layout_new(flat, NULL, NULL, &layout));
     OK(ricci_layout_summarise(layout, &s, sizeof s));
-    CHECK((s.n_crossings > 0) == (flips == RICCI_FLIPS_AUTO));
     OK(ricci_layout_mesh(layout, &refined));
     OK(ricci_metric_mesh(flat, &final_mesh));
     arrays r = arrays_of(refined, 1), last = arrays_of(final_mesh, 0);
 
-    check_vertices(layout, &s, &given, ricci_layout_from_input_vertices, ricci_layout_input_crossings);
-    check_vertices(layout, &s, &last, ricci_layout_from_final_vertices, ricci_layout_final_crossings);
-    check_corners(layout, &s, &given, ricci_layout_from_input_corners, ricci_layout_input_faces,
-                  ricci_layout_input_barycentric);
-    check_corners(layout, &s, &last, ricci_layout_from_final_corners, ricci_layout_final_faces,
-                  ricci_layout_final_barycentric);
+    OK(ricci_map_new(flat, NULL, &map));
+    OK(ricci_map_summarise(map, &counts, sizeof counts));
+    CHECK((counts.n_crossings > 0) == (flips == RICCI_FLIPS_AUTO));
+    check_vertices(map, &counts, &given, RICCI_ON_INPUT);
+    check_vertices(map, &counts, &last, RICCI_ON_METRIC);
+    check_corners(map, &counts, &given, RICCI_ON_INPUT);
+    check_corners(map, &counts, &last, RICCI_ON_METRIC);
     /* Positions are such values. */
     double *positions = (double *)room(3 * s.n_vertices, sizeof *positions);
-    OK(ricci_layout_from_input_vertices(layout, given.positions, n, 3, positions, 3 * s.n_vertices));
+    OK(carry(map, RICCI_ON_INPUT, RICCI_AT_VERTICES, given.positions, n, 3, positions, 3 * s.n_vertices));
     CHECK(memcmp(positions, r.positions, 3 * s.n_vertices * sizeof *positions) == 0);
 
     double *points = (double *)room(2 * s.n_points, sizeof *points);
     uint32_t *corners = (uint32_t *)room(3 * s.n_faces, sizeof *corners);
-    OK(ricci_layout_points(layout, points, 2 * s.n_points));
-    OK(ricci_layout_corners(layout, corners, 3 * s.n_faces));
-    OK(ricci_layout_write_obj_homogeneous(layout, path));
-    check_homogeneous(path, layout, &s, r.faces, points, corners, s.n_points);
-    FAILS(ricci_layout_write_obj_homogeneous(layout, NULL), RICCI_NULL_POINTER, "path");
+    OK(ricci_layout_points(layout, RICCI_MODEL_POINCARE, points, 2 * s.n_points));
+    OK(ricci_layout_corners(layout, RICCI_ON_REFINEMENT, corners, 3 * s.n_faces));
+    OK(ricci_layout_write(layout, RICCI_ON_REFINEMENT, 1, path));
+    check_homogeneous(path, map, &s, r.faces, points, corners, s.n_points);
+    FAILS(ricci_layout_write(layout, RICCI_ON_INPUT, 1, path), RICCI_ARGUMENT, "homogeneous");
+    FAILS(ricci_layout_write(layout, RICCI_ON_REFINEMENT, 1, NULL), RICCI_NULL_POINTER, "path");
     free(points);
 
-    OK(ricci_charts_new(layout, 0.01, NULL, &charts));
-    OK(ricci_charts_summarise(charts, &c, sizeof c));
+    OK(ricci_atlas_new(layout, 0.01, NULL, &charts));
+    OK(ricci_atlas_summarise(charts, &c, sizeof c));
     points = (double *)room(2 * c.n_points, sizeof *points);
-    OK(ricci_charts_points(charts, points, 2 * c.n_points));
-    OK(ricci_charts_corners(charts, corners, 3 * c.n_faces));
-    OK(ricci_charts_write_obj_homogeneous(charts, path));
-    check_homogeneous(path, layout, &s, r.faces, points, corners, c.n_points);
-    FAILS(ricci_charts_write_obj_homogeneous(NULL, path), RICCI_NULL_POINTER, "charts");
+    OK(ricci_atlas_points(charts, points, 2 * c.n_points));
+    OK(ricci_atlas_corners(charts, corners, 3 * c.n_faces));
+    OK(ricci_atlas_write(charts, 1, path));
+    check_homogeneous(path, map, &s, r.faces, points, corners, c.n_points);
+    FAILS(ricci_atlas_write(NULL, 1, path), RICCI_NULL_POINTER, "atlas");
 
-    printf("%s: %zu vertices, %zu crossings, %zu charts\n", path, n, s.n_crossings, c.n_charts);
+    printf("%s: %zu vertices, %zu crossings, %zu charts\n", path, n, counts.n_crossings, c.n_charts);
     free(points), free(corners), free(positions), free(target);
     arrays_free(&r), arrays_free(&last), arrays_free(&given);
     ricci_mesh_free(refined), ricci_mesh_free(final_mesh);
-    ricci_charts_free(charts), ricci_layout_free(layout);
+    ricci_atlas_free(charts), ricci_layout_free(layout), ricci_map_free(map);
     ricci_metric_free(flat), ricci_metric_free(metric);
 }
 

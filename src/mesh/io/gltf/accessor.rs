@@ -2,6 +2,7 @@
 //! read or allocated.
 
 use super::super::budget::Budget;
+use super::super::kind::Kind;
 use super::super::scan::Location;
 use super::document::{Document, Shape, Sparse};
 use super::locate::locate;
@@ -18,74 +19,46 @@ pub(super) struct File<'a> {
     pub json_start: usize,
 }
 
-/// The bytes of a buffer, and where in the file they are as they stand.
+/// The bytes of a buffer, and the byte of the file at which they begin unless they were encoded as text.
 pub(super) struct Stored<'a> {
     pub bytes: Cow<'a, [u8]>,
     pub start: Option<usize>,
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Component {
-    I8,
-    U8,
-    I16,
-    U16,
-    U32,
-    F32,
+/// The type of components with this code.
+fn component(code: u32) -> Option<Kind> {
+    Some(match code {
+        5120 => Kind::I8,
+        5121 => Kind::U8,
+        5122 => Kind::I16,
+        5123 => Kind::U16,
+        5125 => Kind::U32,
+        5126 => Kind::F32,
+        _ => return None,
+    })
 }
 
-impl Component {
-    fn new(code: u32) -> Option<Component> {
-        Some(match code {
-            5120 => Component::I8,
-            5121 => Component::U8,
-            5122 => Component::I16,
-            5123 => Component::U16,
-            5125 => Component::U32,
-            5126 => Component::F32,
-            _ => return None,
-        })
-    }
+/// The type of whole numbers that are not negative, with this code.
+fn unsigned(code: u32) -> Option<Kind> {
+    component(code).filter(|kind| matches!(kind, Kind::U8 | Kind::U16 | Kind::U32))
+}
 
-    fn size(self) -> usize {
-        match self {
-            Component::I8 | Component::U8 => 1,
-            Component::I16 | Component::U16 => 2,
-            Component::U32 | Component::F32 => 4,
-        }
-    }
-
-    /// The largest value of an integer that can be normalised to 1; 1 for the others.
-    fn full(self) -> f64 {
-        match self {
-            Component::I8 => f64::from(i8::MAX),
-            Component::U8 => f64::from(u8::MAX),
-            Component::I16 => f64::from(i16::MAX),
-            Component::U16 => f64::from(u16::MAX),
-            Component::U32 | Component::F32 => 1.0,
-        }
-    }
-
-    fn read(self, b: &[u8]) -> f64 {
-        match (self, b) {
-            (Component::I8, &[a, ..]) => f64::from(a as i8),
-            (Component::U8, &[a, ..]) => f64::from(a),
-            (Component::I16, &[a, b, ..]) => f64::from(i16::from_le_bytes([a, b])),
-            (Component::U16, &[a, b, ..]) => f64::from(u16::from_le_bytes([a, b])),
-            (Component::U32, &[a, b, c, d, ..]) => f64::from(u32::from_le_bytes([a, b, c, d])),
-            (Component::F32, &[a, b, c, d, ..]) => f64::from(f32::from_le_bytes([a, b, c, d])),
-            _ => f64::NAN,
-        }
-    }
+/// Elements as the document names them: `count` of `width` components each, from byte `offset` of a buffer view.
+struct Run {
+    view: u32,
+    offset: usize,
+    kind: Kind,
+    width: usize,
+    count: usize,
 }
 
 /// `count` elements of `width` components, `stride` bytes apart; the last one ends inside `bytes`.
 #[derive(Clone, Copy)]
 struct Elements<'a> {
     bytes: &'a [u8],
-    /// Where in the file they begin, if they are there as they stand.
+    /// The byte of the file at which they begin, unless they were encoded as text.
     start: Option<usize>,
-    component: Component,
+    kind: Kind,
     width: usize,
     stride: usize,
     count: usize,
@@ -98,17 +71,20 @@ impl Elements<'_> {
     }
 
     fn number(&self, i: usize, k: usize) -> f64 {
-        self.component.read(&self.bytes[i * self.stride + k * self.component.size()..])
+        self.kind.read(&self.bytes[i * self.stride + k * self.kind.size()..], false)
     }
 }
 
 /// Numbers of one accessor.
 pub(super) struct Accessor<'a> {
     index: u32,
+    /// What it is used for.
+    what: &'static str,
     pub count: usize,
     width: usize,
-    component: Component,
-    normalized: bool,
+    /// What numbers are divided by where they stand for fractions.
+    full: Option<f64>,
+    is_unsigned: bool,
     /// `None`: zeros.
     dense: Option<Elements<'a>>,
     /// Elements that differ, and what they are.
@@ -129,14 +105,14 @@ impl<'a> File<'a> {
     }
 
     /// The accessor that `what` names; it holds one of these shapes.
-    pub fn accessor(&'a self, index: u32, what: &str, shapes: &[Shape]) -> Result<Accessor<'a>> {
+    pub fn accessor(&'a self, index: u32, what: &'static str, shapes: &[Shape]) -> Result<Accessor<'a>> {
         let Some(text) = self.document.accessors.get(index as usize) else {
             return self.whole().error(format!("{what} names accessor {index}, which does not exist"));
         };
         let fail = |message: String| {
             self.place_of("accessors", index as usize).error(format!("accessor {index} ({what}): {message}"))
         };
-        let Some(component) = Component::new(text.component_type) else {
+        let Some(kind) = component(text.component_type) else {
             return fail(format!("component type {} does not exist", text.component_type));
         };
         let width = match text.shape {
@@ -148,54 +124,46 @@ impl<'a> File<'a> {
             Shape::Mat3 => 9,
             Shape::Mat4 => 16,
         };
-        let run = |view: Option<u32>, offset: usize, component: Component, width: usize, count: usize| {
-            view.map(|view| self.elements(view, offset, component, width, count)).transpose()
-        };
-        let dense = match run(text.buffer_view, text.byte_offset, component, width, text.count) {
-            Ok(dense) => dense,
-            Err(message) => return fail(message),
-        };
-        let sparse = match text.sparse.as_deref().map(|s| self.sparse(s, component, width)).transpose() {
-            Ok(sparse) => sparse,
-            Err(message) => return fail(message),
-        };
-        Ok(Accessor {
-            index,
-            count: text.count,
-            width,
-            component,
-            normalized: text.normalized,
-            dense,
-            sparse,
-        })
+        let count = text.count;
+        let dense = text.buffer_view.map(|view| Run { view, offset: text.byte_offset, kind, width, count });
+        let dense = dense.map(|run| self.elements(run)).transpose();
+        let sparse = text.sparse.as_deref().map(|sparse| self.sparse(sparse, kind, width)).transpose();
+        match (dense, sparse) {
+            (Err(message), _) | (_, Err(message)) => fail(message),
+            (Ok(dense), Ok(sparse)) => Ok(Accessor {
+                index,
+                what,
+                count,
+                width,
+                // The format has no fractions of more than 16 bits.
+                full: (text.normalized && kind.size() < 4).then(|| kind.full()),
+                is_unsigned: unsigned(text.component_type).is_some(),
+                dense,
+                sparse,
+            }),
+        }
     }
 
+    /// Which elements differ from the others, and what they are; the error says what is wrong.
     fn sparse(
         &'a self,
         text: &Sparse,
-        component: Component,
+        kind: Kind,
         width: usize,
     ) -> std::result::Result<(Elements<'a>, Elements<'a>), String> {
-        let index = match Component::new(text.indices.component_type) {
-            Some(index @ (Component::U8 | Component::U16 | Component::U32)) => index,
-            _ => return Err("its sparse indices are no unsigned integers".into()),
+        let Some(index) = unsigned(text.indices.component_type) else {
+            return Err("its sparse indices are no unsigned integers".into());
         };
-        let (indices, values) = (&text.indices, &text.values);
-        Ok((
-            self.elements(indices.buffer_view, indices.byte_offset, index, 1, text.count)?,
-            self.elements(values.buffer_view, values.byte_offset, component, width, text.count)?,
-        ))
+        let (count, indices, values) = (text.count, &text.indices, &text.values);
+        let indices =
+            Run { view: indices.buffer_view, offset: indices.byte_offset, kind: index, width: 1, count };
+        let values = Run { view: values.buffer_view, offset: values.byte_offset, kind, width, count };
+        Ok((self.elements(indices)?, self.elements(values)?))
     }
 
-    /// `count` elements from byte `offset` of a buffer view; the error says what is wrong.
-    fn elements(
-        &'a self,
-        view: u32,
-        offset: usize,
-        component: Component,
-        width: usize,
-        count: usize,
-    ) -> std::result::Result<Elements<'a>, String> {
+    /// The bytes of a run of elements; the error says what is wrong.
+    fn elements(&'a self, run: Run) -> std::result::Result<Elements<'a>, String> {
+        let Run { view, offset, kind, width, count } = run;
         let Some(text) = self.document.buffer_views.get(view as usize) else {
             return Err(format!("buffer view {view} does not exist"));
         };
@@ -206,7 +174,7 @@ impl<'a> File<'a> {
         let Some(bytes) = end.and_then(|end| buffer.bytes.get(text.byte_offset..end)) else {
             return Err(format!("buffer view {view} ends behind its buffer of {} bytes", buffer.bytes.len()));
         };
-        let size = width * component.size();
+        let size = width * kind.size();
         let stride = text.byte_stride.unwrap_or(size);
         if stride < size {
             return Err(format!("byte stride {stride} of buffer view {view} is below the element's {size}"));
@@ -219,7 +187,7 @@ impl<'a> File<'a> {
             Some(bytes) => Ok(Elements {
                 bytes,
                 start: buffer.start.map(|at| at + text.byte_offset + offset),
-                component,
+                kind,
                 width,
                 stride,
                 count,
@@ -230,8 +198,8 @@ impl<'a> File<'a> {
 }
 
 impl Accessor<'_> {
-    /// Where the document names it.
-    fn place<'p>(&self, file: &File<'p>) -> Location<'p> {
+    /// Where the document describes it.
+    pub fn place<'p>(&self, file: &File<'p>) -> Location<'p> {
         file.place_of("accessors", self.index as usize)
     }
 
@@ -239,12 +207,11 @@ impl Accessor<'_> {
     pub fn numbers<const N: usize>(
         &self,
         fill: f64,
-        what: &str,
         budget: &mut Budget,
         file: &File<'_>,
     ) -> Result<Vec<[f64; N]>> {
-        budget.take(self.count, size_of::<[f64; N]>(), what, file.whole())?;
-        let value = |x: f64| if self.normalized { (x / self.component.full()).max(-1.0) } else { x };
+        budget.take(self.count, size_of::<[f64; N]>(), self.what, file.whole())?;
+        let value = |x: f64| self.full.map_or(x, |full| (x / full).max(-1.0));
         let element = |from: &Elements<'_>, i: usize| -> [f64; N] {
             std::array::from_fn(|k| if k < from.width { value(from.number(i, k)) } else { fill })
         };
@@ -261,9 +228,8 @@ impl Accessor<'_> {
                 match numbers.get_mut(at) {
                     Some(slot) => *slot = element(values, i),
                     None => {
-                        return indices
-                            .place(i, self.place(file))
-                            .error(format!("{what}: element {at} of {} is replaced", self.count));
+                        let message = format!("{}: element {at} of {} is replaced", self.what, self.count);
+                        return indices.place(i, self.place(file)).error(message);
                     }
                 }
             }
@@ -273,10 +239,10 @@ impl Accessor<'_> {
 
     /// All elements as vertex numbers below `n`.
     pub fn indices(&self, n: usize, budget: &mut Budget, file: &File<'_>) -> Result<Vec<u32>> {
-        if !matches!(self.component, Component::U8 | Component::U16 | Component::U32) {
+        if !self.is_unsigned {
             return self.place(file).error("indices are no unsigned integers".into());
         }
-        let numbers: Vec<[f64; 1]> = self.numbers(0.0, "indices", budget, file)?;
+        let numbers: Vec<[f64; 1]> = self.numbers(0.0, budget, file)?;
         match numbers.iter().position(|&[v]| v >= n as f64) {
             Some(i) => {
                 let place = self.place(file);

@@ -1,5 +1,5 @@
-//! What we read of a glTF 2.0 document. Everything else in it is skipped without being stored, and what is stored takes little
-//! more room than its text, so that no document of a given size takes many times that.
+//! The parts of a glTF 2.0 document that are read. All others are skipped without being stored, and those that are read take little
+//! more memory than their text, so that a document cannot take many times its size.
 
 use serde::Deserialize;
 
@@ -41,7 +41,7 @@ pub(super) struct Scene {
 #[serde(from = "NodeText")]
 pub(super) struct Node {
     pub mesh: Option<u32>,
-    /// The mesh follows joints, not this node.
+    /// Whether the mesh has a skin: its place is then that of its joints, not that of this node.
     pub skinned: bool,
     pub children: Box<[u32]>,
     pub transform: Option<Box<Affine>>,
@@ -156,7 +156,7 @@ pub(super) struct Primitive {
     pub mode: Option<u32>,
 }
 
-/// Accessors of the attributes that we read.
+/// The accessors of the attributes that are read.
 #[derive(Deserialize)]
 pub(super) struct Named {
     #[serde(rename = "POSITION")]

@@ -1,4 +1,4 @@
-//! Where a part of a JSON document stands, found only when there is something to say about it.
+//! Where a part of a JSON document stands: the parser does not say it, so that it is searched for when an error names the place.
 
 /// The byte at which entry `index` begins in the array `key` of the outermost object of a sound document.
 pub(super) fn locate(json: &[u8], key: &str, index: usize) -> Option<usize> {

@@ -19,7 +19,7 @@ use document::{Buffer, Document};
 use locate::byte_of;
 use std::borrow::Cow;
 
-/// Extensions that may be required: those that change no triangle, and integers for positions.
+/// Beginnings of the names of extensions that a file may require: they change no triangle, or allow integers as positions.
 const KNOWN_EXTENSIONS: [&str; 5] =
     ["KHR_mesh_quantization", "KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_"];
 
@@ -31,8 +31,12 @@ const KNOWN_EXTENSIONS: [&str; 5] =
 /// attribute `_RICCI_VERTEX` where that would be one too many. Triangles, strips and fans are faces; the vertices of
 /// points and lines have none. Attributes are `NORMAL`, `COLOR_0` (linear, as they stand) and `TEXCOORD_0`, with v upwards as
 /// everywhere else here: glTF counts it downwards. What a primitive
-/// lacks and another has is filled up with the defaults of [`super::Attributes`]. Skins and morph targets are left as stored. Buffers are the binary chunk and
-/// base64 data; other files are refused by name, and so is what an extension compresses. `path` is used in errors.
+/// lacks and another has is filled up with the defaults of [`super::Attributes`]. Skins and morph targets are left as stored. Buffers are
+/// the binary chunk and base64 data; other files are refused by name, and so is what an extension compresses. `path` is used in errors.
+///
+/// # Errors
+///
+/// [`crate::Error::Parse`] with the byte; [`crate::Error::TooLarge`] for more vertices than can be numbered.
 pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
     let place = Location::whole(path);
     let bom = b"\xef\xbb\xbf";
@@ -70,7 +74,7 @@ pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
     scene::soup(&file, Budget::of(bytes))
 }
 
-/// A part of the file.
+/// A range of bytes of the file.
 #[derive(Clone, Copy)]
 struct Chunk {
     start: usize,

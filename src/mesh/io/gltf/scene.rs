@@ -1,11 +1,13 @@
 //! The meshes of a scene, in space.
 
 use super::super::budget::Budget;
+use super::super::scan::Location;
 use super::accessor::File;
 use super::document::{Affine, Primitive, Shape};
 use super::seams::first_alike;
 use crate::error::{Error, Result};
 use crate::mesh::Point;
+use crate::mesh::incidence::distinct;
 use crate::mesh::io::soup::{Attributes, NO_NORMAL, NO_TEXCOORD, Soup, WHITE};
 use crate::mesh::weld::place_key;
 
@@ -13,7 +15,7 @@ use crate::mesh::weld::place_key;
 const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
 const FAN: u32 = 6;
-/// Bytes of the budget that each primitive takes, an empty one too: nodes may show it often, and each time takes a while.
+/// Bytes that each primitive takes off the budget, an empty one too: nodes may show one mesh often, and each time takes a while.
 const PRIMITIVE: usize = 64;
 
 /// All meshes below the roots of the scene: the default one, else the first, else every mesh where it stands.
@@ -65,7 +67,7 @@ pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
     out.finish()
 }
 
-/// What has been read so far; attributes are as long as the last primitive that has them made them.
+/// What has been read so far. The list of an attribute ends with the last primitive that has it.
 struct Collected<'a> {
     file: &'a File<'a>,
     budget: Budget,
@@ -75,12 +77,38 @@ struct Collected<'a> {
     uv: Vec<[[f64; 2]; 3]>,
     /// Per vertex of the file, the number that our writer gave it, or `NO_NUMBER`.
     given: Vec<u32>,
-    /// Per vertex of the file, the first one that is the same.
+    /// Per vertex of the file, the first vertex of its mesh that is the same vertex of the surface.
     first: Vec<u32>,
 }
 
-/// Stands for the number of a vertex that another program wrote.
+/// The number of a vertex that another program wrote.
 const NO_NUMBER: u32 = u32::MAX;
+
+/// How an attribute is read: its name, the shapes that it may have, and what components are filled up with.
+struct Read<'a> {
+    what: &'static str,
+    shapes: &'a [Shape],
+    fill: f64,
+}
+
+/// Appends the elements of a primitive to a list in which `first` elements of earlier primitives come before them. If these lacked the
+/// attribute, the list is filled up with defaults.
+struct Append<'a> {
+    budget: &'a mut Budget,
+    place: Location<'a>,
+    first: usize,
+}
+
+impl Append<'_> {
+    fn to<T: Copy>(&mut self, list: &mut Vec<T>, mut elements: Vec<T>, default: T) -> Result<()> {
+        if !elements.is_empty() {
+            self.budget.take(self.first - list.len(), size_of::<T>(), "attributes", self.place)?;
+            list.resize(self.first, default);
+            list.append(&mut elements);
+        }
+        Ok(())
+    }
+}
 
 impl Collected<'_> {
     fn mesh(&mut self, index: u32, map: &Affine) -> Result<()> {
@@ -94,7 +122,7 @@ impl Collected<'_> {
         self.weld()
     }
 
-    /// Vertices of the mesh that was read last are one where they are in one place, and have one number if they have any.
+    /// In the mesh that was read last, vertices in the same place become one unless our writer gave them different numbers.
     fn weld(&mut self) -> Result<()> {
         let (start, end) = (self.first.len() as u32, self.soup.positions.len() as u32);
         self.budget.take((end - start) as usize, 2 * size_of::<u32>(), "vertices", self.file.whole())?;
@@ -106,103 +134,92 @@ impl Collected<'_> {
     }
 
     fn primitive(&mut self, primitive: &Primitive, map: &Affine) -> Result<()> {
-        let (file, place) = (self.file, self.file.whole());
+        let file = self.file;
         let named = &primitive.attributes;
         let Some(position) = named.position else { return Ok(()) };
-        let positions = file.accessor(position, "POSITION", &[Shape::Vec3])?;
-        let n = positions.count;
+        let n = file.accessor(position, "POSITION", &[Shape::Vec3])?.count;
         let first = self.soup.positions.len();
         if first.checked_add(n).is_none_or(|end| end > u32::MAX as usize) {
             return Err(Error::TooLarge { what: "vertices", count: first.saturating_add(n) });
         }
-        let budget = &mut self.budget;
-        let mut positions: Vec<Point> = positions.numbers(0.0, "POSITION", budget, file)?;
+        let three = |what| Read { what, shapes: &[Shape::Vec3], fill: 0.0 };
+        let mut positions: Vec<Point> = self.attribute(named.position, n, three("POSITION"))?;
         if *map != Affine::IDENTITY {
             positions.iter_mut().for_each(|p| *p = map.apply(*p));
         }
         let (turn, mirrors) = map.of_normals();
-        let check = |what: &str, index: u32, count: usize| match count == n {
-            true => Ok(()),
-            false => file
-                .place_of("accessors", index as usize)
-                .error(format!("{what} has {count} elements, POSITION {n}")),
-        };
-        if let Some(index) = named.normal {
-            let normals = file.accessor(index, "NORMAL", &[Shape::Vec3])?;
-            check("NORMAL", index, normals.count)?;
-            let mut normals: Vec<Point> = normals.numbers(0.0, "NORMAL", budget, file)?;
-            if map.linear != Affine::IDENTITY.linear {
-                normals.iter_mut().for_each(|x| *x = unit(turn.apply(*x)));
-            }
-            budget.take(first - self.normals.len(), size_of::<Point>(), "NORMAL", place)?;
-            self.normals.resize(first, NO_NORMAL);
-            self.normals.append(&mut normals);
+        let mut normals: Vec<Point> = self.attribute(named.normal, n, three("NORMAL"))?;
+        if map.linear != Affine::IDENTITY.linear {
+            normals.iter_mut().for_each(|x| *x = unit(turn.apply(*x)));
         }
-        if let Some(index) = named.color {
-            let colors = file.accessor(index, "COLOR_0", &[Shape::Vec3, Shape::Vec4])?;
-            check("COLOR_0", index, colors.count)?;
-            budget.take(first - self.colors.len(), size_of::<[f64; 4]>(), "COLOR_0", place)?;
-            self.colors.resize(first, WHITE);
-            self.colors.append(&mut colors.numbers(1.0, "COLOR_0", budget, file)?);
-        }
-        let texcoords: Option<Vec<[f64; 2]>> = match named.texcoord {
-            Some(index) => {
-                let texcoords = file.accessor(index, "TEXCOORD_0", &[Shape::Vec2])?;
-                check("TEXCOORD_0", index, texcoords.count)?;
-                Some(texcoords.numbers(0.0, "TEXCOORD_0", budget, file)?)
-            }
-            None => None,
-        };
-        if let Some(index) = named.vertex {
-            let numbers = file.accessor(index, "_RICCI_VERTEX", &[Shape::Vec2])?;
-            check("_RICCI_VERTEX", index, numbers.count)?;
-            let halves: Vec<[f64; 2]> = numbers.numbers(0.0, "_RICCI_VERTEX", budget, file)?;
-            budget.take(first - self.given.len(), size_of::<u32>(), "_RICCI_VERTEX", place)?;
-            self.given.resize(first, NO_NUMBER);
-            self.given.extend(halves.into_iter().map(|[low, high]| low as u32 | (high as u32) << 16));
-        }
+        let either = &[Shape::Vec3, Shape::Vec4];
+        let colors = self.attribute(named.color, n, Read { what: "COLOR_0", shapes: either, fill: 1.0 })?;
+        let pair = |what| Read { what, shapes: &[Shape::Vec2], fill: 0.0 };
+        let texcoords: Vec<[f64; 2]> = self.attribute(named.texcoord, n, pair("TEXCOORD_0"))?;
+        let halves: Vec<[f64; 2]> = self.attribute(named.vertex, n, pair("_RICCI_VERTEX"))?;
+        let numbers = halves.into_iter().map(|[low, high]| low as u32 | (high as u32) << 16).collect();
+        let mut append = Append { budget: &mut self.budget, place: file.whole(), first };
+        append.to(&mut self.normals, normals, NO_NORMAL)?;
+        append.to(&mut self.colors, colors, WHITE)?;
+        append.to(&mut self.given, numbers, NO_NUMBER)?;
         self.soup.positions.append(&mut positions);
+        let mut faces = self.faces(primitive, n)?;
+        if mirrors {
+            faces.iter_mut().for_each(|face| face.swap(1, 2));
+        }
+        if !texcoords.is_empty() {
+            self.budget.take(faces.len(), size_of::<[[f64; 2]; 3]>(), "faces", file.whole())?;
+            // v points down in glTF.
+            let at = |v: u32| [texcoords[v as usize][0], 1.0 - texcoords[v as usize][1]];
+            let uv = faces.iter().map(|face| face.map(at)).collect();
+            let first = self.soup.faces.len();
+            let mut append = Append { budget: &mut self.budget, place: file.whole(), first };
+            append.to(&mut self.uv, uv, [NO_TEXCOORD; 3])?;
+        }
+        self.soup.faces.extend(faces.into_iter().map(|face| face.map(|v| first as u32 + v)));
+        Ok(())
+    }
+
+    /// The elements of an attribute, one for each of the `n` vertices of a primitive; none if it has no such attribute.
+    fn attribute<const N: usize>(
+        &mut self,
+        index: Option<u32>,
+        n: usize,
+        read: Read<'_>,
+    ) -> Result<Vec<[f64; N]>> {
+        let Some(index) = index else { return Ok(Vec::new()) };
+        let accessor = self.file.accessor(index, read.what, read.shapes)?;
+        if accessor.count != n {
+            let message = format!("{} has {} elements, POSITION {n}", read.what, accessor.count);
+            return accessor.place(self.file).error(message);
+        }
+        accessor.numbers(read.fill, &mut self.budget, self.file)
+    }
+
+    /// The faces of a primitive with `n` vertices, numbered from 0.
+    fn faces(&mut self, primitive: &Primitive, n: usize) -> Result<Vec<[u32; 3]>> {
+        let (file, place, budget) = (self.file, self.file.whole(), &mut self.budget);
         let mode = primitive.mode.unwrap_or(TRIANGLES);
         if !(TRIANGLES..=FAN).contains(&mode) {
-            return Ok(());
+            return Ok(Vec::new());
         }
-        let indices = match primitive.indices {
+        let at = match primitive.indices {
             Some(index) => file.accessor(index, "indices", &[Shape::Scalar])?.indices(n, budget, file)?,
             None => {
                 budget.take(n, size_of::<u32>(), "indices", place)?;
                 (0..n as u32).collect()
             }
         };
-        let faces = if mode == TRIANGLES { indices.len() / 3 } else { indices.len().saturating_sub(2) };
-        budget.take(faces, size_of::<[u32; 3]>(), "faces", place)?;
-        if texcoords.is_some() {
-            budget.take(faces, size_of::<[[f64; 2]; 3]>(), "faces", place)?;
-        }
-        if texcoords.is_some() {
-            let before = self.soup.faces.len();
-            budget.take(before - self.uv.len(), size_of::<[[f64; 2]; 3]>(), "TEXCOORD_0", place)?;
-            self.uv.resize(before, [NO_TEXCOORD; 3]);
-        }
-        for f in 0..faces {
-            let at = |k: usize| indices[k];
-            let [a, b, c] = match mode {
-                TRIANGLES => [at(3 * f), at(3 * f + 1), at(3 * f + 2)],
-                STRIP if f % 2 == 0 => [at(f), at(f + 1), at(f + 2)],
-                STRIP => [at(f + 1), at(f), at(f + 2)],
-                _ => [at(0), at(f + 1), at(f + 2)],
-            };
-            // A repeated vertex stitches strips together.
-            if mode == STRIP && (a == b || b == c || c == a) {
-                continue;
-            }
-            let corners = if mirrors { [a, c, b] } else { [a, b, c] };
-            self.soup.faces.push(corners.map(|v| first as u32 + v));
-            if let Some(texcoords) = &texcoords {
-                // v points down in glTF.
-                self.uv.push(corners.map(|v| texcoords[v as usize]).map(|[s, t]| [s, 1.0 - t]));
-            }
-        }
-        Ok(())
+        let count = if mode == TRIANGLES { at.len() / 3 } else { at.len().saturating_sub(2) };
+        budget.take(count, 2 * size_of::<[u32; 3]>(), "faces", place)?;
+        let face = |f: usize| match mode {
+            TRIANGLES => [at[3 * f], at[3 * f + 1], at[3 * f + 2]],
+            STRIP if f.is_multiple_of(2) => [at[f], at[f + 1], at[f + 2]],
+            STRIP => [at[f + 1], at[f], at[f + 2]],
+            _ => [at[0], at[f + 1], at[f + 2]],
+        };
+        // A repeated vertex stitches strips together.
+        Ok((0..count).map(face).filter(|face| mode != STRIP || distinct(face)).collect())
     }
 
     /// Attributes that some primitives lack are filled up, and vertices renumbered.
@@ -226,7 +243,7 @@ impl Collected<'_> {
             corner_normals = Some(soup.faces.iter().map(|f| f.map(|v| normals[v as usize])).collect());
             normals.clear();
         }
-        // From here on a vertex that is the first of its kind has its final number in `first`, and the others that of theirs.
+        // `first` becomes the final number of each vertex: that of a first vertex is the number of first vertices before it.
         let mut kept = 0;
         for v in 0..n {
             if first[v] as usize == v {
@@ -252,8 +269,8 @@ impl Collected<'_> {
     }
 }
 
-/// A vector of length 1 in the same direction; one without a direction stays as it is.
-fn unit(x: Point) -> Point {
+/// A vector of length 1 in the same direction; a vector of length 0, or of one that is not finite, stays as it is.
+pub(super) fn unit(x: Point) -> Point {
     let length = x[0].hypot(x[1]).hypot(x[2]);
     if length > 0.0 && length.is_finite() { x.map(|x| x / length) } else { x }
 }

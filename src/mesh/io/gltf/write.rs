@@ -1,5 +1,6 @@
 //! Binary glTF 2.0 from a triangle list, with texture.
 
+use super::scene::unit;
 use super::seams::first_alike;
 use crate::error::{Error, Result};
 use crate::mesh::Point;
@@ -44,8 +45,8 @@ impl Wrap {
     }
 }
 
-/// Extents within which coordinates are stored as they are; others are scaled, for an `f32` holds up to 2¹²⁸ only and loses
-/// digits below 2⁻¹²⁶.
+/// Extents of a mesh whose coordinates are stored unscaled. Others are scaled to about 1, since an `f32` ends at 2¹²⁸ = 3e38 and loses
+/// digits below 2⁻¹²⁶ = 1e-38.
 const PLAIN: std::ops::RangeInclusive<f64> = 1e-25..=1e30;
 
 /// Write binary glTF 2.0 (.glb): one mesh, its attributes as `f32`, normals at length 1, and a texture if there is one;
@@ -136,8 +137,8 @@ impl Split {
             }
             None => [0.0; 2],
         };
-        let normal = |corner: usize| match data.face_normals.as_flattened().get(corner) {
-            Some(&k) => unit(data.normals[k as usize]),
+        let corner_normal = |corner: usize| match data.face_normals.as_flattened().get(corner) {
+            Some(&k) => normal(data.normals[k as usize]),
             None => [0.0; 3],
         };
         let at_vertices = data.face_normals.is_empty() && !data.normals.is_empty();
@@ -145,7 +146,7 @@ impl Split {
             origin: (0..n as u32).collect(),
             texcoords: vec![[0.0; 2]; n],
             normals: if at_vertices {
-                data.normals.iter().map(|&x| unit(x)).collect()
+                data.normals.iter().map(|&x| normal(x)).collect()
             } else {
                 vec![[0.0; 3]; n]
             },
@@ -155,8 +156,8 @@ impl Split {
         let mut further = HashMap::new();
         for (corner, vertex) in split.faces.as_flattened_mut().iter_mut().enumerate() {
             let v = *vertex as usize;
-            let (texcoord, normal) = (texcoord(corner), normal(corner));
-            let normal = if at_vertices { split.normals[v] } else { normal };
+            let texcoord = texcoord(corner);
+            let normal = if at_vertices { split.normals[v] } else { corner_normal(corner) };
             let bits = (texcoord.map(f32::to_bits), normal.map(f32::to_bits));
             if first[v].is_none() {
                 (split.texcoords[v], split.normals[v]) = (texcoord, normal);
@@ -225,7 +226,7 @@ impl Placed {
     }
 }
 
-/// What the document names, and the binary chunk.
+/// The binary chunk, and the parts of the document that name its bytes.
 #[derive(Default)]
 struct Parts {
     binary: Vec<u8>,
@@ -337,8 +338,7 @@ impl Parts {
     }
 }
 
-/// A normal of length 1, as glTF wants it; one without a direction stays as it is.
-fn unit(x: Point) -> [f32; 3] {
-    let length = x[0].hypot(x[1]).hypot(x[2]);
-    if length > 0.0 && length.is_finite() { x.map(|x| (x / length) as f32) } else { x.map(|x| x as f32) }
+/// A normal of length 1, as glTF wants it.
+fn normal(x: Point) -> [f32; 3] {
+    unit(x).map(|x| x as f32)
 }

@@ -126,15 +126,9 @@ impl<'a> Body<'a> {
     fn number(&mut self, kind: Kind, element: &Element<'_>, row: usize, k: usize) -> Result<f64> {
         match &mut self.source {
             Source::Binary { at, big_endian } => {
-                let size = kind.size();
-                let Some(bytes) = self.bytes.get(*at..*at + size) else { return self.ended(element) };
-                let mut word = [0; 8];
-                word[..size].copy_from_slice(bytes);
-                if *big_endian {
-                    word[..size].reverse();
-                }
-                *at += size;
-                Ok(kind.number(word))
+                let Some(bytes) = self.bytes.get(*at..*at + kind.size()) else { return self.ended(element) };
+                *at += kind.size();
+                Ok(kind.read(bytes, *big_endian))
             }
             Source::Text { lines, rest, line } => {
                 let place = Location::line(self.path, *line);
@@ -143,7 +137,7 @@ impl<'a> Body<'a> {
                 *rest = behind.trim_ascii_start();
                 let token = std::str::from_utf8(token).ok();
                 let number = match kind {
-                    // As the file says: what 32 bits keep.
+                    // The file says that the number has 32 bits: it is rounded to these.
                     Kind::F32 => token.and_then(|t| t.parse::<f32>().ok()).map(f64::from),
                     _ => token.and_then(|t| t.parse::<f64>().ok()),
                 };

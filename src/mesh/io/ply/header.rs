@@ -100,7 +100,7 @@ pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<Header<'a>> {
                 let (name, count) = (words.next().unwrap_or_default(), words.next().map(text));
                 let count =
                     place.count(count.as_deref(), format_args!("rows of element `{}`:", text(name)))?;
-                // Of those that are not read there may be any number, and looking through them takes time.
+                // Elements that are not read may have equal names: comparing any number of them would take long.
                 if READ.contains(&name) && elements.iter().any(|e| e.name == name) {
                     return place.error(format!("a second element `{}`", text(name)));
                 }

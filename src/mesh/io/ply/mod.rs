@@ -1,5 +1,5 @@
-//! PLY, ascii and both binary byte orders. Our own reader: files in the wild have numbers, names and blank lines that the grammars
-//! of the PLY crates refuse, and errors name the line or the byte. The format is Greg Turk's,
+//! PLY, ascii and both binary byte orders. This reader accepts numbers, names and blank lines of existing files that the grammars of
+//! the PLY crates refuse, and its errors name the line or the byte. The format is Greg Turk's,
 //! <https://paulbourke.net/dataformats/ply/>.
 
 mod body;
@@ -9,12 +9,12 @@ mod write;
 pub use write::write_ply;
 
 use super::budget::Budget;
-use super::kind::Kind;
 use super::polygon::Polygons;
 use super::scan::Location;
 use super::{Attributes, Soup};
 use crate::error::Result;
 use crate::mesh::Point;
+use crate::mesh::incidence::distinct;
 use body::{Body, Row};
 use header::{Element, header};
 
@@ -23,6 +23,10 @@ use header::{Element, header};
 /// used in errors.
 ///
 /// Colours of integers are divided by the largest of their type (of 255, from 32 bits on).
+///
+/// # Errors
+///
+/// [`crate::Error::Parse`] with the line or byte.
 pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
     let header = header(bytes, path)?;
     let Some(vertex) = header.elements.iter().find(|e| e.name == b"vertex") else {
@@ -42,7 +46,7 @@ pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
                 let lists = [corners_of(element, path)?, element.list(&["texcoord"])];
                 body.each(element, &lists, |f, row, place| {
                     for &v in &row.lists[0] {
-                        polygons.corners.push(index(v, f, place)?);
+                        polygons.corners.push(place.vertex(v, format_args!("face {f}"))?);
                     }
                     if row.lists[1].len() == 2 * row.lists[0].len() {
                         corner_uv.extend(row.lists[1].chunks_exact(2).map(|uv| [uv[0], uv[1]]));
@@ -77,7 +81,7 @@ fn corners_of(element: &Element<'_>, path: &str) -> Result<Option<usize>> {
     }
 }
 
-/// The rows of element `vertex`: what it has is kept.
+/// What has been read of the element `vertex`.
 struct Vertices {
     /// The properties of each.
     position: [usize; 3],
@@ -111,13 +115,6 @@ impl Vertices {
             let missing = missing.unwrap_or_default();
             return element.place(path).error(format!("element `vertex` has no property `{missing}`"));
         };
-        let full = |kind| match kind {
-            Kind::I8 => 127.0,
-            Kind::I16 => 32767.0,
-            Kind::U16 => 65535.0,
-            Kind::F32 | Kind::F64 => 1.0,
-            _ => 255.0,
-        };
         Ok(Vertices {
             position,
             normal: columns(element, &[["nx", "ny", "nz"]]),
@@ -127,7 +124,7 @@ impl Vertices {
             ),
             opacity: columns(element, &[["alpha"], ["diffuse_alpha"]]),
             texture: columns(element, &[["s", "t"], ["u", "v"], ["texture_u", "texture_v"]]),
-            full: element.properties.iter().map(|p| full(p.kind)).collect(),
+            full: element.properties.iter().map(|p| p.kind.full()).collect(),
             positions: Vec::new(),
             normals: Vec::new(),
             colors: Vec::new(),
@@ -160,26 +157,23 @@ impl Vertices {
             uv,
             ..Attributes::default()
         };
-        let faces = triangles.iter().map(|&t| polygons.face(t)).collect();
+        let faces = polygons.faces(triangles);
         Soup { positions: self.positions, faces, attributes }
     }
-}
-
-fn index(number: f64, face: usize, place: Location<'_>) -> Result<u32> {
-    if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {
-        return Ok(number as u32);
-    }
-    place.error(format!("face {face} names vertex {number}, which cannot be"))
 }
 
 /// Triangles of the strips of one list, which −1 separates; every other triangle of a strip is turned around.
 fn strips(list: &[f64], row: usize, place: Location<'_>, polygons: &mut Polygons) -> Result<()> {
     for strip in list.split(|&v| v == -1.0) {
+        let vertex = |v: f64| place.vertex(v, format_args!("face {row}"));
         for (k, w) in strip.windows(3).enumerate() {
-            let [a, b, c] = [index(w[0], row, place)?, index(w[1], row, place)?, index(w[2], row, place)?];
+            let mut face = [vertex(w[0])?, vertex(w[1])?, vertex(w[2])?];
+            if k % 2 == 1 {
+                face.swap(0, 1);
+            }
             // A repeated vertex stitches strips together.
-            if a != b && b != c && c != a {
-                polygons.push(if k % 2 == 0 { [a, b, c] } else { [b, a, c] });
+            if distinct(&face) {
+                polygons.push(face);
             }
         }
     }

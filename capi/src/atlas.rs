@@ -1,0 +1,157 @@
+//! Layouts cut into charts that do not overlap, packed into the unit square.
+
+use crate::arrays::{self, copy_each, copy_out};
+use crate::control::{self, ricci_control};
+use crate::failure::Failure;
+use crate::guard::{self, handle, shared};
+use crate::layout::{corners_of, ricci_layout};
+use crate::memory;
+use crate::metric::State;
+use crate::status::*;
+use crate::structs::{self, sized};
+use crate::texture::File;
+use ricci::embed::{ChartOptions, Charts, Layout, charts};
+use ricci::geometry::Space;
+use ricci::mesh::Point;
+use std::ffi::c_char;
+use std::sync::Arc;
+
+pub struct ricci_atlas {
+    state: Arc<State>,
+    /// What was cut into charts, and the positions of its vertices.
+    layout: Arc<Layout>,
+    positions: Option<Arc<Vec<Point>>>,
+    charts: Charts,
+}
+handle!(ricci_atlas, "atlas");
+
+impl ricci_atlas {
+    fn corners(&self) -> Vec<[u32; 3]> {
+        corners_of(self.layout.mesh(), &self.charts.corner_index)
+    }
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_atlas_summary {
+    pub size: usize,
+    pub n_charts: usize,
+    pub n_faces: usize,
+    pub n_points: usize,
+    pub n_flipped: usize,
+    pub n_degenerate: usize,
+    pub scale: f64,
+    pub efficiency: f64,
+    pub layout_seams: f64,
+    pub chart_seams: f64,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_atlas_summary, "summary");
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_atlas_new(
+    layout: *const ricci_layout,
+    margin: f64,
+    control: *const ricci_control,
+    atlas: *mut *mut ricci_atlas,
+) -> ricci_status {
+    guard::make(atlas, || {
+        let handle = shared(layout)?;
+        let ricci_layout { layout, points, state, .. } = handle;
+        let _reserve = memory::work(layout.mesh().n_vertices(), memory::LAYOUT)?;
+        let uv = |h| points[layout.corner_index[h] as usize];
+        let charts = charts(layout.mesh(), uv, &ChartOptions { margin }, &control::of(control))?;
+        let positions = handle.positions()?;
+        Ok(ricci_atlas { state: state.clone(), layout: layout.clone(), positions, charts })
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_atlas_free(atlas: *mut ricci_atlas) {
+    guard::free(atlas);
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_atlas_summarise(
+    atlas: *const ricci_atlas,
+    summary: *mut ricci_atlas_summary,
+    size: usize,
+) -> ricci_status {
+    guard::with(atlas, |ricci_atlas { layout, charts, .. }| {
+        let figures = ricci_atlas_summary {
+            size,
+            n_charts: charts.count(),
+            n_faces: layout.mesh().n_faces(),
+            n_points: charts.coordinates.len(),
+            n_flipped: charts.flipped.len(),
+            n_degenerate: charts.degenerate.len(),
+            scale: charts.scale,
+            efficiency: charts.efficiency,
+            layout_seams: charts.seam_length[0],
+            chart_seams: charts.seam_length[1],
+        };
+        structs::write(figures, summary, size)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_atlas_faces(
+    atlas: *const ricci_atlas,
+    charts: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(atlas, |atlas| copy_out("charts", &atlas.charts.chart, charts, capacity))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_atlas_points(
+    atlas: *const ricci_atlas,
+    points: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(atlas, |atlas| copy_out("points", &atlas.charts.coordinates, points, capacity))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_atlas_corners(
+    atlas: *const ricci_atlas,
+    corners: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(atlas, |atlas| copy_out("corners", &atlas.corners(), corners, capacity))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_atlas_motions(
+    atlas: *const ricci_atlas,
+    motions: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(atlas, |ricci_atlas { charts, .. }| {
+        let rows = charts.motions.iter().map(|m| [m.rotation, m.translation[0], m.translation[1]]);
+        copy_each("motions", charts.motions.len(), rows, motions, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_atlas_write(
+    atlas: *const ricci_atlas,
+    homogeneous: u32,
+    path: *const c_char,
+) -> ricci_status {
+    guard::with(atlas, |atlas| {
+        let ricci_atlas { state, layout, positions, charts } = atlas;
+        let weights = match (homogeneous, layout.space) {
+            (0, _) => None,
+            (_, Space::E2) => Some((crate::map::weights(state, layout.refinement())?, Vec::new())),
+            _ => return Err(not_projective()),
+        };
+        let (corners, positions) = (atlas.corners(), positions.clone());
+        File { mesh: layout.mesh(), positions, points: &charts.coordinates, corners }
+            .write(&arrays::path(path)?, weights)
+    })
+}
+
+fn not_projective() -> Failure {
+    Failure::new(RICCI_LAYOUT, "charts of a layout in the hyperbolic plane are not projective")
+}

@@ -1,0 +1,308 @@
+//! Triangle lists, whatever their defects: read, diagnosed, repaired, written.
+
+use crate::arrays::{self, check_buffer, copy_out, copy_rows};
+use crate::failure::{Element, Failure, Outcome, no_such};
+use crate::guard::{self, handle, shared};
+use crate::memory;
+use crate::mesh::{VALUES, Value, copy_attribute, count, ricci_mesh, write_soup};
+use crate::status::ricci_status;
+use crate::structs::{self, sized};
+use ricci::mesh::check::{Diagnosis, diagnose};
+use ricci::mesh::io::{self, Soup};
+use ricci::mesh::repair::{Repair, Repaired, Steps, repair};
+use std::ffi::{CString, c_char};
+use std::sync::OnceLock;
+
+pub struct ricci_soup {
+    soup: Soup,
+    /// Of a repaired list: where its elements came from and what was done; `soup` is empty there.
+    origin: Option<Repaired>,
+    found: OnceLock<Found>,
+}
+handle!(ricci_soup, "soup");
+
+/// The defects, with their texts as C strings.
+struct Found {
+    diagnosis: Diagnosis,
+    defects: Vec<Record>,
+}
+
+struct Record {
+    code: CString,
+    message: CString,
+    remedy: CString,
+    vertices: Vec<u32>,
+    faces: Vec<u32>,
+}
+
+impl ricci_soup {
+    fn new(soup: Soup) -> ricci_soup {
+        ricci_soup { soup, origin: None, found: OnceLock::new() }
+    }
+
+    fn found(&self) -> &Found {
+        self.found.get_or_init(|| {
+            let diagnosis = match &self.origin {
+                Some(done) => done.diagnosis.clone(),
+                None => diagnose(&self.soup.positions, &self.soup.faces),
+            };
+            let text = |words: String| CString::new(words.replace('\0', "\u{fffd}")).unwrap_or_default();
+            let record = |defect: &ricci::mesh::check::Defect| Record {
+                code: text(defect.code().to_string()),
+                message: text(defect.to_string()),
+                remedy: text(defect.remedy().to_string()),
+                vertices: defect.vertices(),
+                faces: defect.faces(),
+            };
+            let defects = diagnosis.defects.iter().map(record).collect();
+            Found { diagnosis, defects }
+        })
+    }
+
+    fn origin(&self) -> Outcome<&Repaired> {
+        self.origin.as_ref().ok_or_else(|| Failure::argument("this triangle list was not repaired"))
+    }
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_soup_summary {
+    pub size: usize,
+    pub n_vertices: usize,
+    pub n_edges: usize,
+    pub n_faces: usize,
+    pub n_defects: usize,
+    pub n_components: usize,
+    pub n_boundary_loops: usize,
+    pub euler: i64,
+    pub genus: i64,
+    pub n_normals: usize,
+    pub n_colors: usize,
+    pub n_uv: usize,
+    pub n_corner_normals: usize,
+    pub welded_vertices: usize,
+    pub degenerate_faces: usize,
+    pub duplicate_faces: usize,
+    pub cut_edges: usize,
+    pub split_vertices: usize,
+    pub turned_faces: usize,
+    pub faces_of_other_components: usize,
+    pub isolated_vertices: usize,
+    pub refused_edges: usize,
+    pub refused_faces: usize,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_soup_summary, "summary");
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_defect {
+    pub size: usize,
+    pub code: *const c_char,
+    pub message: *const c_char,
+    pub remedy: *const c_char,
+    pub vertices: *const u32,
+    pub n_vertices: usize,
+    pub faces: *const u32,
+    pub n_faces: usize,
+}
+// SAFETY: numbers and raw pointers; 8-byte alignment, size first.
+sized!(ricci_defect, "defect");
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_repair_options {
+    pub size: usize,
+    pub weld: f64,
+    pub component: usize,
+    pub cut_non_manifold_edges: u32,
+    pub reserved: u32,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_repair_options, "options");
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_from_arrays(
+    positions: *const f64,
+    stride: usize,
+    n_vertices: usize,
+    faces: *const u32,
+    n_faces: usize,
+    soup: *mut *mut ricci_soup,
+) -> ricci_status {
+    guard::make(soup, || {
+        let positions = arrays::points(positions, stride, n_vertices)?;
+        Ok(ricci_soup::new(Soup::new(positions, arrays::array("faces", faces.cast(), n_faces)?)))
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_read(path: *const c_char, soup: *mut *mut ricci_soup) -> ricci_status {
+    guard::make(soup, || Ok(ricci_soup::new(io::read(&arrays::path(path)?)?)))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_free(soup: *mut ricci_soup) {
+    guard::free(soup);
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_summarise(
+    soup: *const ricci_soup,
+    summary: *mut ricci_soup_summary,
+    size: usize,
+) -> ricci_status {
+    guard::with(soup, |list| {
+        let Diagnosis { components, euler, boundary_loops, genus, edges, defects, .. } =
+            &list.found().diagnosis;
+        let [n_normals, n_colors, n_uv, n_corner_normals] = count(&list.soup.attributes);
+        let steps = list.origin.as_ref().map_or_else(Steps::default, |done| done.steps);
+        let refused = list.origin.as_ref().map_or(&[][..], |done| &done.weld_refused);
+        let figures = ricci_soup_summary {
+            size,
+            n_vertices: list.soup.positions.len(),
+            n_edges: *edges,
+            n_faces: list.soup.faces.len(),
+            n_defects: defects.len(),
+            n_components: *components,
+            n_boundary_loops: *boundary_loops,
+            euler: *euler,
+            genus: genus.map_or(-1, |genus| genus as i64),
+            n_normals,
+            n_colors,
+            n_uv,
+            n_corner_normals,
+            welded_vertices: steps.welded_vertices,
+            degenerate_faces: steps.degenerate_faces,
+            duplicate_faces: steps.duplicate_faces,
+            cut_edges: steps.cut_edges,
+            split_vertices: steps.split_vertices,
+            turned_faces: steps.turned_faces,
+            faces_of_other_components: steps.faces_of_other_components,
+            isolated_vertices: steps.isolated_vertices,
+            refused_edges: refused.len(),
+            refused_faces: refused.iter().map(|edge| edge.faces.len()).sum(),
+        };
+        structs::write(figures, summary, size)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_values(
+    soup: *const ricci_soup,
+    which: u32,
+    values: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(soup, |list| match VALUES.choose(which)? {
+        Value::Positions => copy_out("positions", &list.soup.positions, values, capacity),
+        which => copy_attribute(which, &list.soup.attributes, values, capacity),
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_faces(
+    soup: *const ricci_soup,
+    faces: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(soup, |list| copy_out("faces", &list.soup.faces, faces, capacity))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_defect(
+    soup: *const ricci_soup,
+    index: usize,
+    defect: *mut ricci_defect,
+    size: usize,
+) -> ricci_status {
+    guard::with(soup, |list| {
+        let defects = &list.found().defects;
+        let record =
+            defects.get(index).ok_or_else(|| no_such(Element::Entry, "defect", index, defects.len()))?;
+        let view = ricci_defect {
+            size,
+            code: record.code.as_ptr(),
+            message: record.message.as_ptr(),
+            remedy: record.remedy.as_ptr(),
+            vertices: record.vertices.as_ptr(),
+            n_vertices: record.vertices.len(),
+            faces: record.faces.as_ptr(),
+            n_faces: record.faces.len(),
+        };
+        structs::write(view, defect, size)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_mesh(
+    soup: *const ricci_soup,
+    mesh: *mut *mut ricci_mesh,
+) -> ricci_status {
+    guard::make(mesh, || ricci_mesh::from_soup(shared(soup)?.soup.clone()))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_write(soup: *const ricci_soup, path: *const c_char) -> ricci_status {
+    guard::with(soup, |list| write_soup(&arrays::path(path)?, &list.soup))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_repair(
+    soup: *const ricci_soup,
+    options: *const ricci_repair_options,
+    repaired: *mut *mut ricci_soup,
+) -> ricci_status {
+    guard::make(repaired, || {
+        let given = structs::read(options)?;
+        let cut_non_manifold_edges = match given.cut_non_manifold_edges {
+            0 => false,
+            1 => true,
+            other => return Err(Failure::argument(format!("cut_non_manifold_edges is {other}: 0 or 1"))),
+        };
+        // NaN is no tolerance, which the library says.
+        let weld = (given.weld.is_nan() || given.weld >= 0.0).then_some(given.weld);
+        let component = given.component.checked_sub(1);
+        let soup = &shared(soup)?.soup;
+        let _reserve = memory::work(soup.positions.len().max(soup.faces.len()), memory::MESH)?;
+        let mut done = repair(soup, &Repair { weld, cut_non_manifold_edges, component })?;
+        let result = std::mem::take(&mut done.soup);
+        Ok(ricci_soup { origin: Some(done), ..ricci_soup::new(result) })
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_origins(
+    repaired: *const ricci_soup,
+    vertices: *mut u32,
+    vertices_capacity: usize,
+    faces: *mut u32,
+    faces_capacity: usize,
+) -> ricci_status {
+    guard::with(repaired, |list| {
+        let done = list.origin()?;
+        check_buffer("faces", done.face_origin.len(), faces, faces_capacity)?;
+        copy_out("vertices", &done.vertex_origin, vertices, vertices_capacity)?;
+        copy_out("faces", &done.face_origin, faces, faces_capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_refused(
+    repaired: *const ricci_soup,
+    vertices: *mut u32,
+    vertices_capacity: usize,
+    faces: *mut u32,
+    faces_capacity: usize,
+    starts: *mut usize,
+    starts_capacity: usize,
+) -> ricci_status {
+    guard::with(repaired, |list| {
+        let refused = &list.origin()?.weld_refused;
+        let ends: Vec<u32> = refused.iter().flat_map(|edge| edge.vertices).collect();
+        check_buffer("vertices", ends.len(), vertices, vertices_capacity)?;
+        let rows = refused.iter().map(|edge| edge.faces.iter().copied());
+        copy_rows("faces", rows, (faces, faces_capacity), (starts, starts_capacity))?;
+        copy_out("vertices", &ends, vertices, vertices_capacity)
+    })
+}

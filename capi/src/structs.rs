@@ -1,0 +1,84 @@
+//! Structs that cross the boundary with their size, so that later versions can add fields at their end. Zero is the default of
+//! every field.
+//!
+//! Every such struct has 8-byte alignment in all versions, so a size is a multiple of 8 and never splits a
+//! field.
+
+use crate::failure::{Failure, Outcome};
+use crate::status::*;
+
+/// Most bytes that a struct of any version has.
+const MOST_BYTES: usize = 4096;
+
+/// A `repr(C)` struct of 8-byte alignment whose first member is its size, `usize`, and that any bytes
+/// written by C make valid, zeros among them.
+///
+/// # Safety
+/// As it says: numbers and raw pointers.
+pub unsafe trait Sized64: Copy {
+    /// Its name in messages.
+    const NAME: &'static str;
+    /// Set the first member.
+    fn with_size(self, size: usize) -> Self;
+}
+
+/// Makes a struct whose first member is `size: usize` one that crosses the boundary with its size. Whoever calls this says why the
+/// contract of [`Sized64`] holds.
+macro_rules! sized {
+    ($type:ty, $name:literal) => {
+        unsafe impl $crate::structs::Sized64 for $type {
+            const NAME: &'static str = $name;
+            fn with_size(self, size: usize) -> Self {
+                Self { size, ..self }
+            }
+        }
+    };
+}
+pub(crate) use sized;
+
+/// A size that a struct can have.
+pub fn check(name: &str, size: usize) -> Outcome {
+    if !(16..=MOST_BYTES).contains(&size) || !size.is_multiple_of(8) {
+        let message = format!("{name} has size {size}: pass sizeof, and let ricci_init write it");
+        return Err(Failure::new(RICCI_STRUCT_SIZE, message));
+    }
+    Ok(())
+}
+
+/// Write `value` to a caller whose struct has `size` bytes: the fields it knows, and zeros behind those that we know.
+pub fn write<S: Sized64>(value: S, place: *mut S, size: usize) -> Outcome {
+    const { assert!(align_of::<S>() == 8 && size_of::<usize>() == 8) };
+    if place.is_null() {
+        return Err(Failure::null(S::NAME));
+    }
+    check(S::NAME, size)?;
+    let filled = size.min(size_of::<S>());
+    let value = value.with_size(filled);
+    // SAFETY: the caller's memory has `size` bytes (contract of the header), of which `filled` are copied.
+    unsafe {
+        std::ptr::copy_nonoverlapping((&raw const value).cast::<u8>(), place.cast::<u8>(), filled);
+        place.cast::<u8>().add(filled).write_bytes(0, size - filled);
+    }
+    Ok(())
+}
+
+/// Read a caller's struct: fields it does not have are zero, and for NULL all are.
+pub fn read<S: Sized64>(place: *const S) -> Outcome<S> {
+    // SAFETY: zeros are valid (`Sized64`).
+    let mut value: S = unsafe { std::mem::zeroed() };
+    if place.is_null() {
+        return Ok(value);
+    }
+    // SAFETY: the first member of the struct is its size.
+    let size = unsafe { place.cast::<usize>().read_unaligned() };
+    check(S::NAME, size)?;
+    // SAFETY: the caller's struct has `size` bytes; fields beyond ours are newer than this library and must be 0.
+    if (size_of::<S>()..size).any(|i| unsafe { place.cast::<u8>().add(i).read() } != 0) {
+        let message = format!("{} has fields that this version of the library does not know", S::NAME);
+        return Err(Failure::new(RICCI_STRUCT_SIZE, message));
+    }
+    let known = size.min(size_of::<S>());
+    // SAFETY: both have `known` bytes, and any bytes are valid (`Sized64`).
+    unsafe { std::ptr::copy_nonoverlapping(place.cast::<u8>(), (&raw mut value).cast::<u8>(), known) };
+    Ok(value.with_size(size_of::<S>()))
+}

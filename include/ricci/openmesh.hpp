@@ -1,0 +1,93 @@
+// OpenMesh in and out: any TriMesh kernel, of float or double. Include OpenMesh before.
+//
+//     const auto flat = ricci::flow(ricci::metric(ricci::openmesh::from(mesh)), ricci::target::automatic(8));
+//     const auto uv = ricci::openmesh::uv(mesh, ricci::layout(flat)); // a property of halfedges: of the
+//     corner at their tip const auto factor = ricci::openmesh::factor(mesh, flat);        // a property of
+//     vertices
+//
+// Elements keep OpenMesh's numbers; call garbage_collection() first where elements were deleted. Properties
+// are added under the names "ricci:uv", "ricci:factor" and "ricci:curvature", or written again where the mesh
+// has them.
+//
+// SPDX-License-Identifier: MIT OR Apache-2.0
+#ifndef RICCI_OPENMESH_HPP
+#define RICCI_OPENMESH_HPP
+
+#include <OpenMesh/Core/Geometry/VectorT.hh>
+#include <OpenMesh/Core/Utils/Property.hh>
+#include <ricci/ricci.hpp>
+
+namespace ricci {
+namespace openmesh {
+
+// The half-edges whose tips are the corners of a face, in the order of ricci.
+template <class Mesh>
+std::array<::OpenMesh::HalfedgeHandle, 3> corners(const Mesh &mesh, ::OpenMesh::FaceHandle f) {
+    std::array<::OpenMesh::HalfedgeHandle, 3> all;
+    all[0] = mesh.halfedge_handle(f);
+    all[1] = mesh.next_halfedge_handle(all[0]);
+    all[2] = mesh.next_halfedge_handle(all[1]);
+    return all;
+}
+
+// The mesh, in the numbers of OpenMesh.
+template <class Mesh> ricci::mesh from(const Mesh &mesh) {
+    std::vector<double> positions;
+    positions.reserve(3 * mesh.n_vertices());
+    for (std::size_t v = 0; v < mesh.n_vertices(); v++) {
+        const auto &p = mesh.point(::OpenMesh::VertexHandle(static_cast<int>(v)));
+        for (unsigned k = 0; k < 3; k++) positions.push_back(static_cast<double>(p[k]));
+    }
+    std::vector<int> faces;
+    faces.reserve(3 * mesh.n_faces());
+    for (std::size_t f = 0; f < mesh.n_faces(); f++)
+        for (const auto h : corners(mesh, ::OpenMesh::FaceHandle(static_cast<int>(f))))
+            faces.push_back(mesh.to_vertex_handle(h).idx());
+    return ricci::mesh::from(positions, faces);
+}
+
+// A property of this name, added if the mesh has none.
+template <class Property, class Mesh> Property property(Mesh &mesh, const char *name) {
+    Property found;
+    if (!mesh.get_property_handle(found, name)) mesh.add_property(found, name);
+    return found;
+}
+
+// One number per vertex.
+template <class Mesh>
+::OpenMesh::VPropHandleT<double> set(Mesh &mesh, const std::vector<double> &values, const char *name) {
+    if (values.size() != mesh.n_vertices()) throw std::invalid_argument("these values are not of this mesh");
+    const auto all = property<::OpenMesh::VPropHandleT<double>>(mesh, name);
+    for (std::size_t v = 0; v < values.size(); v++)
+        mesh.property(all, ::OpenMesh::VertexHandle(static_cast<int>(v))) = values[v];
+    return all;
+}
+
+// The conformal factor of every vertex (RICCI_METRIC_FACTOR).
+template <class Mesh>::OpenMesh::VPropHandleT<double> factor(Mesh &mesh, const metric &flat) {
+    return set(mesh, flat.factor(), "ricci:factor");
+}
+
+// The curvature of every vertex.
+template <class Mesh>::OpenMesh::VPropHandleT<double> curvature(Mesh &mesh, const metric &flat) {
+    return set(mesh, flat.curvature(), "ricci:curvature");
+}
+
+// The coordinates of every corner, at the half-edge of its face that ends there.
+template <class Mesh>::OpenMesh::HPropHandleT<::OpenMesh::Vec2d> uv(Mesh &mesh, const layout &laid) {
+    const std::vector<double> values = laid.uv();
+    if (values.size() != 6 * mesh.n_faces()) throw std::invalid_argument("this layout is not of this mesh");
+    const auto all = property<::OpenMesh::HPropHandleT<::OpenMesh::Vec2d>>(mesh, "ricci:uv");
+    std::size_t i = 0;
+    for (std::size_t f = 0; f < mesh.n_faces(); f++)
+        for (const auto h : corners(mesh, ::OpenMesh::FaceHandle(static_cast<int>(f)))) {
+            mesh.property(all, h) = ::OpenMesh::Vec2d(values[i], values[i + 1]);
+            i += 2;
+        }
+    return all;
+}
+
+} // namespace openmesh
+} // namespace ricci
+
+#endif

@@ -1,0 +1,281 @@
+/* ricci: triangle lists that are no surface yet. Read, diagnose, repair, write.
+ *
+ * SPDX-License-Identifier: MIT OR Apache-2.0
+ *
+ *     ricci_soup_read("scan.stl", &soup);                      // or ricci_soup_from_arrays
+ *     ricci_soup_summarise(soup, &summary, sizeof summary);    // summary.n_defects
+ *     ricci_soup_repair(soup, NULL, &repaired);                // NULL: what needs no guess
+ *     ricci_soup_origins(repaired, vertices, n, faces, m);     // where its elements came from
+ *     ricci_soup_mesh(repaired, &mesh);                        // RICCI_DEFECTS if some are left
+ *
+ * The conventions are those of ricci/ricci.h.
+ */
+
+#ifndef RICCI_REPAIR_H
+#define RICCI_REPAIR_H
+
+#include <ricci/ricci.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/**
+ * A triangle list with attributes, whatever its defects, and where it came from if it was repaired. It
+ * never changes.
+ */
+typedef struct ricci_soup ricci_soup;
+
+/** Counts of a triangle list, and what its repair did. */
+typedef struct ricci_soup_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Number of vertices. */
+    size_t n_vertices;
+    /** Number of distinct edges. */
+    size_t n_edges;
+    /** Number of faces. */
+    size_t n_faces;
+    /** Number of defects; without any, a mesh can be built. */
+    size_t n_defects;
+    /** Connected pieces. */
+    size_t n_components;
+    /**
+     * Boundary loops, as connected pieces of the edges with one face (where the surface is no manifold,
+     * too).
+     */
+    size_t n_boundary_loops;
+    /** V - E + F over the vertices in use. */
+    int64_t euler;
+    /** Genus; -1 where the surface is not a connected, orientable manifold. */
+    int64_t genus;
+    /** Number of normals of vertices: n_vertices, or 0. */
+    size_t n_normals;
+    /** Number of colours: n_vertices, or 0. */
+    size_t n_colors;
+    /** Number of faces with texture coordinates: n_faces, or 0. */
+    size_t n_uv;
+    /** Number of faces with normals at their corners: n_faces, or 0. */
+    size_t n_corner_normals;
+    /** Of a repaired list, as all below: vertices that became one with an earlier vertex. */
+    size_t welded_vertices;
+    /** Faces dropped because they used a vertex twice. */
+    size_t degenerate_faces;
+    /** Faces dropped because an earlier face had their vertices. */
+    size_t duplicate_faces;
+    /** Edges along which the surface was cut open. */
+    size_t cut_edges;
+    /** Vertices made for further fans of faces. */
+    size_t split_vertices;
+    /** Faces turned around. */
+    size_t turned_faces;
+    /** Faces of other components than the one that was asked for. */
+    size_t faces_of_other_components;
+    /** Vertices dropped because no face uses them. */
+    size_t isolated_vertices;
+    /** Edges in which welding would have made more than two faces meet: ricci_soup_refused lists them. */
+    size_t refused_edges;
+    /** Faces of all these edges together. */
+    size_t refused_faces;
+} ricci_soup_summary;
+
+/** One defect. The pointers are views into the soup and live as long as it does. */
+typedef struct ricci_defect {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Stable name of the kind of defect, such as "non_manifold_edge". */
+    const char *code;
+    /** One sentence with the elements concerned. */
+    const char *message;
+    /** What to do about it. */
+    const char *remedy;
+    /** The vertices concerned: n_vertices 0-based indices. */
+    const uint32_t *vertices;
+    /** Number of vertices. */
+    size_t n_vertices;
+    /** The faces concerned: n_faces 0-based indices. */
+    const uint32_t *faces;
+    /** Number of faces. */
+    size_t n_faces;
+} ricci_defect;
+
+/**
+ * What a repair may do beyond what is always done: dropping faces that use a vertex twice or repeat a face,
+ * giving each fan of faces a vertex of its own, turning faces until neighbours agree, dropping isolated
+ * vertices. Zeroed by ricci_init: the defaults.
+ */
+typedef struct ricci_repair_options {
+    /** sizeof(ricci_repair_options). */
+    size_t size;
+    /**
+     * Vertices within this distance become one; 0: those in exactly the same place, where their faces are
+     * then connected through edges, but not in edges in which more than two faces would meet
+     * (ricci_soup_refused); negative: no welding.
+     */
+    double weld;
+    /** Keep one connected piece: 1 is that with the most faces, 2 the next, and so on; 0: all. */
+    size_t component;
+    /** 1 cuts the surface open along edges in which more than two faces meet. */
+    uint32_t cut_non_manifold_edges;
+    /** 0. */
+    uint32_t reserved;
+} ricci_repair_options;
+
+/**
+ * A triangle list from arrays, which are copied. Nothing is asked of it.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride), RICCI_TOO_LARGE, RICCI_NO_MEMORY.
+ *
+ * @param positions   n_vertices points: x, y, z as double.
+ * @param stride      bytes from one point to the next, at least 24; 0 means 24.
+ * @param n_vertices  number of points.
+ * @param faces       n_faces x 3 vertex indices, 0-based.
+ * @param n_faces     number of triangles.
+ * @param soup        out: the new handle, to be released by ricci_soup_free.
+ */
+RICCI_API ricci_status ricci_soup_from_arrays(const double *positions, size_t stride, size_t n_vertices,
+                                              const uint32_t *faces, size_t n_faces, ricci_soup **soup);
+
+/**
+ * A triangle list from a mesh file, with its attributes, in the file's numbers.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not UTF-8), RICCI_IO, RICCI_PARSE,
+ * RICCI_UNKNOWN_FORMAT.
+ *
+ * @param path  file name in UTF-8, ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii.
+ * @param soup  out: the new handle, to be released by ricci_soup_free.
+ */
+RICCI_API ricci_status ricci_soup_read(const char *path, ricci_soup **soup);
+
+/**
+ * Release a triangle list.
+ *
+ * @param soup  the handle, or NULL.
+ */
+RICCI_API_VOID void ricci_soup_free(ricci_soup *soup);
+
+/**
+ * Counts of the triangle list, the number of its defects, and what a repair did. The first question
+ * diagnoses it.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param soup     the triangle list.
+ * @param summary  out: the counts.
+ * @param size     sizeof *summary.
+ */
+RICCI_API ricci_status ricci_soup_summarise(const ricci_soup *soup, ricci_soup_summary *summary, size_t size);
+
+/**
+ * Positions, or an attribute.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).
+ *
+ * @param soup      the triangle list.
+ * @param which     RICCI_POSITIONS, RICCI_NORMALS, RICCI_COLORS, RICCI_UV or RICCI_CORNER_NORMALS.
+ * @param values    out: the numbers, in the shape that the constant says.
+ * @param capacity  entries of `values`.
+ */
+RICCI_API ricci_status ricci_soup_values(const ricci_soup *soup, uint32_t which, double *values,
+                                         size_t capacity);
+
+/**
+ * The vertices of every face.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param soup      the triangle list.
+ * @param faces     out: n_faces x 3 vertex indices.
+ * @param capacity  entries of `faces`, at least 3 n_faces.
+ */
+RICCI_API ricci_status ricci_soup_faces(const ricci_soup *soup, uint32_t *faces, size_t capacity);
+
+/**
+ * One defect.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (index), RICCI_STRUCT_SIZE.
+ *
+ * @param soup    the triangle list.
+ * @param index   which one, below n_defects.
+ * @param defect  out: the defect.
+ * @param size    sizeof *defect.
+ */
+RICCI_API ricci_status ricci_soup_defect(const ricci_soup *soup, size_t index, ricci_defect *defect,
+                                         size_t size);
+
+/**
+ * The mesh of a triangle list without defects, with its attributes.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_TOO_LARGE, RICCI_DEFECTS.
+ *
+ * @param soup  the triangle list.
+ * @param mesh  out: the new handle, to be released by ricci_mesh_free.
+ */
+RICCI_API ricci_status ricci_soup_mesh(const ricci_soup *soup, ricci_mesh **mesh);
+
+/**
+ * Write a triangle list, whatever defects it has, in the format that the file's name says, with its
+ * attributes; what the format has no place for is left out, with a warning to the callback of
+ * ricci_log_set.
+ *
+ * A file of that name is replaced only once the new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (an attribute is not
+ * finite), RICCI_TOO_LARGE.
+ *
+ * @param soup  the triangle list.
+ * @param path  file name in UTF-8, ending in .obj, .off, .ply or .glb.
+ */
+RICCI_API ricci_status ricci_soup_write(const ricci_soup *soup, const char *path);
+
+/**
+ * Mend what can be mended without a guess. Defects that are left are a result, not an error.
+ *
+ * Elements keep their order, and attributes stay with their elements.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (options, no such component), RICCI_TOO_LARGE,
+ * RICCI_STRUCT_SIZE, RICCI_DEFECTS (a face that names no vertex or one without finite coordinates).
+ *
+ * @param soup      the triangle list.
+ * @param options   what may be done, or NULL for the defaults.
+ * @param repaired  out: the new handle, to be released by ricci_soup_free.
+ */
+RICCI_API ricci_status ricci_soup_repair(const ricci_soup *soup, const ricci_repair_options *options,
+                                         ricci_soup **repaired);
+
+/**
+ * Where the elements of a repaired list came from.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it was not repaired).
+ *
+ * @param repaired           what ricci_soup_repair has made.
+ * @param vertices           out: n_vertices vertices of the list that was repaired.
+ * @param vertices_capacity  entries of `vertices`.
+ * @param faces              out: n_faces faces of that list.
+ * @param faces_capacity     entries of `faces`.
+ */
+RICCI_API ricci_status ricci_soup_origins(const ricci_soup *repaired, uint32_t *vertices,
+                                          size_t vertices_capacity, uint32_t *faces, size_t faces_capacity);
+
+/**
+ * The edges that kept vertices in exactly the same place from being welded throughout.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it was not repaired).
+ *
+ * @param repaired           what ricci_soup_repair has made.
+ * @param vertices           out: refused_edges x 2 vertices of the list that was repaired: the first in the
+ *                           place of either end.
+ * @param vertices_capacity  entries of `vertices`.
+ * @param faces              out: the refused_faces faces of that list that would meet, edge by edge.
+ * @param faces_capacity     entries of `faces`.
+ * @param starts             out: refused_edges + 1 entries: where each edge's faces start in `faces`, and
+ *                           their end.
+ * @param starts_capacity    entries of `starts`.
+ */
+RICCI_API ricci_status ricci_soup_refused(const ricci_soup *repaired, uint32_t *vertices,
+                                          size_t vertices_capacity, uint32_t *faces, size_t faces_capacity,
+                                          size_t *starts, size_t starts_capacity);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

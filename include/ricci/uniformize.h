@@ -1,0 +1,1124 @@
+/* ricci: canonical shapes of closed surfaces, their groups and covers, and charts.
+ *
+ * SPDX-License-Identifier: MIT OR Apache-2.0
+ *
+ *     ricci_uniformize(mesh, NULL, NULL, &uniform);            // genus 0: sphere; 1: plane; more: hyperbolic
+ * plane ricci_uniform_summarise(uniform, &summary, sizeof summary); ricci_uniform_layout(uniform,
+ * RICCI_ON_REFINEMENT, RICCI_MODEL_POINCARE, NULL, &layout); ricci_init(&spec, sizeof spec); spec.kind =
+ * RICCI_DECK_DEPTH, spec.depth = 2, spec.limit = 1000; ricci_deck_new(uniform, &spec, NULL, &deck); // copies
+ * of the layout in the universal cover ricci_deck_apply(deck, k, points, n, moved, 3 * n);      // copy
+ * number k
+ *
+ * The conventions are those of ricci/ricci.h. Points of the hyperbolic plane and the sphere are ambient
+ * coordinates (x, y, w), n x 3; the inline functions at the end convert them. A word is an int32_t array of
+ * 1-based generator numbers, negative for inverses.
+ */
+
+#ifndef RICCI_UNIFORMIZE_H
+#define RICCI_UNIFORMIZE_H
+
+#include <math.h>
+#include <ricci/ricci.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---------------------------------------------------------------------------------------------------------
+ * Uniformization
+ */
+
+/**
+ * A closed surface with its metric of constant curvature.
+ *
+ * Genus 0: a convex polyhedron inscribed in the unit sphere. Genus 1 and more: the quotient of the plane or
+ * the hyperbolic plane by its deck group, with a layout about a base vertex, a homotopy basis and deck
+ * transformations.
+ */
+typedef struct ricci_uniform ricci_uniform;
+
+/**
+ * Generators of the fundamental group of a surface: loops a1, b1, ..., ag, bg, c1, ..., cb through one base
+ * vertex with the one relation a1 b1 a1^-1 b1^-1 ... ag bg ag^-1 bg^-1 c1 ... cb = 1, as a word 1, 2, -1,
+ * -2, 3, 4, -3, -4, ..., 2 g + 1, ..., 2 g + b.
+ *
+ * Generators are numbered from 1 in this order, and a word is an array of letters: k for generator k, -k
+ * for its inverse, from left to right as paths are run. b_i crosses a_i once, from right to left; c_j goes
+ * around a boundary loop with the surface on its left.
+ */
+typedef struct ricci_homotopy ricci_homotopy;
+
+/**
+ * A surface opened along a cut into a disk, lifted to the universal cover: a polygon whose sides are paired
+ * by deck transformations.
+ */
+typedef struct ricci_domain ricci_domain;
+
+/**
+ * Deck transformations of a quotient, each as a word in the generators and as an isometry. They act from
+ * the left: M(g h) = M(g) M(h).
+ *
+ * Isometries are kept to twice the digits of doubles; ricci_deck_apply uses them.
+ */
+typedef struct ricci_deck ricci_deck;
+
+/**
+ * The Dirichlet domain of a point in the universal cover: what is nearer to it than to its images under the
+ * deck group. A convex polygon; each side lies on the bisector of the centre and its image under the side's
+ * element, which carries the domain onto its neighbour there.
+ */
+typedef struct ricci_dirichlet ricci_dirichlet;
+
+/** A layout in charts that do not overlap, packed into the unit square. */
+typedef struct ricci_atlas ricci_atlas;
+
+/** How a surface is uniformized. Zeroed by ricci_init: the defaults. */
+typedef struct ricci_uniform_options {
+    /** sizeof(ricci_uniform_options). */
+    size_t size;
+    /**
+     * How the flow is done; NULL: its defaults. A sphere takes tolerance, max_iterations (of all its flows)
+     * and threads.
+     */
+    const ricci_flow_options *flow;
+    /**
+     * Where the flow starts, such as another flow's result, in its scheme; in E2 (genus 1) or H2 (more).
+     * NULL: at the mesh.
+     */
+    const ricci_metric *start;
+    /**
+     * The vertex at a quotient's origin, where the loops of its homotopy basis meet; of a sphere the vertex
+     * that is sent to infinity. NULL: one from which no vertex is far; one from which sizes differ least.
+     */
+    const uint32_t *base;
+    /** RICCI_SCHEME_*; spheres have RICCI_SCHEME_YAMABE. */
+    uint32_t scheme;
+    /** 0. */
+    uint32_t reserved;
+} ricci_uniform_options;
+
+/** Figures of a uniformization. What a kind of surface does not have is 0. */
+typedef struct ricci_uniform_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** RICCI_SPACE_S2 for genus 0, RICCI_SPACE_E2 for genus 1, RICCI_SPACE_H2 for more. */
+    uint32_t space;
+    /** The base vertex: at the origin of a quotient, at infinity of the plane under a sphere. */
+    uint32_t base;
+    /**
+     * 1 if the curvature is within the tolerance and no triangle is broken; of a sphere also every edge
+     * Delaunay and the plane's outline convex to 1e-9; else 0.
+     */
+    uint32_t converged;
+    /** RICCI_STOP_*: why the (last) flow stopped. */
+    uint32_t stop_reason;
+    /** Its name; lives as long as the program. */
+    const char *stop_reason_text;
+    /** g. */
+    size_t genus;
+    /** Newton steps of all flows. */
+    size_t iterations;
+    /** Edge flips inside the conformal class. */
+    size_t n_flips;
+    /** Edge flips before them, which change no distance on the surface. */
+    size_t n_start_flips;
+    /** Largest |K| that the flow has left, of a sphere in the plane under it, radians. */
+    double max_curvature_error;
+    /**
+     * Largest |K| of the metric, of a quotient after corrections with twice the digits of doubles, radians.
+     */
+    double angle_defect;
+    /** |sum of curvatures + lambda area - 2 pi chi| of the metric. */
+    double gauss_bonnet;
+    /** Area: of a torus that of the given surface, else 4 pi |g - 1|; by a formula without angles. */
+    double area;
+    /** Quotients: number of generators, 2 g. */
+    size_t n_generators;
+    /** Quotients: number of sides of the layout as a fundamental domain. */
+    size_t n_sides;
+    /** Quotients: corners of ricci_uniform_polygon, 4 g. */
+    size_t n_polygon;
+    /**
+     * Quotients: largest distance between where a face has its corner and where the corner lies, also
+     * across the cut by the pairings.
+     */
+    double disagreement;
+    /** Quotients: largest distance of a point of the layout from the origin. */
+    double radius;
+    /**
+     * Quotients: |R - I| / max |P_k|^2 of the relation's matrix R over its partial products P_k, Frobenius
+     * norms of 2 x 2 matrices.
+     */
+    double relation_residual;
+    /** Quotients: the same of each side's pairing against its word; the largest. */
+    double side_residual;
+    /**
+     * Quotients: ambient coordinates of the base lift, from which deck transformations are counted: the
+     * origin, up to a loop of the base on the cut.
+     */
+    double base_lift[3];
+    /**
+     * Of a torus, real and imaginary part: the quotient of two periods in |Re| <= 1/2, |tau| >= 1, Im > 0,
+     * on the border Re >= 0. Else NaN.
+     */
+    double modulus[2];
+    /** Spheres: flows that were started. */
+    size_t n_tried;
+    /**
+     * Spheres: largest minus smallest u in the plane. Beyond about 30 positions run out of digits, where
+     * the metric does not.
+     */
+    double u_range;
+    /** Spheres: length of the shortest edge. */
+    double smallest_edge;
+    /**
+     * Spheres: by how much angles opposite an edge exceed pi in the plane at most, radians: 0 where all
+     * edges are Delaunay.
+     */
+    double delaunay_violation;
+    /** Spheres: least turning of the plane's outline, radians: not negative where it is convex. */
+    double outline_turning;
+    /**
+     * Spheres: largest signed distance of a vertex over the plane of a neighbouring face: not positive
+     * where the polyhedron is convex.
+     */
+    double nonconvexity;
+    /**
+     * Spheres: |sum of w x| / sum of w over the vertices, w one third of the area of the given faces at x.
+     */
+    double off_centre;
+} ricci_uniform_summary;
+
+/**
+ * The metric of constant curvature in the conformal class of a closed surface: on the sphere, in the plane
+ * or in the hyperbolic plane, by its Euler characteristic.
+ *
+ * Genus 0: the polyhedron whose edges, after flips, are chords with lengths in the conformal class of the
+ * surface; its vertices are moved by the Moebius transformation after which their mean is the centre, each
+ * weighed with one third of the area of the given faces at it: they are determined up to a rotation. Genus
+ * 1: flat, with the area of the given surface; more: hyperbolic. Where it has not converged the rest is as
+ * good as the metric is. Deterministic.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no such vertex; a sphere of less
+ * than four vertices or in another scheme), RICCI_LAYOUT (a boundary; `start` in another space; a vertex of
+ * a sphere has half of its area, or all lie on one circle), RICCI_EDGE_LENGTH, RICCI_TRIANGLE_INEQUALITY,
+ * RICCI_EDGE_WEIGHT, RICCI_DOMAIN, RICCI_NO_MEMORY, RICCI_FACTORISATION, RICCI_CANCELLED.
+ *
+ * @param mesh     the mesh; may be NULL if the options have a `start`.
+ * @param options  how; NULL for the defaults.
+ * @param control  progress and cancellation; NULL for neither.
+ * @param uniform  out: the new handle, to be released by ricci_uniform_free.
+ */
+RICCI_API ricci_status ricci_uniformize(const ricci_mesh *mesh, const ricci_uniform_options *options,
+                                        const ricci_control *control, ricci_uniform **uniform);
+
+/**
+ * Release a uniformization. What it has handed out lives on.
+ *
+ * @param uniform  the handle, or NULL.
+ */
+RICCI_API_VOID void ricci_uniform_free(ricci_uniform *uniform);
+
+/**
+ * The figures of a uniformization.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param uniform  the uniformization.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+RICCI_API ricci_status ricci_uniform_summarise(const ricci_uniform *uniform, ricci_uniform_summary *summary,
+                                               size_t size);
+
+/**
+ * The metric of constant curvature; of a quotient with the report of its flow.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param uniform  the uniformization.
+ * @param metric   out: the new handle, to be released by ricci_metric_free.
+ */
+RICCI_API ricci_status ricci_uniform_metric(const ricci_uniform *uniform, ricci_metric **metric);
+
+/**
+ * The homotopy basis whose loops generate the deck group: on the triangulation of the metric, short in it.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_LAYOUT (a sphere).
+ *
+ * @param uniform   the uniformization, of a quotient.
+ * @param homotopy  out: the new handle, to be released by ricci_homotopy_free.
+ */
+RICCI_API ricci_status ricci_uniform_homotopy(const ricci_uniform *uniform, ricci_homotopy **homotopy);
+
+/**
+ * The layout as a fundamental domain: its sides, in the order of RICCI_DECK_SIDES.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_LAYOUT (a sphere).
+ *
+ * @param uniform  the uniformization, of a quotient.
+ * @param domain   out: the new handle, to be released by ricci_domain_free.
+ */
+RICCI_API ricci_status ricci_uniform_domain(const ricci_uniform *uniform, ricci_domain **domain);
+
+/**
+ * The layout of a quotient about its base. Its seams are the segments of the cut, two sides of the domain
+ * each.
+ * The corners of the mesh itself have coordinates in ricci_layout_new of its metric, which is cut along edges
+ * of the mesh.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (RICCI_MODEL_AMBIENT), RICCI_LAYOUT (a sphere, whose
+ * points are ricci_sphere_points; RICCI_ON_INPUT: the cut does not run along edges of the mesh),
+ * RICCI_TRIANGLE_INEQUALITY, RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement),
+ * RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param uniform  the uniformization, of a quotient.
+ * @param on       RICCI_ON_METRIC: the metric's own triangulation; RICCI_ON_REFINEMENT: on the given
+ *                 surface.
+ * @param model    RICCI_MODEL_* with two coordinates; in the Klein disk the map is projective on every
+ *                 piece.
+ * @param control  progress and cancellation; NULL for neither.
+ * @param layout   out: the new handle, to be released by ricci_layout_free.
+ */
+RICCI_API ricci_status ricci_uniform_layout(const ricci_uniform *uniform, uint32_t on, uint32_t model,
+                                            const ricci_control *control, ricci_layout **layout);
+
+/**
+ * The canonical polygon: geodesics from lift to lift of the base along the relation. Its sides a1, b1,
+ * a1^-1, b1^-1, ... are paired by the generators; its corners are one point of the surface, so its angles
+ * add up to 2 pi. It need not be convex.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (a sphere).
+ *
+ * @param uniform   the uniformization, of a quotient.
+ * @param corners   out: n_polygon x 3, ambient coordinates; corner k is where the first k letters of the
+ *                  relation carry the base lift.
+ * @param angles    out: n_polygon angles inside, radians, from 0 to below 2 pi.
+ * @param capacity  rows of `corners` and entries of `angles`.
+ */
+RICCI_API ricci_status ricci_uniform_polygon(const ricci_uniform *uniform, double *corners, double *angles,
+                                             size_t capacity);
+
+/**
+ * The lift of an edge path of the metric's triangulation that starts at the base, from the base lift, in
+ * ambient coordinates: the start, then the end of each edge. That of a loop ends where the loop's element
+ * carries the base lift.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such edges, no path, or
+ * not from the base), RICCI_LAYOUT (a sphere).
+ *
+ * @param uniform   the uniformization, of a quotient.
+ * @param path      n_path edges: 1-based, negative where the path runs against the edge's direction.
+ * @param n_path    number of edges.
+ * @param points    out: (n_path + 1) x 3.
+ * @param capacity  entries of `points`.
+ */
+RICCI_API ricci_status ricci_uniform_lift(const ricci_uniform *uniform, const int32_t *path, size_t n_path,
+                                          double *points, size_t capacity);
+
+/**
+ * The vertices of the given mesh on the unit sphere, or in the plane under it, in which far more digits are
+ * left near (0, 0, 1).
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (not a
+ * sphere).
+ *
+ * @param uniform   the uniformization, of a sphere.
+ * @param model     RICCI_MODEL_AMBIENT: unit vectors; else the plane (ricci_to_plane), infinite at the
+ *                  base.
+ * @param points    out: n_vertices x 3, or x 2.
+ * @param capacity  entries of `points`.
+ */
+RICCI_API ricci_status ricci_sphere_points(const ricci_uniform *uniform, uint32_t model, double *points,
+                                           size_t capacity);
+
+/**
+ * The polyhedron as a mesh with unit vectors as positions, counterclockwise from outside.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT, RICCI_LAYOUT (not a sphere; RICCI_ON_INPUT),
+ * RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param uniform  the uniformization, of a sphere.
+ * @param on       RICCI_ON_METRIC: the metric's triangulation; RICCI_ON_REFINEMENT: the common refinement
+ *                 with the mesh, whose faces are those of ricci_map_mesh on the given surface.
+ * @param control  progress and cancellation; NULL for neither.
+ * @param mesh     out: the new handle, to be released by ricci_mesh_free.
+ */
+RICCI_API ricci_status ricci_sphere_mesh(const ricci_uniform *uniform, uint32_t on,
+                                         const ricci_control *control, ricci_mesh **mesh);
+
+/* ---------------------------------------------------------------------------------------------------------
+ * Deck transformations and the universal cover
+ */
+
+/** Which deck transformations. */
+enum {
+    /** The generators: M(g) carries the base lift to the end of the lift of g's loop. */
+    RICCI_DECK_GENERATORS = 0,
+    /**
+     * The sides of the layout as a fundamental domain, counterclockwise: the elements that carry it onto
+     * its neighbours.
+     */
+    RICCI_DECK_SIDES = 1,
+    /** Those of the n_words words of `letters`. */
+    RICCI_DECK_WORDS = 2,
+    /**
+     * All of at most `depth` letters, each once, shortest first, the identity to begin with: the copies of
+     * a domain in a piece of the universal cover. Whether two words are the same element is decided in the
+     * group, not by coordinates.
+     */
+    RICCI_DECK_DEPTH = 3,
+    /**
+     * All that move the centre of `dirichlet` by at most `radius`, each once, nearest first: a round piece
+     * of the universal cover.
+     */
+    RICCI_DECK_WITHIN = 4,
+    /** Those of the sides of `dirichlet`. */
+    RICCI_DECK_DIRICHLET_SIDES = 5
+};
+
+/** Numbers of deck transformations. */
+enum {
+    /**
+     * n_elements x 2 x 2 x 2: Moebius transformations z -> (a z + b)/(c z + d): a, b, c, d, each real and
+     * imaginary part; in the Poincare disk matrices of SU(1, 1), up to sign; in the plane ((e^(i theta),
+     * t), (0, 1)).
+     */
+    RICCI_DECK_MOBIUS = 0,
+    /**
+     * n_elements x 3 x 3: real matrices that act on (x, y, w): of SO+(2, 1) on the hyperboloid, of SE(2) in
+     * the plane w = 1.
+     */
+    RICCI_DECK_MATRIX = 1,
+    /**
+     * n_elements: |trace| of the 2 x 2 matrices of determinant 1: 2 cosh(L/2) for a translation of length L
+     * in the hyperbolic plane.
+     */
+    RICCI_DECK_TRACE = 2,
+    /**
+     * n_elements: how far they move along their axes: lengths of the closed geodesics in their free
+     * homotopy classes.
+     */
+    RICCI_DECK_LENGTH = 3
+};
+
+/** Which deck transformations are wanted. Zeroed by ricci_init: the generators. */
+typedef struct ricci_deck_spec {
+    /** sizeof(ricci_deck_spec). */
+    size_t size;
+    /** RICCI_DECK_*. */
+    uint32_t kind;
+    /** 0. */
+    uint32_t reserved;
+    /** WORDS: n_letters letters, word after word. */
+    const int32_t *letters;
+    /** Number of letters of all words. */
+    size_t n_letters;
+    /** WORDS: n_words + 1 offsets: word i is letters[starts[i] .. starts[i + 1]). */
+    const size_t *starts;
+    /** Number of words. */
+    size_t n_words;
+    /** WITHIN, DIRICHLET_SIDES: a domain of this surface. */
+    const ricci_dirichlet *dirichlet;
+    /** WITHIN: largest distance. */
+    double radius;
+    /** DEPTH: most letters of a word. */
+    size_t depth;
+    /** DEPTH, WITHIN: most elements that are looked at. */
+    size_t limit;
+} ricci_deck_spec;
+
+/** Figures of deck transformations. */
+typedef struct ricci_deck_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** RICCI_SPACE_*: the space they act on. */
+    uint32_t space;
+    /** Most letters of a word. */
+    uint32_t longest;
+    /** Number of elements. */
+    size_t n_elements;
+    /** Number of letters of all words. */
+    size_t n_letters;
+} ricci_deck_summary;
+
+/** Figures of a Dirichlet domain. */
+typedef struct ricci_dirichlet_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** RICCI_SPACE_*: where it lies. */
+    uint32_t space;
+    /** Number of sides, and of corners. */
+    uint32_t n_sides;
+    /** Area of the polygon, from its sides and the rays to its corners: that of the surface. */
+    double area;
+    /** Largest distance of a corner from the centre. */
+    double radius;
+    /** Ambient coordinates of the centre. */
+    double centre[3];
+} ricci_dirichlet_summary;
+
+/**
+ * Deck transformations of a quotient.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_LAYOUT (a sphere), RICCI_ARGUMENT (kind;
+ * no such letter; starts that do not ascend from 0 to n_letters; a radius that is NaN; a domain of another
+ * surface), RICCI_TOO_LARGE (more than `limit`), RICCI_CANCELLED.
+ *
+ * @param uniform  the uniformization, of a quotient.
+ * @param spec     which ones; NULL for the generators.
+ * @param control  cancellation; NULL for none.
+ * @param deck     out: the new handle, to be released by ricci_deck_free.
+ */
+RICCI_API ricci_status ricci_deck_new(const ricci_uniform *uniform, const ricci_deck_spec *spec,
+                                      const ricci_control *control, ricci_deck **deck);
+
+/**
+ * Release deck transformations.
+ *
+ * @param deck  the handle, or NULL.
+ */
+RICCI_API_VOID void ricci_deck_free(ricci_deck *deck);
+
+/**
+ * The figures of deck transformations.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param deck     the elements.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+RICCI_API ricci_status ricci_deck_summarise(const ricci_deck *deck, ricci_deck_summary *summary, size_t size);
+
+/**
+ * The words of the elements, reduced.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param deck             the elements.
+ * @param words            out: n_letters letters, word after word: k for generator k (1-based), -k for its
+ *                         inverse.
+ * @param words_capacity   entries of `words`.
+ * @param starts           out: n_elements + 1 offsets: word i is words[starts[i] .. starts[i + 1]).
+ * @param starts_capacity  entries of `starts`.
+ */
+RICCI_API ricci_status ricci_deck_words(const ricci_deck *deck, int32_t *words, size_t words_capacity,
+                                        size_t *starts, size_t starts_capacity);
+
+/**
+ * The elements as matrices, or numbers of them.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
+ *
+ * @param deck      the elements.
+ * @param which     RICCI_DECK_MOBIUS, _MATRIX, _TRACE or _LENGTH.
+ * @param values    out: the numbers, in the shape that the constant says.
+ * @param capacity  entries of `values`.
+ */
+RICCI_API ricci_status ricci_deck_values(const ricci_deck *deck, uint32_t which, double *values,
+                                         size_t capacity);
+
+/**
+ * Move points by an element, with twice the digits of doubles on the way: one copy of a layout in the
+ * universal cover.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such element, a row is
+ * not finite), RICCI_NO_MEMORY.
+ *
+ * @param deck      the elements.
+ * @param element   the number of the element, 0-based.
+ * @param points    n_points x 3, ambient coordinates: ricci_layout_points.
+ * @param n_points  number of points.
+ * @param moved     out: n_points x 3. May be `points`.
+ * @param capacity  entries of `moved`, at least 3 n_points.
+ */
+RICCI_API ricci_status ricci_deck_apply(const ricci_deck *deck, size_t element, const double *points,
+                                        size_t n_points, double *moved, size_t capacity);
+
+/**
+ * The Dirichlet domain of a point.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (the centre is not finite), RICCI_LAYOUT (a sphere;
+ * none was found: the metric has not converged, or the centre is too far out), RICCI_CANCELLED.
+ *
+ * @param uniform    the uniformization, of a quotient.
+ * @param centre     3 entries, ambient coordinates, of which x and y count; NULL for the origin, where the
+ *                   base vertex is.
+ * @param control    cancellation; NULL for none.
+ * @param dirichlet  out: the new handle, to be released by ricci_dirichlet_free.
+ */
+RICCI_API ricci_status ricci_dirichlet_new(const ricci_uniform *uniform, const double *centre,
+                                           const ricci_control *control, ricci_dirichlet **dirichlet);
+
+/**
+ * Release a Dirichlet domain.
+ *
+ * @param dirichlet  the handle, or NULL.
+ */
+RICCI_API_VOID void ricci_dirichlet_free(ricci_dirichlet *dirichlet);
+
+/**
+ * The figures of a Dirichlet domain.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param dirichlet  the domain.
+ * @param summary    out: the figures.
+ * @param size       sizeof *summary.
+ */
+RICCI_API ricci_status ricci_dirichlet_summarise(const ricci_dirichlet *dirichlet,
+                                                 ricci_dirichlet_summary *summary, size_t size);
+
+/**
+ * The corners of a Dirichlet domain, counterclockwise: side k runs from corner k to the next one.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param dirichlet  the domain.
+ * @param corners    out: n_sides x 3, ambient coordinates.
+ * @param capacity   entries of `corners`, at least 3 n_sides.
+ */
+RICCI_API ricci_status ricci_dirichlet_corners(const ricci_dirichlet *dirichlet, double *corners,
+                                               size_t capacity);
+
+/**
+ * The side with the inverse element, for every side.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param dirichlet  the domain.
+ * @param partners   out: n_sides side numbers, 0-based.
+ * @param capacity   entries of `partners`.
+ */
+RICCI_API ricci_status ricci_dirichlet_partners(const ricci_dirichlet *dirichlet, int32_t *partners,
+                                                size_t capacity);
+
+/* ---------------------------------------------------------------------------------------------------------
+ * Homotopy bases, words and fundamental domains
+ */
+
+/** Figures of a homotopy basis. */
+typedef struct ricci_homotopy_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** The base vertex. */
+    size_t base;
+    /** g. */
+    size_t genus;
+    /** b. */
+    size_t n_boundary_loops;
+    /** 2 g + b. */
+    size_t n_generators;
+    /** Letters of the relation, 4 g + b. */
+    size_t n_relator;
+    /** Number of edges of all loops. */
+    size_t n_loop_edges;
+} ricci_homotopy_summary;
+
+/** The lift of an edge path. Zeroed by ricci_init. */
+typedef struct ricci_lift {
+    /** sizeof(ricci_lift). */
+    size_t size;
+    /** n_element letters: the deck transformation of the lift that it starts at. */
+    const int32_t *element;
+    /** Number of letters, 0 for the identity. */
+    size_t n_element;
+    /** n_path edges: 1-based, negative where the path runs against the edge's direction. */
+    const int32_t *path;
+    /** Number of edges. */
+    size_t n_path;
+    /** The vertex where the path starts. */
+    uint32_t vertex;
+    /** 0. */
+    uint32_t reserved;
+} ricci_lift;
+
+/** Figures of a fundamental domain. */
+typedef struct ricci_domain_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Number of sides, and of corners. */
+    size_t n_sides;
+    /** Number of edges of all sides. */
+    size_t n_side_edges;
+    /** Number of letters of all sides' words. */
+    size_t n_side_letters;
+    /** Number of letters of all corners' words. */
+    size_t n_corner_letters;
+    /** A half-edge of a face of the domain that starts at the base lift, as a signed edge number. */
+    int64_t base_edge;
+} ricci_domain_summary;
+
+/**
+ * A canonical homotopy basis of a mesh, with short loops. The surface may have boundary.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex), RICCI_EDGE_LENGTH,
+ * RICCI_CANCELLED.
+ *
+ * @param mesh      the mesh; loops are short in its lengths.
+ * @param base      the base vertex; NULL for one from which the loops are short.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param homotopy  out: the new handle, to be released by ricci_homotopy_free.
+ */
+RICCI_API ricci_status ricci_homotopy_new(const ricci_mesh *mesh, const uint32_t *base,
+                                          const ricci_control *control, ricci_homotopy **homotopy);
+
+/**
+ * Release a homotopy basis.
+ *
+ * @param homotopy  the handle, or NULL.
+ */
+RICCI_API_VOID void ricci_homotopy_free(ricci_homotopy *homotopy);
+
+/**
+ * The figures of a homotopy basis.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param homotopy  the basis.
+ * @param summary   out: the figures.
+ * @param size      sizeof *summary.
+ */
+RICCI_API ricci_status ricci_homotopy_summarise(const ricci_homotopy *homotopy,
+                                                ricci_homotopy_summary *summary, size_t size);
+
+/**
+ * The edges of every generator's loop, in order, from the base to the base.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param homotopy         the basis.
+ * @param edges            out: n_loop_edges edge numbers, 1-based, negative where the loop runs against the
+ *                         edge's direction; loop after loop.
+ * @param edges_capacity   entries of `edges`.
+ * @param starts           out: n_generators + 1 offsets: loop i is edges[starts[i] .. starts[i + 1]).
+ * @param starts_capacity  entries of `starts`.
+ */
+RICCI_API ricci_status ricci_homotopy_loops(const ricci_homotopy *homotopy, int32_t *edges,
+                                            size_t edges_capacity, size_t *starts, size_t starts_capacity);
+
+/**
+ * The intersection numbers of the generators' loops, measured on the mesh: in row i and column j how often
+ * loop j crosses loop i from right to left, minus how often from left to right. a_i and b_i have 1, b_i and
+ * a_i -1, all others 0.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param homotopy  the basis.
+ * @param matrix    out: n_generators x n_generators.
+ * @param capacity  entries of `matrix`.
+ */
+RICCI_API ricci_status ricci_homotopy_intersections(const ricci_homotopy *homotopy, int64_t *matrix,
+                                                    size_t capacity);
+
+/**
+ * The tree path from the base to a vertex, along which lifts are named (ricci_homotopy_lift).
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such vertex).
+ *
+ * @param homotopy  the basis.
+ * @param vertex    where the path ends.
+ * @param edges     out: its edges, 1-based, negative against the edge's direction; NULL with capacity 0 to
+ *                  ask for their number.
+ * @param capacity  entries of `edges`.
+ * @param n_edges   out: number of edges.
+ */
+RICCI_API ricci_status ricci_homotopy_tree_path(const ricci_homotopy *homotopy, uint32_t vertex,
+                                                int32_t *edges, size_t capacity, size_t *n_edges);
+
+/**
+ * The element of an edge path: of the loop along the tree to its start, along the path, and back from its
+ * end; for a loop at the base, of the loop itself. Reduced: empty if and only if the loop can be
+ * contracted.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such edges, or they do
+ * not follow each other).
+ *
+ * @param homotopy   the basis.
+ * @param path       n_path edges: 1-based, negative where the path runs against the edge's direction.
+ * @param n_path     number of edges.
+ * @param letters    out: the word; NULL with capacity 0 to ask for its length.
+ * @param capacity   entries of `letters`.
+ * @param n_letters  out: number of letters.
+ */
+RICCI_API ricci_status ricci_homotopy_path_word(const ricci_homotopy *homotopy, const int32_t *path,
+                                                size_t n_path, int32_t *letters, size_t capacity,
+                                                size_t *n_letters);
+
+/**
+ * A shorter word of the same element, empty if and only if it is the identity. So u and v are one element
+ * if and only if u v^-1 becomes empty.
+ *
+ * On a torus a1^p b1^q, with boundary a freely reduced word without the last c: equal elements, equal
+ * words. On closed surfaces of genus 2 and more (Dehn's algorithm) equal elements may keep different words.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such letter).
+ *
+ * @param homotopy   the basis.
+ * @param word       n_word letters: k for generator k (1-based), -k for its inverse.
+ * @param n_word     number of letters.
+ * @param letters    out: the reduced word; NULL with capacity 0 to ask for its length.
+ * @param capacity   entries of `letters`.
+ * @param n_letters  out: number of letters.
+ */
+RICCI_API ricci_status ricci_homotopy_reduce(const ricci_homotopy *homotopy, const int32_t *word,
+                                             size_t n_word, int32_t *letters, size_t capacity,
+                                             size_t *n_letters);
+
+/**
+ * The homology class of a word: the sum of each generator's exponents; with boundary the last c counts as
+ * minus the sum of the others.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such letter).
+ *
+ * @param homotopy  the basis.
+ * @param word      n_word letters.
+ * @param n_word    number of letters.
+ * @param sums      out: n_generators sums, one less with boundary.
+ * @param capacity  entries of `sums`.
+ */
+RICCI_API ricci_status ricci_homotopy_homology(const ricci_homotopy *homotopy, const int32_t *word,
+                                               size_t n_word, int64_t *sums, size_t capacity);
+
+/**
+ * A word as text, `a1 b1 a1^-1`; the empty word is `1`. A word of one letter gives the generator's name.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such letter).
+ *
+ * @param homotopy  the basis.
+ * @param word      n_word letters; they are reduced freely.
+ * @param n_word    number of letters.
+ * @param text      out: the text, NUL-terminated; NULL with capacity 0 to ask for its length.
+ * @param capacity  bytes of `text`.
+ * @param n_bytes   out: number of bytes with the NUL.
+ */
+RICCI_API ricci_status ricci_homotopy_word_text(const ricci_homotopy *homotopy, const int32_t *word,
+                                                size_t n_word, char *text, size_t capacity, size_t *n_bytes);
+
+/**
+ * The word that a text like `a1 b1 a1^-1` means, freely reduced; `1` stands for the identity.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (what is no letter).
+ *
+ * @param homotopy   the basis.
+ * @param word       the text, NUL-terminated UTF-8.
+ * @param letters    out: the word; NULL with capacity 0 to ask for its length.
+ * @param capacity   entries of `letters`.
+ * @param n_letters  out: number of letters.
+ */
+RICCI_API ricci_status ricci_homotopy_word_parse(const ricci_homotopy *homotopy, const char *word,
+                                                 int32_t *letters, size_t capacity, size_t *n_letters);
+
+/**
+ * The lift of an edge path to the universal cover, vertex by vertex: the start, then the end of each edge.
+ *
+ * The lift (v, w) of vertex v is where the deck transformation w carries the end of the lifted tree path to
+ * v. A loop's lift closes if and only if the loop can be contracted; that of a loop at the base, from
+ * (base, 1), ends at (base, its word). Words are reduced.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such
+ * vertex, letters or edges; the path does not start there).
+ *
+ * @param homotopy         the basis.
+ * @param lift             where it starts, and the path.
+ * @param words            out: the words of the n_path + 1 lifts, one after the other; NULL with capacity 0
+ *                         to ask for `starts`.
+ * @param words_capacity   entries of `words`.
+ * @param starts           out: n_path + 2 offsets: word i is words[starts[i] .. starts[i + 1]).
+ * @param starts_capacity  entries of `starts`.
+ */
+RICCI_API ricci_status ricci_homotopy_lift(const ricci_homotopy *homotopy, const ricci_lift *lift,
+                                           int32_t *words, size_t words_capacity, size_t *starts,
+                                           size_t starts_capacity);
+
+/**
+ * The fundamental domain of a cut, one of those that have a corner at the base lift.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such edge), RICCI_LAYOUT (the cut does not leave
+ * a disk).
+ *
+ * @param homotopy  names lifts and deck transformations.
+ * @param cut       n_cut edges, 0-based, that open the surface into a disk; NULL for those of the basis's
+ *                  own polygon.
+ * @param n_cut     number of edges.
+ * @param domain    out: the new handle, to be released by ricci_domain_free.
+ */
+RICCI_API ricci_status ricci_domain_new(const ricci_homotopy *homotopy, const uint32_t *cut, size_t n_cut,
+                                        ricci_domain **domain);
+
+/**
+ * Release a fundamental domain.
+ *
+ * @param domain  the handle, or NULL.
+ */
+RICCI_API_VOID void ricci_domain_free(ricci_domain *domain);
+
+/**
+ * The figures of a fundamental domain.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param domain   the domain.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+RICCI_API ricci_status ricci_domain_summarise(const ricci_domain *domain, ricci_domain_summary *summary,
+                                              size_t size);
+
+/**
+ * The edges of every side, counterclockwise: the domain lies on their left.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param domain           the domain.
+ * @param edges            out: n_side_edges edge numbers, 1-based, negative against the edge's direction;
+ *                         side after side.
+ * @param edges_capacity   entries of `edges`.
+ * @param starts           out: n_sides + 1 offsets: side i is edges[starts[i] .. starts[i + 1]).
+ * @param starts_capacity  entries of `starts`.
+ */
+RICCI_API ricci_status ricci_domain_sides(const ricci_domain *domain, int32_t *edges, size_t edges_capacity,
+                                          size_t *starts, size_t starts_capacity);
+
+/**
+ * The side with the same edges, run through the other way.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param domain    the domain.
+ * @param partners  out: n_sides side numbers, 0-based; -1 on the boundary of the surface.
+ * @param capacity  entries of `partners`.
+ */
+RICCI_API ricci_status ricci_domain_partners(const ricci_domain *domain, int32_t *partners, size_t capacity);
+
+/**
+ * The deck transformation of every side: it carries the side's partner onto it, and the domain onto its
+ * neighbour there.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param domain           the domain.
+ * @param words            out: n_side_letters letters, word after word; the partner's element is the
+ *                         inverse.
+ * @param words_capacity   entries of `words`.
+ * @param starts           out: n_sides + 1 offsets: the word of side i is words[starts[i] .. starts[i +
+ *                         1]).
+ * @param starts_capacity  entries of `starts`.
+ */
+RICCI_API ricci_status ricci_domain_elements(const ricci_domain *domain, int32_t *words,
+                                             size_t words_capacity, size_t *starts, size_t starts_capacity);
+
+/**
+ * The lifts at which the sides start (ricci_homotopy_lift): vertices and deck transformations.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param domain             the domain.
+ * @param vertices           out: n_sides vertices.
+ * @param vertices_capacity  entries of `vertices`.
+ * @param words              out: n_corner_letters letters, word after word.
+ * @param words_capacity     entries of `words`.
+ * @param starts             out: n_sides + 1 offsets: the word of corner i is words[starts[i] .. starts[i +
+ *                           1]).
+ * @param starts_capacity    entries of `starts`.
+ */
+RICCI_API ricci_status ricci_domain_corners(const ricci_domain *domain, uint32_t *vertices,
+                                            size_t vertices_capacity, int32_t *words, size_t words_capacity,
+                                            size_t *starts, size_t starts_capacity);
+
+/* ---------------------------------------------------------------------------------------------------------
+ * Atlases
+ */
+
+/** Figures of an atlas. */
+typedef struct ricci_atlas_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Number of charts. */
+    size_t n_charts;
+    /** F of what is laid out. */
+    size_t n_faces;
+    /** Number of points in the unit square. */
+    size_t n_points;
+    /** Faces that are clockwise by more than rounding, each a chart of its own. */
+    size_t n_flipped;
+    /**
+     * Faces without area beyond rounding, in the layout or in the unit square; they lie in the charts of
+     * their neighbours, and are left out where it says that none overlap.
+     */
+    size_t n_degenerate;
+    /** Lengths in the unit square over lengths in the layout, the same for all charts. */
+    double scale;
+    /** Share of the unit square that is covered. */
+    double efficiency;
+    /** Total length of the layout's seams, in its units. */
+    double layout_seams;
+    /** Total length of the charts' seams, in units of the layout. */
+    double chart_seams;
+} ricci_atlas_summary;
+
+/**
+ * Cut a layout into charts and pack them into the unit square.
+ *
+ * Every chart is connected, and no two faces overlap (decided exactly, in the layout's coordinates and in
+ * those of the charts), save degenerate ones. Charts are turned and moved, and all scaled by one factor. An
+ * injective layout is one chart. Deterministic.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (margin), RICCI_LAYOUT (no area), RICCI_CANCELLED.
+ *
+ * @param layout   the layout.
+ * @param margin   least distance of two charts, in sides of the unit square, from 0 to below 1; 1/256 is
+ *                 usual.
+ * @param control  progress and cancellation; NULL for neither.
+ * @param atlas    out: the new handle, to be released by ricci_atlas_free.
+ */
+RICCI_API ricci_status ricci_atlas_new(const ricci_layout *layout, double margin,
+                                       const ricci_control *control, ricci_atlas **atlas);
+
+/**
+ * Release an atlas.
+ *
+ * @param atlas  the handle, or NULL.
+ */
+RICCI_API_VOID void ricci_atlas_free(ricci_atlas *atlas);
+
+/**
+ * The figures of an atlas.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param atlas    the atlas.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+RICCI_API ricci_status ricci_atlas_summarise(const ricci_atlas *atlas, ricci_atlas_summary *summary,
+                                             size_t size);
+
+/**
+ * The chart of every face of what is laid out, from 0; charts with more area come first.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param atlas     the atlas.
+ * @param charts    out: n_faces chart numbers.
+ * @param capacity  entries of `charts`.
+ */
+RICCI_API ricci_status ricci_atlas_faces(const ricci_atlas *atlas, uint32_t *charts, size_t capacity);
+
+/**
+ * The points of the charts, in the unit square.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param atlas     the atlas.
+ * @param points    out: n_points x 2, from 0 to 1.
+ * @param capacity  entries of `points`, at least 2 n_points.
+ */
+RICCI_API ricci_status ricci_atlas_points(const ricci_atlas *atlas, double *points, size_t capacity);
+
+/**
+ * The point of every corner of every face of what is laid out: as OBJ's `vt` indices, but 0-based.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param atlas     the atlas.
+ * @param corners   out: n_faces x 3 indices of points.
+ * @param capacity  entries of `corners`, at least 3 n_faces.
+ */
+RICCI_API ricci_status ricci_atlas_corners(const ricci_atlas *atlas, uint32_t *corners, size_t capacity);
+
+/**
+ * How the charts lie to the layout: the motion of chart k carries the layout's points, times `scale` of the
+ * summary, to those of the chart, z -> exp(i rotation) z + translation. From chart j to chart k leads the
+ * inverse of the one and then the other.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param atlas     the atlas.
+ * @param motions   out: n_charts x 3: rotation (radians), translation x, y.
+ * @param capacity  entries of `motions`, at least 3 n_charts.
+ */
+RICCI_API ricci_status ricci_atlas_motions(const ricci_atlas *atlas, double *motions, size_t capacity);
+
+/**
+ * Write what is laid out with its charts as texture coordinates (`f v/vt`), as OBJ with 17 significant
+ * digits.
+ *
+ * A file of that name is replaced only once the new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN,
+ * RICCI_LAYOUT (homogeneous charts of a layout that is not in E2).
+ *
+ * @param atlas        the atlas.
+ * @param homogeneous  1: `vt qx qy q` with the q of ricci_map_weights; 0: `vt x y`.
+ * @param path         file name in UTF-8.
+ */
+RICCI_API ricci_status ricci_atlas_write(const ricci_atlas *atlas, uint32_t homogeneous, const char *path);
+
+/* ---------------------------------------------------------------------------------------------------------
+ * Points in other coordinates. Inline, without a check: rows that are no points of their model give what
+ * the formulas give.
+ */
+
+/**
+ * A point (x, y, w) of the hyperboloid in a RICCI_MODEL_*: two coordinates, three for RICCI_MODEL_AMBIENT.
+ * `to` may be `from`.
+ */
+static inline void ricci_from_hyperboloid(uint32_t model, const double *from, double *to) {
+    const double x = from[0], y = from[1], w = from[2];
+    const double rest = model == RICCI_MODEL_POINCARE ? 1 + w
+                        : model == RICCI_MODEL_KLEIN  ? w
+                        : x > 0                       ? (1 + y * y) / (w + x) /* w - x without cancellation */
+                                                      : w - x;
+    if (model == RICCI_MODEL_AMBIENT) {
+        to[0] = x, to[1] = y, to[2] = w;
+    } else if (model == RICCI_MODEL_HALF_PLANE) {
+        to[0] = -y / rest, to[1] = 1 / rest;
+    } else {
+        to[0] = x / rest, to[1] = y / rest;
+    }
+}
+
+/** The point (x, y, w) of the hyperboloid from its coordinates in a RICCI_MODEL_*. `to` may be `from`. */
+static inline void ricci_to_hyperboloid(uint32_t model, const double *from, double *to) {
+    const double x = from[0], y = from[1], r = hypot(x, y), rest = (1 - r) * (1 + r);
+    if (model == RICCI_MODEL_POINCARE) {
+        to[0] = 2 * x / rest, to[1] = 2 * y / rest, to[2] = (1 + r * r) / rest;
+    } else if (model == RICCI_MODEL_KLEIN) {
+        to[2] = 1 / sqrt(rest), to[0] = x * to[2], to[1] = y * to[2];
+    } else if (model == RICCI_MODEL_HALF_PLANE) {
+        const double sum = (x * x + y * y) / y;
+        to[0] = 0.5 * (sum - 1 / y), to[1] = -x / y, to[2] = 0.5 * (sum + 1 / y);
+    } else {
+        to[0] = x, to[1] = y, to[2] = hypot(r, 1);
+    }
+}
+
+/**
+ * A unit vector (x, y, w) in the plane, seen from the south pole: (x + i y)/(1 + w); infinite for (0, 0,
+ * -1). `to` may be `from`.
+ */
+static inline void ricci_to_plane(const double *from, double *to) {
+    const double x = from[0], y = from[1], w = from[2];
+    const double rest = w >= 0 ? 1 + w : (x * x + y * y) / (1 - w);
+    to[0] = rest > 0 ? x / rest : HUGE_VAL, to[1] = rest > 0 ? y / rest : HUGE_VAL;
+}
+
+/**
+ * The unit vector over a point of the plane, the inverse of ricci_to_plane: 0 goes to (0, 0, 1), infinity
+ * to (0, 0, -1). `to` may be `from`.
+ */
+static inline void ricci_to_sphere(const double *from, double *to) {
+    const double x = from[0], y = from[1], r = hypot(x, y);
+    if (r <= 1) {
+        const double d = 1 + r * r;
+        to[0] = 2 * x / d, to[1] = 2 * y / d, to[2] = (1 - r) * (1 + r) / d;
+    } else if (r == HUGE_VAL) {
+        to[0] = 0, to[1] = 0, to[2] = -1;
+    } else {
+        const double q = 1 / r, d = 1 + q * q;
+        to[0] = 2 * (x / r) * q / d, to[1] = 2 * (y / r) * q / d, to[2] = -(1 - q) * (1 + q) / d;
+    }
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,180 @@
+/* Memory that the system refuses is RICCI_NO_MEMORY, and nothing is changed: every allocation of one job is
+ * made to fail in turn, and all that follow until a large block is given back; then jobs run under limits of
+ * the address space. Usage: test_memory [STRIDE]: every STRIDE-th allocation only. */
+#define _GNU_SOURCE
+#include "torus.h"
+#include <errno.h>
+#include <malloc.h>
+#include <stdatomic.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern void *__libc_malloc(size_t size);
+extern void *__libc_calloc(size_t n, size_t size);
+extern void *__libc_realloc(void *p, size_t size);
+extern void *__libc_memalign(size_t align, size_t size);
+extern void __libc_free(void *p);
+
+/* Blocks of this size and more end a shortage. */
+enum { LARGE = 200000 };
+static atomic_long count, first_refused;
+static atomic_int armed, relieved;
+
+/* Rust's own threads take up to 48 bytes from the system beside every allocator: of these the header warns.
+ */
+enum { THREAD_HANDLE = 48 };
+
+static int refused(size_t size) {
+    if (!armed || size <= THREAD_HANDLE) return 0;
+    return ++count >= first_refused && !relieved;
+}
+
+void *malloc(size_t size) { return refused(size) ? NULL : __libc_malloc(size); }
+void *calloc(size_t n, size_t size) { return refused(n * size) ? NULL : __libc_calloc(n, size); }
+void *realloc(void *p, size_t size) { return refused(size) ? NULL : __libc_realloc(p, size); }
+void *memalign(size_t align, size_t size) { return refused(size) ? NULL : __libc_memalign(align, size); }
+void *aligned_alloc(size_t align, size_t size) { return memalign(align, size); }
+int posix_memalign(void **place, size_t align, size_t size) {
+    void *p = memalign(align, size);
+    if (p) *place = p;
+    return p ? 0 : ENOMEM;
+}
+static void given_back(size_t size) {
+    if (armed && count >= first_refused && size >= LARGE) relieved = 1;
+}
+void free(void *p) {
+    if (p) given_back(malloc_usable_size(p));
+    __libc_free(p);
+}
+void *mmap(void *near, size_t size, int allow, int how, int file, off_t at) {
+    return refused(size) ? MAP_FAILED : (void *)syscall(SYS_mmap, near, size, allow, how, file, at);
+}
+int munmap(void *p, size_t size) {
+    given_back(size);
+    return (int)syscall(SYS_munmap, p, size);
+}
+
+static int refusals;
+
+/* The answer of a call in a shortage; after RICCI_NO_MEMORY memory is there again, and so is what the call
+ * needs. */
+static ricci_status answer(ricci_status status) {
+    CHECK(status == RICCI_OK || status == RICCI_NO_MEMORY);
+    if (status == RICCI_OK) return status;
+    ricci_failure failure;
+    armed = 0;
+    OK(ricci_last_failure(&failure, sizeof failure));
+    CHECK(failure.status == RICCI_NO_MEMORY);
+    refusals++;
+    return status;
+}
+#define MUST(call)                                                                                           \
+    do {                                                                                                     \
+        if (answer(call) != RICCI_OK) OK(call);                                                              \
+    } while (0)
+
+/* From arrays to texture coordinates, each call again if it was refused. */
+static void job(const torus *t, double *uv) {
+    ricci_mesh *mesh = NULL;
+    ricci_metric *metric = NULL, *flat = NULL;
+    ricci_layout *layout = NULL;
+    ricci_map *map = NULL;
+    ricci_flow_options options;
+    ricci_layout_options laid;
+    INIT(options), INIT(laid);
+    options.threads = 1, laid.threads = 1;
+    MUST(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, t->n_faces, &mesh));
+    MUST(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
+    MUST(ricci_flow(metric, NULL, &options, NULL, &flat));
+    MUST(ricci_layout_new(flat, &laid, NULL, &layout));
+    MUST(ricci_map_new(flat, NULL, &map));
+    MUST(ricci_layout_uv(layout, RICCI_ON_INPUT, uv, 6 * t->n_faces));
+    ricci_map_free(map), ricci_layout_free(layout);
+    ricci_metric_free(flat), ricci_metric_free(metric), ricci_mesh_free(mesh);
+}
+
+/* The k-th allocation from now on begins a shortage. */
+static void shortage_from(long k) {
+    first_refused = k;
+    count = 0;
+    relieved = 0;
+    armed = 1;
+}
+
+static void every_allocation_fails_in_turn(long stride) {
+    torus t = torus_new(7, 5);
+    const size_t bytes = 6 * t.n_faces * sizeof(double);
+    double *expected = (double *)room(6 * t.n_faces, sizeof *expected);
+    double *uv = (double *)room(6 * t.n_faces, sizeof *uv);
+    job(&t, expected);
+    shortage_from(1L << 60);
+    job(&t, uv);
+    armed = 0;
+    const long n = count;
+    CHECK(n > 300 && memcmp(uv, expected, bytes) == 0);
+    for (long k = 1; k <= n; k += stride) {
+        memset(uv, 0, bytes);
+        shortage_from(k);
+        job(&t, uv);
+        armed = 0;
+        CHECK(memcmp(uv, expected, bytes) == 0);
+    }
+    printf("%ld allocations were refused in turn; %d calls answered that there is no memory\n",
+           (n + stride - 1) / stride, refusals);
+    CHECK(refusals > 0);
+    free(expected), free(uv);
+    torus_free(&t);
+}
+
+/* No job ends by a signal, however little address space there is for it. */
+static void limits_are_answered(void) {
+    torus t = torus_new(120, 80);
+    double *uv = (double *)room(6 * t.n_faces, sizeof *uv);
+    int answered = 0, done = 0;
+    ricci_mesh *first = torus_mesh(&t); /* threads and code are there */
+    ricci_mesh_free(first);
+    for (size_t megabytes = 8; megabytes <= 512; megabytes += megabytes < 64 ? 4 : 64) {
+        fflush(stdout);
+        const pid_t child = fork();
+        CHECK(child >= 0);
+        if (child == 0) {
+            struct rlimit limit;
+            size_t pages = 0;
+            FILE *file = fopen("/proc/self/statm", "r");
+            CHECK(file && fscanf(file, "%zu", &pages) == 1 && fclose(file) == 0);
+            limit.rlim_cur = limit.rlim_max =
+                (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + (megabytes << 20);
+            CHECK(setrlimit(RLIMIT_AS, &limit) == 0);
+            ricci_mesh *mesh = NULL;
+            ricci_metric *metric = NULL, *flat = NULL;
+            ricci_layout *layout = NULL;
+            ricci_status status =
+                ricci_mesh_from_arrays(t.positions, 0, t.n_vertices, t.faces, t.n_faces, &mesh);
+            if (status == RICCI_OK)
+                status = ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric);
+            if (status == RICCI_OK) status = ricci_flow(metric, NULL, NULL, NULL, &flat);
+            if (status == RICCI_OK) status = ricci_layout_new(flat, NULL, NULL, &layout);
+            if (status == RICCI_OK) status = ricci_layout_uv(layout, RICCI_ON_INPUT, uv, 6 * t.n_faces);
+            _exit(status == RICCI_OK ? 0 : status == RICCI_NO_MEMORY ? 3 : 1);
+        }
+        int ended = 0;
+        CHECK(waitpid(child, &ended, 0) == child);
+        if (!WIFEXITED(ended) || (WEXITSTATUS(ended) != 0 && WEXITSTATUS(ended) != 3))
+            printf("%zu MB: status %d, signal %d\n", megabytes, WEXITSTATUS(ended), WTERMSIG(ended));
+        CHECK(WIFEXITED(ended) && (WEXITSTATUS(ended) == 0 || WEXITSTATUS(ended) == 3));
+        done += WEXITSTATUS(ended) == 0, answered += WEXITSTATUS(ended) == 3;
+    }
+    printf("%d limits were too low and said so, %d were enough\n", answered, done);
+    CHECK(answered > 0 && done > 0);
+    free(uv);
+    torus_free(&t);
+}
+
+int main(int argc, char **argv) {
+    every_allocation_fails_in_turn(argc > 1 ? strtol(argv[1], NULL, 10) : 1);
+    limits_are_answered();
+    return 0;
+}
