@@ -127,7 +127,8 @@ impl<'a> Scene<'a> {
             shapes.push(Shape::Capsule { ends, radius });
             strokes.push(color);
         };
-        border(surface.faces).into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
+        let border = if surface.is_closed { Vec::new() } else { border(surface.faces) };
+        border.into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
         surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.25 * style.line(), seam_color(seam)));
         surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, style.cone(), cone_color(curvature)));
         let mut scene = Scene {
