@@ -44,6 +44,7 @@ pub fn draw(
         corner_uv: parts.as_ref().map(|p| p.corner_uv.as_slice()),
         seams: parts.as_ref().map_or(&[], |p| &p.edges),
         cones: &cones,
+        is_closed: false,
     });
     picture::png(&Picture { surface, flat, field: field.as_ref(), ..Picture::default() }, &style)
 }
@@ -91,7 +92,14 @@ pub fn draw_surface(soup: &Soup, args: &SurfacePictureArgs, threads: usize) -> R
         })
     };
     let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut keep)).collect();
-    let surface = Surface { positions: &seen, faces: &faces, corner_uv: None, seams: &[], cones: &[] };
+    let surface = Surface {
+        positions: &seen,
+        faces: &faces,
+        corner_uv: None,
+        seams: &[],
+        cones: &[],
+        is_closed: false,
+    };
     let field = args.curvature().then(|| quantity::curvature_of_triangles(&seen, &faces));
     let drawn = Picture { surface: Some(surface), field: field.as_ref(), ..Picture::default() };
     picture::png(&drawn, &args.style(threads))

@@ -65,16 +65,16 @@ impl Scale {
     /// For amounts: between the percentiles of the data.
     pub fn of_amounts(title: &str, values: &[f64]) -> Scale {
         let [low, high] = PERCENTILES.map(|p| percentile(values, p).unwrap_or(0.0));
-        let ends = format!("colours end at {}% and {}% of the values", PERCENTILES[0], PERCENTILES[1]);
-        Scale { title: title.into(), ramp: Ramp::Viridis, range: [low, high], ends }
+        let range = [low, high];
+        Scale { title: title.into(), ramp: Ramp::Viridis, range, ends: clipping(values, range) }
     }
 
     /// For what has a sign: as far to both sides of 0 as the upper percentile of its size.
     pub fn of_signed(title: &str, values: &[f64]) -> Scale {
         let sizes: Vec<f64> = values.iter().map(|x| x.abs()).collect();
         let most = percentile(&sizes, PERCENTILES[1]).unwrap_or(0.0);
-        let ends = format!("{}% of the values lie within the colours", PERCENTILES[1]);
-        Scale { title: title.into(), ramp: Ramp::BlueRed, range: [-most, most], ends }
+        let range = [-most, most];
+        Scale { title: title.into(), ramp: Ramp::BlueRed, range, ends: clipping(values, range) }
     }
 
     /// For pairs of classes.
@@ -115,6 +115,19 @@ impl Scale {
         let inside = |x: &f64| (x - low).min(high - x) > 0.13 * width;
         (0..8).map(|k| (first + f64::from(k)) * step).filter(inside).collect()
     }
+}
+
+/// How many values the ends of a range stand for, and how far these reach.
+fn clipping(values: &[f64], [low, high]: [f64; 2]) -> String {
+    let finite = values.iter().copied().filter(|x| x.is_finite());
+    let beyond = finite.clone().filter(|x| *x < low || *x > high).count();
+    if beyond == 0 {
+        return "all values lie within the colours".into();
+    }
+    let percent = 100.0 * beyond as f64 / finite.clone().count() as f64;
+    let [least, most] =
+        [finite.clone().fold(f64::INFINITY, f64::min), finite.fold(f64::NEG_INFINITY, f64::max)].map(number);
+    format!("clipped: {percent:.1}% of the values lie beyond; all reach from {least} to {most}")
 }
 
 /// The value that this percentage of the (finite) values does not exceed; `None` of nothing.
@@ -158,6 +171,10 @@ mod tests {
         let signed: Vec<f64> = values.iter().map(|x| if *x > 50.0 { -x } else { *x }).collect();
         assert_eq!(Scale::of_signed("x", &signed).range, [-98.0, 98.0]);
         assert_eq!(percentile(&[], 50.0), None);
+        // Where colours are clipped the scale says so, and how far the values reach.
+        let ends = |values: &[f64]| Scale::of_amounts("x", values).ends;
+        assert_eq!(ends(&values), "clipped: 3.0% of the values lie beyond; all reach from 1 to 100");
+        assert_eq!(ends(&[3.0, 4.0]), "all values lie within the colours");
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::texture::Texture;
 /// Half the width of a line and the radius of a cone's ball, over the size of a panel, and in pixels at least.
 const LINE: [f64; 2] = [0.0013, 0.7];
 const CONE_RADIUS: [f64; 2] = [0.0062, 2.6];
+
 /// A surface in space.
 #[derive(Clone, Copy)]
 pub struct Surface<'a> {
@@ -18,6 +19,8 @@ pub struct Surface<'a> {
     pub seams: &'a [(u32, u32, usize)],
     /// Cone vertices and their curvature.
     pub cones: &'a [(u32, f64)],
+    /// Known to have no boundary; of others it is looked for and drawn.
+    pub is_closed: bool,
 }
 
 /// A circle in the layout.

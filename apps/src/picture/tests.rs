@@ -23,7 +23,14 @@ fn style() -> Style {
 }
 
 fn surface<'a>(soup: &'a Soup, uv: Option<&'a [[[f64; 2]; 3]]>) -> Surface<'a> {
-    Surface { positions: &soup.positions, faces: &soup.faces, corner_uv: uv, seams: &[], cones: &[] }
+    Surface {
+        positions: &soup.positions,
+        faces: &soup.faces,
+        corner_uv: uv,
+        seams: &[],
+        cones: &[],
+        is_closed: false,
+    }
 }
 
 fn draw(surface: Surface<'_>, style: &Style) -> Image {

@@ -66,7 +66,7 @@ pub struct CanonicalArgs {
 pub struct UniformizeArgs {
     #[command(flatten)]
     pub canonical: CanonicalArgs,
-    /// What the picture shows [default: both; without positions in space, and in .svg, domain]
+    /// What the picture shows [default: both; without positions in space, and in .svg, dirichlet]
     #[arg(long, value_enum, requires = "picture")]
     pub show: Option<ShowChoice>,
     /// Model of the hyperbolic plane in pictures
@@ -105,7 +105,7 @@ pub struct CoverArgs {
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub enum ShowChoice {
-    /// The surface with the loops of the generators beside the Dirichlet domain of the base point
+    /// The surface, cut along the sides of the Dirichlet domain of the base point, beside that
     Both,
     /// The surface alone
     Surface,

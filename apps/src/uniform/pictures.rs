@@ -2,19 +2,18 @@
 
 use super::args::{ShowChoice, Shown, TilesChoice};
 use super::model_place::ModelPlace;
-use super::outline::{Side, loops, loops_on_surface, sides};
+use super::opened::{Opened, pairs};
+use super::outline::{Side, loops, sides};
+use super::pieces::middle;
 use super::quotient::{ORIGIN, Uniformized};
 use super::tiling::{Prototype, Tiling, tint};
 use crate::failure::Failure;
-use crate::laid::Laid;
 use crate::picture::{self, Drawing, Frame, PALE, Pattern, Picture, Style, Surface, Tiles};
-use crate::uv::corners;
 use ricci::embed::layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
 use ricci::geometry::{Motion, Space, Twofold};
 use ricci::topology::word::Word;
-use std::collections::HashSet;
 
 /// Copies in the background of a polygon at most.
 const BACKGROUND: usize = 250;
@@ -35,61 +34,59 @@ pub struct Canvas {
 
 /// The picture as PNG, or the drawing beside the surface alone as SVG.
 pub fn draw(u: &Uniformized, shown: Shown, canvas: &Canvas, svg: bool) -> Result<Vec<u8>, Failure> {
-    let laid = u.laid()?;
-    let (uv, tiles) = pattern(u, laid);
-    let tiles = tiles.banded(canvas.style.bands);
-    let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
+    let (laid, sides) = (u.laid()?, sides(u)?);
+    let along_edges = matches!(shown, Shown::Uniform(ShowChoice::Domain) | Shown::Cover(TilesChoice::Copies));
+    let opened = match u.domain().ok().filter(|_| !along_edges) {
+        Some(domain) => Opened::along_geodesics(laid, domain, canvas.at),
+        None => Opened::along_edges(u, laid, &sides),
+    };
+    let shape = &opened.shape;
     let tiling = match shown {
         Shown::Uniform(ShowChoice::Surface) => None,
-        Shown::Uniform(ShowChoice::Both) => Some(dirichlet(u, canvas).or_else(|_| domain(u, canvas, false))?),
-        Shown::Uniform(ShowChoice::Domain) => Some(domain(u, canvas, true)?),
-        Shown::Uniform(ShowChoice::Polygon) => Some(polygon(u, canvas)?),
-        Shown::Uniform(ShowChoice::Dirichlet) => Some(dirichlet(u, canvas)?),
-        Shown::Cover(TilesChoice::Copies) => Some(copies(u, canvas)?),
-        Shown::Cover(TilesChoice::Tiles) => Some(tiled(u, canvas)?),
+        Shown::Uniform(ShowChoice::Both) => {
+            let geodesic = dirichlet(u, canvas, shape);
+            Some(geodesic.or_else(|_| domain(u, canvas, shape, (sides, false)))?)
+        }
+        Shown::Uniform(ShowChoice::Domain) => Some(domain(u, canvas, shape, (sides, true))?),
+        Shown::Uniform(ShowChoice::Polygon) => Some(polygon(u, canvas, shape)?),
+        Shown::Uniform(ShowChoice::Dirichlet) => Some(dirichlet(u, canvas, shape)?),
+        Shown::Cover(TilesChoice::Copies) => Some(copies(u, canvas, shape)?),
+        Shown::Cover(TilesChoice::Tiles) => Some(tiled(u, canvas, shape)?),
     };
+    let (uv, tiles) = pattern(shape, u.deck.space);
+    let tiles = tiles.banded(canvas.style.bands);
     let pattern = Pattern { uv: &uv, tiles: &tiles };
     let drawing: Option<Drawing<'_>> = tiling.as_ref().map(|t| t.drawing(Some(pattern)));
     if let (Some(drawing), true) = (&drawing, svg) {
         return Ok(picture::drawing_svg(drawing, &canvas.style));
     }
-    let (base, faces) = ([(u.basis.base.0, 1.0)], laid.mesh().triangles());
-    let loops = if with_surface { loops_on_surface(u) } else { Vec::new() };
-    let surface = laid.positions.as_ref().filter(|_| with_surface).map(|positions| Surface {
-        positions,
-        faces: &faces,
+    let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
+    let surface = opened.in_space.as_ref().filter(|_| with_surface).map(|surface| Surface {
+        positions: &surface.points,
+        faces: &surface.triangles,
         corner_uv: Some(&uv),
-        seams: &loops,
-        cones: &base,
+        seams: &surface.cut,
+        cones: &[],
+        is_closed: true,
     });
     let drawn = Picture { surface, drawing: drawing.as_ref(), pattern: Some(&tiles), ..Picture::default() };
     picture::png(&drawn, &canvas.style)
 }
 
-/// The pattern: checks of one size in the metric, as far as octaves reach.
-fn pattern(u: &Uniformized, laid: &Laid) -> (Vec<[[f64; 2]; 3]>, Tiles) {
-    let corners = corners(laid.mesh(), laid.corner_index());
-    let coordinates = laid.coordinates();
-    let uv: Vec<[[f64; 2]; 3]> = corners.iter().map(|f| f.map(|c| coordinates[c as usize])).collect();
+/// The pattern: checks of one size in the plane or the Poincaré disk, with bands in the metric as far as octaves reach.
+fn pattern(shape: &Prototype, space: Space) -> (Vec<[[f64; 2]; 3]>, Tiles) {
+    let at = ModelPlace::new(space, Model::Poincare);
+    let places: Vec<[f64; 2]> = shape.points.iter().map(|p| at.flat(*p)).collect();
+    let uv: Vec<[[f64; 2]; 3]> = shape.triangles.iter().map(|t| t.map(|i| places[i as usize])).collect();
     let flat: Vec<f64> = uv.iter().map(|uv| 0.5 * picture::doubled_area(*uv).abs()).collect();
     let stretch = |uv: &[[f64; 2]; 3]| {
         let [x, y] = [0, 1].map(|k| (uv[0][k] + uv[1][k] + uv[2][k]) / 3.0);
-        let lambda = if u.deck.space == Space::H2 { 2.0 / (1.0 - x * x - y * y) } else { 1.0 };
+        let lambda = if space == Space::H2 { 2.0 / (1.0 - x * x - y * y) } else { 1.0 };
         lambda * lambda
     };
     let metric: Vec<f64> = uv.iter().zip(&flat).map(|(uv, area)| area * stretch(uv)).collect();
-    let tiles = Tiles::new(&metric, &flat, &corners, coordinates.len());
+    let tiles = Tiles::new(&metric, &flat, &shape.triangles, places.len());
     (uv, tiles)
-}
-
-/// The opened surface.
-fn prototype(laid: &Laid, sides: &[Side]) -> Prototype {
-    Prototype {
-        points: laid.layout.points.clone(),
-        triangles: corners(laid.mesh(), laid.corner_index()),
-        border: sides.iter().flat_map(|s| &s.points[..s.points.len().saturating_sub(1)]).copied().collect(),
-        centre: ORIGIN,
-    }
 }
 
 fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
@@ -112,11 +109,14 @@ fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
 }
 
 /// The layout, with its sides in pairs or the loops of the generators.
-fn domain(u: &Uniformized, canvas: &Canvas, named: bool) -> Result<Tiling, Failure> {
-    let sides = sides(u)?;
-    let shape = prototype(u.laid()?, &sides);
+fn domain(
+    u: &Uniformized,
+    canvas: &Canvas,
+    shape: &Prototype,
+    (sides, named): (Vec<Side>, bool),
+) -> Result<Tiling, Failure> {
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
-    tiling.copy(&shape, &Motion::identity(u.deck.space), 0, None);
+    tiling.copy(shape, &Motion::identity(u.deck.space), 0, None);
     for side in sides {
         tiling.line(&side.points, named.then_some(side.pair), if named { BOLD } else { THIN });
         if named {
@@ -130,10 +130,8 @@ fn domain(u: &Uniformized, canvas: &Canvas, named: bool) -> Result<Tiling, Failu
     Ok(tiling)
 }
 
-/// The canonical polygon over copies of the layout, moved to the middle of the picture.
-fn polygon(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
-    let sides = sides(u)?;
-    let shape = prototype(u.laid()?, &sides);
+/// The canonical polygon over copies of the opened surface, moved to the middle of the picture.
+fn polygon(u: &Uniformized, canvas: &Canvas, shape: &Prototype) -> Result<Tiling, Failure> {
     let given = u.deck.canonical_polygon(ORIGIN)?;
     let middle = middle(u.deck.space, &given);
     let home = translation_to(u.deck.space, middle).inverse();
@@ -145,7 +143,7 @@ fn polygon(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
     let nearest = (0..corners.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
     let start: Word = u.deck.group.relator().letters()[..nearest].iter().copied().collect();
     for motion in background(u, &home, &start)? {
-        tiling.copy(&shape, &motion, PALE, Some(THIN));
+        tiling.copy(shape, &motion, PALE, Some(THIN));
     }
     let relator = u.deck.group.relator();
     for (k, letter) in relator.letters().iter().enumerate() {
@@ -154,16 +152,6 @@ fn polygon(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
     }
     tiling.dots.extend(corners.iter().map(|p| canvas.at.flat(*p)));
     Ok(tiling)
-}
-
-/// The point whose ambient coordinates are the mean of some, brought back to the plane or the hyperboloid.
-fn middle(space: Space, points: &[[f64; 3]]) -> [f64; 3] {
-    let [x, y, w] = [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f64>());
-    let square = match space {
-        Space::H2 => (w - x.hypot(y)) * (w + x.hypot(y)),
-        _ => w * w,
-    };
-    [x, y, w].map(|k| k / square.sqrt())
 }
 
 /// The translation that carries the origin to a point.
@@ -202,21 +190,13 @@ fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> ricci::R
     Ok(found)
 }
 
-/// The Dirichlet domain over its neighbours.
-fn dirichlet(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
+/// The Dirichlet domain among its neighbours.
+fn dirichlet(u: &Uniformized, canvas: &Canvas, shape: &Prototype) -> Result<Tiling, Failure> {
     let domain = u.domain()?;
-    let sides = sides(u)?;
-    let shape = prototype(u.laid()?, &sides);
-    let tile = tile(domain, canvas.at);
-    let around: Vec<[f64; 3]> = domain.corners.iter().chain(&shape.border).copied().collect();
-    let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &around), canvas.style.size);
+    let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
+    tiling.copy(shape, &Motion::identity(u.deck.space), 0, None);
     for g in &domain.sides {
-        tiling.copy(&tile, &g.motion, PALE, Some(THIN));
-    }
-    // The first on a place is seen: the layout fills the domain but for its jagged border, its neighbours fill that.
-    tiling.copy(&shape, &Motion::identity(u.deck.space), 0, None);
-    for g in &domain.sides {
-        tiling.copy(&shape, &g.motion, 0, None);
+        tiling.copy(shape, &g.motion, PALE, Some(THIN));
     }
     outline(u, &mut tiling, domain, true);
     tiling.dots.push(canvas.at.flat(domain.centre));
@@ -226,11 +206,7 @@ fn dirichlet(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
 /// The sides of the Dirichlet domain, coloured in pairs.
 fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named: bool) {
     let n = domain.sides.len();
-    let mut pairs: Vec<usize> = (0..n).filter(|&k| domain.partner[k] >= k).collect();
-    pairs.dedup();
-    for k in 0..n {
-        let first = k.min(domain.partner[k]);
-        let color = pairs.iter().position(|&p| p == first).unwrap_or(0);
+    for (k, color) in pairs(domain).into_iter().enumerate() {
         tiling.line(&[domain.corners[k], domain.corners[(k + 1) % n]], Some(color), BOLD);
         if named {
             tiling.name_line(u.deck.group.text(&domain.sides[k].word), domain.centre);
@@ -238,82 +214,23 @@ fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named
     }
 }
 
-/// The Dirichlet domain as what is copied: its sides sampled along geodesics.
-fn tile(domain: &DirichletDomain, at: ModelPlace) -> Prototype {
-    let n = domain.corners.len();
-    let side = |k: usize| {
-        let mut points = at.geodesic(domain.corners[k], domain.corners[(k + 1) % n]);
-        points.pop();
-        points
-    };
-    let border = (0..n).flat_map(side).collect();
-    Prototype { points: Vec::new(), triangles: Vec::new(), border, centre: domain.centre }
-}
-
 /// The copies of the layout.
-fn copies(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
+fn copies(u: &Uniformized, canvas: &Canvas, shape: &Prototype) -> Result<Tiling, Failure> {
     let elements = u.copies()?;
-    let sides = sides(u)?;
-    let shape = prototype(u.laid()?, &sides);
-    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);
+    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, shape), canvas.style.size);
     for g in elements {
-        tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
+        tiling.copy(shape, &g.motion, tint(&u.deck, g), Some(THIN));
     }
-    tiling.dots.push(canvas.at.flat(ORIGIN));
+    tiling.dots.push(canvas.at.flat(shape.centre));
     Ok(tiling)
 }
 
-/// The copies of the Dirichlet domain with the pattern of the layout.
-fn tiled(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
-    let (domain, elements) = (u.domain()?, u.copies()?);
-    let shape = tile(domain, canvas.at);
-    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);
-    let opened = prototype(u.laid()?, &sides(u)?);
-    // A triangle of the opened surface lies in its own tile, or in the one across a side.
-    let owners = owners(&opened, domain, u.deck.space);
-    let wanted: HashSet<&Word> = elements.iter().map(|g| &g.word).collect();
-    let across = |g: &DeckElement, side: &DeckElement| DeckElement {
-        word: u.deck.group.reduce(&g.word.times(&side.word)),
-        motion: g.motion.compose(&side.motion),
-    };
-    let mut drawn = HashSet::new();
-    let around = elements.iter().flat_map(|g| domain.sides.iter().map(move |side| across(g, side)));
-    for g in elements.iter().cloned().chain(around) {
-        if drawn.insert(g.word.clone()) {
-            let mut tints = vec![wanted.contains(&g.word).then(|| tint(&u.deck, &g))];
-            tints.extend(domain.sides.iter().map(|side| {
-                let next = across(&g, side);
-                wanted.contains(&next.word).then(|| tint(&u.deck, &next))
-            }));
-            tiling.cells_of(&opened, &g.motion, |f| tints[owners[f]]);
-        }
-    }
-    // What is drawn first is seen: these are under the pattern, and alone where that is too fine.
-    for g in elements {
-        tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
-    }
+/// The copies of the Dirichlet domain.
+fn tiled(u: &Uniformized, canvas: &Canvas, shape: &Prototype) -> Result<Tiling, Failure> {
+    let domain = u.domain()?;
+    let mut tiling = copies(u, canvas, shape)?;
     outline(u, &mut tiling, domain, false);
-    tiling.dots.push(canvas.at.flat(domain.centre));
     Ok(tiling)
-}
-
-/// For each triangle 0 if it lies in the Dirichlet domain, and otherwise one more than the side that it lies across.
-fn owners(shape: &Prototype, domain: &DirichletDomain, space: Space) -> Vec<usize> {
-    let centre = domain.centre;
-    let images: Vec<[f64; 3]> =
-        domain.sides.iter().map(|g| g.motion.apply(centre.map(Twofold::from)).map(f64::from)).collect();
-    // What grows with the distance of two points.
-    let far = |p: [f64; 3], q: [f64; 3]| match space {
-        Space::H2 => p[2] * q[2] - p[0] * q[0] - p[1] * q[1],
-        _ => (p[0] - q[0]).hypot(p[1] - q[1]),
-    };
-    let owner = |corners: &[u32; 3]| {
-        let middle = middle(space, &corners.map(|c| shape.points[c as usize]));
-        let candidates = std::iter::once(&centre).chain(&images);
-        let distances = candidates.map(|c| far(middle, *c)).enumerate();
-        distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k)
-    };
-    shape.triangles.iter().map(owner).collect()
 }
 
 /// What is shown of all copies: in the plane all of it.
