@@ -8,15 +8,17 @@ use super::light::Lights;
 use super::normals::corner_normals;
 use super::occlusion::{Caster, Field, Ground, Open, Point, over};
 use super::raster::{Hit, Image, Painter, Shape, render};
-use super::vector::{V3, add, at, dot, normal, scaled, unit};
+use super::vector::{V3, add, at, bounding_ball, dot, normal, scaled, unit};
 use super::{Style, Surface, View};
 
 /// The ground is shown from this elevation on (sine).
 const LOWEST: f64 = 0.1;
 /// How much of the way to the end of the shadow the picture reaches.
 const SHADOW: f64 = 0.5;
+/// Room for the shade beside and below a surface that stands on the ground, over its radius.
+const ROOM: f64 = 0.12;
 /// Over this share of the picture's size the ground fades into the white around the panel.
-const FADE: f64 = 0.1;
+const FADE: f64 = 0.16;
 /// The direction that counts as up for the light on a part of a surface: up on the screen and towards the viewer.
 const FOCUS_UP: V3 = [0.0, -0.8, 0.6];
 /// The inside of a surface has this tint.
@@ -81,12 +83,13 @@ impl Stage {
         let key = [lights.key[0], -lights.key[1], lights.key[2]];
         let shadow = |p: &V3| {
             let fall = (height(p) - lowest) / dot(camera.up, key);
-            let [x, y, _] = add(*p, scaled(key, -SHADOW * fall));
-            [x, y]
+            add(*p, scaled(key, -SHADOW * fall))
         };
         let shadows = seen.iter().filter(|_| has_ground).map(shadow);
+        let room = if has_ground { ROOM * bounding_ball(&seen).1 } else { 0.0 };
+        let with_room = |[x, y, _]: V3| [[x - room, y - room], [x + room, y]];
         let fit = match &style.focus {
-            None => Fit::new(seen.iter().map(|p| [p[0], p[1]]).chain(shadows), style.size),
+            None => Fit::new(seen.iter().copied().chain(shadows).flat_map(with_room), style.size),
             Some(focus) => {
                 let [x, y, _] = camera.apply(scaled(focus.at, factor));
                 Fit::around([x, y], focus.radius * factor, style.size)
@@ -129,7 +132,7 @@ impl<'a> Scene<'a> {
         };
         let border = if surface.is_closed { Vec::new() } else { border(surface.faces) };
         border.into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
-        surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.25 * style.line(), seam_color(seam)));
+        surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.5 * style.line(), seam_color(seam)));
         surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, style.cone(), cone_color(curvature)));
         let mut scene = Scene {
             size: [fit.width, fit.height],
@@ -167,9 +170,11 @@ impl<'a> Scene<'a> {
 
     /// The ground ends in white before the panel does: 1 inside, 0 at the edge.
     fn fade(&self, pixel: [f64; 2]) -> f64 {
-        let rest = |k: usize| pixel[k].min(self.size[k] as f64 - pixel[k]);
-        let t = (rest(0).min(rest(1)) / self.margin).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
+        let along = |k: usize| {
+            let t = (pixel[k].min(self.size[k] as f64 - pixel[k]) / self.margin).clamp(0.0, 1.0);
+            t * t * (3.0 - 2.0 * t)
+        };
+        along(0) * along(1)
     }
 
     /// The light at a point near one that a pixel shows.

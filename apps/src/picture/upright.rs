@@ -2,7 +2,7 @@
 //!
 //! Files do not say it. y is up in most of them; exceptions are told by their shape.
 
-use super::vector::{V3, add, dot, norm, normal, sphere_point, unit};
+use super::vector::{V3, add, complement, dot, norm, normal, sphere_point, unit};
 
 /// Which way is up, and whether the surface lies flat on the ground, to be seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +24,8 @@ const REGULAR: f64 = 0.75;
 const BOXES: usize = 10;
 /// A flat side with this share of the area that the surface can stand on is what it stands on.
 const BASE: f64 = 0.065;
+/// Difference of the shares of two flat sides that counts for nothing.
+const ALIKE: f64 = 1e-3;
 /// Directions in which flat sides are looked for, and how many of those with the most area are looked at.
 const DIRECTIONS: usize = 128;
 const LOOKED_AT: usize = 6;
@@ -43,22 +45,45 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
         axis[k] = sign;
         axis
     };
-    let thin = |k: usize| figure.extent[k] / figure.extent[(k + 1) % 3].min(figure.extent[(k + 2) % 3]);
+    // Height over the lesser of width and length.
+    let thin = |up: V3| {
+        let [high, wide, long] = [up, complement(up)[0], complement(up)[1]].map(|axis| extent(points, axis));
+        high / wide.min(long)
+    };
     let outward =
         (0..3).fold(0, |l, k| if figure.outside[k].abs() > figure.outside[l].abs() { k } else { l });
     if norm(figure.outside) > SHEET {
-        if thin(outward) < FLAT_SHEET {
-            return Stance { up: axis(outward, figure.outside[outward].signum()), lies: true };
-        }
-        return Stance { up: if outward == 1 { Z } else { Y }, lies: false };
+        let up = axis(outward, figure.outside[outward].signum());
+        let lies = thin(up) < FLAT_SHEET;
+        return Stance {
+            up: if lies {
+                up
+            } else if outward == 1 {
+                Z
+            } else {
+                Y
+            },
+            lies,
+        };
+    }
+    // What a sculptor has given a foot stands on it, however thin it is.
+    if let Some(up) = base(points, faces) {
+        return Stance { up, lies: thin(up) < FLAT_BODY };
     }
     let symmetry = [0, 1, 2].map(|k| figure.symmetry(k));
     let regular = symmetry.iter().all(|s| *s > REGULAR);
-    let flat = |k: &usize| thin(*k) < FLAT_BODY && symmetry[*k] > SYMMETRIC && (regular || figure.handles);
-    if let Some(k) = [2, 1, 0].into_iter().find(flat) {
-        return Stance { up: axis(k, 1.0), lies: true };
-    }
-    Stance { up: base(points, faces).unwrap_or(Y), lies: false }
+    let flat = |k: &usize| {
+        thin(axis(*k, 1.0)) < FLAT_BODY && symmetry[*k] > SYMMETRIC && (regular || figure.handles)
+    };
+    let lying = [2, 1, 0].into_iter().find(flat);
+    Stance { up: lying.map_or(Y, |k| axis(k, 1.0)), lies: lying.is_some() }
+}
+
+/// How far points reach along a direction, next to nothing at least.
+fn extent(points: &[V3], axis: V3) -> f64 {
+    let heights = points.iter().map(|p| dot(axis, *p));
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    (high - low).max(f64::MIN_POSITIVE)
 }
 
 /// The direction away from the flat side that a surface stands on, if it has one.
@@ -73,18 +98,20 @@ fn base(points: &[V3], faces: &[[u32; 3]]) -> Option<V3> {
     let total: f64 = sums.iter().map(|s| s.1).sum();
     sums.sort_by(|a, b| b.1.total_cmp(&a.1));
     let share = |down: V3| {
-        let heights = points.iter().map(|p| dot(down, *p));
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        let high = points.iter().map(|p| dot(down, *p)).fold(f64::NEG_INFINITY, f64::max);
+        let depth = DEPTH * extent(points, down);
         let area = |f: &[u32; 3]| {
             let (n, p) = (normal(corners(f)), corners(f));
             let middle = (0..3).map(|k| dot(down, p[k])).sum::<f64>() / 3.0;
-            let level = dot(down, n) > LEVEL * norm(n) && middle > high - DEPTH * (high - low);
+            let level = dot(down, n) > LEVEL * norm(n) && middle > high - depth;
             if level { norm(n) } else { 0.0 }
         };
         faces.iter().map(area).sum::<f64>() / total
     };
     let sides = sums.iter().take(LOOKED_AT).filter_map(|s| unit(s.0)).map(|down| (share(down), down));
-    let (share, down) = sides.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    // Of two that are as large the lower one in the file.
+    let taste = |(share, [x, y, z]): &(f64, V3)| share - ALIKE * (x + y + z);
+    let (share, down) = sides.max_by(|a, b| taste(a).total_cmp(&taste(b)))?;
     let axis = (0..3).find(|k| down[*k].abs() > AXIS);
     let snapped = axis.map(|k| [0, 1, 2].map(|j| if j == k { -down[k].signum() } else { 0.0 }));
     (share > BASE).then(|| snapped.unwrap_or(down.map(|x| -x)))
@@ -92,7 +119,6 @@ fn base(points: &[V3], faces: &[[u32; 3]]) -> Option<V3> {
 
 /// What the rules look at; a surface of no extent has none of it.
 struct Figure {
-    extent: V3,
     /// Sum of the faces' area vectors over the area.
     outside: V3,
     /// Area per box of the bounding box.
@@ -110,14 +136,14 @@ impl Figure {
                 high[k] = high[k].max(p[k]);
             }
         }
-        let extent = [0, 1, 2].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
+        let size = [0, 1, 2].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
         let mut boxes = vec![0.0; BOXES * BOXES * BOXES];
         let (mut outside, mut total) = ([0.0; 3], 0.0);
         for face in faces {
             let p = face.map(|v| points[v as usize]);
             let n = normal(p);
             let area = norm(n);
-            let place = [0, 1, 2].map(|k| ((p[0][k] + p[1][k] + p[2][k]) / 3.0 - low[k]) / extent[k]);
+            let place = [0, 1, 2].map(|k| ((p[0][k] + p[1][k] + p[2][k]) / 3.0 - low[k]) / size[k]);
             let cell = place.map(|x| ((x * BOXES as f64) as usize).min(BOXES - 1));
             boxes[(cell[0] * BOXES + cell[1]) * BOXES + cell[2]] += area;
             total += area;
@@ -131,7 +157,7 @@ impl Figure {
         edges.dedup();
         let euler = points.len() as i64 - edges.len() as i64 + faces.len() as i64;
         let outside = outside.map(|x| x / f64::max(total, f64::MIN_POSITIVE));
-        Figure { extent, outside, boxes, handles: euler <= 0 }
+        Figure { outside, boxes, handles: euler <= 0 }
     }
 
     /// How much of the area lies as its mirror image along axis `k` does, in [0, 1].

@@ -31,18 +31,19 @@ pub fn draw(input: &Input, s: &Round, style: &Style, beside: bool) -> Result<Vec
     // On either hemisphere the pattern's scale is between 1/2 and 1 of the sphere's.
     let flat: Vec<f64> = uv.iter().map(|uv| 0.5 * picture::doubled_area(*uv).abs()).collect();
     let tiles = Tiles::new(&scale, &flat, &round.triangles, round.points.len()).banded(style.bands);
-    let corner_uv = Some(&uv[..]);
-    fn surface<'a>(w: &'a Welded, corner_uv: Option<&'a [[[f64; 2]; 3]]>) -> Surface<'a> {
-        let Welded { points: positions, triangles: faces, cut: seams } = w;
-        Surface { positions, faces, corner_uv, seams, cones: &[], is_closed: true }
-    }
+    let surface = |w| on_pieces(w, &uv);
     let drawn = Picture {
-        surface: in_space.as_ref().map(|w| surface(w, corner_uv)),
-        beside: beside.then(|| surface(&round, corner_uv)),
+        surface: in_space.as_ref().map(surface),
+        beside: beside.then(|| surface(&round)),
         pattern: Some(&tiles),
         ..Picture::default()
     };
     picture::png(&drawn, style)
+}
+
+fn on_pieces<'a>(pieces: &'a Welded, uv: &'a [[[f64; 2]; 3]]) -> Surface<'a> {
+    let Welded { points: positions, triangles: faces, cut: seams } = pieces;
+    Surface { positions, faces, corner_uv: Some(uv), seams, cones: &[], is_closed: true }
 }
 
 /// Stereographic coordinates from the farther pole of a triangle on one hemisphere.
