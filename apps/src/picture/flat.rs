@@ -26,6 +26,8 @@ const SHADE: f64 = 0.17;
 const PALE: f64 = 0.75;
 /// Degrees of opacity of the wire.
 const WIRE_CLASSES: usize = 5;
+/// Opacity in SVG over that in linear light: it mixes colours as they are written, in which thin lines are darker.
+const WIRE: f64 = 0.65;
 /// Pixels beyond the panel up to which lines are drawn.
 const BEYOND: f64 = 20.0;
 
@@ -117,19 +119,15 @@ impl Layout<'_> {
         for (uv, values) in self.flat.corner_uv.iter().zip(&field.corners) {
             let t = values.map(|v| field.scale.place(v) * (COLORS - 1) as f64 + 0.5);
             let triangle = self.pixels(uv);
-            if t.iter().any(|t| t.is_nan()) {
-                paths[COLORS].polygon(&triangle);
-                continue;
-            }
-            let [low, high] =
-                [t.iter().fold(f64::INFINITY, |a, b| a.min(*b)), t.iter().fold(0.0, |a: f64, b| a.max(*b))];
-            if low as usize == high as usize {
-                paths[low as usize].polygon(&triangle);
-                continue;
-            }
             let corners = [0, 1, 2].map(|k| [triangle[k][0], triangle[k][1], t[k]]);
-            for color in low as usize..=high as usize {
-                let part = strip(&corners, 2, [color as f64, (color + 1) as f64]);
+            let shown = in_box(&corners, self.panel);
+            if shown.is_empty() || t.iter().any(|t| t.is_nan()) {
+                paths[COLORS].polygon(if shown.is_empty() { &[] } else { &triangle });
+                continue;
+            }
+            let [low, high] = [f64::min, f64::max].map(|f| f(f(t[0], t[1]), t[2]) as usize);
+            for color in low..=high {
+                let part = strip(&shown, 2, [color as f64, (color + 1) as f64]);
                 paths[color].polygon(&part.iter().map(|p| [p[0], p[1]]).collect::<Vec<_>>());
             }
         }
@@ -155,13 +153,10 @@ impl Layout<'_> {
         for (class, segments) in classes.into_iter().enumerate().skip(1) {
             let shown = once(segments.into_iter()).filter_map(|s| segment_in_box(s, self.panel));
             let path = lines(&chains(shown.map(|[a, b]| (a, b))));
-            let opacity = class as f64 / WIRE_CLASSES as f64;
-            let ink = to_hex(INK);
-            let width = decimal(2.0 * half_width);
-            sheet.add(
-                &format!(r#"stroke="{ink}" stroke-width="{width}" stroke-opacity="{opacity:.2}""#),
-                &path,
-            );
+            let (ink, width) = (to_hex(INK), decimal(2.0 * half_width));
+            let opacity = WIRE * class as f64 / WIRE_CLASSES as f64;
+            let pen = format!(r#"stroke="{ink}" stroke-width="{width}" stroke-opacity="{opacity:.2}""#);
+            sheet.add(&pen, &path);
         }
     }
 

@@ -36,26 +36,15 @@ pub fn strip<const N: usize>(polygon: &[[f64; N]], axis: usize, [low, high]: [f6
     clip(&clip(polygon, |p| p[axis] - low), |p| high - p[axis])
 }
 
-/// The part of a polygon in a box.
-pub fn in_box(polygon: &[[f64; 2]], [low, high]: [[f64; 2]; 2]) -> Chain {
+/// The part of a polygon in a box of the plane of the first two coordinates.
+pub fn in_box<const N: usize>(polygon: &[[f64; N]], [low, high]: [[f64; 2]; 2]) -> Vec<[f64; N]> {
     strip(&strip(polygon, 0, [low[0], high[0]]), 1, [low[1], high[1]])
 }
 
-/// The part of a segment in a box.
-pub fn segment_in_box([p, q]: [[f64; 2]; 2], [low, high]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for k in 0..2 {
-        let step = q[k] - p[k];
-        let (a, b) = ((low[k] - p[k]) / step, (high[k] - p[k]) / step);
-        if step != 0.0 {
-            (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
-        } else if p[k] < low[k] || p[k] > high[k] {
-            return None;
-        }
-    }
-    let at = |t: f64| [0, 1].map(|k| p[k] + t * (q[k] - p[k]));
-    // Ends inside stay as they are, so that neighbours still meet there.
-    (from <= to).then(|| [if from > 0.0 { at(from) } else { p }, if to < 1.0 { at(to) } else { q }])
+/// The part of a segment in a box; ends inside stay as they are, so that neighbours still meet there.
+pub fn segment_in_box(ends: [[f64; 2]; 2], bounds: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+    // As a polygon it runs there and back.
+    in_box(&ends, bounds).first_chunk().copied()
 }
 
 pub fn is_finite(points: &[[f64; 2]]) -> bool {
