@@ -6,7 +6,7 @@ use super::color::{INK, Rgb, cone_color, mix, seam_color};
 use super::fit::Fit;
 use super::light::Lights;
 use super::normals::corner_normals;
-use super::occlusion::{Caster, Field, Ground, Open, Point, over};
+use super::occlusion::{Caster, Field, Ground, Open, Point, border, over};
 use super::raster::{Hit, Image, Painter, Shape, render};
 use super::vector::{V3, add, at, bounding_ball, dot, normal, scaled, unit};
 use super::{Style, Surface, View};
@@ -200,13 +200,4 @@ impl Painter for Scene<'_> {
         // Tubes and balls are marks on the surface: lit, but not shaded by it.
         self.lights.on(self.strokes[hit.shape - self.n_faces], hit.local, Open::FULLY)
     }
-}
-
-/// The edges of exactly one face.
-pub fn border(faces: &[[u32; 3]]) -> Vec<(u32, u32)> {
-    let sides = faces.iter().flat_map(|f| [0, 1, 2].map(|k| (f[k], f[(k + 1) % 3])));
-    let mut edges: Vec<(u32, u32)> = sides.map(|(a, b)| (a.min(b), a.max(b))).collect();
-    edges.sort_unstable();
-    let alone = |run: &[(u32, u32)]| (run.len() == 1).then(|| run[0]);
-    edges.chunk_by(|a, b| a == b).filter_map(alone).collect()
 }
