@@ -36,7 +36,7 @@ pub struct PictureArgs {
     #[arg(long, requires = "picture")]
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub bands: bool,
-    /// At most 192 colours, for a small file
+    /// At most 256 colours, for a small file
     #[arg(long, requires = "picture")]
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub palette: bool,

@@ -31,7 +31,7 @@ pub fn mix(a: Rgb, b: Rgb, t: f64) -> Rgb {
 
 /// Colours of the seams, in turn; none is near those of the pattern.
 pub fn seam_color(seam: usize) -> Rgb {
-    const COLORS: [u32; 8] = [0xd6262b, 0x2f9e3c, 0xe8820c, 0x8e44ad, 0x139a9b, 0xc93a8a, 0x8a6d1f, 0xe6b800];
+    const COLORS: [u32; 8] = [0xd6262b, 0x2f9e3c, 0xe8820c, 0x8e44ad, 0x18b89e, 0xc93a8a, 0x8a6d1f, 0xe6b800];
     from_hex(COLORS[seam % COLORS.len()])
 }
 

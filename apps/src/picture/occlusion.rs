@@ -4,8 +4,8 @@
 //! Each pixel asks a few lights, sixteen different sets of them in every square of 4 × 4 pixels; the mean over such a
 //! square of neighbours on the same piece of surface then counts all sets once (interleaved sampling, \[KH01\]).
 
-use super::raster::{Hit, Samples, Shape, bands, in_parallel};
-use super::vector::{V3, add, at, bounding_ball, complement, dot, scaled, sphere_point, sub};
+use super::raster::{Hit, Samples, Shape, bands, doubled_area, in_parallel};
+use super::vector::{V3, add, at, bounding_ball, complement, dot, norm, normal, scaled, sphere_point, sub};
 
 /// Lights of the sky and of the key light that one pixel asks: 64 and 16 in all, of which single ones cannot be told apart on a
 /// surface once the mean is taken.
@@ -21,6 +21,8 @@ const SKY_MAP: usize = 224;
 const KEY_MAP: usize = 448;
 /// A point is lifted off the surface by this many pixels of a map, so that the map's steps do not hide it from itself.
 const LIFT: f64 = 1.6;
+/// Area vectors of a closed surface, all faces the same way round, add up to less than this share of its area.
+const CLOSED: f64 = 1e-6;
 /// Squares of pixels to each side over which light on the ground is averaged, where nothing hides the steps of the maps.
 const SOFT: usize = 3;
 /// Rows of one band of work.
@@ -96,10 +98,9 @@ struct DepthMap {
 }
 
 impl DepthMap {
-    /// `points`: within `radius` of `centre`.
+    /// `points`: within `radius` of `centre`; `inside`: of [`enclosed`].
     fn new(
-        points: &[V3],
-        faces: &[[u32; 3]],
+        (points, faces, inside): (&[V3], &[[u32; 3]], f64),
         towards: V3,
         (centre, radius): (V3, f64),
         size: usize,
@@ -109,7 +110,12 @@ impl DepthMap {
         let map = DepthMap { axes: [a, b, towards], centre, scale, size, depth: Vec::new() };
         let seen: Vec<V3> = points.iter().map(|p| map.place(*p)).collect();
         let mut samples = Samples::new(&[], &[], [size, 0, size], 1);
-        faces.iter().for_each(|f| samples.triangle(f.map(|v| seen[v as usize]), 0));
+        for corners in faces.iter().map(|f| f.map(|v| seen[v as usize])) {
+            // The far side of a solid is hidden by its near side.
+            if doubled_area(corners.map(|p| [p[0], p[1]])) * inside >= 0.0 {
+                samples.triangle(corners, 0);
+            }
+        }
         DepthMap { depth: samples.depth, ..map }
     }
 
@@ -138,7 +144,7 @@ pub struct Caster {
 impl Caster {
     /// `key`: unit vector towards the key light.
     pub fn new(points: &[V3], faces: &[[u32; 3]], key: V3, threads: usize) -> Caster {
-        let ball = bounding_ball(points);
+        let (ball, surface) = (bounding_ball(points), (points, faces, enclosed(points, faces)));
         let [a, b] = complement(key);
         let around_key = |i: usize| {
             let [p, q] = disk_point(i).map(|x| x * KEY_RADIUS);
@@ -149,7 +155,7 @@ impl Caster {
         let lights = lights.chain((0..KEY_LIGHTS * SETS).map(|i| (around_key(i), KEY_MAP)));
         let mut maps: Vec<_> = lights.map(|light| (light, None)).collect();
         in_parallel(maps.iter_mut().collect(), threads, |_, ((towards, size), map)| {
-            *map = Some(DepthMap::new(points, faces, *towards, ball, *size));
+            *map = Some(DepthMap::new(surface, *towards, ball, *size));
         });
         let mut maps = maps.into_iter().filter_map(|(_, map)| map);
         let sky = maps.by_ref().take(SKY_LIGHTS * SETS).collect();
@@ -188,6 +194,25 @@ impl Caster {
     pub fn open(&self, point: &Point) -> Open {
         self.light(point, self.sky.iter(), self.key.iter()).open()
     }
+}
+
+/// What a closed surface encloses, six times its volume, negative where its faces are clockwise from outside; 0 of others.
+fn enclosed(points: &[V3], faces: &[[u32; 3]]) -> f64 {
+    let (mut sum, mut size, mut volume) = ([0.0; 3], 0.0, 0.0);
+    for corners in faces.iter().map(|f| f.map(|v| points[v as usize])) {
+        let n = normal(corners);
+        (sum, size, volume) = (add(sum, n), size + norm(n), volume + dot(corners[0], n));
+    }
+    if border(faces).is_empty() && norm(sum) <= CLOSED * size { volume } else { 0.0 }
+}
+
+/// The edges of exactly one face.
+pub fn border(faces: &[[u32; 3]]) -> Vec<(u32, u32)> {
+    let sides = faces.iter().flat_map(|f| [0, 1, 2].map(|k| (f[k], f[(k + 1) % 3])));
+    let mut edges: Vec<(u32, u32)> = sides.map(|(a, b)| (a.min(b), a.max(b))).collect();
+    edges.sort_unstable();
+    let alone = |run: &[(u32, u32)]| (run.len() == 1).then(|| run[0]);
+    edges.chunk_by(|a, b| a == b).filter_map(alone).collect()
 }
 
 /// Points spread evenly over the unit disk: any run of consecutive ones is. The sequence of \[Rob18\] in the square,
@@ -245,45 +270,37 @@ impl Field {
             }
         });
         let mut field = Field { width, height, points, light: raw };
-        let mut smooth = field.light.clone();
-        in_parallel(smooth.chunks_mut(rows).collect(), threads, |band, out| {
-            for (i, out) in out.iter_mut().enumerate() {
-                let pixel = band * BAND * width + i;
-                if let Some(point) = &field.points[pixel] {
-                    *out = field.mean(point, [pixel % width, pixel / width]);
-                }
-            }
-        });
-        field.light = smooth;
-        field.soften_ground(threads, rows);
+        let near = |c: usize| (c.saturating_sub(TILE / 2)..c + TILE / 2).collect();
+        field.average(threads, |_| true, near);
+        // On the ground the shadows of single lights would be told apart: there the mean is taken over more pixels.
+        let far = |c: usize| (0..=2 * SOFT).map(|k| (c + TILE * k).saturating_sub(TILE * SOFT)).collect();
+        field.average(threads, |point| point.on_ground, far);
         field
     }
 
-    /// On the ground the shadows of single lights would be told apart: there the mean is taken over more pixels.
-    fn soften_ground(&mut self, threads: usize, rows: usize) {
-        let (mut soft, field) = (self.light.clone(), &*self);
-        in_parallel(soft.chunks_mut(rows).collect(), threads, |band, out| {
-            for (i, out) in out.iter_mut().enumerate() {
-                let pixel = band * rows + i;
-                if let Some(point) = field.points[pixel].as_ref().filter(|point| point.on_ground) {
-                    let [x, y] = [pixel % field.width, pixel / field.width];
-                    let around = |c: usize, n: usize| {
-                        (0..2 * SOFT + 1).map(move |k| (c + TILE * k).saturating_sub(TILE * SOFT).min(n - 1))
-                    };
-                    let near = around(y, field.height)
-                        .flat_map(|j| around(x, field.width).map(move |i| (j * field.width + i, 1.0)));
-                    *out = field.sum(near, point).0;
+    /// Give the points that are chosen the mean over pixels around theirs that show the same piece of surface: those of the rows and of the
+    /// columns that are named for the pixel's own.
+    fn average(
+        &mut self,
+        threads: usize,
+        chosen: impl Fn(&Point) -> bool + Sync,
+        around: impl Fn(usize) -> Vec<usize>,
+    ) {
+        let (mut means, field) = (self.light.clone(), &*self);
+        let table = |n: usize| -> Vec<Vec<usize>> {
+            let within = |c| around(c).into_iter().map(|i| i.min(n - 1)).collect();
+            (0..n).map(within).collect()
+        };
+        let (columns, rows) = (table(field.width), table(field.height));
+        in_parallel(means.chunks_mut(field.width.max(1)).collect(), threads, |y, out| {
+            for (x, out) in out.iter_mut().enumerate() {
+                if let Some(point) = field.points[y * field.width + x].as_ref().filter(|p| chosen(p)) {
+                    let near = rows[y].iter().flat_map(|j| columns[x].iter().map(move |i| (j, i)));
+                    *out = field.sum(near.map(|(j, i)| (j * field.width + i, 1.0)), point).0;
                 }
             }
         });
-        self.light = soft;
-    }
-
-    /// The sum over the pixels around one that show the same piece of surface.
-    fn mean(&self, point: &Point, [x, y]: [usize; 2]) -> Light {
-        let around = |c: usize, n: usize| c.saturating_sub(TILE / 2)..(c + TILE / 2).min(n);
-        let near = around(y, self.height).flat_map(|j| around(x, self.width).map(move |i| (i, j)));
-        self.sum(near.map(|(i, j)| (j * self.width + i, 1.0)), point).0
+        self.light = means;
     }
 
     /// The light at a point that is seen at the pixel coordinates (x, y); `None` if no pixel near it shows its surface.

@@ -1,11 +1,11 @@
-//! An image in at most 192 colours, by median cut \[Hec82\].
+//! An image in at most 256 colours, by median cut \[Hec82\].
 
 use std::collections::HashMap;
 
-/// Colours of an indexed PNG: few enough for a small file, enough for soft shadows.
-const MOST: usize = 192;
+/// Colours of an indexed PNG, whose pixels are bytes.
+const MOST: usize = 256;
 /// Greys from this one on, in which shadows on paper end.
-const LIGHT_GREY: u8 = 176;
+const LIGHT_GREY: u8 = 200;
 
 /// A palette (three bytes a colour) and for each pixel the number of its colour.
 pub fn reduce(rgb: &[u8]) -> (Vec<u8>, Vec<u8>) {

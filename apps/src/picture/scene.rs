@@ -66,7 +66,7 @@ pub struct Style {
     pub wire: bool,
     /// Stand the surface on a ground that takes its shadow.
     pub ground: bool,
-    /// Write at most 192 colours, for a small file.
+    /// Write at most 256 colours, for a small file.
     pub palette: bool,
     /// Leave shadows out.
     pub draft: bool,

@@ -6,9 +6,9 @@ use super::color::{INK, Rgb, cone_color, mix, seam_color};
 use super::fit::Fit;
 use super::light::Lights;
 use super::normals::corner_normals;
-use super::occlusion::{Caster, Field, Ground, Open, Point, over};
+use super::occlusion::{Caster, Field, Ground, Open, Point, border, over};
 use super::raster::{Hit, Image, Painter, Shape, render};
-use super::vector::{V3, add, at, bounding_ball, dot, normal, scaled, unit};
+use super::vector::{V3, add, at, bounding_ball, dot, norm, normal, scaled, sub, unit};
 use super::{Style, Surface, View};
 
 /// The ground is shown from this elevation on (sine).
@@ -19,6 +19,8 @@ const SHADOW: f64 = 0.5;
 const ROOM: f64 = 0.12;
 /// Over this share of the picture's size the ground fades into the white around the panel.
 const FADE: f64 = 0.16;
+/// And between these distances from the point below the surface's middle, over the surface's radius.
+const REACH: [f64; 2] = [0.9, 2.2];
 /// The direction that counts as up for the light on a part of a surface: up on the screen and towards the viewer.
 const FOCUS_UP: V3 = [0.0, -0.8, 0.6];
 /// The inside of a surface has this tint.
@@ -52,6 +54,8 @@ struct Scene<'a> {
     field: Option<Field>,
     /// Width in pixels over which the ground fades at the edge.
     margin: f64,
+    /// The point of the ground below the surface's middle, and the surface's radius.
+    foot: (V3, f64),
 }
 
 /// A surface as the camera sees it.
@@ -134,7 +138,10 @@ impl<'a> Scene<'a> {
         border.into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
         surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.5 * style.line(), seam_color(seam)));
         surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, style.cone(), cone_color(curvature)));
+        let (middle, radius) = bounding_ball(&placed);
+        let foot = ground.map_or(middle, |g| add(middle, scaled(g.up, g.level - dot(g.up, middle))));
         let mut scene = Scene {
+            foot: (foot, radius),
             size: [fit.width, fit.height],
             n_faces: corners.len(),
             coat: Coat::new(wish, &flat),
@@ -168,13 +175,13 @@ impl<'a> Scene<'a> {
         Some(Point { xyz, normal: smooth.unwrap_or(flat), flat, on_ground: false })
     }
 
-    /// The ground ends in white before the panel does: 1 inside, 0 at the edge.
-    fn fade(&self, pixel: [f64; 2]) -> f64 {
-        let along = |k: usize| {
-            let t = (pixel[k].min(self.size[k] as f64 - pixel[k]) / self.margin).clamp(0.0, 1.0);
-            t * t * (3.0 - 2.0 * t)
-        };
-        along(0) * along(1)
+    /// The ground ends in white before the panel does, and away from the surface: 1 inside, 0 there.
+    fn fade(&self, pixel: [f64; 2], below: &Point) -> f64 {
+        let smooth = |t: f64| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
+        let edge = |k: usize| smooth(pixel[k].min(self.size[k] as f64 - pixel[k]) / self.margin);
+        let (foot, radius) = self.foot;
+        let far = norm(sub(below.xyz, foot)) / radius;
+        edge(0) * edge(1) * smooth((REACH[1] - far) / (REACH[1] - REACH[0]))
     }
 
     /// The light at a point near one that a pixel shows.
@@ -188,8 +195,9 @@ impl Painter for Scene<'_> {
     fn paint(&self, pixel: [f64; 2], hit: Option<&Hit>) -> Rgb {
         let Some(hit) = hit else {
             let Some(ground) = &self.ground else { return [1.0; 3] };
-            let shade = Lights::on_ground(self.open(pixel, &ground.below(pixel)));
-            return mix([1.0; 3], shade, self.fade(pixel));
+            let below = ground.below(pixel);
+            let shade = Lights::on_ground(self.open(pixel, &below));
+            return mix([1.0; 3], shade, self.fade(pixel, &below));
         };
         if hit.shape < self.n_faces {
             let Some(point) = self.describe(pixel, Some(hit)) else { return [1.0; 3] };
@@ -200,13 +208,4 @@ impl Painter for Scene<'_> {
         // Tubes and balls are marks on the surface: lit, but not shaded by it.
         self.lights.on(self.strokes[hit.shape - self.n_faces], hit.local, Open::FULLY)
     }
-}
-
-/// The edges of exactly one face.
-pub fn border(faces: &[[u32; 3]]) -> Vec<(u32, u32)> {
-    let sides = faces.iter().flat_map(|f| [0, 1, 2].map(|k| (f[k], f[(k + 1) % 3])));
-    let mut edges: Vec<(u32, u32)> = sides.map(|(a, b)| (a.min(b), a.max(b))).collect();
-    edges.sort_unstable();
-    let alone = |run: &[(u32, u32)]| (run.len() == 1).then(|| run[0]);
-    edges.chunk_by(|a, b| a == b).filter_map(alone).collect()
 }

@@ -15,6 +15,8 @@ pub struct Stance {
 const SHEET: f64 = 0.35;
 /// A sheet lower than this share of its width and length lies on the ground.
 const FLAT_SHEET: f64 = 0.34;
+/// A closed surface lower than this share of its width and length is seen from above, wherever up is.
+const LOW: f64 = 0.45;
 /// A closed surface thinner than this share of its width and length may lie on the ground,
 const FLAT_BODY: f64 = 0.6;
 /// if it is its own mirror image there up to this share of the area, and has handles or is one along every axis.
@@ -22,7 +24,8 @@ const SYMMETRIC: f64 = 0.55;
 const REGULAR: f64 = 0.75;
 /// Boxes per axis in which mirror images are compared.
 const BOXES: usize = 10;
-/// A flat side with this share of the area that the surface can stand on is what it stands on.
+/// A flat side with this share of the area that the surface can stand on is what it stands on; twice as much where it is slanted in the
+/// file, as cuts of scans are.
 const BASE: f64 = 0.065;
 /// Difference of the shares of two flat sides that counts for nothing.
 const ALIKE: f64 = 1e-3;
@@ -76,7 +79,8 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
         thin(axis(*k, 1.0)) < FLAT_BODY && symmetry[*k] > SYMMETRIC && (regular || figure.handles)
     };
     let lying = [2, 1, 0].into_iter().find(flat);
-    Stance { up: lying.map_or(Y, |k| axis(k, 1.0)), lies: lying.is_some() }
+    let up = lying.map_or(Y, |k| axis(k, 1.0));
+    Stance { up, lies: lying.is_some() || thin(up) < LOW }
 }
 
 /// How far points reach along a direction, next to nothing at least.
@@ -114,7 +118,8 @@ fn base(points: &[V3], faces: &[[u32; 3]]) -> Option<V3> {
     let (share, down) = sides.max_by(|a, b| taste(a).total_cmp(&taste(b)))?;
     let axis = (0..3).find(|k| down[*k].abs() > AXIS);
     let snapped = axis.map(|k| [0, 1, 2].map(|j| if j == k { -down[k].signum() } else { 0.0 }));
-    (share > BASE).then(|| snapped.unwrap_or(down.map(|x| -x)))
+    let least = if snapped.is_some() { BASE } else { 2.0 * BASE };
+    (share > least).then(|| snapped.unwrap_or(down.map(|x| -x)))
 }
 
 /// What the rules look at; a surface of no extent has none of it.
@@ -208,6 +213,19 @@ mod tests {
             squares.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
         let up = stance(&prism(0.6), &faces).up;
         assert!(up.iter().any(|x| x.abs() > 0.1 && x.abs() < 0.99), "{up:?}");
+        // A ring on its edge lies down, unless it has a foot to stand on.
+        let ring: Vec<V3> = shapes::torus(2.0, 0.5, 80, 40).unwrap().positions.to_vec();
+        let faces = shapes::torus(2.0, 0.5, 80, 40).unwrap().faces;
+        let foot: Vec<V3> = ring.iter().map(|&[x, y, z]| [x, y.max(-1.8), z]).collect();
+        assert_eq!(stance(&foot, &faces), Stance { up: Y, lies: false });
+        // What has its height along y by default, but little of it, is seen from above.
+        let ball = shapes::icosphere(12).unwrap();
+        let cone = |&[x, y, z]: &V3| {
+            let height = 0.4 * (1.0 - (1.0 - y * y).max(0.0).sqrt());
+            [if x > 0.0 { 2.5 * x } else { x }, height * y.signum(), z]
+        };
+        let low: Vec<V3> = ball.positions.iter().map(cone).collect();
+        assert_eq!(stance(&low, &ball.faces), Stance { up: Y, lies: true });
         let tall = shapes::ellipsoid([1.0, 3.0, 1.0], 8).unwrap();
         assert_eq!(stance(&tall.positions, &tall.faces), Stance { up: Y, lies: false });
     }

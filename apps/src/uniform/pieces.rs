@@ -110,3 +110,44 @@ impl Pieces {
         Welded { points: different, triangles, cut }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ricci::geometry::vector::{distance, triangle_normal};
+    use ricci::mesh::shapes;
+
+    #[test]
+    fn a_sphere_is_cut_along_its_whole_equator() {
+        let soup = shapes::icosphere(7).unwrap();
+        let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces).unwrap();
+        let height = |p: [f64; 3]| if p[2].abs() < 1e-12 { 0.0 } else { p[2] };
+        let mut pieces = Pieces::default();
+        for f in mesh.faces() {
+            let corners = mesh.face_vertices(f).map(|v| soup.positions[v.index()]);
+            for piece in split(&whole(corners), Space::S2, height).iter().filter(|p| !p.is_empty()) {
+                assert!(piece.iter().all(|c| c.0[2] >= 0.0) || piece.iter().all(|c| c.0[2] <= 1e-15));
+                pieces.add(f, piece, |p, q| (height(p) == 0.0 && height(q) == 0.0).then_some(0));
+            }
+        }
+        let round = pieces.welded(&pieces.places);
+        let length: f64 = round
+            .cut
+            .iter()
+            .map(|&(a, b, _)| distance(round.points[a as usize], round.points[b as usize]))
+            .sum();
+        assert!((length / std::f64::consts::TAU - 1.0).abs() < 0.01, "{length}");
+        // Every point of the cut joins two of its edges.
+        let mut ends: Vec<u32> = round.cut.iter().flat_map(|&(a, b, _)| [a, b]).collect();
+        ends.sort_unstable();
+        assert!(ends.chunk_by(|a, b| a == b).all(|run| run.len() == 2), "{ends:?}");
+        // In space the faces stay where they are.
+        let area = |points: &[[f64; 3]], faces: &[[u32; 3]]| -> f64 {
+            faces.iter().map(|f| norm(triangle_normal(f.map(|v| points[v as usize])))).sum()
+        };
+        let in_space = pieces.in_space(&mesh, &soup.positions);
+        let whole = area(&soup.positions, &soup.faces);
+        assert!((area(&in_space.points, &in_space.triangles) - whole).abs() < 1e-12 * whole);
+        assert!(in_space.triangles.len() > soup.faces.len());
+    }
+}
