@@ -181,8 +181,7 @@ impl Canvas<'_> {
         let mut wire = Path::default();
         let sides = area.wire.iter().map(|side| side.map(|p| self.fit.apply(p)));
         sides.filter_map(|side| segment_in_box(side, self.panel)).for_each(|side| wire.line(&side));
-        let color = mix(ground, INK, wire_opacity(area.face));
-        sheet.stroke(color, 2.0 * wire_width(self.style.size), &wire);
+        sheet.wire(wire_opacity(area.face), 2.0 * wire_width(self.style.size), &wire);
     }
 
     /// The parts of a line in pixels that are shown.

@@ -6,7 +6,7 @@ use super::colormap::NO_VALUE;
 use super::fit::Fit;
 use super::raster::doubled_area;
 use super::region::{Chain, FINEST, cells, chains, in_box, is_finite, once, outline, segment_in_box, strip};
-use super::sheet::{Path, Sheet, decimal, lines, polygons};
+use super::sheet::{Path, Sheet, lines, polygons};
 use super::texture::{OCTAVE, Texture};
 use super::{Circle, Field, Flat, Style};
 
@@ -26,8 +26,6 @@ const SHADE: f64 = 0.17;
 const PALE: f64 = 0.75;
 /// Degrees of opacity of the wire.
 const WIRE_CLASSES: usize = 5;
-/// Opacity in SVG over that in linear light: it mixes colours as they are written, in which thin lines are darker.
-const WIRE: f64 = 0.65;
 /// Pixels beyond the panel up to which lines are drawn.
 const BEYOND: f64 = 20.0;
 
@@ -153,10 +151,7 @@ impl Layout<'_> {
         for (class, segments) in classes.into_iter().enumerate().skip(1) {
             let shown = once(segments.into_iter()).filter_map(|s| segment_in_box(s, self.panel));
             let path = lines(&chains(shown.map(|[a, b]| (a, b))));
-            let (ink, width) = (to_hex(INK), decimal(2.0 * half_width));
-            let opacity = WIRE * class as f64 / WIRE_CLASSES as f64;
-            let pen = format!(r#"stroke="{ink}" stroke-width="{width}" stroke-opacity="{opacity:.2}""#);
-            sheet.add(&pen, &path);
+            sheet.wire(class as f64 / WIRE_CLASSES as f64, 2.0 * half_width, &path);
         }
     }
 

@@ -1,12 +1,15 @@
 //! A sheet to draw on: images, and vectors over them as SVG, which become pixels by resvg.
 
-use super::color::{Rgb, to_hex};
+use super::color::{INK, Rgb, to_hex};
 use super::raster::Image;
 use super::region::is_finite;
 use super::text::Lettering;
 use crate::failure::Failure;
 use resvg::{tiny_skia, usvg};
 use std::fmt::Write;
+
+/// Opacity in SVG over that in linear light: it mixes colours as they are written, in which thin lines are darker.
+const WIRE: f64 = 0.65;
 
 /// A drawing in pixels, y down.
 #[derive(Default)]
@@ -103,6 +106,12 @@ impl Sheet {
 
     pub fn stroke(&mut self, color: Rgb, width: f64, path: &Path) {
         self.add(&format!(r#"stroke="{}" stroke-width="{}""#, to_hex(color), decimal(width)), path);
+    }
+
+    /// Add edges of a mesh, of this opacity in linear light.
+    pub fn wire(&mut self, opacity: f64, width: f64, path: &Path) {
+        let (ink, width, opacity) = (to_hex(INK), decimal(width), decimal(WIRE * opacity));
+        self.add(&format!(r#"stroke="{ink}" stroke-width="{width}" stroke-opacity="{opacity}""#), path);
     }
 
     /// Write what begins at a point; `halo`: the width of a white line around it. Readers find the text by its label.

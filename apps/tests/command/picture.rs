@@ -190,7 +190,7 @@ fn vector_and_pixel_pictures_agree() {
         "uniformize b.json --size 200 --texture circles --model half-plane",
         "cover f.json --size 200 --wire",
         "flow f.json --size 200 --color area",
-        "flow b.json --space e2 --target auto:6 --size 200 --wire",
+        "flow f.json --size 200 --wire --texture circles",
         "flow f.json --scheme tangential --size 200",
     ] {
         for format in ["svg", "png"] {
