@@ -212,6 +212,6 @@ impl Canvas<'_> {
         let push = size * AWAY + 0.5 * (lettering.width - size * AWAY).max(0.0) * dx.abs();
         let at = [x + push * dx - 0.5 * lettering.width, y - push * dy];
         let color = mix(seam_color(label.color), INK, 0.35);
-        sheet.write(&label.text, &lettering, (at, color), HALO * size);
+        sheet.write(&label.text, &lettering.path, (at, color), HALO * size);
     }
 }

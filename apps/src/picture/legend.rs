@@ -67,7 +67,7 @@ pub fn bar(scale: &Scale, style: &Style) -> Sheet {
     values.iter().for_each(|v| ticks.line(&tick(v)));
     sheet.stroke(INK, (0.05 * letters).max(0.8), &ticks);
     for Caption { text, at: [x, y], lettering } in &captions {
-        sheet.write(text, lettering, ([left + x - 0.5 * lettering.width, *y], INK), 0.0);
+        sheet.write(text, &lettering.path, ([left + x - 0.5 * lettering.width, *y], INK), 0.0);
     }
     sheet
 }
@@ -93,7 +93,7 @@ pub fn circles(flat: &Flat<'_>, style: &Style) -> Option<Sheet> {
             &format!(r#"stroke="{}" stroke-width="{}""#, to_hex(from_hex(*color)), decimal(0.12 * letters)),
             &path,
         );
-        sheet.write(text, lettering, ([2.0 * letters, y], INK), 0.0);
+        sheet.write(text, &lettering.path, ([2.0 * letters, y], INK), 0.0);
     }
     (!entries.is_empty()).then_some(sheet)
 }
@@ -119,7 +119,7 @@ mod tests {
             let style = Style { size, ..Style::default() };
             let image = bar(&scale, &style).image().unwrap();
             let (letters, length) = (letters(&style), (BAR[0] * size as f64).max(16.0 * letters(&style)));
-            assert!(letters >= 12.0 && letters <= 40.0);
+            assert!((12.0..=40.0).contains(&letters));
             let at = |t: f64| {
                 let x = 0.5 * (image.width as f64 - length) + t * length;
                 let i = 3 * ((2.2 * letters) as usize * image.width + x as usize);

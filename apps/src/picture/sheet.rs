@@ -3,7 +3,6 @@
 use super::color::{INK, Rgb, to_hex};
 use super::raster::Image;
 use super::region::is_finite;
-use super::text::Lettering;
 use crate::failure::Failure;
 use resvg::{tiny_skia, usvg};
 use std::fmt::Write;
@@ -115,15 +114,15 @@ impl Sheet {
     }
 
     /// Write what begins at a point; `halo`: the width of a white line around it. Readers find the text by its label.
-    pub fn write(&mut self, text: &str, lettering: &Lettering, ([x, y], color): ([f64; 2], Rgb), halo: f64) {
+    pub fn write(&mut self, text: &str, letters: &Path, ([x, y], color): ([f64; 2], Rgb), halo: f64) {
         let label = text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
         let [x, y] = [x, y].map(decimal);
         let _ =
             writeln!(self.vectors, r#"<g role="img" aria-label="{label}" transform="translate({x} {y})">"#);
         if halo > 0.0 {
-            self.stroke([1.0; 3], halo, &lettering.path);
+            self.stroke([1.0; 3], halo, letters);
         }
-        self.fill(color, &lettering.path);
+        self.fill(color, letters);
         self.vectors += "</g>\n";
     }
 
