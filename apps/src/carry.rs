@@ -14,9 +14,9 @@ pub struct Carried {
     pub face_normals: Vec<[u32; 3]>,
 }
 
-/// For the input's own mesh or a `refinement` of it: crossings have what is linear along the input's edges, corners what is linear in the
-/// input's faces: drawn, both look as in the input. Normals are not made unit vectors: their direction between corners is that of
-/// their sum.
+/// Colours and normals for the input's own mesh or a `refinement` of it. A crossing gets values that are linear along the input's edge,
+/// a corner values that are linear in the input's face, so that both look as in the input. Normals are not made unit vectors: between
+/// corners their direction is then that of their sum.
 pub fn carry(input: &Input, refinement: Option<&Refinement>) -> ricci::Result<Carried> {
     let given = &input.attributes;
     let mut carried = Carried::default();

@@ -1,8 +1,8 @@
 //! The circle pattern of a layout: vertex circles, and per face the circle orthogonal to its three.
 //!
-//! A vertex circle has its vertex as centre and radius γ (of a circle of imaginary radius, ε = −1, its modulus). The dual
-//! circle of a face is centred at the power centre of the vertex circles; `power` is its squared radius, and `radius` is
-//! null where that is negative.
+//! A vertex circle has its vertex as centre and radius γ; where ε = −1 the radius is imaginary, and γ its modulus. The dual circle of
+//! a face is centred at the power centre of the face's vertex circles; `power` is its squared radius, and `radius` is null where that
+//! is negative.
 
 use crate::laid::Laid;
 use crate::solved::Solved;

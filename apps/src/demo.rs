@@ -29,7 +29,7 @@ const EXAMPLES: [[&str; 4]; 5] = [
         "two",
         "genus --genus 2 -n 6",
         "uniformize {}",
-        "a surface of genus 2 in the hyperbolic plane, opened, with the loops that generate its group",
+        "a surface of genus 2, opened in the hyperbolic plane along geodesics",
     ],
     ["plane", "torus -n 24", "cover {} --depth 3", "the plane, tiled by copies of a torus"],
 ];

@@ -13,7 +13,7 @@ use crate::options::{MethodChoice, OnChoice};
 use crate::output::{self, Outputs, check_extension};
 use crate::picture::ColorChoice;
 use crate::progress::{Progress, doing};
-use crate::report::{Done, Figures, InputSummary, Report, Seconds, path_text};
+use crate::report::{Done, Figures, InputSummary, Report, Seconds, path_text, timed};
 use crate::show;
 use crate::uv;
 use ricci::Control;
@@ -258,11 +258,14 @@ fn write(
     let drawable = outcome.layout.is_ok() || !args.picture.base.is_svg();
     if let Some(path) = args.picture.base.picture.as_ref().filter(|_| drawable) {
         let draw = || show::draw(input, outcome, &args.picture, args.to.common.threads);
-        let drawn = doing("drawing", draw);
+        let mut spent = 0.0;
+        let drawn = doing("drawing", || timed(&mut spent, draw));
+        outcome.solved.seconds.picture = spent;
         let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
         outcome.solved.failed.attempt("picture", written)?;
     }
-    outcome.solved.seconds.write += begin.elapsed().as_secs_f64();
+    let seconds = &mut outcome.solved.seconds;
+    seconds.write += begin.elapsed().as_secs_f64() - seconds.picture;
     control.step(Stage::Write, 0.5)?;
     let (mut report_failed, figures) = (Ok(()), figures::of_flow(input, outcome));
     if let Some(path) = &args.to.common.report {

@@ -115,8 +115,8 @@ const PREFACE: &str = "\
 
 Written by `ricci gallery docs/pictures MESHES`, MESHES being a folder of meshes with `good/INDEX.csv`. On the left of a picture the
 surface, on the right its layout; seams have one colour on both of their sides, cones are red where curvature is positive and blue where
-it is negative. Where the layout's scale varies by more than a factor of 8, checks and circles are drawn 8 times as large or small, on
-both sides alike, so that they stay visible: along the line where that happens they are cut off. With `--zoom` both sides show the
+it is negative. Checks and circles have one size in the layout; with `--bands` they are drawn 8 times as large or small where the
+layout's scale varies by more than that. With `--zoom` both sides show the
 surroundings of one vertex, as much of the surface as of its layout. Copies of a surface in its universal cover carry the same pattern; the
 copy that the others are moved images of is blue. Every picture is made by the commands
 beside it (with `--size 320 --palette`).

@@ -103,7 +103,7 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
     };
     if let (Content::Triangles(soup), Some(path)) = (&content, picture) {
         let draw = || show::draw_surface(soup, &args.picture, args.common.threads);
-        outputs.add_bytes(path, &timed(&mut seconds.write, draw)?)?;
+        outputs.add_bytes(path, &timed(&mut seconds.picture, draw)?)?;
     }
     let summary = InputSummary::new(&args.file.mesh, counts);
     let text = text(&summary, &info);

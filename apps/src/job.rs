@@ -81,8 +81,8 @@ fn no_layout(solved: &Solved, needed: bool) -> Option<String> {
     }
 }
 
-/// The target that was asked for or is the default of the surface. What is asked for must be possible on the given triangulation; a
-/// default that is too low for the scheme there is no fault of the input, and the flow says why it cannot be reached.
+/// The target that was asked for, or the default of the surface. A target that was asked for is refused where the scheme cannot reach it
+/// on the given triangulation; a default is tried, and the flow then says why it cannot be reached.
 fn rule(input: &Input, job: &Job) -> Result<Target, Failure> {
     let pinned = &job.options.pinned;
     let Some(rule) = &job.target else {

@@ -12,7 +12,8 @@ use ricci::metric::Refinement;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Crossings per edge up to which the common refinement is formed for the summary alone: it then costs no more than the flow.
+/// Crossings per edge up to which the common refinement is formed even where only the summary shows it: it then costs no more time
+/// than the flow.
 const FEW_CROSSINGS: usize = 16;
 
 /// Whether to carry a layout back to the given triangulation: where an output needs that, or where it costs little.

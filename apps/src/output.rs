@@ -50,7 +50,7 @@ pub struct Outputs {
     pending: Vec<Pending>,
 }
 
-/// A complete file in a directory of its own, which goes with it.
+/// A complete file in a temporary directory of its own, which is removed with it.
 struct Pending {
     directory: TempDir,
     /// The name that was asked for.

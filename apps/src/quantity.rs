@@ -10,7 +10,7 @@ use ricci::mesh::{FaceId, Mesh, PerFace, PerVertex, Point};
 use ricci::metric::Refinement;
 use ricci::metric::curvature::{curvature, curvature_from_angles};
 
-/// The quantity of a finished flow; `None` where there is none to show: those of a layout where it has none.
+/// The quantity of a finished flow; `None` for no quantity, and for one of the layout where the flow has no layout.
 pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<Field> {
     let laid = outcome.layout.as_ref().ok();
     let mesh = laid.map_or(input.mesh(), |laid| laid.mesh());
@@ -18,7 +18,7 @@ pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<
         ColorChoice::None => return None,
         ColorChoice::U => {
             let factor = outcome.solved.solution.conformal_factor().ok()?;
-            let scale = Scale::of_amounts("log conformal factor u", &factor);
+            let scale = Scale::of_signed("log conformal factor u", &factor);
             at_vertices(mesh, &on_layout(&factor, laid)?, scale)
         }
         ColorChoice::Curvature => {
@@ -53,8 +53,8 @@ fn pieces(laid: &Laid) -> Field {
     at_faces(&values, Scale::of_pairs(title, "what a face of each has in common is a piece"))
 }
 
-/// Per face of the mesh, a class of the whole that it is part of: wholes that share an edge differ. Each has at most three
-/// neighbours, so taking the first class that none of them has needs four.
+/// Per face of the mesh a class of the larger triangle (`whole`) that it is part of: two of these that share an edge have different
+/// classes. A triangle has at most three neighbours, so that the first class which none of them has is one of four.
 fn classes(mesh: &Mesh, whole: &PerFace<FaceId>) -> Vec<usize> {
     let n = whole.iter().map(|f| f.index() + 1).fold(0, usize::max);
     let mut neighbours = vec![Vec::new(); n];

@@ -32,7 +32,8 @@ pub fn draw(
     let focus = args.zoom.zip(laid).and_then(|(zoom, laid)| focus(&zoom, laid));
     let style = Style { focus, ..args.style(threads) };
     if let (Some(flat), true) = (&flat, args.base.is_svg()) {
-        return picture::flat_svg(flat, field.as_ref(), &style);
+        let drawn = Picture { flat: Some(*flat), field: field.as_ref(), ..Picture::default() };
+        return Ok(picture::svg(&drawn, &style));
     }
     let (mesh, positions) =
         laid.map_or((input.mesh(), input.positions()), |laid| (laid.mesh(), laid.positions.as_deref()));
@@ -44,6 +45,7 @@ pub fn draw(
         corner_uv: parts.as_ref().map(|p| p.corner_uv.as_slice()),
         seams: parts.as_ref().map_or(&[], |p| &p.edges),
         cones: &cones,
+        is_closed: false,
     });
     picture::png(&Picture { surface, flat, field: field.as_ref(), ..Picture::default() }, &style)
 }
@@ -91,7 +93,14 @@ pub fn draw_surface(soup: &Soup, args: &SurfacePictureArgs, threads: usize) -> R
         })
     };
     let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut keep)).collect();
-    let surface = Surface { positions: &seen, faces: &faces, corner_uv: None, seams: &[], cones: &[] };
+    let surface = Surface {
+        positions: &seen,
+        faces: &faces,
+        corner_uv: None,
+        seams: &[],
+        cones: &[],
+        is_closed: false,
+    };
     let field = args.curvature().then(|| quantity::curvature_of_triangles(&seen, &faces));
     let drawn = Picture { surface: Some(surface), field: field.as_ref(), ..Picture::default() };
     picture::png(&drawn, &args.style(threads))
@@ -111,6 +120,7 @@ struct Parts {
     edges: Vec<(u32, u32, usize)>,
     seams: Vec<([f64; 2], [f64; 2], usize)>,
     boundary: Vec<([f64; 2], [f64; 2])>,
+    frame: Vec<([f64; 2], [f64; 2])>,
     cones: Vec<([f64; 2], f64)>,
     circles: Vec<Circle>,
     dual_circles: Vec<Circle>,
@@ -131,6 +141,10 @@ impl Parts {
         }
         for h in mesh.halfedges().filter(|h| mesh.is_outside(h.twin())) {
             parts.boundary.push(side(h));
+        }
+        if laid.packed.is_some() {
+            let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+            parts.frame = (0..4).map(|k| (square[k], square[(k + 1) % 4])).collect();
         }
         let mut seen = vec![false; laid.coordinates().len()];
         let mut curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
@@ -157,6 +171,7 @@ impl Parts {
             corner_uv: &self.corner_uv,
             seams: &self.seams,
             boundary: &self.boundary,
+            frame: &self.frame,
             cones: &self.cones,
             circles: &self.circles,
             dual_circles: &self.dual_circles,

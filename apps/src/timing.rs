@@ -3,7 +3,7 @@
 use serde::Serialize;
 use std::time::Instant;
 
-/// Wall-clock seconds by phase; `write` ends before the report itself is written.
+/// Wall-clock seconds by phase; `write` is without pictures and ends before the report itself is written.
 #[derive(Serialize, Default, Clone, Copy)]
 pub struct Seconds {
     pub total: f64,
@@ -16,6 +16,7 @@ pub struct Seconds {
     pub flip: f64,
     pub refine: f64,
     pub layout: f64,
+    pub picture: f64,
     pub write: f64,
 }
 

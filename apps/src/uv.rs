@@ -62,7 +62,7 @@ fn write(
     Ok([positions.len() - own_positions.len(), faces.len() - input.mesh().n_faces()])
 }
 
-/// Write what is asked for of the layout's mesh; what cannot be made is told.
+/// Write `--uv` and `--xref`, as far as they are asked for; what cannot be made is remembered with its reason.
 pub fn write_asked(
     outputs: &mut Outputs,
     input: &Input,

@@ -28,7 +28,15 @@ pub struct PictureArgs {
     #[arg(long, requires = "picture")]
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub wire: bool,
-    /// At most 192 colours, for a small file
+    /// Without shadows, quickly
+    #[arg(long, requires = "picture")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub draft: bool,
+    /// Follow the scale of the layout by steps of 8 in the size of the pattern, which so stays visible everywhere
+    #[arg(long, requires = "picture")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub bands: bool,
+    /// At most 256 colours, for a small file
     #[arg(long, requires = "picture")]
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub palette: bool,
@@ -154,7 +162,17 @@ impl PictureArgs {
             from: None,
         };
         let size = self.size.map_or(fallback.size, usize::from);
-        Style { size, view, texture, threads, wire: self.wire, palette: self.palette, ..fallback }
+        Style {
+            size,
+            view,
+            texture,
+            threads,
+            wire: self.wire,
+            palette: self.palette,
+            draft: self.draft,
+            bands: self.bands,
+            ..fallback
+        }
     }
 }
 

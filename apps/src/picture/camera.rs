@@ -1,8 +1,8 @@
 //! Where a surface is seen from.
 
-use super::raster::{Shape, in_parallel, visible};
+use super::raster::{Samples, Shape, in_parallel};
 use super::upright::{Stance, stance};
-use super::vector::{V3, add, cross, dot, norm, normal, scaled, sub, unit};
+use super::vector::{V3, add, bounding_ball, cross, dot, normal, scaled, sub, unit};
 
 /// The view that a caller wants; what is left open is chosen.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,11 +26,11 @@ pub struct Camera {
 
 /// Side of the small images in which candidate views are compared, pixels.
 const PROBE: usize = 72;
-/// Candidate directions around the vertical.
-const AROUND: usize = 24;
-/// Candidate elevations, degrees: for what stands, and for what lies flat.
-const STANDING: [f64; 3] = [14.0, 24.0, 36.0];
-const LYING: [f64; 3] = [34.0, 44.0, 54.0];
+/// Candidate azimuths, degrees: three-quarter views from the front and from the back.
+const AROUND: [f64; 8] = [-32.0, 32.0, -50.0, 50.0, -130.0, 130.0, -148.0, 148.0];
+/// Elevation, degrees: of what stands, and of what lies flat.
+const STANDING: f64 = 20.0;
+const LYING: f64 = 40.0;
 /// Surface seen at a glancing angle counts at most this many times its projected area.
 const GLANCING: f64 = 2.5;
 /// Of two sides that show as much surface the one with more detail is better: to this power of how much normals turn from
@@ -39,9 +39,8 @@ const DETAIL: f64 = 0.3;
 const LEAST_DETAIL: f64 = 0.01;
 /// A hole through which the background shows makes a view better by this share, up to three of them.
 const HOLE: f64 = 0.12;
-/// The front is better than the back, and an oblique view than one along an axis, by these shares.
+/// The front is better than the back by this share.
 const FRONT: f64 = 0.08;
-const OBLIQUE: f64 = 0.04;
 
 impl Camera {
     fn new(up: V3, front: V3, azimuth: f64, elevation: f64) -> Camera {
@@ -69,14 +68,12 @@ impl Camera {
                 (dot(from, cross(up, front)).atan2(dot(from, front)), dot(from, up).clamp(-1.0, 1.0).asin());
             return Camera::new(up, front, azimuth, elevation);
         }
-        let mut candidates = Vec::new();
-        for elevation in if lies { LYING } else { STANDING } {
-            for k in 0..AROUND {
-                let azimuth = std::f64::consts::TAU * k as f64 / AROUND as f64;
-                let taste = 1.0 + FRONT * azimuth.cos() - OBLIQUE * (4.0 * azimuth).cos();
-                candidates.push((Camera::new(up, front, azimuth, elevation.to_radians()), taste, 0.0));
-            }
-        }
+        let elevation = if lies { LYING } else { STANDING }.to_radians();
+        let candidate = |azimuth: f64| {
+            let azimuth = azimuth.to_radians();
+            (Camera::new(up, front, azimuth, elevation), 1.0 + FRONT * azimuth.cos(), 0.0)
+        };
+        let mut candidates = AROUND.map(candidate);
         let (centre, radius) = bounding_ball(points);
         in_parallel(candidates.iter_mut().collect(), threads, |_, (camera, taste, score)| {
             *score = *taste * camera.shows(points, faces, centre, radius);
@@ -100,7 +97,8 @@ impl Camera {
             .map(|[x, y, z]| [middle + scale * x, middle - scale * y, scale * z])
             .collect();
         let shapes: Vec<Shape> = faces.iter().map(|f| Shape::Triangle(f.map(|v| seen[v as usize]))).collect();
-        let samples = visible(&shapes, PROBE, 0, PROBE, 1);
+        let all: Vec<u32> = (0..shapes.len() as u32).collect();
+        let samples = Samples::new(&shapes, &all, [PROBE, 0, PROBE], 1);
         let mut normals = vec![None; PROBE * PROBE];
         let (mut area, mut bends) = (0.0, 0.0);
         for i in 0..normals.len() {
@@ -127,15 +125,6 @@ impl Camera {
 fn front_of(up: V3) -> V3 {
     let usual = if up[2].abs() > 0.8 { [0.0, -1.0, 0.0] } else { [0.0, 0.0, 1.0] };
     unit(sub(usual, scaled(up, dot(up, usual)))).unwrap_or([1.0, 0.0, 0.0])
-}
-
-/// Centre of the bounding box and the largest distance from it.
-fn bounding_ball(points: &[V3]) -> (V3, f64) {
-    let end = |k: usize, f: fn(f64, f64) -> f64, start: f64| points.iter().map(|p| p[k]).fold(start, f);
-    let centre =
-        [0, 1, 2].map(|k| 0.5 * (end(k, f64::min, f64::INFINITY) + end(k, f64::max, f64::NEG_INFINITY)));
-    let radius = points.iter().map(|p| norm(sub(*p, centre))).fold(0.0, f64::max);
-    (centre, radius.max(f64::MIN_POSITIVE))
 }
 
 /// Connected pieces of the background of a probe image that the surface encloses, single pixels left out.
@@ -170,6 +159,7 @@ fn holes(mut empty: Vec<bool>) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::vector::norm;
     use super::*;
     use ricci::mesh::shapes;
 

@@ -7,7 +7,7 @@ use super::raster::doubled_area;
 use super::texture::{Patch, Texture, Tiles};
 
 /// Colour of a surface that shows nothing else.
-const CLAY: u32 = 0xd3c6b4;
+pub const CLAY: u32 = 0xd3c6b4;
 /// The two colours of a pattern.
 pub const LIGHT: u32 = 0xf3efe6;
 pub const DARK: u32 = 0x3a6ea5;
@@ -85,6 +85,11 @@ pub fn wire_width(size: usize) -> f64 {
     (WIRE * size as f64).max(0.35)
 }
 
+/// The opacity of the wire of faces with this area in pixels.
+pub fn wire_opacity(area: f64) -> f64 {
+    WIRE_OPACITY * ((area.sqrt() - DENSE[0]) / (DENSE[1] - DENSE[0])).clamp(0.0, 1.0)
+}
+
 /// The edges of one face on the panel.
 pub struct Wire {
     /// Heights of the triangle in pixels: a barycentric coordinate times its height is the distance from its side.
@@ -102,9 +107,7 @@ impl Wire {
             (b[0] - a[0]).hypot(b[1] - a[1])
         };
         let heights = [0, 1, 2].map(|k| area / side(k).max(f64::MIN_POSITIVE));
-        let size = (0.5 * area).sqrt();
-        let opacity = WIRE_OPACITY * ((size - DENSE[0]) / (DENSE[1] - DENSE[0])).clamp(0.0, 1.0);
-        Wire { heights, half_width, opacity }
+        Wire { heights, half_width, opacity: wire_opacity(0.5 * area) }
     }
 
     /// Each of the two faces at an edge draws its half, whose outline is softened over half a pixel.

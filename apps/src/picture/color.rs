@@ -29,9 +29,9 @@ pub fn mix(a: Rgb, b: Rgb, t: f64) -> Rgb {
     [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]))
 }
 
-/// Colours of the seams, in turn.
+/// Colours of the seams, in turn; none is near those of the pattern.
 pub fn seam_color(seam: usize) -> Rgb {
-    const COLORS: [u32; 8] = [0xd6262b, 0x1f6fc4, 0x2f9e3c, 0xe8820c, 0x8e44ad, 0x139a9b, 0xc93a8a, 0x8a6d1f];
+    const COLORS: [u32; 8] = [0xd6262b, 0x2f9e3c, 0xe8820c, 0x8e44ad, 0x18b89e, 0xc93a8a, 0x8a6d1f, 0xe6b800];
     from_hex(COLORS[seam % COLORS.len()])
 }
 
@@ -46,6 +46,16 @@ pub const INK: Rgb = [0.012, 0.014, 0.02];
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn seams_stand_out_from_both_colours_of_the_pattern() {
+        for seam in (0..8).map(seam_color) {
+            for ground in [0xf3efe6, 0x3a6ea5].map(from_hex) {
+                let apart = (0..3).map(|k| (seam[k] - ground[k]).powi(2)).sum::<f64>().sqrt();
+                assert!(apart > 0.25, "{} on {}", to_hex(seam), to_hex(ground));
+            }
+        }
+    }
 
     #[test]
     fn colours_come_back_from_hex() {

@@ -28,6 +28,8 @@ pub const CLASSES: usize = 4;
 pub const NO_VALUE: Rgb = [0.4; 3];
 /// The ends of a range are these percentiles of the data: a few extreme values do not take all the colours.
 pub const PERCENTILES: [f64; 2] = [2.0, 98.0];
+/// Or this many times as far from the middle as the quartiles are, where tails are longer than that: the bulk has most of the colours.
+const TAIL: f64 = 4.0;
 
 impl Ramp {
     /// The colour at t in [0, 1]; what lies beyond has the colour of the end.
@@ -64,17 +66,18 @@ pub struct Scale {
 impl Scale {
     /// For amounts: between the percentiles of the data.
     pub fn of_amounts(title: &str, values: &[f64]) -> Scale {
-        let [low, high] = PERCENTILES.map(|p| percentile(values, p).unwrap_or(0.0));
-        let ends = format!("colours end at {}% and {}% of the values", PERCENTILES[0], PERCENTILES[1]);
-        Scale { title: title.into(), ramp: Ramp::Viridis, range: [low, high], ends }
+        let middle = percentile(values, 50.0).unwrap_or(0.0);
+        let [low, high] = PERCENTILES;
+        let range = [[low, 25.0], [high, 75.0]].map(|percents| end(values, middle, percents));
+        Scale { title: title.into(), ramp: Ramp::Viridis, range, ends: clipping(values, range) }
     }
 
     /// For what has a sign: as far to both sides of 0 as the upper percentile of its size.
     pub fn of_signed(title: &str, values: &[f64]) -> Scale {
         let sizes: Vec<f64> = values.iter().map(|x| x.abs()).collect();
-        let most = percentile(&sizes, PERCENTILES[1]).unwrap_or(0.0);
-        let ends = format!("{}% of the values lie within the colours", PERCENTILES[1]);
-        Scale { title: title.into(), ramp: Ramp::BlueRed, range: [-most, most], ends }
+        let most = end(&sizes, 0.0, [PERCENTILES[1], 75.0]);
+        let range = [-most, most];
+        Scale { title: title.into(), ramp: Ramp::BlueRed, range, ends: clipping(values, range) }
     }
 
     /// For pairs of classes.
@@ -115,6 +118,26 @@ impl Scale {
         let inside = |x: &f64| (x - low).min(high - x) > 0.13 * width;
         (0..8).map(|k| (first + f64::from(k)) * step).filter(inside).collect()
     }
+}
+
+/// Where colours end on one side of the middle, by the percentile of the end and that of the quartile.
+fn end(values: &[f64], middle: f64, percents: [f64; 2]) -> f64 {
+    let [far, quartile] = percents.map(|p| percentile(values, p).unwrap_or(middle) - middle);
+    let short = quartile != 0.0 && far.abs() > TAIL * quartile.abs();
+    middle + if short { TAIL * quartile } else { far }
+}
+
+/// How many values the ends of a range stand for, and how far these reach.
+fn clipping(values: &[f64], [low, high]: [f64; 2]) -> String {
+    let finite = values.iter().copied().filter(|x| x.is_finite());
+    let beyond = finite.clone().filter(|x| *x < low || *x > high).count();
+    if beyond == 0 {
+        return "all values lie within the colours".into();
+    }
+    let percent = 100.0 * beyond as f64 / finite.clone().count() as f64;
+    let [least, most] =
+        [finite.clone().fold(f64::INFINITY, f64::min), finite.fold(f64::NEG_INFINITY, f64::max)].map(number);
+    format!("{percent:.1}% of the values are clipped, all reach from {least} to {most}")
 }
 
 /// The value that this percentage of the (finite) values does not exceed; `None` of nothing.
@@ -158,6 +181,16 @@ mod tests {
         let signed: Vec<f64> = values.iter().map(|x| if *x > 50.0 { -x } else { *x }).collect();
         assert_eq!(Scale::of_signed("x", &signed).range, [-98.0, 98.0]);
         assert_eq!(percentile(&[], 50.0), None);
+        // A tenth of the values far out leaves the colours to the others, but for where these are all the same.
+        let tail =
+            |bulk: fn(u32) -> f64| (0..100).map(|k| if k < 90 { bulk(k) } else { 1e6 }).collect::<Vec<_>>();
+        assert_eq!(Scale::of_signed("x", &tail(f64::from)).range, [-296.0, 296.0]);
+        assert_eq!(Scale::of_amounts("x", &tail(f64::from)).range, [1.0, 149.0]);
+        assert_eq!(Scale::of_amounts("x", &tail(|_| 1.0)).range, [1.0, 1e6]);
+        // Where colours are clipped the scale says so, and how far the values reach.
+        let ends = |values: &[f64]| Scale::of_amounts("x", values).ends;
+        assert_eq!(ends(&values), "3.0% of the values are clipped, all reach from 1 to 100");
+        assert_eq!(ends(&[3.0, 4.0]), "all values lie within the colours");
     }
 
     #[test]

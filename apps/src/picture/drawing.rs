@@ -1,13 +1,13 @@
-//! A drawing in a model of the plane or of the hyperbolic plane: cells with a pattern, lines and lettering over one another.
+//! A drawing in a model of the plane or of the hyperbolic plane: areas with a pattern, lines and lettering over one another.
 
 use super::Style;
-use super::coat::{DARK, LIGHT, Wire, wire_width};
+use super::coat::{DARK, LIGHT, wire_opacity, wire_width};
 use super::color::{INK, Rgb, from_hex, mix, seam_color};
 use super::fit::Fit;
-use super::lettering::{HALO, lettering};
-use super::raster::{Hit, Image, Painter, Shape, render};
-use super::texture::{Patch, Texture, Tiles};
-use std::f64::consts::TAU;
+use super::region::{Chain, in_box, segment_in_box};
+use super::sheet::{Path, Sheet, polygons};
+use super::text::word;
+use super::texture::Tiles;
 
 /// What of the plane is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,20 +20,26 @@ pub enum Frame {
     Rectangle([[f64; 2]; 2]),
 }
 
-/// A triangle of one copy of the pattern.
-#[derive(Clone, Copy, Debug)]
-pub struct Cell {
-    pub corners: [[f64; 2]; 3],
-    /// The triangle of the pattern that it shows; none for a plain colour.
-    pub face: Option<u32>,
+/// One copy of what is drawn.
+#[derive(Clone, Debug)]
+pub struct Area {
+    /// Its border, a closed polygon.
+    pub border: Chain,
     /// 0: the colours of the pattern itself; others in turn, see [`tints`].
     pub tint: u8,
+    /// The dark cells of the pattern.
+    pub cells: Vec<Chain>,
+    /// The edges of the mesh, and how many pixels a face has about.
+    pub wire: Vec<[[f64; 2]; 2]>,
+    pub face: f64,
+    /// Share of the dark colour in the ground.
+    pub dark: f64,
 }
 
 /// A line through points; the colour is that of a seam, or ink.
 #[derive(Clone, Debug)]
 pub struct Line {
-    pub points: Vec<[f64; 2]>,
+    pub points: Chain,
     pub color: Option<usize>,
     /// In widths of a seam.
     pub width: f64,
@@ -60,10 +66,7 @@ pub struct Pattern<'a> {
 #[derive(Clone, Copy)]
 pub struct Drawing<'a> {
     pub frame: Frame,
-    pub pattern: Option<Pattern<'a>>,
-    pub cells: &'a [Cell],
-    /// Polygons with a tint: the same area as that of the cells, for vector pictures.
-    pub outlines: &'a [(Vec<[f64; 2]>, u8)],
+    pub areas: &'a [Area],
     pub lines: &'a [Line],
     pub dots: &'a [[f64; 2]],
     pub labels: &'a [Label],
@@ -74,11 +77,15 @@ pub const TINTS: u8 = 11;
 /// The one after those is for what is in the background.
 pub const PALE: u8 = TINTS + 1;
 /// Colour of what a disk or half-plane has no copy on.
-pub const EMPTY: u32 = 0xefeeea;
-/// Distance of layers that are drawn over one another, above every radius in pixels.
-const LAYER: f64 = 1e6;
-/// Distance of a label from its point, over the size of the panel.
-const AWAY: f64 = 0.021;
+const EMPTY: u32 = 0xefeeea;
+/// Distance of a label from its point, over the size of its letters, and their size over that of the panel with its bounds in pixels.
+const AWAY: f64 = 0.9;
+const LETTERS: f64 = 0.026;
+const BOUNDS: [f64; 2] = [12.0, 48.0];
+/// Width of the white line around letters, over their size.
+const HALO: f64 = 0.22;
+/// Pixels beyond the panel up to which something is drawn.
+const BEYOND: f64 = 20.0;
 
 /// The two colours of the pattern in a tint.
 pub fn tints(tint: u8) -> [Rgb; 2] {
@@ -104,144 +111,107 @@ pub fn tint_color(tint: u8) -> Rgb {
 }
 
 impl Frame {
-    /// Least and largest coordinates of what is shown.
-    pub fn corners(&self) -> [[f64; 2]; 2] {
-        match *self {
+    pub fn fit(&self, size: usize) -> Fit {
+        let corners = match *self {
             Frame::Disk => [[-1.0; 2], [1.0; 2]],
             Frame::HalfPlane(far) => [[-far, 0.0], [far, far]],
             Frame::Rectangle(corners) => corners,
-        }
-    }
-
-    pub fn fit(&self, size: usize) -> Fit {
-        Fit::new(self.corners().into_iter(), size)
-    }
-
-    /// The border of the model.
-    pub fn border(&self) -> Vec<[f64; 2]> {
-        match *self {
-            Frame::Disk => (0..=720)
-                .map(|k| {
-                    let (sin, cos) = (TAU * f64::from(k) / 720.0).sin_cos();
-                    [cos, sin]
-                })
-                .collect(),
-            Frame::HalfPlane(far) => vec![[-far, 0.0], [far, 0.0]],
-            Frame::Rectangle(_) => Vec::new(),
-        }
+        };
+        Fit::new(corners.into_iter(), size)
     }
 }
 
-impl Line {
-    pub fn rgb(&self) -> Rgb {
-        self.color.map_or(INK, seam_color)
-    }
-}
-
-impl Label {
-    /// The strokes of its letters in pixels and the radius of their pen; none where there is no room.
-    pub fn strokes(&self, fit: &Fit, size: f64) -> Vec<([[f64; 2]; 2], f64)> {
-        let (strokes, width) = lettering(&self.text, size);
-        if width > fit.scale * self.room {
-            return Vec::new();
-        }
-        let [x, y] = fit.apply(self.at);
-        let length = self.away[0].hypot(self.away[1]).max(f64::MIN_POSITIVE);
-        let [dx, dy] = self.away.map(|d| d / length);
-        // Wide words are pushed farther where they would reach back to the line.
-        let push = AWAY * size + 0.5 * (width - AWAY * size).max(0.0) * dx.abs();
-        let by = [x + push * dx - 0.5 * width, y - push * dy];
-        strokes.into_iter().map(|(ends, pen)| (ends.map(|p| [p[0] + by[0], p[1] + by[1]]), pen)).collect()
-    }
-}
-
-/// Cells, lines, dots and labels over one another, in this order.
-pub fn draw(drawing: &Drawing<'_>, style: &Style) -> Image {
+/// Areas, lines, dots and labels over one another, in this order.
+pub fn draw(drawing: &Drawing<'_>, style: &Style) -> Sheet {
     let fit = drawing.frame.fit(style.size);
-    let mut shapes: Vec<Shape> = drawing
-        .cells
-        .iter()
-        .map(|cell| {
-            Shape::Triangle(cell.corners.map(|p| {
-                let [x, y] = fit.apply(p);
-                [x, y, 0.0]
-            }))
-        })
-        .collect();
-    let mut strokes = Vec::new();
-    let mut line = |ends: [[f64; 2]; 2], layer: f64, radius: f64, color: Rgb| {
-        shapes.push(Shape::Capsule { ends: ends.map(|[x, y]| [x, y, layer * LAYER]), radius });
-        strokes.push(color);
-    };
-    let border = Line { points: drawing.frame.border(), color: None, width: 1.0 };
-    for (layer, each) in drawing.lines.iter().map(|l| (1.0, l)).chain([(2.0, &border)]) {
-        let radius = each.width * style.line();
-        for ends in each.points.windows(2) {
-            line([fit.apply(ends[0]), fit.apply(ends[1])], layer, radius, each.rgb());
+    let [width, height] = [fit.width as f64, fit.height as f64];
+    let panel = [[-BEYOND; 2], [width + BEYOND, height + BEYOND]];
+    let canvas = Canvas { fit, panel, style };
+    let mut sheet = Sheet::new(fit.width, fit.height);
+    // The ground of the model, and its border.
+    let (mut ground, mut border) = (Path::default(), Path::default());
+    match drawing.frame {
+        Frame::Disk => {
+            ground.circle(fit.apply([0.0; 2]), fit.scale);
+            border = ground.clone();
         }
-    }
-    for &dot in drawing.dots {
-        let at = fit.apply(dot);
-        line([at; 2], 3.0, 0.8 * style.cone(), [1.0; 3]);
-        line([at; 2], 4.0, 0.6 * style.cone(), INK);
-    }
-    for label in drawing.labels {
-        for (ends, pen) in label.strokes(&fit, style.size as f64) {
-            line(ends, 5.0, HALO * pen, [1.0; 3]);
-            line(ends, 6.0, pen, mix(seam_color(label.color), INK, 0.35));
+        Frame::HalfPlane(_) => {
+            let y = fit.apply([0.0; 2])[1];
+            ground.rectangle([0.0, 0.0, width, y]);
+            border.line(&[[0.0, y], [width, y]]);
         }
+        Frame::Rectangle(_) => {}
     }
-    let pattern = drawing.pattern.filter(|_| style.texture != Texture::None);
-    let panel = Panel {
-        drawing,
-        fit,
-        pattern,
-        texture: style.texture,
-        strokes,
-        wire: style.wire.then(|| wire_width(style.size)),
-    };
-    render(&shapes, fit.width, fit.height, &panel, style.threads)
+    sheet.fill(from_hex(EMPTY), &ground);
+    drawing.areas.iter().for_each(|area| canvas.area(&mut sheet, area));
+    for line in drawing.lines {
+        let color = line.color.map_or(INK, seam_color);
+        let pixels: Chain = line.points.iter().map(|p| fit.apply(*p)).collect();
+        sheet.stroke(color, 2.0 * line.width * style.line(), &canvas.line(&pixels));
+    }
+    sheet.stroke(INK, 2.0 * style.line(), &border);
+    for (radius, color) in [(0.8, [1.0; 3]), (0.6, INK)] {
+        let mut dots = Path::default();
+        drawing.dots.iter().for_each(|dot| dots.circle(fit.apply(*dot), radius * style.cone()));
+        sheet.fill(color, &dots);
+    }
+    drawing.labels.iter().for_each(|label| canvas.label(&mut sheet, label));
+    sheet.cut("drawing")
 }
 
-struct Panel<'a> {
-    drawing: &'a Drawing<'a>,
+struct Canvas<'a> {
     fit: Fit,
-    pattern: Option<Pattern<'a>>,
-    texture: Texture,
-    strokes: Vec<Rgb>,
-    /// Half the width of the edges of the mesh, where they are drawn.
-    wire: Option<f64>,
+    /// What is drawn, in pixels.
+    panel: [[f64; 2]; 2],
+    style: &'a Style,
 }
 
-impl Painter for Panel<'_> {
-    fn paint(&self, pixel: [f64; 2], hit: Option<&Hit>) -> Rgb {
-        let cells = self.drawing.cells;
-        let [x, y] = self.fit.invert(pixel);
-        if let Some(stroke) = hit.and_then(|hit| hit.shape.checked_sub(cells.len())) {
-            let beyond = |far: f64| y > far || x.abs() > far;
-            let outside = matches!(self.drawing.frame, Frame::HalfPlane(far) if beyond(far));
-            return if outside { [1.0; 3] } else { self.strokes[stroke] };
-        }
-        let (inside, empty) = match self.drawing.frame {
-            Frame::Disk => (x.hypot(y) < 1.0, from_hex(EMPTY)),
-            Frame::HalfPlane(far) => (y > 0.0 && y < far && x.abs() < far, from_hex(EMPTY)),
-            Frame::Rectangle(_) => (true, [1.0; 3]),
+impl Canvas<'_> {
+    fn area(&self, sheet: &mut Sheet, area: &Area) {
+        let [light, dark] = tints(area.tint);
+        let shown = |polygon: &Chain| {
+            in_box(&polygon.iter().map(|p| self.fit.apply(*p)).collect::<Chain>(), self.panel)
         };
-        let Some((hit, cell)) = hit.filter(|_| inside).map(|hit| (hit, &cells[hit.shape])) else {
-            return if inside { empty } else { [1.0; 3] };
-        };
-        let [light, dark] = tints(cell.tint);
-        let pixels = cell.corners.map(|p| self.fit.apply(p));
-        let share = match (self.pattern, cell.face) {
-            (Some(Pattern { uv, tiles }), Some(f)) => {
-                let f = f as usize;
-                Patch::new(self.texture, uv[f], tiles, f, pixels).value(hit.local)
+        let ground = mix(light, dark, area.dark);
+        let border = polygons(&[shown(&area.border)]);
+        sheet.fill(ground, &border);
+        // A line in the same colour closes the gaps that anti-aliasing leaves between neighbours.
+        sheet.stroke(ground, 0.3, &border);
+        sheet.fill(dark, &polygons(&area.cells.iter().map(shown).collect::<Vec<_>>()));
+        let mut wire = Path::default();
+        let sides = area.wire.iter().map(|side| side.map(|p| self.fit.apply(p)));
+        sides.filter_map(|side| segment_in_box(side, self.panel)).for_each(|side| wire.line(&side));
+        sheet.wire(wire_opacity(area.face), 2.0 * wire_width(self.style.size), &wire);
+    }
+
+    /// The parts of a line in pixels that are shown.
+    fn line(&self, points: &[[f64; 2]]) -> Path {
+        let (mut path, mut part): (Path, Chain) = Default::default();
+        for ends in points.windows(2) {
+            let Some([a, b]) = segment_in_box([ends[0], ends[1]], self.panel) else { continue };
+            if part.last() != Some(&a) {
+                path.line(&std::mem::replace(&mut part, vec![a]));
             }
-            (Some(_), None) => 0.5,
-            (None, _) => 0.25,
-        };
-        let wire = self.wire.filter(|_| cell.face.is_some());
-        let wire = wire.map_or(0.0, |half_width| Wire::new(pixels, half_width).opacity(hit.local));
-        mix(mix(light, dark, share), INK, wire)
+            part.push(b);
+        }
+        path.line(&part);
+        path
+    }
+
+    /// A label where there is room for it.
+    fn label(&self, sheet: &mut Sheet, label: &Label) {
+        let size = (LETTERS * self.style.size as f64).clamp(BOUNDS[0], BOUNDS[1]);
+        let lettering = word(&label.text, size);
+        if lettering.width > self.fit.scale * label.room {
+            return;
+        }
+        let [x, y] = self.fit.apply(label.at);
+        let length = label.away[0].hypot(label.away[1]).max(f64::MIN_POSITIVE);
+        let [dx, dy] = label.away.map(|d| d / length);
+        // Wide words are pushed farther where they would reach back to the line.
+        let push = size * AWAY + 0.5 * (lettering.width - size * AWAY).max(0.0) * dx.abs();
+        let at = [x + push * dx - 0.5 * lettering.width, y - push * dy];
+        let color = mix(seam_color(label.color), INK, 0.35);
+        sheet.write(&label.text, &lettering.path, (at, color), HALO * size);
     }
 }

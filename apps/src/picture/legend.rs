@@ -1,103 +1,101 @@
-//! The legend: a bar of colours with numbers, and what they are.
+//! What stands below a picture: the bar of colours with its numbers, and the key of the circles.
 
-use super::Style;
-use super::color::{INK, Rgb};
+use super::color::{INK, from_hex, to_hex};
 use super::colormap::{Ramp, Scale, number};
-use super::font::text;
-use super::raster::{Hit, Image, Painter, Shape, render};
+use super::flat::{DUAL_CIRCLE, VERTEX_CIRCLE};
+use super::sheet::{Path, Sheet, decimal};
+use super::text::{CAPITALS, Lettering, line};
+use super::{Flat, Style};
 
-/// Height of the legend and of its parts, over the size of a panel.
-const HEIGHT: f64 = 0.142;
-const BAR_TOP: f64 = 0.045;
-const BAR_HEIGHT: f64 = 0.020;
-const TICK: f64 = 0.008;
-const LETTERS: f64 = 0.0165;
-const SMALL: f64 = 0.0125;
-/// Length of the bar.
-const LENGTH: f64 = 0.62;
+/// Length and height of the bar, over the size of a panel.
+const BAR: [f64; 2] = [0.62, 0.022];
+/// Size of the letters, over the size of a panel, and its bounds in pixels: neither too small to be read nor larger than a title.
+const LETTERS: f64 = 0.024;
+const BOUNDS: [f64; 2] = [12.0, 40.0];
+/// Colours of the bar.
+const STEPS: usize = 160;
 
-/// A legend is as large as for a panel of this many pixels at least, to be read.
-const LEAST: f64 = 560.0;
-
-/// Where the parts of a legend are, in pixels of an image of this width: the same in raster and vector pictures.
-pub struct Plan {
-    pub height: f64,
-    /// Left, top, width, height.
-    pub bar: [f64; 4],
-    /// Text with the middle of the line it stands on and the height of its letters.
-    pub lines: Vec<(String, [f64; 2], f64)>,
-    /// x of the ticks.
-    pub ticks: Vec<f64>,
-    pub tick: f64,
+/// The size of letters below a panel of this size.
+fn letters(style: &Style) -> f64 {
+    (LETTERS * style.size as f64).clamp(BOUNDS[0], BOUNDS[1])
 }
 
-impl Plan {
-    pub fn new(scale: &Scale, width: f64, size: f64) -> Plan {
-        let size = size.max(LEAST);
-        let length = (LENGTH * size).min(0.8 * width);
-        let bar = [0.5 * (width - length), BAR_TOP * size, length, BAR_HEIGHT * size];
-        let [low, high] = scale.range;
-        let place = |v: f64| {
-            let t = if high > low { (v - low) / (high - low) } else { 0.5 };
-            bar[0] + length * t
-        };
-        let mut values = vec![low];
-        values.extend(scale.ticks());
-        values.extend((high > low).then_some(high));
-        // Classes have no numbers.
-        values.retain(|_| scale.ramp != Ramp::Pairs);
-        let below = bar[1] + bar[3] + (TICK + 1.35 * LETTERS) * size;
-        let mut lines: Vec<_> =
-            values.iter().map(|&v| (number(v), [place(v), below], LETTERS * size)).collect();
-        let middle = 0.5 * width;
-        lines.push((scale.title.clone(), [middle, bar[1] - 0.9 * LETTERS * size], LETTERS * size));
-        lines.push((format!("({})", scale.ends), [middle, below + 1.9 * SMALL * size], SMALL * size));
-        let ticks = values.into_iter().map(place).collect();
-        Plan { height: (HEIGHT * size).ceil(), bar, lines, ticks, tick: TICK * size }
+/// A line of text and where its middle stands.
+struct Caption {
+    text: String,
+    at: [f64; 2],
+    lettering: Lettering,
+}
+
+impl Caption {
+    fn new(text: &str, size: f64, at: [f64; 2]) -> Caption {
+        Caption { text: text.into(), at, lettering: line(text, size) }
     }
 }
 
-/// Draw a legend as wide as the picture.
-pub fn draw(scale: &Scale, width: usize, style: &Style) -> Image {
-    let size = style.size;
-    let plan = Plan::new(scale, width as f64, size as f64);
-    let mut shapes = Vec::new();
-    for (line, [x, y], height) in &plan.lines {
-        let (strokes, length) = text(line, *height);
-        shapes.extend(strokes.into_iter().map(|s| moved(s, [x - 0.5 * length, *y])));
+/// The bar of colours of a quantity, with its title above and its numbers below.
+pub fn bar(scale: &Scale, style: &Style) -> Sheet {
+    let (size, letters) = (style.size as f64, letters(style));
+    let [length, height] = [(BAR[0] * size).max(16.0 * letters), (BAR[1] * size).max(0.8 * letters)];
+    let [title, top] = [1.3 * letters, 1.9 * letters];
+    let [low, high] = scale.range;
+    let place = |v: f64| if high > low { length * (v - low) / (high - low) } else { 0.5 * length };
+    let mut values: Vec<f64> = [low].into_iter().chain(scale.ticks()).collect();
+    values.extend((high > low).then_some(high));
+    // Classes have no numbers.
+    values.retain(|_| scale.ramp != Ramp::Pairs);
+    // The line that numbers stand on, and the one of what is said of them.
+    let below = top + height + if values.is_empty() { 0.0 } else { (0.45 + CAPITALS) * letters };
+    let mut captions = vec![
+        Caption::new(&scale.title, letters, [0.5 * length, title]),
+        Caption::new(&format!("({})", scale.ends), 0.8 * letters, [0.5 * length, below + 1.25 * letters]),
+    ];
+    captions.extend(values.iter().map(|v| Caption::new(&number(*v), letters, [place(*v), below])));
+    let reach = |c: &Caption| (c.at[0] - 0.5 * length).abs() + 0.5 * c.lettering.width;
+    let width = captions.iter().map(reach).fold(0.5 * length, f64::max) * 2.0 + letters;
+    let mut sheet = Sheet::new(width.ceil() as usize, (below + 1.8 * letters).ceil() as usize);
+    let left = 0.5 * (sheet.width as f64 - length);
+    for k in 0..STEPS {
+        let [from, to] = [k, k + 1].map(|k| length * k as f64 / STEPS as f64);
+        let mut path = Path::default();
+        path.rectangle([left + from, top, to - from, height]);
+        let color = to_hex(scale.on_bar((k as f64 + 0.5) / STEPS as f64));
+        sheet.add(&format!(r#"fill="{color}" shape-rendering="crispEdges""#), &path);
     }
-    let bottom = plan.bar[1] + plan.bar[3];
-    let radius = 0.0006 * size as f64;
-    shapes.extend(plan.ticks.iter().map(|&x| Shape::Capsule {
-        ends: [[x, bottom, 0.0], [x, bottom + plan.tick, 0.0]],
-        radius: radius.max(0.4),
-    }));
-    render(&shapes, width, plan.height as usize, &Ink { scale, bar: plan.bar }, style.threads)
+    let mut ticks = Path::default();
+    let tick = |v: &f64| [top + height, top + height + 0.3 * letters].map(|y| [left + place(*v), y]);
+    values.iter().for_each(|v| ticks.line(&tick(v)));
+    sheet.stroke(INK, (0.05 * letters).max(0.8), &ticks);
+    for Caption { text, at: [x, y], lettering } in &captions {
+        sheet.write(text, &lettering.path, ([left + x - 0.5 * lettering.width, *y], INK), 0.0);
+    }
+    sheet
 }
 
-fn moved(shape: Shape, by: [f64; 2]) -> Shape {
-    let to = |p: [f64; 3]| [p[0] + by[0], p[1] + by[1], p[2]];
-    match shape {
-        Shape::Triangle(p) => Shape::Triangle(p.map(to)),
-        Shape::Capsule { ends, radius } => Shape::Capsule { ends: ends.map(to), radius },
+/// The key of the circles of a layout, if it has any.
+pub fn circles(flat: &Flat<'_>, style: &Style) -> Option<Sheet> {
+    let letters = letters(style);
+    let kinds = [
+        (flat.circles, VERTEX_CIRCLE, "circles of the vertices"),
+        (flat.dual_circles, DUAL_CIRCLE, "circles of the faces, orthogonal to those"),
+    ];
+    let entries: Vec<_> = kinds.into_iter().filter(|kind| !kind.0.is_empty()).collect();
+    let written: Vec<Lettering> = entries.iter().map(|(_, _, text)| line(text, letters)).collect();
+    let widest = written.iter().map(|l| l.width).fold(0.0, f64::max);
+    let (radius, row) = (0.38 * letters, 1.45 * letters);
+    let width = (widest + 3.0 * letters).ceil() as usize;
+    let mut sheet = Sheet::new(width, (row * entries.len() as f64 + 0.6 * letters).ceil() as usize);
+    for (k, ((_, color, text), lettering)) in entries.iter().zip(&written).enumerate() {
+        let y = row * (k as f64 + 0.9);
+        let mut path = Path::default();
+        path.circle([letters, y - 0.5 * CAPITALS * letters], radius);
+        sheet.add(
+            &format!(r#"stroke="{}" stroke-width="{}""#, to_hex(from_hex(*color)), decimal(0.12 * letters)),
+            &path,
+        );
+        sheet.write(text, &lettering.path, ([2.0 * letters, y], INK), 0.0);
     }
-}
-
-struct Ink<'a> {
-    scale: &'a Scale,
-    bar: [f64; 4],
-}
-
-impl Painter for Ink<'_> {
-    fn paint(&self, [x, y]: [f64; 2], hit: Option<&Hit>) -> Rgb {
-        let [left, top, width, height] = self.bar;
-        let inside = (0.0..=width).contains(&(x - left)) && (0.0..=height).contains(&(y - top));
-        match hit {
-            Some(_) => INK,
-            None if inside => self.scale.on_bar((x - left) / width),
-            None => [1.0; 3],
-        }
-    }
+    (!entries.is_empty()).then_some(sheet)
 }
 
 #[cfg(test)]
@@ -107,27 +105,28 @@ mod tests {
     #[test]
     fn the_numbers_at_the_ends_are_the_percentiles() {
         let values: Vec<f64> = (1..=1000).map(f64::from).collect();
-        let scale = Scale::of_amounts("area", &values);
-        let plan = Plan::new(&scale, 900.0, 900.0);
-        let written: Vec<&str> = plan.lines.iter().map(|l| l.0.as_str()).collect();
-        assert_eq!((written[0], written[written.len() - 3]), ("20", "980"));
-        assert_eq!(written[written.len() - 2], "area");
-        assert!((plan.ticks[0] - plan.bar[0]).abs() < 1e-9, "{:?}", plan.ticks);
-        assert!((plan.ticks[plan.ticks.len() - 1] - plan.bar[0] - plan.bar[2]).abs() < 1e-9);
+        let svg =
+            String::from_utf8(bar(&Scale::of_amounts("area", &values), &Style::default()).svg()).unwrap();
+        let written: Vec<&str> =
+            svg.split("aria-label=\"").skip(1).filter_map(|s| s.split('"').next()).collect();
+        assert_eq!((written[0], written[2], written[written.len() - 1]), ("area", "20", "980"));
     }
 
     #[test]
-    fn the_bar_runs_through_the_map() {
+    fn the_bar_runs_through_the_map_and_its_letters_can_be_read_at_any_size() {
         let scale = Scale::of_amounts("a", &[0.0, 1.0]);
-        let image = draw(&scale, 400, &Style { size: 400, ..Style::default() });
-        let [left, top, width, height] = Plan::new(&scale, 400.0, 400.0).bar;
-        let at = |t: f64| {
-            let (x, y) = ((left + t * width) as usize, (top + 0.5 * height) as usize);
-            let i = 3 * (y * image.width + x);
-            [image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]]
-        };
-        // The violet and yellow ends of viridis.
-        assert_eq!(image.height, (HEIGHT * LEAST).ceil() as usize);
-        assert!(at(0.02)[2] > at(0.02)[1] && at(0.98)[0] > 220 && at(0.98)[2] < 80);
+        for size in [64, 320, 900, 4096] {
+            let style = Style { size, ..Style::default() };
+            let image = bar(&scale, &style).image().unwrap();
+            let (letters, length) = (letters(&style), (BAR[0] * size as f64).max(16.0 * letters(&style)));
+            assert!((12.0..=40.0).contains(&letters));
+            let at = |t: f64| {
+                let x = 0.5 * (image.width as f64 - length) + t * length;
+                let i = 3 * ((2.2 * letters) as usize * image.width + x as usize);
+                [image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]]
+            };
+            // The violet and yellow ends of viridis.
+            assert!(at(0.02)[2] > at(0.02)[1] && at(0.98)[0] > 220 && at(0.98)[2] < 80, "{size}");
+        }
     }
 }

@@ -14,6 +14,8 @@ const SHINE: f64 = 0.05;
 /// How dark a shadow on the ground may become: the share of white that the sky and the key light give.
 const GROUND_SKY: f64 = 0.42;
 const GROUND_KEY: f64 = 0.26;
+/// Share of the sky that is hidden where the shade on the ground is half of what the sky alone would give.
+const FAINT: f64 = 0.05;
 
 /// The lights of a scene, in pixel coordinates (x right, y down, z towards the viewer).
 pub struct Lights {
@@ -52,8 +54,9 @@ impl Lights {
 
     /// The ground, white where nothing shades it.
     pub fn on_ground(open: Open) -> Rgb {
-        // Neither light is dimmed by what hides next to nothing of it: the paper stays white.
-        let sky = ((1.0 - open.sky) - 0.03).max(0.0);
+        // What hides next to nothing of the sky dims it by next to nothing: the shade ends without a border.
+        let hidden = 1.0 - open.sky;
+        let sky = hidden * hidden / (hidden + FAINT);
         [1.0 - GROUND_SKY * sky - GROUND_KEY * (1.0 - open.key); 3]
     }
 }

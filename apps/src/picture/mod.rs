@@ -1,8 +1,9 @@
 //! Pictures: the surface with the pattern of its layout beside the flat layout, and a legend below.
 //!
-//! A small software renderer. Everything becomes triangles and round strokes that go through one supersampled z-buffer
-//! in linear light; light and shadow come from rays over a tree of boxes. Orthographic, so that attributes interpolate
-//! linearly. Every pixel is a fixed computation: a picture is the same for any number of threads.
+//! A surface becomes triangles and round strokes that go through one supersampled z-buffer in linear light. All that is flat becomes
+//! SVG, which is the file or is drawn over the surfaces by resvg. Light and shadow come from depth maps, one for each of many small
+//! lights. Orthographic, so that attributes interpolate linearly. Every pixel is a fixed computation: a picture is the same
+//! for any number of threads.
 
 mod args;
 mod camera;
@@ -10,20 +11,19 @@ mod coat;
 mod color;
 mod colormap;
 mod drawing;
-mod drawing_svg;
 mod fit;
 mod flat;
-mod font;
 mod legend;
-mod lettering;
 mod light;
 mod normals;
 mod occlusion;
 mod palette;
 mod raster;
+mod region;
 mod scene;
+mod sheet;
 mod solid;
-mod svg;
+mod text;
 mod texture;
 mod upright;
 mod vector;
@@ -31,11 +31,10 @@ mod vector;
 pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom};
 pub use camera::View;
 pub use colormap::{CLASSES, Scale};
-pub use drawing::{Cell, Drawing, Frame, Label, Line, PALE, Pattern, TINTS, tint_color};
-pub use drawing_svg::drawing_svg;
+pub use drawing::{Area, Drawing, Frame, Label, Line, PALE, Pattern, TINTS, tint_color};
+pub use region::{FINEST, cells, in_pieces, outline};
 pub use scene::{Circle, Field, Flat, Focus, Style, Surface};
-pub use svg::flat_svg;
-pub use texture::{Texture, Tiles};
+pub use texture::{OCTAVE, Texture, Tiles};
 
 pub use raster::{doubled_area, in_parallel};
 pub use vector::normal;
@@ -43,6 +42,7 @@ pub use vector::normal;
 use crate::failure::Failure;
 use coat::Wish;
 use raster::Image;
+use sheet::Sheet;
 
 /// What one picture shows: the surface on the left, the layout or a drawing on the right, or one of them.
 #[derive(Clone, Copy, Default)]
@@ -80,8 +80,9 @@ impl Picture<'_> {
         })
     }
 
-    fn draw(&self, style: &Style) -> Image {
-        let own = if self.pattern.is_some() { None } else { self.tiles() };
+    /// The panels side by side, and below them what says what they show.
+    fn sheet(&self, style: &Style) -> Sheet {
+        let own = if self.pattern.is_some() { None } else { self.tiles().map(|t| t.banded(style.bands)) };
         let tiles = self.pattern.or(own.as_ref());
         let wish = |corner_uv| Wish {
             texture: style.texture,
@@ -92,41 +93,47 @@ impl Picture<'_> {
             size: style.size,
         };
         let [surface, beside] = [self.surface, self.beside]
-            .map(|surface| surface.map(|s| solid::draw(&s, &wish(s.corner_uv), style)));
+            .map(|surface| surface.map(|s| Sheet::of_image(solid::draw(&s, &wish(s.corner_uv), style))));
         let flat = self.flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style));
         let drawing = self.drawing.map(|d| drawing::draw(d, style));
-        let panels: Vec<Image> = [surface, beside, flat, drawing].into_iter().flatten().collect();
-        let gap = (BETWEEN * style.size as f64) as usize * panels.len().saturating_sub(1);
-        let width = (panels.iter().map(|p| p.width).sum::<usize>() + gap).max(1);
-        let height = panels.iter().map(|p| p.height).max().unwrap_or(1);
-        // A legend needs some width.
-        let width = if self.field.is_some() { width.max(style.size * 3 / 4) } else { width };
-        let legend = self.field.map(|f| legend::draw(&f.scale, width, style));
-        let mut image = Image::white(width, height + legend.as_ref().map_or(0, |l| l.height));
-        let used = panels.iter().map(|p| p.width).sum::<usize>() + gap;
-        let mut x = (width - used.min(width)) / 2;
-        for panel in &panels {
-            image.put(panel, x, (height - panel.height) / 2);
-            x += panel.width + gap;
-        }
-        if let Some(legend) = &legend {
-            image.put(legend, 0, height);
-        }
-        image
+        let panels = stack([surface, beside, flat, drawing], 0, (BETWEEN * style.size as f64) as usize);
+        let key = self.flat.and_then(|f| legend::circles(&f, style));
+        stack([Some(panels), key, self.field.map(|f| legend::bar(&f.scale, style))], 1, 0)
     }
+}
+
+/// Sheets from left to right (axis 0) or from top to bottom (axis 1), their middles on one line.
+fn stack(sheets: impl IntoIterator<Item = Option<Sheet>>, axis: usize, gap: usize) -> Sheet {
+    let sheets: Vec<Sheet> = sheets.into_iter().flatten().collect();
+    let sizes: Vec<[usize; 2]> = sheets.iter().map(|s| [s.width, s.height]).collect();
+    let mut whole = [0, 1].map(|k| sizes.iter().map(|s| s[k]).max().unwrap_or(1));
+    whole[axis] = sizes.iter().map(|s| s[axis]).sum::<usize>() + gap * sizes.len().saturating_sub(1);
+    let (mut stacked, mut next) = (Sheet::new(whole[0], whole[1]), 0);
+    for (sheet, size) in sheets.into_iter().zip(sizes) {
+        let mut at = [0, 1].map(|k| (whole[k] - size[k].min(whole[k])) / 2);
+        at[axis] = next;
+        stacked.put(sheet, at);
+        next += size[axis] + gap;
+    }
+    stacked
+}
+
+/// The picture of a layout or a drawing as an SVG file; surfaces are not in it.
+pub fn svg(picture: &Picture<'_>, style: &Style) -> Vec<u8> {
+    picture.sheet(style).svg()
 }
 
 /// The picture as a PNG file.
 pub fn png(picture: &Picture<'_>, style: &Style) -> Result<Vec<u8>, Failure> {
-    encoded(&picture.draw(style), style.palette).map_err(|e| Failure::Failed(e.to_string()))
+    encoded(&picture.sheet(style).image()?, style.palette).map_err(|e| Failure::Failed(e.to_string()))
 }
 
 fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
     if palette {
+        encoder.set_compression(png::Compression::High);
         let (colors, indices) = palette::reduce(&image.rgb);
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_palette(colors);
@@ -134,6 +141,7 @@ fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> 
         encoder.set_filter(png::Filter::NoFilter);
         encoder.write_header()?.write_image_data(&indices)?;
     } else {
+        encoder.set_compression(png::Compression::Fast);
         encoder.set_color(png::ColorType::Rgb);
         encoder.write_header()?.write_image_data(&image.rgb)?;
     }

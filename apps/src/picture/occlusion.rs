@@ -1,28 +1,30 @@
-//! How much of the sky and of the key light a point sees past the surface, by casting rays.
+//! How much of the sky and of the key light a point sees past the surface, by depth maps: the surface as each of many small lights
+//! sees it.
 //!
-//! Each pixel casts a few rays, sixteen different sets of them in every square of 4 × 4 pixels; the mean over such a
+//! Each pixel asks a few lights, sixteen different sets of them in every square of 4 × 4 pixels; the mean over such a
 //! square of neighbours on the same piece of surface then counts all sets once (interleaved sampling, \[KH01\]).
 
-use super::raster::{Shape, in_parallel, visible};
-use super::vector::{V3, add, at, complement, dot, scaled, sub};
-use obvhs::BvhBuildParams;
-use obvhs::cwbvh::{CwBvh, builder::build_cwbvh_from_tris};
-use obvhs::ray::Ray;
-use obvhs::triangle::Triangle;
-use std::time::Duration;
+use super::raster::{Hit, Samples, Shape, bands, doubled_area, in_parallel};
+use super::vector::{V3, add, at, bounding_ball, complement, dot, norm, normal, scaled, sphere_point, sub};
 
-/// Rays of one pixel to the sky and to the key light.
-const SKY_RAYS: usize = 8;
-const KEY_RAYS: usize = 4;
-/// Pixels per side of the squares that share one set of directions.
+/// Lights of the sky and of the key light that one pixel asks: 64 and 16 in all, of which single ones cannot be told apart on a
+/// surface once the mean is taken.
+const SKY_LIGHTS: usize = 4;
+const KEY_LIGHTS: usize = 1;
+/// Pixels per side of the squares that share all lights.
 const TILE: usize = 4;
+const SETS: usize = TILE * TILE;
 /// Angular radius of the key light, radians: the softness of its shadows.
 const KEY_RADIUS: f64 = 0.16;
-/// The surface hides the sky from itself up to this distance, as a share of the picture's size; what is farther away
-/// hides light but also throws some back.
-const REACH: f64 = 0.45;
-/// Rays start this far off the surface, pixels, so that rounding to f32 does not hide it from itself.
-const LIFT: f64 = 0.03;
+/// Pixels on the side of a depth map, of the sky and of the key light, whose shadows have edges.
+const SKY_MAP: usize = 224;
+const KEY_MAP: usize = 448;
+/// A point is lifted off the surface by this many pixels of a map, so that the map's steps do not hide it from itself.
+const LIFT: f64 = 1.6;
+/// Area vectors of a closed surface, all faces the same way round, add up to less than this share of its area.
+const CLOSED: f64 = 1e-6;
+/// Squares of pixels to each side over which light on the ground is averaged, where nothing hides the steps of the maps.
+const SOFT: usize = 3;
 /// Rows of one band of work.
 const BAND: usize = 8;
 
@@ -35,6 +37,27 @@ pub struct Open {
 
 impl Open {
     pub const FULLY: Open = Open { sky: 1.0, key: 1.0 };
+}
+
+/// Light that some lights give to a point and would give without the surface: of the sky, and of the key light.
+#[derive(Clone, Copy, Debug, Default)]
+struct Light {
+    sky: [f64; 2],
+    key: [f64; 2],
+}
+
+impl Light {
+    fn add(&mut self, other: &Light, weight: f64) {
+        for k in 0..2 {
+            self.sky[k] += weight * other.sky[k];
+            self.key[k] += weight * other.key[k];
+        }
+    }
+
+    fn open(&self) -> Open {
+        let share = |[seen, all]: [f64; 2], none: f64| if all > 0.0 { seen / all } else { none };
+        Open { sky: share(self.sky, 1.0), key: share(self.key, 0.0) }
+    }
 }
 
 /// A point that is seen, in pixel coordinates.
@@ -63,70 +86,133 @@ impl Ground {
     }
 }
 
+/// The surface as a light far away sees it: how near to the light it is.
+struct DepthMap {
+    /// To the right and up on the map, and towards the light.
+    axes: [V3; 3],
+    centre: V3,
+    /// Pixels of the map per unit.
+    scale: f64,
+    size: usize,
+    depth: Vec<f32>,
+}
+
+impl DepthMap {
+    /// `points`: within `radius` of `centre`; `inside`: of [`enclosed`].
+    fn new(
+        (points, faces, inside): (&[V3], &[[u32; 3]], f64),
+        towards: V3,
+        (centre, radius): (V3, f64),
+        size: usize,
+    ) -> DepthMap {
+        let [a, b] = complement(towards);
+        let scale = 0.5 * (size as f64 - 2.0) / radius;
+        let map = DepthMap { axes: [a, b, towards], centre, scale, size, depth: Vec::new() };
+        let seen: Vec<V3> = points.iter().map(|p| map.place(*p)).collect();
+        let mut samples = Samples::new(&[], &[], [size, 0, size], 1);
+        for corners in faces.iter().map(|f| f.map(|v| seen[v as usize])) {
+            // The far side of a solid is hidden by its near side.
+            if doubled_area(corners.map(|p| [p[0], p[1]])) * inside >= 0.0 {
+                samples.triangle(corners, 0);
+            }
+        }
+        DepthMap { depth: samples.depth, ..map }
+    }
+
+    fn place(&self, p: V3) -> V3 {
+        let [x, y, z] = self.axes.map(|axis| dot(axis, sub(p, self.centre)));
+        let middle = 0.5 * self.size as f64;
+        [middle + self.scale * x, middle + self.scale * y, self.scale * z]
+    }
+
+    /// Whether the light sees a point.
+    fn sees(&self, point: &Point) -> bool {
+        let [x, y, z] = self.place(add(point.xyz, scaled(point.flat, LIFT / self.scale)));
+        let inside = |c: f64| c >= 0.0 && c < self.size as f64;
+        !(inside(x) && inside(y)) || f64::from(self.depth[y as usize * self.size + x as usize]) <= z
+    }
+}
+
 /// A surface that casts shadows.
 pub struct Caster {
-    triangles: Vec<Triangle>,
-    tree: Option<CwBvh>,
-    key: V3,
-    reach: f64,
+    /// The lights of set k are those whose number leaves the remainder k.
+    sky: Vec<DepthMap>,
+    key: Vec<DepthMap>,
+    towards_key: V3,
 }
 
 impl Caster {
-    /// `key`: unit vector towards the key light; `size`: of the picture in pixels.
-    pub fn new(shapes: &[Shape], key: V3, size: usize) -> Caster {
-        let corners = shapes.iter().filter_map(|s| match s {
-            Shape::Triangle(p) => Some(p),
-            Shape::Capsule { .. } => None,
+    /// `key`: unit vector towards the key light.
+    pub fn new(points: &[V3], faces: &[[u32; 3]], key: V3, threads: usize) -> Caster {
+        let (ball, surface) = (bounding_ball(points), (points, faces, enclosed(points, faces)));
+        let [a, b] = complement(key);
+        let around_key = |i: usize| {
+            let [p, q] = disk_point(i).map(|x| x * KEY_RADIUS);
+            let towards = add(key, add(scaled(a, p), scaled(b, q)));
+            scaled(towards, 1.0 / dot(towards, towards).sqrt())
+        };
+        let lights = (0..SKY_LIGHTS * SETS).map(|i| (sphere_point(i, SKY_LIGHTS * SETS), SKY_MAP));
+        let lights = lights.chain((0..KEY_LIGHTS * SETS).map(|i| (around_key(i), KEY_MAP)));
+        let mut maps: Vec<_> = lights.map(|light| (light, None)).collect();
+        in_parallel(maps.iter_mut().collect(), threads, |_, ((towards, size), map)| {
+            *map = Some(DepthMap::new(surface, *towards, ball, *size));
         });
-        let triangles: Vec<Triangle> = corners
-            .map(|[a, b, c]| Triangle { v0: single(*a), v1: single(*b), v2: single(*c) })
-            .filter(|t| t.v0.is_finite() && t.v1.is_finite() && t.v2.is_finite())
-            .collect();
-        let build =
-            || build_cwbvh_from_tris(&triangles, BvhBuildParams::fast_build(), &mut Duration::default());
-        let tree = (!triangles.is_empty()).then(build);
-        Caster { triangles, tree, key, reach: REACH * size as f64 }
+        let mut maps = maps.into_iter().filter_map(|(_, map)| map);
+        let sky = maps.by_ref().take(SKY_LIGHTS * SETS).collect();
+        Caster { sky, key: maps.collect(), towards_key: key }
     }
 
-    /// The light that reaches a point; `set` in 0..16 chooses the directions.
-    pub fn open(&self, point: &Point, set: usize) -> Open {
-        let Some(tree) = &self.tree else { return Open::FULLY };
-        let origin = add(point.xyz, scaled(point.flat, LIFT));
-        let reach = if point.on_ground { f64::INFINITY } else { self.reach };
-        let free = |direction: V3, reach: f64| {
-            let ray = Ray::new(single(origin), single(direction), 0.0, reach as f32);
-            tree.ray_traverse_miss(ray, |ray, i| {
-                self.triangles[tree.primitive_indices[i] as usize].intersect(ray)
-            })
-        };
-        let [a, b] = complement(point.normal);
-        let (mut seen, mut cast) = (0, 0);
-        for j in 0..SKY_RAYS {
-            let [p, q] = disk_point(set * SKY_RAYS + j);
-            let rise = (1.0 - p * p - q * q).max(0.0).sqrt();
-            let direction = add(scaled(point.normal, rise), add(scaled(a, p), scaled(b, q)));
-            // A direction below the face itself says nothing about what is above it.
-            if dot(direction, point.flat) > 0.0 {
-                cast += 1;
-                seen += usize::from(free(direction, reach));
-            }
+    /// What some lights of the sky and of the key light give to a point.
+    fn light<'a>(
+        &self,
+        point: &Point,
+        sky: impl Iterator<Item = &'a DepthMap>,
+        key: impl Iterator<Item = &'a DepthMap>,
+    ) -> Light {
+        let mut light = Light::default();
+        // A light below the face itself says nothing about what is above it.
+        for map in sky.filter(|map| dot(map.axes[2], point.flat) > 0.0) {
+            let weight = dot(map.axes[2], point.normal).max(0.0);
+            light.sky[0] += if map.sees(point) { weight } else { 0.0 };
+            light.sky[1] += weight;
         }
-        let sky = if cast > 0 { seen as f64 / cast as f64 } else { 1.0 };
-        if dot(self.key, point.normal) <= 0.0 {
-            return Open { sky, key: 0.0 };
+        for map in key {
+            let lit = dot(self.towards_key, point.normal) > 0.0 && map.sees(point);
+            light.key[0] += f64::from(u8::from(lit));
+            light.key[1] += 1.0;
         }
-        let [a, b] = complement(self.key);
-        let lit = (0..KEY_RAYS).filter(|j| {
-            let [p, q] = disk_point(set * KEY_RAYS + j).map(|x| x * KEY_RADIUS);
-            free(add(self.key, add(scaled(a, p), scaled(b, q))), f64::INFINITY)
-        });
-        Open { sky, key: lit.count() as f64 / KEY_RAYS as f64 }
+        light
+    }
+
+    /// The light of one set, or of all, that reaches a point.
+    fn of_set(&self, point: &Point, set: usize) -> Light {
+        let (sky, key) = (self.sky.iter(), self.key.iter());
+        self.light(point, sky.skip(set).step_by(SETS), key.skip(set).step_by(SETS))
+    }
+
+    /// The shares of all lights that reach a point.
+    pub fn open(&self, point: &Point) -> Open {
+        self.light(point, self.sky.iter(), self.key.iter()).open()
     }
 }
 
-/// In the single precision of the tree.
-fn single<T: From<[f32; 3]>>(p: V3) -> T {
-    p.map(|x| x as f32).into()
+/// What a closed surface encloses, six times its volume, negative where its faces are clockwise from outside; 0 of others.
+fn enclosed(points: &[V3], faces: &[[u32; 3]]) -> f64 {
+    let (mut sum, mut size, mut volume) = ([0.0; 3], 0.0, 0.0);
+    for corners in faces.iter().map(|f| f.map(|v| points[v as usize])) {
+        let n = normal(corners);
+        (sum, size, volume) = (add(sum, n), size + norm(n), volume + dot(corners[0], n));
+    }
+    if border(faces).is_empty() && norm(sum) <= CLOSED * size { volume } else { 0.0 }
+}
+
+/// The edges of exactly one face.
+pub fn border(faces: &[[u32; 3]]) -> Vec<(u32, u32)> {
+    let sides = faces.iter().flat_map(|f| [0, 1, 2].map(|k| (f[k], f[(k + 1) % 3])));
+    let mut edges: Vec<(u32, u32)> = sides.map(|(a, b)| (a.min(b), a.max(b))).collect();
+    edges.sort_unstable();
+    let alone = |run: &[(u32, u32)]| (run.len() == 1).then(|| run[0]);
+    edges.chunk_by(|a, b| a == b).filter_map(alone).collect()
 }
 
 /// Points spread evenly over the unit disk: any run of consecutive ones is. The sequence of \[Rob18\] in the square,
@@ -154,7 +240,7 @@ pub struct Field {
     width: usize,
     height: usize,
     points: Vec<Option<Point>>,
-    open: Vec<Open>,
+    light: Vec<Light>,
 }
 
 impl Field {
@@ -164,44 +250,57 @@ impl Field {
         shapes: &[Shape],
         [width, height]: [usize; 2],
         threads: usize,
-        describe: impl Fn([f64; 2], Option<&super::raster::Hit>) -> Option<Point> + Sync,
+        describe: impl Fn([f64; 2], Option<&Hit>) -> Option<Point> + Sync,
     ) -> Field {
         let mut points = vec![None; width * height];
-        let mut raw = vec![Open::FULLY; width * height];
+        let mut raw = vec![Light::default(); width * height];
         let rows = (width * BAND).max(1);
-        let bands: Vec<_> = points.chunks_mut(rows).zip(raw.chunks_mut(rows)).collect();
-        in_parallel(bands, threads, |band, (points, raw)| {
+        let in_band = bands(shapes, height, BAND);
+        let work: Vec<_> = points.chunks_mut(rows).zip(raw.chunks_mut(rows)).collect();
+        in_parallel(work, threads, |band, (points, raw)| {
             let first = band * BAND;
-            let samples = visible(shapes, width, first, points.len() / width, 1);
+            let samples = Samples::new(shapes, &in_band[band], [width, first, points.len() / width], 1);
             for (i, (point, raw)) in points.iter_mut().zip(raw).enumerate() {
                 let (x, y) = (i % width, i / width);
                 let pixel = [x as f64 + 0.5, (first + y) as f64 + 0.5];
                 *point = describe(pixel, samples.hit(shapes, x, y, pixel).as_ref());
                 if let Some(point) = point {
-                    *raw = caster.open(point, (first + y) % TILE * TILE + x % TILE);
+                    *raw = caster.of_set(point, (first + y) % TILE * TILE + x % TILE);
                 }
             }
         });
-        let mut field = Field { width, height, points, open: raw };
-        let mut smooth = field.open.clone();
-        let bands: Vec<_> = smooth.chunks_mut(rows).collect();
-        in_parallel(bands, threads, |band, out| {
-            for (i, out) in out.iter_mut().enumerate() {
-                let pixel = band * BAND * width + i;
-                if let Some(point) = &field.points[pixel] {
-                    *out = field.mean(point, [pixel % width, pixel / width]).unwrap_or(*out);
-                }
-            }
-        });
-        field.open = smooth;
+        let mut field = Field { width, height, points, light: raw };
+        let near = |c: usize| (c.saturating_sub(TILE / 2)..c + TILE / 2).collect();
+        field.average(threads, |_| true, near);
+        // On the ground the shadows of single lights would be told apart: there the mean is taken over more pixels.
+        let far = |c: usize| (0..=2 * SOFT).map(|k| (c + TILE * k).saturating_sub(TILE * SOFT)).collect();
+        field.average(threads, |point| point.on_ground, far);
         field
     }
 
-    /// The mean over the pixels around one that show the same piece of surface.
-    fn mean(&self, point: &Point, [x, y]: [usize; 2]) -> Option<Open> {
-        let around = |c: usize, n: usize| c.saturating_sub(TILE / 2)..(c + TILE / 2).min(n);
-        let near = around(y, self.height).flat_map(|j| around(x, self.width).map(move |i| (i, j)));
-        self.average(near.map(|(i, j)| (j * self.width + i, 1.0)), point)
+    /// Give the points that are chosen the mean over pixels around theirs that show the same piece of surface: those of the rows and of the
+    /// columns that are named for the pixel's own.
+    fn average(
+        &mut self,
+        threads: usize,
+        chosen: impl Fn(&Point) -> bool + Sync,
+        around: impl Fn(usize) -> Vec<usize>,
+    ) {
+        let (mut means, field) = (self.light.clone(), &*self);
+        let table = |n: usize| -> Vec<Vec<usize>> {
+            let within = |c| around(c).into_iter().map(|i| i.min(n - 1)).collect();
+            (0..n).map(within).collect()
+        };
+        let (columns, rows) = (table(field.width), table(field.height));
+        in_parallel(means.chunks_mut(field.width.max(1)).collect(), threads, |y, out| {
+            for (x, out) in out.iter_mut().enumerate() {
+                if let Some(point) = field.points[y * field.width + x].as_ref().filter(|p| chosen(p)) {
+                    let near = rows[y].iter().flat_map(|j| columns[x].iter().map(move |i| (j, i)));
+                    *out = field.sum(near.map(|(j, i)| (j * field.width + i, 1.0)), point).0;
+                }
+            }
+        });
+        self.light = means;
     }
 
     /// The light at a point that is seen at the pixel coordinates (x, y); `None` if no pixel near it shows its surface.
@@ -215,19 +314,20 @@ impl Field {
             inside.then(|| (j as usize * self.width + i as usize, weight + 1e-3))
         };
         let taps = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)];
-        self.average(taps.into_iter().filter_map(tap), point)
+        let (light, total) = self.sum(taps.into_iter().filter_map(tap), point);
+        (total > 0.0).then(|| light.open())
     }
 
-    fn average(&self, taps: impl Iterator<Item = (usize, f64)>, point: &Point) -> Option<Open> {
-        let (mut sky, mut key, mut total) = (0.0, 0.0, 0.0);
+    /// The weighted sum over pixels that show the piece of surface on which a point lies, and of the weights.
+    fn sum(&self, taps: impl Iterator<Item = (usize, f64)>, point: &Point) -> (Light, f64) {
+        let (mut light, mut total) = (Light::default(), 0.0);
         for (pixel, weight) in taps {
             if self.points[pixel].as_ref().is_some_and(|p| p.neighbours(point)) {
-                sky += weight * self.open[pixel].sky;
-                key += weight * self.open[pixel].key;
+                light.add(&self.light[pixel], weight);
                 total += weight;
             }
         }
-        (total > 0.0).then(|| Open { sky: sky / total, key: key / total })
+        (light, total)
     }
 }
 

@@ -1,9 +1,11 @@
-//! An image in at most 192 colours, by median cut \[Hec82\].
+//! An image in at most 256 colours, by median cut \[Hec82\].
 
 use std::collections::HashMap;
 
-/// Colours of an indexed PNG: few enough for a small file, enough for soft shadows.
-const MOST: usize = 192;
+/// Colours of an indexed PNG, whose pixels are bytes.
+const MOST: usize = 256;
+/// Greys from this one on, in which shadows on paper end.
+const LIGHT_GREY: u8 = 200;
 
 /// A palette (three bytes a colour) and for each pixel the number of its colour.
 pub fn reduce(rgb: &[u8]) -> (Vec<u8>, Vec<u8>) {
@@ -12,9 +14,13 @@ pub fn reduce(rgb: &[u8]) -> (Vec<u8>, Vec<u8>) {
         *count.entry([p[0], p[1], p[2]]).or_default() += 1;
     }
     let mut colors: Vec<([u8; 3], usize)> = count.into_iter().collect();
-    colors.sort_unstable();
+    // The steps of a soft shadow on white paper show: light greys keep a colour of their own each.
+    let own = |c: &[u8; 3]| c[0] >= LIGHT_GREY && c[0] == c[1] && c[1] == c[2];
+    colors.sort_unstable_by_key(|(c, _)| (!own(c), *c));
+    let greys = colors.iter().take_while(|(c, _)| own(c)).count();
     // Boxes of colours, as ranges of the list.
-    let mut boxes: Vec<_> = std::iter::once(0..colors.len()).collect();
+    let mut boxes: Vec<_> =
+        (0..greys).map(|k| k..k + 1).chain(std::iter::once(greys..colors.len())).collect();
     while boxes.len() < MOST {
         // The box whose colours are spread most, each by how often it occurs.
         let spread = |range: &std::ops::Range<usize>| spread(&colors[range.clone()]);
@@ -79,6 +85,10 @@ mod tests {
         };
         assert_eq!(back(&few), few);
         let many: Vec<u8> = (0..100_000u32).flat_map(|i| [(i % 251) as u8, (i / 397) as u8, 128]).collect();
+        // A shadow on paper beside many colours keeps all its steps.
+        let grey: Vec<u8> = (0..=255).skip(LIGHT_GREY.into()).flat_map(|g| [g; 3]).collect();
+        let both = [&many[..], &grey].concat();
+        assert_eq!(back(&both)[many.len()..], grey);
         let worst = back(&many).iter().zip(&many).map(|(a, b)| a.abs_diff(*b)).max();
         assert!(worst <= Some(16), "{worst:?}");
     }

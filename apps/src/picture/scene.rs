@@ -7,6 +7,7 @@ use super::texture::Texture;
 /// Half the width of a line and the radius of a cone's ball, over the size of a panel, and in pixels at least.
 const LINE: [f64; 2] = [0.0013, 0.7];
 const CONE_RADIUS: [f64; 2] = [0.0062, 2.6];
+
 /// A surface in space.
 #[derive(Clone, Copy)]
 pub struct Surface<'a> {
@@ -18,6 +19,8 @@ pub struct Surface<'a> {
     pub seams: &'a [(u32, u32, usize)],
     /// Cone vertices and their curvature.
     pub cones: &'a [(u32, f64)],
+    /// Known to have no boundary; of others it is looked for and drawn.
+    pub is_closed: bool,
 }
 
 /// A circle in the layout.
@@ -33,6 +36,8 @@ pub struct Flat<'a> {
     pub corner_uv: &'a [[[f64; 2]; 3]],
     /// Both copies of each cut edge: ends in the order of their face, and the number of their seam.
     pub seams: &'a [([f64; 2], [f64; 2], usize)],
+    /// Lines that are no part of the layout: the unit square around charts.
+    pub frame: &'a [([f64; 2], [f64; 2])],
     /// Boundary edges, ends in the order of their face.
     pub boundary: &'a [([f64; 2], [f64; 2])],
     pub cones: &'a [([f64; 2], f64)],
@@ -61,8 +66,12 @@ pub struct Style {
     pub wire: bool,
     /// Stand the surface on a ground that takes its shadow.
     pub ground: bool,
-    /// Write at most 192 colours, for a small file.
+    /// Write at most 256 colours, for a small file.
     pub palette: bool,
+    /// Leave shadows out.
+    pub draft: bool,
+    /// Change the size of the pattern by steps where the layout's scale varies much.
+    pub bands: bool,
     /// Show a part only.
     pub focus: Option<Focus>,
 }
@@ -93,6 +102,17 @@ impl Style {
 impl Default for Style {
     fn default() -> Style {
         let (view, texture) = (View::default(), Texture::Checker);
-        Style { size: 900, threads: 0, view, texture, wire: false, ground: true, palette: false, focus: None }
+        Style {
+            size: 900,
+            threads: 0,
+            view,
+            texture,
+            wire: false,
+            ground: true,
+            palette: false,
+            focus: None,
+            draft: false,
+            bands: false,
+        }
     }
 }

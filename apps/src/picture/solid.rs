@@ -6,17 +6,21 @@ use super::color::{INK, Rgb, cone_color, mix, seam_color};
 use super::fit::Fit;
 use super::light::Lights;
 use super::normals::corner_normals;
-use super::occlusion::{Caster, Field, Ground, Open, Point, over};
+use super::occlusion::{Caster, Field, Ground, Open, Point, border, over};
 use super::raster::{Hit, Image, Painter, Shape, render};
-use super::vector::{V3, add, at, dot, normal, scaled, unit};
+use super::vector::{V3, add, at, bounding_ball, dot, norm, normal, scaled, sub, unit};
 use super::{Style, Surface, View};
 
 /// The ground is shown from this elevation on (sine).
 const LOWEST: f64 = 0.1;
 /// How much of the way to the end of the shadow the picture reaches.
 const SHADOW: f64 = 0.5;
+/// Room for the shade beside and below a surface that stands on the ground, over its radius.
+const ROOM: f64 = 0.12;
 /// Over this share of the picture's size the ground fades into the white around the panel.
-const FADE: f64 = 0.1;
+const FADE: f64 = 0.16;
+/// And between these distances from the point below the surface's middle, over the surface's radius.
+const REACH: [f64; 2] = [0.9, 2.2];
 /// The direction that counts as up for the light on a part of a surface: up on the screen and towards the viewer.
 const FOCUS_UP: V3 = [0.0, -0.8, 0.6];
 /// The inside of a surface has this tint.
@@ -45,10 +49,13 @@ struct Scene<'a> {
     strokes: Vec<Rgb>,
     lights: Lights,
     ground: Option<Ground>,
-    caster: Caster,
+    /// None in a draft.
+    caster: Option<Caster>,
     field: Option<Field>,
     /// Width in pixels over which the ground fades at the edge.
     margin: f64,
+    /// The point of the ground below the surface's middle, and the surface's radius.
+    foot: (V3, f64),
 }
 
 /// A surface as the camera sees it.
@@ -80,12 +87,13 @@ impl Stage {
         let key = [lights.key[0], -lights.key[1], lights.key[2]];
         let shadow = |p: &V3| {
             let fall = (height(p) - lowest) / dot(camera.up, key);
-            let [x, y, _] = add(*p, scaled(key, -SHADOW * fall));
-            [x, y]
+            add(*p, scaled(key, -SHADOW * fall))
         };
         let shadows = seen.iter().filter(|_| has_ground).map(shadow);
+        let room = if has_ground { ROOM * bounding_ball(&seen).1 } else { 0.0 };
+        let with_room = |[x, y, _]: V3| [[x - room, y - room], [x + room, y]];
         let fit = match &style.focus {
-            None => Fit::new(seen.iter().map(|p| [p[0], p[1]]).chain(shadows), style.size),
+            None => Fit::new(seen.iter().copied().chain(shadows).flat_map(with_room), style.size),
             Some(focus) => {
                 let [x, y, _] = camera.apply(scaled(focus.at, factor));
                 Fit::around([x, y], focus.radius * factor, style.size)
@@ -118,17 +126,22 @@ impl<'a> Scene<'a> {
             corner_normals(&points, surface.faces).into_iter().map(|n| n.map(turned)).collect();
         let flat: Vec<[[f64; 2]; 3]> = corners.iter().map(|c| c.map(|p| [p[0], p[1]])).collect();
         let mut shapes: Vec<Shape> = corners.iter().map(|c| Shape::Triangle(*c)).collect();
-        let caster = Caster::new(&shapes, lights.key, style.size);
+        let cast = || Caster::new(&placed, surface.faces, lights.key, style.threads);
+        let caster = (!style.draft).then(cast);
         let mut strokes = Vec::new();
         let mut tube = |a: u32, b: u32, radius: f64, color: Rgb| {
             let ends = [placed[a as usize], placed[b as usize]];
             shapes.push(Shape::Capsule { ends, radius });
             strokes.push(color);
         };
-        border(surface.faces).into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
-        surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.25 * style.line(), seam_color(seam)));
+        let border = if surface.is_closed { Vec::new() } else { border(surface.faces) };
+        border.into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
+        surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.5 * style.line(), seam_color(seam)));
         surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, style.cone(), cone_color(curvature)));
+        let (middle, radius) = bounding_ball(&placed);
+        let foot = ground.map_or(middle, |g| add(middle, scaled(g.up, g.level - dot(g.up, middle))));
         let mut scene = Scene {
+            foot: (foot, radius),
             size: [fit.width, fit.height],
             n_faces: corners.len(),
             coat: Coat::new(wish, &flat),
@@ -144,7 +157,8 @@ impl<'a> Scene<'a> {
         };
         let faces = &scene.shapes[..scene.n_faces];
         let describe = |at, hit: Option<&Hit>| scene.describe(at, hit);
-        scene.field = Some(Field::new(&scene.caster, faces, scene.size, style.threads, describe));
+        let light = |caster| Field::new(caster, faces, scene.size, style.threads, describe);
+        scene.field = scene.caster.as_ref().map(light);
         scene
     }
 
@@ -161,17 +175,19 @@ impl<'a> Scene<'a> {
         Some(Point { xyz, normal: smooth.unwrap_or(flat), flat, on_ground: false })
     }
 
-    /// The ground ends in white before the panel does: 1 inside, 0 at the edge.
-    fn fade(&self, pixel: [f64; 2]) -> f64 {
-        let rest = |k: usize| pixel[k].min(self.size[k] as f64 - pixel[k]);
-        let t = (rest(0).min(rest(1)) / self.margin).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
+    /// The ground ends in white before the panel does, and away from the surface: 1 inside, 0 there.
+    fn fade(&self, pixel: [f64; 2], below: &Point) -> f64 {
+        let smooth = |t: f64| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
+        let edge = |k: usize| smooth(pixel[k].min(self.size[k] as f64 - pixel[k]) / self.margin);
+        let (foot, radius) = self.foot;
+        let far = norm(sub(below.xyz, foot)) / radius;
+        edge(0) * edge(1) * smooth((REACH[1] - far) / (REACH[1] - REACH[0]))
     }
 
     /// The light at a point near one that a pixel shows.
     fn open(&self, pixel: [f64; 2], point: &Point) -> Open {
         let near = self.field.as_ref().and_then(|field| field.at(pixel, point));
-        near.unwrap_or_else(|| self.caster.open(point, 0))
+        near.unwrap_or_else(|| self.caster.as_ref().map_or(Open::FULLY, |caster| caster.open(point)))
     }
 }
 
@@ -179,8 +195,9 @@ impl Painter for Scene<'_> {
     fn paint(&self, pixel: [f64; 2], hit: Option<&Hit>) -> Rgb {
         let Some(hit) = hit else {
             let Some(ground) = &self.ground else { return [1.0; 3] };
-            let shade = Lights::on_ground(self.open(pixel, &ground.below(pixel)));
-            return mix([1.0; 3], shade, self.fade(pixel));
+            let below = ground.below(pixel);
+            let shade = Lights::on_ground(self.open(pixel, &below));
+            return mix([1.0; 3], shade, self.fade(pixel, &below));
         };
         if hit.shape < self.n_faces {
             let Some(point) = self.describe(pixel, Some(hit)) else { return [1.0; 3] };
@@ -191,13 +208,4 @@ impl Painter for Scene<'_> {
         // Tubes and balls are marks on the surface: lit, but not shaded by it.
         self.lights.on(self.strokes[hit.shape - self.n_faces], hit.local, Open::FULLY)
     }
-}
-
-/// The edges of exactly one face.
-pub fn border(faces: &[[u32; 3]]) -> Vec<(u32, u32)> {
-    let sides = faces.iter().flat_map(|f| [0, 1, 2].map(|k| (f[k], f[(k + 1) % 3])));
-    let mut edges: Vec<(u32, u32)> = sides.map(|(a, b)| (a.min(b), a.max(b))).collect();
-    edges.sort_unstable();
-    let alone = |run: &[(u32, u32)]| (run.len() == 1).then(|| run[0]);
-    edges.chunk_by(|a, b| a == b).filter_map(alone).collect()
 }

@@ -3,6 +3,7 @@
 use super::raster::doubled_area;
 use clap::ValueEnum;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Which pattern.
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
@@ -17,13 +18,13 @@ pub enum Texture {
 const CHECKS: f64 = 26.0;
 /// Distance of the centres of two circles that touch, in checks.
 pub const CIRCLE_SPACING: f64 = 1.6;
-/// Where a layout's scale varies by more than this factor, the pattern is made finer or coarser by it: it stays
-/// of visible size on the whole surface, nested into itself.
-const OCTAVE: f64 = 8.0;
+/// With bands: where a layout's scale varies by more than this factor, the pattern is made finer or coarser by it, so that it stays of
+/// visible size on the whole surface, nested into itself.
+pub const OCTAVE: f64 = 8.0;
 /// Patterns with a period below the first number of pixels are faded to their mean, above the second not at all.
-const FADE: [f64; 2] = [1.3, 3.0];
-/// Width over which checks are averaged, pixels; the samples of a pixel average over one more.
-const FILTER: f64 = 0.6;
+const FADE: [f64; 2] = [0.85, 1.6];
+/// Width over which checks are averaged, pixels.
+const FILTER: f64 = 1.1;
 /// Radii of a circle's outer and inner edge and of the dot at its centre, over the circles' distance.
 pub const RING: [f64; 3] = [0.47, 0.36, 0.11];
 
@@ -65,11 +66,12 @@ impl Patch {
         let zoom = OCTAVE.powf(-level);
         let at = [0, 1].map(|k| zoom * (b[0] * self.uv[0][k] + b[1] * self.uv[1][k] + b[2] * self.uv[2][k]));
         let slope = self.slope.map(|s| s.map(|x| x * zoom));
-        let (value, mean) = match self.texture {
-            Texture::Checker => (checker(at, slope), 0.5),
-            Texture::Circles => (circles(at, slope), circles_mean()),
-            Texture::None => (0.0, 0.0),
+        let value = match self.texture {
+            Texture::Checker => checker(at, slope),
+            Texture::Circles => circles(at, slope),
+            Texture::None => 0.0,
         };
+        let mean = self.texture.mean();
         if value.is_nan() { mean } else { mean + self.contrast * (value - mean) }
     }
 }
@@ -105,10 +107,16 @@ fn circles(at: [f64; 2], slope: [[f64; 2]; 2]) -> f64 {
     within(RING[0]) - within(RING[1]) + within(RING[2])
 }
 
-/// The share of the plane that is ring or dot.
-fn circles_mean() -> f64 {
-    let [outer, inner, dot] = RING.map(|r| r * r);
-    std::f64::consts::PI * (outer - inner + dot) / 0.75f64.sqrt()
+impl Texture {
+    /// The share of the plane that is dark.
+    pub fn mean(self) -> f64 {
+        let [outer, inner, dot] = RING.map(|r| r * r);
+        match self {
+            Texture::Checker => 0.5,
+            Texture::Circles => std::f64::consts::PI * (outer - inner + dot) / 0.75f64.sqrt(),
+            Texture::None => 0.0,
+        }
+    }
 }
 
 /// How large the pattern is, on the surface and in the layout alike.
@@ -149,6 +157,23 @@ impl Tiles {
         let level = |v: u32| mean[v as usize].0 / f64::max(mean[v as usize].1, 1.0);
         Tiles { size, level: faces.iter().map(|f| f.map(level)).collect() }
     }
+
+    /// The triangles with each rounded level.
+    pub fn levels(&self, uv: &[[[f64; 2]; 3]]) -> Vec<(i32, Vec<[[f64; 2]; 3]>)> {
+        let mut levels: BTreeMap<i32, Vec<_>> = BTreeMap::new();
+        for (corners, level) in uv.iter().zip(&self.level) {
+            levels.entry((level.iter().sum::<f64>() / 3.0).round() as i32).or_default().push(*corners);
+        }
+        levels.into_iter().collect()
+    }
+
+    /// The same pattern with or without its steps in size.
+    pub fn banded(mut self, bands: bool) -> Tiles {
+        if !bands {
+            self.level.fill([0.0; 3]);
+        }
+        self
+    }
 }
 
 #[cfg(test)]
@@ -166,7 +191,7 @@ mod tests {
         let patch = |texture, size| Patch::new(texture, PIXELS, &tiles(size), 0, PIXELS);
         let at = [0.31, 0.305, 0.385];
         assert_eq!(patch(Texture::Checker, 0.5).value(at), 0.5);
-        assert_eq!(patch(Texture::Circles, 0.5).value(at), circles_mean());
+        assert_eq!(patch(Texture::Circles, 0.5).value(at), Texture::Circles.mean());
         let full = patch(Texture::Checker, 50.0).value(at);
         assert!(full.min(1.0 - full).abs() < 1e-12, "{full}");
         // The mean is that of the pattern.
@@ -177,7 +202,7 @@ mod tests {
             let points = points.map(|(i, j)| [i, j, n as f64 - i - j].map(|x| x / n as f64));
             let values: Vec<f64> = points.map(|b| patch.value(b)).collect();
             let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let expected = if texture == Texture::Checker { 0.5 } else { circles_mean() };
+            let expected = texture.mean();
             assert!((mean - expected).abs() < 0.02, "{texture:?}: {mean} of {expected}");
         }
     }

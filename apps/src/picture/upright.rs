@@ -2,7 +2,7 @@
 //!
 //! Files do not say it. y is up in most of them; exceptions are told by their shape.
 
-use super::vector::{V3, norm, normal};
+use super::vector::{V3, add, complement, dot, norm, normal, sphere_point, unit};
 
 /// Which way is up, and whether the surface lies flat on the ground, to be seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +15,8 @@ pub struct Stance {
 const SHEET: f64 = 0.35;
 /// A sheet lower than this share of its width and length lies on the ground.
 const FLAT_SHEET: f64 = 0.34;
+/// A closed surface lower than this share of its width and length is seen from above, wherever up is.
+const LOW: f64 = 0.45;
 /// A closed surface thinner than this share of its width and length may lie on the ground,
 const FLAT_BODY: f64 = 0.6;
 /// if it is its own mirror image there up to this share of the area, and has handles or is one along every axis.
@@ -22,9 +24,19 @@ const SYMMETRIC: f64 = 0.55;
 const REGULAR: f64 = 0.75;
 /// Boxes per axis in which mirror images are compared.
 const BOXES: usize = 10;
-/// A bottom that covers this share of the bounding box stands on the ground; less than the other share does not.
-const BASE: f64 = 0.3;
-const NO_BASE: f64 = 0.08;
+/// A flat side with this share of the area that the surface can stand on is what it stands on; twice as much where it is slanted in the
+/// file, as cuts of scans are.
+const BASE: f64 = 0.065;
+/// Difference of the shares of two flat sides that counts for nothing.
+const ALIKE: f64 = 1e-3;
+/// Directions in which flat sides are looked for, and how many of those with the most area are looked at.
+const DIRECTIONS: usize = 128;
+const LOOKED_AT: usize = 6;
+/// Faces of a flat side: normals within this cosine of its own, and no deeper than this share of the extent along it.
+const LEVEL: f64 = 0.95;
+const DEPTH: f64 = 0.04;
+/// An upright direction within this cosine of a coordinate axis is that axis.
+const AXIS: f64 = 0.995;
 
 const Y: V3 = [0.0, 1.0, 0.0];
 const Z: V3 = [0.0, 0.0, 1.0];
@@ -36,34 +48,86 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
         axis[k] = sign;
         axis
     };
-    let thin = |k: usize| figure.extent[k] / figure.extent[(k + 1) % 3].min(figure.extent[(k + 2) % 3]);
+    // Height over the lesser of width and length.
+    let thin = |up: V3| {
+        let [high, wide, long] = [up, complement(up)[0], complement(up)[1]].map(|axis| extent(points, axis));
+        high / wide.min(long)
+    };
     let outward =
         (0..3).fold(0, |l, k| if figure.outside[k].abs() > figure.outside[l].abs() { k } else { l });
     if norm(figure.outside) > SHEET {
-        if thin(outward) < FLAT_SHEET {
-            return Stance { up: axis(outward, figure.outside[outward].signum()), lies: true };
-        }
-        return Stance { up: if outward == 1 { Z } else { Y }, lies: false };
+        let up = axis(outward, figure.outside[outward].signum());
+        let lies = thin(up) < FLAT_SHEET;
+        return Stance {
+            up: if lies {
+                up
+            } else if outward == 1 {
+                Z
+            } else {
+                Y
+            },
+            lies,
+        };
+    }
+    // What a sculptor has given a foot stands on it, however thin it is.
+    if let Some(up) = base(points, faces) {
+        return Stance { up, lies: thin(up) < FLAT_BODY };
     }
     let symmetry = [0, 1, 2].map(|k| figure.symmetry(k));
     let regular = symmetry.iter().all(|s| *s > REGULAR);
-    let flat = |k: &usize| thin(*k) < FLAT_BODY && symmetry[*k] > SYMMETRIC && (regular || figure.handles);
-    if let Some(k) = [2, 1, 0].into_iter().find(flat) {
-        return Stance { up: axis(k, 1.0), lies: true };
+    let flat = |k: &usize| {
+        thin(axis(*k, 1.0)) < FLAT_BODY && symmetry[*k] > SYMMETRIC && (regular || figure.handles)
+    };
+    let lying = [2, 1, 0].into_iter().find(flat);
+    let up = lying.map_or(Y, |k| axis(k, 1.0));
+    Stance { up, lies: lying.is_some() || thin(up) < LOW }
+}
+
+/// How far points reach along a direction, next to nothing at least.
+fn extent(points: &[V3], axis: V3) -> f64 {
+    let heights = points.iter().map(|p| dot(axis, *p));
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    (high - low).max(f64::MIN_POSITIVE)
+}
+
+/// The direction away from the flat side that a surface stands on, if it has one.
+fn base(points: &[V3], faces: &[[u32; 3]]) -> Option<V3> {
+    let around: Vec<V3> = (0..DIRECTIONS).map(|i| sphere_point(i, DIRECTIONS)).collect();
+    let corners = |f: &[u32; 3]| f.map(|v| points[v as usize]);
+    let mut sums = vec![([0.0; 3], 0.0); DIRECTIONS];
+    for n in faces.iter().map(|f| normal(corners(f))) {
+        let best = (0..DIRECTIONS).fold(0, |b, k| if dot(n, around[k]) > dot(n, around[b]) { k } else { b });
+        sums[best] = (add(sums[best].0, n), sums[best].1 + norm(n));
     }
-    let stands = figure.base[2] > BASE && figure.base[1] < NO_BASE;
-    Stance { up: if stands { Z } else { Y }, lies: false }
+    let total: f64 = sums.iter().map(|s| s.1).sum();
+    sums.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let share = |down: V3| {
+        let high = points.iter().map(|p| dot(down, *p)).fold(f64::NEG_INFINITY, f64::max);
+        let depth = DEPTH * extent(points, down);
+        let area = |f: &[u32; 3]| {
+            let (n, p) = (normal(corners(f)), corners(f));
+            let middle = (0..3).map(|k| dot(down, p[k])).sum::<f64>() / 3.0;
+            let level = dot(down, n) > LEVEL * norm(n) && middle > high - depth;
+            if level { norm(n) } else { 0.0 }
+        };
+        faces.iter().map(area).sum::<f64>() / total
+    };
+    let sides = sums.iter().take(LOOKED_AT).filter_map(|s| unit(s.0)).map(|down| (share(down), down));
+    // Of two that are as large the lower one in the file.
+    let taste = |(share, [x, y, z]): &(f64, V3)| share - ALIKE * (x + y + z);
+    let (share, down) = sides.max_by(|a, b| taste(a).total_cmp(&taste(b)))?;
+    let axis = (0..3).find(|k| down[*k].abs() > AXIS);
+    let snapped = axis.map(|k| [0, 1, 2].map(|j| if j == k { -down[k].signum() } else { 0.0 }));
+    let least = if snapped.is_some() { BASE } else { 2.0 * BASE };
+    (share > least).then(|| snapped.unwrap_or(down.map(|x| -x)))
 }
 
 /// What the rules look at; a surface of no extent has none of it.
 struct Figure {
-    extent: V3,
     /// Sum of the faces' area vectors over the area.
     outside: V3,
     /// Area per box of the bounding box.
     boxes: Vec<f64>,
-    /// Area of the faces at the bottom along y and z that face down, over that of the bounding box.
-    base: V3,
     /// Whether the Euler characteristic is below that of a sphere or disk.
     handles: bool,
 }
@@ -77,23 +141,18 @@ impl Figure {
                 high[k] = high[k].max(p[k]);
             }
         }
-        let extent = [0, 1, 2].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
+        let size = [0, 1, 2].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
         let mut boxes = vec![0.0; BOXES * BOXES * BOXES];
-        let (mut outside, mut total, mut base) = ([0.0; 3], 0.0, [0.0; 3]);
+        let (mut outside, mut total) = ([0.0; 3], 0.0);
         for face in faces {
             let p = face.map(|v| points[v as usize]);
             let n = normal(p);
             let area = norm(n);
-            let place = [0, 1, 2].map(|k| ((p[0][k] + p[1][k] + p[2][k]) / 3.0 - low[k]) / extent[k]);
+            let place = [0, 1, 2].map(|k| ((p[0][k] + p[1][k] + p[2][k]) / 3.0 - low[k]) / size[k]);
             let cell = place.map(|x| ((x * BOXES as f64) as usize).min(BOXES - 1));
             boxes[(cell[0] * BOXES + cell[1]) * BOXES + cell[2]] += area;
             total += area;
-            for k in 0..3 {
-                outside[k] += n[k];
-                if place[k] < 0.04 && n[k] < -0.9 * area {
-                    base[k] += 0.5 * area / (extent[(k + 1) % 3] * extent[(k + 2) % 3]);
-                }
-            }
+            outside = add(outside, n);
         }
         let mut edges: Vec<(u32, u32)> = faces
             .iter()
@@ -103,7 +162,7 @@ impl Figure {
         edges.dedup();
         let euler = points.len() as i64 - edges.len() as i64 + faces.len() as i64;
         let outside = outside.map(|x| x / f64::max(total, f64::MIN_POSITIVE));
-        Figure { extent, outside, boxes, base, handles: euler <= 0 }
+        Figure { outside, boxes, handles: euler <= 0 }
     }
 
     /// How much of the area lies as its mirror image along axis `k` does, in [0, 1].
@@ -136,6 +195,37 @@ mod tests {
         assert_eq!(stance(&disk.positions, &disk.faces), Stance { up: Z, lies: true });
         let below: Vec<[u32; 3]> = disk.faces.iter().map(|f| [f[0], f[2], f[1]]).collect();
         assert_eq!(stance(&disk.positions, &below).up, [0.0, 0.0, -1.0]);
+        // A prism with a slanted top stands on its end, wherever that looks.
+        let prism = |tilt: f64| -> Vec<V3> {
+            let corner = |k: u32| {
+                [
+                    3.0 * f64::from(k & 1),
+                    f64::from(k >> 1 & 1),
+                    3.0 * f64::from(k >> 2) + f64::from(k >> 2 & k & 1),
+                ]
+            };
+            let (sin, cos) = tilt.sin_cos();
+            let turned = |[x, y, z]: V3| [x, cos * y - sin * z, sin * y + cos * z];
+            (0..8).map(|k| turned(corner(k))).collect()
+        };
+        let squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let faces: Vec<[u32; 3]> =
+            squares.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+        let up = stance(&prism(0.6), &faces).up;
+        assert!(up.iter().any(|x| x.abs() > 0.1 && x.abs() < 0.99), "{up:?}");
+        // A ring on its edge lies down, unless it has a foot to stand on.
+        let ring: Vec<V3> = shapes::torus(2.0, 0.5, 80, 40).unwrap().positions.to_vec();
+        let faces = shapes::torus(2.0, 0.5, 80, 40).unwrap().faces;
+        let foot: Vec<V3> = ring.iter().map(|&[x, y, z]| [x, y.max(-1.8), z]).collect();
+        assert_eq!(stance(&foot, &faces), Stance { up: Y, lies: false });
+        // What has its height along y by default, but little of it, is seen from above.
+        let ball = shapes::icosphere(12).unwrap();
+        let cone = |&[x, y, z]: &V3| {
+            let height = 0.4 * (1.0 - (1.0 - y * y).max(0.0).sqrt());
+            [if x > 0.0 { 2.5 * x } else { x }, height * y.signum(), z]
+        };
+        let low: Vec<V3> = ball.positions.iter().map(cone).collect();
+        assert_eq!(stance(&low, &ball.faces), Stance { up: Y, lies: true });
         let tall = shapes::ellipsoid([1.0, 3.0, 1.0], 8).unwrap();
         assert_eq!(stance(&tall.positions, &tall.faces), Stance { up: Y, lies: false });
     }

@@ -26,3 +26,20 @@ pub fn complement(n: V3) -> [V3; 2] {
     let a = unit(cross(axis, n)).unwrap_or([1.0, 0.0, 0.0]);
     [a, cross(n, a)]
 }
+
+/// Centre of the bounding box and the largest distance from it.
+pub fn bounding_ball(points: &[V3]) -> (V3, f64) {
+    let end = |k: usize, f: fn(f64, f64) -> f64, start: f64| points.iter().map(|p| p[k]).fold(start, f);
+    let centre =
+        [0, 1, 2].map(|k| 0.5 * (end(k, f64::min, f64::INFINITY) + end(k, f64::max, f64::NEG_INFINITY)));
+    let radius = points.iter().map(|p| norm(sub(*p, centre))).fold(0.0, f64::max);
+    (centre, radius.max(f64::MIN_POSITIVE))
+}
+
+/// Points spread evenly over the unit sphere: point `i` of `n` on a spiral from pole to pole, a golden angle apart.
+pub fn sphere_point(i: usize, n: usize) -> V3 {
+    let z = 1.0 - (2 * i + 1) as f64 / n as f64;
+    let (sin, cos) = (i as f64 * std::f64::consts::PI * (3.0 - 5f64.sqrt())).sin_cos();
+    let r = (1.0 - z * z).sqrt();
+    [r * cos, r * sin, z]
+}

@@ -66,7 +66,7 @@ pub struct CanonicalArgs {
 pub struct UniformizeArgs {
     #[command(flatten)]
     pub canonical: CanonicalArgs,
-    /// What the picture shows [default: both; without positions in space, and in .svg, domain]
+    /// What the picture shows [default: both; without positions in space, and in .svg, dirichlet]
     #[arg(long, value_enum, requires = "picture")]
     pub show: Option<ShowChoice>,
     /// Model of the hyperbolic plane in pictures
@@ -93,7 +93,7 @@ pub struct CoverArgs {
     /// Write the Dirichlet domain
     #[arg(long, value_name = "D.json")]
     pub domain: Option<FileName>,
-    /// What the picture shows [default: copies]
+    /// What the picture shows [default: tiles]
     #[arg(long, value_enum, requires = "picture")]
     pub show: Option<TilesChoice>,
     /// Model of the hyperbolic plane in --cover, --domain and pictures, where the hyperboloid is drawn as poincare [default: poincare]
@@ -105,11 +105,11 @@ pub struct CoverArgs {
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub enum ShowChoice {
-    /// The surface beside its layout, with the loops of the generators on both
+    /// The surface, cut along the sides of the Dirichlet domain of the base point, beside that
     Both,
     /// The surface alone
     Surface,
-    /// The layout, its sides coloured in pairs and named by their words
+    /// The layout, its sides along edges, coloured in pairs and named by their words
     Domain,
     /// The canonical polygon, geodesic from lift to lift of the base point
     Polygon,
@@ -121,9 +121,9 @@ pub enum ShowChoice {
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub enum TilesChoice {
-    /// The copies of the layout with its pattern
+    /// The copies of the layout, cut open along edges
     Copies,
-    /// The copies of the Dirichlet domain
+    /// The copies of the Dirichlet domain, whose sides are geodesics
     Tiles,
 }
 

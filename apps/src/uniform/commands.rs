@@ -46,7 +46,7 @@ pub fn execute_uniformize(args: &UniformizeArgs, control: &Control) -> Result<Do
 
 pub fn execute_cover(args: &CoverArgs, control: &Control) -> Result<Done<Shape>, Failure> {
     let cover = Some(CoverWish::new(args));
-    let shown = Some(Shown::Cover(args.show.unwrap_or(TilesChoice::Copies)));
+    let shown = Some(Shown::Cover(args.show.unwrap_or(TilesChoice::Tiles)));
     execute(&Wish { args: &args.canonical, command: "cover", shown, model: args.model, cover }, control)
 }
 

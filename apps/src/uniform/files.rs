@@ -18,7 +18,7 @@ use crate::input::Input;
 use crate::output::{Outputs, extension};
 use crate::picture::{Style, Texture};
 use crate::progress::doing;
-use crate::report::{Figures, InputSummary, Report, path_text};
+use crate::report::{Figures, InputSummary, Report, path_text, timed};
 use crate::uv;
 use ricci::control::Stage;
 use ricci::mesh::io::{self, Textured};
@@ -46,7 +46,7 @@ impl Wish<'_> {
         }
         task.control.check()?;
         let seconds = &mut shape.solved_mut().seconds;
-        seconds.write += begin.elapsed().as_secs_f64();
+        seconds.write += begin.elapsed().as_secs_f64() - seconds.picture;
         seconds.total = start.elapsed().as_secs_f64();
         let copies = self.cover.is_some();
         let (base, figures) = match shape {
@@ -103,7 +103,10 @@ impl Wish<'_> {
         }
         if let Some(path) = &args.picture.picture {
             let canvas = pictures::Canvas { at: self.drawn_place(u.deck.space), style: self.style() };
-            let drawn = doing("drawing", || pictures::draw(u, shown, &canvas, args.picture.is_svg()));
+            let draw = || pictures::draw(u, shown, &canvas, args.picture.is_svg());
+            let mut spent = 0.0;
+            let drawn = doing("drawing", || timed(&mut spent, draw));
+            u.solved.seconds.picture = spent;
             let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
             u.solved.failed.attempt("picture", written)?;
         }
@@ -136,7 +139,10 @@ impl Wish<'_> {
         }
         if let Some(path) = &args.picture.picture {
             let beside = matches!(shown, Shown::Uniform(ShowChoice::Both));
-            let drawn = doing("drawing", || sphere_picture::draw(input, s, &self.style(), beside));
+            let draw = || sphere_picture::draw(input, s, &self.style(), beside);
+            let mut spent = 0.0;
+            let drawn = doing("drawing", || timed(&mut spent, draw));
+            s.solved.seconds.picture = spent;
             let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
             s.solved.failed.attempt("picture", written)?;
         }

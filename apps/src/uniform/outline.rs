@@ -45,20 +45,25 @@ pub fn sides(u: &Uniformized) -> ricci::Result<Vec<Side>> {
 /// Corners of two copies are one up to this, relative to how far they are from the base point: layouts agree to much less.
 const SAME: f64 = 1e-6;
 
-/// The deck elements whose copies of the opened surface touch the surface itself, and the identity: those that have a corner in common
-/// with it, which are reached over sides.
+/// The deck elements whose copies of the opened surface, or of the Dirichlet domain, touch that itself, and the identity: those that
+/// have a corner in common with it, which are reached over sides.
 pub fn touching(u: &Uniformized, limit: usize, control: &Control) -> ricci::Result<Vec<DeckElement>> {
-    let corners: Vec<[f64; 3]> = sides(u)?.iter().filter_map(|side| side.points.first().copied()).collect();
+    let opened: Vec<[f64; 3]> = sides(u)?.iter().filter_map(|side| side.points.first().copied()).collect();
+    let domain = u.domain().ok();
+    let dirichlet = domain.map_or(&[][..], |domain| &domain.corners);
     // In the plane the third coordinate is 1, and lengths have the size of the surface.
-    let scale = corners.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
-    let touches = |g: &Motion<Twofold>| {
+    let scale = opened.iter().chain(dirichlet).map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
+    let meets = |g: &Motion<Twofold>, corners: &[[f64; 3]]| {
         corners.iter().any(|p| {
             let p = g.apply(p.map(Twofold::from)).map(f64::from);
             let same = |q: &[f64; 3]| (0..2).all(|k| (p[k] - q[k]).abs() <= SAME * scale.max(q[2]));
             corners.iter().any(same)
         })
     };
-    elements_reached(&u.deck, &u.deck.sides, touches, limit, control)
+    let touches = |g: &Motion<Twofold>| meets(g, &opened) || meets(g, dirichlet);
+    let across: Vec<DeckElement> =
+        u.deck.sides.iter().chain(domain.iter().flat_map(|d| &d.sides)).cloned().collect();
+    elements_reached(&u.deck, &across, touches, limit, control)
 }
 
 fn chain(mesh: &Mesh, whole: &Layout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]> {

@@ -2,13 +2,13 @@
 
 use super::args::{ShowChoice, Shown, TilesChoice};
 use super::model_place::ModelPlace;
-use super::outline::{Side, loops, loops_on_surface, sides};
+use super::opened::{Opened, pairs};
+use super::outline::{Side, loops, sides};
+use super::pieces::middle;
 use super::quotient::{ORIGIN, Uniformized};
-use super::tiling::{Prototype, Tiling, tint};
+use super::tiling::{Prototype, Stamp, Tiling, tint};
 use crate::failure::Failure;
-use crate::laid::Laid;
-use crate::picture::{self, Drawing, Frame, PALE, Pattern, Picture, Style, Surface, Tiles};
-use crate::uv::corners;
+use crate::picture::{self, Frame, PALE, Pattern, Picture, Style, Surface, Tiles};
 use ricci::embed::layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
@@ -34,60 +34,59 @@ pub struct Canvas {
 
 /// The picture as PNG, or the drawing beside the surface alone as SVG.
 pub fn draw(u: &Uniformized, shown: Shown, canvas: &Canvas, svg: bool) -> Result<Vec<u8>, Failure> {
-    let laid = u.laid()?;
-    let (uv, tiles) = pattern(u, laid);
-    let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
+    let (laid, sides) = (u.laid()?, sides(u)?);
+    let along_edges = matches!(shown, Shown::Uniform(ShowChoice::Domain) | Shown::Cover(TilesChoice::Copies));
+    let opened = match u.domain().ok().filter(|_| !along_edges) {
+        Some(domain) => Opened::along_geodesics(laid, domain, canvas.at),
+        None => Opened::along_edges(u, laid, &sides),
+    };
+    let (uv, tiles) = pattern(&opened.shape, u.deck.space);
+    let tiles = tiles.banded(canvas.style.bands);
+    let pattern = Pattern { uv: &uv, tiles: &tiles };
+    let stamp = &Stamp::new(&opened.shape, u.deck.space, &pattern, &canvas.style);
     let tiling = match shown {
         Shown::Uniform(ShowChoice::Surface) => None,
-        Shown::Uniform(ShowChoice::Both) => Some(domain(u, canvas, false)?),
-        Shown::Uniform(ShowChoice::Domain) => Some(domain(u, canvas, true)?),
-        Shown::Uniform(ShowChoice::Polygon) => Some(polygon(u, canvas)?),
-        Shown::Uniform(ShowChoice::Dirichlet) => Some(dirichlet(u, canvas)?),
-        Shown::Cover(TilesChoice::Copies) => Some(copies(u, canvas)?),
-        Shown::Cover(TilesChoice::Tiles) => Some(tiled(u, canvas)?),
+        Shown::Uniform(ShowChoice::Both) => {
+            let geodesic = dirichlet(u, canvas, stamp);
+            Some(geodesic.or_else(|_| domain(u, canvas, stamp, (sides, false)))?)
+        }
+        Shown::Uniform(ShowChoice::Domain) => Some(domain(u, canvas, stamp, (sides, true))?),
+        Shown::Uniform(ShowChoice::Polygon) => Some(polygon(u, canvas, stamp)?),
+        Shown::Uniform(ShowChoice::Dirichlet) => Some(dirichlet(u, canvas, stamp)?),
+        Shown::Cover(TilesChoice::Copies) => Some(copies(u, canvas, stamp)?),
+        Shown::Cover(TilesChoice::Tiles) => Some(tiled(u, canvas, stamp)?),
     };
-    let pattern = Pattern { uv: &uv, tiles: &tiles };
-    let drawing: Option<Drawing<'_>> = tiling.as_ref().map(|t| t.drawing(Some(pattern)));
-    if let (Some(drawing), true) = (&drawing, svg) {
-        return Ok(picture::drawing_svg(drawing, &canvas.style));
+    let drawing = tiling.as_ref().map(Tiling::drawing);
+    if svg {
+        return Ok(picture::svg(&Picture { drawing: drawing.as_ref(), ..Picture::default() }, &canvas.style));
     }
-    let (base, faces) = ([(u.basis.base.0, 1.0)], laid.mesh().triangles());
-    let loops = if with_surface { loops_on_surface(u) } else { Vec::new() };
-    let surface = laid.positions.as_ref().filter(|_| with_surface).map(|positions| Surface {
-        positions,
-        faces: &faces,
+    let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
+    let surface = opened.in_space.as_ref().filter(|_| with_surface).map(|surface| Surface {
+        positions: &surface.points,
+        faces: &surface.triangles,
         corner_uv: Some(&uv),
-        seams: &loops,
-        cones: &base,
+        seams: &surface.cut,
+        cones: &[],
+        is_closed: true,
     });
     let drawn = Picture { surface, drawing: drawing.as_ref(), pattern: Some(&tiles), ..Picture::default() };
     picture::png(&drawn, &canvas.style)
 }
 
-/// The pattern: checks of one size in the metric, as far as octaves reach.
-fn pattern(u: &Uniformized, laid: &Laid) -> (Vec<[[f64; 2]; 3]>, Tiles) {
-    let corners = corners(laid.mesh(), laid.corner_index());
-    let coordinates = laid.coordinates();
-    let uv: Vec<[[f64; 2]; 3]> = corners.iter().map(|f| f.map(|c| coordinates[c as usize])).collect();
+/// The pattern: checks of one size in the plane or the Poincaré disk, with bands in the metric as far as octaves reach.
+fn pattern(shape: &Prototype, space: Space) -> (Vec<[[f64; 2]; 3]>, Tiles) {
+    let at = ModelPlace::new(space, Model::Poincare);
+    let places: Vec<[f64; 2]> = shape.points.iter().map(|p| at.flat(*p)).collect();
+    let uv: Vec<[[f64; 2]; 3]> = shape.triangles.iter().map(|t| t.map(|i| places[i as usize])).collect();
     let flat: Vec<f64> = uv.iter().map(|uv| 0.5 * picture::doubled_area(*uv).abs()).collect();
     let stretch = |uv: &[[f64; 2]; 3]| {
         let [x, y] = [0, 1].map(|k| (uv[0][k] + uv[1][k] + uv[2][k]) / 3.0);
-        let lambda = if u.deck.space == Space::H2 { 2.0 / (1.0 - x * x - y * y) } else { 1.0 };
+        let lambda = if space == Space::H2 { 2.0 / (1.0 - x * x - y * y) } else { 1.0 };
         lambda * lambda
     };
     let metric: Vec<f64> = uv.iter().zip(&flat).map(|(uv, area)| area * stretch(uv)).collect();
-    let tiles = Tiles::new(&metric, &flat, &corners, coordinates.len());
+    let tiles = Tiles::new(&metric, &flat, &shape.triangles, places.len());
     (uv, tiles)
-}
-
-/// The opened surface.
-fn prototype(laid: &Laid, sides: &[Side]) -> Prototype {
-    Prototype {
-        points: laid.layout.points.clone(),
-        triangles: corners(laid.mesh(), laid.corner_index()),
-        border: sides.iter().flat_map(|s| &s.points[..s.points.len().saturating_sub(1)]).copied().collect(),
-        centre: ORIGIN,
-    }
 }
 
 fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
@@ -110,11 +109,14 @@ fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
 }
 
 /// The layout, with its sides in pairs or the loops of the generators.
-fn domain(u: &Uniformized, canvas: &Canvas, named: bool) -> Result<Tiling, Failure> {
-    let sides = sides(u)?;
-    let shape = prototype(u.laid()?, &sides);
+fn domain(
+    u: &Uniformized,
+    canvas: &Canvas,
+    shape: &Stamp,
+    (sides, named): (Vec<Side>, bool),
+) -> Result<Tiling, Failure> {
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
-    tiling.copy(&shape, &Motion::identity(u.deck.space), 0, None);
+    tiling.copy(shape, &Motion::identity(u.deck.space), 0, None);
     for side in sides {
         tiling.line(&side.points, named.then_some(side.pair), if named { BOLD } else { THIN });
         if named {
@@ -128,10 +130,8 @@ fn domain(u: &Uniformized, canvas: &Canvas, named: bool) -> Result<Tiling, Failu
     Ok(tiling)
 }
 
-/// The canonical polygon over copies of the layout, moved to the middle of the picture.
-fn polygon(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
-    let sides = sides(u)?;
-    let shape = prototype(u.laid()?, &sides);
+/// The canonical polygon over copies of the opened surface, moved to the middle of the picture.
+fn polygon(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, Failure> {
     let given = u.deck.canonical_polygon(ORIGIN)?;
     let middle = middle(u.deck.space, &given);
     let home = translation_to(u.deck.space, middle).inverse();
@@ -143,7 +143,7 @@ fn polygon(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
     let nearest = (0..corners.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
     let start: Word = u.deck.group.relator().letters()[..nearest].iter().copied().collect();
     for motion in background(u, &home, &start)? {
-        tiling.copy(&shape, &motion, PALE, Some(THIN));
+        tiling.copy(shape, &motion, PALE, Some(THIN));
     }
     let relator = u.deck.group.relator();
     for (k, letter) in relator.letters().iter().enumerate() {
@@ -152,16 +152,6 @@ fn polygon(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
     }
     tiling.dots.extend(corners.iter().map(|p| canvas.at.flat(*p)));
     Ok(tiling)
-}
-
-/// The point whose ambient coordinates are the mean of some, brought back to the plane or the hyperboloid.
-fn middle(space: Space, points: &[[f64; 3]]) -> [f64; 3] {
-    let [x, y, w] = [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f64>());
-    let square = match space {
-        Space::H2 => (w - x.hypot(y)) * (w + x.hypot(y)),
-        _ => w * w,
-    };
-    [x, y, w].map(|k| k / square.sqrt())
 }
 
 /// The translation that carries the origin to a point.
@@ -200,21 +190,13 @@ fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> ricci::R
     Ok(found)
 }
 
-/// The Dirichlet domain over its neighbours.
-fn dirichlet(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
+/// The Dirichlet domain among its neighbours.
+fn dirichlet(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, Failure> {
     let domain = u.domain()?;
-    let sides = sides(u)?;
-    let shape = prototype(u.laid()?, &sides);
-    let tile = tile(domain, canvas.at);
-    let around: Vec<[f64; 3]> = domain.corners.iter().chain(&shape.border).copied().collect();
-    let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &around), canvas.style.size);
+    let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
+    tiling.copy(shape, &Motion::identity(u.deck.space), 0, None);
     for g in &domain.sides {
-        tiling.copy(&tile, &g.motion, PALE, Some(THIN));
-    }
-    // The first on a place is seen: the layout fills the domain but for its jagged border, its neighbours fill that.
-    tiling.copy(&shape, &Motion::identity(u.deck.space), 0, None);
-    for g in &domain.sides {
-        tiling.copy(&shape, &g.motion, 0, None);
+        tiling.copy(shape, &g.motion, PALE, Some(THIN));
     }
     outline(u, &mut tiling, domain, true);
     tiling.dots.push(canvas.at.flat(domain.centre));
@@ -224,11 +206,7 @@ fn dirichlet(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
 /// The sides of the Dirichlet domain, coloured in pairs.
 fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named: bool) {
     let n = domain.sides.len();
-    let mut pairs: Vec<usize> = (0..n).filter(|&k| domain.partner[k] >= k).collect();
-    pairs.dedup();
-    for k in 0..n {
-        let first = k.min(domain.partner[k]);
-        let color = pairs.iter().position(|&p| p == first).unwrap_or(0);
+    for (k, color) in pairs(domain).into_iter().enumerate() {
         tiling.line(&[domain.corners[k], domain.corners[(k + 1) % n]], Some(color), BOLD);
         if named {
             tiling.name_line(u.deck.group.text(&domain.sides[k].word), domain.centre);
@@ -236,46 +214,27 @@ fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named
     }
 }
 
-/// The Dirichlet domain as what is copied: its sides sampled along geodesics.
-fn tile(domain: &DirichletDomain, at: ModelPlace) -> Prototype {
-    let n = domain.corners.len();
-    let side = |k: usize| {
-        let mut points = at.geodesic(domain.corners[k], domain.corners[(k + 1) % n]);
-        points.pop();
-        points
-    };
-    let border = (0..n).flat_map(side).collect();
-    Prototype { points: Vec::new(), triangles: Vec::new(), border, centre: domain.centre }
-}
-
 /// The copies of the layout.
-fn copies(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
+fn copies(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, Failure> {
     let elements = u.copies()?;
-    let sides = sides(u)?;
-    let shape = prototype(u.laid()?, &sides);
-    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);
+    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, shape), canvas.style.size);
     for g in elements {
-        tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
+        tiling.copy(shape, &g.motion, tint(&u.deck, g), Some(THIN));
     }
-    tiling.dots.push(canvas.at.flat(ORIGIN));
+    tiling.dots.push(canvas.at.flat(shape.centre));
     Ok(tiling)
 }
 
 /// The copies of the Dirichlet domain.
-fn tiled(u: &Uniformized, canvas: &Canvas) -> Result<Tiling, Failure> {
-    let (domain, elements) = (u.domain()?, u.copies()?);
-    let shape = tile(domain, canvas.at);
-    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, &shape), canvas.style.size);
-    for g in elements {
-        tiling.copy(&shape, &g.motion, tint(&u.deck, g), Some(THIN));
-    }
+fn tiled(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, Failure> {
+    let domain = u.domain()?;
+    let mut tiling = copies(u, canvas, shape)?;
     outline(u, &mut tiling, domain, false);
-    tiling.dots.push(canvas.at.flat(domain.centre));
     Ok(tiling)
 }
 
 /// What is shown of all copies: in the plane all of it.
-fn first_frame(elements: &[DeckElement], at: ModelPlace, shape: &Prototype) -> Frame {
+fn first_frame(elements: &[DeckElement], at: ModelPlace, shape: &Stamp) -> Frame {
     if at != ModelPlace::Plane {
         return frame(at, &shape.border);
     }

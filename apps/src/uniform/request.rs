@@ -74,9 +74,11 @@ impl Wish<'_> {
         let (report, drawn) = (self.args.to.common.report.is_some(), self.args.picture.picture.is_some());
         let of_domain = matches!(
             shown,
-            Shown::Uniform(ShowChoice::Polygon | ShowChoice::Dirichlet) | Shown::Cover(TilesChoice::Tiles)
+            Shown::Uniform(
+                ShowChoice::Both | ShowChoice::Surface | ShowChoice::Polygon | ShowChoice::Dirichlet
+            ) | Shown::Cover(TilesChoice::Tiles)
         );
-        let by_domain = self.cover.is_some_and(|c| c.radius.is_some() || c.domain.is_some());
+        let by_domain = self.cover.is_some_and(|c| c.depth.is_none() || c.domain.is_some());
         let copies = self.cover.is_some_and(|c| c.cover.is_some());
         Needs {
             refinement: report || drawn || copies || self.args.to.uv.is_some(),
@@ -148,7 +150,7 @@ impl Wish<'_> {
             ));
         }
         let beside = input.positions().is_some() && !self.args.picture.is_svg();
-        let usual = if beside { ShowChoice::Both } else { ShowChoice::Domain };
+        let usual = if beside { ShowChoice::Both } else { ShowChoice::Dirichlet };
         let shown = self.shown.unwrap_or(Shown::Uniform(usual));
         if input.positions().is_none() {
             let nothing = "an intrinsic metric has no positions in space";

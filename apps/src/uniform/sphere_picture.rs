@@ -1,39 +1,52 @@
 //! The picture of a sphere: the surface beside it, with one pattern.
 
+use super::pieces::{Pieces, Welded, split, whole};
 use super::sphere::Round;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::picture::{self, Picture, Style, Surface, Tiles};
+use ricci::geometry::Space;
 use ricci::geometry::vector::{norm, triangle_normal};
+
+/// A vertex lies on the equator if its height over it is less than this.
+const LEVEL: f64 = 1e-12;
 
 /// The picture as PNG; `beside`: the sphere too.
 pub fn draw(input: &Input, s: &Round, style: &Style, beside: bool) -> Result<Vec<u8>, Failure> {
     let r = s.refinement()?;
     let positions = input.positions().map(|p| r.from_input_vertices(p)).transpose()?;
-    let faces = r.mesh.triangles();
-    let mut on_sphere = vec![[0.0, 0.0, 1.0]; r.mesh.n_vertices()];
-    let (mut uv, mut scale) = (Vec::new(), Vec::new());
-    for (f, face) in r.mesh.faces().zip(&faces) {
-        let piece = s.piece(r, f);
-        (0..3).for_each(|k| on_sphere[face[k] as usize] = piece[k]);
-        uv.push(hemisphere(piece));
-        scale.push(0.5 * norm(triangle_normal(piece)));
+    // Cut along the equator, where the pattern breaks.
+    let height = |p: [f64; 3]| if p[2].abs() < LEVEL { 0.0 } else { p[2] };
+    let mut pieces = Pieces::default();
+    for f in r.mesh.faces() {
+        for piece in split(&whole(s.piece(r, f)), Space::S2, height).iter().filter(|p| !p.is_empty()) {
+            pieces.add(f, piece, |p, q| (height(p) == 0.0 && height(q) == 0.0).then_some(0));
+        }
     }
+    let round = pieces.welded(&pieces.places);
+    let in_space = positions.map(|positions| pieces.in_space(&r.mesh, &positions));
+    let corners = round.triangles.iter().map(|t| t.map(|i| round.points[i as usize]));
+    let (uv, scale): (Vec<_>, Vec<_>) =
+        corners.map(|piece| (hemisphere(piece), 0.5 * norm(triangle_normal(piece)))).unzip();
     // On either hemisphere the pattern's scale is between 1/2 and 1 of the sphere's.
     let flat: Vec<f64> = uv.iter().map(|uv| 0.5 * picture::doubled_area(*uv).abs()).collect();
-    let tiles = Tiles::new(&scale, &flat, &faces, r.mesh.n_vertices());
-    let surface =
-        |positions| Surface { positions, faces: &faces, corner_uv: Some(&uv), seams: &[], cones: &[] };
+    let tiles = Tiles::new(&scale, &flat, &round.triangles, round.points.len()).banded(style.bands);
+    let surface = |w| on_pieces(w, &uv);
     let drawn = Picture {
-        surface: positions.as_deref().map(&surface),
-        beside: beside.then(|| surface(&on_sphere)),
+        surface: in_space.as_ref().map(surface),
+        beside: beside.then(|| surface(&round)),
         pattern: Some(&tiles),
         ..Picture::default()
     };
     picture::png(&drawn, style)
 }
 
-/// Stereographic coordinates from the farther pole of a triangle on the sphere.
+fn on_pieces<'a>(pieces: &'a Welded, uv: &'a [[[f64; 2]; 3]]) -> Surface<'a> {
+    let Welded { points: positions, triangles: faces, cut: seams } = pieces;
+    Surface { positions, faces, corner_uv: Some(uv), seams, cones: &[], is_closed: true }
+}
+
+/// Stereographic coordinates from the farther pole of a triangle on one hemisphere.
 fn hemisphere(piece: [[f64; 3]; 3]) -> [[f64; 2]; 3] {
     let north = piece.iter().map(|p| p[2]).sum::<f64>() >= 0.0;
     piece

@@ -1,24 +1,27 @@
-//! Copies of a fundamental domain as cells, outlines and lines of a drawing: as much of each as its size shows.
+//! Copies of a fundamental domain as areas, lines and labels of a drawing: as much of each as its size shows.
 
 use super::model_place::ModelPlace;
-use crate::picture::{Cell, Drawing, Frame, Label, Line, Pattern, TINTS};
+use crate::picture::{
+    Area, Drawing, FINEST, Frame, Label, Line, OCTAVE, Pattern, Style, TINTS, Texture, cells, in_pieces,
+    outline,
+};
 use ricci::embed::{DeckElement, DeckGroup};
-use ricci::geometry::{Motion, Twofold};
+use ricci::geometry::model::{Model, from_poincare};
+use ricci::geometry::{Motion, Space, Twofold};
+use std::f64::consts::PI;
 
 /// Radius in pixels below which a copy is left out.
 const LEAST: f64 = 0.35;
-/// Radius in pixels below which a copy is drawn in one colour, without its pattern.
+/// Radius in pixels below which few points of a copy's border are drawn.
 const PLAIN: f64 = 7.0;
 /// Radius in pixels above which a copy is drawn with its border.
 const BORDERED: f64 = 3.0;
-/// Triangles of pattern in one drawing; copies beyond that many are drawn in one colour, so that memory stays bounded.
-const MOST_CELLS: usize = 1_500_000;
-/// Points of the outline of a copy that is drawn in one colour.
+/// Area of a face in pixels above which a copy is drawn with the edges of the mesh.
+const WIRED: f64 = 6.0;
+/// Points of the border of a small copy.
 const COARSE: usize = 32;
-/// Rings of triangles between the centre and the border of a tile with a radius above [`LARGE`]; smaller tiles have one.
-const STEPS: usize = 8;
-/// Radius in pixels above which straight edges from the centre to the border would show.
-const LARGE: f64 = 30.0;
+/// Share of the dark colour in the ground without a pattern.
+const GROUND: f64 = 0.25;
 
 /// What is copied: ambient coordinates of the corners of triangles, and the border as a closed polygon.
 pub struct Prototype {
@@ -28,13 +31,58 @@ pub struct Prototype {
     pub centre: [f64; 3],
 }
 
+/// It with its pattern, in ambient coordinates.
+pub struct Stamp {
+    pub border: Vec<[f64; 3]>,
+    pub centre: [f64; 3],
+    cells: Vec<Vec<[f64; 3]>>,
+    wire: Vec<[[f64; 3]; 2]>,
+    /// Side of a check over the radius.
+    check: f64,
+    /// Share of the dark colour where checks are too small to be seen, and where they are drawn.
+    dark: [f64; 2],
+}
+
+impl Stamp {
+    /// A prototype with the pattern that is drawn in these plane coordinates of its triangles.
+    pub fn new(shape: &Prototype, space: Space, pattern: &Pattern<'_>, style: &Style) -> Stamp {
+        let place = ModelPlace::new(space, Model::Poincare);
+        let flat = |points: &[[f64; 3]]| points.iter().map(|p| place.flat(*p)).collect::<Vec<_>>();
+        let (border, centre) = (flat(&shape.border), place.flat(shape.centre));
+        let radius = border.iter().map(|p| (p[0] - centre[0]).hypot(p[1] - centre[1])).fold(0.0, f64::max);
+        let ambient = |[x, y]: [f64; 2]| if space == Space::H2 { from_poincare([x, y]) } else { [x, y, 1.0] };
+        let levels = pattern.tiles.levels(pattern.uv);
+        let banded = levels.len() > 1;
+        let part = |(level, triangles): (i32, Vec<[[f64; 2]; 3]>)| {
+            let region = if banded { outline(triangles.into_iter()) } else { vec![border.clone()] };
+            let check = pattern.tiles.size * OCTAVE.powi(level);
+            let parts = cells(&region, style.texture, check);
+            parts
+                .into_iter()
+                .map(|cell| in_pieces(&cell, check).into_iter().map(ambient).collect())
+                .collect::<Vec<_>>()
+        };
+        let sides =
+            |t: &[u32; 3]| [0, 1, 2].map(|k| [t[k], t[(k + 1) % 3]].map(|v| shape.points[v as usize]));
+        let wired = shape.triangles.iter().filter(|_| style.wire);
+        let none = style.texture == Texture::None;
+        Stamp {
+            cells: levels.into_iter().flat_map(part).collect(),
+            wire: wired.flat_map(sides).filter(|[p, q]| p < q).collect(),
+            border: shape.border.clone(),
+            centre: shape.centre,
+            check: pattern.tiles.size / radius,
+            dark: if none { [GROUND; 2] } else { [style.texture.mean(), 0.0] },
+        }
+    }
+}
+
 /// A drawing in the making.
 pub struct Tiling {
     pub at: ModelPlace,
     pub frame: Frame,
     scale: f64,
-    cells: Vec<Cell>,
-    outlines: Vec<(Vec<[f64; 2]>, u8)>,
+    areas: Vec<Area>,
     pub lines: Vec<Line>,
     pub dots: Vec<[f64; 2]>,
     pub labels: Vec<Label>,
@@ -43,83 +91,41 @@ pub struct Tiling {
 impl Tiling {
     /// `size`: pixels of the panel.
     pub fn new(at: ModelPlace, frame: Frame, size: usize) -> Tiling {
-        Tiling {
-            at,
-            frame,
-            scale: frame.fit(size).scale,
-            cells: Vec::new(),
-            outlines: Vec::new(),
-            lines: Vec::new(),
-            dots: Vec::new(),
-            labels: Vec::new(),
-        }
+        let scale = frame.fit(size).scale;
+        let (areas, lines, dots, labels) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Tiling { at, frame, scale, areas, lines, dots, labels }
     }
 
-    pub fn drawing<'a>(&'a self, pattern: Option<Pattern<'a>>) -> Drawing<'a> {
-        let Tiling { frame, cells, outlines, lines, dots, labels, .. } = self;
-        Drawing { frame: *frame, pattern, cells, outlines, lines, dots, labels }
+    pub fn drawing(&self) -> Drawing<'_> {
+        let Tiling { frame, areas, lines, dots, labels, .. } = self;
+        Drawing { frame: *frame, areas, lines, dots, labels }
     }
 
-    /// Add a copy; returns its radius in pixels. `border`: draw that too, in this width.
-    pub fn copy(
-        &mut self,
-        shape: &Prototype,
-        motion: &Motion<Twofold>,
-        tint: u8,
-        border: Option<f64>,
-    ) -> f64 {
-        let moved = |p: &[f64; 3]| motion.apply(p.map(Twofold::from)).map(f64::from);
-        let centre = moved(&shape.centre);
-        let middle = self.at.flat(centre);
-        let outline: Vec<[f64; 3]> = coarse(&shape.border).map(moved).collect();
-        let off = |p: &[f64; 3]| {
-            let [x, y] = self.at.flat(*p);
-            (x - middle[0]).hypot(y - middle[1])
-        };
-        let radius = self.scale * outline.iter().map(off).fold(0.0, f64::max);
+    /// Add a copy in one tint; `border`: draw that too, in this width.
+    pub fn copy(&mut self, stamp: &Stamp, motion: &Motion<Twofold>, tint: u8, border: Option<f64>) {
+        let moved = |p: &[f64; 3]| self.at.flat(motion.apply(p.map(Twofold::from)).map(f64::from));
+        let middle = moved(&stamp.centre);
+        let coarse: Vec<[f64; 2]> =
+            stamp.border.iter().step_by(stamp.border.len().div_ceil(COARSE).max(1)).map(moved).collect();
+        let far = |p: &[f64; 2]| (p[0] - middle[0]).hypot(p[1] - middle[1]);
+        let radius = self.scale * coarse.iter().map(far).fold(0.0, f64::max);
         if radius.is_nan() || radius < LEAST {
-            return 0.0;
+            return;
         }
-        if radius < PLAIN || shape.triangles.is_empty() || self.cells.len() > MOST_CELLS {
-            let fine: Vec<[f64; 3]> =
-                if radius < PLAIN { outline } else { shape.border.iter().map(moved).collect() };
-            self.fan(centre, &fine, tint, if radius > LARGE { STEPS } else { 1 });
-            self.outlines.push((fine.iter().map(|p| self.at.flat(*p)).collect(), tint));
-        } else {
-            let places: Vec<[f64; 2]> = shape.points.iter().map(|p| self.at.flat(moved(p))).collect();
-            let cell = |(f, corners): (usize, &[u32; 3])| Cell {
-                corners: corners.map(|c| places[c as usize]),
-                face: Some(f as u32),
-                tint,
-            };
-            self.cells.extend(shape.triangles.iter().enumerate().map(cell));
-            self.outlines.push((shape.border.iter().map(|p| self.at.flat(moved(p))).collect(), tint));
-        }
+        let outline =
+            if radius < PLAIN { coarse } else { stamp.border.iter().map(moved).collect::<Vec<_>>() };
+        let fine = radius * stamp.check < FINEST;
+        let cells = stamp.cells.iter().filter(|_| !fine).map(|cell| cell.iter().map(moved).collect());
+        // A face has two thirds of the edges.
+        let face = 1.5 * PI * radius * radius / stamp.wire.len().max(1) as f64;
+        let wire = stamp.wire.iter().filter(|_| face > WIRED).map(|side| [0, 1].map(|k| moved(&side[k])));
         if let (Some(width), true) = (border, radius > BORDERED) {
-            let closed = shape.border.iter().chain(shape.border.first());
-            let points = closed.map(|p| self.at.flat(moved(p))).collect();
+            let points = outline.iter().chain(outline.first()).copied().collect();
             self.lines.push(Line { points, color: None, width });
         }
-        radius
-    }
-
-    /// Cells between a centre and a closed polygon around it, along geodesics from the one to the other.
-    fn fan(&mut self, centre: [f64; 3], outline: &[[f64; 3]], tint: u8, steps: usize) {
-        let ray = |p: &[f64; 3]| -> Vec<[f64; 2]> {
-            let share = |k: usize| k as f64 / steps as f64;
-            (0..=steps).map(|k| self.at.flat(self.at.between(centre, *p, share(k)))).collect()
-        };
-        let rays: Vec<Vec<[f64; 2]>> = outline.iter().map(ray).collect();
-        for (k, ray) in rays.iter().enumerate() {
-            let next = &rays[(k + 1) % rays.len()];
-            let mut cell = |corners| self.cells.push(Cell { corners, face: None, tint });
-            for i in 0..steps {
-                cell([ray[i], ray[i + 1], next[i + 1]]);
-                if i > 0 {
-                    cell([ray[i], next[i + 1], next[i]]);
-                }
-            }
-        }
+        let (cells, wire) = (cells.collect(), wire.collect());
+        let dark = stamp.dark[usize::from(!fine)];
+        self.areas.push(Area { border: outline, tint, cells, wire, face, dark });
     }
 
     /// Add a line through ambient points, geodesic between them.
@@ -158,11 +164,6 @@ impl Tiling {
         let color = line.color.unwrap_or(0);
         self.labels.push(Label { at, away, text, room: 1.1 * length, color });
     }
-}
-
-/// A few points of a long polygon.
-fn coarse(points: &[[f64; 3]]) -> impl Iterator<Item = &[f64; 3]> {
-    points.iter().step_by(points.len().div_ceil(COARSE).max(1))
 }
 
 /// The tint of a copy: that of what it does to homology, so that neighbours mostly differ.

@@ -17,6 +17,29 @@ fn place() -> Place {
     place
 }
 
+/// Where the layout's scale varies much the pattern changes its size on request alone.
+#[test]
+fn bands_are_drawn_on_request() {
+    let place = place();
+    place.expect(0, "make ellipsoid --axes 6 1 1 -n 10 -o long.obj --quiet");
+    let draw = |options: &str| {
+        place.expect(0, &format!("flow long.obj --quiet --size 120 --draft --picture p.png {options}"));
+        pixels(&place, "p.png")
+    };
+    assert!(draw("") != draw("--bands"));
+}
+
+/// Charts are framed by their unit square.
+#[test]
+fn charts_lie_in_a_frame() {
+    let place = place();
+    place.expect(0, "flow torus.obj --target auto:4 --charts --quiet --size 100 --picture p.svg");
+    let svg = place.text("p.svg");
+    let frame = svg.lines().find(|line| line.contains("stroke=\"#9a9a9a\"")).unwrap();
+    // One line around the square, a margin from the sides of the picture.
+    assert!(frame.contains("d=\"M3 97l94 0 0 -94 -94 0 0 94\""), "{frame}");
+}
+
 #[test]
 fn patterns_colours_wire_and_views_change_the_picture_and_threads_do_not() {
     let place = place();
@@ -31,6 +54,7 @@ fn patterns_colours_wire_and_views_change_the_picture_and_threads_do_not() {
         "--texture circles",
         "--texture none",
         "--wire",
+        "--draft",
         "--view 10,50",
         "--view -80,-10",
         "--up x",
@@ -67,17 +91,37 @@ fn patterns_colours_wire_and_views_change_the_picture_and_threads_do_not() {
 fn drawings_are_vectors_with_a_legend() {
     let place = place();
     for (options, has) in [
-        ("", "<pattern"),
-        ("--texture circles", "<circle"),
+        ("", "#3a6ea5"),
+        ("--texture circles", "#3a6ea5"),
         ("--color u", "log conformal factor"),
-        ("--scheme tangential --wire", "<circle"),
+        ("--scheme tangential --wire", "circles of the vertices"),
         ("--color pieces --zoom 4,3", "shade by face of the input"),
     ] {
         place.expect(0, &format!("flow disk.obj --quiet --picture p.svg {options}"));
         let svg = place.text("p.svg");
-        assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n") && svg.contains(has), "{options}");
+        let whole = svg.starts_with("<svg ") && svg.ends_with("</svg>\n");
+        assert!(whole && svg.contains(has), "{options}");
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        // The first thing drawn is a white ground.
+        assert!(svg.lines().nth(1).unwrap().starts_with(r#"<path fill="white""#), "{options}");
     }
+}
+
+#[test]
+fn the_seconds_of_a_picture_are_its_own_and_a_draft_takes_fewer() {
+    let place = place();
+    let seconds = |line: &str| {
+        place.expect(0, &format!("{line} --quiet --threads 1 --picture p.png --report r.json"));
+        let seconds = &place.json("r.json")["seconds"];
+        let of = |phase: &str| seconds[phase].as_f64().unwrap();
+        assert!(of("picture") > 0.0 && of("picture") + of("write") <= of("total"), "{line}: {seconds}");
+        of("picture")
+    };
+    // The least of some: a loaded machine only ever takes longer.
+    let least = |line: &str| (0..3).map(|_| seconds(line)).fold(f64::INFINITY, f64::min);
+    assert!(least("flow torus.obj --draft") < least("flow torus.obj"));
+    seconds("uniformize torus.obj");
+    seconds("info torus.obj");
 }
 
 #[test]
@@ -121,4 +165,76 @@ fn the_gallery_draws_every_generator_in_small_files() {
     }
     place.put("file", "").expect(2, "gallery file");
     place.expect(3, "gallery out nowhere --quiet");
+}
+
+/// The pixels of an SVG file, drawn by a program of its own.
+fn drawn(place: &Place, name: &str) -> (u32, u32, Vec<u8>) {
+    use resvg::{tiny_skia, usvg};
+    let tree = usvg::Tree::from_str(&place.text(name), &usvg::Options::default()).unwrap();
+    let size = tree.size().to_int_size();
+    let mut pixels = tiny_skia::Pixmap::new(size.width(), size.height()).unwrap();
+    resvg::render(&tree, tiny_skia::Transform::identity(), &mut pixels.as_mut());
+    assert!(pixels.data().chunks_exact(4).all(|p| p[3] == 255), "{name} has no ground of its own");
+    let rgb = pixels.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    (size.width(), size.height(), rgb)
+}
+
+/// What has no positions in space is drawn as the same flat picture in both formats.
+#[test]
+fn vector_and_pixel_pictures_agree() {
+    let place = Place::new();
+    place.expect(0, "make bolza -o b.json --quiet");
+    place.expect(0, "make flat-torus -o f.json --quiet");
+    for line in [
+        "uniformize b.json --size 200",
+        "uniformize b.json --size 200 --texture circles --model half-plane",
+        "cover f.json --size 200 --wire",
+        "flow f.json --size 200 --color area",
+        "flow f.json --size 200 --wire --texture circles",
+        "flow f.json --scheme tangential --size 200",
+    ] {
+        for format in ["svg", "png"] {
+            place.expect(0, &format!("{line} --quiet --picture p.{format}"));
+        }
+        let (vectors, image) = (drawn(&place, "p.svg"), pixels(&place, "p.png"));
+        assert_eq!((vectors.0, vectors.1), (image.0, image.1), "{line}");
+        let off = vectors.2.iter().zip(&image.2).map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(off <= Some(2), "{line}: {off:?}");
+        assert!(image.2.chunks_exact(3).filter(|p| **p != [255; 3]).count() > 4000, "{line}");
+    }
+}
+
+/// Circles have a key that says which are which; layouts without circles have none.
+#[test]
+fn circles_have_a_key() {
+    let place = place();
+    let key = "circles of the vertices";
+    place.expect(0, "flow disk.obj --scheme tangential --quiet --picture c.svg");
+    assert!(place.text("c.svg").contains(key) && place.text("c.svg").contains("circles of the faces"));
+    place.expect(0, "flow disk.obj --quiet --picture p.svg");
+    assert!(!place.text("p.svg").contains(key));
+}
+
+/// Letters are outlines, which need no font, and are as large in a small picture as can be read.
+#[test]
+fn letters_are_outlines_of_a_readable_size() {
+    let place = place();
+    place.expect(0, "make bolza -o b.json --quiet");
+    for (size, least) in [(160, 6.0), (320, 6.0), (900, 12.0)] {
+        let draw = "uniformize b.json --quiet --show dirichlet";
+        place.expect(0, &format!("{draw} --size {size} --picture p.svg"));
+        let svg = place.text("p.svg");
+        assert!(!svg.contains("<text") && !svg.contains("font"));
+        let mut labels = svg.split("aria-label=\"").skip(1).peekable();
+        assert!(size < 320 || labels.peek().is_some(), "no labels at {size}");
+        for label in labels {
+            // The last path of a label is its letters.
+            let letters = label.split("</g>").next().unwrap().rsplit("d=\"").next().unwrap();
+            let letters = letters.split('"').next().unwrap();
+            let ends = letters.split(['M', 'L', 'Q', 'Z']).filter(|c| !c.is_empty());
+            let y: Vec<f64> = ends.filter_map(|c| c.rsplit(' ').next()?.parse().ok()).collect();
+            let height = y.iter().fold(0.0f64, |h, y| h.max(*y)) - y.iter().fold(0.0f64, |h, y| h.min(*y));
+            assert!(height >= least, "{height} at {size}");
+        }
+    }
 }

@@ -305,6 +305,20 @@ fn what_cannot_be_done_is_refused_with_what_to_do() {
     assert!(place.exists("m.json"));
 }
 
+/// Sides are geodesics, few arcs each, unless the sides along edges are asked for.
+#[test]
+fn pictures_are_cut_along_geodesics_by_default() {
+    let place = place();
+    let draw = |options: &str| {
+        place.expect(0, &format!("uniformize two.obj --quiet --picture p.svg {options}"));
+        place.text("p.svg")
+    };
+    assert_eq!(draw(""), draw("--show dirichlet"));
+    assert!(draw("") != draw("--show domain"));
+    let cut = place.expect(0, "uniformize two.obj --picture p.png --size 100 --draft --show surface");
+    assert!(cut.out.contains("\ndomain "), "{}", cut.out);
+}
+
 #[test]
 fn the_dirichlet_domain_is_formed_for_what_shows_it() {
     let place = place();

@@ -1,0 +1,236 @@
+//! Regions of the plane as closed polygons: their parts in half-planes, their outlines, the cells of a pattern in them.
+
+use super::texture::{CIRCLE_SPACING, RING, Texture};
+use std::collections::{HashMap, HashSet};
+use std::f64::consts::TAU;
+
+/// A closed polygon, or a line, by its points.
+pub type Chain = Vec<[f64; 2]>;
+
+/// Checks below this many pixels are not drawn each: they would only add up to their mean.
+pub const FINEST: f64 = 1.2;
+/// Sides of the polygons that stand for the circles of a pattern, in the order of [`RING`].
+const CIRCLE_SIDES: [usize; 3] = [24, 24, 12];
+/// A cell's sides are drawn by this many pieces, which can follow a curve.
+const PIECES: usize = 3;
+
+/// The part of a closed polygon where an affine function is not negative, by the algorithm of Sutherland and Hodgman: where
+/// it consists of several pieces, they are joined by lines that run there and back and so fill nothing.
+pub fn clip<const N: usize>(polygon: &[[f64; N]], side: impl Fn(&[f64; N]) -> f64) -> Vec<[f64; N]> {
+    let mut part = Vec::new();
+    for (k, p) in polygon.iter().enumerate() {
+        let q = &polygon[(k + 1) % polygon.len()];
+        let (s, t) = (side(p), side(q));
+        if s >= 0.0 {
+            part.push(*p);
+        }
+        if s * t < 0.0 {
+            part.push(std::array::from_fn(|i| p[i] + s / (s - t) * (q[i] - p[i])));
+        }
+    }
+    part
+}
+
+/// The part of a polygon between two values of a coordinate.
+pub fn strip<const N: usize>(polygon: &[[f64; N]], axis: usize, [low, high]: [f64; 2]) -> Vec<[f64; N]> {
+    clip(&clip(polygon, |p| p[axis] - low), |p| high - p[axis])
+}
+
+/// The part of a polygon in a box of the plane of the first two coordinates.
+pub fn in_box<const N: usize>(polygon: &[[f64; N]], [low, high]: [[f64; 2]; 2]) -> Vec<[f64; N]> {
+    strip(&strip(polygon, 0, [low[0], high[0]]), 1, [low[1], high[1]])
+}
+
+/// The part of a segment in a box; ends inside stay as they are, so that neighbours still meet there.
+pub fn segment_in_box(ends: [[f64; 2]; 2], bounds: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+    // As a polygon it runs there and back.
+    in_box(&ends, bounds).first_chunk().copied()
+}
+
+pub fn is_finite(points: &[[f64; 2]]) -> bool {
+    points.as_flattened().iter().all(|x| x.is_finite())
+}
+
+fn key(p: [f64; 2]) -> [u64; 2] {
+    p.map(f64::to_bits)
+}
+
+/// The sides of triangles without those between two of them, as closed polygons.
+pub fn outline(triangles: impl Iterator<Item = [[f64; 2]; 3]>) -> Vec<Chain> {
+    let of = |t: [[f64; 2]; 3]| [0, 1, 2].map(|k| (t[k], t[(k + 1) % 3]));
+    let sides: Vec<_> = triangles.filter(|t| is_finite(t)).flat_map(of).collect();
+    let known: HashSet<_> = sides.iter().map(|(a, b)| [key(*a), key(*b)]).collect();
+    chains(sides.into_iter().filter(|(a, b)| !known.contains(&[key(*b), key(*a)])))
+}
+
+/// Each segment once, whichever way it runs.
+pub fn once(segments: impl Iterator<Item = [[f64; 2]; 2]>) -> impl Iterator<Item = [[f64; 2]; 2]> {
+    let mut known = HashSet::new();
+    segments.filter(move |[a, b]| {
+        let (a, b) = (key(*a), key(*b));
+        known.insert([a.min(b), a.max(b)])
+    })
+}
+
+/// Chain segments end to start into lines; one that closes ends where it began.
+pub fn chains(segments: impl Iterator<Item = ([f64; 2], [f64; 2])>) -> Vec<Chain> {
+    let segments: Vec<_> = segments.filter(|(a, b)| is_finite(&[*a, *b])).collect();
+    let mut from: HashMap<_, Vec<usize>> = HashMap::new();
+    for (i, (a, _)) in segments.iter().enumerate().rev() {
+        from.entry(key(*a)).or_default().push(i);
+    }
+    let ends: HashSet<_> = segments.iter().map(|(_, b)| key(*b)).collect();
+    // Lines from their free ends first, then what is closed.
+    let free = |i: &usize| !ends.contains(&key(segments[*i].0));
+    let order: Vec<usize> = (0..segments.len()).filter(free).chain(0..segments.len()).collect();
+    let mut used = vec![false; segments.len()];
+    let mut chains = Vec::new();
+    for first in order {
+        let mut next = (!used[first]).then_some(first);
+        let mut chain = Vec::new();
+        while let Some(i) = next {
+            used[i] = true;
+            chain.extend(chain.is_empty().then_some(segments[i].0));
+            chain.push(segments[i].1);
+            let open = from.get_mut(&key(segments[i].1));
+            next = open.and_then(|list| std::iter::from_fn(|| list.pop()).find(|j| !used[*j]));
+        }
+        chains.extend((!chain.is_empty()).then_some(chain));
+    }
+    chains
+}
+
+/// The dark cells of a pattern in a region, whose polygons run around it on the left; circles have their inner edges run the
+/// other way. `check`: the side of a check.
+pub fn cells(region: &[Chain], texture: Texture, check: f64) -> Vec<Chain> {
+    let cells = region.iter().flat_map(|polygon| match texture {
+        Texture::Checker => checks(polygon, check),
+        Texture::Circles => circles(polygon, check * CIRCLE_SPACING),
+        Texture::None => Vec::new(),
+    });
+    cells.filter(|cell| cell.len() > 2).collect()
+}
+
+/// The numbers of the intervals between multiples of `step` that meet the polygon.
+fn intervals(polygon: &[[f64; 2]], axis: usize, step: f64) -> std::ops::RangeInclusive<i64> {
+    let (low, high) =
+        polygon.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[axis]), h.max(p[axis])));
+    (low / step).floor() as i64..=(high / step).floor() as i64
+}
+
+fn checks(polygon: &[[f64; 2]], side: f64) -> Vec<Chain> {
+    let of = |polygon: &[[f64; 2]], axis: usize, k: i64| -> Chain {
+        strip(polygon, axis, [k as f64 * side, (k + 1) as f64 * side])
+    };
+    let mut cells = Vec::new();
+    for i in intervals(polygon, 0, side) {
+        let column = of(polygon, 0, i);
+        let rows = intervals(&column, 1, side).filter(|j| (i + j) % 2 != 0);
+        cells.extend(rows.map(|j| of(&column, 1, j)));
+    }
+    cells
+}
+
+/// Rings with a dot at their centre, around the points of a triangular lattice.
+fn circles(polygon: &[[f64; 2]], step: f64) -> Vec<Chain> {
+    let (height, radius) = (0.75f64.sqrt() * step, RING[0] * step);
+    let mut cells = Vec::new();
+    let numbers = |polygon: &[[f64; 2]], axis: usize, step: f64| {
+        let range = intervals(polygon, axis, step);
+        *range.start()..=range.end().saturating_add(1)
+    };
+    for j in numbers(polygon, 1, height) {
+        let y = j as f64 * height;
+        let row = strip(polygon, 1, [y - radius, y + radius]);
+        let shift = 0.5 * step * (j.rem_euclid(2)) as f64;
+        for i in numbers(&row, 0, step) {
+            let x = i as f64 * step + shift;
+            let square = strip(&row, 0, [x - radius, x + radius]);
+            let mut parts = [0, 1, 2].map(|k| disk(&square, [x, y], RING[k] * step, CIRCLE_SIDES[k]));
+            parts[1].reverse();
+            cells.extend(parts);
+        }
+    }
+    cells
+}
+
+/// The part of a polygon in a disk, for which a polygon with the same area stands.
+fn disk(polygon: &[[f64; 2]], [x, y]: [f64; 2], radius: f64, sides: usize) -> Chain {
+    let turn = TAU / sides as f64;
+    let apothem = radius * (0.5 * turn / (0.5 * turn).tan()).sqrt();
+    (0..sides).fold(polygon.to_vec(), |part, k| {
+        let (b, a) = (turn * k as f64).sin_cos();
+        if part.is_empty() { part } else { clip(&part, |p| apothem - a * (p[0] - x) - b * (p[1] - y)) }
+    })
+}
+
+/// The same polygon with points between on sides that are long beside `side`.
+pub fn in_pieces(polygon: &[[f64; 2]], side: f64) -> Chain {
+    let pieces = |k: usize| {
+        let (p, q) = (polygon[k], polygon[(k + 1) % polygon.len()]);
+        let n = ((q[0] - p[0]).hypot(q[1] - p[1]) / side * PIECES as f64).ceil().clamp(1.0, PIECES as f64);
+        (0..n as usize).map(move |i| [0, 1].map(|k| p[k] + i as f64 / n * (q[k] - p[k])))
+    };
+    (0..polygon.len()).flat_map(pieces).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::raster::doubled_area;
+    use super::*;
+
+    /// Twice the area that polygons run around on the left.
+    fn area(polygons: &[Chain]) -> f64 {
+        let of = |p: &Chain| (2..p.len()).map(|k| doubled_area([p[0], p[k - 1], p[k]])).sum::<f64>();
+        polygons.iter().map(of).sum()
+    }
+
+    #[test]
+    fn segments_chain_into_lines_and_loops() {
+        let p = |k: f64| [k, 0.0];
+        let joined =
+            chains([(p(2.0), p(3.0)), (p(1.0), p(2.0)), (p(7.0), p(8.0)), (p(8.0), p(7.0))].into_iter());
+        assert_eq!(joined, [vec![p(1.0), p(2.0), p(3.0)], vec![p(7.0), p(8.0), p(7.0)]]);
+    }
+
+    #[test]
+    fn the_outline_of_triangles_has_no_inner_sides() {
+        let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let around = outline([[a, b, c], [a, c, d]].into_iter());
+        assert_eq!(around, [vec![a, b, c, d, a]]);
+        assert_eq!(once([[a, b], [b, c], [b, a]].into_iter()).count(), 2);
+    }
+
+    #[test]
+    fn cells_fill_their_share_of_a_region_with_a_bay_and_a_hole() {
+        let square = |r: f64| vec![[-r, -r], [r, -r], [r, r], [-r, r]];
+        let mut hole = square(1.0);
+        hole.reverse();
+        let bay = vec![
+            [-4.0, -4.0],
+            [4.0, -4.0],
+            [4.0, 4.0],
+            [1.9, 4.0],
+            [1.9, 1.1],
+            [-1.9, 1.1],
+            [-1.9, 4.0],
+            [-4.0, 4.0],
+        ];
+        let region = [bay, hole];
+        let whole = area(&region);
+        let dark = area(&cells(&region, Texture::Checker, 0.05));
+        assert!((dark / whole - 0.5).abs() < 0.01, "{dark} of {whole}");
+        let dark = area(&cells(&region, Texture::Circles, 0.05));
+        let share =
+            std::f64::consts::PI * (RING[0].powi(2) - RING[1].powi(2) + RING[2].powi(2)) / 0.75f64.sqrt();
+        assert!((dark / whole / share - 1.0).abs() < 0.02, "{dark} of {whole}");
+    }
+
+    #[test]
+    fn segments_end_at_the_box() {
+        let frame = [[0.0, 0.0], [10.0, 5.0]];
+        assert_eq!(segment_in_box([[-5.0, 1.0], [5.0, 1.0]], frame), Some([[0.0, 1.0], [5.0, 1.0]]));
+        assert_eq!(segment_in_box([[-5.0, 9.0], [5.0, 9.0]], frame), None);
+        assert_eq!(segment_in_box([[3.0, 3.0], [3.0, 3.0]], frame), Some([[3.0, 3.0], [3.0, 3.0]]));
+    }
+}

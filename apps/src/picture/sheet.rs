@@ -1,0 +1,217 @@
+//! A sheet to draw on: images, and vectors over them as SVG, which become pixels by resvg.
+
+use super::color::{INK, Rgb, to_hex};
+use super::raster::Image;
+use super::region::is_finite;
+use crate::failure::Failure;
+use resvg::{tiny_skia, usvg};
+use std::fmt::Write;
+
+/// Opacity in SVG over that in linear light: it mixes colours as they are written, in which thin lines are darker.
+const WIRE: f64 = 0.65;
+
+/// A drawing in pixels, y down.
+#[derive(Default)]
+pub struct Sheet {
+    pub width: usize,
+    pub height: usize,
+    images: Vec<(Image, [usize; 2])>,
+    vectors: String,
+}
+
+/// Lines and curves: the data of an SVG path.
+#[derive(Default, Clone)]
+pub struct Path(String);
+
+impl Path {
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// A command with its points, to a hundredth of a pixel.
+    pub fn command(&mut self, command: char, points: &[[f64; 2]]) {
+        let numbers: Vec<String> = points.as_flattened().iter().map(|x| decimal(*x)).collect();
+        self.0.push(command);
+        self.0 += &numbers.join(" ");
+    }
+
+    /// A line through points, by steps; what is not finite is left out.
+    pub fn line(&mut self, points: &[[f64; 2]]) {
+        if points.len() < 2 || !is_finite(points) {
+            return;
+        }
+        let places: Vec<[f64; 2]> = points.iter().map(|p| p.map(|x| (100.0 * x).round())).collect();
+        let step = |w: &[[f64; 2]]| [0, 1].map(|k| (w[1][k] - w[0][k]) / 100.0);
+        self.command('M', &[places[0].map(|x| x / 100.0)]);
+        self.command('l', &places.windows(2).map(step).collect::<Vec<_>>());
+    }
+
+    pub fn polygon(&mut self, points: &[[f64; 2]]) {
+        let before = self.0.len();
+        self.line(points);
+        if self.0.len() > before {
+            self.command('Z', &[]);
+        }
+    }
+
+    pub fn rectangle(&mut self, [x, y, width, height]: [f64; 4]) {
+        self.polygon(&[[x, y], [x + width, y], [x + width, y + height], [x, y + height]]);
+    }
+
+    pub fn circle(&mut self, [x, y]: [f64; 2], radius: f64) {
+        if [x, y, radius].iter().all(|v| v.is_finite()) {
+            let [left, y, r, d] = [x - radius, y, radius, 2.0 * radius].map(decimal);
+            let _ = write!(self.0, "M{left} {y}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0Z");
+        }
+    }
+}
+
+/// Polygons, closed.
+pub fn polygons(polygons: &[Vec<[f64; 2]>]) -> Path {
+    let mut path = Path::default();
+    polygons.iter().for_each(|p| path.polygon(p));
+    path
+}
+
+/// Lines, open.
+pub fn lines(lines: &[Vec<[f64; 2]>]) -> Path {
+    let mut path = Path::default();
+    lines.iter().for_each(|p| path.line(p));
+    path
+}
+
+impl Sheet {
+    pub fn new(width: usize, height: usize) -> Sheet {
+        Sheet { width: width.max(1), height: height.max(1), ..Sheet::default() }
+    }
+
+    /// A sheet with an image on all of it.
+    pub fn of_image(image: Image) -> Sheet {
+        let mut sheet = Sheet::new(image.width, image.height);
+        sheet.images.push((image, [0; 2]));
+        sheet
+    }
+
+    /// Add a path with these attributes.
+    pub fn add(&mut self, attributes: &str, path: &Path) {
+        if !path.is_empty() {
+            let _ = writeln!(self.vectors, r#"<path {attributes} d="{}"/>"#, path.0);
+        }
+    }
+
+    pub fn fill(&mut self, color: Rgb, path: &Path) {
+        self.add(&format!(r#"fill="{}""#, to_hex(color)), path);
+    }
+
+    pub fn stroke(&mut self, color: Rgb, width: f64, path: &Path) {
+        self.add(&format!(r#"stroke="{}" stroke-width="{}""#, to_hex(color), decimal(width)), path);
+    }
+
+    /// Add edges of a mesh, of this opacity in linear light.
+    pub fn wire(&mut self, opacity: f64, width: f64, path: &Path) {
+        let (ink, width, opacity) = (to_hex(INK), decimal(width), decimal(WIRE * opacity));
+        self.add(&format!(r#"stroke="{ink}" stroke-width="{width}" stroke-opacity="{opacity}""#), path);
+    }
+
+    /// Write what begins at a point; `halo`: the width of a white line around it. Readers find the text by its label.
+    pub fn write(&mut self, text: &str, letters: &Path, ([x, y], color): ([f64; 2], Rgb), halo: f64) {
+        let label = text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+        let [x, y] = [x, y].map(decimal);
+        let _ =
+            writeln!(self.vectors, r#"<g role="img" aria-label="{label}" transform="translate({x} {y})">"#);
+        if halo > 0.0 {
+            self.stroke([1.0; 3], halo, letters);
+        }
+        self.fill(color, letters);
+        self.vectors += "</g>\n";
+    }
+
+    /// Cut off what lies beyond the sides; `id` is of this sheet alone in a picture.
+    pub fn cut(mut self, id: &str) -> Sheet {
+        let Sheet { width, height, vectors, .. } = &self;
+        self.vectors = format!(
+            r##"<clipPath id="{id}"><path d="M0 0H{width}V{height}H0Z"/></clipPath>
+<g clip-path="url(#{id})">
+{vectors}</g>
+"##
+        );
+        self
+    }
+
+    /// Put another sheet on this one, its top left corner at (x, y).
+    pub fn put(&mut self, other: Sheet, [x, y]: [usize; 2]) {
+        let placed = other.images.into_iter().map(|(image, at)| (image, [at[0] + x, at[1] + y]));
+        self.images.extend(placed);
+        if !other.vectors.is_empty() {
+            let _ = write!(self.vectors, "<g transform=\"translate({x} {y})\">\n{}</g>\n", other.vectors);
+        }
+    }
+
+    fn text(&self, ground: &str) -> String {
+        let Sheet { width, height, vectors, .. } = self;
+        format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" fill="none" stroke-linejoin="round" stroke-linecap="round">
+{ground}{vectors}</svg>
+"#
+        )
+    }
+
+    /// The vectors as a file, on a white ground.
+    pub fn svg(&self) -> Vec<u8> {
+        let Sheet { width, height, .. } = self;
+        self.text(&format!("<path fill=\"white\" d=\"M0 0H{width}V{height}H0Z\"/>\n")).into_bytes()
+    }
+
+    /// The images on a white ground, and the vectors over them.
+    pub fn image(self) -> Result<Image, Failure> {
+        let mut image = Image::white(self.width, self.height);
+        self.images.iter().for_each(|(part, [x, y])| image.put(part, *x, *y));
+        if self.vectors.is_empty() {
+            return Ok(image);
+        }
+        let failed = |why: String| Failure::Failed(format!("the picture cannot be drawn: {why}"));
+        let tree = usvg::Tree::from_str(&self.text(""), &usvg::Options::default())
+            .map_err(|e| failed(e.to_string()))?;
+        let mut pixels = tiny_skia::Pixmap::new(self.width as u32, self.height as u32)
+            .ok_or_else(|| failed("it has too many pixels".into()))?;
+        for (to, from) in pixels.data_mut().chunks_exact_mut(4).zip(image.rgb.chunks_exact(3)) {
+            to.copy_from_slice(&[from[0], from[1], from[2], 255]);
+        }
+        resvg::render(&tree, tiny_skia::Transform::identity(), &mut pixels.as_mut());
+        for (to, from) in image.rgb.chunks_exact_mut(3).zip(pixels.data().chunks_exact(4)) {
+            to.copy_from_slice(&from[..3]);
+        }
+        Ok(image)
+    }
+}
+
+/// Two decimals at most.
+pub fn decimal(x: f64) -> String {
+    let text = format!("{x:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!([1.0, -0.001, 12.345, 0.5].map(decimal), ["1", "0", "12.35", "0.5"]);
+    }
+
+    #[test]
+    fn vectors_lie_over_images_and_end_with_their_sheet() {
+        let mut part = Sheet::of_image(Image { width: 4, height: 4, rgb: vec![0; 48] });
+        let mut path = Path::default();
+        path.rectangle([2.0, 0.0, 100.0, 100.0]);
+        part.fill([1.0, 0.0, 0.0], &path);
+        let mut sheet = Sheet::new(10, 6);
+        sheet.put(part.cut("part"), [1, 1]);
+        let image = sheet.image().unwrap();
+        let at = |x: usize, y: usize| image.rgb[3 * (10 * y + x)..][..3].to_vec();
+        assert_eq!([at(0, 2), at(1, 1), at(3, 1), at(4, 4)], [[255; 3], [0; 3], [255, 0, 0], [255, 0, 0]]);
+        assert_eq!([at(5, 2), at(4, 5)], [[255; 3]; 2]);
+    }
+}
