@@ -19,7 +19,8 @@ pub fn reduce(rgb: &[u8]) -> (Vec<u8>, Vec<u8>) {
     colors.sort_unstable_by_key(|(c, _)| (!own(c), *c));
     let greys = colors.iter().take_while(|(c, _)| own(c)).count();
     // Boxes of colours, as ranges of the list.
-    let mut boxes: Vec<_> = (0..greys).map(|k| k..k + 1).chain([greys..colors.len()]).collect();
+    let mut boxes: Vec<_> =
+        (0..greys).map(|k| k..k + 1).chain(std::iter::once(greys..colors.len())).collect();
     while boxes.len() < MOST {
         // The box whose colours are spread most, each by how often it occurs.
         let spread = |range: &std::ops::Range<usize>| spread(&colors[range.clone()]);
