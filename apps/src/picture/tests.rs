@@ -241,9 +241,10 @@ fn the_paper_stays_white_around_a_shadow() {
     let soup = shapes::icosphere(8).unwrap();
     let image = draw(surface(&soup, None), &Style { ground: true, ..style() });
     let (w, h) = (image.width, image.height);
-    let rim = |x: usize, y: usize| x < 2 || y < 2 || x >= w - 2 || y >= h - 2;
+    // The surface itself keeps away from the rim by more than that.
+    let rim = |x: usize, y: usize| x.min(y).min(w - 1 - x).min(h - 1 - y) < SIZE * 3 / 100;
     for (i, p) in pixels(&image).enumerate().filter(|(i, _)| rim(i % w, i / w)) {
-        assert!(p.iter().all(|c| *c >= 250), "{p:?} at ({}, {})", i % w, i / w);
+        assert!(p.iter().all(|c| *c >= 252), "{p:?} at ({}, {})", i % w, i / w);
     }
     assert!(pixels(&image).any(|p| p[0] == p[1] && p[1] == p[2] && p[0] < 220), "no shadow");
 }

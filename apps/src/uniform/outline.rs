@@ -71,17 +71,6 @@ fn chain(mesh: &Mesh, whole: &Layout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]>
     halfedges.iter().map(|&h| whole.corner(h)).chain(last).collect()
 }
 
-/// The loops of the generators in the opened surface: the two ends of each edge in each of its places, with the loop's number.
-pub fn loops(u: &Uniformized) -> Vec<([[f64; 3]; 2], usize)> {
-    let whole = &u.layout;
-    let mesh = u.solved.solution.mesh();
-    let ends = |h: HalfedgeId| [whole.corner(h), whole.corner(mesh.next(h))];
-    let of = |(k, path): (usize, &Vec<HalfedgeId>)| -> Vec<_> {
-        path.iter().flat_map(|h| [*h, h.twin()]).map(|h| (ends(h), k)).collect()
-    };
-    u.basis.loops.iter().enumerate().flat_map(of).collect()
-}
-
 /// The loops of the generators on the surface as it was given: edges of the common refinement, with the loop's number.
 pub fn loops_on_surface(u: &Uniformized) -> Vec<(u32, u32, usize)> {
     let Some(refinement) = u.laid().ok().and_then(|laid| laid.refinement()) else { return Vec::new() };

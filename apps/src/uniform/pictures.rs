@@ -3,7 +3,7 @@
 use super::args::{ShowChoice, Shown, TilesChoice};
 use super::model_place::ModelPlace;
 use super::opened::{Opened, pairs};
-use super::outline::{Side, loops, sides};
+use super::outline::{Side, sides};
 use super::pieces::middle;
 use super::quotient::{ORIGIN, Uniformized};
 use super::tiling::{Prototype, Stamp, Tiling, tint};
@@ -21,7 +21,6 @@ const BACKGROUND: usize = 250;
 const SAME: f64 = 1e-6;
 /// Widths of lines, in those of a seam.
 const THIN: f64 = 0.45;
-const SEAM: f64 = 1.25;
 const BOLD: f64 = 1.8;
 /// How much higher than its domain the shown part of the half-plane is.
 const HEADROOM: f64 = 1.12;
@@ -47,10 +46,9 @@ pub fn draw(u: &Uniformized, shown: Shown, canvas: &Canvas, svg: bool) -> Result
     let tiling = match shown {
         Shown::Uniform(ShowChoice::Surface) => None,
         Shown::Uniform(ShowChoice::Both) => {
-            let geodesic = dirichlet(u, canvas, stamp);
-            Some(geodesic.or_else(|_| domain(u, canvas, stamp, (sides, false)))?)
+            Some(dirichlet(u, canvas, stamp).or_else(|_| domain(u, canvas, stamp, sides))?)
         }
-        Shown::Uniform(ShowChoice::Domain) => Some(domain(u, canvas, stamp, (sides, true))?),
+        Shown::Uniform(ShowChoice::Domain) => Some(domain(u, canvas, stamp, sides)?),
         Shown::Uniform(ShowChoice::Polygon) => Some(polygon(u, canvas, stamp)?),
         Shown::Uniform(ShowChoice::Dirichlet) => Some(dirichlet(u, canvas, stamp)?),
         Shown::Cover(TilesChoice::Copies) => Some(copies(u, canvas, stamp)?),
@@ -108,23 +106,13 @@ fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
     }
 }
 
-/// The layout, with its sides in pairs or the loops of the generators.
-fn domain(
-    u: &Uniformized,
-    canvas: &Canvas,
-    shape: &Stamp,
-    (sides, named): (Vec<Side>, bool),
-) -> Result<Tiling, Failure> {
+/// The layout, with its sides in pairs.
+fn domain(u: &Uniformized, canvas: &Canvas, shape: &Stamp, sides: Vec<Side>) -> Result<Tiling, Failure> {
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
     tiling.copy(shape, &Motion::identity(u.deck.space), 0, None);
     for side in sides {
-        tiling.line(&side.points, named.then_some(side.pair), if named { BOLD } else { THIN });
-        if named {
-            tiling.name_line(side.word, ORIGIN);
-        }
-    }
-    if !named {
-        loops(u).into_iter().for_each(|(ends, k)| tiling.line(&ends, Some(k), SEAM));
+        tiling.line(&side.points, Some(side.pair), BOLD);
+        tiling.name_line(side.word, ORIGIN);
     }
     tiling.dots.push(canvas.at.flat(ORIGIN));
     Ok(tiling)
