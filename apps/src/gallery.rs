@@ -13,6 +13,9 @@ use std::path::Path;
 /// The pictures, a line each.
 const PICTURES: &str = include_str!("gallery.txt");
 
+/// What other programs' pictures of the same layouts look like; it ends the page where the corpus is at hand.
+const BESIDE: &str = include_str!("gallery_beside.md");
+
 /// One picture. In the command lines `{}` stands for the surface's file.
 struct Row {
     name: &'static str,
@@ -88,6 +91,9 @@ pub fn run(args: &GalleryArgs, control: &Control) -> Result<u8, Failure> {
                 say::lines(&format!("{name}: {shown}\n"), say::NO_FILES)?;
             }
         }
+    }
+    if meshes.is_some() {
+        page += BESIDE;
     }
     let mut outputs = Outputs::default();
     outputs.add_bytes(&args.out.join("README.md"), page.as_bytes())?;
