@@ -16,8 +16,11 @@ if(CMAKE_STRIP AND NOT MSVC)
     set(_strip_shared -x)
   endif()
   install(CODE "execute_process(COMMAND \"${CMAKE_STRIP}\" ${_strip_shared}
-      \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${_shared_dir}/${RICCI_SHARED}\" COMMAND_ERROR_IS_FATAL ANY)
-    execute_process(COMMAND \"${CMAKE_STRIP}\" -S \"${_installed}/${RICCI_STATIC}\" COMMAND_ERROR_IS_FATAL ANY)")
+      \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${_shared_dir}/${RICCI_SHARED}\" COMMAND_ERROR_IS_FATAL ANY)")
+  # MinGW's strip takes no archive in which an object is empty, and rustc writes some.
+  if(NOT WIN32)
+    install(CODE "execute_process(COMMAND \"${CMAKE_STRIP}\" -S \"${_installed}/${RICCI_STATIC}\" COMMAND_ERROR_IS_FATAL ANY)")
+  endif()
   if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_OBJCOPY AND CMAKE_NM)
     install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" -DARCHIVE=${_installed}/${RICCI_STATIC} -DSHARED=${_installed}/${RICCI_SHARED}
       -DNM=${CMAKE_NM} -DLD=${CMAKE_LINKER} -DOBJCOPY=${CMAKE_OBJCOPY} -DAR=${CMAKE_AR} -P \"${CMAKE_CURRENT_LIST_DIR}/static.cmake\"
