@@ -33,7 +33,7 @@ find_package(Python3 COMPONENTS Interpreter)
 set(_licences ${PROJECT_BINARY_DIR}/THIRD-PARTY.txt)
 if(Python3_FOUND)
   add_custom_command(OUTPUT ${_licences} DEPENDS ${PROJECT_SOURCE_DIR}/Cargo.lock ${CMAKE_CURRENT_LIST_DIR}/licences.py
-    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/licences.py ${CARGO} ${PROJECT_SOURCE_DIR} ${_licences} VERBATIM)
+    COMMAND ${_cargo_env} ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/licences.py ${CARGO} ${PROJECT_SOURCE_DIR} ${_licences} VERBATIM)
   add_custom_target(ricci_licences ALL DEPENDS ${_licences})
   install(FILES ${_licences} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ricci)
 else()
