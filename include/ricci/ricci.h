@@ -1057,8 +1057,8 @@ enum {
      */
     RICCI_STOP_INFEASIBLE = 6,
     /**
-     * The step to the target is longer than all steps up to the iteration limit: lengths would differ by a factor
-     * beyond use. Spread the curvature over more cones.
+     * The step to the target is longer than all steps up to the iteration limit: lengths would differ by a
+     * factor beyond use. Spread the curvature over more cones.
      */
     RICCI_STOP_OUT_OF_REACH = 7
 };
