@@ -31,7 +31,7 @@ pub struct Circle {
 }
 
 /// A layout in the plane.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub struct Flat<'a> {
     pub corner_uv: &'a [[[f64; 2]; 3]],
     /// Both copies of each cut edge: ends in the order of their face, and the number of their seam.

@@ -214,15 +214,7 @@ fn a_picture_is_the_same_for_any_number_of_threads() {
     let field = Field { corners, scale: Scale::of_signed("x", &values) };
     let seams = [(0, 1, 0), (1, 2, 1)];
     let surface = Surface { seams: &seams, cones: &[(7, 1.0)], ..surface(&soup, Some(&uv)) };
-    let flat = Flat {
-        corner_uv: &uv,
-        seams: &[],
-        frame: &[],
-        boundary: &[],
-        cones: &[],
-        circles: &[],
-        dual_circles: &[],
-    };
+    let flat = Flat { corner_uv: &uv, ..Flat::default() };
     let picture =
         Picture { surface: Some(surface), flat: Some(flat), field: Some(&field), ..Picture::default() };
     let style = Style { texture: Texture::Circles, wire: true, ground: true, ..style() };
@@ -275,12 +267,10 @@ fn drawings_are_well_formed_and_small() {
     let circles = [Circle { center: [0.0; 2], radius: 0.5 }];
     let flat = Flat {
         corner_uv: &uv,
-        seams: &[],
-        frame: &[],
         boundary: &boundary,
         cones: &[([0.1, 0.1], -1.0)],
         circles: &circles,
-        dual_circles: &[],
+        ..Flat::default()
     };
     let values: Vec<f64> = uv.iter().map(|t| t[0][0]).collect();
     let scale = Scale::of_signed("x & y < z", &values);
@@ -306,15 +296,7 @@ fn drawings_are_well_formed_and_small() {
 fn degenerate_input_is_drawn_as_far_as_it_goes() {
     assert!(!png(&Picture::default(), &style()).unwrap().is_empty());
     let uv = [[[1e300, 0.0], [f64::NAN, 1.0], [0.0, 1e-300]]];
-    let flat = Flat {
-        corner_uv: &uv,
-        seams: &[],
-        frame: &[],
-        boundary: &[],
-        cones: &[],
-        circles: &[],
-        dual_circles: &[],
-    };
+    let flat = Flat { corner_uv: &uv, ..Flat::default() };
     let everything = Style { wire: true, ground: true, palette: true, texture: Texture::Checker, ..style() };
     for positions in [vec![[1.0; 3]; 3], vec![[1e300; 3], [-1e300; 3], [1e-300; 3]], vec![[f64::NAN; 3]; 3]] {
         let soup = Soup::new(positions, vec![[0, 1, 2]]);
