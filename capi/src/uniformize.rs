@@ -111,6 +111,7 @@ pub unsafe extern "C" fn ricci_uniformize(
         let options = QuotientOptions {
             scheme: SCHEMES.choose(given.scheme)?,
             base: vertex_or_none(given.base)?,
+            boundary: Default::default(),
             flow: read_options(given.flow)?,
         };
         if !given.start.is_null() {

@@ -111,8 +111,10 @@ fn domain(u: &Uniformized, canvas: &Canvas, shape: &Stamp, sides: Vec<Side>) -> 
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
     tiling.copy(shape, &Motion::identity(u.deck.space), 0, None);
     for side in sides {
-        tiling.line(&side.points, Some(side.pair), BOLD);
-        tiling.name_line(side.word, ORIGIN);
+        tiling.line(&side.points, Some(side.pair).filter(|_| !side.is_border), BOLD);
+        if !side.is_border {
+            tiling.name_line(side.word, ORIGIN);
+        }
     }
     tiling.dots.push(canvas.at.flat(ORIGIN));
     Ok(tiling)
@@ -163,7 +165,7 @@ fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> ricci::R
             .min_by(|&a, &b| waiting[a].displacement().total_cmp(&waiting[b].displacement()));
         let Some(nearest) = nearest else { break };
         let g = waiting.swap_remove(nearest);
-        for side in &domain.sides {
+        for side in domain.neighbours() {
             let next = g.compose(&side.motion);
             let at = place(&next);
             // The base's images are apart; out there coordinates are as large as their digits allow.
@@ -183,7 +185,7 @@ fn dirichlet(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, 
     let domain = u.domain()?;
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
     tiling.copy(shape, &Motion::identity(u.deck.space), 0, None);
-    for g in &domain.sides {
+    for g in domain.neighbours() {
         tiling.copy(shape, &g.motion, PALE, Some(THIN));
     }
     outline(u, &mut tiling, domain, true);
@@ -195,8 +197,10 @@ fn dirichlet(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, 
 fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named: bool) {
     let n = domain.sides.len();
     for (k, color) in pairs(domain).into_iter().enumerate() {
-        tiling.line(&[domain.corners[k], domain.corners[(k + 1) % n]], Some(color), BOLD);
-        if named {
+        let is_border = domain.partner[k].is_none();
+        let color = Some(color).filter(|_| !is_border);
+        tiling.line(&[domain.corners[k], domain.corners[(k + 1) % n]], color, BOLD);
+        if named && !is_border {
             tiling.name_line(u.deck.group.text(&domain.sides[k].word), domain.centre);
         }
     }
