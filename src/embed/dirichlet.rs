@@ -112,7 +112,7 @@ pub fn dirichlet_domain(
         if polygon.radius < least {
             continue;
         }
-        match polygon.finish(centre, &home.inverse()) {
+        match polygon.finish(&given, centre, &home.inverse()) {
             Some(domain) if (domain.area - area).abs() <= AREA * area => return Ok(domain),
             found => nearest = found.or(nearest),
         }

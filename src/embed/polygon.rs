@@ -78,8 +78,8 @@ enum Side {
     Start,
     /// The bisector of the origin and its image under this element.
     Bisector(DeckElement),
-    /// A lift of the boundary.
-    Border(Border),
+    /// A given border, moved by this element.
+    Border(usize, DeckElement),
 }
 
 /// A convex polygon about the origin in the plane or in the Klein disk. Corners are vectors `[x, y, w]` of height 1, with twice the digits:
@@ -115,7 +115,7 @@ impl Polygon {
             factors.iter().for_each(|g| {
                 self.cut_by_both(g);
             });
-            let mut changed = self.cut_by_borders(deck, &all.borders, &factors);
+            let mut changed = self.cut_by_borders(all, &factors);
             let sides: Vec<DeckElement> = self.elements().cloned().collect();
             for g in sides.iter().chain(&factors) {
                 control.check()?;
@@ -154,26 +154,35 @@ impl Polygon {
         cut(&g.inverse()) || first
     }
 
-    /// Cuts by the borders and by those that it has itself, and by the images of them all under the factors and the elements of its sides.
-    fn cut_by_borders(&mut self, deck: &DeckGroup, borders: &[Border], factors: &[DeckElement]) -> bool {
-        let own = self.sides.iter().filter_map(|side| match side {
-            Side::Border(border) => Some(border.clone()),
+    /// Cuts by the given borders and by those that it has, and by the images of them all under the factors and the elements of its sides.
+    fn cut_by_borders(&mut self, all: &Given<'_>, factors: &[DeckElement]) -> bool {
+        let one = DeckElement::identity(self.space);
+        let mut known: Vec<(usize, DeckElement)> = (0..all.borders.len()).map(|k| (k, one.clone())).collect();
+        known.extend(self.sides.iter().filter_map(|side| match side {
+            Side::Border(k, g) => Some((*k, g.clone())),
             _ => None,
-        });
-        let borders: Vec<Border> = borders.iter().cloned().chain(own).collect();
-        let elements: Vec<DeckElement> = self.elements().chain(factors).cloned().collect();
+        }));
+        let elements: Vec<DeckElement> =
+            std::iter::once(&one).chain(self.elements()).chain(factors).cloned().collect();
         let mut changed = false;
-        for border in &borders {
-            let mut cut = |border: Border| {
-                let line = border.line();
-                if self.is_beyond(&line) {
-                    changed |= self.cut(&line, Side::Border(border));
+        for (k, g) in &known {
+            for h in &elements {
+                // Of an image of an image the elements are multiplied first, which costs fewer digits.
+                let motion = h.motion.compose(&g.motion);
+                let line = all.borders[*k].conjugated_by(&motion).line();
+                if self.is_beyond(&line) && !self.has(&line) {
+                    changed |= self.cut(&line, Side::Border(*k, product(all.deck, h, g, motion)));
                 }
-            };
-            cut(border.clone());
-            elements.iter().for_each(|g| cut(border.moved_by(g, &deck.group)));
+            }
         }
         changed
+    }
+
+    /// Whether one of its sides on the boundary lies on a line, up to rounding.
+    fn has(&self, line: &Line) -> bool {
+        let (n, near) = (self.corners.len(), |p| line.beyond(self.space, p).abs() <= self.same);
+        let is_on = |k: &usize| near(&self.corners[*k]) && near(&self.corners[(k + 1) % n]);
+        (0..n).filter(|&k| matches!(self.sides[k], Side::Border(..))).any(|k| is_on(&k))
     }
 
     /// The elements of its sides.
@@ -263,8 +272,8 @@ impl Polygon {
         self.sides.iter().position(is_inverse).map(Some)
     }
 
-    /// The domain, with every side's partner; none if a side has no element or no partner.
-    pub fn finish(self, centre: [f64; 3], back: &Motion<Twofold>) -> Option<DirichletDomain> {
+    /// The domain of the group and borders that it was cut by, with every side's partner; none if a side has no element or no partner.
+    pub fn finish(self, all: &Given<'_>, centre: [f64; 3], back: &Motion<Twofold>) -> Option<DirichletDomain> {
         if !self.is_bounded() {
             return None;
         }
@@ -289,7 +298,7 @@ impl Polygon {
         Some(DirichletDomain {
             centre,
             corners: points.iter().map(|&p| back.apply(p).map(f64::from)).collect(),
-            sides: self.sides.iter().filter_map(|side| Some(side.element()?.conjugated_by(back))).collect(),
+            sides: self.sides.iter().filter_map(|side| Some(all.element(side)?.conjugated_by(back))).collect(),
             partner,
             area,
             radius,
@@ -297,12 +306,13 @@ impl Polygon {
     }
 }
 
-impl Side {
-    fn element(&self) -> Option<&DeckElement> {
-        match self {
+impl Given<'_> {
+    /// The element of a side; of one on the boundary, that which moves it along itself.
+    fn element(&self, side: &Side) -> Option<DeckElement> {
+        match side {
             Side::Start => None,
-            Side::Bisector(g) => Some(g),
-            Side::Border(border) => Some(&border.element),
+            Side::Bisector(g) => Some(g.clone()),
+            Side::Border(k, g) => Some(self.borders[*k].moved_by(g, &self.deck.group).element),
         }
     }
 }

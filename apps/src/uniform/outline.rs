@@ -76,7 +76,9 @@ fn chain(mesh: &Mesh, whole: &Layout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]>
 
 /// The loops of the generators on the surface as it was given: edges of the common refinement, with the loop's number.
 pub fn loops_on_surface(u: &Uniformized) -> Vec<(u32, u32, usize)> {
-    let Some(refinement) = u.laid().ok().and_then(|laid| laid.refinement()) else { return Vec::new() };
+    let refinement = u.laid().ok().and_then(|laid| laid.refinement());
+    // The loop around a disk says nothing.
+    let Some(refinement) = refinement.filter(|_| !u.deck.sides.is_empty()) else { return Vec::new() };
     let mut of_edge = vec![None; u.layout.mesh().n_edges()];
     for (k, path) in u.basis.loops.iter().enumerate() {
         path.iter().for_each(|h| of_edge[h.edge().index()] = Some(k));

@@ -181,6 +181,13 @@ impl Uniformized {
         given.vertices().filter(|&v| given.is_boundary_vertex(v)).map(off).fold(0.0, worse)
     }
 
+    /// Where the layout has the corners: ambient coordinates, once each.
+    pub fn corner_places(&self) -> impl Iterator<Item = [f64; 3]> {
+        let mesh = self.layout.mesh();
+        let inside = |v: VertexId| mesh.outgoing(v).find(|&h| !mesh.is_outside(h));
+        self.corners.iter().filter_map(move |corner| Some(self.layout.corner(inside(corner.0)?)))
+    }
+
     /// How many of the generators, and of the elements of the sides of the layout and of the Dirichlet domain, are no translations.
     fn not_hyperbolic(&self) -> usize {
         let sides = self.deck.sides.iter().chain(self.domain().into_iter().flat_map(|d| &d.sides));
