@@ -18,6 +18,7 @@ use super::border::Border;
 use super::deck::DeckGroup;
 use super::domain::DirichletDomain;
 use super::frame::ORIGIN;
+use super::layout::distance_from_origin;
 use super::polygon::{Given, Limits, Polygon};
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -101,7 +102,8 @@ pub fn dirichlet_domain(
         Space::H2 => (1.0, 2.0 * (area / (4.0 * PI)).sqrt().asinh()),
         _ => (longest(), (area / PI).sqrt()),
     };
-    let given = Given { deck, factors, borders };
+    let point = |border: &Border| distance_from_origin(deck.space, border.point);
+    let given = Given { deck, factors, reach: borders.iter().map(point).fold(0.0, f64::max), borders };
     let (mut nearest, mut limits) = (None, Limits { least, left: MOST_PRODUCTS });
     for tolerance in TOLERANCES {
         let mut polygon = Polygon::around(deck.space, reach, [tolerance * unit, SAME * unit]);

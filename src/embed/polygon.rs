@@ -67,8 +67,9 @@ pub(super) struct Given<'a> {
     pub deck: &'a DeckGroup,
     /// Elements that generate the group.
     pub factors: Vec<DeckElement>,
-    /// A lift of each boundary loop, at least.
+    /// A lift of each boundary loop, at least, and the largest distance of their points.
     pub borders: Vec<Border>,
+    pub reach: f64,
 }
 
 /// What a side of the polygon lies on.
@@ -162,13 +163,19 @@ impl Polygon {
             Side::Border(k, g) => Some((*k, g.clone())),
             _ => None,
         }));
-        let elements: Vec<DeckElement> =
+        let mut elements: Vec<DeckElement> =
             std::iter::once(&one).chain(self.elements()).chain(factors).cloned().collect();
+        // The shortest first: once the polygon is bounded, elements that move the given borders too far to touch it need not be tried, which
+        // would be known to few digits.
+        elements.sort_by(|g, h| g.motion.displacement().total_cmp(&h.motion.displacement()));
         let mut changed = false;
-        for (k, g) in &known {
-            for h in &elements {
+        for h in &elements {
+            for (k, g) in &known {
                 // Of an image of an image the elements are multiplied first, which costs fewer digits.
                 let motion = h.motion.compose(&g.motion);
+                if motion.displacement() > self.radius + all.reach {
+                    continue;
+                }
                 let line = all.borders[*k].conjugated_by(&motion).line();
                 if self.is_beyond(&line) && !self.has(&line) {
                     changed |= self.cut(&line, Side::Border(*k, product(all.deck, h, g, motion)));
@@ -273,7 +280,12 @@ impl Polygon {
     }
 
     /// The domain of the group and borders that it was cut by, with every side's partner; none if a side has no element or no partner.
-    pub fn finish(self, all: &Given<'_>, centre: [f64; 3], back: &Motion<Twofold>) -> Option<DirichletDomain> {
+    pub fn finish(
+        self,
+        all: &Given<'_>,
+        centre: [f64; 3],
+        back: &Motion<Twofold>,
+    ) -> Option<DirichletDomain> {
         if !self.is_bounded() {
             return None;
         }
@@ -298,7 +310,11 @@ impl Polygon {
         Some(DirichletDomain {
             centre,
             corners: points.iter().map(|&p| back.apply(p).map(f64::from)).collect(),
-            sides: self.sides.iter().filter_map(|side| Some(all.element(side)?.conjugated_by(back))).collect(),
+            sides: self
+                .sides
+                .iter()
+                .filter_map(|side| Some(all.element(side)?.conjugated_by(back)))
+                .collect(),
             partner,
             area,
             radius,

@@ -5,4 +5,5 @@
 mod common;
 
 mod geodesic;
+mod straight;
 mod surfaces;
