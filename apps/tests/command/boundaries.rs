@@ -137,7 +137,7 @@ fn what_a_boundary_cannot_become_is_refused_by_name() {
         (2, "uniformize holes.obj --boundary geodesic --corners 4", "--boundary straight"),
         (3, "uniformize disk.obj --corners 200:90,201:90,202:90", "180°"),
         (2, "uniformize disk.obj --corners 0,1,2,3", "boundary"),
-        (2, "uniformize disk.obj --corners 4:x", "not a vertex number"),
+        (2, "uniformize disk.obj --corners 4:x", "no angle in degrees"),
         (2, "uniformize pants.json --lengths c4", "--lengths c4"),
         (2, "uniformize disk.obj --corners 4 --model klein", "--model"),
         (2, "uniformize disk.obj --corners 4 --show dirichlet", "--show"),
