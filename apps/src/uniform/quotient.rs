@@ -1,6 +1,5 @@
 //! A surface that is no sphere in its metric of constant curvature, laid out on the surface as it was given.
 
-use super::group_file::name;
 use super::needs::Task;
 use crate::failure::{Failure, known, told};
 use crate::laid::{Laid, is_carried_back};
@@ -200,8 +199,8 @@ impl Uniformized {
 /// The words that the run asks for, with the lengths of their closed geodesics.
 fn geodesics(task: &Task<'_>, deck: &DeckGroup) -> Result<Vec<(String, f64)>, Failure> {
     let words = task.args.boundary.words(&deck.group)?;
-    let length = |word: &Word| Ok((name(&deck.group, word), deck.motion(word)?.translation_length()));
-    words.iter().map(length).collect()
+    let length = |(text, word): (&String, &Word)| Ok((text.clone(), deck.motion(word)?.translation_length()));
+    task.args.boundary.lengths.iter().zip(&words).map(length).collect()
 }
 
 /// The layout of a quotient on the surface as it was given, cut open at the base vertex, which is then moved with the layout.
