@@ -140,9 +140,7 @@ impl Domain {
                         let turn = TAU * ((v as f64 * GOLDEN * GOLDEN + j as f64 * GOLDEN) % 1.0);
                         [center[0] + far * turn.cos(), center[1] + far * turn.sin()]
                     }
-                    Some((along, others))
-                        if others.iter().all(|other| cross(*along, *other).abs() < STRAIGHT) =>
-                    {
+                    Some((along, others)) if others.iter().all(|other| is_parallel(*along, *other)) => {
                         let side = if j.is_multiple_of(2) { far } else { -far };
                         [center[0] + side * along[0], center[1] + side * along[1]]
                     }
@@ -222,6 +220,16 @@ fn clipped(polygon: &[[f64; 2]], a: [f64; 2], b: [f64; 2]) -> Vec<[f64; 2]> {
     }
     let area: f64 = (1..left.len().max(2) - 1).map(|i| double_area(left[0], left[i], left[i + 1])).sum();
     if area > zero { left } else { Vec::new() }
+}
+
+/// Whether two directions are the same or opposite.
+fn is_parallel(a: [f64; 2], b: [f64; 2]) -> bool {
+    cross(a, b).abs() < STRAIGHT
+}
+
+/// Whether two directions are the same.
+pub(super) fn is_straight(a: [f64; 2], b: [f64; 2]) -> bool {
+    is_parallel(a, b) && dot(a, b) > 0.0
 }
 
 /// Whether a degree is one that splines have.

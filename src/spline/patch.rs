@@ -3,6 +3,8 @@
 /// The identity as an affine map.
 pub(super) const IDENTITY: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
+/// A point may be outside its patch by this share of it: rounding of coordinates that were computed elsewhere.
+pub(super) const OUTSIDE: f64 = 1e-9;
 /// One triangle of a spline.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Patch {

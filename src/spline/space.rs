@@ -21,7 +21,7 @@
 use super::index::{basis_size, multi_indices};
 use super::knots::{Domain, check_degree, check_knots};
 use super::overlap::supports_in_plane;
-use super::patch::{IDENTITY, Parameter, Patch, Support};
+use super::patch::{IDENTITY, OUTSIDE, Parameter, Patch, Support};
 use super::plan::Plan;
 use super::polar::Polynomial;
 use super::recurrence::{Jet, Scratch};
@@ -31,8 +31,6 @@ use crate::geometry::worse;
 use crate::parallel;
 use std::collections::HashMap;
 
-/// A point may be outside its patch by this share of it: rounding of coordinates that were computed elsewhere.
-const OUTSIDE: f64 = 1e-9;
 /// Points nearer than this share of the patch to its sides are moved inside by so much: basis functions jump to 0 at the boundary of the
 /// domain, and the point is meant as the limit from inside. What the value changes by is of this size.
 const INSIDE: f64 = 1e-13;
