@@ -1,6 +1,8 @@
 //! Triangular B-splines: piecewise polynomial surfaces over triangles, as smooth as their degree allows, on the plane or on a surface
 //! with an affine atlas [DMS92; Sei91; GHQ06].
 
+#[cfg(feature = "json")]
+mod file;
 mod fit;
 mod index;
 mod knots;
