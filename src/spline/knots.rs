@@ -4,7 +4,7 @@ use super::index::MAX_DEGREE;
 use super::simplex::double_area;
 use crate::error::{Error, Result};
 use crate::geometry::complex::{cross, distance, dot, sub};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 /// Knots lie no farther from their vertex than this share of the smallest distance at which Ω of a triangle at the vertex could vanish:
@@ -86,9 +86,9 @@ impl Domain {
     }
 
     /// The edges on the boundary, with the domain on their left.
-    fn boundary(&self) -> Vec<[u32; 2]> {
+    pub(super) fn boundary(&self) -> Vec<[u32; 2]> {
         let sides = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
-        let all: std::collections::HashSet<[u32; 2]> = self.triangles.iter().flat_map(sides).collect();
+        let all: HashSet<[u32; 2]> = self.triangles.iter().flat_map(sides).collect();
         let inner = |[a, b]: &[u32; 2]| all.contains(&[*b, *a]);
         self.triangles.iter().flat_map(sides).filter(|side| !inner(side)).collect()
     }

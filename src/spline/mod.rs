@@ -1,9 +1,11 @@
 //! Triangular B-splines: piecewise polynomial surfaces over triangles, as smooth as their degree allows, on the plane or on a surface
 //! with an affine atlas [DMS92; Sei91; GHQ06].
 
+mod ears;
 #[cfg(feature = "json")]
 mod file;
 mod fit;
+mod identities;
 mod index;
 mod knots;
 mod locate;
@@ -18,6 +20,7 @@ mod surface;
 mod triangulate;
 
 pub use fit::{FitOptions, Fitted, fit};
+pub use identities::Identities;
 pub use index::{MAX_DEGREE, basis_size, multi_indices};
 pub use knots::{Domain, KnotOptions, SPREAD};
 pub use locate::Locator;

@@ -206,32 +206,31 @@ impl SplineSpace {
             ));
         }
         let mut points = vec![[0.0; D]; self.n_control_points];
-        for patch in &self.patches {
-            for (beta, &control) in multi_indices(self.degree).zip(&patch.control) {
-                points[control as usize] = polynomial.polar(&arguments(&patch.knots, beta));
+        self.for_each_argument(|control, arguments| points[control] = polynomial.polar(arguments));
+        Ok(points)
+    }
+
+    /// Calls `take` with each control point and its polar arguments, once per patch that has it: t_{k,j} for j < β_k.
+    pub(super) fn for_each_argument(&self, mut take: impl FnMut(usize, &[[f64; 2]])) {
+        for Patch { knots, control, .. } in &self.patches {
+            for (beta, &control) in multi_indices(self.degree).zip(control) {
+                let arguments: Vec<[f64; 2]> =
+                    (0..3).flat_map(|k| knots[k][..beta[k]].iter().copied()).collect();
+                take(control as usize, &arguments);
             }
         }
-        Ok(points)
     }
 
     /// Where the control points lie in the plane: the control points of the identity, means of their polar arguments. Of several charts,
     /// in that of one patch that has the control point.
     pub fn abscissas(&self) -> Vec<[f64; 2]> {
         let mut points = vec![[0.0; 2]; self.n_control_points];
-        for patch in &self.patches {
-            for (beta, &control) in multi_indices(self.degree).zip(&patch.control) {
-                let arguments = arguments(&patch.knots, beta);
-                points[control as usize] =
-                    [0, 1].map(|x| arguments.iter().map(|p| p[x]).sum::<f64>() / self.degree as f64);
-            }
-        }
+        let mean = |arguments: &[[f64; 2]], x: usize| arguments.iter().map(|p| p[x]).sum::<f64>();
+        self.for_each_argument(|control, arguments| {
+            points[control] = [0, 1].map(|x| mean(arguments, x) / self.degree as f64);
+        });
         points
     }
-}
-
-/// The polar arguments of β: t_{k,j} for j < β_k.
-pub(super) fn arguments(knots: &[Vec<[f64; 2]>; 3], beta: [usize; 3]) -> Vec<[f64; 2]> {
-    (0..3).flat_map(|k| knots[k][..beta[k]].iter().copied()).collect()
 }
 
 /// The image of a point under an affine map.

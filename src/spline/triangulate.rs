@@ -4,6 +4,7 @@ use super::knots::{Domain, is_straight};
 use crate::error::{Error, Result};
 use crate::geometry::complex::{distance, sub};
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
+use std::collections::HashSet;
 
 /// Degrees. Triangles with a smaller angle are divided, unless two sides of the boundary enclose it. Refinement ends for certain up to
 /// about 20 degrees, in practice up to 30.
@@ -13,6 +14,7 @@ const MOST_VERTICES: usize = 2_000_000;
 
 /// The inside of closed polygons: what an odd number of them winds around. `edge`: triangles are about as large as equilateral ones with
 /// this edge, or smaller where the boundary needs it. Vertices of the polygons at which they go straight on are left out.
+/// Convex corners get one triangle where that can be ([`Domain::cut_ears`]).
 ///
 /// # Errors
 /// [`Error::Spline`] for a polygon that crosses itself or another one, or has no area; [`Error::Argument`] for an edge that is not
@@ -66,7 +68,7 @@ pub fn triangulate(polygons: &[Vec<[f64; 2]>], edge: f64) -> Result<Domain> {
     if !refined.refinement_complete {
         return Err(wrong(0, "triangles between its sides cannot be made large enough".into()));
     }
-    let outside: std::collections::HashSet<_> = refined.excluded_faces.into_iter().collect();
+    let outside: HashSet<_> = refined.excluded_faces.into_iter().collect();
     let inside = cdt.inner_faces().filter(|face| !outside.contains(&face.fix()));
     let faces: Vec<[u32; 3]> = inside.map(|face| face.vertices().map(|v| v.fix().index() as u32)).collect();
     // Vertices that only triangles outside have are left out.
@@ -83,7 +85,9 @@ pub fn triangulate(polygons: &[Vec<[f64; 2]>], edge: f64) -> Result<Domain> {
         })
     });
     let triangles = triangles.collect();
-    Ok(Domain { vertices, triangles })
+    let mut domain = Domain { vertices, triangles };
+    domain.cut_ears();
+    Ok(domain)
 }
 
 fn cross_product([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {

@@ -422,6 +422,10 @@ fn domains_have_the_area_of_their_polygons_and_every_point_is_found() {
             0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
         })
         .sum();
+    // Three corners of the hole and one of the L are reflex.
+    let (rough, mut cut) = (domain.clone().cut_ears(), domain.clone());
+    assert_eq!((cut.cut_ears(), &cut), (rough, &domain));
+    assert!((4..12).contains(&rough), "{rough}");
     assert!((area - (3.0 - 0.5 * 0.4 * 0.4)).abs() < 1e-12, "{area}");
     let locator = Locator::new(&domain);
     for knots in [SplineSpace::planar(&domain, &domain.knots(3, &KnotOptions::default()).unwrap()).unwrap()] {
@@ -479,6 +483,21 @@ fn fits_reproduce_polynomials_and_come_near_smooth_functions() {
     assert!(matches!(few, Err(Error::Factorisation { .. })), "{few:?}");
 }
 
+#[test]
+fn identities_are_measured() {
+    for degree in 1..=5 {
+        let surface = random_surface(&space(3, degree));
+        let found = surface.identities(2, &Control::new()).unwrap();
+        assert!(
+            found.partition_of_unity < 1e-12 && found.polynomial_reproduction < 1e-10,
+            "{degree} {found:?}"
+        );
+        assert!(found.continuity < 1e-7, "{degree} {found:?}");
+        assert_eq!(found.rough_sides, 2, "{degree} {found:?}");
+    }
+}
+
+#[cfg(feature = "json")]
 #[test]
 fn files_come_back_bit_for_bit_and_bad_ones_have_names() {
     let surface = random_surface(&space(3, 3));
