@@ -492,7 +492,7 @@ fn identities_are_measured() {
             found.partition_of_unity < 1e-12 && found.polynomial_reproduction < 1e-10,
             "{degree} {found:?}"
         );
-        assert!(found.continuity < 1e-7, "{degree} {found:?}");
+        assert!(found.continuity < 1e-8, "{degree} {found:?}");
         assert_eq!(found.rough_sides, 2, "{degree} {found:?}");
     }
 }
