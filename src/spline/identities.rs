@@ -21,7 +21,7 @@ const PLACES: [[f64; 3]; 7] = [
     [0.34, 0.35, 0.31],
 ];
 /// How far the two points lie from a side between which a jump is measured, over the side's length.
-const BESIDE: f64 = 1e-11;
+const BESIDE: f64 = 1e-12;
 
 /// Height of a knot over the line of a side, over the patch's own height, below which the knot counts as lying on it: rounding.
 const ON_LINE: f64 = 1e-9;
