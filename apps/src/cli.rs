@@ -7,6 +7,7 @@ use crate::options::Common;
 use crate::output::{self, Outputs};
 use crate::repair::RepairArgs;
 use crate::report::{Checks, Figures, InputSummary, Report, Seconds};
+use crate::spline::SplineArgs;
 use crate::uniform::{CoverArgs, UniformizeArgs};
 use clap::{Args, Parser, Subcommand};
 use serde::Serialize;
@@ -46,6 +47,9 @@ pub enum Command {
     /// A finite piece of the universal cover, with the group that rebuilds the surface from one copy
     #[command(after_help = crate::uniform::COVER_HELP)]
     Cover(CoverArgs),
+    /// Triangular B-splines: fitted to meshes, evaluated
+    #[command(after_help = crate::spline::HELP)]
+    Spline(SplineArgs),
     /// Make a sample surface
     #[command(after_help = crate::make::HELP)]
     Make(crate::make::MakeArgs),

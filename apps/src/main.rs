@@ -33,6 +33,7 @@ mod shape;
 mod shape_quality;
 mod show;
 mod solved;
+mod spline;
 mod timing;
 mod uniform;
 mod uv;
@@ -40,6 +41,7 @@ mod uv;
 use clap::{CommandFactory, Parser};
 use cli::{Cli, Command};
 use failure::Failure;
+use spline::SplineCommand;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -66,6 +68,10 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Cover(args) => uniform::cover(args, &control),
         Command::Info(args) => info::run(args, &control),
         Command::Repair(args) => repair::run(args, &control),
+        Command::Spline(args) => match &args.command {
+            SplineCommand::Fit(args) => spline::fit(args, &control),
+            SplineCommand::Eval(args) => spline::eval(args, &control),
+        },
         Command::Make(args) => make::run(args),
         Command::Demo(args) => demo::run(args, &control),
         Command::Gallery(args) => gallery::run(args, &control),

@@ -6,7 +6,6 @@ use super::space::SplineSpace;
 use super::surface::Spline;
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::complex::distance;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -20,9 +19,6 @@ const PLACES: [[f64; 3]; 7] = [
     [0.46, 0.02, 0.52],
     [0.34, 0.35, 0.31],
 ];
-/// How far the two points lie from a side between which a jump is measured, over the side's length.
-const BESIDE: f64 = 1e-12;
-
 /// Height of a knot over the line of a side, over the patch's own height, below which the knot counts as lying on it: rounding.
 const ON_LINE: f64 = 1e-9;
 
@@ -61,7 +57,7 @@ impl Spline {
         Ok(Identities { partition_of_unity, polynomial_reproduction, continuity, rough_sides: rough })
     }
 
-    /// Largest jump between the two places of each pair.
+    /// Largest jump between the two places of each pair: each patch is evaluated at the limit from its inside.
     fn jump(&self, beside: &[Parameter], threads: usize, control: &Control) -> Result<f64> {
         let order = (self.space().degree() - 1).min(2);
         let found = self.evaluate(beside, order, threads, control)?;
@@ -114,7 +110,7 @@ fn reproduction(
 
 /// The sides between two patches of one chart.
 struct Sides {
-    /// Two places each, one in each patch, beside the middle of those across which the spline is as smooth as its degree allows.
+    /// Two places each, the middle as a point of either patch, of those across which the spline is as smooth as its degree allows.
     beside: Vec<Parameter>,
     /// How many others there are.
     rough: usize,
@@ -128,9 +124,8 @@ impl Sides {
             for k in 0..3 {
                 let [i, j, across] = [k, (k + 1) % 3, (k + 2) % 3];
                 let [a, b, c] = [i, j, across].map(|k| patch.knots[k][0]);
-                let share = BESIDE * distance(a, b) / distance(a, c);
-                let mut weights = [0.0; 3];
-                (weights[i], weights[j], weights[across]) = (0.5 - 0.5 * share, 0.5 - 0.5 * share, share);
+                let mut weights = [0.5; 3];
+                weights[across] = 0.0;
                 let here = place(space, at, weights);
                 let bits = |a: [f64; 2], b: [f64; 2]| [a[0], a[1], b[0], b[1]].map(f64::to_bits);
                 let Some(there) = open.remove(&(patch.chart, bits(b, a))) else {

@@ -17,6 +17,8 @@ const STRAIGHT: f64 = 1e-9;
 const LEAST_HEIGHT: f64 = 1e-5;
 /// Turn from one knot of a vertex to the next, in turns: the golden section, whose multiples are as far apart as can be.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
+/// How many directions of a vertex's first knot are compared.
+const FIRST_TURNS: usize = 64;
 
 /// A triangulated domain in the plane: what a planar spline is made on.
 #[derive(Debug, Clone, PartialEq)]
@@ -114,43 +116,78 @@ impl Domain {
                 message: "it does not exist".into(),
             });
         }
-        let mut radius = vec![f64::INFINITY; n];
-        for corners in &self.triangles {
-            let [a, b, c] = corners.map(|v| self.vertices[v as usize]);
-            let inscribed = double_area(a, b, c) / (distance(a, b) + distance(b, c) + distance(c, a));
-            corners.iter().for_each(|v| radius[*v as usize] = radius[*v as usize].min(inscribed));
-        }
-        // Lines that the knots of a vertex have to keep to.
-        let mut lines: Vec<Vec<[f64; 2]>> = vec![Vec::new(); n];
-        for [a, b] in self.boundary().into_iter().chain(options.creases.iter().copied()) {
+        let unit = |a: u32, b: u32| {
             let [p, q] = [a, b].map(|v| self.vertices[v as usize]);
-            let length = distance(p, q);
-            let along = sub(q, p).map(|x| x / length);
-            lines[a as usize].push(along);
-            lines[b as usize].push(along);
+            sub(q, p).map(|x| x / distance(p, q))
+        };
+        let mut around = vec![Around { radius: f64::INFINITY, edges: Vec::new(), lines: Vec::new() }; n];
+        for &[a, b, c] in &self.triangles {
+            let [p, q, r] = [a, b, c].map(|v| self.vertices[v as usize]);
+            let inscribed = double_area(p, q, r) / (distance(p, q) + distance(q, r) + distance(r, p));
+            for (v, to) in [(a, b), (b, c), (c, a)] {
+                let around = &mut around[v as usize];
+                around.radius = around.radius.min(inscribed);
+                around.edges.push(unit(v, to));
+            }
+        }
+        for [a, b] in self.boundary().into_iter().chain(options.creases.iter().copied()) {
+            [a, b].into_iter().for_each(|v| around[v as usize].lines.push(unit(a, b)));
         }
         let place = |v: usize| {
-            let (center, reach) = (self.vertices[v], options.spread * radius[v]);
-            let knot = |j: usize| {
-                let far = reach * j as f64 / degree as f64;
-                match lines[v].split_first() {
-                    _ if options.coincident.contains(&(v as u32)) || !reach.is_finite() => center,
-                    None => {
-                        // Vertices have their own first direction, or knots of neighbours would be parallel.
-                        let turn = TAU * ((v as f64 * GOLDEN * GOLDEN + j as f64 * GOLDEN) % 1.0);
-                        [center[0] + far * turn.cos(), center[1] + far * turn.sin()]
-                    }
-                    Some((along, others)) if others.iter().all(|other| is_parallel(*along, *other)) => {
-                        let side = if j.is_multiple_of(2) { far } else { -far };
-                        [center[0] + side * along[0], center[1] + side * along[1]]
-                    }
-                    Some(_) => center,
-                }
-            };
-            (0..=degree).map(knot).collect()
+            let is_coincident = options.coincident.contains(&(v as u32));
+            around[v].knots(self.vertices[v], degree, if is_coincident { 0.0 } else { options.spread })
         };
         Ok((0..n).map(place).collect())
     }
+}
+
+/// What the knots of a vertex have to keep clear of, and to keep to.
+#[derive(Debug, Clone)]
+struct Around {
+    /// Of the smallest circle inscribed in a triangle at the vertex; infinite without triangles.
+    radius: f64,
+    /// Directions of its edges.
+    edges: Vec<[f64; 2]>,
+    /// Directions of the lines on which its knots have to lie.
+    lines: Vec<[f64; 2]>,
+}
+
+impl Around {
+    /// The knots of a vertex at `center`, the farthest of them `spread` times the radius away.
+    fn knots(&self, center: [f64; 2], degree: usize, spread: f64) -> Vec<[f64; 2]> {
+        let reach = if self.radius.is_finite() { spread * self.radius } else { 0.0 };
+        let first = self.first_turn(degree);
+        let direction = |j: usize| match self.lines.split_first() {
+            None => knot_direction(first, j),
+            Some((along, others)) if others.iter().all(|other| is_parallel(*along, *other)) => {
+                if j.is_multiple_of(2) { *along } else { along.map(|x| -x) }
+            }
+            Some(_) => [0.0; 2],
+        };
+        let knot = |j: usize| {
+            let (far, [x, y]) = (reach * j as f64 / degree as f64, direction(j));
+            [center[0] + far * x, center[1] + far * y]
+        };
+        (0..=degree).map(knot).collect()
+    }
+
+    /// The direction of the first knot, in turns, for which knots and edges are farthest from having the same line: the spline bends
+    /// sharply where a knot lies near the line of an edge.
+    fn first_turn(&self, degree: usize) -> f64 {
+        let clearance = |turn: f64| {
+            let directions = (1..=degree).map(|j| knot_direction(turn, j));
+            let lines = directions.flat_map(|d| self.edges.iter().map(move |&edge| cross(d, edge).abs()));
+            lines.fold(f64::INFINITY, f64::min)
+        };
+        let turns = (0..FIRST_TURNS).map(|k| k as f64 / FIRST_TURNS as f64);
+        turns.max_by(|a, b| clearance(*a).total_cmp(&clearance(*b))).unwrap_or(0.0)
+    }
+}
+
+/// The direction of knot j where that of knot 0 would be a turn of `first`.
+fn knot_direction(first: f64, j: usize) -> [f64; 2] {
+    let angle = TAU * (first + j as f64 * GOLDEN);
+    [angle.cos(), angle.sin()]
 }
 
 /// Whether the knots of a patch, t_{k,j}, give it basis functions: all triangles (t_{0,a}, t_{1,b}, t_{2,c}) are counterclockwise, and the

@@ -17,6 +17,7 @@ mod recurrence;
 mod simplex;
 mod space;
 mod surface;
+mod tessellate;
 mod triangulate;
 
 pub use fit::{FitOptions, Fitted, fit};

@@ -249,19 +249,17 @@ impl Making<'_> {
         level.len() as u16
     }
 
-    /// The knots at which a set is split: the last of each vertex; of two vertices, or one, those with the largest triangle among the
-    /// first and last. None for a set that vanishes.
+    /// The knots at which a set is split: the last of each vertex, or where a vertex has none, those with the largest triangle. None for a
+    /// set that vanishes.
     fn split(&self, set: u32) -> Option<([usize; 3], f64)> {
         let n = self.sets.per_vertex;
         let of = |k: usize| (k * n..(k + 1) * n).filter(move |knot| set >> knot & 1 == 1);
-        let ends: Vec<usize> =
-            (0..3).flat_map(|k| of(k).next().into_iter().chain(of(k).next_back())).collect();
         let lasts: Vec<usize> = (0..3).filter_map(|k| of(k).next_back()).collect();
         let all: Vec<usize> = (0..3).flat_map(of).collect();
         match lasts.len() {
             3 => self.widest(&lasts),
             _ if self.inside => None,
-            _ => self.widest(&ends).or_else(|| self.widest(&all)),
+            _ => self.widest(&all),
         }
     }
 
