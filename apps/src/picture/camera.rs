@@ -97,13 +97,13 @@ impl Camera {
             .map(|[x, y, z]| [middle + scale * x, middle - scale * y, scale * z])
             .collect();
         let shapes: Vec<Shape> = faces.iter().map(|f| Shape::Triangle(f.map(|v| seen[v as usize]))).collect();
-        let all: Vec<u32> = (0..shapes.len() as u32).collect();
-        let samples = Samples::new(&shapes, &all, [PROBE, 0, PROBE], 1);
+        let samples = Samples::new(&shapes, 0..shapes.len() as u32, [PROBE, 0, PROBE], 1.0);
         let mut normals = vec![None; PROBE * PROBE];
         let (mut area, mut bends) = (0.0, 0.0);
-        for i in 0..normals.len() {
-            let (x, y) = (i % PROBE, i / PROBE);
-            if let Some(hit) = samples.hit(&shapes, x, y, [x as f64 + 0.5, y as f64 + 0.5]) {
+        let hits = (0..PROBE)
+            .flat_map(|y| samples.row(&shapes, y).enumerate().map(move |(x, (_, hit))| (x, y, hit)));
+        for (i, (x, y, hit)) in hits.enumerate() {
+            if let Some(hit) = hit {
                 let n = normal(faces[hit.shape].map(|v| points[v as usize]));
                 let n = unit(n).unwrap_or([0.0; 3]);
                 let cosine = dot(n, self.axes[2]);

@@ -6,8 +6,9 @@ use super::color::{INK, Rgb, cone_color, mix, seam_color};
 use super::fit::Fit;
 use super::light::Lights;
 use super::normals::corner_normals;
-use super::occlusion::{Caster, Field, Ground, Open, Point, border, over};
+use super::occlusion::{Caster, Field, Ground, Open, Point, over};
 use super::raster::{Hit, Image, Painter, Shape, render};
+use super::region::border;
 use super::vector::{V3, add, at, bounding_ball, dot, norm, normal, scaled, sub, unit};
 use super::{Style, Surface, View};
 
@@ -134,7 +135,7 @@ impl<'a> Scene<'a> {
             shapes.push(Shape::Capsule { ends, radius });
             strokes.push(color);
         };
-        let border = if surface.is_closed { Vec::new() } else { border(surface.faces) };
+        let border = if surface.is_closed { Vec::new() } else { border(surface.faces.iter().copied()) };
         border.into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
         surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.5 * style.line(), seam_color(seam)));
         surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, style.cone(), cone_color(curvature)));
