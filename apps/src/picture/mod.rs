@@ -7,6 +7,7 @@
 
 mod args;
 mod camera;
+mod canvas;
 mod coat;
 mod color;
 mod colormap;
@@ -84,14 +85,7 @@ impl Picture<'_> {
     fn sheet(&self, style: &Style) -> Sheet {
         let own = if self.pattern.is_some() { None } else { self.tiles().map(|t| t.banded(style.bands)) };
         let tiles = self.pattern.or(own.as_ref());
-        let wish = |corner_uv| Wish {
-            texture: style.texture,
-            tiles,
-            corner_uv,
-            field: self.field,
-            wire: style.wire,
-            size: style.size,
-        };
+        let wish = |corner_uv| Wish { tiles, corner_uv, field: self.field };
         let [surface, beside] = [self.surface, self.beside]
             .map(|surface| surface.map(|s| Sheet::of_image(solid::draw(&s, &wish(s.corner_uv), style))));
         let flat = self.flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style));

@@ -206,7 +206,7 @@ mod tests {
     fn the_outline_of_triangles_has_no_inner_sides() {
         let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let around = outline([[a, b, c], [a, c, d]].into_iter());
-        assert_eq!(around, [vec![a, b, c, d, a]]);
+        assert_eq!(around, [vec![d, a, b, c, d]]);
         assert_eq!(once([[a, b], [b, c], [b, a]].into_iter()).count(), 2);
     }
 

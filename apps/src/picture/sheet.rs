@@ -66,17 +66,10 @@ impl Path {
     }
 }
 
-/// Polygons, closed.
-pub fn polygons(polygons: &[Vec<[f64; 2]>]) -> Path {
+/// Several lines or polygons, each added by `add`.
+pub fn paths(pieces: impl Iterator<Item = Vec<[f64; 2]>>, add: fn(&mut Path, &[[f64; 2]])) -> Path {
     let mut path = Path::default();
-    polygons.iter().for_each(|p| path.polygon(p));
-    path
-}
-
-/// Lines, open.
-pub fn lines(lines: &[Vec<[f64; 2]>]) -> Path {
-    let mut path = Path::default();
-    lines.iter().for_each(|p| path.line(p));
+    pieces.for_each(|points| add(&mut path, &points));
     path
 }
 

@@ -145,7 +145,7 @@ impl<'a> Scene<'a> {
             foot: (foot, radius),
             size: [fit.width, fit.height],
             n_faces: corners.len(),
-            coat: Coat::new(wish, &flat),
+            coat: Coat::new(wish, style, &flat),
             margin: FADE * style.size as f64,
             shapes,
             corners,
