@@ -37,12 +37,13 @@ pub use region::{FINEST, cells, in_pieces, outline};
 pub use scene::{Circle, Field, Flat, Focus, Style, Surface};
 pub use texture::{OCTAVE, Texture, Tiles};
 
-pub use raster::{doubled_area, in_parallel};
+pub use raster::doubled_area;
 pub use vector::normal;
 
 use crate::failure::Failure;
 use coat::Wish;
 use raster::Image;
+use ricci::parallel;
 use sheet::Sheet;
 
 /// What one picture shows: the surface on the left, the layout or a drawing on the right, or one of them.
@@ -82,7 +83,11 @@ impl Picture<'_> {
     }
 
     /// The panels side by side, and below them what says what they show.
-    fn sheet(&self, style: &Style) -> Sheet {
+    fn sheet(&self, style: &Style) -> ricci::Result<Sheet> {
+        parallel::within(style.threads, || Ok(self.panels(style)))
+    }
+
+    fn panels(&self, style: &Style) -> Sheet {
         let own = if self.pattern.is_some() { None } else { self.tiles().map(|t| t.banded(style.bands)) };
         let tiles = self.pattern.or(own.as_ref());
         let wish = |corner_uv| Wish { tiles, corner_uv, field: self.field };
@@ -113,13 +118,13 @@ fn stack(sheets: impl IntoIterator<Item = Option<Sheet>>, axis: usize, gap: usiz
 }
 
 /// The picture of a layout or a drawing as an SVG file; surfaces are not in it.
-pub fn svg(picture: &Picture<'_>, style: &Style) -> Vec<u8> {
-    picture.sheet(style).svg()
+pub fn svg(picture: &Picture<'_>, style: &Style) -> Result<Vec<u8>, Failure> {
+    Ok(picture.sheet(style)?.svg())
 }
 
 /// The picture as a PNG file.
 pub fn png(picture: &Picture<'_>, style: &Style) -> Result<Vec<u8>, Failure> {
-    encoded(&picture.sheet(style).image()?, style.palette).map_err(|e| Failure::Failed(e.to_string()))
+    encoded(&picture.sheet(style)?.image()?, style.palette).map_err(|e| Failure::Failed(e.to_string()))
 }
 
 fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> {

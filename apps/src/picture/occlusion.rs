@@ -2,8 +2,9 @@
 //! sees it. Every second pixel of every second row asks all lights; those between take the mean of their neighbours on the same piece of
 //! surface.
 
-use super::raster::{Hit, Samples, Shape, in_parallel, scan};
+use super::raster::{Hit, Samples, Shape, scan};
 use super::vector::{V3, add, at, bounding_ball, complement, dot, norm, scaled, sphere_point, sub};
+use rayon::prelude::*;
 
 /// Lights of the sky, half of them opposite to the others, and of the key light, of which single ones cannot be told apart on a surface.
 const SKY_LIGHTS: usize = 64;
@@ -117,21 +118,17 @@ pub struct Caster {
 
 impl Caster {
     /// `key`: unit vector towards the key light.
-    pub fn new(points: &[V3], faces: &[[u32; 3]], key: V3, threads: usize) -> Caster {
+    pub fn new(points: &[V3], faces: &[[u32; 3]], key: V3) -> Caster {
         let (ball, [a, b]) = (bounding_ball(points), complement(key));
         let around_key = |i: usize| {
             let [p, q] = disk_point(i).map(|x| x * KEY_RADIUS);
             let towards = add(key, add(scaled(a, p), scaled(b, q)));
             scaled(towards, 1.0 / norm(towards))
         };
-        let lights = (0..SKY_LIGHTS / 2).map(|i| (sphere_point(i, SKY_LIGHTS), SKY_MAP));
-        let lights = lights.chain((0..KEY_LIGHTS).map(|i| (around_key(i), KEY_MAP)));
-        let mut maps: Vec<_> = lights.map(|light| (light, None)).collect();
-        in_parallel(maps.iter_mut().collect(), threads, |_, ((towards, size), map)| {
-            *map = Some(DepthMap::new(points, faces, *towards, ball, *size));
-        });
-        let mut maps = maps.into_iter().filter_map(|(_, map)| map);
-        Caster { sky: maps.by_ref().take(SKY_LIGHTS / 2).collect(), key: maps.collect(), towards_key: key }
+        let map = |towards: V3, size: usize| DepthMap::new(points, faces, towards, ball, size);
+        let sky = (0..SKY_LIGHTS / 2).into_par_iter().map(|i| map(sphere_point(i, SKY_LIGHTS), SKY_MAP));
+        let key_maps = (0..KEY_LIGHTS).into_par_iter().map(|i| map(around_key(i), KEY_MAP));
+        Caster { sky: sky.collect(), key: key_maps.collect(), towards_key: key }
     }
 
     /// The shares of the light that reach a point.
@@ -183,26 +180,25 @@ impl Field {
         caster: &Caster,
         shapes: &[Shape],
         [width, height]: [usize; 2],
-        threads: usize,
         describe: impl Fn([f64; 2], Option<&Hit>) -> Option<Point> + Sync,
     ) -> Field {
         let samples = Samples::new(shapes, 0..shapes.len() as u32, [width, 0, height], DENSITY);
         let mut field = Field { width: samples.width, seen: vec![None; samples.len()] };
-        in_parallel(field.seen.chunks_mut(field.width.max(1)).collect(), threads, |row, out| {
+        field.seen.par_chunks_mut(field.width.max(1)).enumerate().for_each(|(row, out)| {
             for (out, (at, hit)) in out.iter_mut().zip(samples.row(shapes, row)) {
                 *out = describe(at, hit.as_ref()).map(|point| (point, caster.open(&point)));
             }
         });
-        field.soften(threads);
+        field.soften();
         field
     }
 
     /// Give points on the ground the mean over those around them.
-    fn soften(&mut self, threads: usize) {
+    fn soften(&mut self) {
         let (mut means, height) = (self.seen.clone(), self.seen.len() / self.width.max(1));
         let near =
             |c: usize, n: usize| (0..=2 * SOFT).map(move |k| (c + 2 * k).saturating_sub(2 * SOFT).min(n - 1));
-        in_parallel(means.chunks_mut(self.width.max(1)).collect(), threads, |y, out| {
+        means.par_chunks_mut(self.width.max(1)).enumerate().for_each(|(y, out)| {
             for (x, (point, open)) in out.iter_mut().enumerate().filter_map(|(x, p)| Some((x, p.as_mut()?))) {
                 if point.on_ground {
                     let taps = near(y, height).flat_map(|j| near(x, self.width).map(move |i| (j, i)));

@@ -4,6 +4,7 @@
 
 use super::color::{Rgb, encode};
 use super::vector::V3;
+use rayon::prelude::*;
 
 /// Samples per pixel side of a finished picture.
 pub const SAMPLES: usize = 4;
@@ -59,20 +60,13 @@ pub trait Painter: Sync {
     fn paint(&self, at: [f64; 2], hit: Option<&Hit>) -> Rgb;
 }
 
-/// Draw with this many threads (0: one per core). A painter is asked once for each shape in a pixel, in the middle of the samples that
-/// show it.
-pub fn render(
-    shapes: &[Shape],
-    width: usize,
-    height: usize,
-    painter: &impl Painter,
-    threads: usize,
-) -> Image {
+/// Draw. A painter is asked once for each shape in a pixel, in the middle of the samples that show it.
+pub fn render(shapes: &[Shape], width: usize, height: usize, painter: &impl Painter) -> Image {
     let mut image = Image::white(width, height);
     let in_band = bands(shapes, height);
-    let rows: Vec<&mut [u8]> = image.rgb.chunks_mut((3 * width * BAND).max(1)).collect();
     let codes = codes();
-    in_parallel(rows, threads, |band, rows| {
+    let rows = image.rgb.par_chunks_mut((3 * width * BAND).max(1));
+    rows.enumerate().for_each(|(band, rows)| {
         let (first, n) = (band * BAND, rows.len() / (3 * width));
         let samples = Samples::new(shapes, in_band[band].iter().copied(), [width, first, n], SAMPLES as f64);
         for (pixel, out) in rows.chunks_exact_mut(3).enumerate() {
@@ -107,23 +101,6 @@ fn bands(shapes: &[Shape], height: usize) -> Vec<Vec<u32>> {
         bands[range].iter_mut().for_each(|band| band.push(index as u32));
     }
     bands
-}
-
-/// Do the work for each item of a list; which thread does what changes nothing.
-pub fn in_parallel<T: Send>(items: Vec<T>, threads: usize, work: impl Fn(usize, T) + Sync) {
-    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
-    let threads = if threads == 0 { cores } else { threads }.min(items.len());
-    let queue = std::sync::Mutex::new(items.into_iter().enumerate());
-    let take = || queue.lock().map(|mut q| q.next()).unwrap_or(None);
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                while let Some((index, item)) = take() {
-                    work(index, item);
-                }
-            });
-        }
-    });
 }
 
 /// Which shape is nearest at each sample of a few rows, and how far towards the viewer it is there.

@@ -34,7 +34,7 @@ pub fn draw(surface: &Surface<'_>, wish: &Wish<'_>, style: &Style) -> Image {
         return Image::white(style.size, style.size);
     }
     let scene = Scene::new(surface, wish, style);
-    render(&scene.shapes, scene.size[0], scene.size[1], &scene, style.threads)
+    render(&scene.shapes, scene.size[0], scene.size[1], &scene)
 }
 
 /// Everything that a visible point of the panel needs.
@@ -73,7 +73,7 @@ impl Stage {
     /// `points`: scaled by `factor`.
     fn new(points: &[V3], faces: &[[u32; 3]], style: &Style, factor: f64) -> Stage {
         let view = View { from: style.focus.map(|focus| focus.normal), ..style.view };
-        let camera = Camera::choose(points, faces, &view, style.threads);
+        let camera = Camera::choose(points, faces, &view);
         // A part of the surface is lit as seen, wherever it faces.
         let up = match style.focus {
             None => [camera.up[0], -camera.up[1], camera.up[2]],
@@ -127,7 +127,7 @@ impl<'a> Scene<'a> {
             corner_normals(&points, surface.faces).into_iter().map(|n| n.map(turned)).collect();
         let flat: Vec<[[f64; 2]; 3]> = corners.iter().map(|c| c.map(|p| [p[0], p[1]])).collect();
         let mut shapes: Vec<Shape> = corners.iter().map(|c| Shape::Triangle(*c)).collect();
-        let cast = || Caster::new(&placed, surface.faces, lights.key, style.threads);
+        let cast = || Caster::new(&placed, surface.faces, lights.key);
         let caster = (!style.draft).then(cast);
         let mut strokes = Vec::new();
         let mut tube = |a: u32, b: u32, radius: f64, color: Rgb| {
@@ -158,7 +158,7 @@ impl<'a> Scene<'a> {
         };
         let faces = &scene.shapes[..scene.n_faces];
         let describe = |at, hit: Option<&Hit>| scene.describe(at, hit);
-        let light = |caster| Field::new(caster, faces, scene.size, style.threads, describe);
+        let light = |caster| Field::new(caster, faces, scene.size, describe);
         scene.field = scene.caster.as_ref().map(light);
         scene
     }

@@ -34,7 +34,7 @@ fn surface<'a>(soup: &'a Soup, uv: Option<&'a [[[f64; 2]; 3]]>) -> Surface<'a> {
 }
 
 fn draw(surface: Surface<'_>, style: &Style) -> Image {
-    Picture { surface: Some(surface), ..Picture::default() }.sheet(style).image().unwrap()
+    Picture { surface: Some(surface), ..Picture::default() }.sheet(style).unwrap().image().unwrap()
 }
 
 fn pixels(image: &Image) -> impl Iterator<Item = &[u8]> {
@@ -84,7 +84,7 @@ fn the_nearer_shape_hides_the_farther_one_in_either_order() {
     let triangle = |z: f64| Shape::Triangle([[0.0, 0.0, z], [400.0, 0.0, z], [0.0, 400.0, z]]);
     let ball = |z: f64| Shape::Capsule { ends: [[20.0, 20.0, z]; 2], radius: 5.0 };
     let middle = |shapes: &[Shape]| {
-        let image = render(shapes, 40, 40, &Flags, 1);
+        let image = render(shapes, 40, 40, &Flags);
         [image.rgb[3 * (20 * 40 + 20)], image.rgb[3 * (20 * 40 + 20) + 2]]
     };
     for other in [triangle(1.0), ball(-2.0)] {
@@ -103,7 +103,7 @@ fn neighbouring_triangles_leave_no_crack() {
         [x * 93.7 + 100.0, y * 93.7 + 100.0, 0.0]
     };
     let shapes: Vec<Shape> = soup.faces.iter().map(|f| Shape::Triangle(f.map(place))).collect();
-    let image = render(&shapes, 200, 200, &Flags, 2);
+    let image = render(&shapes, 200, 200, &Flags);
     for (i, p) in pixels(&image).enumerate() {
         if (i as f64 % 200.0 - 100.0).hypot((i / 200) as f64 - 100.0) < 88.0 {
             assert_eq!(p[1], 0, "({}, {})", i % 200, i / 200);
@@ -153,7 +153,7 @@ fn creases_are_sharp_and_round_surfaces_smooth() {
 fn sphere(radius: f64, key: V3) -> Caster {
     let soup = shapes::icosphere(12).unwrap();
     let points: Vec<V3> = soup.positions.iter().map(|p| p.map(|x| x * radius)).collect();
-    Caster::new(&points, &soup.faces, key, 1)
+    Caster::new(&points, &soup.faces, key)
 }
 
 fn open(caster: &Caster, point: &Point) -> [f64; 2] {
@@ -224,7 +224,8 @@ fn a_picture_is_the_same_for_any_number_of_threads() {
         assert!(drawn(threads) == one, "{threads} threads");
     }
     // And the view that is chosen.
-    let view = |threads| Camera::choose(&soup.positions, &soup.faces, &View::default(), threads).axes;
+    let choose = || Ok(Camera::choose(&soup.positions, &soup.faces, &View::default()).axes);
+    let view = |threads| parallel::within(threads, choose).unwrap();
     assert_eq!(view(1), view(3));
 }
 
@@ -282,7 +283,7 @@ fn drawings_are_well_formed_and_small() {
         (Texture::None, Some(&field)),
     ] {
         let drawn = Picture { flat: Some(flat), field, ..Picture::default() };
-        let svg = svg(&drawn, &Style { texture, wire: field.is_none(), ..style() });
+        let svg = svg(&drawn, &Style { texture, wire: field.is_none(), ..style() }).unwrap();
         let svg = String::from_utf8(svg).unwrap();
         check_xml(&svg);
         assert!(svg.ends_with("</svg>\n") && svg.contains("circles of the vertices"));
@@ -309,7 +310,7 @@ fn degenerate_input_is_drawn_as_far_as_it_goes() {
         };
         assert!(!png(&drawn, &everything).unwrap().is_empty());
     }
-    let svg = svg(&Picture { flat: Some(flat), ..Picture::default() }, &style());
+    let svg = svg(&Picture { flat: Some(flat), ..Picture::default() }, &style()).unwrap();
     let svg = String::from_utf8(svg).unwrap();
     assert!(svg.ends_with("</svg>\n") && !svg.contains("NaN"));
 }
