@@ -91,7 +91,7 @@ impl Camera {
         };
         let seen: Vec<V3> = points.iter().map(place).collect();
         let shapes: Vec<Shape> = faces.iter().map(|f| Shape::Triangle(f.map(|v| seen[v as usize]))).collect();
-        let samples = Samples::new(&shapes, 0..shapes.len() as u32, [PROBE, 0, PROBE], 1.0);
+        let samples = Samples::new(&shapes, [PROBE, 0, PROBE], 1.0);
         let normal_of =
             |hit: Hit| unit(normal(faces[hit.shape].map(|v| points[v as usize]))).unwrap_or([0.0; 3]);
         let rows = (0..PROBE).flat_map(|y| samples.row(&shapes, y));

@@ -79,10 +79,8 @@ pub const TINTS: u8 = 11;
 pub const PALE: u8 = TINTS + 1;
 /// Colour of what a disk or half-plane has no copy on.
 const EMPTY: u32 = 0xefeeea;
-/// Distance of a label from its point, over the size of its letters, and their size over that of the panel with its bounds in pixels.
+/// Distance of a label from its point, over the size of its letters.
 const AWAY: f64 = 0.9;
-const LETTERS: f64 = 0.026;
-const BOUNDS: [f64; 2] = [12.0, 48.0];
 /// Width of the white line around letters, over their size.
 const HALO: f64 = 0.22;
 
@@ -163,7 +161,7 @@ fn area(canvas: &mut Canvas<'_>, area: &Area) {
 
 /// A label where there is room for it.
 fn label(canvas: &mut Canvas<'_>, label: &Label) {
-    let size = (LETTERS * canvas.style.size as f64).clamp(BOUNDS[0], BOUNDS[1]);
+    let size = canvas.style.letters();
     let lettering = word(&label.text, size);
     if lettering.width > canvas.fit.scale * label.room {
         return;

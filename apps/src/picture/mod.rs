@@ -128,12 +128,13 @@ pub fn png(picture: &Picture<'_>, style: &Style) -> Result<Vec<u8>, Failure> {
 }
 
 fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> {
+    let rgb: Vec<u8> = image.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);
     encoder.set_depth(png::BitDepth::Eight);
     if palette {
         encoder.set_compression(png::Compression::High);
-        let (colors, indices) = palette::reduce(&image.rgb);
+        let (colors, indices) = palette::reduce(&rgb);
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_palette(colors);
         // Neighbouring numbers of a palette say nothing about each other.
@@ -142,7 +143,7 @@ fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> 
     } else {
         encoder.set_compression(png::Compression::Fast);
         encoder.set_color(png::ColorType::Rgb);
-        encoder.write_header()?.write_image_data(&image.rgb)?;
+        encoder.write_header()?.write_image_data(&rgb)?;
     }
     Ok(bytes)
 }

@@ -182,7 +182,7 @@ impl Field {
         [width, height]: [usize; 2],
         describe: impl Fn([f64; 2], Option<&Hit>) -> Option<Point> + Sync,
     ) -> Field {
-        let samples = Samples::new(shapes, 0..shapes.len() as u32, [width, 0, height], DENSITY);
+        let samples = Samples::new(shapes, [width, 0, height], DENSITY);
         let mut field = Field { width: samples.width, seen: vec![None; samples.len()] };
         field.seen.par_chunks_mut(field.width.max(1)).enumerate().for_each(|(row, out)| {
             for (out, (at, hit)) in out.iter_mut().zip(samples.row(shapes, row)) {

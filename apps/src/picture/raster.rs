@@ -1,6 +1,4 @@
 //! A supersampled z-buffer for triangles and round strokes in pixel coordinates.
-//!
-//! The z-buffer knows shapes only; what a visible point looks like is asked of a painter, once for each shape in a pixel.
 
 use super::color::{Rgb, encode};
 use super::vector::V3;
@@ -9,7 +7,7 @@ use rayon::prelude::*;
 /// Samples per pixel side of a finished picture.
 pub const SAMPLES: usize = 4;
 /// Rows of one band; fixed, so that the image does not depend on the number of threads.
-const BAND: usize = 16;
+const BAND: usize = 48;
 
 /// Something to draw: x to the right and y down in pixels, z towards the viewer.
 #[derive(Clone, Copy)]
@@ -33,48 +31,46 @@ pub struct Hit {
     pub front: bool,
 }
 
-/// A rectangle of 8-bit sRGB pixels, row by row.
+/// A rectangle of 8-bit sRGB pixels, opaque, four bytes each, row by row.
 #[derive(Clone)]
 pub struct Image {
     pub width: usize,
     pub height: usize,
-    pub rgb: Vec<u8>,
+    pub rgba: Vec<u8>,
 }
 
 impl Image {
     pub fn white(width: usize, height: usize) -> Image {
-        Image { width, height, rgb: vec![255; 3 * width * height] }
+        Image { width, height, rgba: vec![255; 4 * width * height] }
     }
 
     /// Put another image into this one, its top left corner at (x, y); it must fit.
     pub fn put(&mut self, other: &Image, x: usize, y: usize) {
-        for (row, line) in other.rgb.chunks_exact(3 * other.width.max(1)).enumerate() {
-            let start = 3 * ((y + row) * self.width + x);
-            self.rgb[start..start + line.len()].copy_from_slice(line);
+        for (row, line) in other.rgba.chunks_exact(4 * other.width.max(1)).enumerate() {
+            let start = 4 * ((y + row) * self.width + x);
+            self.rgba[start..start + line.len()].copy_from_slice(line);
         }
     }
 }
 
-/// What a painter makes of a sample at (x, y): of the shape that is visible there, or of the background.
-pub trait Painter: Sync {
-    fn paint(&self, at: [f64; 2], hit: Option<&Hit>) -> Rgb;
-}
-
-/// Draw. A painter is asked once for each shape in a pixel, in the middle of the samples that show it.
-pub fn render(shapes: &[Shape], width: usize, height: usize, painter: &impl Painter) -> Image {
+/// Draw. `paint` gives the colour at a place of a shape, or of the background; it is asked once for each shape in a pixel, in the middle of
+/// the samples that show it.
+pub fn render(
+    shapes: &[Shape],
+    [width, height]: [usize; 2],
+    paint: impl Fn([f64; 2], Option<&Hit>) -> Rgb + Sync,
+) -> Image {
     let mut image = Image::white(width, height);
-    let in_band = bands(shapes, height);
-    let codes = codes();
-    let rows = image.rgb.par_chunks_mut((3 * width * BAND).max(1));
-    rows.enumerate().for_each(|(band, rows)| {
-        let (first, n) = (band * BAND, rows.len() / (3 * width));
-        let samples = Samples::new(shapes, in_band[band].iter().copied(), [width, first, n], SAMPLES as f64);
-        for (pixel, out) in rows.chunks_exact_mut(3).enumerate() {
-            let (x, y) = (pixel % width, pixel / width);
+    let codes: Vec<u8> = (0..=CODES as usize).map(|k| encode((k as f64 + 0.5) / CODES)).collect();
+    let bands = image.rgba.par_chunks_mut((4 * width * BAND).max(1));
+    bands.enumerate().for_each(|(band, pixels)| {
+        let rows = [width, band * BAND, pixels.len() / (4 * width)];
+        let samples = Samples::new(shapes, rows, SAMPLES as f64);
+        for (pixel, out) in pixels.chunks_exact_mut(4).enumerate() {
             let mut sum = [0.0; 3];
-            for (id, share, at) in samples.in_pixel(x, y) {
+            for (id, share, at) in samples.in_pixel(pixel % width, pixel / width) {
                 let hit = shapes.get(id as usize).map(|shape| shape.hit(id as usize, at));
-                let color = painter.paint(at, hit.as_ref());
+                let color = paint(at, hit.as_ref());
                 (0..3).for_each(|k| sum[k] += share * color[k]);
             }
             (0..3).for_each(|k| out[k] = codes[(sum[k] * CODES).clamp(0.0, CODES) as usize]);
@@ -85,23 +81,6 @@ pub fn render(shapes: &[Shape], width: usize, height: usize, painter: &impl Pain
 
 /// Steps of linear light that are told apart: finer than those of 8 bits, also where it is dark.
 const CODES: f64 = 16384.0;
-
-/// The 8-bit value of each step.
-fn codes() -> Vec<u8> {
-    (0..=CODES as usize).map(|k| encode((k as f64 + 0.5) / CODES)).collect()
-}
-
-/// The shapes that reach into each band of rows.
-fn bands(shapes: &[Shape], height: usize) -> Vec<Vec<u32>> {
-    let mut bands = vec![Vec::new(); height.div_ceil(BAND)];
-    for (index, shape) in shapes.iter().enumerate() {
-        let [_, [low, high]] = shape.bounds();
-        let to = |y: f64| (y / BAND as f64).clamp(0.0, bands.len() as f64) as usize;
-        let range = to(low)..(to(high) + 1).min(bands.len());
-        bands[range].iter_mut().for_each(|band| band.push(index as u32));
-    }
-    bands
-}
 
 /// Which shape is nearest at each sample of a few rows, and how far towards the viewer it is there.
 pub struct Samples {
@@ -118,18 +97,13 @@ pub struct Samples {
 const NOTHING: u32 = u32::MAX;
 
 impl Samples {
-    /// The visible ones of the `listed` shapes in `rows` pixel rows from `first` on, with `scale` samples on each pixel's side.
-    pub fn new(
-        shapes: &[Shape],
-        listed: impl Iterator<Item = u32>,
-        [width, first, rows]: [usize; 3],
-        scale: f64,
-    ) -> Samples {
+    /// What is visible in `rows` pixel rows from `first` on, with `scale` samples on each pixel's side.
+    pub fn new(shapes: &[Shape], [width, first, rows]: [usize; 3], scale: f64) -> Samples {
         let [width, height] = [width, rows].map(|n| (n as f64 * scale).ceil() as usize);
         let (depth, nearest) = (vec![f32::NEG_INFINITY; width * height], vec![NOTHING; width * height]);
         let mut samples = Samples { width, scale, first, depth, nearest };
-        for index in listed {
-            match &shapes[index as usize] {
+        for (index, shape) in (0..).zip(shapes) {
+            match shape {
                 Shape::Triangle(p) => {
                     let place = |p: V3| [p[0] * scale - 0.5, (p[1] - first as f64) * scale - 0.5, p[2]];
                     scan(p.map(place), [width, height], |at, z| samples.put(at, z, index));
@@ -212,10 +186,13 @@ fn span([low, high]: [f64; 2], n: usize) -> std::ops::Range<usize> {
 /// Visit the points of whole numbers in a triangle, numbered row by row of an image of this width and height, with the depth there. The
 /// line of a side meets a row at the same number for both of its triangles: no point between them is left out.
 pub fn scan(p: [V3; 3], [width, height]: [usize; 2], mut put: impl FnMut(usize, f64)) {
-    let area = doubled_area(p.map(|p| [p[0], p[1]]));
     let [[left, right], [top, bottom]] = bounds(&p);
     let rows = span([top, bottom], height);
-    if area == 0.0 || !area.is_finite() || rows.is_empty() || span([left, right], width).is_empty() {
+    if rows.is_empty() || span([left, right], width).is_empty() {
+        return;
+    }
+    let area = doubled_area(p.map(|p| [p[0], p[1]]));
+    if area == 0.0 || !area.is_finite() {
         return;
     }
     // Of side k, opposite corner k: where it meets row 0, how far it moves to the right with each row, and whether it bounds on the left.

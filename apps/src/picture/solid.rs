@@ -7,7 +7,7 @@ use super::fit::Fit;
 use super::light::Lights;
 use super::normals::corner_normals;
 use super::occlusion::{Caster, Field, Ground, Open, Point, over};
-use super::raster::{Hit, Image, Painter, Shape, render};
+use super::raster::{Hit, Image, Shape, render};
 use super::region::border;
 use super::vector::{V3, add, at, bounding_ball, dot, norm, normal, scaled, sub, unit};
 use super::{Style, Surface, View};
@@ -34,7 +34,7 @@ pub fn draw(surface: &Surface<'_>, wish: &Wish<'_>, style: &Style) -> Image {
         return Image::white(style.size, style.size);
     }
     let scene = Scene::new(surface, wish, style);
-    render(&scene.shapes, scene.size[0], scene.size[1], &scene)
+    render(&scene.shapes, scene.size, |pixel, hit| scene.paint(pixel, hit))
 }
 
 /// Everything that a visible point of the panel needs.
@@ -190,9 +190,8 @@ impl<'a> Scene<'a> {
         let near = self.field.as_ref().and_then(|field| field.at(pixel, point));
         near.unwrap_or_else(|| self.caster.as_ref().map_or(Open::FULLY, |caster| caster.open(point)))
     }
-}
 
-impl Painter for Scene<'_> {
+    /// The colour of a place of a shape, or of the background.
     fn paint(&self, pixel: [f64; 2], hit: Option<&Hit>) -> Rgb {
         let Some(hit) = hit else {
             let Some(ground) = &self.ground else { return [1.0; 3] };
