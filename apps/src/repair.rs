@@ -51,7 +51,7 @@ pub struct RepairArgs {
     /// Keep one connected piece: 0 is that with the most faces
     #[arg(long, value_name = "K")]
     pub component: Option<usize>,
-    /// Write the input's vertex of each vertex and the input's face of each face
+    /// Write the input's vertex of each vertex and the input's face of each face, numbered from 0
     #[arg(long, value_name = "MAP.json")]
     pub map: Option<FileName>,
     #[command(flatten)]

@@ -3,14 +3,15 @@
 //! surface.
 
 use super::raster::{Hit, Samples, Shape, scan};
-use super::vector::{V3, add, at, bounding_ball, complement, dot, norm, scaled, sphere_point, sub};
+use super::vector::{V3, add, at, bounding_ball, complement, dot, scaled, sphere_point, sub};
 use rayon::prelude::*;
 
 /// Lights of the sky, half of them opposite to the others, and of the key light, of which single ones cannot be told apart on a surface.
 const SKY_LIGHTS: usize = 64;
 const KEY_LIGHTS: usize = 16;
-/// Angular radius of the key light, radians: the softness of its shadows.
-const KEY_RADIUS: f64 = 0.16;
+/// So many lights as close together as those of the key light would cover the whole sphere: its angular radius, the softness of its
+/// shadows, is 0.16.
+const KEY_SPHERE: usize = 2500;
 /// Pixels on the side of a depth map, of the sky and of the key light, whose shadows have edges.
 const SKY_MAP: usize = 224;
 const KEY_MAP: usize = 448;
@@ -121,9 +122,8 @@ impl Caster {
     pub fn new(points: &[V3], faces: &[[u32; 3]], key: V3) -> Caster {
         let (ball, [a, b]) = (bounding_ball(points), complement(key));
         let around_key = |i: usize| {
-            let [p, q] = disk_point(i).map(|x| x * KEY_RADIUS);
-            let towards = add(key, add(scaled(a, p), scaled(b, q)));
-            scaled(towards, 1.0 / norm(towards))
+            let [x, y, z] = sphere_point(i, KEY_SPHERE);
+            add(scaled(key, z), add(scaled(a, x), scaled(b, y)))
         };
         let map = |towards: V3, size: usize| DepthMap::new(points, faces, towards, ball, size);
         let sky = (0..SKY_LIGHTS / 2).into_par_iter().map(|i| map(sphere_point(i, SKY_LIGHTS), SKY_MAP));
@@ -145,15 +145,6 @@ impl Caster {
         let lit = self.key.iter().filter(|map| faces_key && map.sees(point, true)).count();
         Open { sky: if all > 0.0 { seen / all } else { 1.0 }, key: lit as f64 / KEY_LIGHTS as f64 }
     }
-}
-
-/// Points spread evenly over the unit disk: any run of consecutive ones is. The sequence of \[Rob18\] in the square,
-/// with its first coordinate as the share of the area within and its second as the angle.
-fn disk_point(i: usize) -> [f64; 2] {
-    let s = (0.5 + (i + 1) as f64 * 0.754_877_666_246_692_7).fract();
-    let t = (0.5 + (i + 1) as f64 * 0.569_840_290_998_053_2).fract();
-    let (sin, cos) = (std::f64::consts::TAU * t).sin_cos();
-    [s.sqrt() * cos, s.sqrt() * sin]
 }
 
 /// The point of the smooth surface over a point of a face \[Han21\]: shadows then end where the smooth shading does, not

@@ -42,7 +42,6 @@ struct Scene<'a> {
     /// The faces, then seams, boundary and cones.
     shapes: Vec<Shape>,
     size: [usize; 2],
-    n_faces: usize,
     corners: Vec<[V3; 3]>,
     normals: Vec<[V3; 3]>,
     coat: Coat<'a>,
@@ -144,7 +143,6 @@ impl<'a> Scene<'a> {
         let mut scene = Scene {
             foot: (foot, radius),
             size: [fit.width, fit.height],
-            n_faces: corners.len(),
             coat: Coat::new(wish, style, &flat),
             margin: FADE * style.size as f64,
             shapes,
@@ -156,7 +154,7 @@ impl<'a> Scene<'a> {
             caster,
             field: None,
         };
-        let faces = &scene.shapes[..scene.n_faces];
+        let faces = &scene.shapes[..scene.corners.len()];
         let describe = |at, hit: Option<&Hit>| scene.describe(at, hit);
         let light = |caster| Field::new(caster, faces, scene.size, describe);
         scene.field = scene.caster.as_ref().map(light);
@@ -199,13 +197,13 @@ impl<'a> Scene<'a> {
             let shade = Lights::on_ground(self.open(pixel, &below));
             return mix([1.0; 3], shade, self.fade(pixel, &below));
         };
-        if hit.shape < self.n_faces {
+        if hit.shape < self.corners.len() {
             let Some(point) = self.describe(pixel, Some(hit)) else { return [1.0; 3] };
             let albedo = self.coat.color(hit.shape, hit.local);
             let albedo = if hit.front { albedo } else { mix(albedo, INSIDE, 0.45) };
             return self.lights.on(albedo, point.normal, self.open(pixel, &point));
         }
         // Tubes and balls are marks on the surface: lit, but not shaded by it.
-        self.lights.on(self.strokes[hit.shape - self.n_faces], hit.local, Open::FULLY)
+        self.lights.on(self.strokes[hit.shape - self.corners.len()], hit.local, Open::FULLY)
     }
 }
