@@ -1,7 +1,7 @@
 //! A supersampled z-buffer for triangles and round strokes in pixel coordinates.
 
 use super::color::{Rgb, encode};
-use super::vector::V3;
+use super::vector::{V3, ends};
 use rayon::prelude::*;
 
 /// Samples per pixel side of a finished picture.
@@ -227,16 +227,16 @@ pub fn doubled_area(p: [[f64; 2]; 3]) -> f64 {
 
 /// Least and largest x and y of some points.
 fn bounds(points: &[V3]) -> [[f64; 2]; 2] {
-    [0, 1].map(|k| {
-        points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| [l.min(p[k]), h.max(p[k])])
-    })
+    [0, 1].map(|k| ends(points.iter().map(|p| p[k])))
 }
 
 impl Shape {
     fn bounds(&self) -> [[f64; 2]; 2] {
         match self {
             Shape::Triangle(p) => bounds(p),
-            Shape::Capsule { ends, radius } => bounds(ends).map(|[low, high]| [low - radius, high + radius]),
+            Shape::Capsule { ends: points, radius } => {
+                bounds(points).map(|[low, high]| [low - radius, high + radius])
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 //! Regions of the plane as closed polygons: their parts in half-planes, their outlines, the cells of a pattern in them.
 
 use super::texture::{CIRCLE_SPACING, RING, Texture};
+use super::vector::ends;
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
@@ -122,8 +123,7 @@ pub fn cells(region: &[Chain], texture: Texture, check: f64) -> Vec<Chain> {
 
 /// The numbers of the intervals between multiples of `step` that meet the polygon.
 fn intervals(polygon: &[[f64; 2]], axis: usize, step: f64) -> std::ops::RangeInclusive<i64> {
-    let (low, high) =
-        polygon.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[axis]), h.max(p[axis])));
+    let [low, high] = ends(polygon.iter().map(|p| p[axis]));
     (low / step).floor() as i64..=(high / step).floor() as i64
 }
 

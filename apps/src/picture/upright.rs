@@ -2,7 +2,7 @@
 //!
 //! Files do not say it. y is up in most of them; exceptions are told by their shape.
 
-use super::vector::{V3, add, complement, dot, norm, normal, scaled, sphere_point, unit};
+use super::vector::{V3, add, complement, dot, ends, norm, normal, scaled, sphere_point, unit};
 
 /// Which way is up, and whether the surface lies flat on the ground, to be seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,8 +73,7 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
 
 /// The end of points along a direction, and their extent, next to nothing at least.
 fn reach(points: &[V3], axis: V3) -> (f64, f64) {
-    let heights = points.iter().map(|p| dot(axis, *p));
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    let [low, high] = ends(points.iter().map(|p| dot(axis, *p)));
     (high, (high - low).max(f64::MIN_POSITIVE))
 }
 
