@@ -78,7 +78,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "ricci", &mut script);
-            say::lines(&String::from_utf8_lossy(&script), say::NO_FILES).map(|()| 0)
+            say::print(&String::from_utf8_lossy(&script), say::NO_FILES).map(|()| 0)
         }
     }
 }
