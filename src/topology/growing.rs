@@ -4,12 +4,15 @@ use super::cut::CutGraph;
 use super::spanning::{Key, shortest_paths};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, VertexId};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, VertexId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Faces that the disk takes in between two looks at the control: they take a fraction of a millisecond.
 const FACES_PER_LOOK: usize = 1024;
+
+/// Comes before every distance.
+const AT_ONCE: f64 = -1.0;
 
 /// The cut where a disk that grows about `root` meets itself. The disk takes in one face after the other, next the one whose far corner
 /// is nearest to the root along edges, so that paths inside the disk to the root are short. Empty on a sphere.
@@ -22,6 +25,22 @@ pub(crate) fn cut_about(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     root: VertexId,
+    control: &Control,
+) -> Result<CutGraph> {
+    cut_about_joined(mesh, lengths, root, &|_| false, control)
+}
+
+/// [`cut_about`] where the disk goes on at once across edges that are `joined`: the cut then keeps away from the vertices at whose edges
+/// that is so, unless a chain of them leads around the surface.
+///
+/// # Errors
+///
+/// Those of [`cut_about`].
+pub(crate) fn cut_about_joined(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    root: VertexId,
+    joined: &dyn Fn(EdgeId) -> bool,
     control: &Control,
 ) -> Result<CutGraph> {
     let distance = shortest_paths(mesh, lengths, [root], control)?.distance;
@@ -37,7 +56,8 @@ pub(crate) fn cut_about(
             closed[entry.edge()] |= !std::mem::replace(&mut is_first, false);
             for h in mesh.face_halfedges(f).map(HalfedgeId::twin) {
                 if let Some(g) = mesh.face(h).filter(|&g| !reached[g]) {
-                    queue.push(Reverse((Key(far(g)), h)));
+                    let key = if joined(h.edge()) { AT_ONCE } else { far(g) };
+                    queue.push(Reverse((Key(key), h)));
                 }
             }
         }
@@ -54,7 +74,7 @@ pub(crate) fn cut_about(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::mesh::{EdgeId, shapes};
+    use crate::mesh::shapes;
     use crate::topology::cut::is_disk;
 
     #[test]

@@ -1,0 +1,183 @@
+//! Surfaces with vertices added on their edges.
+//!
+//! ```
+//! use ricci::{Surface, mesh::shapes, metric::Split};
+//! let disk = Surface::from_soup(&shapes::disk(1)?)?;
+//! let mut split = Split::new(&disk);
+//! split.halve(disk.mesh().boundary_loops()[0][0].edge())?;
+//! let finer = split.surface()?;
+//! assert_eq!(finer.mesh().n_vertices(), disk.mesh().n_vertices() + 1);
+//! assert!((finer.area()? / disk.area()? - 1.0).abs() < 1e-15);
+//! # Ok::<(), ricci::Error>(())
+//! ```
+
+use super::surface::Surface;
+use crate::error::{Error, Result};
+use crate::geometry::flip::diagonal;
+use crate::geometry::triangle;
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, Point};
+
+/// A surface some of whose edges have been halved, the faces beside them with them: the same metric on a finer triangulation.
+///
+/// The first vertices, edges and faces are the given ones, or one of their halves.
+#[derive(Debug, Clone)]
+pub struct Split {
+    given: Surface,
+    /// Per half-edge.
+    origin: Vec<u32>,
+    face: Vec<Option<u32>>,
+    sides: Vec<[u32; 3]>,
+    lengths: Vec<f64>,
+    positions: Option<Vec<Point>>,
+    n_vertices: usize,
+    /// Per face: the given face that it is a part of, and the weights of its corners there.
+    parent: Vec<FaceId>,
+    corners: Vec<[[f64; 3]; 3]>,
+}
+
+/// Weights of a triangle's corners in that triangle.
+const CORNERS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+impl Split {
+    /// Nothing halved yet.
+    pub fn new(given: &Surface) -> Split {
+        let mesh = given.mesh();
+        Split {
+            origin: mesh.halfedges().map(|h| mesh.origin(h).0).collect(),
+            face: mesh.halfedges().map(|h| mesh.face(h).map(|f| f.0)).collect(),
+            sides: mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| h.0)).collect(),
+            lengths: given.lengths().iter().copied().collect(),
+            positions: given.positions().map(|positions| positions.to_vec()),
+            n_vertices: mesh.n_vertices(),
+            parent: mesh.faces().collect(),
+            corners: vec![CORNERS; mesh.n_faces()],
+            given: given.clone(),
+        }
+    }
+
+    /// The surface as it was given.
+    pub fn given(&self) -> &Surface {
+        &self.given
+    }
+
+    /// Vertices that were added.
+    pub fn n_added(&self) -> usize {
+        self.n_vertices - self.given.mesh().n_vertices()
+    }
+
+    /// The given face that a face is a part of, and the weights of its corners there: barycentric coordinates if that is plane.
+    pub fn place(&self, f: FaceId) -> (FaceId, [[f64; 3]; 3]) {
+        (self.parent[f.index()], self.corners[f.index()])
+    }
+
+    /// Halve an edge at its midpoint, and each face beside it by the line from there to the opposite corner. The edge keeps its number at
+    /// the origin of its half-edge 2e; the new vertex and the other half, which is returned, get the next ones.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for an edge that does not exist; [`Error::TooLarge`].
+    pub fn halve(&mut self, e: EdgeId) -> Result<EdgeId> {
+        let n_edges = self.lengths.len();
+        if e.index() >= n_edges {
+            return Err(Error::argument("edge to halve", e, "an existing edge"));
+        }
+        if u32::try_from(2 * n_edges + 6).is_err() {
+            return Err(Error::TooLarge { what: "half-edges of a split surface", count: 2 * n_edges + 6 });
+        }
+        let there = e.halfedge().index();
+        let (from, middle, to) = (self.origin[there], self.n_vertices as u32, self.origin[there ^ 1]);
+        self.n_vertices += 1;
+        if let Some(positions) = &mut self.positions {
+            let [a, b] = [from, to].map(|v| positions[v as usize]);
+            positions.push([0, 1, 2].map(|k| 0.5 * (a[k] + b[k])));
+        }
+        // The faces are measured before the edge has half its length.
+        let lines = [there, there ^ 1].map(|h| self.bisector(h));
+        let other = self.add_edge(middle, to, 0.5 * self.lengths[e.index()]);
+        self.lengths[e.index()] *= 0.5;
+        self.origin[there ^ 1] = middle;
+        for (k, line) in lines.into_iter().enumerate() {
+            if let Some(length) = line {
+                // The part at the origin of the half-edge 2e lies along `there`; of its twin, along the new edge.
+                let [first, second] = [[there, 2 * other], [2 * other + 1, there ^ 1]][k];
+                self.cut_face(there ^ k, [first, second], length);
+            }
+        }
+        Ok(EdgeId::from(other))
+    }
+
+    /// The face of a half-edge and its corner there.
+    fn corner(&self, h: usize) -> Option<(usize, usize)> {
+        let f = self.face[h]? as usize;
+        self.sides[f].iter().position(|&side| side as usize == h).map(|k| (f, k))
+    }
+
+    /// Length of the line from the midpoint of a half-edge to the opposite corner of its face.
+    fn bisector(&self, h: usize) -> Option<f64> {
+        let (f, k) = self.corner(h)?;
+        let space = self.given.geometry();
+        // Opposite the corners: of the half-edge's origin, its tip, the third one.
+        let [a, b, c] = [1, 2, 0].map(|turn| self.lengths[self.sides[f][(k + turn) % 3] as usize >> 1]);
+        let angle = triangle::angles(space, [a, b, c]).at[0];
+        Some(diagonal(space, b, 0.5 * c, angle))
+    }
+
+    fn add_edge(&mut self, from: u32, to: u32, length: f64) -> usize {
+        self.origin.extend([from, to]);
+        self.face.extend([None, None]);
+        self.lengths.push(length);
+        self.lengths.len() - 1
+    }
+
+    /// Cut the face of half-edge `h`, whose two parts are `parts` in its direction, by a line of this length.
+    fn cut_face(&mut self, h: usize, parts: [usize; 2], length: f64) {
+        let Some((f, k)) = self.corner(h) else { return };
+        let [next, prev] = [1, 2].map(|turn| self.sides[f][(k + turn) % 3]);
+        let [middle, opposite] = [self.origin[parts[1]], self.origin[prev as usize]];
+        let line = 2 * self.add_edge(middle, opposite, length) as u32;
+        let [a, b, c] = [0, 1, 2].map(|turn| self.corners[f][(k + turn) % 3]);
+        let m = [0, 1, 2].map(|i| 0.5 * (a[i] + b[i]));
+        self.sides[f] = [parts[0] as u32, line, prev];
+        self.corners[f] = [a, m, c];
+        let new = self.sides.len();
+        self.sides.push([parts[1] as u32, next, line ^ 1]);
+        self.corners.push([m, b, c]);
+        self.parent.push(self.parent[f]);
+        for f in [f, new] {
+            self.sides[f].into_iter().for_each(|side| self.face[side as usize] = Some(f as u32));
+        }
+    }
+
+    /// The surface on the finer triangulation; the given one, arrays and all, where nothing was halved.
+    ///
+    /// # Errors
+    /// Those of [`Surface::intrinsic`].
+    pub fn surface(&self) -> Result<Surface> {
+        if self.n_added() == 0 {
+            return Ok(self.given.clone());
+        }
+        let mesh = Mesh::assemble(self.n_vertices, self.origin.clone(), &self.sides)?;
+        let lengths = PerEdge::from(self.lengths.clone());
+        let surface = Surface::intrinsic(mesh, lengths, self.given.geometry())?;
+        match &self.positions {
+            Some(positions) => surface.with_positions(positions.clone()),
+            None => Ok(surface),
+        }
+    }
+
+    /// Halve the longest edge of a loop, given by the boundary half-edges of its present edges, until it has this many.
+    ///
+    /// # Errors
+    /// Those of [`Split::halve`].
+    pub fn refine_loop(&mut self, rim: &[HalfedgeId], n: usize) -> Result<()> {
+        let mut edges: Vec<EdgeId> = rim.iter().map(|h| h.edge()).collect();
+        while edges.len() < n {
+            let Some(&longest) =
+                edges.iter().max_by(|a, b| self.lengths[a.index()].total_cmp(&self.lengths[b.index()]))
+            else {
+                break;
+            };
+            edges.push(self.halve(longest)?);
+        }
+        Ok(())
+    }
+}
