@@ -11,9 +11,6 @@ use std::collections::BinaryHeap;
 /// Faces that the disk takes in between two looks at the control: they take a fraction of a millisecond.
 const FACES_PER_LOOK: usize = 1024;
 
-/// Comes before every distance.
-const AT_ONCE: f64 = -1.0;
-
 /// The cut where a disk that grows about `root` meets itself. The disk takes in one face after the other, next the one whose far corner
 /// is nearest to the root along edges, so that paths inside the disk to the root are short. Empty on a sphere.
 ///
@@ -27,11 +24,11 @@ pub(crate) fn cut_about(
     root: VertexId,
     control: &Control,
 ) -> Result<CutGraph> {
-    cut_about_joined(mesh, lengths, root, &|_| false, control)
+    cut_about_joined(mesh, lengths, root, &|_| 0, control)
 }
 
-/// [`cut_about`] where the disk goes on at once across edges that are `joined`: the cut then keeps away from the vertices at whose edges
-/// that is so, unless a chain of them leads around the surface.
+/// [`cut_about`] where the disk goes on at once across edges that are `joined`, first across those where this number is larger. So the cut
+/// keeps away from vertices all of whose edges are joined, unless a chain of them leads around the surface.
 ///
 /// # Errors
 ///
@@ -40,7 +37,7 @@ pub(crate) fn cut_about_joined(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     root: VertexId,
-    joined: &dyn Fn(EdgeId) -> bool,
+    joined: &dyn Fn(EdgeId) -> u8,
     control: &Control,
 ) -> Result<CutGraph> {
     let distance = shortest_paths(mesh, lengths, [root], control)?.distance;
@@ -56,7 +53,10 @@ pub(crate) fn cut_about_joined(
             closed[entry.edge()] |= !std::mem::replace(&mut is_first, false);
             for h in mesh.face_halfedges(f).map(HalfedgeId::twin) {
                 if let Some(g) = mesh.face(h).filter(|&g| !reached[g]) {
-                    let key = if joined(h.edge()) { AT_ONCE } else { far(g) };
+                    let key = match joined(h.edge()) {
+                        0 => far(g),
+                        urgency => -f64::from(urgency),
+                    };
                     queue.push(Reverse((Key(key), h)));
                 }
             }

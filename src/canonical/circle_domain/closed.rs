@@ -10,7 +10,9 @@ use crate::error::Result;
 use crate::flow::{Flow, Options, Solution};
 use crate::geometry::triangle::sine;
 use crate::geometry::{Space, conformal};
-use crate::mesh::{EdgeId, Filled, PerVertex, VertexId};
+use crate::geometry::motion::precise_point;
+use crate::geometry::{Motion, Twofold};
+use crate::mesh::{EdgeId, Filled, HalfedgeId, PerVertex, VertexId};
 use crate::metric::Refinement;
 use crate::topology::{central_vertex, cut_about_joined};
 use std::sync::Arc;
@@ -60,13 +62,14 @@ pub(super) fn solve(
 fn whole_layout(metric: &Solution, filled: &Filled, control: &Control) -> Result<Layout> {
     let mesh = metric.mesh();
     let lengths = metric.metric().lengths(mesh)?;
-    let mut near = PerVertex::filled(mesh.n_vertices(), false);
+    // A disk is taken in as a whole once it is reached, then the faces around it.
+    let mut urgency = PerVertex::filled(mesh.n_vertices(), 0);
     for hub in filled.hubs() {
-        near[hub] = true;
-        mesh.outgoing(hub).for_each(|h| near[mesh.tip(h)] = true);
+        mesh.outgoing(hub).for_each(|h| urgency[mesh.tip(h)] = 1);
     }
+    filled.hubs().into_iter().for_each(|hub| urgency[hub] = 2);
     let root = central_vertex(mesh, &lengths, control)?;
-    let joined = |e: EdgeId| mesh.ends(e).into_iter().any(|v| near[v]);
+    let joined = |e: EdgeId| mesh.ends(e).into_iter().map(|v| urgency[v]).fold(0, u8::max);
     let cut = cut_about_joined(mesh, &lengths, root, &joined, control)?;
     layout_of(mesh, metric.metric(), Some(root), Some(&cut), control)
 }
@@ -102,14 +105,30 @@ fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &Filled) 
     let Some(refinement) = layout.refinement() else { return Vec::new() };
     let space = layout.space;
     let factor = layout.scale / whole.scale;
-    let circle = |(k, rim): (usize, Vec<crate::mesh::HalfedgeId>)| {
+    let circle = |(k, rim): (usize, Vec<HalfedgeId>)| {
         let hub = filled.hub(k);
         let [x, y, w] = whole.corner(whole.mesh().out(hub));
         let center = if space == Space::E2 { [factor * x, factor * y, w] } else { [x, y, w] };
         let scale = if space == Space::E2 { layout.scale } else { 1.0 };
         let radius = scale * conformal::radius(space, 1, metric.metric().u[hub]);
         let points = LoopPoints { boundary_loop: k, n: rim.len() };
-        measured(points, (layout.flat(center), radius), |i| distance(space, center, layout.corner(rim[i])))
+        // Where the cut runs along the loop, the surface lies at another copy of the disk.
+        let seen_from = |g: HalfedgeId| match refinement.final_halfedge(g) {
+            Some(h) => pairing(whole, h, factor).apply(precise_point(space, center)).map(f64::from),
+            None => center,
+        };
+        measured(points, (layout.flat(center), radius), |i| {
+            distance(space, seen_from(rim[i]), layout.corner(rim[i]))
+        })
     };
     rims(refinement, filled).into_iter().enumerate().map(circle).collect()
+}
+
+/// [`Layout::neighbour`] of a layout of which lengths become `factor` times as long.
+fn pairing(whole: &Layout, h: HalfedgeId, factor: f64) -> Motion<Twofold> {
+    let mut motion = whole.neighbour(h);
+    if whole.space == Space::E2 {
+        motion.b = motion.b.map(|x| x * factor.into());
+    }
+    motion
 }

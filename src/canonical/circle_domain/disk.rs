@@ -34,7 +34,8 @@ impl InDisk<'_> {
             Normalisation::Vertex(v) => Mobius::to_origin(self.points[*v]),
             Normalisation::Centred => match self.inner {
                 [only] => only.to_centre(),
-                _ => disk_barycentre(self.points, self.weights)?,
+                // Where most of the area lies within rounding of one point of the circle, the vertex that was sent to infinity stays at 0.
+                _ => disk_barycentre(self.points, self.weights).unwrap_or(Mobius::IDENTITY),
             },
         };
         let first = self.rim.first().map_or([1.0, 0.0], |&v| centred.apply(self.points[v]));
