@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::domain::CirclesArgs;
 use crate::failure::Failure;
 use crate::flow_args::FlowArgs;
 use crate::info::{DefectFigures, InfoArgs};
@@ -46,6 +47,9 @@ pub enum Command {
     /// A finite piece of the universal cover, with the group that rebuilds the surface from one copy
     #[command(after_help = crate::uniform::COVER_HELP)]
     Cover(CoverArgs),
+    /// A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface
+    #[command(after_help = crate::domain::HELP)]
+    Circles(CirclesArgs),
     /// Make a sample surface
     #[command(after_help = crate::make::HELP)]
     Make(crate::make::MakeArgs),
@@ -76,6 +80,7 @@ impl Command {
             Command::Cover(CoverArgs { canonical: args, .. }) => {
                 report_failure("cover", &args.to.file.mesh, &args.to.common, args, failure)
             }
+            Command::Circles(args) => report_failure("circles", &args.file.mesh, &args.common, args, failure),
             _ => Ok(()),
         }
     }

@@ -12,7 +12,7 @@
 //! ```
 
 use super::surface::Surface;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_size};
 use crate::geometry::flip::diagonal;
 use crate::geometry::triangle;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, Point};
@@ -30,6 +30,8 @@ pub struct Split {
     lengths: Vec<f64>,
     positions: Option<Vec<Point>>,
     n_vertices: usize,
+    /// The ends of the edge that each added vertex has halved.
+    added: Vec<[u32; 2]>,
     /// Per face: the given face that it is a part of, and the weights of its corners there.
     parent: Vec<FaceId>,
     corners: Vec<[[f64; 3]; 3]>,
@@ -49,6 +51,7 @@ impl Split {
             lengths: given.lengths().iter().copied().collect(),
             positions: given.positions().map(|positions| positions.to_vec()),
             n_vertices: mesh.n_vertices(),
+            added: Vec::new(),
             parent: mesh.faces().collect(),
             corners: vec![CORNERS; mesh.n_faces()],
             given: given.clone(),
@@ -70,6 +73,39 @@ impl Split {
         (self.parent[f.index()], self.corners[f.index()])
     }
 
+    /// Weights of points in a face ([`Split::place`]) as weights in the given face that it is a part of.
+    pub fn carried<const M: usize>(&self, f: FaceId, weights: [[f64; 3]; M]) -> (FaceId, [[f64; 3]; M]) {
+        let (face, corners) = self.place(f);
+        (face, weights.map(|w| [0, 1, 2].map(|k| (0..3).map(|c| w[c] * corners[c][k]).sum())))
+    }
+
+    /// Values at the given vertices (V entries), on the finer triangulation: halfway between the ends of a halved edge.
+    ///
+    /// # Errors
+    /// [`Error::Size`].
+    pub fn from_given_vertices<const N: usize>(&self, values: &[[f64; N]]) -> Result<Vec<[f64; N]>> {
+        check_size("values", values.len(), self.given.mesh().n_vertices())?;
+        let mut all = values.to_vec();
+        for ends in &self.added {
+            let [a, b] = ends.map(|v| all[v as usize]);
+            all.push(std::array::from_fn(|k| 0.5 * (a[k] + b[k])));
+        }
+        Ok(all)
+    }
+
+    /// Values at the corners of the given faces (F entries), at those of the finer triangulation: linear in each given face.
+    ///
+    /// # Errors
+    /// [`Error::Size`].
+    pub fn from_given_corners<const N: usize>(&self, values: &[[[f64; N]; 3]]) -> Result<Vec<[[f64; N]; 3]>> {
+        check_size("corner values", values.len(), self.given.mesh().n_faces())?;
+        let at = |f: usize| {
+            let corners = values[self.parent[f].index()];
+            self.corners[f].map(|w| std::array::from_fn(|k| (0..3).map(|c| w[c] * corners[c][k]).sum()))
+        };
+        Ok((0..self.parent.len()).map(at).collect())
+    }
+
     /// Halve an edge at its midpoint, and each face beside it by the line from there to the opposite corner. The edge keeps its number at
     /// the origin of its half-edge 2e; the new vertex and the other half, which is returned, get the next ones.
     ///
@@ -86,6 +122,7 @@ impl Split {
         let there = e.halfedge().index();
         let (from, middle, to) = (self.origin[there], self.n_vertices as u32, self.origin[there ^ 1]);
         self.n_vertices += 1;
+        self.added.push([from, to]);
         if let Some(positions) = &mut self.positions {
             let [a, b] = [from, to].map(|v| positions[v as usize]);
             positions.push([0, 1, 2].map(|k| 0.5 * (a[k] + b[k])));

@@ -38,6 +38,7 @@ pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style) -> Sheet {
     let drawing = Layout { flat, wish, style, fit, panel };
     drawing.ground(&mut sheet);
     drawing.wire(&mut sheet);
+    drawing.rounds(&mut sheet);
     drawing.circles(&mut sheet);
     drawing.lines(&mut sheet);
     sheet.cut("layout")
@@ -51,7 +52,7 @@ fn fit(flat: &Flat<'_>, style: &Style) -> Fit {
     let ends = |c: &Circle| [-1.0, 1.0].map(|s| [c.center[0] + s * c.radius, c.center[1] + s * c.radius]);
     let points = flat.corner_uv.iter().flatten().copied();
     let points = points.chain(flat.frame.iter().map(|side| side.0));
-    Fit::new(points.chain(flat.circles.iter().flat_map(ends)), style.size)
+    Fit::new(points.chain(flat.circles.iter().chain(flat.rims).flat_map(ends)), style.size)
 }
 
 struct Layout<'a> {
@@ -153,6 +154,22 @@ impl Layout<'_> {
             let path = lines(&chains(shown.map(|[a, b]| (a, b))));
             sheet.wire(class as f64 / WIRE_CLASSES as f64, 2.0 * half_width, &path);
         }
+    }
+
+    /// Round holes and rims.
+    fn rounds(&self, sheet: &mut Sheet) {
+        let (mut inside, mut edges) = (Path::default(), Path::default());
+        let shown = |circle: &Circle| (LEAST_RADIUS..MOST_RADIUS).contains(&(self.fit.scale * circle.radius));
+        let pixels = |circle: &Circle| (self.fit.apply(circle.center), self.fit.scale * circle.radius);
+        for (at, radius) in self.flat.holes.iter().filter(|c| shown(c)).map(pixels) {
+            inside.circle(at, radius);
+            edges.circle(at, radius);
+        }
+        for (at, radius) in self.flat.rims.iter().filter(|c| shown(c)).map(pixels) {
+            edges.circle(at, radius);
+        }
+        sheet.fill([1.0; 3], &inside);
+        sheet.stroke(INK, 2.0 * self.style.line(), &edges);
     }
 
     /// Circles, the lines of small ones thinner.

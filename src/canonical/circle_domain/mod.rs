@@ -225,8 +225,9 @@ impl CircleDomainOptions {
 }
 
 impl CircleDomain {
-    /// The loops whose circles overlap another one, ascending.
-    fn overlapping(&self) -> Vec<usize> {
+    /// The loops whose circles overlap another one, ascending: between two hubs of the triangulation η is 1 or less. Where two disks overlap there is such
+    /// an edge, because the union of the disks has the shape of the part of the triangulation whose disks meet.
+    pub fn overlapping(&self) -> Vec<usize> {
         let (mesh, eta) = (self.metric.mesh(), &self.metric.metric().eta);
         let mut all: Vec<usize> = place::hub_pairs(mesh, &self.filled)
             .filter(|&(e, _)| eta[e].high <= 1.0)
