@@ -85,12 +85,7 @@ pub fn write_asked(
 
 /// The way back from the vertices and faces that `--uv` has to those of the input: a face for each face, and for each vertex a face
 /// with barycentric coordinates in it.
-pub fn write_origins(
-    out: &mut impl Write,
-    input: &Input,
-    laid: &Laid,
-    on: OnChoice,
-) -> std::io::Result<()> {
+pub fn write_origins(out: &mut impl Write, input: &Input, laid: &Laid, on: OnChoice) -> std::io::Result<()> {
     let refinement = laid.refinement().filter(|_| on == OnChoice::Refined);
     let mesh = refinement.map_or(input.mesh(), |r| &r.mesh);
     let whole = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

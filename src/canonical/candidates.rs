@@ -43,7 +43,8 @@ impl Punctured {
         let lost = |v: VertexId| -narrow[v].max(LEAST_ANGLE).ln();
         let top = u.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let depth = |v: VertexId| ((top - u[v]) as usize).min(DEPTHS - 1);
-        let all = ranked(self.mesh.vertices().filter(|&v| may[v]).map(|v| (Key(self.height(v) + lost(v)), v)));
+        let all =
+            ranked(self.mesh.vertices().filter(|&v| may[v]).map(|v| (Key(self.height(v) + lost(v)), v)));
         let mut seen = [false; DEPTHS];
         let mut chosen: Vec<VertexId> = Vec::new();
         for (rank, v) in all.into_iter().enumerate() {

@@ -315,7 +315,8 @@ impl Punctured {
             i if i == v => 0.0,
             i if i == self.at => self.metric.u[v],
             i => {
-                let (distance, own) = ((plane[i][0] - x).hypot(plane[i][1] - y), self.metric.vertex(i).radius);
+                let (distance, own) =
+                    ((plane[i][0] - x).hypot(plane[i][1] - y), self.metric.vertex(i).radius);
                 self.metric.u[i] + self.metric.u[v] - (distance - own).ln() - (distance + own).ln()
             }
         })

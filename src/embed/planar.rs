@@ -1,7 +1,7 @@
 //! Layouts of planar domains, and areas of what is laid out.
 
-use super::layout::{Layout, distance, distance_from_origin, flat};
 use super::layout::bounding_diagonal;
+use super::layout::{Layout, distance, distance_from_origin, flat};
 use super::pieces::Pieces;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::{Space, triangle};
@@ -74,7 +74,10 @@ impl Layout {
         let mut areas = vec![0.0; self.mesh().n_faces()];
         parallel::fill(&mut areas, |f| {
             let points = self.face_points(f.into());
-            triangle::area(self.space, [1, 2, 0].map(|k| distance(self.space, points[k], points[(k + 1) % 3])))
+            triangle::area(
+                self.space,
+                [1, 2, 0].map(|k| distance(self.space, points[k], points[(k + 1) % 3])),
+            )
         });
         self.area = areas.iter().sum();
     }

@@ -8,10 +8,12 @@ use super::origin::Origin;
 use super::solution::Solution;
 use crate::control::Control;
 use crate::error::Result;
+use crate::geometry::triangle::angles;
 use crate::geometry::{Space, Twofold};
-use crate::mesh::{Filled, Mesh, PerEdge, VertexId};
+use crate::mesh::{EdgeId, Filled, HalfedgeId, Mesh, PerEdge, VertexId};
+use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Metric, Surface};
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Least radius that a circle starts with, in units of the longest edge of its loop. Chords of a circle are at most twice its radius.
 const LEAST_START: f64 = 0.6;
@@ -52,6 +54,46 @@ impl Solution {
         }
         origin.class = None;
         Ok(Solution::start(origin))
+    }
+}
+
+/// Radians that an angle opposite an edge of a loop may exceed its bound by.
+const OBTUSE: f64 = 1e-6;
+
+impl Solution {
+    /// The edges of loops that are opposite an obtuse angle in the triangulation that the flow starts from, with the foot of the height on
+    /// them: its distance from the origin of the half-edge 2e as a share of the edge.
+    ///
+    /// An angle θ opposite an edge of a circle is Delaunay where `θ ≤ π/2 ∓ ψ/2`, ψ the angle of the edge at the centre, with + where the
+    /// surface lies inside the circle. It counts as obtuse where it is above both bounds, ψ that of the edge's share of its loop.
+    pub(crate) fn obtuse_rims(&self, filled: &Filled) -> Vec<(EdgeId, f64)> {
+        let surface = self.surface();
+        let (mesh, lengths) = match &self.origin.flipped {
+            Some(flipped) => (&flipped.mesh, &flipped.lengths),
+            None => (surface.mesh(), &**surface.lengths()),
+        };
+        let (tan, atan): (fn(f64) -> f64, fn(f64) -> f64) = match surface.geometry() {
+            Space::E2 => (|x| x, |x| x),
+            Space::H2 => (f64::tanh, f64::atanh),
+            Space::S2 => (f64::tan, f64::atan),
+        };
+        let around = |rim: &Vec<HalfedgeId>| rim.iter().map(|h| lengths[h.edge()]).sum::<f64>();
+        let foot = |outside: &HalfedgeId, around: f64| {
+            let h = outside.twin();
+            let (f, k) = mesh.corner(h)?;
+            // Lengths opposite the origin of h, its tip, the third corner.
+            let all = face_lengths(mesh, lengths, f);
+            let [a, b, c] = [k, (k + 1) % 3, (k + 2) % 3].map(|i| all[i]);
+            let angles = angles(surface.geometry(), [a, b, c]).at;
+            let share = atan(tan(b) * angles[0].cos()) / c;
+            let from_origin = if h == h.edge().halfedge() { share } else { 1.0 - share };
+            (angles[2] > FRAC_PI_2 + PI * c / around + OBTUSE).then_some((h.edge(), from_origin))
+        };
+        let of_loop = |rim: &Vec<HalfedgeId>| {
+            let around = around(rim);
+            rim.iter().filter_map(|h| foot(h, around)).collect::<Vec<_>>()
+        };
+        filled.loops.iter().flat_map(of_loop).collect()
     }
 }
 

@@ -1,8 +1,8 @@
 //! What all metrics that flow from one start share: the surface, its triangulation at the start, and the initial metric there.
 
+use super::solution::Solution;
 use crate::control::Control;
 use crate::error::Result;
-use super::solution::Solution;
 use crate::mesh::{Double, EdgeId, FaceId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge};
 use crate::metric::delaunay::{Triangulated, boundary_fails};
 use crate::metric::refinement::{Final, Input, Intrinsic, Triangulations};

@@ -34,7 +34,11 @@ pub fn disk_barycentre(points: &[Complex], weights: &[f64]) -> Result<Mobius> {
     check_size("weights", weights.len(), points.len())?;
     let total: f64 = weights.iter().sum();
     let refused = |value: String| {
-        Error::argument("weights", value, "not negative, with less than half of them at one point of the circle")
+        Error::argument(
+            "weights",
+            value,
+            "not negative, with less than half of them at one point of the circle",
+        )
     };
     if weights.iter().any(|&w| w < 0.0) || !(total > 0.0 && total.is_finite()) {
         return Err(refused(format!("of sum {total}")));

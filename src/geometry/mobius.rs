@@ -124,10 +124,7 @@ impl Mobius {
         // |s|² − r² |c|², as a product.
         let power = (norm(s) - r * norm(c)) * (norm(s) + r * norm(c));
         let top = sub(mul(conj(s), add(mul(a, p), b)), scale(r * r, mul(a, conj(c))));
-        PlaneCircle {
-            center: top.map(|x| x / power),
-            radius: r * norm(self.determinant()) / power.abs(),
-        }
+        PlaneCircle { center: top.map(|x| x / power), radius: r * norm(self.determinant()) / power.abs() }
     }
 }
 

@@ -14,7 +14,7 @@
 use super::surface::Surface;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::flip::diagonal;
-use crate::geometry::triangle;
+use crate::geometry::triangle::{self, sine};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, Point};
 
 /// A surface some of whose edges have been halved, the faces beside them with them: the same metric on a finer triangulation.
@@ -30,8 +30,8 @@ pub struct Split {
     lengths: Vec<f64>,
     positions: Option<Vec<Point>>,
     n_vertices: usize,
-    /// The ends of the edge that each added vertex has halved.
-    added: Vec<[u32; 2]>,
+    /// The ends of the edge that each added vertex has parted, with their weights.
+    added: Vec<[(u32, f64); 2]>,
     /// Per face: the given face that it is a part of, and the weights of its corners there.
     parent: Vec<FaceId>,
     corners: Vec<[[f64; 3]; 3]>,
@@ -79,16 +79,16 @@ impl Split {
         (face, weights.map(|w| [0, 1, 2].map(|k| (0..3).map(|c| w[c] * corners[c][k]).sum())))
     }
 
-    /// Values at the given vertices (V entries), on the finer triangulation: halfway between the ends of a halved edge.
+    /// Values at the given vertices (V entries), on the finer triangulation: linear along the edges that were parted.
     ///
     /// # Errors
     /// [`Error::Size`].
     pub fn from_given_vertices<const N: usize>(&self, values: &[[f64; N]]) -> Result<Vec<[f64; N]>> {
         check_size("values", values.len(), self.given.mesh().n_vertices())?;
         let mut all = values.to_vec();
-        for ends in &self.added {
-            let [a, b] = ends.map(|v| all[v as usize]);
-            all.push(std::array::from_fn(|k| 0.5 * (a[k] + b[k])));
+        for &[(a, p), (b, q)] in &self.added {
+            let [a, b] = [a, b].map(|v| all[v as usize]);
+            all.push(std::array::from_fn(|k| p * a[k] + q * b[k]));
         }
         Ok(all)
     }
@@ -106,37 +106,54 @@ impl Split {
         Ok((0..self.parent.len()).map(at).collect())
     }
 
-    /// Halve an edge at its midpoint, and each face beside it by the line from there to the opposite corner. The edge keeps its number at
-    /// the origin of its half-edge 2e; the new vertex and the other half, which is returned, get the next ones.
+    /// Halve an edge: [`Split::part`] at its midpoint.
     ///
     /// # Errors
-    /// [`Error::Argument`] for an edge that does not exist; [`Error::TooLarge`].
+    /// Those of [`Split::part`].
     pub fn halve(&mut self, e: EdgeId) -> Result<EdgeId> {
+        self.part(e, 0.5)
+    }
+
+    /// Part an edge at this share of its length from the origin of its half-edge 2e, and each face beside it by the line from there to the
+    /// opposite corner. The edge keeps its number at that origin; the new vertex and the other part, which is returned, get the next ones.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for an edge that does not exist, and for a share outside (0, 1); [`Error::TooLarge`].
+    pub fn part(&mut self, e: EdgeId, share: f64) -> Result<EdgeId> {
         let n_edges = self.lengths.len();
         if e.index() >= n_edges {
-            return Err(Error::argument("edge to halve", e, "an existing edge"));
+            return Err(Error::argument("edge to part", e, "an existing edge"));
+        }
+        if !(share > 0.0 && share < 1.0) {
+            return Err(Error::argument("share of an edge", share, "between 0 and 1"));
         }
         if u32::try_from(2 * n_edges + 6).is_err() {
             return Err(Error::TooLarge { what: "half-edges of a split surface", count: 2 * n_edges + 6 });
         }
         let there = e.halfedge().index();
         let (from, middle, to) = (self.origin[there], self.n_vertices as u32, self.origin[there ^ 1]);
+        let length = self.lengths[e.index()];
+        let (near, far) = (share * length, (1.0 - share) * length);
+        // The point as a combination of the ends, which are vectors in H² and S².
+        let weights = [far, near].map(|x| sine(self.given.geometry(), x));
+        let weights = weights.map(|w| w / (weights[0] + weights[1]));
         self.n_vertices += 1;
-        self.added.push([from, to]);
+        self.added.push([(from, weights[0]), (to, weights[1])]);
         if let Some(positions) = &mut self.positions {
             let [a, b] = [from, to].map(|v| positions[v as usize]);
-            positions.push([0, 1, 2].map(|k| 0.5 * (a[k] + b[k])));
+            positions.push([0, 1, 2].map(|k| weights[0] * a[k] + weights[1] * b[k]));
         }
-        // The faces are measured before the edge has half its length.
-        let lines = [there, there ^ 1].map(|h| self.bisector(h));
-        let other = self.add_edge(middle, to, 0.5 * self.lengths[e.index()]);
-        self.lengths[e.index()] *= 0.5;
+        // The faces are measured before the edge is shortened.
+        let lines = [(there, near), (there ^ 1, far)].map(|(h, x)| self.line(h, x));
+        let other = self.add_edge(middle, to, far);
+        self.lengths[e.index()] = near;
         self.origin[there ^ 1] = middle;
         for (k, line) in lines.into_iter().enumerate() {
             if let Some(length) = line {
                 // The part at the origin of the half-edge 2e lies along `there`; of its twin, along the new edge.
                 let [first, second] = [[there, 2 * other], [2 * other + 1, there ^ 1]][k];
-                self.cut_face(there ^ k, [first, second], length);
+                let weights = if k == 0 { weights } else { [weights[1], weights[0]] };
+                self.cut_face(there ^ k, ([first, second], weights), length);
             }
         }
         Ok(EdgeId::from(other))
@@ -148,14 +165,14 @@ impl Split {
         self.sides[f].iter().position(|&side| side as usize == h).map(|k| (f, k))
     }
 
-    /// Length of the line from the midpoint of a half-edge to the opposite corner of its face.
-    fn bisector(&self, h: usize) -> Option<f64> {
+    /// Length of the line from the point at distance `x` along a half-edge to the opposite corner of its face.
+    fn line(&self, h: usize, x: f64) -> Option<f64> {
         let (f, k) = self.corner(h)?;
         let space = self.given.geometry();
         // Opposite the corners: of the half-edge's origin, its tip, the third one.
         let [a, b, c] = [1, 2, 0].map(|turn| self.lengths[self.sides[f][(k + turn) % 3] as usize >> 1]);
         let angle = triangle::angles(space, [a, b, c]).at[0];
-        Some(diagonal(space, b, 0.5 * c, angle))
+        Some(diagonal(space, b, x, angle))
     }
 
     fn add_edge(&mut self, from: u32, to: u32, length: f64) -> usize {
@@ -165,14 +182,15 @@ impl Split {
         self.lengths.len() - 1
     }
 
-    /// Cut the face of half-edge `h`, whose two parts are `parts` in its direction, by a line of this length.
-    fn cut_face(&mut self, h: usize, parts: [usize; 2], length: f64) {
+    /// Cut the face of half-edge `h`, whose two parts are `parts` in its direction at the point with these weights of its ends, by a line of this
+    /// length.
+    fn cut_face(&mut self, h: usize, (parts, [p, q]): ([usize; 2], [f64; 2]), length: f64) {
         let Some((f, k)) = self.corner(h) else { return };
         let [next, prev] = [1, 2].map(|turn| self.sides[f][(k + turn) % 3]);
         let [middle, opposite] = [self.origin[parts[1]], self.origin[prev as usize]];
         let line = 2 * self.add_edge(middle, opposite, length) as u32;
         let [a, b, c] = [0, 1, 2].map(|turn| self.corners[f][(k + turn) % 3]);
-        let m = [0, 1, 2].map(|i| 0.5 * (a[i] + b[i]));
+        let m = [0, 1, 2].map(|i| p * a[i] + q * b[i]);
         self.sides[f] = [parts[0] as u32, line, prev];
         self.corners[f] = [a, m, c];
         let new = self.sides.len();

@@ -8,7 +8,7 @@ use std::str::FromStr;
 
 pub const HELP: &str = "\
 Example: a planar domain with seven holes in the unit disk
-    ricci make holes --count 7 -o swiss.obj
+    ricci make sphere --holes 7 -o swiss.obj
     ricci circles swiss.obj --uv round.obj --picture round.png --report round.json
 
 A surface of genus 0 comes to lie in the unit disk, one of its loops on the unit circle; one of genus 1 in a flat torus, with round holes;
@@ -74,7 +74,10 @@ pub struct CirclesArgs {
 
 /// Edges that a loop may be asked to have: more than a million make no circle rounder that doubles can hold.
 fn edges(text: &str) -> Result<usize, String> {
-    text.parse().ok().filter(|n| (0..=1_000_000).contains(n)).ok_or("must be a number of edges, 1000000 at most".into())
+    text.parse()
+        .ok()
+        .filter(|n| (0..=1_000_000).contains(n))
+        .ok_or("must be a number of edges, 1000000 at most".into())
 }
 
 /// Three vertices of a loop, and the angles on the unit circle that they get, in degrees.
@@ -95,9 +98,11 @@ impl FromStr for Three {
         }
         for (k, part) in parts.into_iter().enumerate() {
             let (vertex, angle) = part.split_once(':').map_or((part, None), |(v, angle)| (v, Some(angle)));
-            three.vertices[k] = vertex.trim().parse().map_err(|_| format!("`{vertex}` is not a vertex number"))?;
+            three.vertices[k] =
+                vertex.trim().parse().map_err(|_| format!("`{vertex}` is not a vertex number"))?;
             if let Some(angle) = angle {
-                three.degrees[k] = crate::options::number(angle.trim(), |_| true, "an angle must be a number of degrees")?;
+                three.degrees[k] =
+                    crate::options::number(angle.trim(), |_| true, "an angle must be a number of degrees")?;
             }
         }
         Ok(three)

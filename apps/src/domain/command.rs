@@ -74,14 +74,22 @@ fn check_surface(args: &CirclesArgs, input: &Input) -> Result<(), Failure> {
     let mesh = input.mesh();
     if mesh.is_closed() {
         let path = input.path.display();
-        return Err(Failure::Input(format!("{path}: the surface is closed, it has no loops to make round; use ricci uniformize")));
+        return Err(Failure::Input(format!(
+            "{path}: the surface is closed, it has no loops to make round; use ricci uniformize"
+        )));
     }
     let (usage, n) = (|why: String| Err(Failure::Usage(why)), mesh.boundary_loops().len());
     if mesh.genus() > 0 {
-        let of_disk = [("--outer", args.outer.is_some()), ("--center", args.center.is_some()), ("--three", args.three.is_some())];
+        let of_disk = [
+            ("--outer", args.outer.is_some()),
+            ("--center", args.center.is_some()),
+            ("--three", args.three.is_some()),
+        ];
         if let Some((option, _)) = of_disk.iter().find(|(_, asked)| *asked) {
             let genus = mesh.genus();
-            return usage(format!("{option}: a surface of genus {genus} does not lie in the unit disk; leave it out"));
+            return usage(format!(
+                "{option}: a surface of genus {genus} does not lie in the unit disk; leave it out"
+            ));
         }
     }
     if let Some(k) = args.outer.filter(|&k| k >= n) {
@@ -151,8 +159,10 @@ fn write(
     found.seconds.total = start.elapsed().as_secs_f64();
     let (mut report_failed, figures) = (Ok(()), of_domain(found).with("left_out", left_out(input)));
     if let Some(path) = &args.common.report {
-        let report = Report::new("circles", InputSummary::of(input), Asked::new(args, input, found), figures.clone());
-        report_failed = outputs.add_report(path, &report.finished(found.checks(args.tolerance), found.seconds));
+        let report =
+            Report::new("circles", InputSummary::of(input), Asked::new(args, input, found), figures.clone());
+        report_failed =
+            outputs.add_report(path, &report.finished(found.checks(args.tolerance), found.seconds));
     }
     control.check()?;
     let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();

@@ -10,9 +10,7 @@ use serde_json::{Map, Value, json};
 
 pub fn of_domain(found: &Found) -> Figures {
     let (domain, report) = (&found.domain, &found.domain.report);
-    let circle = |c: &ricci::canonical::DomainCircle| {
-        json!({"loop": c.boundary_loop, "center": c.center, "radius": c.radius, "deviation": c.deviation, "vertices": c.vertices})
-    };
+    let circle = |c: &ricci::canonical::DomainCircle| json!({"loop": c.boundary_loop, "center": c.center, "radius": c.radius, "deviation": c.deviation, "vertices": c.vertices});
     let failed: Map<String, Value> =
         found.failed.0.iter().map(|(wish, why)| (wish.to_string(), why.as_str().into())).collect();
     Figures::default()

@@ -26,10 +26,12 @@ pub fn draw(found: &Found, style: &Style, is_svg: bool) -> Result<Vec<u8>, Failu
     let (mut holes, mut rims, mut boundary) = (Vec::new(), Vec::new(), Vec::new());
     for rim in mesh.boundary_loops() {
         let rim: Vec<HalfedgeId> = rim.into_iter().map(HalfedgeId::twin).collect();
-        match found.domain.circles.iter().map(|c| drawn(found, c)).find(|c| is_on(laid.corner_uv(rim[0]), c)) {
+        match found.domain.circles.iter().map(|c| drawn(found, c)).find(|c| is_on(laid.corner_uv(rim[0]), c))
+        {
             Some(circle) if rim.iter().all(|&h| is_on(laid.corner_uv(h), &circle)) => {
                 // The surface lies inside the outer circle.
-                let is_outer = found.domain.outer.is_some() && circle.center == [0.0; 2] && circle.radius == 1.0;
+                let is_outer =
+                    found.domain.outer.is_some() && circle.center == [0.0; 2] && circle.radius == 1.0;
                 if is_outer { rims.push(circle) } else { holes.push(circle) }
             }
             _ => boundary.extend(rim.into_iter().map(side)),

@@ -4,14 +4,14 @@ use super::place::{anchor_weights, hub_edge, hub_pairs, loops_of_edges, measured
 use super::prepare::Prepared;
 use super::{CircleDomain, CircleDomainOptions, CircleReport, DomainCircle, LoopPoints};
 use crate::control::Control;
+use crate::embed::layout::distance_from_origin;
 use crate::embed::{Layout, layout_of};
-use crate::embed::layout::distance;
 use crate::error::Result;
 use crate::flow::{Flow, Options, Solution};
-use crate::geometry::triangle::sine;
-use crate::geometry::{Space, conformal};
 use crate::geometry::motion::precise_point;
+use crate::geometry::triangle::sine;
 use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Space, conformal};
 use crate::mesh::{EdgeId, Filled, HalfedgeId, PerVertex, VertexId};
 use crate::metric::Refinement;
 use crate::topology::{central_vertex, cut_about_joined};
@@ -23,7 +23,12 @@ pub(super) fn solve(
     control: &Control,
 ) -> Result<CircleDomain> {
     let Prepared { split, filled, start, .. } = prepared;
-    let flow = Options { tolerance: options.flow.tolerance, max_iterations: options.flow.max_iterations, threads: options.flow.threads, ..Options::default() };
+    let flow = Options {
+        tolerance: options.flow.tolerance,
+        max_iterations: options.flow.max_iterations,
+        threads: options.flow.threads,
+        ..Options::default()
+    };
     let mut flow = Flow::resume(&start, &flow, control)?;
     let flat = PerVertex::filled(filled.mesh.n_vertices(), 0.0);
     let report = flow.reach(&flat, control)?.clone();
@@ -39,7 +44,9 @@ pub(super) fn solve(
         layout.scale_to_area(split.given().area()?)?;
     }
     let circles = circles(&whole, &layout, &metric, &filled);
-    let least_gap = hub_pairs(&mesh, &filled).map(|(e, _)| metric.metric().eta[e].high - 1.0).fold(f64::INFINITY, f64::min);
+    let least_gap = hub_pairs(&mesh, &filled)
+        .map(|(e, _)| metric.metric().eta[e].high - 1.0)
+        .fold(f64::INFINITY, f64::min);
     let vertices: usize = circles.iter().map(|c| c.vertices).sum();
     let report = CircleReport {
         converged: report.converged() && layout.flipped.is_empty() && least_gap > 0.0,
@@ -55,7 +62,17 @@ pub(super) fn solve(
         seconds: report.seconds,
     };
     let torus_modulus = whole.modulus();
-    Ok(CircleDomain { split, filled, metric, layout, circles, outer: None, modulus: None, torus_modulus, report })
+    Ok(CircleDomain {
+        split,
+        filled,
+        metric,
+        layout,
+        circles,
+        outer: None,
+        modulus: None,
+        torus_modulus,
+        report,
+    })
 }
 
 /// The closed surface laid out, opened along a cut that keeps away from the disks.
@@ -85,8 +102,7 @@ fn round_off(refinement: &mut Refinement, metric: &Solution, filled: &Filled) ->
         let Some(edge) = hub_edge(mesh, metric.metric(), filled, (e, None)) else { continue };
         let ends = mesh.ends(e);
         let own_loop = loops.get(&crossing.input_edge).copied();
-        let [a, b] =
-            anchor_weights(&edge, ends.map(|v| filled.loop_of(v)), own_loop, crossing.final_weights);
+        let [a, b] = anchor_weights(&edge, ends.map(|v| filled.loop_of(v)), own_loop, crossing.final_weights);
         // An anchor as a combination of the ends: a share of the way, measured by x or sinh x.
         let part = |i: usize| {
             let near = if edge.is_hub[i] { radius(ends[i]) } else { 0.0 };
@@ -113,12 +129,14 @@ fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &Filled) 
         let radius = scale * conformal::radius(space, 1, metric.metric().u[hub]);
         let points = LoopPoints { boundary_loop: k, n: rim.len() };
         // Where the cut runs along the loop, the surface lies at another copy of the disk.
-        let seen_from = |g: HalfedgeId| match refinement.final_halfedge(g) {
-            Some(h) => pairing(whole, h, factor).apply(precise_point(space, center)).map(f64::from),
-            None => center,
+        let copy = |g: HalfedgeId| match refinement.final_halfedge(g) {
+            Some(h) => pairing(whole, h, factor),
+            None => Motion::identity(space),
         };
         measured(points, (layout.flat(center), radius), |i| {
-            distance(space, seen_from(rim[i]), layout.corner(rim[i]))
+            let home = Motion::to_origin(space, copy(rim[i]).apply(precise_point(space, center)));
+            let seen = home.apply(precise_point(space, layout.corner(rim[i])));
+            distance_from_origin(space, seen.map(f64::from))
         })
     };
     rims(refinement, filled).into_iter().enumerate().map(circle).collect()

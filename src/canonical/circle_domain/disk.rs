@@ -2,10 +2,10 @@
 
 use super::Normalisation;
 use crate::error::{Error, Result};
+use crate::geometry::Mobius;
 use crate::geometry::complex::{Complex, conj, norm};
 use crate::geometry::disk_barycentre::disk_barycentre;
 use crate::geometry::mobius::PlaneCircle;
-use crate::geometry::Mobius;
 use crate::mesh::{PerVertex, VertexId};
 
 /// A planar domain in the unit disk, its outer loop on the unit circle, before it is normalised.

@@ -17,8 +17,8 @@
 mod anchors;
 mod closed;
 mod disk;
-mod planar;
 mod place;
+mod planar;
 mod prepare;
 
 use crate::control::Control;
@@ -194,7 +194,11 @@ impl CircleDomainOptions {
         let mesh = surface.mesh();
         let n = mesh.boundary_loops().len();
         if n == 0 {
-            return Err(Error::argument("surface", "closed", "one with boundary: a circle domain has a circle per boundary loop"));
+            return Err(Error::argument(
+                "surface",
+                "closed",
+                "one with boundary: a circle domain has a circle per boundary loop",
+            ));
         }
         let is_planar = mesh.genus() == 0;
         match self.outer {
@@ -202,7 +206,11 @@ impl CircleDomainOptions {
                 return Err(Error::argument("outer loop", k, "the number of a boundary loop, from 0"));
             }
             Some(k) if !is_planar => {
-                return Err(Error::argument("outer loop", k, "none: only surfaces of genus 0 lie inside a circle"));
+                return Err(Error::argument(
+                    "outer loop",
+                    k,
+                    "none: only surfaces of genus 0 lie inside a circle",
+                ));
             }
             _ => {}
         }
@@ -211,13 +219,21 @@ impl CircleDomainOptions {
             Normalisation::Vertex(v) => std::slice::from_ref(v),
             Normalisation::Three(v, angles) => {
                 if angles.iter().any(|a| !a.is_finite()) {
-                    return Err(Error::argument("angles of the normalisation", format!("{angles:?}"), "finite"));
+                    return Err(Error::argument(
+                        "angles of the normalisation",
+                        format!("{angles:?}"),
+                        "finite",
+                    ));
                 }
                 v
             }
         };
         if !is_planar && !vertices.is_empty() {
-            return Err(Error::argument("normalisation", "of the unit disk", "centred: only surfaces of genus 0 lie in the unit disk"));
+            return Err(Error::argument(
+                "normalisation",
+                "of the unit disk",
+                "centred: only surfaces of genus 0 lie in the unit disk",
+            ));
         }
         vertices.iter().try_for_each(|&v| crate::topology::check_vertex(mesh, v))?;
         self.flow.check()

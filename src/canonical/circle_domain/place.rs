@@ -31,7 +31,8 @@ pub(super) fn hub_edge(
     let loops = ends.map(|v| filled.loop_of(v));
     let scale = |i: usize| {
         let vertex = metric.vertex(ends[i]);
-        let size = if metric.space == Space::E2 { metric.u[ends[i]].exp() } else { 2.0 * vertex.scale / vertex.d };
+        let size =
+            if metric.space == Space::E2 { metric.u[ends[i]].exp() } else { 2.0 * vertex.scale / vertex.d };
         if loops[i].is_some() && loops[i] == outer { -size } else { size }
     };
     let is_hub = loops.map(|k| k.is_some());

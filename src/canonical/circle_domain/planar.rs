@@ -141,7 +141,9 @@ fn in_units(mesh: &Mesh, metric: &mut Metric, unit: f64) {
 
 /// Adds to u at all vertices of a type.
 fn shift(metric: &mut Metric, epsilon: i8, by: f64) {
-    for v in (0..metric.u.len()).map(VertexId::from).filter(|&v| metric.epsilon[v] == epsilon).collect::<Vec<_>>() {
+    for v in
+        (0..metric.u.len()).map(VertexId::from).filter(|&v| metric.epsilon[v] == epsilon).collect::<Vec<_>>()
+    {
         let (sum, lost) = two_sum(metric.u[v], by);
         (metric.u[v], metric.u_low[v]) = two_sum(sum, lost + metric.u_low[v]);
     }
@@ -149,8 +151,7 @@ fn shift(metric: &mut Metric, epsilon: i8, by: f64) {
 
 /// The vertices of a loop, with the surface on their left.
 fn rim_of(open: &Mesh, k: usize) -> Vec<VertexId> {
-    let mut rim: Vec<VertexId> =
-        open.boundary_loops()[k].iter().map(|&h| open.origin(h)).collect();
+    let mut rim: Vec<VertexId> = open.boundary_loops()[k].iter().map(|&h| open.origin(h)).collect();
     rim[1..].reverse();
     rim
 }
@@ -266,7 +267,8 @@ impl Domain<'_> {
             add(scale(a, anchor(0)), scale(b, anchor(1)))
         };
         let mut places: Vec<Complex> = points.iter().take(refinement.n_input_vertices).copied().collect();
-        places.extend(refinement.crossings.iter().map(|c| place(c.final_edge, c.input_edge, c.final_weights)));
+        places
+            .extend(refinement.crossings.iter().map(|c| place(c.final_edge, c.input_edge, c.final_weights)));
         let [disagreement, local_consistency] = self.misses(&points)?;
         Layout::planar(open, refinement, Placed { plane: places.into(), disagreement, local_consistency })
     }

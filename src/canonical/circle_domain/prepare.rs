@@ -32,7 +32,8 @@ pub(super) fn refine(split: &mut Split, options: &CircleDomainOptions) -> Result
     let lengths = split.given().lengths().clone();
     let inside = mesh.edges().filter(|&e| !mesh.is_boundary_edge(e));
     let longest = inside.max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]));
-    let need = "one with a vertex or an edge inside, to send to infinity on the way (cut each triangle into four)";
+    let need =
+        "one with a vertex or an edge inside, to send to infinity on the way (cut each triangle into four)";
     let edge = longest.ok_or(Error::argument("surface", "without edges inside", need))?;
     split.halve(edge)?;
     Ok(())
@@ -48,8 +49,31 @@ pub(super) fn halve_loops(split: &mut Split, loops: &[usize]) -> Result<()> {
     Ok(())
 }
 
+/// How often edges of loops are parted opposite obtuse angles. Each time the angles of the parts are right ones; new triangles elsewhere
+/// may want it again.
+const PARTINGS: usize = 6;
+/// Least share of an edge that is parted off.
+const LEAST_PART: f64 = 1e-3;
+
 impl Prepared {
-    pub fn new(split: Split, options: &CircleDomainOptions, control: &Control) -> Result<Prepared> {
+    /// The start of the flow, with the edges of loops parted that are opposite obtuse angles: across them the triangulation is not that of
+    /// a Delaunay triangulation whose mirror image continues it, so that the class would not be the surface's alone.
+    pub fn new(mut split: Split, options: &CircleDomainOptions, control: &Control) -> Result<Prepared> {
+        for _ in 0..PARTINGS {
+            let begin = Prepared::as_it_is(split, options, control)?;
+            let obtuse = begin.start.obtuse_rims(&begin.filled);
+            if obtuse.is_empty() {
+                return Ok(begin);
+            }
+            split = begin.split;
+            for (edge, share) in obtuse {
+                split.part(edge, share.clamp(LEAST_PART, 1.0 - LEAST_PART))?;
+            }
+        }
+        Prepared::as_it_is(split, options, control)
+    }
+
+    fn as_it_is(split: Split, options: &CircleDomainOptions, control: &Control) -> Result<Prepared> {
         let surface = split.surface()?;
         let filled = Filled::new(surface.mesh())?;
         let space = if surface.mesh().genus() < 2 { Space::E2 } else { Space::H2 };
@@ -69,7 +93,8 @@ impl Prepared {
 /// The filled surface. The edges at hubs have a length because a surface has lengths everywhere: nothing is measured with it.
 fn closed_surface(surface: &Surface, filled: &Filled) -> Result<Surface> {
     let mut lengths: Vec<f64> = surface.lengths().iter().copied().collect();
-    let rims: Vec<f64> = (0..filled.loops.len()).map(|k| start_radius(surface.lengths(), filled, k)).collect();
+    let rims: Vec<f64> =
+        (0..filled.loops.len()).map(|k| start_radius(surface.lengths(), filled, k)).collect();
     for e in (lengths.len()..filled.mesh.n_edges()).map(EdgeId::from) {
         // The half-edge 2e runs to the hub.
         let hub = filled.mesh.tip(HalfedgeId(2 * e.0));
