@@ -1,13 +1,14 @@
 //! Circle domains of genus 1 and more: flat tori and hyperbolic surfaces with round holes.
 
-use super::place::{anchor_weights, hub_edge, hub_pairs, loops_of_edges, measured, rims};
+use super::domain::{CircleDomain, CircleReport, DomainCircle};
+use super::options::CircleDomainOptions;
+use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edges, rims};
 use super::prepare::Prepared;
-use super::{CircleDomain, CircleDomainOptions, CircleReport, DomainCircle, LoopPoints};
 use crate::control::Control;
 use crate::embed::layout::distance_from_origin;
 use crate::embed::{Layout, layout_of};
 use crate::error::Result;
-use crate::flow::{Flow, Options, Solution};
+use crate::flow::{Flow, Solution};
 use crate::geometry::motion::precise_point;
 use crate::geometry::triangle::sine;
 use crate::geometry::{Motion, Twofold};
@@ -23,17 +24,10 @@ pub(super) fn solve(
     control: &Control,
 ) -> Result<CircleDomain> {
     let Prepared { split, filled, start, .. } = prepared;
-    let flow = Options {
-        tolerance: options.flow.tolerance,
-        max_iterations: options.flow.max_iterations,
-        threads: options.flow.threads,
-        ..Options::default()
-    };
-    let mut flow = Flow::resume(&start, &flow, control)?;
+    let mut flow = Flow::resume(&start, &options.of_flow(), control)?;
     let flat = PerVertex::filled(filled.mesh.n_vertices(), 0.0);
     let report = flow.reach(&flat, control)?.clone();
     let metric = flow.solution();
-    let mesh = metric.mesh().clone();
     let whole = whole_layout(&metric, &filled, control)?;
     let mut refinement = metric.refinement_where(&|f| filled.is_original(f), control)?;
     round_off(&mut refinement, &metric, &filled)?;
@@ -44,9 +38,7 @@ pub(super) fn solve(
         layout.scale_to_area(split.given().area()?)?;
     }
     let circles = circles(&whole, &layout, &metric, &filled);
-    let least_gap = hub_pairs(&mesh, &filled)
-        .map(|(e, _)| metric.metric().eta[e].high - 1.0)
-        .fold(f64::INFINITY, f64::min);
+    let least_gap = least_gap(metric.mesh(), metric.metric(), &filled);
     let vertices: usize = circles.iter().map(|c| c.vertices).sum();
     let report = CircleReport {
         converged: report.converged() && layout.flipped.is_empty() && least_gap > 0.0,
@@ -127,17 +119,17 @@ fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &Filled) 
         let center = if space == Space::E2 { [factor * x, factor * y, w] } else { [x, y, w] };
         let scale = if space == Space::E2 { layout.scale } else { 1.0 };
         let radius = scale * conformal::radius(space, 1, metric.metric().u[hub]);
-        let points = LoopPoints { boundary_loop: k, n: rim.len() };
         // Where the cut runs along the loop, the surface lies at another copy of the disk.
         let copy = |g: HalfedgeId| match refinement.final_halfedge(g) {
             Some(h) => pairing(whole, h, factor),
             None => Motion::identity(space),
         };
-        measured(points, (layout.flat(center), radius), |i| {
+        let deviation = deviation(rim.len(), radius, |i| {
             let home = Motion::to_origin(space, copy(rim[i]).apply(precise_point(space, center)));
             let seen = home.apply(precise_point(space, layout.corner(rim[i])));
             distance_from_origin(space, seen.map(f64::from))
-        })
+        });
+        DomainCircle { boundary_loop: k, center: layout.flat(center), radius, deviation, vertices: rim.len() }
     };
     rims(refinement, filled).into_iter().enumerate().map(circle).collect()
 }

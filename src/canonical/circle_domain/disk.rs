@@ -1,6 +1,6 @@
 //! The Möbius transformation that puts a planar domain into the unit disk.
 
-use super::Normalisation;
+use super::options::Normalisation;
 use crate::error::{Error, Result};
 use crate::geometry::Mobius;
 use crate::geometry::complex::{Complex, conj, norm};

@@ -1,7 +1,6 @@
 //! Hubs on the final triangulation, and the loops on the refinement.
 
 use super::anchors::HubEdge;
-use super::{DomainCircle, LoopPoints};
 use crate::geometry::Space;
 use crate::geometry::worse;
 use crate::mesh::{EdgeId, Filled, HalfedgeId, Mesh};
@@ -72,13 +71,12 @@ pub(super) fn rims(refinement: &Refinement, filled: &Filled) -> Vec<Vec<Halfedge
     rims
 }
 
-/// The circle of a loop, measured on its points: `distance` is that of a point from the centre.
-pub(super) fn measured(
-    points: LoopPoints,
-    (center, radius): ([f64; 2], f64),
-    distance: impl Fn(usize) -> f64,
-) -> DomainCircle {
-    let LoopPoints { boundary_loop, n } = points;
-    let deviation = (0..n).map(|i| (distance(i) - radius).abs() / radius).fold(0.0, worse);
-    DomainCircle { boundary_loop, center, radius, deviation, vertices: n }
+/// Largest difference of the radius from the distances of `n` points from the centre, as a share of it.
+pub(super) fn deviation(n: usize, radius: f64, distance: impl Fn(usize) -> f64) -> f64 {
+    (0..n).map(|i| (distance(i) - radius).abs() / radius).fold(0.0, worse)
+}
+
+/// Least `η − 1` over the edges between two hubs; infinite where there are none.
+pub(super) fn least_gap(mesh: &Mesh, metric: &Metric, filled: &Filled) -> f64 {
+    hub_pairs(mesh, filled).map(|(e, _)| metric.eta[e].high - 1.0).fold(f64::INFINITY, f64::min)
 }

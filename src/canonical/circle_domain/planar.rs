@@ -4,27 +4,25 @@ use super::super::puncture::Solver;
 use super::super::star::Punctured;
 use super::super::tries::{Flat, Tried};
 use super::disk::InDisk;
-use super::place::{anchor_weights, hub_edge, hub_pairs, loops_of_edges, measured, rims};
+use super::domain::{CircleDomain, CircleReport, DomainCircle};
+use super::options::CircleDomainOptions;
+use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edges, rims};
 use super::prepare::Prepared;
-use super::{CircleDomain, CircleDomainOptions, CircleReport, LoopPoints};
+use super::view::View;
 use crate::control::Control;
 use crate::embed::Layout;
 use crate::embed::planar::Placed;
 use crate::error::Result;
-use crate::flow::{Options, Solution};
+use crate::flow::Solution;
 use crate::geometry::complex::{Complex, add, norm, scale, sub};
 use crate::geometry::mobius::PlaneCircle;
 use crate::geometry::twofold::two_sum;
-use crate::geometry::{Mobius, Space, Twofold, triangle, worse};
+use crate::geometry::{Space, Twofold, triangle, worse};
 use crate::mesh::{EdgeId, Filled, Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Metric, Refinement, Surface};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// A point of the unit disk that is moved to its centre before anchors are placed. Without it the vertex that was sent to infinity and
-/// the outer hub would both lie at 0, and the edge between them have no direction.
-const OFF_CENTRE: Complex = [0.31, 0.17];
 
 pub(super) fn solve(
     prepared: Prepared,
@@ -34,12 +32,7 @@ pub(super) fn solve(
     let Prepared { split, surface, filled, start } = prepared;
     let outer = options.outer.unwrap_or_else(|| longest_loop(&surface, &filled));
     let weights = vertex_areas(&surface, &filled);
-    let flow = Options {
-        tolerance: options.flow.tolerance,
-        max_iterations: options.flow.max_iterations,
-        threads: options.flow.threads,
-        ..Options::default()
-    };
+    let flow = options.of_flow();
     let (mesh, mut metric, followed) = start.parts();
     let unit = unit(&metric);
     in_units(&mesh, &mut metric, unit);
@@ -65,9 +58,7 @@ pub(super) fn solve(
     let refinement = Arc::new(solution.refinement_where(&|f| filled.is_original(f), control)?);
     let layout = domain.layout(surface.mesh(), refinement)?;
     let circles = domain.circles(&layout);
-    let least_gap = hub_pairs(solution.mesh(), &filled)
-        .map(|(e, _)| solution.metric().eta[e].high - 1.0)
-        .fold(f64::INFINITY, f64::min);
+    let least_gap = least_gap(solution.mesh(), solution.metric(), &filled);
     let vertices: usize = circles.iter().map(|c| c.vertices).sum();
     let report = CircleReport {
         converged: found.converged && layout.flipped.is_empty() && least_gap > 0.0,
@@ -156,88 +147,6 @@ fn rim_of(open: &Mesh, k: usize) -> Vec<VertexId> {
     rim
 }
 
-/// The plane of a punctured sphere as it comes to lie in the unit disk.
-struct View {
-    map: Mobius,
-    /// The same, with another point at the centre, for anchors.
-    off_centre: Mobius,
-    /// The circles of the hubs in the plane.
-    circles: Vec<PlaneCircle>,
-    outer: usize,
-    puncture: VertexId,
-    n_points: usize,
-}
-
-impl View {
-    /// The outside of the outer circle on the unit disk.
-    fn new(on: &Punctured, plane: &PerVertex<Complex>, filled: &Filled, outer: usize) -> View {
-        let hubs = filled.hubs();
-        let circle = |&v: &VertexId| PlaneCircle { center: plane[v], radius: on.metric.u[v].exp() };
-        let circles: Vec<PlaneCircle> = hubs.iter().map(circle).collect();
-        let map = Mobius::outside(circles[outer]);
-        let off_centre = Mobius::to_origin(OFF_CENTRE).after(&map);
-        View { map, off_centre, circles, outer, puncture: on.at, n_points: plane.len() - hubs.len() }
-    }
-
-    /// Followed by a transformation of the disk.
-    fn then(self, next: &Mobius) -> View {
-        View { map: next.after(&self.map), ..self }
-    }
-
-    /// The circle of a hub in the disk.
-    fn circle(&self, k: usize) -> PlaneCircle {
-        self.circle_seen(&self.map, k)
-    }
-
-    fn circle_seen(&self, map: &Mobius, k: usize) -> PlaneCircle {
-        match k == self.outer {
-            true => PlaneCircle { center: [0.0; 2], radius: 1.0 },
-            false => map.apply_to_circle(self.circles[k]),
-        }
-    }
-
-    fn seen(&self, map: &Mobius, plane: &PerVertex<Complex>, v: VertexId) -> Complex {
-        match v.index().checked_sub(self.n_points) {
-            Some(k) => self.circle_seen(map, k).center,
-            None if v == self.puncture => map.at_infinity(),
-            None => map.apply(plane[v]),
-        }
-    }
-
-    /// The vertices in the disk, hubs at the centres of their circles.
-    fn apply(&self, plane: &PerVertex<Complex>) -> PerVertex<Complex> {
-        PerVertex::from_fn(plane.len(), |v| self.seen(&self.map, plane, v))
-    }
-
-    /// The metric of the class with the lengths of the disk.
-    fn metric(&self, on: &Punctured, plane: &PerVertex<Complex>) -> Metric {
-        let mut metric = on.metric.clone();
-        for v in on.mesh.vertices() {
-            let by = match v.index().checked_sub(self.n_points) {
-                Some(k) => {
-                    (metric.u[v], metric.u_low[v]) = (self.circle(k).radius.ln(), 0.0);
-                    continue;
-                }
-                None if v == self.puncture => self.map.log_scale_at_infinity(),
-                None => self.map.log_scale(plane[v]),
-            };
-            let (sum, lost) = two_sum(metric.u[v], by);
-            (metric.u[v], metric.u_low[v]) = two_sum(sum, lost + metric.u_low[v]);
-        }
-        metric
-    }
-
-    /// Where the edge from hub k to the vertex `to` leaves the circle: seen off the centre, then in the disk.
-    fn anchor(&self, plane: &PerVertex<Complex>, k: usize, to: VertexId) -> Complex {
-        let PlaneCircle { center, radius } = self.circle_seen(&self.off_centre, k);
-        let away = sub(self.seen(&self.off_centre, plane, to), center);
-        // The outer circle is seen from its other side.
-        let sign = if to.index() == self.n_points + self.outer { -1.0 } else { 1.0 };
-        let at = add(center, scale(sign * radius / norm(away), away));
-        self.map.after(&self.off_centre.inverse()).apply(at)
-    }
-}
-
 /// A planar circle domain that has been found.
 struct Domain<'a> {
     view: View,
@@ -306,13 +215,13 @@ impl Domain<'_> {
         Ok(mesh.vertices().filter(|&v| counts[v]).map(|v| curvature[v].abs()).fold(0.0, worse))
     }
 
-    fn circles(&self, layout: &Layout) -> Vec<super::DomainCircle> {
+    fn circles(&self, layout: &Layout) -> Vec<DomainCircle> {
         let Some(refinement) = layout.refinement() else { return Vec::new() };
         let all = rims(refinement, self.filled).into_iter().enumerate();
         let circle = |(k, rim): (usize, Vec<crate::mesh::HalfedgeId>)| {
             let PlaneCircle { center, radius } = self.view.circle(k);
-            let points = LoopPoints { boundary_loop: k, n: rim.len() };
-            measured(points, (center, radius), |i| norm(sub(layout.uv(rim[i]), center)))
+            let deviation = deviation(rim.len(), radius, |i| norm(sub(layout.uv(rim[i]), center)));
+            DomainCircle { boundary_loop: k, center, radius, deviation, vertices: rim.len() }
         };
         all.map(circle).collect()
     }

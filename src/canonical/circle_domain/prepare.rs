@@ -1,6 +1,6 @@
 //! From a surface to the start of its flow: loops with enough edges, filled by hubs.
 
-use super::{CircleDomain, CircleDomainOptions, closed, planar};
+use super::options::CircleDomainOptions;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
@@ -80,13 +80,6 @@ impl Prepared {
         let closed = closed_surface(&surface, &filled)?;
         let start = Solution::with_hubs(closed, &filled, space, control)?.on_threads(options.flow.threads);
         Ok(Prepared { split, surface, filled, start })
-    }
-
-    pub fn solve(self, options: &CircleDomainOptions, control: &Control) -> Result<CircleDomain> {
-        match self.surface.mesh().genus() {
-            0 => planar::solve(self, options, control),
-            _ => closed::solve(self, options, control),
-        }
     }
 }
 
