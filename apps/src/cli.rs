@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::domain::CirclesArgs;
 use crate::failure::Failure;
 use crate::flow_args::FlowArgs;
 use crate::info::{DefectFigures, InfoArgs};
@@ -50,6 +51,9 @@ pub enum Command {
     /// Triangular B-splines: fitted to meshes, evaluated
     #[command(after_help = crate::spline::HELP)]
     Spline(SplineArgs),
+    /// A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface
+    #[command(after_help = crate::domain::HELP)]
+    Circles(CirclesArgs),
     /// Make a sample surface
     #[command(after_help = crate::make::HELP)]
     Make(crate::make::MakeArgs),
@@ -80,6 +84,7 @@ impl Command {
             Command::Cover(CoverArgs { canonical: args, .. }) => {
                 report_failure("cover", &args.to.file.mesh, &args.to.common, args, failure)
             }
+            Command::Circles(args) => report_failure("circles", &args.file.mesh, &args.common, args, failure),
             _ => Ok(()),
         }
     }

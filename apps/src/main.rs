@@ -9,6 +9,7 @@ mod circles;
 mod cli;
 mod csv;
 mod demo;
+mod domain;
 mod failure;
 mod figures;
 mod flow;
@@ -66,6 +67,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Flow(args) => flow::run(args, &control),
         Command::Uniformize(args) => uniform::uniformize(args, &control),
         Command::Cover(args) => uniform::cover(args, &control),
+        Command::Circles(args) => domain::run(args, &control),
         Command::Info(args) => info::run(args, &control),
         Command::Repair(args) => repair::run(args, &control),
         Command::Spline(args) => match &args.command {

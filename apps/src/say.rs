@@ -99,21 +99,28 @@ pub fn ending<T>(done: &Done<T>, solved: &Solved) -> String {
     for (wishes, why) in failed.by_cause() {
         text += &format!("FAILED   --{}: {why}\n", wishes.join(", --"));
     }
-    text += &match checks.failed().as_slice() {
-        [] if failed.0.is_empty() => "checks   all hold\n".into(),
-        [] => "checks   all hold of what was made\n".into(),
-        failed => {
-            let named = failed.iter().map(|name| {
-                let c = checks.0[name];
-                format!("{name} = {:.3e}, limit {:.3e}", c.value, c.limit)
-            });
-            format!("checks   FAILED: {}\n", named.collect::<Vec<_>>().join("; "))
-        }
-    };
+    text += &checks.told(failed.0.is_empty());
     if !files.is_empty() {
         text += &format!("wrote    {}\n", files.join(", "));
     }
     text + &format!("{seconds:.2} s\n")
+}
+
+impl Checks {
+    /// Whether all hold, or which do not; `whole`: everything that was asked for was made.
+    pub fn told(&self, whole: bool) -> String {
+        match self.failed().as_slice() {
+            [] if whole => "checks   all hold\n".into(),
+            [] => "checks   all hold of what was made\n".into(),
+            failed => {
+                let named = failed.iter().map(|name| {
+                    let c = self.0[name];
+                    format!("{name} = {:.3e}, limit {:.3e}", c.value, c.limit)
+                });
+                format!("checks   FAILED: {}\n", named.collect::<Vec<_>>().join("; "))
+            }
+        }
+    }
 }
 
 /// τ of a flat torus, after what else is said of its layout.

@@ -175,6 +175,7 @@ impl Parts {
             cones: &self.cones,
             circles: &self.circles,
             dual_circles: &self.dual_circles,
+            ..Flat::default()
         }
     }
 }

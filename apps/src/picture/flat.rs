@@ -37,6 +37,7 @@ pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style) -> Sheet {
     if style.wire {
         wire(flat, &mut canvas);
     }
+    rounds(flat, &mut canvas);
     circles(flat, &mut canvas);
     lines(flat, &mut canvas);
     canvas.sheet.cut("layout")
@@ -50,7 +51,7 @@ fn fit(flat: &Flat<'_>, style: &Style) -> Fit {
     let ends = |c: &Circle| [-1.0, 1.0].map(|s| [c.center[0] + s * c.radius, c.center[1] + s * c.radius]);
     let points = flat.corner_uv.iter().flatten().copied();
     let points = points.chain(flat.frame.iter().map(|side| side.0));
-    Fit::new(points.chain(flat.circles.iter().flat_map(ends)), style.size)
+    Fit::new(points.chain(flat.circles.iter().chain(flat.rims).flat_map(ends)), style.size)
 }
 
 /// The pattern over colours, or on a ground of its own; without a pattern one colour.
@@ -119,6 +120,25 @@ fn wire(flat: &Flat<'_>, canvas: &mut Canvas<'_>) {
     for (class, sides) in classes.into_iter().enumerate().skip(1) {
         canvas.wire(class as f64 / WIRE_CLASSES as f64, sides.into_iter());
     }
+}
+
+/// Round holes and rims.
+fn rounds(flat: &Flat<'_>, canvas: &mut Canvas<'_>) {
+    let circles = |circles: &[Circle]| {
+        let mut path = Path::default();
+        for Circle { center, radius } in circles {
+            let radius = canvas.fit.scale * radius;
+            if (LEAST_RADIUS..MOST_RADIUS).contains(&radius) {
+                path.circle(canvas.fit.apply(*center), radius);
+            }
+        }
+        path
+    };
+    let [holes, rims] = [circles(flat.holes), circles(flat.rims)];
+    let width = 2.0 * canvas.style.line();
+    canvas.sheet.fill([1.0; 3], &holes);
+    canvas.sheet.stroke(INK, width, &holes);
+    canvas.sheet.stroke(INK, width, &rims);
 }
 
 /// Circles, the lines of small ones thinner.

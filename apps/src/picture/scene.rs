@@ -45,6 +45,10 @@ pub struct Flat<'a> {
     pub cones: &'a [([f64; 2], f64)],
     pub circles: &'a [Circle],
     pub dual_circles: &'a [Circle],
+    /// Round holes: nothing is seen inside, and their edge is drawn as the circle that it is.
+    pub holes: &'a [Circle],
+    /// Circles that bound the layout from outside.
+    pub rims: &'a [Circle],
 }
 
 /// A quantity on the surface, to be shown in colours.
