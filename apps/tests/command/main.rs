@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod attributes;
+mod boundaries;
 mod charts;
 mod complex;
 mod cover;
