@@ -5,6 +5,7 @@
 
 mod attributes;
 mod charts;
+mod circles;
 mod complex;
 mod cover;
 mod files;
