@@ -8,6 +8,7 @@ use crate::options::Common;
 use crate::output::{self, Outputs};
 use crate::repair::RepairArgs;
 use crate::report::{Checks, Figures, InputSummary, Report, Seconds};
+use crate::spline::SplineArgs;
 use crate::uniform::{CoverArgs, UniformizeArgs};
 use clap::{Args, Parser, Subcommand};
 use serde::Serialize;
@@ -50,6 +51,9 @@ pub enum Command {
     /// A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface
     #[command(after_help = crate::domain::HELP)]
     Circles(CirclesArgs),
+    /// Triangular B-splines: fitted to meshes, evaluated
+    #[command(after_help = crate::spline::HELP)]
+    Spline(SplineArgs),
     /// Make a sample surface
     #[command(after_help = crate::make::HELP)]
     Make(crate::make::MakeArgs),

@@ -1,6 +1,6 @@
 //! What commands say on stdout: a few lines for people. All numbers are in the report.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, names_element};
 use crate::input::Input;
 use crate::output::is_stdout;
 use crate::report::{Checks, Done};
@@ -17,8 +17,14 @@ const SLIVER: f64 = 0.1;
 /// What commands name that write no file.
 pub const NO_FILES: &[&str] = &[];
 
-/// Print lines on stdout; on stderr where one of the files that were written is stdout. A reader that has gone away is no error.
+/// Print the lines of a summary, and where elements are named that their numbers begin at 0.
 pub fn lines(text: &str, files: &[impl AsRef<Path>]) -> Result<(), Failure> {
+    let note = if names_element(text) { "elements are numbered from 0\n" } else { "" };
+    print(&format!("{text}{note}"), files)
+}
+
+/// Print on stdout; on stderr where one of the files that were written is stdout. A reader that has gone away is no error.
+pub fn print(text: &str, files: &[impl AsRef<Path>]) -> Result<(), Failure> {
     let taken = files.iter().any(|file| is_stdout(file.as_ref()));
     let mut out: Box<dyn Write> = if taken { Box::new(io::stderr()) } else { Box::new(io::stdout()) };
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
