@@ -48,12 +48,12 @@ pub enum Command {
     /// A finite piece of the universal cover, with the group that rebuilds the surface from one copy
     #[command(after_help = crate::uniform::COVER_HELP)]
     Cover(CoverArgs),
-    /// Triangular B-splines: fitted to meshes, evaluated
-    #[command(after_help = crate::spline::HELP)]
-    Spline(SplineArgs),
     /// A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface
     #[command(after_help = crate::domain::HELP)]
     Circles(CirclesArgs),
+    /// Triangular B-splines: fitted to meshes, evaluated
+    #[command(after_help = crate::spline::HELP)]
+    Spline(SplineArgs),
     /// Make a sample surface
     #[command(after_help = crate::make::HELP)]
     Make(crate::make::MakeArgs),

@@ -6,6 +6,7 @@
 mod attributes;
 mod boundaries;
 mod charts;
+mod circles;
 mod complex;
 mod cover;
 mod files;
