@@ -176,7 +176,7 @@ fn evenly(steps: &[f64], n: usize) -> Vec<usize> {
     let mut chosen = Vec::with_capacity(n);
     for k in 0..n {
         let wanted = total * k as f64 / n as f64;
-        let first = chosen.last().map_or(0, |last| last + 1);
+        let first = chosen.last().map_or(0, |&last: &usize| last + 1);
         // Those that are left have to fit behind it.
         let last = steps.len() - (n - k);
         let nearest = (first..=last)

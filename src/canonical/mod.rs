@@ -15,6 +15,7 @@
 
 pub mod boundary;
 mod candidates;
+pub mod circle_domain;
 mod lift;
 mod puncture;
 pub mod quotient;
@@ -24,6 +25,7 @@ mod tries;
 pub mod uniformize;
 
 pub use boundary::{Boundary, Corner, Corners};
+pub use circle_domain::{CircleDomain, CircleDomainOptions, DomainCircle, Normalisation, circle_domain};
 pub use quotient::{Quotient, QuotientOptions, quotient_of, uniformize_quotient};
 pub use sphere::{Sphere, SphereOptions, SphereReport, uniformize_sphere};
 pub use uniformize::{Uniformization, uniformize};

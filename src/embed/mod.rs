@@ -19,6 +19,7 @@ pub mod overlap;
 pub mod pack;
 mod pieces;
 pub mod place;
+pub(crate) mod planar;
 mod polygon;
 pub mod quality;
 pub mod shape;

@@ -6,6 +6,7 @@
 mod attributes;
 mod boundaries;
 mod charts;
+mod circles;
 mod complex;
 mod cover;
 mod files;
@@ -18,6 +19,7 @@ mod outputs;
 mod picture;
 mod repair;
 mod run;
+mod spline;
 mod surfaces;
 mod uniformize;
 mod usage;
