@@ -3,7 +3,7 @@
 
 mod chart_growth;
 pub mod charts;
-mod corner;
+
 pub mod cover;
 pub mod deck;
 mod develop;

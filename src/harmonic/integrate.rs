@@ -1,17 +1,17 @@
-//! Integrals of complex forms: over paths, and over the surface opened along a cut.
+//! Integrals of complex forms over the surface opened along a cut.
 //!
 //! ```
 //! use ricci::harmonic::{Domain, FormsOptions, HarmonicForms, PeriodMatrix, integrate};
 //! use ricci::topology::cut_graph;
 //! use ricci::{Control, Surface, mesh::shapes};
-//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
+//! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 48, 24)?)?;
 //! let control = Control::new();
 //! let forms = HarmonicForms::new(&Domain::new(&torus, &control)?, &FormsOptions::default(), &control)?;
 //! let form = PeriodMatrix::new(&forms)?.basis_form(&forms, 0)?;
 //! let domain = &forms.domain;
 //! let cut = cut_graph(domain.mesh(), domain.lengths(), &[], &control)?;
 //! let layout = integrate(domain, &form, &cut)?;
-//! assert!(layout.flipped.is_empty() && (layout.dilatation(domain).1 - 1.0).abs() < 0.1);
+//! assert!(layout.flipped.is_empty() && (layout.dilatation(domain).0 - 1.0).abs() < 0.1);
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
@@ -20,17 +20,30 @@ use super::one_form::ComplexForm;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{Complex, add, doubled_area};
 use crate::geometry::predicates::orientation;
-use crate::mesh::{FaceId, PerFace};
-use crate::topology::{CutGraph, cut::is_disk};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge};
+use crate::metric::Refinement;
+use crate::topology::{CutGraph, cut::is_disk, number_corners};
 use std::cmp::Ordering;
+use std::collections::VecDeque;
+use std::sync::Arc;
 
-/// The surface opened along a cut, drawn by the integral of a complex form: conformal where that is holomorphic, up to O(h²).
+/// What is drawn.
+#[derive(Debug, Clone, PartialEq)]
+enum Drawn {
+    Mesh(Arc<Mesh>),
+    Refinement(Arc<Refinement>),
+}
+
+/// A surface opened along a cut, drawn by the integral of a complex form: conformal where that is holomorphic, up to O(h²).
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormLayout {
-    /// The cut on the domain's triangulation.
-    pub cut: CutGraph,
-    /// Per face the points of its corners, in corner order.
-    pub corners: PerFace<[Complex; 3]>,
+    drawn: Drawn,
+    /// The edges along which the surface is opened.
+    pub is_cut: PerEdge<bool>,
+    /// Per half-edge, the index into `points` of the corner at its origin, in its face ([`crate::embed::Layout::corner_index`]).
+    pub corner_index: PerHalfedge<u32>,
+    /// Coordinates of the vertices of the opened surface.
+    pub points: Vec<Complex>,
     /// Faces that are not counterclockwise: those that hold a zero of the form. By exact arithmetic.
     pub flipped: Vec<FaceId>,
 }
@@ -47,45 +60,90 @@ pub fn integrate(domain: &Domain, form: &ComplexForm, cut: &CutGraph) -> Result<
     if !is_disk(mesh, &cut.is_cut) {
         return Err(Error::Layout("the cut does not open the surface into a disk".into()));
     }
-    let mut corners = PerFace::filled(mesh.n_faces(), [[f64::NAN; 2]; 3]);
+    let mut corners = vec![[[f64::NAN; 2]; 3]; mesh.n_faces()];
     let mut reached = PerFace::filled(mesh.n_faces(), false);
-    let mut open = std::collections::VecDeque::new();
-    if let Some(h) = mesh.faces().next().map(|f| mesh.face_halfedge(f)) {
-        open.push_back((h, [0.0; 2]));
-    }
+    let start = mesh.faces().next().map(|f| (mesh.face_halfedge(f), [0.0; 2]));
+    let mut open: VecDeque<(HalfedgeId, Complex)> = start.into_iter().collect();
     while let Some((h, start)) = open.pop_front() {
         let Some((f, k)) = mesh.corner(h).filter(|(f, _)| !reached[*f]) else { continue };
         reached[f] = true;
-        let next = mesh.next(h);
-        let points = [start, add(start, form.along(h)), add(add(start, form.along(h)), form.along(next))];
-        (0..3).for_each(|i| corners[f][(k + i) % 3] = points[i]);
-        for (i, side) in [h, next, mesh.next(next)].into_iter().enumerate() {
+        let sides = [h, mesh.next(h), mesh.prev(h)];
+        let second = add(start, form.along(h));
+        let points = [start, second, add(second, form.along(sides[1]))];
+        for (i, side) in sides.into_iter().enumerate() {
+            corners[f.index()][(k + i) % 3] = points[i];
             if !cut.is_cut[side.edge()] {
                 // The twin starts where the side ends.
                 open.push_back((side.twin(), points[(i + 1) % 3]));
             }
         }
     }
-    let is_left = |f: &FaceId| {
-        let [a, b, c] = corners[*f];
-        orientation(a, b, c) == Ordering::Greater
-    };
-    let flipped = mesh.faces().filter(|f| !is_left(f)).collect();
-    Ok(FormLayout { cut: cut.clone(), corners, flipped })
+    Ok(FormLayout::new(Drawn::Mesh(mesh.clone()), cut.is_cut.clone(), &corners))
 }
 
 impl FormLayout {
-    /// Quasi-conformal dilatation of the faces that are not flipped: area-weighted mean, and the dilatation that 99% of their area stay
-    /// below (at zeros of the form it is unbounded).
+    fn new(drawn: Drawn, is_cut: PerEdge<bool>, corners: &[[Complex; 3]]) -> FormLayout {
+        let mesh = drawn.mesh();
+        let (corner_index, n) = number_corners(mesh, &is_cut);
+        let mut points = vec![[f64::NAN; 2]; n];
+        for f in mesh.faces() {
+            let placed = mesh.face_halfedges(f).into_iter().zip(corners[f.index()]);
+            placed.for_each(|(h, z)| points[corner_index[h] as usize] = z);
+        }
+        let is_left = |f: &FaceId| {
+            let [a, b, c] = mesh.face_halfedges(*f).map(|h| points[corner_index[h] as usize]);
+            orientation(a, b, c) == Ordering::Greater
+        };
+        let flipped = mesh.faces().filter(|f| !is_left(f)).collect();
+        FormLayout { is_cut, corner_index, points, flipped, drawn }
+    }
+
+    /// The same drawing on a common refinement of the domain's triangulation and the given one ([`Domain::refinement`]).
+    ///
+    /// # Errors
+    /// [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a drawing of a refinement.
+    pub fn refined(&self, refinement: &Arc<Refinement>) -> Result<FormLayout> {
+        let Drawn::Mesh(mesh) = &self.drawn else {
+            return Err(Error::Layout("a drawing of a refinement has no other refinement".into()));
+        };
+        let corners: Vec<[Complex; 3]> = mesh.faces().map(|f| self.face(f)).collect();
+        let corners = refinement.from_final_corners(&corners)?;
+        let is_cut = |e| refinement.origin[e].result.is_some_and(|e| self.is_cut[e]);
+        let is_cut = PerEdge::from_fn(refinement.mesh.n_edges(), is_cut);
+        Ok(FormLayout::new(Drawn::Refinement(refinement.clone()), is_cut, &corners))
+    }
+
+    /// What is drawn: the domain's triangulation, or a refinement of it.
+    pub fn mesh(&self) -> &Mesh {
+        self.drawn.mesh()
+    }
+
+    /// The refinement, where one is drawn.
+    pub fn refinement(&self) -> Option<&Arc<Refinement>> {
+        match &self.drawn {
+            Drawn::Mesh(_) => None,
+            Drawn::Refinement(r) => Some(r),
+        }
+    }
+
+    /// The point of the corner at the origin of a half-edge, in its face.
+    pub fn point(&self, h: HalfedgeId) -> Complex {
+        self.points[self.corner_index[h] as usize]
+    }
+
+    /// The points of a face's corners, in corner order.
+    pub fn face(&self, f: FaceId) -> [Complex; 3] {
+        self.mesh().face_halfedges(f).map(|h| self.point(h))
+    }
+
+    /// Quasi-conformal dilatation of the faces that are not flipped, of a drawing of the domain's own triangulation: area-weighted mean,
+    /// and what 99% of their area stay below (at zeros of the form it is unbounded).
     pub fn dilatation(&self, domain: &Domain) -> (f64, f64) {
-        let mut all: Vec<(f64, f64)> = Vec::with_capacity(self.corners.len());
+        let mut all: Vec<(f64, f64)> = Vec::with_capacity(domain.mesh().n_faces());
         for f in domain.mesh().faces() {
-            let drawn = doubled_area(self.corners[f]);
-            if drawn > 0.0 {
-                all.push((
-                    dilatation(domain.cotangents()[f], self.corners[f], drawn),
-                    domain.face_areas()[f],
-                ));
+            let doubled = doubled_area(self.face(f));
+            if doubled > 0.0 {
+                all.push((dilatation(domain.cotangents()[f], self.face(f), doubled), domain.face_areas()[f]));
             }
         }
         all.sort_by(|x, y| x.0.total_cmp(&y.0));
@@ -97,6 +155,15 @@ impl FormLayout {
             below >= 0.99 * total
         });
         (mean, most.map_or(f64::NAN, |m| m.0))
+    }
+}
+
+impl Drawn {
+    fn mesh(&self) -> &Mesh {
+        match self {
+            Drawn::Mesh(mesh) => mesh,
+            Drawn::Refinement(r) => &r.mesh,
+        }
     }
 }
 

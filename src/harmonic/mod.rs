@@ -24,6 +24,7 @@ pub mod laplace;
 pub mod one_form;
 pub mod operators;
 pub mod periods;
+pub mod trajectories;
 pub mod zeros;
 
 pub use domain::Domain;
@@ -32,4 +33,5 @@ pub use integrate::{FormLayout, integrate};
 pub use laplace::Laplace;
 pub use one_form::{ComplexForm, OneForm};
 pub use periods::PeriodMatrix;
+pub use trajectories::{TrajectoryOptions, trajectories};
 pub use zeros::{Zero, indices, zeros};
