@@ -18,20 +18,24 @@
 
 pub mod cohomology;
 pub mod domain;
+pub mod even;
 pub mod forms;
 pub mod integrate;
 pub mod laplace;
 pub mod one_form;
 pub mod operators;
 pub mod periods;
+pub mod star;
 pub mod trajectories;
 pub mod zeros;
 
 pub use domain::Domain;
+pub use even::{even_combination, unevenness};
 pub use forms::{Classes, FormsOptions, HarmonicForms};
 pub use integrate::{FormLayout, integrate};
 pub use laplace::Laplace;
 pub use one_form::{ComplexForm, OneForm};
 pub use periods::PeriodMatrix;
+pub use star::with_conjugate;
 pub use trajectories::{TrajectoryOptions, trajectories};
 pub use zeros::{Zero, indices, zeros};

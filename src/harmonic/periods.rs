@@ -69,10 +69,7 @@ impl PeriodMatrix {
         let least_eigenvalue = symmetric_eigenvalues(&im)?.first().copied().unwrap_or(f64::NAN);
         let matrix: Vec<Vec<Complex>> =
             (0..g).map(|i| (0..g).map(|j| [-x[j][i], im[i][j]]).collect()).collect();
-        // G S: the columns of each handle change places, the second one's sign turned.
-        let star_row =
-            |row: &Vec<f64>| (0..2 * g).map(|l| if l % 2 == 0 { -row[l + 1] } else { row[l - 1] }).collect();
-        let star: Vec<Vec<f64>> = products.iter().map(star_row).collect();
+        let star = forms.star();
         let (asymmetry, star_residual) = (asymmetry(&matrix), square_plus_one(&star));
         Ok(PeriodMatrix { matrix, star, asymmetry, star_residual, least_eigenvalue })
     }
@@ -125,16 +122,6 @@ impl PeriodMatrix {
         }
         let chosen: Vec<Complex> = (0..self.genus()).map(|k| [f64::from(u8::from(k == i)), 0.0]).collect();
         self.holomorphic(forms, &chosen)
-    }
-
-    /// The conjugate `*ω` of the harmonic form with these 2g coefficients, as coefficients.
-    ///
-    /// # Errors
-    /// [`Error::Size`].
-    pub fn conjugate(&self, coefficients: &[f64]) -> Result<Vec<f64>> {
-        let n = self.star.len();
-        check_size("coefficients", coefficients.len(), n)?;
-        Ok((0..n).map(|l| (0..n).map(|k| coefficients[k] * self.star[k][l]).sum()).collect())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Forms of surfaces with boundary, and of their doubles.
 
 use crate::samples::{forms_of, in_space};
-use ricci::harmonic::{Classes, Domain, FormsOptions, HarmonicForms};
+use ricci::harmonic::{Classes, Domain, FormsOptions, HarmonicForms, with_conjugate};
 use ricci::mesh::{Double, PerEdge, VertexId, shapes};
 use ricci::{Control, Surface};
 
@@ -105,6 +105,33 @@ fn class_of(forms: &HarmonicForms, core: &[ricci::mesh::HalfedgeId]) -> Vec<f64>
     let x = [(g[1][1] * c[0] - g[0][1] * c[1]) / det, (g[0][0] * c[1] - g[1][0] * c[0]) / det];
     let scale = x[0] * c[0] + x[1] * c[1];
     x.map(|x| x / scale).to_vec()
+}
+
+/// dφ/2π of the round annulus has the conjugate −d log r/2π, up to O(h²).
+#[test]
+fn the_conjugate_of_the_angle_is_the_logarithm_of_the_radius() {
+    let error = |n: usize| {
+        let surface = in_space(&shapes::annulus(0.4, 1.0, n, 5 * n).unwrap());
+        let [absolute, relative] = [Classes::Absolute, Classes::Relative].map(|c| of_classes(&surface, c));
+        let form = with_conjugate(&absolute, &relative, &[1.0]).unwrap();
+        let around = form.over(&absolute.basis.loops[0])[0];
+        let log = |v: VertexId| {
+            let [x, y, _] = surface.positions().unwrap()[v.index()];
+            x.hypot(y).ln() / std::f64::consts::TAU
+        };
+        let mesh = absolute.domain.mesh();
+        // Counterclockwise or clockwise, as the loop runs.
+        let off = |sign: f64| {
+            let miss = |e| {
+                let [a, b] = mesh.ends(e).map(log);
+                (form.0[e][1] + sign * around * (b - a)).abs()
+            };
+            mesh.edges().map(miss).fold(0.0, f64::max)
+        };
+        off(1.0).min(off(-1.0)) * n as f64
+    };
+    let errors = [4, 8, 16].map(error);
+    assert!(errors.windows(2).all(|pair| 3.0 * pair[1] <= pair[0]), "{errors:?}");
 }
 
 #[test]
