@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::flow_args::FlowArgs;
+use crate::forms::FormsArgs;
 use crate::info::{DefectFigures, InfoArgs};
 use crate::options::Common;
 use crate::output::{self, Outputs};
@@ -46,6 +47,9 @@ pub enum Command {
     /// A finite piece of the universal cover, with the group that rebuilds the surface from one copy
     #[command(after_help = crate::uniform::COVER_HELP)]
     Cover(CoverArgs),
+    /// Harmonic and holomorphic 1-forms, period matrix, zeros and trajectories
+    #[command(after_help = crate::forms::HELP)]
+    Forms(FormsArgs),
     /// Make a sample surface
     #[command(after_help = crate::make::HELP)]
     Make(crate::make::MakeArgs),
@@ -70,6 +74,7 @@ impl Command {
             Command::Flow(args) => report_failure("flow", &args.to.file.mesh, &args.to.common, args, failure),
             Command::Info(args) => report_failure("info", &args.file.mesh, &args.common, args, failure),
             Command::Repair(args) => report_failure("repair", &args.mesh, &args.common, args, failure),
+            Command::Forms(args) => report_failure("forms", &args.file.mesh, &args.common, args, failure),
             Command::Uniformize(UniformizeArgs { canonical: args, .. }) => {
                 report_failure("uniformize", &args.to.file.mesh, &args.to.common, args, failure)
             }

@@ -14,6 +14,7 @@ mod figures;
 mod flow;
 mod flow_args;
 mod flow_summary;
+mod forms;
 mod gallery;
 mod info;
 mod input;
@@ -64,6 +65,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Flow(args) => flow::run(args, &control),
         Command::Uniformize(args) => uniform::uniformize(args, &control),
         Command::Cover(args) => uniform::cover(args, &control),
+        Command::Forms(args) => forms::run(args, &control),
         Command::Info(args) => info::run(args, &control),
         Command::Repair(args) => repair::run(args, &control),
         Command::Make(args) => make::run(args),

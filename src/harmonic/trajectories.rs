@@ -44,6 +44,8 @@ pub type OnHalfedge = (HalfedgeId, f64);
 
 /// Share of the spacing down to which lines may approach each other before one of them ends [JL97].
 const NEAREST: f64 = 0.55;
+/// Lines shorter than this many spacings, as there are between others near zeros, are left out.
+const SHORTEST: f64 = 1.5;
 /// A line looks for others after each such share of the spacing.
 const LOOK: f64 = 0.25;
 
@@ -89,7 +91,7 @@ pub fn trajectories(
         let f = FaceId::from(k * stride % mesh.n_faces());
         let centre = tracer.centre(f);
         if tracer.scale[f.index()] > 0.0 && !tracer.is_near(f, centre, 1.0, usize::MAX) {
-            found.extend(tracer.trace(f, centre[1], found.len()));
+            found.extend(tracer.trace(f, centre[1], k));
         }
     }
     Ok(found)
@@ -141,16 +143,17 @@ impl Tracer<'_> {
     fn trace(&mut self, f: FaceId, level: f64, line: usize) -> Option<Vec<OnHalfedge>> {
         let [first, last] = self.crossings(f, level).try_into().ok()?;
         self.mark(f, level, [first, last], line);
-        let mut points = self.follow(first, line);
+        let (mut points, back) = self.follow(first, line);
         points.reverse();
         points.push(first);
         points.push(last);
-        points.extend(self.follow(last, line));
-        Some(points)
+        let (ahead, length) = self.follow(last, line);
+        points.extend(ahead);
+        (back + length > SHORTEST * self.spacing).then_some(points)
     }
 
-    /// The points after `from`, where the line leaves a face.
-    fn follow(&mut self, from: OnHalfedge, line: usize) -> Vec<OnHalfedge> {
+    /// The points after `from`, where the line leaves a face, and the length that they add.
+    fn follow(&mut self, from: OnHalfedge, line: usize) -> (Vec<OnHalfedge>, f64) {
         let (mut points, mut length, mut unseen) = (Vec::new(), 0.0, 0.0);
         let mut at = from;
         while length < 0.5 * self.longest {
@@ -175,7 +178,7 @@ impl Tracer<'_> {
             points.push(next);
             at = next;
         }
-        points
+        (points, length)
     }
 
     fn mark(&mut self, f: FaceId, level: f64, ends: [OnHalfedge; 2], line: usize) {

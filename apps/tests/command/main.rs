@@ -10,6 +10,7 @@ mod cover;
 mod files;
 mod flips;
 mod flow;
+mod forms;
 mod info;
 mod make;
 mod on_input;
