@@ -126,6 +126,21 @@ impl Domain {
         if self.metric.is_unflipped() { Ok(None) } else { self.metric.refinement(control).map(Some) }
     }
 
+    /// `L u` for a function of the vertices (V entries): `Σ w_ij (u_i − u_j)` over the edges of each.
+    ///
+    /// # Panics
+    /// If `u` has fewer entries.
+    pub fn apply_laplacian(&self, u: &[f64]) -> Vec<f64> {
+        let mut image = vec![0.0; u.len()];
+        for e in self.mesh().edges() {
+            let [i, j] = self.mesh().ends(e).map(|v| v.index());
+            let flux = self.weights[e] * (u[i] - u[j]);
+            image[i] += flux;
+            image[j] -= flux;
+        }
+        image
+    }
+
     /// Dirichlet energy `½ Σ w_e (u_j − u_i)²` of a function that is linear on the faces (V entries).
     ///
     /// # Errors

@@ -24,13 +24,15 @@ use std::time::Instant;
 /// The number of a vertex that is held.
 const HELD: u32 = u32::MAX;
 
-/// The matrix of [`Domain::laplacian`] between the vertices that are not held, factorised.
+/// The matrix of [`Domain::laplacian`] between the vertices that are not held, maybe with a mass added, factorised.
 pub struct Laplace<'a> {
     domain: &'a Domain,
     /// Per vertex its row, or [`HELD`].
     row: Vec<u32>,
     free: Vec<u32>,
+    pattern: Pattern,
     cholesky: Cholesky,
+    mass: Option<Vec<f64>>,
     /// Seconds of assembling, analysing and factorising.
     pub seconds: [f64; 3],
 }
@@ -46,46 +48,97 @@ impl<'a> Laplace<'a> {
         held: impl Fn(VertexId) -> bool,
         control: &Control,
     ) -> Result<Laplace<'a>> {
+        let mut held: Vec<bool> = domain.mesh().vertices().map(held).collect();
+        if !held.contains(&true)
+            && let Some(first) = held.first_mut()
+        {
+            *first = true;
+        }
+        Laplace::analysed(domain, &held, None, control)
+    }
+
+    /// The matrix `M + L` for a mass per vertex (V entries, positive), no vertex held: an implicit step of length τ of the heat flow has
+    /// the mass ⋆0/τ.
+    ///
+    /// # Errors
+    /// Those of [`Laplace::new`]; [`Error::Size`].
+    pub fn with_mass(domain: &'a Domain, mass: &[f64], control: &Control) -> Result<Laplace<'a>> {
+        let n = domain.mesh().n_vertices();
+        check_size("masses", mass.len(), n)?;
+        Laplace::analysed(domain, &vec![false; n], Some(mass.to_vec()), control)
+    }
+
+    fn analysed(
+        domain: &'a Domain,
+        held: &[bool],
+        mass: Option<Vec<f64>>,
+        control: &Control,
+    ) -> Result<Laplace<'a>> {
         control.check()?;
         let mesh = domain.mesh();
         let start = Instant::now();
-        let mut row: Vec<u32> = mesh.vertices().map(|v| if held(v) { HELD } else { 0 }).collect();
-        if !row.contains(&HELD) && !row.is_empty() {
-            row[0] = HELD;
-        }
-        let free: Vec<u32> = (0..row.len() as u32).filter(|&v| row[v as usize] != HELD).collect();
+        let free: Vec<u32> = (0..held.len() as u32).filter(|&v| !held[v as usize]).collect();
+        let mut row = vec![HELD; held.len()];
         free.iter().enumerate().for_each(|(k, &v)| row[v as usize] = k as u32);
         let rows = |e| mesh.ends(e).map(|v| row[v.index()]);
-        let is_inner = |[i, j]: &[u32; 2]| *i != HELD && *j != HELD && i != j;
-        let pairs: Vec<_> = mesh.edges().map(rows).filter(is_inner).map(|[i, j]| (i, j)).collect();
-        let pattern = Pattern::new(free.len(), &pairs)?;
+        let pairs = mesh.edges().map(rows).filter(|[i, j]| *i != HELD && *j != HELD).map(|[i, j]| (i, j));
+        let pattern = Pattern::new(free.len(), &pairs.collect::<Vec<_>>())?;
+        let assembled = start.elapsed().as_secs_f64();
+        control.check()?;
+        let cholesky = Cholesky::analyse(&pattern)?;
+        let seconds = [assembled, start.elapsed().as_secs_f64() - assembled, 0.0];
+        let mut laplace = Laplace { domain, row, free, pattern, cholesky, mass, seconds };
+        control.check()?;
+        laplace.factor()?;
+        Ok(laplace)
+    }
+
+    /// Factorise anew with another mass.
+    ///
+    /// # Errors
+    /// [`Error::Size`]; [`Error::Factorisation`].
+    pub fn set_mass(&mut self, mass: &[f64]) -> Result<()> {
+        check_size("masses", mass.len(), self.row.len())?;
+        self.mass = Some(mass.to_vec());
+        self.factor()
+    }
+
+    fn factor(&mut self) -> Result<()> {
+        let start = Instant::now();
+        let Laplace { domain, pattern, row, free, mass, cholesky, seconds } = self;
         let mut values = vec![0.0; pattern.entries()];
-        for e in mesh.edges() {
-            let (weight, [i, j]) = (domain.weights()[e], rows(e));
+        for e in domain.mesh().edges() {
+            let (weight, [i, j]) = (domain.weights()[e], domain.mesh().ends(e).map(|v| row[v.index()]));
             if i == j {
                 continue;
             }
-            [i, j]
-                .into_iter()
-                .filter(|&i| i != HELD)
-                .for_each(|i| values[pattern.diagonal(i as usize)] += weight);
-            if let Some(k) = is_inner(&[i, j]).then(|| pattern.position(i as usize, j as usize)).flatten() {
+            let free = [i, j].into_iter().filter(|&i| i != HELD);
+            free.for_each(|i| values[pattern.diagonal(i as usize)] += weight);
+            if let Some(k) =
+                if i == HELD || j == HELD { None } else { pattern.position(i as usize, j as usize) }
+            {
                 values[k] -= weight;
             }
         }
-        let assembled = Instant::now();
-        control.check()?;
-        let mut cholesky = Cholesky::analyse(&pattern)?;
-        let analysed = Instant::now();
-        control.check()?;
-        cholesky.factor(Symmetric { pattern: &pattern, values: &values }).map_err(|_| Error::Factorisation {
+        for (k, &v) in free.iter().enumerate() {
+            values[pattern.diagonal(k)] += mass.as_ref().map_or(0.0, |mass| mass[v as usize]);
+        }
+        let assembled = start.elapsed().as_secs_f64();
+        let matrix = Symmetric { pattern, values: &values };
+        cholesky.factor(matrix).map_err(|_| Error::Factorisation {
             size: free.len(),
             message: "the Laplacian is not positive definite: hold a vertex of every component, and use the Delaunay \
                       triangulation"
                 .into(),
         })?;
-        let seconds = [assembled - start, analysed - assembled, analysed.elapsed()].map(|s| s.as_secs_f64());
-        Ok(Laplace { domain, row, free, cholesky, seconds })
+        seconds[0] += assembled;
+        seconds[2] += start.elapsed().as_secs_f64() - assembled;
+        Ok(())
+    }
+
+    /// The mass that is added, per vertex.
+    pub fn mass(&self) -> Option<&[f64]> {
+        self.mass.as_deref()
     }
 
     /// Number of vertices that are not held.
@@ -142,15 +195,12 @@ impl<'a> Laplace<'a> {
         Ok(())
     }
 
-    /// `L u` (V entries).
+    /// `L u`, or `(M + L) u` (V entries).
     fn apply(&self, u: &[f64]) -> Vec<f64> {
-        let mut out = vec![0.0; u.len()];
-        for e in self.domain.mesh().edges() {
-            let [i, j] = self.domain.mesh().ends(e).map(|v| v.index());
-            let flux = self.domain.weights()[e] * (u[i] - u[j]);
-            out[i] += flux;
-            out[j] -= flux;
+        let mut image = self.domain.apply_laplacian(u);
+        if let Some(mass) = &self.mass {
+            (0..u.len()).for_each(|v| image[v] += mass[v] * u[v]);
         }
-        out
+        image
     }
 }

@@ -11,11 +11,11 @@
 //! ```
 
 use super::one_form::{ComplexForm, OneForm};
-use crate::geometry::complex::{Complex, cross, dot, neg, norm};
+use crate::geometry::complex::{cross, dot, neg, norm};
 use crate::mesh::union_find::UnionFind;
-use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerVertex, VertexId};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerFace, PerVertex, VertexId};
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
+use std::f64::consts::TAU;
 
 /// Indices of a real form: at vertices inside `1 − s/2`, s being the number of changes of sign among the half-edges that leave it, in
 /// turn; at faces 1 if the signs around it agree, else 0. Boundary vertices have 0.
@@ -25,7 +25,15 @@ pub struct Indices {
     pub vertices: PerVertex<i64>,
     /// Per face.
     pub faces: PerFace<i64>,
+    /// Vertices where a value is lost in rounding ([`RESOLUTION`]): indices there, and in their faces, mean nothing.
+    pub unresolved: PerVertex<bool>,
+    /// The same per face.
+    pub unresolved_faces: PerFace<bool>,
 }
+
+/// Values of a form below this share of the largest one are lost in rounding: a form falls off exponentially along a horn of the
+/// surface, but is known to an absolute accuracy only, some 1e-13 of its largest value.
+pub const RESOLUTION: f64 = 1e-11;
 
 impl Indices {
     /// The sum of all: 2 − 2g on a closed surface, whatever the form.
@@ -33,9 +41,11 @@ impl Indices {
         self.vertices.iter().sum::<i64>() + self.faces.iter().sum::<i64>()
     }
 
-    /// The largest: at most 0 for a harmonic form without values 0, where the weights are positive.
+    /// The largest where values are resolved: at most 0 for a harmonic form, where the weights are positive.
     pub fn largest(&self) -> i64 {
-        self.vertices.iter().chain(&self.faces).copied().max().unwrap_or(0)
+        let at_vertices = self.vertices.iter().zip(&self.unresolved);
+        let all = at_vertices.chain(self.faces.iter().zip(&self.unresolved_faces));
+        all.filter(|(_, lost)| !**lost).map(|(index, _)| *index).max().unwrap_or(0)
     }
 }
 
@@ -53,10 +63,24 @@ pub fn indices(mesh: &Mesh, form: &OneForm) -> Indices {
         let [a, b, c] = mesh.face_halfedges(f).map(is_positive);
         i64::from(a == b && b == c)
     };
+    let unresolved = unresolved(mesh, |e| form.0[e].abs());
+    let lost = |f: FaceId| mesh.face_vertices(f).into_iter().any(|v| unresolved[v]);
     Indices {
+        unresolved_faces: PerFace::from_fn(mesh.n_faces(), lost),
         vertices: PerVertex::from_fn(mesh.n_vertices(), at_vertex),
         faces: PerFace::from_fn(mesh.n_faces(), at_face),
+        unresolved,
     }
+}
+
+/// The ends of edges whose values are lost in rounding.
+fn unresolved(mesh: &Mesh, size: impl Fn(EdgeId) -> f64) -> PerVertex<bool> {
+    let largest = mesh.edges().map(&size).fold(0.0, f64::max);
+    let mut found = PerVertex::filled(mesh.n_vertices(), false);
+    for e in mesh.edges().filter(|&e| size(e) <= RESOLUTION * largest) {
+        mesh.ends(e).into_iter().for_each(|v| found[v] = true);
+    }
+    found
 }
 
 /// A zero of a complex form.
@@ -71,32 +95,63 @@ pub struct Zero {
 /// The zeros of a complex closed form, by vertex: their multiplicities add up to 2g − 2 on a closed surface, whatever the form.
 ///
 /// Integrals of the form draw each face in the plane. Where the drawn faces around a vertex turn m + 1 times there is a zero of order m;
-/// a face that is drawn clockwise holds a simple one. Neighbouring faces and vertices with such numbers are one zero.
+/// a face that is drawn clockwise holds a simple one. Neighbouring faces and vertices with such numbers are one zero, and so is a
+/// region where values are lost in rounding ([`RESOLUTION`]), with the number that the turning around it says.
 pub fn zeros(mesh: &Mesh, form: &ComplexForm) -> Vec<Zero> {
-    let mut turned = PerVertex::filled(mesh.n_vertices(), 0.0);
-    let mut order = vec![0i64; mesh.n_vertices() + mesh.n_faces()];
-    for f in mesh.faces() {
-        let sides = mesh.face_halfedges(f).map(|h| form.along(h));
-        let clockwise = cross(sides[0], sides[1]) < 0.0;
-        let sign = if clockwise { -1.0 } else { 1.0 };
-        order[mesh.n_vertices() + f.index()] = i64::from(clockwise);
-        for (k, v) in mesh.face_vertices(f).into_iter().enumerate() {
-            turned[v] += sign * corner_angle(sides[k], neg(sides[(k + 2) % 3]));
+    let lost = unresolved(mesh, |e| norm(form.0[e]));
+    let n = mesh.n_vertices();
+    // Of vertices, then of faces; of a region where values are lost, at its first vertex.
+    let mut order = vec![0i64; n + mesh.n_faces()];
+    let mut joined = UnionFind::new(order.len());
+    let mut turned = PerVertex::filled(n, 0.0);
+    let mut regions: BTreeMap<u32, f64> = BTreeMap::new();
+    for e in mesh.edges() {
+        let [i, j] = mesh.ends(e);
+        if lost[i] && lost[j] {
+            joined.join(i.0, j.0);
         }
     }
-    for v in mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)) {
-        order[v.index()] = (turned[v] / (2.0 * PI)).round() as i64 - 1;
+    for f in mesh.faces() {
+        let (vertices, sides) = (mesh.face_vertices(f), mesh.face_halfedges(f).map(|h| form.along(h)));
+        let corner = |k: usize| [sides[k], neg(sides[(k + 2) % 3])];
+        if let Some(v) = vertices.into_iter().find(|v| lost[*v]) {
+            // Half a turn per face, less what its corners outside the region take.
+            let outside = (0..3).filter(|&k| !lost[vertices[k]]).map(|k| {
+                let [z, w] = corner(k);
+                let angle = cross(z, w).atan2(dot(z, w));
+                turned[vertices[k]] += angle;
+                angle
+            });
+            let taken: f64 = outside.sum();
+            *regions.entry(joined.root(v.0)).or_insert(0.0) += 0.5 - taken / TAU;
+            continue;
+        }
+        let clockwise = cross(sides[0], sides[1]) < 0.0;
+        order[n + f.index()] = i64::from(clockwise);
+        for (k, v) in vertices.into_iter().enumerate() {
+            let [z, w] = corner(k);
+            let angle = cross(z, w).abs().atan2(dot(z, w));
+            turned[v] += if clockwise { -angle } else { angle };
+        }
     }
-    clusters(mesh, form, &order)
+    for v in mesh.vertices() {
+        if lost[v] {
+            *regions.entry(joined.root(v.0)).or_insert(0.0) -= 1.0;
+        } else if !mesh.is_boundary_vertex(v) {
+            order[v.index()] = (turned[v] / TAU).round() as i64 - 1;
+        }
+    }
+    regions.into_iter().for_each(|(root, sum)| order[root as usize] = sum.round() as i64);
+    clusters(mesh, form, &order, joined)
 }
 
 /// Joins vertices and faces of order other than 0 that touch, and adds their orders up.
-fn clusters(mesh: &Mesh, form: &ComplexForm, order: &[i64]) -> Vec<Zero> {
+fn clusters(mesh: &Mesh, form: &ComplexForm, order: &[i64], mut joined: UnionFind) -> Vec<Zero> {
     let n = mesh.n_vertices();
     let number = |f: FaceId| (n + f.index()) as u32;
-    let mut joined = UnionFind::new(order.len());
-    // Faces of order 0 join nothing; a corner of another face belongs to its cluster, whatever its own order.
-    let mut belongs: Vec<bool> = order.iter().map(|&m| m != 0).collect();
+    // A corner of a face that counts belongs to its cluster, whatever its own order; so does a vertex of a region that counts.
+    let mut belongs: Vec<bool> =
+        (0..n).map(|v| order[joined.root(v as u32) as usize] != 0 || order[v] != 0).collect();
     for f in mesh.faces().filter(|&f| order[number(f) as usize] != 0) {
         for v in mesh.face_vertices(f) {
             joined.join(number(f), v.0);
@@ -130,9 +185,4 @@ fn clusters(mesh: &Mesh, form: &ComplexForm, order: &[i64]) -> Vec<Zero> {
     let mut all: Vec<Zero> = nearest.into_iter().map(of).filter(|zero| zero.multiplicity != 0).collect();
     all.sort_unstable_by_key(|zero| zero.vertex);
     all
-}
-
-/// The angle between two vectors, 0 to π.
-fn corner_angle(z: Complex, w: Complex) -> f64 {
-    cross(z, w).abs().atan2(dot(z, w))
 }

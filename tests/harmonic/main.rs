@@ -5,6 +5,7 @@
 mod common;
 mod forms;
 mod known;
+mod maps;
 mod open;
 mod operators;
 mod samples;
