@@ -11,6 +11,7 @@ mod files;
 mod flips;
 mod flow;
 mod forms;
+mod harmonic;
 mod info;
 mod make;
 mod on_input;
