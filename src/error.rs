@@ -215,6 +215,17 @@ pub enum Error {
     /// The metric has no layout in this space.
     #[error("layout: {0}")]
     Layout(String),
+
+    /// A spline, or what one is to be made from, is not what it must be.
+    #[error("{what} {index}: {message}")]
+    Spline {
+        /// The kind of element: patch, triangle, vertex, control point.
+        what: &'static str,
+        /// Its number.
+        index: usize,
+        /// What is wrong and what to do.
+        message: String,
+    },
 }
 
 impl Error {
@@ -229,7 +240,7 @@ impl Error {
     }
 
     /// Stable number of the variant: 1–99 calls, 100s files, 200s meshes, 300s metrics, 400s targets, 500s
-    /// solvers, 600s layouts.
+    /// solvers, 600s layouts, 700s splines.
     pub fn code(&self) -> u32 {
         match self {
             Error::Size { .. } => 1,
@@ -252,6 +263,7 @@ impl Error {
             Error::TargetBelow { .. } => 403,
             Error::Factorisation { .. } => 500,
             Error::Layout(_) => 600,
+            Error::Spline { .. } => 700,
         }
     }
 }

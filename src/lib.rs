@@ -14,9 +14,10 @@
 //! | [`flow`] | Newton and gradient flow, cones |
 //! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |
 //! | [`canonical`] | closed surfaces in their canonical shape |
+//! | [`spline`] | triangular B-splines |
 //!
-//! Two cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf,
-//! `gifti` reads .gii.
+//! Three cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf,
+//! `gifti` reads .gii, `json` reads and writes splines.
 
 // Readers and writers of formats, whose functions follow their formats, are excepted in mesh/io.
 #![warn(clippy::too_many_lines)]
@@ -32,6 +33,7 @@ pub mod linalg;
 pub mod mesh;
 pub mod metric;
 pub mod parallel;
+pub mod spline;
 pub mod topology;
 
 pub use control::Control;

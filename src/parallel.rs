@@ -96,6 +96,18 @@ pub fn fill<T: Send>(out: &mut [T], f: impl Fn(usize) -> T + Sync) {
     });
 }
 
+/// [`fill`] with memory that is made once for many elements: `out[i] = f(&mut memory, i)`.
+pub fn fill_with<T: Send, M>(
+    out: &mut [T],
+    new: impl Fn() -> M + Sync,
+    f: impl Fn(&mut M, usize) -> T + Sync,
+) {
+    in_chunks(out.chunks_mut(CHUNK), |c, chunk| {
+        let mut memory = new();
+        chunk.iter_mut().enumerate().for_each(|(i, x)| *x = f(&mut memory, c * CHUNK + i));
+    });
+}
+
 /// `(a[i], b[i]) = f(i)` for every i of two arrays of the same length, as [`fill`].
 pub fn fill_both<A: Send, B: Send>(a: &mut [A], b: &mut [B], f: impl Fn(usize) -> (A, B) + Sync) {
     in_chunks(a.chunks_mut(CHUNK).zip(b.chunks_mut(CHUNK)), |c, (a, b)| {

@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::domain::CirclesArgs;
 use crate::failure::Failure;
 use crate::flow_args::FlowArgs;
 use crate::forms::FormsArgs;
@@ -9,6 +10,7 @@ use crate::options::Common;
 use crate::output::{self, Outputs};
 use crate::repair::RepairArgs;
 use crate::report::{Checks, Figures, InputSummary, Report, Seconds};
+use crate::spline::SplineArgs;
 use crate::uniform::{CoverArgs, UniformizeArgs};
 use clap::{Args, Parser, Subcommand};
 use serde::Serialize;
@@ -54,6 +56,12 @@ pub enum Command {
     /// Harmonic and holomorphic 1-forms, period matrix, zeros and trajectories
     #[command(after_help = crate::forms::HELP)]
     Forms(FormsArgs),
+    /// Triangular B-splines: fitted to meshes, evaluated
+    #[command(after_help = crate::spline::HELP)]
+    Spline(SplineArgs),
+    /// A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface
+    #[command(after_help = crate::domain::HELP)]
+    Circles(CirclesArgs),
     /// Make a sample surface
     #[command(after_help = crate::make::HELP)]
     Make(crate::make::MakeArgs),
@@ -88,6 +96,7 @@ impl Command {
             Command::Cover(CoverArgs { canonical: args, .. }) => {
                 report_failure("cover", &args.to.file.mesh, &args.to.common, args, failure)
             }
+            Command::Circles(args) => report_failure("circles", &args.file.mesh, &args.common, args, failure),
             _ => Ok(()),
         }
     }

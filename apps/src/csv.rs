@@ -86,6 +86,14 @@ fn refuse(path: &Path, line: usize, why: String) -> Failure {
 
 /// Rows of two fields with their line numbers; a first row `names` is a header.
 fn pairs(path: &Path, names: [&str; 2]) -> Result<Vec<(usize, [String; 2])>, Failure> {
+    read_rows(path, names)
+}
+
+/// Rows of as many fields as there are names, with their line numbers; a first row of the names is left out.
+pub fn read_rows<const N: usize>(
+    path: &Path,
+    names: [&str; N],
+) -> Result<Vec<(usize, [String; N])>, Failure> {
     let text = read_text(path)?;
     let mut rows = Vec::new();
     // Spreadsheets write a byte order mark.
@@ -94,8 +102,10 @@ fn pairs(path: &Path, names: [&str; 2]) -> Result<Vec<(usize, [String; 2])>, Fai
         let fields: Vec<_> = row.split(',').map(str::trim).collect();
         match fields.as_slice() {
             fields if rows.is_empty() && *fields == names => {}
-            &[a, b] => rows.push((i, [a.to_string(), b.to_string()])),
-            _ => return Err(refuse(path, i, format!("`{row}` is not `{},{}`", names[0], names[1]))),
+            fields => match <[&str; N]>::try_from(fields) {
+                Ok(fields) => rows.push((i, fields.map(String::from))),
+                Err(_) => return Err(refuse(path, i, format!("`{row}` is not `{}`", names.join(",")))),
+            },
         }
     }
     Ok(rows)

@@ -35,7 +35,8 @@ impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Failure::Failed(message) | Failure::Usage(message) | Failure::Input(message) => {
-                f.write_str(message)
+                f.write_str(message)?;
+                if names_element(message) { write!(f, " (elements are numbered from 0)") } else { Ok(()) }
             }
             Failure::Defects(diagnosis) => diagnosis.fmt(f),
             Failure::Unglued(diagnosis) => write!(
@@ -46,6 +47,14 @@ impl std::fmt::Display for Failure {
             Failure::Cancelled => f.write_str("cancelled; nothing was written"),
         }
     }
+}
+
+/// Whether a text names a vertex, face or edge by its number without saying where numbers begin.
+pub fn names_element(text: &str) -> bool {
+    const KINDS: [&str; 6] = ["vertex", "vertices", "face", "faces", "edge", "edges"];
+    let words: Vec<&str> = text.split_whitespace().map(|word| word.trim_start_matches('(')).collect();
+    let named = |w: &[&str]| KINDS.contains(&w[0]) && w[1].starts_with(|c: char| c.is_ascii_digit());
+    words.windows(2).any(named) && !text.contains("from 0")
 }
 
 impl From<Error> for Failure {

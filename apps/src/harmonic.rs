@@ -334,7 +334,7 @@ impl Carried {
         let boundary: Vec<_> = outer.map(|h| (at(mesh.origin(h)), at(mesh.tip(h)))).collect();
         let flat = Some(Flat { corner_uv: &corner_uv, boundary: &boundary, ..Flat::default() });
         if args.picture.is_svg() {
-            return Ok(picture::svg(&Picture { flat, ..Picture::default() }, &style));
+            return picture::svg(&Picture { flat, ..Picture::default() }, &style);
         }
         let surface = self.positions.as_ref().map(|positions| Surface {
             positions,

@@ -45,20 +45,51 @@ struct Info {
     /// The other commands accept the file as it is.
     admissible: bool,
     quality: ShapeQuality,
-    /// Number of defects by kind.
-    defect_counts: Vec<DefectCount>,
-    defects: Vec<DefectFigures>,
+    #[serde(flatten)]
+    defects: Defects,
+}
+
+/// Number of defects by kind, and all of them.
+#[derive(Serialize)]
+pub struct Defects {
+    #[serde(rename = "defect_counts")]
+    pub counts: Vec<DefectCount>,
+    #[serde(rename = "defects")]
+    pub list: Vec<DefectFigures>,
 }
 
 #[derive(Serialize)]
 pub struct DefectCount {
-    pub code: &'static str,
-    pub count: usize,
+    code: &'static str,
+    count: usize,
 }
 
-impl DefectCount {
-    pub fn of(diagnosis: &Diagnosis) -> Vec<DefectCount> {
-        diagnosis.counts().into_iter().map(|(code, count)| DefectCount { code, count }).collect()
+impl From<&Diagnosis> for Defects {
+    fn from(diagnosis: &Diagnosis) -> Self {
+        let counts =
+            diagnosis.counts().into_iter().map(|(code, count)| DefectCount { code, count }).collect();
+        Defects { counts, list: diagnosis.defects.iter().map(DefectFigures::from).collect() }
+    }
+}
+
+impl Defects {
+    /// Those of a diagnosis, and a coordinate too large to compute with: then no area is told from 0.
+    pub fn of(soup: &Soup, diagnosis: &Diagnosis) -> Self {
+        let mut defects = Defects::from(diagnosis);
+        if let Some(message) = input::out_of_range(soup) {
+            let (code, remedy) = ("coordinate_out_of_range", "scale the mesh, or give the vertex its place");
+            defects.list.retain(|defect| defect.code != "zero_area_face");
+            defects.counts.retain(|kind| kind.code != "zero_area_face");
+            defects.list.push(DefectFigures {
+                code,
+                message,
+                vertices: Vec::new(),
+                faces: Vec::new(),
+                remedy,
+            });
+            defects.counts.push(DefectCount { code, count: 1 });
+        }
+        defects
     }
 }
 
@@ -122,19 +153,13 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
 /// What a list of triangles is.
 fn of_soup(soup: &Soup) -> (Counts, Info) {
     let diagnosis = diagnose(&soup.positions, &soup.faces);
-    if let Some(message) = input::out_of_range(soup) {
-        // Angles and areas of such faces say nothing.
-        let mut info = Info::new(&diagnosis, shape_quality::of_triangles(&[], &[]));
-        let code = "coordinate_out_of_range";
-        info.defects.retain(|defect| defect.code != "zero_area_face");
-        info.defect_counts.retain(|kind| kind.code != "zero_area_face");
-        let remedy = "scale the mesh, or give the vertex its place";
-        info.defects.push(DefectFigures { code, message, vertices: Vec::new(), faces: Vec::new(), remedy });
-        info.defect_counts.push(DefectCount { code, count: 1 });
-        return (Counts::from(&diagnosis), Info { admissible: false, ..info });
-    }
     let quality = || shape_quality::of_triangles(&soup.positions, &soup.faces);
-    (Counts::from(&diagnosis), Info::new(&diagnosis, shape_of(soup).unwrap_or_else(quality)))
+    let quality = match input::out_of_range(soup) {
+        // Angles and areas of such faces say nothing.
+        Some(_) => shape_quality::of_triangles(&[], &[]),
+        None => shape_of(soup).unwrap_or_else(quality),
+    };
+    (Counts::from(&diagnosis), Info::new(Defects::of(soup, &diagnosis), quality))
 }
 
 /// What an intrinsic metric is.
@@ -143,7 +168,7 @@ fn of_metric(path: &Path, text: &str) -> Result<(Counts, Info), Failure> {
         Ok(surface) => Ok((Counts::from(&**surface.mesh()), Info::of_metric(&surface))),
         Err(Failure::Defects(diagnosis) | Failure::Unglued(diagnosis)) => {
             let quality = shape_quality::of_triangles(&[], &[]);
-            Ok((Counts::from(&*diagnosis), Info::new(&diagnosis, quality)))
+            Ok((Counts::from(&*diagnosis), Info::new(Defects::from(&*diagnosis), quality)))
         }
         Err(failure) => Err(failure),
     }
@@ -162,24 +187,14 @@ impl Info {
             faces: vec![f.0],
             remedy: "give the face three lengths of which none reaches the sum of the others (S²: nor all together 2π)",
         };
-        let defects: Vec<_> = mesh.faces().filter(broken).map(defect).collect();
-        let counted = (!defects.is_empty())
-            .then_some(DefectCount { code: "triangle_inequality", count: defects.len() });
-        Info {
-            admissible: defects.is_empty(),
-            quality: shape_quality::of_surface(surface),
-            defect_counts: counted.into_iter().collect(),
-            defects,
-        }
+        let list: Vec<_> = mesh.faces().filter(broken).map(defect).collect();
+        let count = DefectCount { code: "triangle_inequality", count: list.len() };
+        let counts = if list.is_empty() { Vec::new() } else { vec![count] };
+        Info::new(Defects { counts, list }, shape_quality::of_surface(surface))
     }
 
-    fn new(diagnosis: &Diagnosis, quality: ShapeQuality) -> Self {
-        Info {
-            admissible: diagnosis.defects.is_empty(),
-            quality,
-            defect_counts: DefectCount::of(diagnosis),
-            defects: diagnosis.defects.iter().map(DefectFigures::from).collect(),
-        }
+    fn new(defects: Defects, quality: ShapeQuality) -> Self {
+        Info { admissible: defects.list.is_empty(), quality, defects }
     }
 }
 
@@ -206,7 +221,7 @@ fn text(summary: &InputSummary, info: &Info) -> String {
     let q = &info.quality;
     text += &format!(
         "area {}, smallest angle {}, longest over shortest edge {}\nobtuse faces {}, non-Delaunay edges {}\n",
-        size(q.area, 6),
+        q.min_angle_degrees.map_or("undefined".into(), |_| size(q.area, 6)),
         q.min_angle_degrees.map_or("undefined".into(), |x| format!("{x:.4}°")),
         q.edge_ratio.map_or("undefined".into(), |x| size(x, 4)),
         percent(q.obtuse_fraction),
@@ -214,8 +229,8 @@ fn text(summary: &InputSummary, info: &Info) -> String {
     );
     text +=
         if info.admissible { "no defects\n" } else { "defects (vertices and faces are numbered from 0):\n" };
-    for DefectCount { code, count } in &info.defect_counts {
-        let of_kind = || info.defects.iter().filter(|d| d.code == *code);
+    for DefectCount { code, count } in &info.defects.counts {
+        let of_kind = || info.defects.list.iter().filter(|d| d.code == *code);
         text += &format!("\n{code}: {count}\n");
         for defect in of_kind().take(PRINTED) {
             text += &format!("  {}\n", defect.message);

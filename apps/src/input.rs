@@ -12,6 +12,7 @@ use ricci::control::Stage;
 use ricci::geometry::Space;
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::{Mesh, Point};
+use ricci::metric::Split;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -21,6 +22,8 @@ pub struct Input {
     pub surface: Surface,
     /// What else the mesh file says of vertices and corners.
     pub attributes: Attributes,
+    /// Where the surface is one whose edges were halved after it was read: which ones.
+    pub split: Option<Split>,
     /// Those of reading and building.
     pub seconds: Seconds,
 }
@@ -130,12 +133,25 @@ pub fn read(file: &MeshArgs, geometry: Option<Space>, control: &Control) -> Resu
         })
     })?;
     control.check()?;
-    Ok(Input { path, surface, attributes, seconds })
+    Ok(Input { path, surface, attributes, split: None, seconds })
 }
 
 impl Input {
     pub fn mesh(&self) -> &Mesh {
         self.surface.mesh()
+    }
+
+    /// The same input with edges halved.
+    pub fn halved(&self, split: &Split) -> ricci::Result<Input> {
+        let given = &self.attributes;
+        let attributes = Attributes {
+            normals: given.normals.as_ref().map(|values| split.from_given_vertices(values)).transpose()?,
+            corner_normals: given.corner_normals.as_ref().map(|v| split.from_given_corners(v)).transpose()?,
+            colors: given.colors.as_ref().map(|values| split.from_given_vertices(values)).transpose()?,
+            uv: given.uv.as_ref().map(|values| split.from_given_corners(values)).transpose()?,
+        };
+        let (path, surface, split) = (self.path.clone(), split.surface()?, Some(split.clone()));
+        Ok(Input { path, surface, attributes, split, seconds: self.seconds })
     }
 
     /// Positions in space; none for an intrinsic metric.

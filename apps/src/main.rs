@@ -9,6 +9,7 @@ mod circles;
 mod cli;
 mod csv;
 mod demo;
+mod domain;
 mod failure;
 mod figures;
 mod flow;
@@ -35,6 +36,7 @@ mod shape;
 mod shape_quality;
 mod show;
 mod solved;
+mod spline;
 mod timing;
 mod uniform;
 mod uv;
@@ -42,6 +44,7 @@ mod uv;
 use clap::{CommandFactory, Parser};
 use cli::{Cli, Command};
 use failure::Failure;
+use spline::SplineCommand;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -68,15 +71,20 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Cover(args) => uniform::cover(args, &control),
         Command::Harmonic(args) => harmonic::run(args, &control),
         Command::Forms(args) => forms::run(args, &control),
+        Command::Circles(args) => domain::run(args, &control),
         Command::Info(args) => info::run(args, &control),
         Command::Repair(args) => repair::run(args, &control),
+        Command::Spline(args) => match &args.command {
+            SplineCommand::Fit(args) => spline::fit(args, &control),
+            SplineCommand::Eval(args) => spline::eval(args, &control),
+        },
         Command::Make(args) => make::run(args),
         Command::Demo(args) => demo::run(args, &control),
         Command::Gallery(args) => gallery::run(args, &control),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "ricci", &mut script);
-            say::lines(&String::from_utf8_lossy(&script), say::NO_FILES).map(|()| 0)
+            say::print(&String::from_utf8_lossy(&script), say::NO_FILES).map(|()| 0)
         }
     }
 }

@@ -7,10 +7,16 @@ use crate::failure::Failure;
 use ricci::Surface;
 use ricci::flow::Solution;
 use ricci::geometry::Space;
+use ricci::geometry::triangle::angles;
 use ricci::mesh::check::Defect;
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::f64::consts::{PI, TAU};
 use std::path::Path;
+
+/// The scheme of a metric whose vertices are of several types.
+pub const MIXED: &str = "mixed";
 
 /// Largest relative difference of the two lengths that a file gives an edge, one for each of its faces: programs that compute them
 /// per face round them apart.
@@ -49,10 +55,10 @@ pub struct MetricFile<'a> {
     /// What the doubles of `lengths` lose of the lengths; left out where that is nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     lengths_lo: Option<Vec<[f64; 3]>>,
-    u: &'a [f64],
+    u: Cow<'a, [f64]>,
     conformal_factor: Vec<f64>,
-    epsilon: &'a [i8],
-    target: &'a [f64],
+    epsilon: Cow<'a, [i8]>,
+    target: Cow<'a, [f64]>,
     boundary: Vec<bool>,
     /// Per vertex its mirror image, where the surface is the double of the input: its vertices come first.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -66,18 +72,69 @@ impl<'a> MetricFile<'a> {
         let lost = metric.length_remainders(mesh)?;
         Ok(MetricFile {
             space: metric.space.name(),
-            scheme: solution.scheme()?.name(),
+            scheme: solution.class().map_or(MIXED, |class| class.scheme.name()),
             surface: LengthsFile::new(mesh, metric.space, &metric.lengths(mesh)?),
             eta: per_face(mesh, &metric.rounded_eta()),
             lengths_lo: lost.iter().any(|&lo| lo != 0.0).then(|| per_face(mesh, &lost)),
-            u: &metric.u,
+            u: Cow::Borrowed(&metric.u),
             conformal_factor: solution.initial().conformal_factor(metric)?.into_vec(),
-            epsilon: &metric.epsilon,
-            target,
+            epsilon: Cow::Borrowed(&metric.epsilon),
+            target: Cow::Borrowed(target),
             boundary: mesh.vertices().map(|v| mesh.is_boundary_vertex(v)).collect(),
             mirror: solution.double().map(|double| mesh.vertices().map(|v| double.mirror(v).0).collect()),
         })
     }
+}
+
+impl MetricFile<'_> {
+    /// Without a vertex and the faces at it, whose other vertices are on the boundary then, with whatever curvature they have there.
+    pub fn without(mut self, vertex: usize) -> Self {
+        let gone: Vec<bool> = self.surface.faces.iter().map(|f| f.contains(&(vertex as u32))).collect();
+        for face in (0..gone.len()).filter(|&f| gone[f]) {
+            self.surface.faces[face].into_iter().for_each(|v| self.boundary[v as usize] = true);
+        }
+        keep(&mut self.surface.faces, &gone);
+        keep(&mut self.surface.lengths, &gone);
+        keep(&mut self.eta, &gone);
+        self.lengths_lo.iter_mut().for_each(|lo| keep(lo, &gone));
+        self.surface.face_edges.iter_mut().for_each(|edges| keep(edges, &gone));
+        let down = |v: u32| v - u32::from(v as usize > vertex);
+        self.surface.faces.iter_mut().for_each(|f| *f = f.map(down));
+        self.u.to_mut().remove(vertex);
+        self.epsilon.to_mut().remove(vertex);
+        self.target.to_mut().remove(vertex);
+        self.conformal_factor.remove(vertex);
+        self.boundary.remove(vertex);
+        self
+    }
+
+    /// The curvature that came out in place of the target at boundary vertices (`curvature` of the file's vertices).
+    pub fn free_on_boundary(mut self, curvature: &[f64]) -> Self {
+        let target = self.target.to_mut();
+        for v in (0..target.len()).filter(|&v| self.boundary[v]) {
+            target[v] = curvature[v];
+        }
+        self
+    }
+
+    /// K of the file's lengths: 2π, or π on the boundary, less the angles.
+    pub fn curvature(&self) -> Vec<f64> {
+        let around = |boundary: &bool| if *boundary { PI } else { TAU };
+        let mut curvature: Vec<f64> = self.boundary.iter().map(around).collect();
+        for (face, lengths) in self.surface.faces.iter().zip(&self.surface.lengths) {
+            let angles = angles(Space::E2, *lengths).at;
+            face.iter().zip(angles).for_each(|(&v, angle)| curvature[v as usize] -= angle);
+        }
+        curvature
+    }
+}
+
+fn keep<T>(list: &mut Vec<T>, gone: &[bool]) {
+    let mut at = 0;
+    list.retain(|_| {
+        at += 1;
+        !gone[at - 1]
+    });
 }
 
 /// Values of edges per face, opposite its corners.

@@ -88,7 +88,7 @@ pub struct MetricArgs {
     /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
     #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
     pub on: OnChoice,
-    /// Write where the faces and vertices of --uv lie in the input's: rows output_face,source_face, then
+    /// Write where the faces and vertices of --uv lie in the input's, numbered from 0: rows output_face,source_face, then
     /// output_vertex,source_face,b0,b1,b2
     #[arg(long, value_name = "X.csv", requires = "uv")]
     pub xref: Option<FileName>,

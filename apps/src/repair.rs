@@ -1,7 +1,7 @@
 //! `ricci repair`.
 
 use crate::failure::Failure;
-use crate::info::{DefectCount, DefectFigures};
+use crate::info::{DefectFigures, Defects};
 use crate::input::read_triangles;
 use crate::options::{Common, FileName, distance};
 use crate::output::{Outputs, check_extension, check_outputs, extension, format_of};
@@ -51,7 +51,7 @@ pub struct RepairArgs {
     /// Keep one connected piece: 0 is that with the most faces
     #[arg(long, value_name = "K")]
     pub component: Option<usize>,
-    /// Write the input's vertex of each vertex and the input's face of each face
+    /// Write the input's vertex of each vertex and the input's face of each face, numbered from 0
     #[arg(long, value_name = "MAP.json")]
     pub map: Option<FileName>,
     #[command(flatten)]
@@ -95,14 +95,14 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     control.step(Stage::Write, 0.0)?;
     let mut outputs = Outputs::default();
     let left_out = timed(&mut seconds.write, || write(args, &done, &mut outputs))?;
-    let defects = &done.diagnosis.defects;
-    let text = text(args, &done, &left_out);
+    let defects = Defects::of(&done.soup, &done.diagnosis);
+    let (text, is_left) = (text(args, &done, &defects, &left_out), !defects.list.is_empty());
     if let Some(path) = &args.common.report {
         let input = InputSummary::new(&args.mesh, &diagnose(&soup.positions, &soup.faces));
         let mut checks = Checks::default();
-        checks.add("defects", defects.len() as f64, 0.0);
+        checks.add("defects", defects.list.len() as f64, 0.0);
         seconds.total = start.elapsed().as_secs_f64();
-        let report = Report::new("repair", input, Asked { weld, args }, figures(&done, left_out));
+        let report = Report::new("repair", input, Asked { weld, args }, figures(&done, left_out, &defects));
         outputs.add_report(path, &report.finished(checks, seconds))?;
     }
     control.check()?;
@@ -110,7 +110,7 @@ pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
     if !args.common.quiet {
         say::lines(&text, &files)?;
     }
-    Ok(u8::from(!defects.is_empty()))
+    Ok(u8::from(is_left))
 }
 
 /// Write the surface, the map back and the picture; returns what the surface's format leaves out.
@@ -128,14 +128,13 @@ fn write(args: &RepairArgs, done: &Repaired, outputs: &mut Outputs) -> Result<Ve
 }
 
 /// What was done, what the result is, and what is left.
-fn figures(done: &Repaired, left_out: Vec<&'static str>) -> Figures {
+fn figures(done: &Repaired, left_out: Vec<&'static str>, defects: &Defects) -> Figures {
     let (steps, diagnosis) = (&done.steps, &done.diagnosis);
     // Edges in which welding would have made more than two faces meet; numbers of the input.
     let refused = |edge: &RefusedWeld| json!({"vertices": edge.vertices, "faces": edge.faces});
-    let defects: Vec<_> = diagnosis.defects.iter().map(DefectFigures::from).collect();
     Figures::default()
         // Whether the other commands accept the result.
-        .with("admissible", defects.is_empty())
+        .with("admissible", defects.list.is_empty())
         .counts(Counts::from(diagnosis))
         .with("welded_vertices", steps.welded_vertices)
         .with("degenerate_faces", steps.degenerate_faces)
@@ -148,11 +147,11 @@ fn figures(done: &Repaired, left_out: Vec<&'static str>) -> Figures {
         .with("weld_refused", done.weld_refused.iter().map(refused).collect::<Vec<_>>())
         // Attributes that the format of the output has no place for.
         .with("left_out", left_out)
-        .with("defect_counts", json!(DefectCount::of(diagnosis)))
-        .with("defects", json!(defects))
+        .with("defect_counts", json!(defects.counts))
+        .with("defects", json!(defects.list))
 }
 
-fn text(args: &RepairArgs, repaired: &Repaired, left_out: &[&str]) -> String {
+fn text(args: &RepairArgs, repaired: &Repaired, defects: &Defects, left_out: &[&str]) -> String {
     let (steps, result) = (&repaired.steps, &repaired.diagnosis);
     let vertex = |n, what: &str| (n, count(n, "vertex", "vertices") + what);
     let face = |n, what: &str| (n, count(n, "face", "faces") + what);
@@ -196,10 +195,10 @@ fn text(args: &RepairArgs, repaired: &Repaired, left_out: &[&str]) -> String {
         text += &format!("left out: {what} (.{} has no place for them)\n", extension(&args.out));
     }
     let mut told: Vec<&str> = Vec::new();
-    for defect in &result.defects {
-        if !told.contains(&defect.remedy()) {
-            told.push(defect.remedy());
-            text += &format!("left: {defect}: {}\n", defect.remedy());
+    for DefectFigures { message, remedy, .. } in &defects.list {
+        if !told.contains(remedy) {
+            told.push(remedy);
+            text += &format!("left: {message}: {remedy}\n");
         }
     }
     text

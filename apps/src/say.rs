@@ -1,6 +1,6 @@
 //! What commands say on stdout: a few lines for people. All numbers are in the report.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, names_element};
 use crate::input::Input;
 use crate::output::is_stdout;
 use crate::report::{Attempts, Checks, Done};
@@ -17,8 +17,14 @@ const SLIVER: f64 = 0.1;
 /// What commands name that write no file.
 pub const NO_FILES: &[&str] = &[];
 
-/// Print lines on stdout; on stderr where one of the files that were written is stdout. A reader that has gone away is no error.
+/// Print the lines of a summary, and where elements are named that their numbers begin at 0.
 pub fn lines(text: &str, files: &[impl AsRef<Path>]) -> Result<(), Failure> {
+    let note = if names_element(text) { "elements are numbered from 0\n" } else { "" };
+    print(&format!("{text}{note}"), files)
+}
+
+/// Print on stdout; on stderr where one of the files that were written is stdout. A reader that has gone away is no error.
+pub fn print(text: &str, files: &[impl AsRef<Path>]) -> Result<(), Failure> {
     let taken = files.iter().any(|file| is_stdout(file.as_ref()));
     let mut out: Box<dyn Write> = if taken { Box::new(io::stderr()) } else { Box::new(io::stdout()) };
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -99,21 +105,28 @@ pub fn finish<T>(done: &Done<T>, failed: &Attempts) -> String {
     for (wishes, why) in failed.by_cause() {
         text += &format!("FAILED   --{}: {why}\n", wishes.join(", --"));
     }
-    text += &match checks.failed().as_slice() {
-        [] if failed.0.is_empty() => "checks   all hold\n".into(),
-        [] => "checks   all hold of what was made\n".into(),
-        failed => {
-            let named = failed.iter().map(|name| {
-                let c = checks.0[name];
-                format!("{name} = {:.3e}, limit {:.3e}", c.value, c.limit)
-            });
-            format!("checks   FAILED: {}\n", named.collect::<Vec<_>>().join("; "))
-        }
-    };
+    text += &checks.told(failed.0.is_empty());
     if !files.is_empty() {
         text += &format!("wrote    {}\n", files.join(", "));
     }
     text + &format!("{seconds:.2} s\n")
+}
+
+impl Checks {
+    /// Whether all hold, or which do not; `whole`: everything that was asked for was made.
+    pub fn told(&self, whole: bool) -> String {
+        match self.failed().as_slice() {
+            [] if whole => "checks   all hold\n".into(),
+            [] => "checks   all hold of what was made\n".into(),
+            failed => {
+                let named = failed.iter().map(|name| {
+                    let c = self.0[name];
+                    format!("{name} = {:.3e}, limit {:.3e}", c.value, c.limit)
+                });
+                format!("checks   FAILED: {}\n", named.collect::<Vec<_>>().join("; "))
+            }
+        }
+    }
 }
 
 /// τ of a flat torus, after what else is said of its layout.

@@ -224,7 +224,7 @@ pub struct Spoil {
     /// Map by the inversion in the sphere about X, Y, Z of this radius: a conformal map
     #[arg(long, value_name = "X,Y,Z,RADIUS", value_parser = sphere, allow_hyphen_values = true)]
     pub invert: Option<[f64; 4]>,
-    /// Halve the edges around a vertex, again and again
+    /// Halve the edges around a vertex (numbered from 0), again and again
     #[arg(long, value_name = "VERTEX,LEVELS", value_parser = grading)]
     pub grade: Option<(u32, usize)>,
     /// Cut this many faces into slivers

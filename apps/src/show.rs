@@ -33,7 +33,7 @@ pub fn draw(
     let style = Style { focus, ..args.style(threads) };
     if let (Some(flat), true) = (&flat, args.base.is_svg()) {
         let drawn = Picture { flat: Some(*flat), field: field.as_ref(), ..Picture::default() };
-        return Ok(picture::svg(&drawn, &style));
+        return picture::svg(&drawn, &style);
     }
     let (mesh, positions) =
         laid.map_or((input.mesh(), input.positions()), |laid| (laid.mesh(), laid.positions.as_deref()));
@@ -175,6 +175,7 @@ impl Parts {
             cones: &self.cones,
             circles: &self.circles,
             dual_circles: &self.dual_circles,
+            ..Flat::default()
         }
     }
 }

@@ -18,7 +18,7 @@ use std::path::Path;
 ///
 /// OBJ: `v` of the input, `vt` of the layout, `f v/vt`. The faces are the layout's (then the crossings of the input's edges with
 /// flipped ones follow its vertices), or the input's own. Returned is how many vertices and faces the file has beyond the input's.
-fn write(
+pub fn write(
     outputs: &mut Outputs,
     path: &Path,
     input: &Input,
@@ -107,18 +107,21 @@ pub fn write_asked(
 
 /// The way back from the vertices and faces that `--uv` has to those of the input: a face for each face, and for each vertex a face
 /// with barycentric coordinates in it.
-fn write_origins(out: &mut impl Write, input: &Input, laid: &Laid, on: OnChoice) -> std::io::Result<()> {
+pub fn write_origins(out: &mut impl Write, input: &Input, laid: &Laid, on: OnChoice) -> std::io::Result<()> {
     let refinement = laid.refinement().filter(|_| on == OnChoice::Refined);
     let mesh = refinement.map_or(input.mesh(), |r| &r.mesh);
-    let source = |f| refinement.map_or(f, |r| r.input_face[f]);
     let whole = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let source = |f| {
+        let (face, corners) = refinement.map_or((f, whole), |r| (r.input_face[f], r.input_barycentric(f)));
+        input.split.as_ref().map_or((face, corners), |split| split.carried(face, corners))
+    };
     let mut place = vec![None; mesh.n_vertices()];
     writeln!(out, "output_face,source_face")?;
     for f in mesh.faces() {
-        writeln!(out, "{f},{}", source(f))?;
-        let corners = refinement.map_or(whole, |r| r.input_barycentric(f));
+        let (face, corners) = source(f);
+        writeln!(out, "{f},{face}")?;
         for (v, weights) in mesh.face_vertices(f).into_iter().zip(corners) {
-            place[v.index()].get_or_insert((source(f), weights));
+            place[v.index()].get_or_insert((face, weights));
         }
     }
     writeln!(out, "output_vertex,source_face,b0,b1,b2")?;

@@ -35,6 +35,7 @@ mod structs;
 mod texture;
 
 pub mod atlas;
+pub mod circle_domain;
 pub mod control;
 pub mod deck;
 pub mod dirichlet;

@@ -23,8 +23,13 @@ const LEAST_ANGLE: f64 = 1e-12;
 
 impl Punctured {
     /// Vertices to puncture, the best one first: by the range of u in the plane seen from them, and the digits lost in narrow angles.
-    /// `plane` is the present layout, `u` that of the centred sphere.
-    pub fn candidates(&self, plane: &PerVertex<[f64; 2]>, u: &PerVertex<f64>) -> Result<Vec<VertexId>> {
+    /// `plane` is the present layout, `u` that of the centred sphere. Only vertices that `may` be punctured come.
+    pub fn candidates(
+        &self,
+        plane: &PerVertex<[f64; 2]>,
+        u: &PerVertex<f64>,
+        may: &PerVertex<bool>,
+    ) -> Result<Vec<VertexId>> {
         // Per vertex, the least exterior angle of the polyhedron at its edges.
         let mut narrow = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
         let mut note = |v: VertexId, angle: f64| narrow[v] = narrow[v].min(angle);
@@ -38,7 +43,8 @@ impl Punctured {
         let lost = |v: VertexId| -narrow[v].max(LEAST_ANGLE).ln();
         let top = u.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let depth = |v: VertexId| ((top - u[v]) as usize).min(DEPTHS - 1);
-        let all = ranked(self.mesh.vertices().map(|v| (Key(self.height(v) + lost(v)), v)));
+        let all =
+            ranked(self.mesh.vertices().filter(|&v| may[v]).map(|v| (Key(self.height(v) + lost(v)), v)));
         let mut seen = [false; DEPTHS];
         let mut chosen: Vec<VertexId> = Vec::new();
         for (rank, v) in all.into_iter().enumerate() {
@@ -50,11 +56,11 @@ impl Punctured {
         Ok(ranked(chosen.into_iter().map(cost)))
     }
 
-    /// The vertex whose shortest edge is the longest.
-    pub fn widest(&self) -> VertexId {
+    /// The vertex whose shortest edge is the longest, of those that `may` be punctured.
+    pub fn widest(&self, may: &PerVertex<bool>) -> VertexId {
         let better =
             |(best, least), v| if self.height(v) < least { (v, self.height(v)) } else { (best, least) };
-        self.mesh.vertices().fold((VertexId(0), f64::INFINITY), better).0
+        self.mesh.vertices().filter(|&v| may[v]).fold((VertexId(0), f64::INFINITY), better).0
     }
 
     /// The largest bound of a neighbour of v, if v is the puncture: that at its shortest edge.

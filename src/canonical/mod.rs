@@ -14,6 +14,7 @@
 //! ```
 
 mod candidates;
+pub mod circle_domain;
 mod lift;
 mod puncture;
 pub mod quotient;
@@ -22,6 +23,7 @@ mod star;
 mod tries;
 pub mod uniformize;
 
+pub use circle_domain::{CircleDomain, CircleDomainOptions, DomainCircle, Normalisation, circle_domain};
 pub use quotient::{Quotient, QuotientOptions, quotient_of, uniformize_quotient};
 pub use sphere::{Sphere, SphereOptions, SphereReport, uniformize_sphere};
 pub use uniformize::{Uniformization, uniformize};

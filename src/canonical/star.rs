@@ -11,9 +11,10 @@
 //! The bound is the Delaunay condition with the horocycle of ∞ as one of the circles: the triangulation at given u is its one.
 
 use crate::error::{Error, Result};
-use crate::geometry::conformal::{differences, edge, in_one_unit};
+use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::angles_from;
+use crate::geometry::weights::weights;
 use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Flip, HalfedgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::Metric;
@@ -36,7 +37,7 @@ pub(super) const FLAT_POLYHEDRON: f64 = 5e-5;
 /// Radians. Where a polyhedron this close to a flat one is not found, its flatness is given as the reason.
 pub(super) const NEARLY_FLAT: f64 = 1e-2;
 
-/// A punctured surface: vertex scaling in E².
+/// A punctured surface in E²: vertex scaling, but that some vertices may be circles (ε = 1) whose edges to points have η ≥ 0.
 #[derive(Debug, Clone)]
 pub(super) struct Punctured {
     pub mesh: Mesh,
@@ -71,10 +72,10 @@ impl Punctured {
         -(2.0 * self.metric.eta[arc.edge()].high).ln()
     }
 
-    /// Length of an edge.
+    /// Length of an edge; 0 where it has none that is real.
     pub fn length(&self, h: HalfedgeId) -> f64 {
-        let [a, b] = self.mesh.ends(h.edge()).map(|v| self.metric.u[v]);
-        (2.0 * self.metric.eta[h.edge()].high).sqrt() * (0.5 * (a + b)).exp()
+        let [a, b] = self.mesh.ends(h.edge()).map(|v| self.metric.vertex(v));
+        edge(Space::E2, a, b, self.metric.eta[h.edge()]).map_or(0.0, |edge| edge.length(Space::E2))
     }
 
     /// A u of the puncture with which arcs are so long that the star's faces are triangles too.
@@ -98,6 +99,12 @@ impl Punctured {
     /// Half-perimeter differences of a face, from u to twice the digits. Errors: [`Error::EdgeWeight`] at an edge whose length is
     /// beyond doubles.
     fn differences(&self, f: FaceId) -> Result<[f64; 3]> {
+        let (corners, edges, unit) = self.parts(f)?;
+        Ok(differences(corners, edges).map(|r| scaled(r, unit)))
+    }
+
+    /// The corners of a face and its sides in one unit of length, and the exponent of that.
+    fn parts(&self, f: FaceId) -> Result<([Vertex; 3], [Edge; 3], i32)> {
         let mut corners = self.mesh.face_vertices(f).map(|v| self.metric.vertex(v));
         let sides = self.mesh.opposite_edges(f);
         let side = |k: usize| {
@@ -108,7 +115,7 @@ impl Punctured {
         };
         let mut edges = [side(0)?, side(1)?, side(2)?];
         let unit = in_one_unit(&mut corners, &mut edges);
-        Ok(differences(corners, edges).map(|r| scaled(r, unit)))
+        Ok((corners, edges, unit))
     }
 
     /// The face of a half-edge with its corner there. Errors: [`Error::Connectivity`] outside the surface, which is closed.
@@ -126,7 +133,20 @@ impl Punctured {
         Ok(angles_from(Space::E2, self.differences(f)?).at[(corner + turn) % 3])
     }
 
-    /// Per edge the angles of the planar part opposite it; 0 in the star.
+    /// The angles under which the circle of a face, orthogonal to those of its corners, meets its sides: its angles where no corner is a
+    /// circle. A side is Delaunay where those of its two faces add up to π at most.
+    fn side_angles(&self, f: FaceId) -> Result<[f64; 3]> {
+        let (corners, edges, _) = self.parts(f)?;
+        let r = differences(corners, edges);
+        if corners.iter().all(|v| v.epsilon == 0.0) {
+            return Ok(angles_from(Space::E2, r).at);
+        }
+        let eta = self.mesh.opposite_edges(f).map(|e| self.metric.eta[e].high);
+        let cotangents = weights(Space::E2, r, edges.map(|e| e.q2), corners, eta).map(|w| 2.0 * w);
+        Ok(cotangents.map(|x| 1f64.atan2(x)))
+    }
+
+    /// Per edge the angles of the planar part opposite it ([`Punctured::side_angles`]); 0 in the star.
     fn opposite(&self) -> Result<PerEdge<[f64; 2]>> {
         let mut found = vec![Ok([0.0; 3]); self.mesh.n_faces()];
         parallel::fill(&mut found, |f| {
@@ -134,7 +154,7 @@ impl Punctured {
             if self.in_star(self.mesh.face_halfedge(f)) {
                 return Ok([0.0; 3]);
             }
-            Ok(angles_from(Space::E2, self.differences(f)?).at)
+            self.side_angles(f)
         });
         let at = found.into_iter().collect::<Result<Vec<_>>>()?;
         let angle = |h: HalfedgeId| {
@@ -259,14 +279,24 @@ impl Punctured {
             return Ok(());
         }
         for e in self.mesh.edges() {
-            if fails([self.angle(e.halfedge(), 2)?, self.angle(e.halfedge().twin(), 2)?]) {
+            if fails([self.opposite_angle(e.halfedge())?, self.opposite_angle(e.halfedge().twin())?]) {
                 self.flip(e);
             }
         }
         Ok(())
     }
 
-    /// Send another vertex v to infinity, by the inversion at its place in the `plane`: `u_i − 2 log |z_i − z_v|`, up to a constant.
+    /// The angle of [`Punctured::opposite`] in the face of a half-edge.
+    fn opposite_angle(&self, h: HalfedgeId) -> Result<f64> {
+        if self.in_star(h) {
+            return Ok(0.0);
+        }
+        let (f, corner) = self.corner(h)?;
+        Ok(self.side_angles(f)?[(corner + 2) % 3])
+    }
+
+    /// Send another vertex v, no circle, to infinity, by the inversion at its place in the `plane`: `u_i − log(|z_i − z_v|² − ε_i e^{2 u_i})`,
+    /// up to a constant.
     pub fn puncture(&mut self, v: VertexId, plane: &PerVertex<[f64; 2]>) {
         let u = self.seen_from(v, plane);
         (self.metric.u, self.at) = (u, v);
@@ -284,7 +314,11 @@ impl Punctured {
             i if v == self.at => self.metric.u[i],
             i if i == v => 0.0,
             i if i == self.at => self.metric.u[v],
-            i => self.metric.u[i] + self.metric.u[v] - 2.0 * (plane[i][0] - x).hypot(plane[i][1] - y).ln(),
+            i => {
+                let (distance, own) =
+                    ((plane[i][0] - x).hypot(plane[i][1] - y), self.metric.vertex(i).radius);
+                self.metric.u[i] + self.metric.u[v] - (distance - own).ln() - (distance + own).ln()
+            }
         })
     }
 }

@@ -48,13 +48,21 @@ pub(super) struct Tried<'a> {
     is_flat: bool,
     /// Of the vertices, for the centring.
     pub weights: &'a PerVertex<f64>,
+    /// Which vertices may be sent to infinity.
+    may: PerVertex<bool>,
     pub solver: Solver<'a>,
 }
 
 impl<'a> Tried<'a> {
     /// Nothing yet.
     pub fn new(weights: &'a PerVertex<f64>, solver: Solver<'a>) -> Tried<'a> {
-        Tried { flows: 0, is_flat: false, weights, solver }
+        let may = PerVertex::filled(weights.len(), true);
+        Tried { flows: 0, is_flat: false, weights, may, solver }
+    }
+
+    /// Only vertices that `may` are sent to infinity.
+    pub fn only(self, may: PerVertex<bool>) -> Tried<'a> {
+        Tried { may, ..self }
     }
 
     /// The plane with this vertex at infinity.
@@ -65,14 +73,15 @@ impl<'a> Tried<'a> {
 
     /// The plane with a small range of u and no narrow angles: from any plane, the one that is best seen from there.
     pub fn best(&mut self, begin: &Punctured) -> Result<Flat> {
-        let widest = begin.widest();
+        let widest = begin.widest(&self.may);
         let first = match self.guessed(begin, &[widest], None) {
             Ok(first) if first.found.converged => first,
             Err(error) if self.is_flat || error == Error::Cancelled => return Err(error),
             known => {
                 let lengths = begin.metric.lengths(&begin.mesh)?;
                 let others = farthest_vertices(&begin.mesh, &lengths, widest, TRIES, self.solver.control)?;
-                self.guessed(begin, &others[1..], known.ok().as_ref())?
+                let others: Vec<VertexId> = others[1..].iter().copied().filter(|&v| self.may[v]).collect();
+                self.guessed(begin, &others, known.ok().as_ref())?
             }
         };
         let Flat { surface, plane, .. } = &first;
@@ -86,18 +95,18 @@ impl<'a> Tried<'a> {
             }
             Ok(moved)
         };
-        let candidates = surface.candidates(plane, &u)?;
+        let candidates = surface.candidates(plane, &u, &self.may)?;
         self.first_good(candidates.into_iter().take(TRIES).map(seen_from), Some(&first), LAST_PLANE)
     }
 
-    /// A plane whose outline is nearly convex, from the first of the vertices from which the flow ends well. The guess is
-    /// `u = −2 log(distance)`, the inversion of a surface that is nearly a plane.
+    /// A plane whose outline is nearly convex, from the first of the vertices from which the flow ends well. The guess adds
+    /// −2 log(distance) to u: the inversion of a surface that is nearly a plane.
     fn guessed(&mut self, begin: &Punctured, vertices: &[VertexId], known: Option<&Flat>) -> Result<Flat> {
         let (lengths, control) = (begin.metric.lengths(&begin.mesh)?, self.solver.control);
         let guess = |&v: &VertexId| {
             let distance = shortest_paths(&begin.mesh, &lengths, [v], control)?.distance;
             let mut surface = Punctured { at: v, ..begin.clone() };
-            let u = |i| if i == v { 0.0 } else { -2.0 * distance[i].ln() };
+            let u = |i| if i == v { 0.0 } else { begin.metric.u[i] - 2.0 * distance[i].ln() };
             surface.metric.u = PerVertex::from_fn(distance.len(), u);
             Ok(surface)
         };

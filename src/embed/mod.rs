@@ -15,6 +15,7 @@ pub mod overlap;
 pub mod pack;
 mod pieces;
 pub mod place;
+pub(crate) mod planar;
 pub mod quality;
 pub mod shape;
 mod triangle;

@@ -222,7 +222,7 @@ impl Layout {
         };
         let frames: Vec<_> = mesh.faces().map(frame).collect();
         let grown = Development::of_frames(r, &faces, &frames);
-        let cut = grown.pieces.cut_of_final(mesh, &self.cut)?;
+        let cut = grown.pieces.cut_of_final(mesh, &self.cut)?.inside(&r.mesh);
         let mut layout = grown.layout(cut, control)?;
         layout.scale_by(self.scale);
         layout.find_flat();

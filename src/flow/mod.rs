@@ -17,6 +17,7 @@ pub mod cones;
 mod evaluate;
 mod flatten;
 mod gradient;
+pub(crate) mod hubs;
 mod jacobian;
 mod line_search;
 mod newton;

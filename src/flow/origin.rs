@@ -1,8 +1,9 @@
 //! What all metrics that flow from one start share: the surface, its triangulation at the start, and the initial metric there.
 
+use super::solution::Solution;
 use crate::control::Control;
 use crate::error::Result;
-use crate::mesh::{Double, EdgeId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge};
+use crate::mesh::{Double, EdgeId, FaceId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge};
 use crate::metric::delaunay::{Triangulated, boundary_fails};
 use crate::metric::refinement::{Final, Input, Intrinsic, Triangulations};
 use crate::metric::{Class, Initial, Metric, Refinement, StartOptions, Surface, delaunay_start};
@@ -118,16 +119,17 @@ impl Origin {
         (mesh, given.into_iter().chain(own).collect())
     }
 
-    /// The common refinement of the given triangulation with that of a metric.
+    /// The common refinement of the given triangulation with that of a solution, on the given faces that `keep` names, of a double on its
+    /// first half.
     pub fn refinement(
         &self,
-        mesh: &Mesh,
-        metric: &Metric,
-        followed: &[NormalCoordinates],
+        solution: &Solution,
+        keep: &dyn Fn(FaceId) -> bool,
         control: &Control,
     ) -> Result<Refinement> {
+        let Solution { mesh, metric, followed, .. } = solution;
         let unflipped;
-        let normal = match followed {
+        let normal = match followed.as_slice() {
             [normal, ..] => normal,
             [] => {
                 unflipped = NormalCoordinates::new(mesh);
@@ -140,7 +142,7 @@ impl Origin {
         });
         let given = self.double.as_ref().map_or(&**self.surface.mesh(), |double| &double.mesh);
         let input = Input { mesh: given, geometry: self.initial.input_geometry, u: &self.initial.input_u };
-        let keep = |f| self.double.as_ref().is_none_or(|double| double.is_original(f));
+        let keep = |f| keep(f) && self.double.as_ref().is_none_or(|double| double.is_original(f));
         let result = Final { mesh, metric, normal };
         Refinement::new(Triangulations { input, intrinsic, result }, &keep, control)
     }

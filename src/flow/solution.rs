@@ -4,7 +4,7 @@ use super::origin::Origin;
 use super::report::Report;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
-use crate::mesh::{Double, Mesh, NormalCoordinates, PerVertex, VertexId};
+use crate::mesh::{Double, FaceId, Mesh, NormalCoordinates, PerVertex, VertexId};
 use crate::metric::delaunay::boundary_fails;
 use crate::metric::{Class, Curvature, Initial, Metric, Refinement, Scheme, Surface};
 use crate::parallel::within;
@@ -183,6 +183,11 @@ impl Solution {
         self.reached.as_ref().map_or(&[], |reached| &reached.cones)
     }
 
+    /// The same for this many threads.
+    pub(crate) fn on_threads(self, threads: usize) -> Solution {
+        Solution { threads, ..self }
+    }
+
     /// Threads of the flow; 0 for one per core.
     pub fn threads(&self) -> usize {
         self.threads
@@ -245,7 +250,19 @@ impl Solution {
     /// # Errors
     /// Those of [`Refinement::new`].
     pub fn refinement(&self, control: &Control) -> Result<Refinement> {
-        within(self.threads, || self.origin.refinement(&self.mesh, &self.metric, &self.followed, control))
+        self.refinement_where(&|_| true, control)
+    }
+
+    /// [`Solution::refinement`] of the given faces that `keep` names, whose vertices come first.
+    ///
+    /// # Errors
+    /// Those of [`Refinement::new`].
+    pub(crate) fn refinement_where(
+        &self,
+        keep: &(dyn Fn(FaceId) -> bool + Sync),
+        control: &Control,
+    ) -> Result<Refinement> {
+        within(self.threads, || self.origin.refinement(self, keep, control))
     }
 
     /// Whether a flow can go on from here. A flow that is to be `doubled` can on the double, or on one copy that could be reflected,

@@ -13,6 +13,7 @@ pub mod attribute;
 pub mod build;
 pub mod check;
 pub mod double;
+pub mod fill;
 pub mod flip;
 pub mod flip_log;
 pub mod halfedge;
@@ -29,6 +30,7 @@ mod weld;
 
 pub use attribute::{PerEdge, PerFace, PerHalfedge, PerVertex};
 pub use double::Double;
+pub use fill::Filled;
 pub use flip::{FixedEdges, Flip};
 pub use flip_log::FlipLog;
 pub use halfedge::Mesh;

@@ -33,6 +33,10 @@ pub use super::isometric::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 /// other diagonal has more is not flipped.
 const MAX_ETA: f64 = 1e289;
 
+/// An edge is not flipped into one between two circles that touch, with η this near 1. Such an edge cannot be flipped back. It comes up where a
+/// circle meets itself around a point on it that has one other edge: only that edge knows the point's size.
+const TOUCHING: f64 = 1e-12;
+
 /// The four vertices of the hinge of half-edge h (origin, tip, left, right), and its five half-edges: h, then those of the left and the right
 /// face at the origin and at the tip of h.
 fn hinge_of(mesh: &Mesh, h: HalfedgeId) -> ([VertexId; 4], [HalfedgeId; 5]) {
@@ -130,10 +134,13 @@ impl VertexHinge {
     }
 
     /// η of the other diagonal, to twice the digits whatever the digits of w, on which it does not depend; `None` where there is no other
-    /// diagonal, or where its η is above [`MAX_ETA`].
+    /// diagonal, where its η is above [`MAX_ETA`], or where it would join circles that touch.
     fn other_diagonal(&self, eta: &PerEdge<Twofold>) -> Option<Twofold> {
         let (hinge, scale) = self.precise(eta);
-        hinge.flipped().map(|product| product / scale).filter(|eta| eta.high.abs() <= MAX_ETA)
+        let [.., k, l] = self.vertices;
+        let touch = |eta: Twofold| k.epsilon * l.epsilon > 0.0 && (eta - 1.0.into()).high.abs() <= TOUCHING;
+        let flipped = hinge.flipped().map(|product| product / scale);
+        flipped.filter(|&eta| eta.high.abs() <= MAX_ETA && !touch(eta))
     }
 }
 

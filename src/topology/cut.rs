@@ -43,6 +43,20 @@ impl CutGraph {
         cut.into_graph()
     }
 
+    /// The cut without edges on the boundary of the surface, which part its segments.
+    pub(crate) fn inside(self, mesh: &Mesh) -> CutGraph {
+        let is_inside = |h: &HalfedgeId| !mesh.is_boundary_edge(h.edge());
+        let runs = |segment: &Vec<HalfedgeId>| -> Vec<Vec<HalfedgeId>> {
+            let parts = segment.split(|h| !is_inside(h));
+            parts.filter(|run| !run.is_empty()).map(<[HalfedgeId]>::to_vec).collect()
+        };
+        CutGraph {
+            is_cut: PerEdge::from_fn(self.is_cut.len(), |e| self.is_cut[e] && !mesh.is_boundary_edge(e)),
+            segments: self.segments.iter().flat_map(runs).collect(),
+            nodes: self.nodes,
+        }
+    }
+
     /// Total length of the cut.
     pub fn length(&self, lengths: &PerEdge<f64>) -> f64 {
         self.segments.iter().flatten().fold(0.0, |sum, h| sum + lengths[h.edge()])

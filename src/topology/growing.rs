@@ -4,7 +4,7 @@ use super::cut::CutGraph;
 use super::spanning::{Key, shortest_paths};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, VertexId};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, VertexId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -24,6 +24,22 @@ pub(crate) fn cut_about(
     root: VertexId,
     control: &Control,
 ) -> Result<CutGraph> {
+    cut_about_joined(mesh, lengths, root, &|_| 0, control)
+}
+
+/// [`cut_about`] where the disk goes on at once across edges that are `joined`, first across those where this number is larger. So the cut
+/// keeps away from vertices all of whose edges are joined, unless a chain of them leads around the surface.
+///
+/// # Errors
+///
+/// Those of [`cut_about`].
+pub(crate) fn cut_about_joined(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    root: VertexId,
+    joined: &dyn Fn(EdgeId) -> u8,
+    control: &Control,
+) -> Result<CutGraph> {
     let distance = shortest_paths(mesh, lengths, [root], control)?.distance;
     let mut reached = PerFace::filled(mesh.n_faces(), false);
     let mut closed = PerEdge::filled(mesh.n_edges(), false);
@@ -37,7 +53,11 @@ pub(crate) fn cut_about(
             closed[entry.edge()] |= !std::mem::replace(&mut is_first, false);
             for h in mesh.face_halfedges(f).map(HalfedgeId::twin) {
                 if let Some(g) = mesh.face(h).filter(|&g| !reached[g]) {
-                    queue.push(Reverse((Key(far(g)), h)));
+                    let key = match joined(h.edge()) {
+                        0 => far(g),
+                        urgency => -f64::from(urgency),
+                    };
+                    queue.push(Reverse((Key(key), h)));
                 }
             }
         }
@@ -54,7 +74,7 @@ pub(crate) fn cut_about(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::mesh::{EdgeId, shapes};
+    use crate::mesh::shapes;
     use crate::topology::cut::is_disk;
 
     #[test]

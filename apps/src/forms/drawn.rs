@@ -55,7 +55,7 @@ pub fn draw(input: &Input, chosen: &Chosen, args: &FormsArgs, control: &Control)
     let boundary: Vec<_> = outer.map(line).map(|(a, b, _)| (a, b)).collect();
     let flat = Flat { corner_uv: &corner_uv, seams: &seams, boundary: &boundary, ..Flat::default() };
     if args.picture.is_svg() {
-        return Ok(picture::svg(&Picture { flat: Some(flat), ..Picture::default() }, &style));
+        return picture::svg(&Picture { flat: Some(flat), ..Picture::default() }, &style);
     }
     let mut positions = positions(input, layout)?;
     let faces = mesh.triangles();

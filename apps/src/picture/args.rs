@@ -21,9 +21,9 @@ pub struct PictureArgs {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub view: Option<Angles>,
     /// The direction that is up [default: by the shape of the surface]
-    #[arg(long, value_enum, value_name = "AXIS", requires = "picture", allow_hyphen_values = true)]
+    #[arg(long, value_name = "AXIS", requires = "picture", allow_hyphen_values = true, value_parser = ["x", "y", "z", "-x", "-y", "-z"])]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub up: Option<Axis>,
+    pub up: Option<String>,
     /// Draw the edges of the mesh
     #[arg(long, requires = "picture")]
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -113,34 +113,10 @@ pub struct Zoom {
 /// Azimuth and elevation in degrees.
 pub type Angles = [f64; 2];
 
-/// A coordinate direction.
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
-pub enum Axis {
-    X,
-    Y,
-    Z,
-    #[value(name = "-x")]
-    #[serde(rename = "-x")]
-    MinusX,
-    #[value(name = "-y")]
-    #[serde(rename = "-y")]
-    MinusY,
-    #[value(name = "-z")]
-    #[serde(rename = "-z")]
-    MinusZ,
-}
-
-impl Axis {
-    fn direction(self) -> [f64; 3] {
-        match self {
-            Axis::X => [1.0, 0.0, 0.0],
-            Axis::Y => [0.0, 1.0, 0.0],
-            Axis::Z => [0.0, 0.0, 1.0],
-            Axis::MinusX => [-1.0, 0.0, 0.0],
-            Axis::MinusY => [0.0, -1.0, 0.0],
-            Axis::MinusZ => [0.0, 0.0, -1.0],
-        }
-    }
+/// The unit vector along an axis by its name.
+fn direction(axis: &str) -> [f64; 3] {
+    let sign = if axis.starts_with('-') { -1.0 } else { 1.0 };
+    ['x', 'y', 'z'].map(|name| if axis.ends_with(name) { sign } else { 0.0 })
 }
 
 impl PictureArgs {
@@ -157,7 +133,7 @@ impl PictureArgs {
     pub fn style(&self, texture: Texture, threads: usize) -> Style {
         let fallback = Style::default();
         let view = View {
-            up: self.up.map(Axis::direction),
+            up: self.up.as_deref().map(direction),
             angles: self.view.map(|angles| angles.map(f64::to_radians)),
             from: None,
         };

@@ -1,8 +1,9 @@
 //! Where a surface is seen from.
 
-use super::raster::{Samples, Shape, in_parallel};
+use super::raster::{Hit, Samples, Shape};
 use super::upright::{Stance, stance};
 use super::vector::{V3, add, bounding_ball, cross, dot, normal, scaled, sub, unit};
+use rayon::prelude::*;
 
 /// The view that a caller wants; what is left open is chosen.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,8 +38,6 @@ const GLANCING: f64 = 2.5;
 /// pixel to pixel, of which this much is nothing to look at.
 const DETAIL: f64 = 0.3;
 const LEAST_DETAIL: f64 = 0.01;
-/// A hole through which the background shows makes a view better by this share, up to three of them.
-const HOLE: f64 = 0.12;
 /// The front is better than the back by this share.
 const FRONT: f64 = 0.08;
 
@@ -53,12 +52,9 @@ impl Camera {
     }
 
     /// The view that was asked for, or the one of [`STANDING`] or [`LYING`] that shows most.
-    pub fn choose(points: &[V3], faces: &[[u32; 3]], view: &View, threads: usize) -> Camera {
-        let found = stance(points, faces);
-        let Stance { up, lies } = match view.up.and_then(unit) {
-            Some(up) => Stance { up, lies: false },
-            None => found,
-        };
+    pub fn choose(points: &[V3], faces: &[[u32; 3]], view: &View) -> Camera {
+        let given = view.up.and_then(unit).map(|up| Stance { up, lies: false });
+        let Stance { up, lies } = given.unwrap_or_else(|| stance(points, faces));
         let front = front_of(up);
         if let Some([azimuth, elevation]) = view.angles {
             return Camera::new(up, front, azimuth, elevation);
@@ -68,18 +64,16 @@ impl Camera {
                 (dot(from, cross(up, front)).atan2(dot(from, front)), dot(from, up).clamp(-1.0, 1.0).asin());
             return Camera::new(up, front, azimuth, elevation);
         }
+        let ball = bounding_ball(points);
         let elevation = if lies { LYING } else { STANDING }.to_radians();
         let candidate = |azimuth: f64| {
             let azimuth = azimuth.to_radians();
-            (Camera::new(up, front, azimuth, elevation), 1.0 + FRONT * azimuth.cos(), 0.0)
+            let camera = Camera::new(up, front, azimuth, elevation);
+            (camera, (1.0 + FRONT * azimuth.cos()) * camera.shows(points, faces, ball))
         };
-        let mut candidates = AROUND.map(candidate);
-        let (centre, radius) = bounding_ball(points);
-        in_parallel(candidates.iter_mut().collect(), threads, |_, (camera, taste, score)| {
-            *score = *taste * camera.shows(points, faces, centre, radius);
-        });
+        let candidates: Vec<_> = AROUND.into_par_iter().map(candidate).collect();
         let first = candidates[0];
-        candidates.into_iter().fold(first, |best, c| if c.2 > best.2 { c } else { best }).0
+        candidates.into_iter().fold(first, |best, c| if c.1 > best.1 { c } else { best }).0
     }
 
     /// A point of space as the camera sees it.
@@ -87,37 +81,30 @@ impl Camera {
         self.axes.map(|axis| dot(axis, p))
     }
 
-    /// How much of the surface's outside a small image shows, in pixels, more where one sees through it.
-    fn shows(&self, points: &[V3], faces: &[[u32; 3]], centre: V3, radius: f64) -> f64 {
+    /// How much of the surface's outside a small image shows, in pixels, more where there is detail.
+    fn shows(&self, points: &[V3], faces: &[[u32; 3]], (centre, radius): (V3, f64)) -> f64 {
         let middle = 0.5 * PROBE as f64;
         let scale = middle * 0.96 / radius;
-        let seen: Vec<V3> = points
-            .iter()
-            .map(|p| self.apply(sub(*p, centre)))
-            .map(|[x, y, z]| [middle + scale * x, middle - scale * y, scale * z])
-            .collect();
+        let place = |p: &V3| {
+            let [x, y, z] = self.apply(sub(*p, centre));
+            [middle + scale * x, middle - scale * y, scale * z]
+        };
+        let seen: Vec<V3> = points.iter().map(place).collect();
         let shapes: Vec<Shape> = faces.iter().map(|f| Shape::Triangle(f.map(|v| seen[v as usize]))).collect();
-        let all: Vec<u32> = (0..shapes.len() as u32).collect();
-        let samples = Samples::new(&shapes, &all, [PROBE, 0, PROBE], 1);
-        let mut normals = vec![None; PROBE * PROBE];
+        let samples = Samples::new(&shapes, [PROBE, 0, PROBE], 1.0);
+        let normal_of =
+            |hit: Hit| unit(normal(faces[hit.shape].map(|v| points[v as usize]))).unwrap_or([0.0; 3]);
+        let rows = (0..PROBE).flat_map(|y| samples.row(&shapes, y));
+        let normals: Vec<Option<V3>> = rows.map(|(_, hit)| hit.map(normal_of)).collect();
         let (mut area, mut bends) = (0.0, 0.0);
-        for i in 0..normals.len() {
-            let (x, y) = (i % PROBE, i / PROBE);
-            if let Some(hit) = samples.hit(&shapes, x, y, [x as f64 + 0.5, y as f64 + 0.5]) {
-                let n = normal(faces[hit.shape].map(|v| points[v as usize]));
-                let n = unit(n).unwrap_or([0.0; 3]);
-                let cosine = dot(n, self.axes[2]);
-                area += if cosine > 0.0 { (1.0 / cosine).min(GLANCING) } else { 0.0 };
-                let bend = |j: Option<usize>| {
-                    j.and_then(|j| normals[j]).map_or(0.0, |m| (1.0 - dot(n, m)).clamp(0.0, 1.0))
-                };
-                bends += bend((x > 0).then(|| i - 1)) + bend((y > 0).then(|| i.wrapping_sub(PROBE)));
-                normals[i] = Some(n);
-            }
+        for (i, n) in normals.iter().enumerate().filter_map(|(i, n)| Some((i, (*n)?))) {
+            let cosine = dot(n, self.axes[2]);
+            area += if cosine > 0.0 { (1.0 / cosine).min(GLANCING) } else { 0.0 };
+            let before = [(i % PROBE > 0).then(|| i - 1), i.checked_sub(PROBE)];
+            let turns = before.into_iter().flatten().filter_map(|j| normals[j]);
+            bends += turns.map(|m| (1.0 - dot(n, m)).clamp(0.0, 1.0)).sum::<f64>();
         }
-        let empty = normals.iter().map(Option::is_none).collect();
-        let detail = (bends / f64::max(area, 1.0) + LEAST_DETAIL).powf(DETAIL);
-        area * detail * (1.0 + HOLE * holes(empty).min(3) as f64)
+        area * (bends / f64::max(area, 1.0) + LEAST_DETAIL).powf(DETAIL)
     }
 }
 
@@ -125,36 +112,6 @@ impl Camera {
 fn front_of(up: V3) -> V3 {
     let usual = if up[2].abs() > 0.8 { [0.0, -1.0, 0.0] } else { [0.0, 0.0, 1.0] };
     unit(sub(usual, scaled(up, dot(up, usual)))).unwrap_or([1.0, 0.0, 0.0])
-}
-
-/// Connected pieces of the background of a probe image that the surface encloses, single pixels left out.
-fn holes(mut empty: Vec<bool>) -> usize {
-    let mut count = 0;
-    for start in 0..empty.len() {
-        if !empty[start] {
-            continue;
-        }
-        empty[start] = false;
-        let (mut open, mut size, mut touches) = (vec![start], 0, false);
-        while let Some(i) = open.pop() {
-            size += 1;
-            let (x, y) = (i % PROBE, i / PROBE);
-            touches |= x == 0 || y == 0 || x == PROBE - 1 || y == PROBE - 1;
-            let near = [
-                (x > 0).then(|| i - 1),
-                (x + 1 < PROBE).then_some(i + 1),
-                (y > 0).then(|| i - PROBE),
-                (y + 1 < PROBE).then_some(i + PROBE),
-            ];
-            for j in near.into_iter().flatten() {
-                if std::mem::replace(&mut empty[j], false) {
-                    open.push(j);
-                }
-            }
-        }
-        count += usize::from(size > 1 && !touches);
-    }
-    count
 }
 
 #[cfg(test)]
@@ -167,25 +124,25 @@ mod tests {
     fn axes_are_right_handed_and_the_asked_angles_are_taken() {
         let soup = shapes::icosphere(3).unwrap();
         let view = View { up: Some([0.0, 1.0, 0.0]), angles: Some([0.0, 0.0]), from: None };
-        let camera = Camera::choose(&soup.positions, &soup.faces, &view, 1);
+        let camera = Camera::choose(&soup.positions, &soup.faces, &view);
         for (axis, expected) in camera.axes.iter().zip([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
             assert!(norm(sub(*axis, expected)) < 1e-15, "{axis:?}");
         }
         // From the right and from above.
         let view = View { angles: Some([0.5f64, 0.3]), ..view };
-        let [x, y, z] = Camera::choose(&soup.positions, &soup.faces, &view, 1).axes;
+        let [x, y, z] = Camera::choose(&soup.positions, &soup.faces, &view).axes;
         assert!(norm(sub(cross(x, y), z)) < 1e-15 && z[0] > 0.0 && (z[1] - 0.3f64.sin()).abs() < 1e-15);
         // From a given direction.
         let from = [0.48, -0.6, -0.64];
         let view = View { angles: None, from: Some(from), ..view };
-        let [x, y, z] = Camera::choose(&soup.positions, &soup.faces, &view, 1).axes;
+        let [x, y, z] = Camera::choose(&soup.positions, &soup.faces, &view).axes;
         assert!(norm(sub(cross(x, y), z)) < 1e-15 && norm(sub(z, from)) < 1e-15, "{z:?}");
     }
 
     #[test]
     fn a_torus_lies_and_shows_its_hole() {
         let soup = shapes::torus(2.0, 0.7, 40, 20).unwrap();
-        let camera = Camera::choose(&soup.positions, &soup.faces, &View::default(), 2);
+        let camera = Camera::choose(&soup.positions, &soup.faces, &View::default());
         let up = [0, 1, 2].map(|k| dot(camera.up, camera.axes.map(|a| a[k])));
         assert!((up[2] - 1.0).abs() < 1e-12, "{up:?}");
         assert!(camera.axes[2][2] > 0.5, "{:?}", camera.axes);
@@ -196,7 +153,7 @@ mod tests {
         // A bowl seen from its convex side: the half sphere z < 0.
         let mut soup = shapes::icosphere(8).unwrap();
         soup.faces.retain(|f| f.iter().all(|v| soup.positions[*v as usize][2] < 0.05));
-        let camera = Camera::choose(&soup.positions, &soup.faces, &View::default(), 2);
+        let camera = Camera::choose(&soup.positions, &soup.faces, &View::default());
         assert!(camera.axes[2][2] < 0.0, "{:?}", camera.axes);
     }
 }

@@ -1,10 +1,10 @@
 //! What covers the faces of a panel: a colour, a pattern, the wire of the mesh.
 
-use super::Field;
 use super::color::{INK, Rgb, from_hex, mix};
 use super::colormap::NO_VALUE;
 use super::raster::doubled_area;
 use super::texture::{Patch, Texture, Tiles};
+use super::{Field, Style};
 
 /// Colour of a surface that shows nothing else.
 pub const CLAY: u32 = 0xd3c6b4;
@@ -35,26 +35,22 @@ pub struct Coat<'a> {
 /// What a panel's faces are to show.
 #[derive(Clone, Copy)]
 pub struct Wish<'a> {
-    pub texture: Texture,
     pub tiles: Option<&'a Tiles>,
     pub corner_uv: Option<&'a [[[f64; 2]; 3]]>,
     pub field: Option<&'a Field>,
-    pub wire: bool,
-    /// Size of the picture in pixels.
-    pub size: usize,
 }
 
 impl<'a> Coat<'a> {
     /// `triangles`: each face on the panel.
-    pub fn new(wish: &Wish<'a>, triangles: &[[[f64; 2]; 3]]) -> Coat<'a> {
+    pub fn new(wish: &Wish<'a>, style: &Style, triangles: &[[[f64; 2]; 3]]) -> Coat<'a> {
         let patch = |uv: &[[[f64; 2]; 3]], tiles: &Tiles| -> Vec<Patch> {
             let each = triangles.iter().zip(uv).enumerate();
-            each.map(|(f, (pixels, uv))| Patch::new(wish.texture, *uv, tiles, f, *pixels)).collect()
+            each.map(|(f, (pixels, uv))| Patch::new(style.texture, *uv, tiles, f, *pixels)).collect()
         };
-        let textured = wish.texture != Texture::None;
+        let textured = style.texture != Texture::None;
         let patches = wish.corner_uv.zip(wish.tiles).filter(|_| textured).map(|(uv, tiles)| patch(uv, tiles));
-        let half_width = wire_width(wish.size);
-        let wire = wish.wire.then(|| triangles.iter().map(|t| Wire::new(*t, half_width)).collect());
+        let half_width = wire_width(style.size);
+        let wire = style.wire.then(|| triangles.iter().map(|t| Wire::new(*t, half_width)).collect());
         let field = wish.field.filter(|f| f.corners.len() == triangles.len());
         let field = field.map(|f| (f, f.scale.table(TABLE)));
         let [clay, light, dark] = [CLAY, LIGHT, DARK].map(from_hex);

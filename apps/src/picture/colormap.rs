@@ -1,6 +1,7 @@
 //! Colours for numbers, and the range they cover.
 
 use super::color::{Rgb, from_hex, mix};
+use super::vector::ends;
 
 /// A colour map.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,8 +136,7 @@ fn clipping(values: &[f64], [low, high]: [f64; 2]) -> String {
         return "all values lie within the colours".into();
     }
     let percent = 100.0 * beyond as f64 / finite.clone().count() as f64;
-    let [least, most] =
-        [finite.clone().fold(f64::INFINITY, f64::min), finite.fold(f64::NEG_INFINITY, f64::max)].map(number);
+    let [least, most] = ends(finite).map(number);
     format!("{percent:.1}% of the values are clipped, all reach from {least} to {most}")
 }
 
@@ -150,21 +150,10 @@ pub fn percentile(values: &[f64], percent: f64) -> Option<f64> {
 
 /// A number with three digits, as short as that goes.
 pub fn number(x: f64) -> String {
-    if x == 0.0 || !x.is_finite() {
-        return "0".into();
-    }
-    let text = format!("{x:.2e}");
-    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let trimmed = |s: &str| -> String {
-        if s.contains('.') { s.trim_end_matches('0').trim_end_matches('.').into() } else { s.into() }
-    };
-    let text = if (-3..5).contains(&exponent) {
-        trimmed(&format!("{x:.*}", (2 - exponent).max(0) as usize))
-    } else {
-        format!("{}e{exponent}", trimmed(digits))
-    };
-    text.replace('-', "−")
+    let short = if (1e2..1e5).contains(&x.abs()) { format!("{x:.0}") } else { format!("{x:.2e}") };
+    let x = short.parse().ok().filter(|x: &f64| x.is_finite()).unwrap_or(0.0) + 0.0;
+    let plain = x == 0.0 || (1e-3..1e5).contains(&x.abs());
+    if plain { format!("{x}") } else { format!("{x:e}") }.replace('-', "−")
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! A drawing in a model of the plane or of the hyperbolic plane: areas with a pattern, lines and lettering over one another.
 
 use super::Style;
-use super::coat::{DARK, LIGHT, wire_opacity, wire_width};
+use super::canvas::Canvas;
+use super::coat::{DARK, LIGHT, wire_opacity};
 use super::color::{INK, Rgb, from_hex, mix, seam_color};
 use super::fit::Fit;
-use super::region::{Chain, in_box, segment_in_box};
-use super::sheet::{Path, Sheet, polygons};
+use super::region::Chain;
+use super::sheet::{Path, Sheet};
 use super::text::word;
 use super::texture::Tiles;
 
@@ -78,14 +79,10 @@ pub const TINTS: u8 = 11;
 pub const PALE: u8 = TINTS + 1;
 /// Colour of what a disk or half-plane has no copy on.
 const EMPTY: u32 = 0xefeeea;
-/// Distance of a label from its point, over the size of its letters, and their size over that of the panel with its bounds in pixels.
+/// Distance of a label from its point, over the size of its letters.
 const AWAY: f64 = 0.9;
-const LETTERS: f64 = 0.026;
-const BOUNDS: [f64; 2] = [12.0, 48.0];
 /// Width of the white line around letters, over their size.
 const HALO: f64 = 0.22;
-/// Pixels beyond the panel up to which something is drawn.
-const BEYOND: f64 = 20.0;
 
 /// The two colours of the pattern in a tint.
 pub fn tints(tint: u8) -> [Rgb; 2] {
@@ -123,11 +120,8 @@ impl Frame {
 
 /// Areas, lines, dots and labels over one another, in this order.
 pub fn draw(drawing: &Drawing<'_>, style: &Style) -> Sheet {
-    let fit = drawing.frame.fit(style.size);
-    let [width, height] = [fit.width as f64, fit.height as f64];
-    let panel = [[-BEYOND; 2], [width + BEYOND, height + BEYOND]];
-    let canvas = Canvas { fit, panel, style };
-    let mut sheet = Sheet::new(fit.width, fit.height);
+    let mut canvas = Canvas::new(drawing.frame.fit(style.size), style);
+    let (fit, width) = (canvas.fit, 2.0 * style.line());
     // The ground of the model, and its border.
     let (mut ground, mut border) = (Path::default(), Path::default());
     match drawing.frame {
@@ -136,82 +130,48 @@ pub fn draw(drawing: &Drawing<'_>, style: &Style) -> Sheet {
             border = ground.clone();
         }
         Frame::HalfPlane(_) => {
-            let y = fit.apply([0.0; 2])[1];
-            ground.rectangle([0.0, 0.0, width, y]);
-            border.line(&[[0.0, y], [width, y]]);
+            let (right, y) = (fit.width as f64, fit.apply([0.0; 2])[1]);
+            ground.rectangle([0.0, 0.0, right, y]);
+            border.line(&[[0.0, y], [right, y]]);
         }
         Frame::Rectangle(_) => {}
     }
-    sheet.fill(from_hex(EMPTY), &ground);
-    drawing.areas.iter().for_each(|area| canvas.area(&mut sheet, area));
+    canvas.sheet.fill(from_hex(EMPTY), &ground);
+    drawing.areas.iter().for_each(|copy| area(&mut canvas, copy));
     for line in drawing.lines {
-        let color = line.color.map_or(INK, seam_color);
-        let pixels: Chain = line.points.iter().map(|p| fit.apply(*p)).collect();
-        sheet.stroke(color, 2.0 * line.width * style.line(), &canvas.line(&pixels));
+        let path = canvas.lines(line.points.windows(2).map(|ends| [ends[0], ends[1]]));
+        canvas.sheet.stroke(line.color.map_or(INK, seam_color), line.width * width, &path);
     }
-    sheet.stroke(INK, 2.0 * style.line(), &border);
-    for (radius, color) in [(0.8, [1.0; 3]), (0.6, INK)] {
-        let mut dots = Path::default();
-        drawing.dots.iter().for_each(|dot| dots.circle(fit.apply(*dot), radius * style.cone()));
-        sheet.fill(color, &dots);
-    }
-    drawing.labels.iter().for_each(|label| canvas.label(&mut sheet, label));
-    sheet.cut("drawing")
+    canvas.sheet.stroke(INK, width, &border);
+    canvas.dots(drawing.dots.iter().map(|dot| (*dot, INK)), [0.6, 0.8]);
+    drawing.labels.iter().for_each(|text| label(&mut canvas, text));
+    canvas.sheet.cut("drawing")
 }
 
-struct Canvas<'a> {
-    fit: Fit,
-    /// What is drawn, in pixels.
-    panel: [[f64; 2]; 2],
-    style: &'a Style,
+fn area(canvas: &mut Canvas<'_>, area: &Area) {
+    let [light, dark] = tints(area.tint);
+    let ground = mix(light, dark, area.dark);
+    let [border, cells] = [canvas.polygons([&area.border]), canvas.polygons(&area.cells)];
+    canvas.sheet.fill(ground, &border);
+    // A line in the same colour closes the gaps that anti-aliasing leaves between neighbours.
+    canvas.sheet.stroke(ground, 0.3, &border);
+    canvas.sheet.fill(dark, &cells);
+    canvas.wire(wire_opacity(area.face), area.wire.iter().copied());
 }
 
-impl Canvas<'_> {
-    fn area(&self, sheet: &mut Sheet, area: &Area) {
-        let [light, dark] = tints(area.tint);
-        let shown = |polygon: &Chain| {
-            in_box(&polygon.iter().map(|p| self.fit.apply(*p)).collect::<Chain>(), self.panel)
-        };
-        let ground = mix(light, dark, area.dark);
-        let border = polygons(&[shown(&area.border)]);
-        sheet.fill(ground, &border);
-        // A line in the same colour closes the gaps that anti-aliasing leaves between neighbours.
-        sheet.stroke(ground, 0.3, &border);
-        sheet.fill(dark, &polygons(&area.cells.iter().map(shown).collect::<Vec<_>>()));
-        let mut wire = Path::default();
-        let sides = area.wire.iter().map(|side| side.map(|p| self.fit.apply(p)));
-        sides.filter_map(|side| segment_in_box(side, self.panel)).for_each(|side| wire.line(&side));
-        sheet.wire(wire_opacity(area.face), 2.0 * wire_width(self.style.size), &wire);
+/// A label where there is room for it.
+fn label(canvas: &mut Canvas<'_>, label: &Label) {
+    let size = canvas.style.letters();
+    let lettering = word(&label.text, size);
+    if lettering.width > canvas.fit.scale * label.room {
+        return;
     }
-
-    /// The parts of a line in pixels that are shown.
-    fn line(&self, points: &[[f64; 2]]) -> Path {
-        let (mut path, mut part): (Path, Chain) = Default::default();
-        for ends in points.windows(2) {
-            let Some([a, b]) = segment_in_box([ends[0], ends[1]], self.panel) else { continue };
-            if part.last() != Some(&a) {
-                path.line(&std::mem::replace(&mut part, vec![a]));
-            }
-            part.push(b);
-        }
-        path.line(&part);
-        path
-    }
-
-    /// A label where there is room for it.
-    fn label(&self, sheet: &mut Sheet, label: &Label) {
-        let size = (LETTERS * self.style.size as f64).clamp(BOUNDS[0], BOUNDS[1]);
-        let lettering = word(&label.text, size);
-        if lettering.width > self.fit.scale * label.room {
-            return;
-        }
-        let [x, y] = self.fit.apply(label.at);
-        let length = label.away[0].hypot(label.away[1]).max(f64::MIN_POSITIVE);
-        let [dx, dy] = label.away.map(|d| d / length);
-        // Wide words are pushed farther where they would reach back to the line.
-        let push = size * AWAY + 0.5 * (lettering.width - size * AWAY).max(0.0) * dx.abs();
-        let at = [x + push * dx - 0.5 * lettering.width, y - push * dy];
-        let color = mix(seam_color(label.color), INK, 0.35);
-        sheet.write(&label.text, &lettering.path, (at, color), HALO * size);
-    }
+    let [x, y] = canvas.fit.apply(label.at);
+    let length = label.away[0].hypot(label.away[1]).max(f64::MIN_POSITIVE);
+    let [dx, dy] = label.away.map(|d| d / length);
+    // Wide words are pushed farther where they would reach back to the line.
+    let push = size * AWAY + 0.5 * (lettering.width - size * AWAY).max(0.0) * dx.abs();
+    let at = [x + push * dx - 0.5 * lettering.width, y - push * dy];
+    let color = mix(seam_color(label.color), INK, 0.35);
+    canvas.sheet.write(&label.text, &lettering.path, (at, color), HALO * size);
 }

@@ -1,5 +1,7 @@
 //! How a drawing is placed on its panel.
 
+use super::vector::ends;
+
 /// Share of the panel's side left free on each side.
 pub const MARGIN: f64 = 0.03;
 
@@ -17,25 +19,18 @@ pub struct Fit {
 impl Fit {
     /// The longer side of the points' bounding box spans a panel of `size` pixels less its margins.
     pub fn new(points: impl Iterator<Item = [f64; 2]>, size: usize) -> Fit {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for p in points.filter(|p| p.iter().all(|x| x.is_finite())) {
-            for k in 0..2 {
-                low[k] = low[k].min(p[k]);
-                high[k] = high[k].max(p[k]);
-            }
-        }
-        if low[0] > high[0] {
-            (low, high) = ([0.0; 2], [1.0; 2]);
-        }
-        let extent = [high[0] - low[0], high[1] - low[1]];
+        let points: Vec<[f64; 2]> = points.filter(|p| p.iter().all(|x| x.is_finite())).collect();
+        let sides = [0, 1].map(|k| ends(points.iter().map(|p| p[k])));
+        let [[left, right], [bottom, top]] = if points.is_empty() { [[0.0, 1.0]; 2] } else { sides };
+        let extent = [right - left, top - bottom];
         let longest = extent[0].max(extent[1]).max(f64::MIN_POSITIVE);
         let margin = size as f64 * MARGIN;
         let scale = (size as f64 - 2.0 * margin) / longest;
         let pixels = |e: f64| ((scale * e + 2.0 * margin).ceil() as usize).clamp(1, size.max(1));
         let [width, height] = extent.map(pixels);
         let offset = [
-            0.5 * width as f64 - scale * 0.5 * (low[0] + high[0]),
-            0.5 * height as f64 + scale * 0.5 * (low[1] + high[1]),
+            0.5 * width as f64 - scale * 0.5 * (left + right),
+            0.5 * height as f64 + scale * 0.5 * (bottom + top),
         ];
         Fit { scale, offset, width, height }
     }

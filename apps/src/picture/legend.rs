@@ -3,39 +3,18 @@
 use super::color::{INK, from_hex, to_hex};
 use super::colormap::{Ramp, Scale, number};
 use super::flat::{DUAL_CIRCLE, VERTEX_CIRCLE};
-use super::sheet::{Path, Sheet, decimal};
+use super::sheet::{Path, Sheet};
 use super::text::{CAPITALS, Lettering, line};
 use super::{Flat, Style};
 
 /// Length and height of the bar, over the size of a panel.
 const BAR: [f64; 2] = [0.62, 0.022];
-/// Size of the letters, over the size of a panel, and its bounds in pixels: neither too small to be read nor larger than a title.
-const LETTERS: f64 = 0.024;
-const BOUNDS: [f64; 2] = [12.0, 40.0];
 /// Colours of the bar.
 const STEPS: usize = 160;
 
-/// The size of letters below a panel of this size.
-fn letters(style: &Style) -> f64 {
-    (LETTERS * style.size as f64).clamp(BOUNDS[0], BOUNDS[1])
-}
-
-/// A line of text and where its middle stands.
-struct Caption {
-    text: String,
-    at: [f64; 2],
-    lettering: Lettering,
-}
-
-impl Caption {
-    fn new(text: &str, size: f64, at: [f64; 2]) -> Caption {
-        Caption { text: text.into(), at, lettering: line(text, size) }
-    }
-}
-
 /// The bar of colours of a quantity, with its title above and its numbers below.
 pub fn bar(scale: &Scale, style: &Style) -> Sheet {
-    let (size, letters) = (style.size as f64, letters(style));
+    let (size, letters) = (style.size as f64, style.letters());
     let [length, height] = [(BAR[0] * size).max(16.0 * letters), (BAR[1] * size).max(0.8 * letters)];
     let [title, top] = [1.3 * letters, 1.9 * letters];
     let [low, high] = scale.range;
@@ -46,13 +25,17 @@ pub fn bar(scale: &Scale, style: &Style) -> Sheet {
     values.retain(|_| scale.ramp != Ramp::Pairs);
     // The line that numbers stand on, and the one of what is said of them.
     let below = top + height + if values.is_empty() { 0.0 } else { (0.45 + CAPITALS) * letters };
+    // Lines of text and where the middle of each stands.
+    let caption = |text: &str, size: f64, x: f64, y: f64| (text.to_string(), line(text, size), [x, y]);
+    let ends = format!("({})", scale.ends);
     let mut captions = vec![
-        Caption::new(&scale.title, letters, [0.5 * length, title]),
-        Caption::new(&format!("({})", scale.ends), 0.8 * letters, [0.5 * length, below + 1.25 * letters]),
+        caption(&scale.title, letters, 0.5 * length, title),
+        caption(&ends, 0.8 * letters, 0.5 * length, below + 1.25 * letters),
     ];
-    captions.extend(values.iter().map(|v| Caption::new(&number(*v), letters, [place(*v), below])));
-    let reach = |c: &Caption| (c.at[0] - 0.5 * length).abs() + 0.5 * c.lettering.width;
-    let width = captions.iter().map(reach).fold(0.5 * length, f64::max) * 2.0 + letters;
+    captions.extend(values.iter().map(|v| caption(&number(*v), letters, place(*v), below)));
+    let reach =
+        captions.iter().map(|(_, lettering, at)| (at[0] - 0.5 * length).abs() + 0.5 * lettering.width);
+    let width = reach.fold(0.5 * length, f64::max) * 2.0 + letters;
     let mut sheet = Sheet::new(width.ceil() as usize, (below + 1.8 * letters).ceil() as usize);
     let left = 0.5 * (sheet.width as f64 - length);
     for k in 0..STEPS {
@@ -66,7 +49,7 @@ pub fn bar(scale: &Scale, style: &Style) -> Sheet {
     let tick = |v: &f64| [top + height, top + height + 0.3 * letters].map(|y| [left + place(*v), y]);
     values.iter().for_each(|v| ticks.line(&tick(v)));
     sheet.stroke(INK, (0.05 * letters).max(0.8), &ticks);
-    for Caption { text, at: [x, y], lettering } in &captions {
+    for (text, lettering, [x, y]) in &captions {
         sheet.write(text, &lettering.path, ([left + x - 0.5 * lettering.width, *y], INK), 0.0);
     }
     sheet
@@ -74,7 +57,7 @@ pub fn bar(scale: &Scale, style: &Style) -> Sheet {
 
 /// The key of the circles of a layout, if it has any.
 pub fn circles(flat: &Flat<'_>, style: &Style) -> Option<Sheet> {
-    let letters = letters(style);
+    let letters = style.letters();
     let kinds = [
         (flat.circles, VERTEX_CIRCLE, "circles of the vertices"),
         (flat.dual_circles, DUAL_CIRCLE, "circles of the faces, orthogonal to those"),
@@ -89,10 +72,7 @@ pub fn circles(flat: &Flat<'_>, style: &Style) -> Option<Sheet> {
         let y = row * (k as f64 + 0.9);
         let mut path = Path::default();
         path.circle([letters, y - 0.5 * CAPITALS * letters], radius);
-        sheet.add(
-            &format!(r#"stroke="{}" stroke-width="{}""#, to_hex(from_hex(*color)), decimal(0.12 * letters)),
-            &path,
-        );
+        sheet.stroke(from_hex(*color), 0.12 * letters, &path);
         sheet.write(text, &lettering.path, ([2.0 * letters, y], INK), 0.0);
     }
     (!entries.is_empty()).then_some(sheet)
@@ -118,12 +98,12 @@ mod tests {
         for size in [64, 320, 900, 4096] {
             let style = Style { size, ..Style::default() };
             let image = bar(&scale, &style).image().unwrap();
-            let (letters, length) = (letters(&style), (BAR[0] * size as f64).max(16.0 * letters(&style)));
-            assert!((12.0..=40.0).contains(&letters));
+            let (letters, length) = (style.letters(), (BAR[0] * size as f64).max(16.0 * style.letters()));
+            assert!((12.0..=44.0).contains(&letters));
             let at = |t: f64| {
                 let x = 0.5 * (image.width as f64 - length) + t * length;
-                let i = 3 * ((2.2 * letters) as usize * image.width + x as usize);
-                [image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]]
+                let i = 4 * ((2.2 * letters) as usize * image.width + x as usize);
+                [image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]]
             };
             // The violet and yellow ends of viridis.
             assert!(at(0.02)[2] > at(0.02)[1] && at(0.98)[0] > 220 && at(0.98)[2] < 80, "{size}");

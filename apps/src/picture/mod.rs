@@ -7,6 +7,7 @@
 
 mod args;
 mod camera;
+mod canvas;
 mod coat;
 mod color;
 mod colormap;
@@ -36,12 +37,13 @@ pub use region::{FINEST, cells, in_pieces, outline};
 pub use scene::{Circle, Field, Flat, Focus, Style, Surface};
 pub use texture::{OCTAVE, Texture, Tiles};
 
-pub use raster::{doubled_area, in_parallel};
+pub use raster::doubled_area;
 pub use vector::normal;
 
 use crate::failure::Failure;
 use coat::Wish;
 use raster::Image;
+use ricci::parallel;
 use sheet::Sheet;
 
 /// What one picture shows: the surface on the left, the layout or a drawing on the right, or one of them.
@@ -81,17 +83,14 @@ impl Picture<'_> {
     }
 
     /// The panels side by side, and below them what says what they show.
-    fn sheet(&self, style: &Style) -> Sheet {
+    fn sheet(&self, style: &Style) -> ricci::Result<Sheet> {
+        parallel::within(style.threads, || Ok(self.panels(style)))
+    }
+
+    fn panels(&self, style: &Style) -> Sheet {
         let own = if self.pattern.is_some() { None } else { self.tiles().map(|t| t.banded(style.bands)) };
         let tiles = self.pattern.or(own.as_ref());
-        let wish = |corner_uv| Wish {
-            texture: style.texture,
-            tiles,
-            corner_uv,
-            field: self.field,
-            wire: style.wire,
-            size: style.size,
-        };
+        let wish = |corner_uv| Wish { tiles, corner_uv, field: self.field };
         let [surface, beside] = [self.surface, self.beside]
             .map(|surface| surface.map(|s| Sheet::of_image(solid::draw(&s, &wish(s.corner_uv), style))));
         let flat = self.flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style));
@@ -119,22 +118,23 @@ fn stack(sheets: impl IntoIterator<Item = Option<Sheet>>, axis: usize, gap: usiz
 }
 
 /// The picture of a layout or a drawing as an SVG file; surfaces are not in it.
-pub fn svg(picture: &Picture<'_>, style: &Style) -> Vec<u8> {
-    picture.sheet(style).svg()
+pub fn svg(picture: &Picture<'_>, style: &Style) -> Result<Vec<u8>, Failure> {
+    Ok(picture.sheet(style)?.svg())
 }
 
 /// The picture as a PNG file.
 pub fn png(picture: &Picture<'_>, style: &Style) -> Result<Vec<u8>, Failure> {
-    encoded(&picture.sheet(style).image()?, style.palette).map_err(|e| Failure::Failed(e.to_string()))
+    encoded(&picture.sheet(style)?.image()?, style.palette).map_err(|e| Failure::Failed(e.to_string()))
 }
 
 fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> {
+    let rgb: Vec<u8> = image.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);
     encoder.set_depth(png::BitDepth::Eight);
     if palette {
         encoder.set_compression(png::Compression::High);
-        let (colors, indices) = palette::reduce(&image.rgb);
+        let (colors, indices) = palette::reduce(&rgb);
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_palette(colors);
         // Neighbouring numbers of a palette say nothing about each other.
@@ -143,7 +143,7 @@ fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> 
     } else {
         encoder.set_compression(png::Compression::Fast);
         encoder.set_color(png::ColorType::Rgb);
-        encoder.write_header()?.write_image_data(&image.rgb)?;
+        encoder.write_header()?.write_image_data(&rgb)?;
     }
     Ok(bytes)
 }

@@ -13,23 +13,14 @@ const MOST_FACES: usize = 64;
 /// [`CREASE`], each weighed with its area and its angle there.
 pub fn corner_normals(points: &[V3], faces: &[[u32; 3]]) -> Vec<[V3; 3]> {
     let sides: Vec<Side> = faces.iter().map(|f| Side::new(f.map(|v| points[v as usize]))).collect();
-    // The faces around each vertex, one after the other.
-    let mut first = vec![0usize; points.len() + 1];
-    faces.iter().flatten().for_each(|v| first[*v as usize + 1] += 1);
-    for v in 0..points.len() {
-        first[v + 1] += first[v];
-    }
-    let mut next = first.clone();
-    let mut around = vec![(0usize, 0usize); 3 * faces.len()];
+    // The faces around each vertex, and which of their corners it is.
+    let mut around = vec![Vec::new(); points.len()];
     for (f, face) in faces.iter().enumerate() {
-        for (k, v) in face.iter().enumerate() {
-            around[next[*v as usize]] = (f, k);
-            next[*v as usize] += 1;
-        }
+        (0..3).for_each(|k| around[face[k] as usize].push((f, k)));
     }
     let limit = CREASE.cos();
     let corner = |f: usize, v: u32| {
-        let fan = &around[first[v as usize]..first[v as usize + 1]];
+        let fan = &around[v as usize];
         let own = sides[f].direction;
         let smooth = sides[f].needle || fan.len() > MOST_FACES;
         let mean = fan.iter().fold([0.0; 3], |sum, &(g, k)| {

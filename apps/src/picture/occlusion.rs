@@ -1,32 +1,26 @@
 //! How much of the sky and of the key light a point sees past the surface, by depth maps: the surface as each of many small lights
-//! sees it.
-//!
-//! Each pixel asks a few lights, sixteen different sets of them in every square of 4 × 4 pixels; the mean over such a
-//! square of neighbours on the same piece of surface then counts all sets once (interleaved sampling, \[KH01\]).
+//! sees it. Every second pixel of every second row asks all lights; those between take the mean of their neighbours on the same piece of
+//! surface.
 
-use super::raster::{Hit, Samples, Shape, bands, doubled_area, in_parallel};
-use super::vector::{V3, add, at, bounding_ball, complement, dot, norm, normal, scaled, sphere_point, sub};
+use super::raster::{Hit, Samples, Shape, scan};
+use super::vector::{V3, add, at, bounding_ball, complement, dot, scaled, sphere_point, sub};
+use rayon::prelude::*;
 
-/// Lights of the sky and of the key light that one pixel asks: 64 and 16 in all, of which single ones cannot be told apart on a
-/// surface once the mean is taken.
-const SKY_LIGHTS: usize = 4;
-const KEY_LIGHTS: usize = 1;
-/// Pixels per side of the squares that share all lights.
-const TILE: usize = 4;
-const SETS: usize = TILE * TILE;
-/// Angular radius of the key light, radians: the softness of its shadows.
-const KEY_RADIUS: f64 = 0.16;
+/// Lights of the sky, half of them opposite to the others, and of the key light, of which single ones cannot be told apart on a surface.
+const SKY_LIGHTS: usize = 64;
+const KEY_LIGHTS: usize = 16;
+/// So many lights as close together as those of the key light would cover the whole sphere: its angular radius, the softness of its
+/// shadows, is 0.16.
+const KEY_SPHERE: usize = 2500;
 /// Pixels on the side of a depth map, of the sky and of the key light, whose shadows have edges.
 const SKY_MAP: usize = 224;
 const KEY_MAP: usize = 448;
 /// A point is lifted off the surface by this many pixels of a map, so that the map's steps do not hide it from itself.
 const LIFT: f64 = 1.6;
-/// Area vectors of a closed surface, all faces the same way round, add up to less than this share of its area.
-const CLOSED: f64 = 1e-6;
-/// Squares of pixels to each side over which light on the ground is averaged, where nothing hides the steps of the maps.
+/// Points on a pixel's side at which light is found.
+const DENSITY: f64 = 0.5;
+/// Such points to each side, every other one, over which light on the ground is averaged: single lights cannot be told apart there either.
 const SOFT: usize = 3;
-/// Rows of one band of work.
-const BAND: usize = 8;
 
 /// Shares of the light that arrive, in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,27 +31,6 @@ pub struct Open {
 
 impl Open {
     pub const FULLY: Open = Open { sky: 1.0, key: 1.0 };
-}
-
-/// Light that some lights give to a point and would give without the surface: of the sky, and of the key light.
-#[derive(Clone, Copy, Debug, Default)]
-struct Light {
-    sky: [f64; 2],
-    key: [f64; 2],
-}
-
-impl Light {
-    fn add(&mut self, other: &Light, weight: f64) {
-        for k in 0..2 {
-            self.sky[k] += weight * other.sky[k];
-            self.key[k] += weight * other.key[k];
-        }
-    }
-
-    fn open(&self) -> Open {
-        let share = |[seen, all]: [f64; 2], none: f64| if all > 0.0 { seen / all } else { none };
-        Open { sky: share(self.sky, 1.0), key: share(self.key, 0.0) }
-    }
 }
 
 /// A point that is seen, in pixel coordinates.
@@ -86,56 +59,59 @@ impl Ground {
     }
 }
 
-/// The surface as a light far away sees it: how near to the light it is.
+/// The surface as two lights far away on opposite sides see it: how near to each it is.
 struct DepthMap {
-    /// To the right and up on the map, and towards the light.
+    /// Unit vector towards the first light.
+    towards: V3,
+    /// A point of space on the map: to the right, up and towards the first light, in pixels of the map.
     axes: [V3; 3],
-    centre: V3,
+    origin: V3,
     /// Pixels of the map per unit.
     scale: f64,
     size: usize,
-    depth: Vec<f32>,
+    /// What is nearest to the first light, and what to the second.
+    depth: Vec<[f32; 2]>,
 }
 
 impl DepthMap {
-    /// `points`: within `radius` of `centre`; `inside`: of [`enclosed`].
-    fn new(
-        (points, faces, inside): (&[V3], &[[u32; 3]], f64),
-        towards: V3,
-        (centre, radius): (V3, f64),
-        size: usize,
-    ) -> DepthMap {
-        let [a, b] = complement(towards);
+    /// `ball`: a centre and a radius that hold all points.
+    fn new(points: &[V3], faces: &[[u32; 3]], towards: V3, ball: (V3, f64), size: usize) -> DepthMap {
+        let ([a, b], (centre, radius)) = (complement(towards), ball);
         let scale = 0.5 * (size as f64 - 2.0) / radius;
-        let map = DepthMap { axes: [a, b, towards], centre, scale, size, depth: Vec::new() };
+        let axes = [a, b, towards].map(|axis| scaled(axis, scale));
+        let middle = 0.5 * size as f64;
+        let origin = [0, 1, 2].map(|k| [middle, middle, 0.0][k] - dot(axes[k], centre));
+        let depth = vec![[f32::NEG_INFINITY, f32::INFINITY]; size * size];
+        let mut map = DepthMap { towards, axes, origin, scale, size, depth };
         let seen: Vec<V3> = points.iter().map(|p| map.place(*p)).collect();
-        let mut samples = Samples::new(&[], &[], [size, 0, size], 1);
-        for corners in faces.iter().map(|f| f.map(|v| seen[v as usize])) {
-            // The far side of a solid is hidden by its near side.
-            if doubled_area(corners.map(|p| [p[0], p[1]])) * inside >= 0.0 {
-                samples.triangle(corners, 0);
-            }
+        for face in faces {
+            scan(face.map(|v| seen[v as usize]), [size, size], |at, z| {
+                let [first, second] = &mut map.depth[at];
+                (*first, *second) = (first.max(z as f32), second.min(z as f32));
+            });
         }
-        DepthMap { depth: samples.depth, ..map }
+        map
     }
 
     fn place(&self, p: V3) -> V3 {
-        let [x, y, z] = self.axes.map(|axis| dot(axis, sub(p, self.centre)));
-        let middle = 0.5 * self.size as f64;
-        [middle + self.scale * x, middle + self.scale * y, self.scale * z]
+        [0, 1, 2].map(|k| dot(self.axes[k], p) + self.origin[k])
     }
 
-    /// Whether the light sees a point.
-    fn sees(&self, point: &Point) -> bool {
+    /// Whether the first or the second light sees a point.
+    fn sees(&self, point: &Point, is_first: bool) -> bool {
         let [x, y, z] = self.place(add(point.xyz, scaled(point.flat, LIFT / self.scale)));
+        let [x, y] = [x + 0.5, y + 0.5];
         let inside = |c: f64| c >= 0.0 && c < self.size as f64;
-        !(inside(x) && inside(y)) || f64::from(self.depth[y as usize * self.size + x as usize]) <= z
+        if !(inside(x) && inside(y)) {
+            return true;
+        }
+        let [first, second] = self.depth[y as usize * self.size + x as usize].map(f64::from);
+        if is_first { first <= z } else { z <= second }
     }
 }
 
 /// A surface that casts shadows.
 pub struct Caster {
-    /// The lights of set k are those whose number leaves the remainder k.
     sky: Vec<DepthMap>,
     key: Vec<DepthMap>,
     towards_key: V3,
@@ -143,85 +119,32 @@ pub struct Caster {
 
 impl Caster {
     /// `key`: unit vector towards the key light.
-    pub fn new(points: &[V3], faces: &[[u32; 3]], key: V3, threads: usize) -> Caster {
-        let (ball, surface) = (bounding_ball(points), (points, faces, enclosed(points, faces)));
-        let [a, b] = complement(key);
+    pub fn new(points: &[V3], faces: &[[u32; 3]], key: V3) -> Caster {
+        let (ball, [a, b]) = (bounding_ball(points), complement(key));
         let around_key = |i: usize| {
-            let [p, q] = disk_point(i).map(|x| x * KEY_RADIUS);
-            let towards = add(key, add(scaled(a, p), scaled(b, q)));
-            scaled(towards, 1.0 / dot(towards, towards).sqrt())
+            let [x, y, z] = sphere_point(i, KEY_SPHERE);
+            add(scaled(key, z), add(scaled(a, x), scaled(b, y)))
         };
-        let lights = (0..SKY_LIGHTS * SETS).map(|i| (sphere_point(i, SKY_LIGHTS * SETS), SKY_MAP));
-        let lights = lights.chain((0..KEY_LIGHTS * SETS).map(|i| (around_key(i), KEY_MAP)));
-        let mut maps: Vec<_> = lights.map(|light| (light, None)).collect();
-        in_parallel(maps.iter_mut().collect(), threads, |_, ((towards, size), map)| {
-            *map = Some(DepthMap::new(surface, *towards, ball, *size));
-        });
-        let mut maps = maps.into_iter().filter_map(|(_, map)| map);
-        let sky = maps.by_ref().take(SKY_LIGHTS * SETS).collect();
-        Caster { sky, key: maps.collect(), towards_key: key }
+        let map = |towards: V3, size: usize| DepthMap::new(points, faces, towards, ball, size);
+        let sky = (0..SKY_LIGHTS / 2).into_par_iter().map(|i| map(sphere_point(i, SKY_LIGHTS), SKY_MAP));
+        let key_maps = (0..KEY_LIGHTS).into_par_iter().map(|i| map(around_key(i), KEY_MAP));
+        Caster { sky: sky.collect(), key: key_maps.collect(), towards_key: key }
     }
 
-    /// What some lights of the sky and of the key light give to a point.
-    fn light<'a>(
-        &self,
-        point: &Point,
-        sky: impl Iterator<Item = &'a DepthMap>,
-        key: impl Iterator<Item = &'a DepthMap>,
-    ) -> Light {
-        let mut light = Light::default();
-        // A light below the face itself says nothing about what is above it.
-        for map in sky.filter(|map| dot(map.axes[2], point.flat) > 0.0) {
-            let weight = dot(map.axes[2], point.normal).max(0.0);
-            light.sky[0] += if map.sees(point) { weight } else { 0.0 };
-            light.sky[1] += weight;
-        }
-        for map in key {
-            let lit = dot(self.towards_key, point.normal) > 0.0 && map.sees(point);
-            light.key[0] += f64::from(u8::from(lit));
-            light.key[1] += 1.0;
-        }
-        light
-    }
-
-    /// The light of one set, or of all, that reaches a point.
-    fn of_set(&self, point: &Point, set: usize) -> Light {
-        let (sky, key) = (self.sky.iter(), self.key.iter());
-        self.light(point, sky.skip(set).step_by(SETS), key.skip(set).step_by(SETS))
-    }
-
-    /// The shares of all lights that reach a point.
+    /// The shares of the light that reach a point.
     pub fn open(&self, point: &Point) -> Open {
-        self.light(point, self.sky.iter(), self.key.iter()).open()
+        let (mut seen, mut all) = (0.0, 0.0);
+        for map in &self.sky {
+            // Of two opposite lights one is below the face itself and says nothing about what is above it.
+            let is_first = dot(map.towards, point.flat) > 0.0;
+            let weight = dot(map.towards, point.normal) * if is_first { 1.0 } else { -1.0 };
+            seen += if map.sees(point, is_first) { weight.max(0.0) } else { 0.0 };
+            all += weight.max(0.0);
+        }
+        let faces_key = dot(self.towards_key, point.normal) > 0.0;
+        let lit = self.key.iter().filter(|map| faces_key && map.sees(point, true)).count();
+        Open { sky: if all > 0.0 { seen / all } else { 1.0 }, key: lit as f64 / KEY_LIGHTS as f64 }
     }
-}
-
-/// What a closed surface encloses, six times its volume, negative where its faces are clockwise from outside; 0 of others.
-fn enclosed(points: &[V3], faces: &[[u32; 3]]) -> f64 {
-    let (mut sum, mut size, mut volume) = ([0.0; 3], 0.0, 0.0);
-    for corners in faces.iter().map(|f| f.map(|v| points[v as usize])) {
-        let n = normal(corners);
-        (sum, size, volume) = (add(sum, n), size + norm(n), volume + dot(corners[0], n));
-    }
-    if border(faces).is_empty() && norm(sum) <= CLOSED * size { volume } else { 0.0 }
-}
-
-/// The edges of exactly one face.
-pub fn border(faces: &[[u32; 3]]) -> Vec<(u32, u32)> {
-    let sides = faces.iter().flat_map(|f| [0, 1, 2].map(|k| (f[k], f[(k + 1) % 3])));
-    let mut edges: Vec<(u32, u32)> = sides.map(|(a, b)| (a.min(b), a.max(b))).collect();
-    edges.sort_unstable();
-    let alone = |run: &[(u32, u32)]| (run.len() == 1).then(|| run[0]);
-    edges.chunk_by(|a, b| a == b).filter_map(alone).collect()
-}
-
-/// Points spread evenly over the unit disk: any run of consecutive ones is. The sequence of \[Rob18\] in the square,
-/// with its first coordinate as the share of the area within and its second as the angle.
-fn disk_point(i: usize) -> [f64; 2] {
-    let s = (0.5 + (i + 1) as f64 * 0.754_877_666_246_692_7).fract();
-    let t = (0.5 + (i + 1) as f64 * 0.569_840_290_998_053_2).fract();
-    let (sin, cos) = (std::f64::consts::TAU * t).sin_cos();
-    [s.sqrt() * cos, s.sqrt() * sin]
 }
 
 /// The point of the smooth surface over a point of a face \[Han21\]: shadows then end where the smooth shading does, not
@@ -235,12 +158,11 @@ pub fn over(b: V3, corners: [V3; 3], normals: [V3; 3]) -> V3 {
     at(b, lifted)
 }
 
-/// The light at every pixel of a picture.
+/// The light at every second pixel of every second row of a picture.
 pub struct Field {
     width: usize,
-    height: usize,
-    points: Vec<Option<Point>>,
-    light: Vec<Light>,
+    /// What is seen there, if anything is, and its light.
+    seen: Vec<Option<(Point, Open)>>,
 }
 
 impl Field {
@@ -249,85 +171,60 @@ impl Field {
         caster: &Caster,
         shapes: &[Shape],
         [width, height]: [usize; 2],
-        threads: usize,
         describe: impl Fn([f64; 2], Option<&Hit>) -> Option<Point> + Sync,
     ) -> Field {
-        let mut points = vec![None; width * height];
-        let mut raw = vec![Light::default(); width * height];
-        let rows = (width * BAND).max(1);
-        let in_band = bands(shapes, height, BAND);
-        let work: Vec<_> = points.chunks_mut(rows).zip(raw.chunks_mut(rows)).collect();
-        in_parallel(work, threads, |band, (points, raw)| {
-            let first = band * BAND;
-            let samples = Samples::new(shapes, &in_band[band], [width, first, points.len() / width], 1);
-            for (i, (point, raw)) in points.iter_mut().zip(raw).enumerate() {
-                let (x, y) = (i % width, i / width);
-                let pixel = [x as f64 + 0.5, (first + y) as f64 + 0.5];
-                *point = describe(pixel, samples.hit(shapes, x, y, pixel).as_ref());
-                if let Some(point) = point {
-                    *raw = caster.of_set(point, (first + y) % TILE * TILE + x % TILE);
-                }
+        let samples = Samples::new(shapes, [width, 0, height], DENSITY);
+        let mut field = Field { width: samples.width, seen: vec![None; samples.len()] };
+        field.seen.par_chunks_mut(field.width.max(1)).enumerate().for_each(|(row, out)| {
+            for (out, (at, hit)) in out.iter_mut().zip(samples.row(shapes, row)) {
+                *out = describe(at, hit.as_ref()).map(|point| (point, caster.open(&point)));
             }
         });
-        let mut field = Field { width, height, points, light: raw };
-        let near = |c: usize| (c.saturating_sub(TILE / 2)..c + TILE / 2).collect();
-        field.average(threads, |_| true, near);
-        // On the ground the shadows of single lights would be told apart: there the mean is taken over more pixels.
-        let far = |c: usize| (0..=2 * SOFT).map(|k| (c + TILE * k).saturating_sub(TILE * SOFT)).collect();
-        field.average(threads, |point| point.on_ground, far);
+        field.soften();
         field
     }
 
-    /// Give the points that are chosen the mean over pixels around theirs that show the same piece of surface: those of the rows and of the
-    /// columns that are named for the pixel's own.
-    fn average(
-        &mut self,
-        threads: usize,
-        chosen: impl Fn(&Point) -> bool + Sync,
-        around: impl Fn(usize) -> Vec<usize>,
-    ) {
-        let (mut means, field) = (self.light.clone(), &*self);
-        let table = |n: usize| -> Vec<Vec<usize>> {
-            let within = |c| around(c).into_iter().map(|i| i.min(n - 1)).collect();
-            (0..n).map(within).collect()
-        };
-        let (columns, rows) = (table(field.width), table(field.height));
-        in_parallel(means.chunks_mut(field.width.max(1)).collect(), threads, |y, out| {
-            for (x, out) in out.iter_mut().enumerate() {
-                if let Some(point) = field.points[y * field.width + x].as_ref().filter(|p| chosen(p)) {
-                    let near = rows[y].iter().flat_map(|j| columns[x].iter().map(move |i| (j, i)));
-                    *out = field.sum(near.map(|(j, i)| (j * field.width + i, 1.0)), point).0;
+    /// Give points on the ground the mean over those around them.
+    fn soften(&mut self) {
+        let (mut means, height) = (self.seen.clone(), self.seen.len() / self.width.max(1));
+        let near =
+            |c: usize, n: usize| (0..=2 * SOFT).map(move |k| (c + 2 * k).saturating_sub(2 * SOFT).min(n - 1));
+        means.par_chunks_mut(self.width.max(1)).enumerate().for_each(|(y, out)| {
+            for (x, (point, open)) in out.iter_mut().enumerate().filter_map(|(x, p)| Some((x, p.as_mut()?))) {
+                if point.on_ground {
+                    let taps = near(y, height).flat_map(|j| near(x, self.width).map(move |i| (j, i)));
+                    *open = self.mean(taps.map(|(j, i)| (j * self.width + i, 1.0)), point).unwrap_or(*open);
                 }
             }
         });
-        self.light = means;
+        self.seen = means;
     }
 
     /// The light at a point that is seen at the pixel coordinates (x, y); `None` if no pixel near it shows its surface.
     pub fn at(&self, [x, y]: [f64; 2], point: &Point) -> Option<Open> {
-        let [x, y] = [x - 0.5, y - 0.5];
+        let [x, y] = [x, y].map(|c| c * DENSITY - 0.5);
         let [i, j] = [x.floor(), y.floor()];
         let tap = |(di, dj): (f64, f64)| {
             let [i, j] = [i + di, j + dj];
-            let inside = i >= 0.0 && j >= 0.0 && i < self.width as f64 && j < self.height as f64;
             let weight = (1.0 - (x - i).abs()) * (1.0 - (y - j).abs());
-            inside.then(|| (j as usize * self.width + i as usize, weight + 1e-3))
+            (i >= 0.0 && j >= 0.0 && i < self.width as f64)
+                .then(|| (j as usize * self.width + i as usize, weight + 1e-3))
         };
         let taps = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)];
-        let (light, total) = self.sum(taps.into_iter().filter_map(tap), point);
-        (total > 0.0).then(|| light.open())
+        self.mean(taps.into_iter().filter_map(tap), point)
     }
 
-    /// The weighted sum over pixels that show the piece of surface on which a point lies, and of the weights.
-    fn sum(&self, taps: impl Iterator<Item = (usize, f64)>, point: &Point) -> (Light, f64) {
-        let (mut light, mut total) = (Light::default(), 0.0);
+    /// The weighted mean over pixels that show the piece of surface on which a point lies.
+    fn mean(&self, taps: impl Iterator<Item = (usize, f64)>, point: &Point) -> Option<Open> {
+        let (mut open, mut total) = (Open { sky: 0.0, key: 0.0 }, 0.0);
         for (pixel, weight) in taps {
-            if self.points[pixel].as_ref().is_some_and(|p| p.neighbours(point)) {
-                light.add(&self.light[pixel], weight);
+            let near = self.seen.get(pixel).and_then(Option::as_ref);
+            if let Some((_, light)) = near.filter(|(other, _)| other.neighbours(point)) {
+                open = Open { sky: open.sky + weight * light.sky, key: open.key + weight * light.key };
                 total += weight;
             }
         }
-        (light, total)
+        (total > 0.0).then(|| Open { sky: open.sky / total, key: open.key / total })
     }
 }
 

@@ -1,74 +1,58 @@
 //! An image in at most 256 colours, by median cut \[Hec82\].
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// Colours of an indexed PNG, whose pixels are bytes.
 const MOST: usize = 256;
 /// Greys from this one on, in which shadows on paper end.
 const LIGHT_GREY: u8 = 200;
 
+/// Colours and how often each occurs.
+type Colors = Vec<([u8; 3], usize)>;
+
 /// A palette (three bytes a colour) and for each pixel the number of its colour.
 pub fn reduce(rgb: &[u8]) -> (Vec<u8>, Vec<u8>) {
-    let mut count: HashMap<[u8; 3], usize> = HashMap::new();
-    for p in rgb.chunks_exact(3) {
-        *count.entry([p[0], p[1], p[2]]).or_default() += 1;
-    }
-    let mut colors: Vec<([u8; 3], usize)> = count.into_iter().collect();
+    let pixels = || rgb.chunks_exact(3).map(|p| [p[0], p[1], p[2]]);
+    let mut count: BTreeMap<[u8; 3], usize> = BTreeMap::new();
+    pixels().for_each(|p| *count.entry(p).or_default() += 1);
     // The steps of a soft shadow on white paper show: light greys keep a colour of their own each.
-    let own = |c: &[u8; 3]| c[0] >= LIGHT_GREY && c[0] == c[1] && c[1] == c[2];
-    colors.sort_unstable_by_key(|(c, _)| (!own(c), *c));
-    let greys = colors.iter().take_while(|(c, _)| own(c)).count();
-    // Boxes of colours, as ranges of the list.
-    let mut boxes: Vec<_> =
-        (0..greys).map(|k| k..k + 1).chain(std::iter::once(greys..colors.len())).collect();
+    let own = |(c, _): &([u8; 3], usize)| c[0] >= LIGHT_GREY && c[0] == c[1] && c[1] == c[2];
+    let (greys, others): (Colors, Colors) = count.into_iter().partition(own);
+    let mut boxes: Vec<Colors> = greys.into_iter().map(|c| vec![c]).collect();
+    boxes.extend((!others.is_empty()).then_some(others));
+    let mut spreads: Vec<_> = boxes.iter().map(|part| spread(part)).collect();
     while boxes.len() < MOST {
-        // The box whose colours are spread most, each by how often it occurs.
-        let spread = |range: &std::ops::Range<usize>| spread(&colors[range.clone()]);
-        let scores: Vec<(f64, usize)> = boxes.iter().map(spread).collect();
-        let widest = (0..boxes.len()).fold(0, |w, i| if scores[i].0 > scores[w].0 { i } else { w });
-        if boxes.is_empty() || scores[widest].0 <= 0.0 {
+        let widest = (0..boxes.len()).max_by(|a, b| spreads[*a].0.total_cmp(&spreads[*b].0));
+        let Some((widest, (_, channel, mean))) = widest.map(|w| (w, spreads[w])).filter(|w| w.1.0 > 0.0)
+        else {
             break;
-        }
-        let (range, channel) = (boxes[widest].clone(), scores[widest].1);
-        let part = &mut colors[range.clone()];
-        part.sort_unstable_by_key(|(c, _)| (c[channel], *c));
-        let middle = range.start + split(part, channel);
-        boxes[widest] = range.start..middle;
-        boxes.push(middle..range.end);
+        };
+        let part = std::mem::take(&mut boxes[widest]);
+        let (low, high): (Colors, Colors) =
+            part.into_iter().partition(|(c, _)| f64::from(c[channel]) <= mean);
+        (spreads[widest], boxes[widest]) = (spread(&low), low);
+        spreads.push(spread(&high));
+        boxes.push(high);
     }
-    let (mut palette, mut number) = (Vec::new(), HashMap::new());
-    for (index, range) in boxes.into_iter().filter(|r| !r.is_empty()).enumerate() {
-        let part = &colors[range];
-        let total: usize = part.iter().map(|(_, n)| n).sum();
-        for k in 0..3 {
-            let sum: usize = part.iter().map(|(c, n)| c[k] as usize * n).sum();
-            palette.push(((sum + total / 2) / total) as u8);
-        }
-        part.iter().for_each(|(c, _)| {
-            number.insert(*c, index as u8);
-        });
-    }
-    let indices = rgb.chunks_exact(3).map(|p| number.get(&[p[0], p[1], p[2]]).copied().unwrap_or(0));
-    let indices = indices.collect();
-    (palette, indices)
+    let total = |part: &Colors| part.iter().map(|(_, n)| n).sum::<usize>();
+    let sum = |part: &Colors, k: usize| part.iter().map(|(c, n)| c[k] as usize * n).sum::<usize>();
+    let mean = |part: &Colors| [0, 1, 2].map(|k| ((sum(part, k) + total(part) / 2) / total(part)) as u8);
+    let numbered =
+        (0..=u8::MAX).zip(&boxes).flat_map(|(index, part)| part.iter().map(move |(c, _)| (*c, index)));
+    let number: BTreeMap<[u8; 3], u8> = numbered.collect();
+    (boxes.iter().flat_map(mean).collect(), pixels().map(|p| number[&p]).collect())
 }
 
-/// The largest squared deviation of a channel from its mean, summed over the pixels, and that channel.
-fn spread(part: &[([u8; 3], usize)]) -> (f64, usize) {
+/// The largest squared deviation of a channel from its mean, summed over the colours, that channel and the mean.
+fn spread(part: &[([u8; 3], usize)]) -> (f64, usize, f64) {
     let total: f64 = part.iter().map(|(_, n)| *n as f64).sum();
     let of = |k: usize| {
         let mean = part.iter().map(|(c, n)| f64::from(c[k]) * *n as f64).sum::<f64>() / total;
-        // Below one pixel's worth of a full step nothing is gained.
-        part.iter().map(|(c, n)| (f64::from(c[k]) - mean).powi(2) * (*n as f64).sqrt()).sum::<f64>()
+        // Colours that fill large parts of a picture do not take all the steps.
+        let deviation = part.iter().map(|(c, n)| (f64::from(c[k]) - mean).powi(2) * (*n as f64).sqrt());
+        (deviation.sum::<f64>(), k, mean)
     };
-    (0..3).map(|k| (of(k), k)).fold((0.0, 0), |best, x| if x.0 > best.0 { x } else { best })
-}
-
-/// Where to cut a sorted box of at least two colours: at the mean.
-fn split(part: &[([u8; 3], usize)], channel: usize) -> usize {
-    let total: f64 = part.iter().map(|(_, n)| *n as f64).sum();
-    let mean = part.iter().map(|(c, n)| f64::from(c[channel]) * *n as f64).sum::<f64>() / total;
-    part.iter().position(|(c, _)| f64::from(c[channel]) > mean).unwrap_or(1).clamp(1, part.len() - 1)
+    (0..3).map(of).fold((0.0, 0, 0.0), |best, x| if x.0 > best.0 { x } else { best })
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Regions of the plane as closed polygons: their parts in half-planes, their outlines, the cells of a pattern in them.
 
 use super::texture::{CIRCLE_SPACING, RING, Texture};
+use super::vector::ends;
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
@@ -51,16 +52,25 @@ pub fn is_finite(points: &[[f64; 2]]) -> bool {
     points.as_flattened().iter().all(|x| x.is_finite())
 }
 
+/// A point as a number that can be looked up.
 fn key(p: [f64; 2]) -> [u64; 2] {
     p.map(f64::to_bits)
 }
 
-/// The sides of triangles without those between two of them, as closed polygons.
+/// The sides of triangles that no other one has, as they run around their own.
+pub fn border<P: Copy + Ord>(triangles: impl Iterator<Item = [P; 3]>) -> Vec<(P, P)> {
+    let sides = triangles.flat_map(|t| [0, 1, 2].map(|k| (t[k], t[(k + 1) % 3])));
+    let mut sides: Vec<_> = sides.map(|(a, b)| (a.min(b), a.max(b), a < b)).collect();
+    sides.sort_unstable();
+    let runs = sides.chunk_by(|p, q| (p.0, p.1) == (q.0, q.1)).filter(|run| run.len() == 1);
+    runs.map(|run| if run[0].2 { (run[0].0, run[0].1) } else { (run[0].1, run[0].0) }).collect()
+}
+
+/// The border of triangles as closed polygons.
 pub fn outline(triangles: impl Iterator<Item = [[f64; 2]; 3]>) -> Vec<Chain> {
-    let of = |t: [[f64; 2]; 3]| [0, 1, 2].map(|k| (t[k], t[(k + 1) % 3]));
-    let sides: Vec<_> = triangles.filter(|t| is_finite(t)).flat_map(of).collect();
-    let known: HashSet<_> = sides.iter().map(|(a, b)| [key(*a), key(*b)]).collect();
-    chains(sides.into_iter().filter(|(a, b)| !known.contains(&[key(*b), key(*a)])))
+    let sides = border(triangles.filter(|t| is_finite(t)).map(|t| t.map(key)));
+    let place = |p: [u64; 2]| p.map(f64::from_bits);
+    chains(sides.into_iter().map(|(a, b)| (place(a), place(b))))
 }
 
 /// Each segment once, whichever way it runs.
@@ -113,8 +123,7 @@ pub fn cells(region: &[Chain], texture: Texture, check: f64) -> Vec<Chain> {
 
 /// The numbers of the intervals between multiples of `step` that meet the polygon.
 fn intervals(polygon: &[[f64; 2]], axis: usize, step: f64) -> std::ops::RangeInclusive<i64> {
-    let (low, high) =
-        polygon.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[axis]), h.max(p[axis])));
+    let [low, high] = ends(polygon.iter().map(|p| p[axis]));
     (low / step).floor() as i64..=(high / step).floor() as i64
 }
 
@@ -197,7 +206,7 @@ mod tests {
     fn the_outline_of_triangles_has_no_inner_sides() {
         let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let around = outline([[a, b, c], [a, c, d]].into_iter());
-        assert_eq!(around, [vec![a, b, c, d, a]]);
+        assert_eq!(around, [vec![d, a, b, c, d]]);
         assert_eq!(once([[a, b], [b, c], [b, a]].into_iter()).count(), 2);
     }
 

@@ -7,6 +7,8 @@ use super::texture::Texture;
 /// Half the width of a line and the radius of a cone's ball, over the size of a panel, and in pixels at least.
 const LINE: [f64; 2] = [0.0013, 0.7];
 const CONE_RADIUS: [f64; 2] = [0.0062, 2.6];
+/// Size of letters over that of a panel, and its bounds in pixels: neither too small to be read nor larger than a title.
+const LETTERS: [f64; 3] = [0.025, 12.0, 44.0];
 
 /// A surface in space.
 #[derive(Clone, Copy)]
@@ -43,6 +45,10 @@ pub struct Flat<'a> {
     pub cones: &'a [([f64; 2], f64)],
     pub circles: &'a [Circle],
     pub dual_circles: &'a [Circle],
+    /// Round holes: nothing is seen inside, and their edge is drawn as the circle that it is.
+    pub holes: &'a [Circle],
+    /// Circles that bound the layout from outside.
+    pub rims: &'a [Circle],
 }
 
 /// A quantity on the surface, to be shown in colours.
@@ -91,6 +97,11 @@ impl Style {
     /// Half the width of a line, pixels.
     pub fn line(&self) -> f64 {
         (LINE[0] * self.size as f64).max(LINE[1])
+    }
+
+    /// The size of letters, pixels.
+    pub fn letters(&self) -> f64 {
+        (LETTERS[0] * self.size as f64).clamp(LETTERS[1], LETTERS[2])
     }
 
     /// The radius of a cone's ball, pixels.

@@ -4,7 +4,8 @@ use super::color::{INK, Rgb, to_hex};
 use super::raster::Image;
 use super::region::is_finite;
 use crate::failure::Failure;
-use resvg::{tiny_skia, usvg};
+use resvg::tiny_skia::{PixmapMut, Transform};
+use resvg::usvg;
 use std::fmt::Write;
 
 /// Opacity in SVG over that in linear light: it mixes colours as they are written, in which thin lines are darker.
@@ -66,17 +67,10 @@ impl Path {
     }
 }
 
-/// Polygons, closed.
-pub fn polygons(polygons: &[Vec<[f64; 2]>]) -> Path {
+/// Several lines or polygons, each added by `add`.
+pub fn paths(pieces: impl Iterator<Item = Vec<[f64; 2]>>, add: fn(&mut Path, &[[f64; 2]])) -> Path {
     let mut path = Path::default();
-    polygons.iter().for_each(|p| path.polygon(p));
-    path
-}
-
-/// Lines, open.
-pub fn lines(lines: &[Vec<[f64; 2]>]) -> Path {
-    let mut path = Path::default();
-    lines.iter().for_each(|p| path.line(p));
+    pieces.for_each(|points| add(&mut path, &points));
     path
 }
 
@@ -172,15 +166,9 @@ impl Sheet {
         let failed = |why: String| Failure::Failed(format!("the picture cannot be drawn: {why}"));
         let tree = usvg::Tree::from_str(&self.text(""), &usvg::Options::default())
             .map_err(|e| failed(e.to_string()))?;
-        let mut pixels = tiny_skia::Pixmap::new(self.width as u32, self.height as u32)
+        let mut pixels = PixmapMut::from_bytes(&mut image.rgba, self.width as u32, self.height as u32)
             .ok_or_else(|| failed("it has too many pixels".into()))?;
-        for (to, from) in pixels.data_mut().chunks_exact_mut(4).zip(image.rgb.chunks_exact(3)) {
-            to.copy_from_slice(&[from[0], from[1], from[2], 255]);
-        }
-        resvg::render(&tree, tiny_skia::Transform::identity(), &mut pixels.as_mut());
-        for (to, from) in image.rgb.chunks_exact_mut(3).zip(pixels.data().chunks_exact(4)) {
-            to.copy_from_slice(&from[..3]);
-        }
+        resvg::render(&tree, Transform::identity(), &mut pixels);
         Ok(image)
     }
 }
@@ -203,14 +191,14 @@ mod tests {
 
     #[test]
     fn vectors_lie_over_images_and_end_with_their_sheet() {
-        let mut part = Sheet::of_image(Image { width: 4, height: 4, rgb: vec![0; 48] });
+        let mut part = Sheet::of_image(Image { width: 4, height: 4, rgba: [0, 0, 0, 255].repeat(16) });
         let mut path = Path::default();
         path.rectangle([2.0, 0.0, 100.0, 100.0]);
         part.fill([1.0, 0.0, 0.0], &path);
         let mut sheet = Sheet::new(10, 6);
         sheet.put(part.cut("part"), [1, 1]);
         let image = sheet.image().unwrap();
-        let at = |x: usize, y: usize| image.rgb[3 * (10 * y + x)..][..3].to_vec();
+        let at = |x: usize, y: usize| image.rgba[4 * (10 * y + x)..][..3].to_vec();
         assert_eq!([at(0, 2), at(1, 1), at(3, 1), at(4, 4)], [[255; 3], [0; 3], [255, 0, 0], [255, 0, 0]]);
         assert_eq!([at(5, 2), at(4, 5)], [[255; 3]; 2]);
     }

@@ -6,8 +6,9 @@ use super::color::{INK, Rgb, cone_color, mix, seam_color};
 use super::fit::Fit;
 use super::light::Lights;
 use super::normals::corner_normals;
-use super::occlusion::{Caster, Field, Ground, Open, Point, border, over};
-use super::raster::{Hit, Image, Painter, Shape, render};
+use super::occlusion::{Caster, Field, Ground, Open, Point, over};
+use super::raster::{Hit, Image, Shape, render};
+use super::region::border;
 use super::vector::{V3, add, at, bounding_ball, dot, norm, normal, scaled, sub, unit};
 use super::{Style, Surface, View};
 
@@ -33,7 +34,7 @@ pub fn draw(surface: &Surface<'_>, wish: &Wish<'_>, style: &Style) -> Image {
         return Image::white(style.size, style.size);
     }
     let scene = Scene::new(surface, wish, style);
-    render(&scene.shapes, scene.size[0], scene.size[1], &scene, style.threads)
+    render(&scene.shapes, scene.size, |pixel, hit| scene.paint(pixel, hit))
 }
 
 /// Everything that a visible point of the panel needs.
@@ -41,7 +42,6 @@ struct Scene<'a> {
     /// The faces, then seams, boundary and cones.
     shapes: Vec<Shape>,
     size: [usize; 2],
-    n_faces: usize,
     corners: Vec<[V3; 3]>,
     normals: Vec<[V3; 3]>,
     coat: Coat<'a>,
@@ -72,7 +72,7 @@ impl Stage {
     /// `points`: scaled by `factor`.
     fn new(points: &[V3], faces: &[[u32; 3]], style: &Style, factor: f64) -> Stage {
         let view = View { from: style.focus.map(|focus| focus.normal), ..style.view };
-        let camera = Camera::choose(points, faces, &view, style.threads);
+        let camera = Camera::choose(points, faces, &view);
         // A part of the surface is lit as seen, wherever it faces.
         let up = match style.focus {
             None => [camera.up[0], -camera.up[1], camera.up[2]],
@@ -126,7 +126,7 @@ impl<'a> Scene<'a> {
             corner_normals(&points, surface.faces).into_iter().map(|n| n.map(turned)).collect();
         let flat: Vec<[[f64; 2]; 3]> = corners.iter().map(|c| c.map(|p| [p[0], p[1]])).collect();
         let mut shapes: Vec<Shape> = corners.iter().map(|c| Shape::Triangle(*c)).collect();
-        let cast = || Caster::new(&placed, surface.faces, lights.key, style.threads);
+        let cast = || Caster::new(&placed, surface.faces, lights.key);
         let caster = (!style.draft).then(cast);
         let mut strokes = Vec::new();
         let mut tube = |a: u32, b: u32, radius: f64, color: Rgb| {
@@ -134,7 +134,7 @@ impl<'a> Scene<'a> {
             shapes.push(Shape::Capsule { ends, radius });
             strokes.push(color);
         };
-        let border = if surface.is_closed { Vec::new() } else { border(surface.faces) };
+        let border = if surface.is_closed { Vec::new() } else { border(surface.faces.iter().copied()) };
         border.into_iter().for_each(|(a, b)| tube(a, b, style.line(), INK));
         surface.seams.iter().for_each(|&(a, b, seam)| tube(a, b, 1.5 * style.line(), seam_color(seam)));
         surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, style.cone(), cone_color(curvature)));
@@ -143,8 +143,7 @@ impl<'a> Scene<'a> {
         let mut scene = Scene {
             foot: (foot, radius),
             size: [fit.width, fit.height],
-            n_faces: corners.len(),
-            coat: Coat::new(wish, &flat),
+            coat: Coat::new(wish, style, &flat),
             margin: FADE * style.size as f64,
             shapes,
             corners,
@@ -155,9 +154,9 @@ impl<'a> Scene<'a> {
             caster,
             field: None,
         };
-        let faces = &scene.shapes[..scene.n_faces];
+        let faces = &scene.shapes[..scene.corners.len()];
         let describe = |at, hit: Option<&Hit>| scene.describe(at, hit);
-        let light = |caster| Field::new(caster, faces, scene.size, style.threads, describe);
+        let light = |caster| Field::new(caster, faces, scene.size, describe);
         scene.field = scene.caster.as_ref().map(light);
         scene
     }
@@ -189,9 +188,8 @@ impl<'a> Scene<'a> {
         let near = self.field.as_ref().and_then(|field| field.at(pixel, point));
         near.unwrap_or_else(|| self.caster.as_ref().map_or(Open::FULLY, |caster| caster.open(point)))
     }
-}
 
-impl Painter for Scene<'_> {
+    /// The colour of a place of a shape, or of the background.
     fn paint(&self, pixel: [f64; 2], hit: Option<&Hit>) -> Rgb {
         let Some(hit) = hit else {
             let Some(ground) = &self.ground else { return [1.0; 3] };
@@ -199,13 +197,13 @@ impl Painter for Scene<'_> {
             let shade = Lights::on_ground(self.open(pixel, &below));
             return mix([1.0; 3], shade, self.fade(pixel, &below));
         };
-        if hit.shape < self.n_faces {
+        if hit.shape < self.corners.len() {
             let Some(point) = self.describe(pixel, Some(hit)) else { return [1.0; 3] };
             let albedo = self.coat.color(hit.shape, hit.local);
             let albedo = if hit.front { albedo } else { mix(albedo, INSIDE, 0.45) };
             return self.lights.on(albedo, point.normal, self.open(pixel, &point));
         }
         // Tubes and balls are marks on the surface: lit, but not shaded by it.
-        self.lights.on(self.strokes[hit.shape - self.n_faces], hit.local, Open::FULLY)
+        self.lights.on(self.strokes[hit.shape - self.corners.len()], hit.local, Open::FULLY)
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Files do not say it. y is up in most of them; exceptions are told by their shape.
 
-use super::vector::{V3, add, complement, dot, norm, normal, sphere_point, unit};
+use super::vector::{V3, add, complement, dot, ends, norm, normal, scaled, sphere_point, unit};
 
 /// Which way is up, and whether the surface lies flat on the ground, to be seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,13 +17,10 @@ const SHEET: f64 = 0.35;
 const FLAT_SHEET: f64 = 0.34;
 /// A closed surface lower than this share of its width and length is seen from above, wherever up is.
 const LOW: f64 = 0.45;
-/// A closed surface thinner than this share of its width and length may lie on the ground,
+/// A closed surface thinner than this share of its width and length lies on the ground,
 const FLAT_BODY: f64 = 0.6;
-/// if it is its own mirror image there up to this share of the area, and has handles or is one along every axis.
-const SYMMETRIC: f64 = 0.55;
-const REGULAR: f64 = 0.75;
-/// Boxes per axis in which mirror images are compared.
-const BOXES: usize = 10;
+/// if the middle of its area is that of its bounding box, up to this share of the extent: no side of it is up.
+const CENTRED: f64 = 0.01;
 /// A flat side with this share of the area that the surface can stand on is what it stands on; twice as much where it is slanted in the
 /// file, as cuts of scans are.
 const BASE: f64 = 0.065;
@@ -42,52 +39,42 @@ const Y: V3 = [0.0, 1.0, 0.0];
 const Z: V3 = [0.0, 0.0, 1.0];
 
 pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
-    let figure = Figure::new(points, faces);
-    let axis = |k: usize, sign: f64| {
-        let mut axis = [0.0; 3];
-        axis[k] = sign;
-        axis
-    };
+    let axis = |k: usize, sign: f64| [0, 1, 2].map(|j| if j == k { sign } else { 0.0 });
     // Height over the lesser of width and length.
     let thin = |up: V3| {
-        let [high, wide, long] = [up, complement(up)[0], complement(up)[1]].map(|axis| extent(points, axis));
-        high / wide.min(long)
+        let [wide, long] = complement(up).map(|across| reach(points, across).1);
+        reach(points, up).1 / wide.min(long)
     };
-    let outward =
-        (0..3).fold(0, |l, k| if figure.outside[k].abs() > figure.outside[l].abs() { k } else { l });
-    if norm(figure.outside) > SHEET {
-        let up = axis(outward, figure.outside[outward].signum());
+    let (mut outside, mut middle, mut total) = ([0.0; 3], [0.0; 3], f64::MIN_POSITIVE);
+    for corners in faces.iter().map(|f| f.map(|v| points[v as usize])) {
+        let n = normal(corners);
+        let centre = corners.into_iter().fold([0.0; 3], |sum, p| add(sum, scaled(p, 1.0 / 3.0)));
+        (outside, middle, total) = (add(outside, n), add(middle, scaled(centre, norm(n))), total + norm(n));
+    }
+    if norm(outside) > SHEET * total {
+        let most = (0..3).fold(0, |l, k| if outside[k].abs() > outside[l].abs() { k } else { l });
+        let up = axis(most, outside[most].signum());
         let lies = thin(up) < FLAT_SHEET;
-        return Stance {
-            up: if lies {
-                up
-            } else if outward == 1 {
-                Z
-            } else {
-                Y
-            },
-            lies,
-        };
+        let standing = if most == 1 { Z } else { Y };
+        return Stance { up: if lies { up } else { standing }, lies };
     }
     // What a sculptor has given a foot stands on it, however thin it is.
     if let Some(up) = base(points, faces) {
         return Stance { up, lies: thin(up) < FLAT_BODY };
     }
-    let symmetry = [0, 1, 2].map(|k| figure.symmetry(k));
-    let regular = symmetry.iter().all(|s| *s > REGULAR);
-    let flat = |k: &usize| {
-        thin(axis(*k, 1.0)) < FLAT_BODY && symmetry[*k] > SYMMETRIC && (regular || figure.handles)
+    let off = |k: usize| {
+        let (high, extent) = reach(points, axis(k, 1.0));
+        (middle[k] / total - high + 0.5 * extent).abs() / extent
     };
-    let lying = [2, 1, 0].into_iter().find(flat);
-    let up = lying.map_or(Y, |k| axis(k, 1.0));
-    Stance { up, lies: lying.is_some() || thin(up) < LOW }
+    let is_centred = (0..3).all(|k| off(k) < CENTRED);
+    let flat = [2, 1, 0].into_iter().map(|k| axis(k, 1.0)).find(|up| is_centred && thin(*up) < FLAT_BODY);
+    Stance { up: flat.unwrap_or(Y), lies: flat.is_some() || thin(Y) < LOW }
 }
 
-/// How far points reach along a direction, next to nothing at least.
-fn extent(points: &[V3], axis: V3) -> f64 {
-    let heights = points.iter().map(|p| dot(axis, *p));
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-    (high - low).max(f64::MIN_POSITIVE)
+/// The end of points along a direction, and their extent, next to nothing at least.
+fn reach(points: &[V3], axis: V3) -> (f64, f64) {
+    let [low, high] = ends(points.iter().map(|p| dot(axis, *p)));
+    (high, (high - low).max(f64::MIN_POSITIVE))
 }
 
 /// The direction away from the flat side that a surface stands on, if it has one.
@@ -102,12 +89,11 @@ fn base(points: &[V3], faces: &[[u32; 3]]) -> Option<V3> {
     let total: f64 = sums.iter().map(|s| s.1).sum();
     sums.sort_by(|a, b| b.1.total_cmp(&a.1));
     let share = |down: V3| {
-        let high = points.iter().map(|p| dot(down, *p)).fold(f64::NEG_INFINITY, f64::max);
-        let depth = DEPTH * extent(points, down);
+        let (high, extent) = reach(points, down);
         let area = |f: &[u32; 3]| {
             let (n, p) = (normal(corners(f)), corners(f));
             let middle = (0..3).map(|k| dot(down, p[k])).sum::<f64>() / 3.0;
-            let level = dot(down, n) > LEVEL * norm(n) && middle > high - depth;
+            let level = dot(down, n) > LEVEL * norm(n) && middle > high - DEPTH * extent;
             if level { norm(n) } else { 0.0 }
         };
         faces.iter().map(area).sum::<f64>() / total
@@ -120,63 +106,6 @@ fn base(points: &[V3], faces: &[[u32; 3]]) -> Option<V3> {
     let snapped = axis.map(|k| [0, 1, 2].map(|j| if j == k { -down[k].signum() } else { 0.0 }));
     let least = if snapped.is_some() { BASE } else { 2.0 * BASE };
     (share > least).then(|| snapped.unwrap_or(down.map(|x| -x)))
-}
-
-/// What the rules look at; a surface of no extent has none of it.
-struct Figure {
-    /// Sum of the faces' area vectors over the area.
-    outside: V3,
-    /// Area per box of the bounding box.
-    boxes: Vec<f64>,
-    /// Whether the Euler characteristic is below that of a sphere or disk.
-    handles: bool,
-}
-
-impl Figure {
-    fn new(points: &[V3], faces: &[[u32; 3]]) -> Figure {
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for p in points {
-            for k in 0..3 {
-                low[k] = low[k].min(p[k]);
-                high[k] = high[k].max(p[k]);
-            }
-        }
-        let size = [0, 1, 2].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
-        let mut boxes = vec![0.0; BOXES * BOXES * BOXES];
-        let (mut outside, mut total) = ([0.0; 3], 0.0);
-        for face in faces {
-            let p = face.map(|v| points[v as usize]);
-            let n = normal(p);
-            let area = norm(n);
-            let place = [0, 1, 2].map(|k| ((p[0][k] + p[1][k] + p[2][k]) / 3.0 - low[k]) / size[k]);
-            let cell = place.map(|x| ((x * BOXES as f64) as usize).min(BOXES - 1));
-            boxes[(cell[0] * BOXES + cell[1]) * BOXES + cell[2]] += area;
-            total += area;
-            outside = add(outside, n);
-        }
-        let mut edges: Vec<(u32, u32)> = faces
-            .iter()
-            .flat_map(|f| [0, 1, 2].map(|k| (f[k].min(f[(k + 1) % 3]), f[k].max(f[(k + 1) % 3]))))
-            .collect();
-        edges.sort_unstable();
-        edges.dedup();
-        let euler = points.len() as i64 - edges.len() as i64 + faces.len() as i64;
-        let outside = outside.map(|x| x / f64::max(total, f64::MIN_POSITIVE));
-        Figure { outside, boxes, handles: euler <= 0 }
-    }
-
-    /// How much of the area lies as its mirror image along axis `k` does, in [0, 1].
-    fn symmetry(&self, k: usize) -> f64 {
-        let (mut common, mut all) = (0.0, f64::MIN_POSITIVE);
-        for i in 0..self.boxes.len() {
-            let mut cell = [i / (BOXES * BOXES), i / BOXES % BOXES, i % BOXES];
-            cell[k] = BOXES - 1 - cell[k];
-            let mirrored = self.boxes[(cell[0] * BOXES + cell[1]) * BOXES + cell[2]];
-            common += self.boxes[i].min(mirrored);
-            all += self.boxes[i].max(mirrored);
-        }
-        common / all
-    }
 }
 
 #[cfg(test)]

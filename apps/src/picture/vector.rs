@@ -27,11 +27,14 @@ pub fn complement(n: V3) -> [V3; 2] {
     [a, cross(n, a)]
 }
 
+/// The least and the largest of some numbers.
+pub fn ends(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
+    numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+}
+
 /// Centre of the bounding box and the largest distance from it.
 pub fn bounding_ball(points: &[V3]) -> (V3, f64) {
-    let end = |k: usize, f: fn(f64, f64) -> f64, start: f64| points.iter().map(|p| p[k]).fold(start, f);
-    let centre =
-        [0, 1, 2].map(|k| 0.5 * (end(k, f64::min, f64::INFINITY) + end(k, f64::max, f64::NEG_INFINITY)));
+    let centre = [0, 1, 2].map(|k| 0.5 * ends(points.iter().map(|p| p[k])).iter().sum::<f64>());
     let radius = points.iter().map(|p| norm(sub(*p, centre))).fold(0.0, f64::max);
     (centre, radius.max(f64::MIN_POSITIVE))
 }

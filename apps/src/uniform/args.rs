@@ -78,7 +78,7 @@ pub struct UniformizeArgs {
 pub struct CoverArgs {
     #[command(flatten)]
     pub canonical: CanonicalArgs,
-    /// Copies of word length N at most [default: every copy that touches the domain]
+    /// Copies of word length N at most, which leave gaps beside the first where words are longer [default: every copy that touches the domain]
     #[arg(long, value_name = "N", conflicts_with = "radius", value_parser = clap::value_parser!(u16).range(0..=64))]
     pub depth: Option<u16>,
     /// Instead: copies whose base point is this far from the base point at most

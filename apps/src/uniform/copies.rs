@@ -5,11 +5,12 @@ use super::model_place::ModelPlace;
 use super::quotient::Uniformized;
 use crate::failure::Failure;
 use crate::options::Common;
-use crate::picture::in_parallel;
 use crate::uv::corners;
+use rayon::prelude::*;
 use ricci::Control;
 use ricci::embed::DeckElement;
 use ricci::embed::cover::moved;
+use ricci::parallel::Pool;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -71,14 +72,12 @@ impl<'a> Copies<'a> {
         work: impl Fn(usize) -> T + Sync,
         mut take: impl FnMut(T) -> io::Result<()>,
     ) -> io::Result<()> {
-        let mut batch: Vec<Option<T>> = Vec::new();
-        for first in (0..n).step_by(self.threads.max(1)) {
+        let pool = Pool::new(self.threads).map_err(io::Error::other)?;
+        for first in (0..n).step_by(pool.threads()) {
             self.control.check().map_err(io::Error::other)?;
-            batch.clear();
-            batch.resize_with(self.threads.max(1).min(n - first), || None);
-            let slots: Vec<&mut Option<T>> = batch.iter_mut().collect();
-            in_parallel(slots, self.threads, |k, slot| *slot = Some(work(first + k)));
-            batch.drain(..).flatten().try_for_each(&mut take)?;
+            let batch = (first..n.min(first + pool.threads())).into_par_iter();
+            let made: Vec<T> = pool.run(|| batch.map(&work).collect());
+            made.into_iter().try_for_each(&mut take)?;
         }
         Ok(())
     }

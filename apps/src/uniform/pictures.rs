@@ -56,7 +56,7 @@ pub fn draw(u: &Uniformized, shown: Shown, canvas: &Canvas, svg: bool) -> Result
     };
     let drawing = tiling.as_ref().map(Tiling::drawing);
     if svg {
-        return Ok(picture::svg(&Picture { drawing: drawing.as_ref(), ..Picture::default() }, &canvas.style));
+        return picture::svg(&Picture { drawing: drawing.as_ref(), ..Picture::default() }, &canvas.style);
     }
     let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
     let surface = opened.in_space.as_ref().filter(|_| with_surface).map(|surface| Surface {

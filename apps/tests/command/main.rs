@@ -19,6 +19,7 @@ mod outputs;
 mod picture;
 mod repair;
 mod run;
+mod spline;
 mod surfaces;
 mod uniformize;
 mod usage;

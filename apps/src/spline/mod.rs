@@ -1,0 +1,10 @@
+//! `ricci spline`: triangular B-splines fitted, evaluated, drawn as triangles.
+
+mod args;
+mod eval;
+mod fit;
+mod height_field;
+
+pub use args::{HELP, SplineArgs, SplineCommand};
+pub use eval::eval;
+pub use fit::fit;

@@ -1,0 +1,60 @@
+//! `ricci spline`.
+
+use crate::run::Place;
+use serde_json::Value;
+
+#[test]
+fn a_spline_is_fitted_written_evaluated_and_drawn_as_triangles() {
+    let place = Place::new();
+    place.expect(0, "make disk --height 0.4 -n 10 -o hill.obj --quiet");
+    place.expect(0, "spline fit hill.obj --planar --degree 2 -o s.json --report r.json --quiet");
+    let report = place.json("r.json");
+    let result = &report["result"];
+    assert_eq!((&report["command"], &result["degree"]), (&Value::from("spline"), &2.into()));
+    assert!(
+        result["rms"].as_f64().unwrap() < 5e-4 && result["max"].as_f64() > result["rms"].as_f64(),
+        "{result}"
+    );
+    let checks = report["checks"].as_object().unwrap();
+    assert!(checks.len() == 3 && checks.values().all(|check| check["holds"] == true), "{checks:?}");
+    let spline = place.json("s.json");
+    assert_eq!(spline["format"], "ricci-spline 1");
+    assert_eq!(
+        spline["control_points"].as_array().unwrap().len(),
+        result["control_points"].as_u64().unwrap() as usize
+    );
+    // The middle of the first patch: x and y of the surface are the parameters.
+    let knots = &spline["patches"][0]["knots"];
+    let middle = |x: usize| (0..3).map(|k| knots[k][0][x].as_f64().unwrap()).sum::<f64>() / 3.0;
+    let (x, y) = (middle(0), middle(1));
+    place.put("q.csv", &format!("patch,x,y\n0,{x},{y}\n"));
+    place.expect(0, "spline eval s.json --at q.csv -o v.csv --derivatives --quiet");
+    let rows = place.text("v.csv");
+    let row: Vec<f64> = rows.lines().nth(1).unwrap().split(',').map(|x| x.parse().unwrap()).collect();
+    assert_eq!(row.len(), rows.lines().next().unwrap().split(',').count());
+    assert!((row[3] - x).abs() < 1e-3 && (row[4] - y).abs() < 1e-3, "{row:?}");
+    let normal = row[21].hypot(row[22]).hypot(row[23]);
+    assert!((normal - 1.0).abs() < 1e-12 && row[24] >= row[25], "{row:?}");
+    place.expect(0, "spline eval s.json --tessellate 3 -o fine.obj --quiet");
+    place.expect(0, "info fine.obj --report i.json --quiet");
+    let fine = place.json("i.json");
+    assert_eq!((&fine["input"]["components"], &fine["input"]["boundary_loops"]), (&1.into(), &1.into()));
+    assert_eq!(fine["input"]["faces"].as_u64(), result["patches"].as_u64().map(|n| 9 * n));
+}
+
+#[test]
+fn what_no_spline_can_be_made_of_is_refused() {
+    let place = Place::new();
+    place.expect(0, "make sphere -n 2 -o ball.obj --quiet");
+    let closed = place.expect(3, "spline fit ball.obj --planar -o s.json");
+    assert!(closed.err.contains("closed surface"), "{}", closed.err);
+    place.expect(2, "spline fit ball.obj -o s.json");
+    place.put("upright.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+    let upright = place.expect(3, "spline fit upright.obj --planar -o s.json");
+    assert!(upright.err.contains("face 0"), "{}", upright.err);
+    place.put("s.json", "{\"format\": \"ricci-spline 1\"");
+    let broken = place.expect(3, "spline eval s.json --tessellate 2 -o t.obj");
+    assert!(broken.err.contains("s.json:1"), "{}", broken.err);
+    place.expect(2, "spline eval s.json -o t.obj");
+    assert!(!place.exists("t.obj"));
+}

@@ -1,0 +1,98 @@
+//! Evaluation of planar splines: points per second on one core, beside the bare recurrence.
+//!
+//! `cargo bench --bench spline > docs/results/bench-spline.md`. The yardstick evaluates each basis function by itself, by the recurrence
+//! of its definition ([`ricci::spline::simplex_spline`]), for the patches in whose knots' hull the point lies; both evaluate the same
+//! points in the same round, and the medians of five rounds are given.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use ricci::Control;
+use ricci::mesh::shapes::SplitMix64;
+use ricci::spline::{Domain, KnotOptions, Parameter, Spline, SplineSpace, multi_indices, simplex_spline};
+use std::sync::Arc;
+use std::time::Instant;
+
+const ROUNDS: usize = 5;
+/// Points of the shared evaluation; the yardstick takes every [`BARE`]th.
+const POINTS: usize = 400_000;
+const BARE: usize = 400;
+
+/// A square of n × n cells, cut in two.
+fn square(n: usize) -> Domain {
+    let at = |i: usize, j: usize| (j * (n + 1) + i) as u32;
+    let vertices = (0..(n + 1) * (n + 1)).map(|v| [(v % (n + 1)) as f64, (v / (n + 1)) as f64]).collect();
+    let triangles = (0..n * n).flat_map(|c| {
+        let (i, j) = (c % n, c / n);
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        if (i + j) % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+    });
+    Domain { vertices, triangles: triangles.collect() }
+}
+
+fn places(space: &SplineSpace, random: &mut SplitMix64) -> Vec<Parameter> {
+    let n = space.patches().len();
+    let place = |i: usize| {
+        let patch = (i * n / POINTS) as u32;
+        let (mut s, mut t) = (random.unit(), random.unit());
+        if s + t > 1.0 {
+            (s, t) = (1.0 - s, 1.0 - t);
+        }
+        let c = [0, 1, 2].map(|k| space.patches()[patch as usize].knots[k][0]);
+        let [x, y] = [0, 1].map(|x| c[0][x] * (1.0 - s - t) + c[1][x] * s + c[2][x] * t);
+        Parameter { patch, x, y }
+    };
+    (0..POINTS).map(place).collect()
+}
+
+fn bare(surface: &Spline, at: Parameter) -> [f64; 3] {
+    let space = surface.space();
+    let mut sum = [0.0; 3];
+    for support in &space.supports()[at.patch as usize] {
+        let patch = &space.patches()[support.patch as usize];
+        for (beta, &control) in multi_indices(space.degree()).zip(&patch.control) {
+            let set: Vec<[f64; 2]> = (0..3).flat_map(|k| patch.knots[k][..=beta[k]].to_vec()).collect();
+            let [a, b, c] = [0, 1, 2].map(|k| patch.knots[k][beta[k]]);
+            let d = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs();
+            let weight = d * simplex_spline(&set, [at.x, at.y]);
+            (0..3).for_each(|x| sum[x] += weight * surface.control_points()[control as usize][x]);
+        }
+    }
+    sum
+}
+
+fn main() {
+    println!("| degree | spread | points | with first derivatives | with second | bare recurrence | ratio |");
+    println!("|---|---|---|---|---|---|---|");
+    for (degree, spread) in [(1, 0.5), (2, 0.5), (3, 0.25), (3, 0.5), (3, 0.75), (4, 0.5), (5, 0.5)] {
+        let domain = square(12);
+        let knots = domain.knots(degree, &KnotOptions { spread, ..KnotOptions::default() }).unwrap();
+        let space = Arc::new(SplineSpace::planar(&domain, &knots).unwrap());
+        let mut random = SplitMix64::new(1);
+        let points =
+            (0..space.n_control_points()).map(|_| [random.unit(), random.unit(), random.unit()]).collect();
+        let surface = Spline::new(space.clone(), points).unwrap();
+        let places = places(&space, &mut random);
+        let mut rounds = Vec::new();
+        for _ in 0..ROUNDS {
+            let mut round = [0.0; 4];
+            for order in 0..3 {
+                let start = Instant::now();
+                surface.evaluate(&places, order, 1, &Control::new()).unwrap();
+                round[order] = POINTS as f64 / start.elapsed().as_secs_f64();
+            }
+            let start = Instant::now();
+            let sum: f64 = places.iter().step_by(BARE).map(|&at| bare(&surface, at)[0]).sum();
+            assert!(sum.is_finite());
+            round[3] = (POINTS / BARE) as f64 / start.elapsed().as_secs_f64();
+            rounds.push(round);
+        }
+        let [value, first, second, bare] = [0, 1, 2, 3].map(|k| {
+            let mut all: Vec<f64> = rounds.iter().map(|round| round[k]).collect();
+            all.sort_by(f64::total_cmp);
+            all[ROUNDS / 2]
+        });
+        println!(
+            "| {degree} | {spread} | {value:.0} | {first:.0} | {second:.0} | {bare:.0} | {:.0} |",
+            value / bare
+        );
+    }
+}

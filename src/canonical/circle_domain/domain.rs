@@ -1,0 +1,95 @@
+//! A circle domain as data.
+
+use super::place::hub_pairs;
+use crate::embed::Layout;
+use crate::error::Result;
+use crate::flow::{Seconds, Solution, StopReason};
+use crate::mesh::{Filled, PerEdge, VertexId};
+use crate::metric::Split;
+
+/// A boundary loop as a circle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DomainCircle {
+    /// The loop, by its place in [`crate::mesh::Mesh::boundary_loops`] of the surface.
+    pub boundary_loop: usize,
+    /// Centre in the coordinates of the layout: of the plane, of the Poincaré disk (one lift).
+    pub center: [f64; 2],
+    /// Radius in the metric of the space: in E² in the units of the layout, in H² hyperbolic.
+    pub radius: f64,
+    /// Largest difference between the radius and the distance of a vertex of the loop from the centre, as a share of the radius.
+    pub deviation: f64,
+    /// Vertices on the circle: those of the loop, and those that were added to it.
+    pub vertices: usize,
+}
+
+/// What became of a circle domain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CircleReport {
+    /// Whether K = 0 to the tolerance, no two circles overlap, and no triangle is flipped.
+    pub converged: bool,
+    /// Why the flow stopped.
+    pub stop_reason: StopReason,
+    /// Newton steps of the whole call.
+    pub iterations: usize,
+    /// Flips on the way to the result, isometric ones before the flow included.
+    pub flips: usize,
+    /// Largest |K| over hubs and vertices of the flow's last metric, radians; in the plane seen from the puncture without that and its link.
+    pub max_curvature_error: f64,
+    /// Largest |K| of [`CircleDomain::metric`], measured from its variables, at all vertices but those of the outer loop, radians.
+    pub domain_curvature_error: f64,
+    /// Vertices that were added to loops before the flow, by halving edges.
+    pub halved_edges: usize,
+    /// Vertices that were added to loops where flips crossed their edges.
+    pub crossed_edges: usize,
+    /// Least `η − 1` over the edges between two hubs, negative where two circles overlap; infinite where no hubs are neighbours.
+    pub least_gap: f64,
+    /// The vertex that was sent to infinity on the way, of a surface of genus 0.
+    pub puncture: Option<VertexId>,
+    /// What the flows took; the rest of the call is neither in its phases nor in its `total`.
+    pub seconds: Seconds,
+}
+
+/// A surface whose boundary loops are circles.
+#[derive(Debug, Clone)]
+pub struct CircleDomain {
+    /// The given surface, with the vertices that were added to its loops before the flow.
+    pub split: Split,
+    /// That surface with a hub in each loop.
+    pub filled: Filled,
+    /// The metric on the filled surface, flat or hyperbolic, and the way back. Of a planar domain in the unit disk, that of the disk: the outer
+    /// hub has its circle from outside, so that the faces at it do not lie in the plane as they should, and K at its loop means nothing.
+    pub metric: Solution,
+    /// The surface without its holes, on the common refinement of the surface of `split` and the metric's triangulation. In E² of a torus it has the area of the
+    /// given surface.
+    pub layout: Layout,
+    /// The circles, loop by loop.
+    pub circles: Vec<DomainCircle>,
+    /// Of a planar domain, the loop on the unit circle.
+    pub outer: Option<usize>,
+    /// Of an annulus: log of the ratio of the radii over 2π, height over circumference of the cylinder.
+    pub modulus: Option<f64>,
+    /// Of a torus with holes: the modulus of the torus, `[Re τ, Im τ]` reduced.
+    pub torus_modulus: Option<[f64; 2]>,
+    /// How it went.
+    pub report: CircleReport,
+}
+
+impl CircleDomain {
+    /// The loops whose circles overlap another one, ascending: between two hubs of the triangulation η is 1 or less. Where two disks overlap there is such
+    /// an edge, because the union of the disks has the shape of the part of the triangulation whose disks meet.
+    pub fn overlapping(&self) -> Vec<usize> {
+        let (mesh, eta) = (self.metric.mesh(), &self.metric.metric().eta);
+        let mut all: Vec<usize> = hub_pairs(mesh, &self.filled)
+            .filter(|&(e, _)| eta[e].high <= 1.0)
+            .flat_map(|(_, loops)| loops)
+            .collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// Lengths of the edges of the surface of [`CircleDomain::split`].
+    pub fn split_lengths(&self) -> Result<PerEdge<f64>> {
+        Ok(PerEdge::clone(self.split.surface()?.lengths()))
+    }
+}

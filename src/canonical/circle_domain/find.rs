@@ -1,0 +1,64 @@
+//! Finding a circle domain.
+
+use super::domain::CircleDomain;
+use super::options::CircleDomainOptions;
+use super::prepare::{Prepared, halve_loops, refine};
+use super::{closed, planar};
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::metric::{Split, Surface};
+use crate::parallel::Pool;
+
+/// How often loops whose circles overlap are halved edge by edge.
+const ROUNDS: usize = 4;
+
+/// A surface with boundary as a circle domain: of genus 0 in the unit disk, whose circle is one of the loops; of genus 1 in a flat torus; of
+/// more in a hyperbolic surface.
+///
+/// Where circles overlap, because loops with few edges lie close together, the edges of these loops are halved and all is done again.
+/// The result is the same for any number of threads.
+///
+/// # Errors
+/// [`Error::Argument`] for a closed surface, a loop or vertex that does not exist, a normalisation that does not fit the surface;
+/// [`Error::Layout`] where no plane was found, and where circles overlap however fine the loops are, which it names; those of
+/// [`crate::flow::Flow::new`]; [`Error::Cancelled`].
+pub fn circle_domain(
+    surface: &Surface,
+    options: &CircleDomainOptions,
+    control: &Control,
+) -> Result<CircleDomain> {
+    control.check()?;
+    options.check(surface)?;
+    Pool::new(options.flow.threads)?.run(|| {
+        let mut split = Split::new(surface);
+        refine(&mut split, options)?;
+        for round in 1.. {
+            let domain = solve(Prepared::new(split, options, control)?, options, control)?;
+            let overlapping = domain.overlapping();
+            if overlapping.is_empty() {
+                return Ok(domain);
+            }
+            if round > ROUNDS {
+                return Err(crowded(&overlapping));
+            }
+            log::debug!("circles of loops {overlapping:?} overlap: their edges are halved");
+            split = domain.split;
+            halve_loops(&mut split, &overlapping)?;
+        }
+        Err(crowded(&[]))
+    })
+}
+
+/// The error of loops whose circles overlap.
+fn crowded(loops: &[usize]) -> Error {
+    Error::Layout(format!(
+        "the circles of boundary loops {loops:?} overlap, also with their edges halved {ROUNDS} times: refine the surface between these loops"
+    ))
+}
+
+fn solve(prepared: Prepared, options: &CircleDomainOptions, control: &Control) -> Result<CircleDomain> {
+    match prepared.surface.mesh().genus() {
+        0 => planar::solve(prepared, options, control),
+        _ => closed::solve(prepared, options, control),
+    }
+}

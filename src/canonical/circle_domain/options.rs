@@ -1,0 +1,103 @@
+//! What a circle domain can be asked.
+
+use crate::error::{Error, Result};
+use crate::flow::Options;
+use crate::mesh::VertexId;
+use crate::metric::Surface;
+use crate::topology::check_vertex;
+
+/// Edges that a loop has at least, unless the caller asks for fewer: a polygon of this many corners on a circle looks like a circle.
+pub const LEAST_LOOP: usize = 12;
+/// How the unit disk of a planar domain is moved onto itself at the end.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Normalisation {
+    /// Two loops: both circles about 0. Else, the barycentre of the area at 0 ([`crate::geometry::disk_barycentre`]), in weights of one third of
+    /// the area of the given faces at each vertex. The first vertex of the outer loop lies at 1.
+    #[default]
+    Centred,
+    /// This vertex of the given surface at 0, and the first vertex of the outer loop at 1; a vertex of the outer loop cannot lie at 0.
+    Vertex(VertexId),
+    /// Three vertices of the outer loop at these angles (radians) of the unit circle, in the order of the loop: counterclockwise.
+    Three([VertexId; 3], [f64; 3]),
+}
+
+/// Options of [`circle_domain`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct CircleDomainOptions {
+    /// Of a surface of genus 0, the loop that becomes the unit circle, by its place in [`crate::mesh::Mesh::boundary_loops`]. Default: the longest.
+    pub outer: Option<usize>,
+    /// Of a surface of genus 0.
+    pub normalisation: Normalisation,
+    /// Edges of a loop with fewer than this are halved, the longest first. Default [`LEAST_LOOP`].
+    pub least_loop: usize,
+    /// Tolerance, steps and threads of the flows; nothing else of it is used.
+    pub flow: Options,
+}
+
+impl Default for CircleDomainOptions {
+    fn default() -> Self {
+        CircleDomainOptions {
+            outer: None,
+            normalisation: Normalisation::Centred,
+            least_loop: LEAST_LOOP,
+            flow: Options::default(),
+        }
+    }
+}
+
+impl CircleDomainOptions {
+    pub(super) fn check(&self, surface: &Surface) -> Result<()> {
+        let mesh = surface.mesh();
+        let n = mesh.boundary_loops().len();
+        if n == 0 {
+            return Err(Error::argument(
+                "surface",
+                "closed",
+                "one with boundary: a circle domain has a circle per boundary loop",
+            ));
+        }
+        let is_planar = mesh.genus() == 0;
+        match self.outer {
+            Some(k) if k >= n => {
+                return Err(Error::argument("outer loop", k, "the number of a boundary loop, from 0"));
+            }
+            Some(k) if !is_planar => {
+                return Err(Error::argument(
+                    "outer loop",
+                    k,
+                    "none: only surfaces of genus 0 lie inside a circle",
+                ));
+            }
+            _ => {}
+        }
+        let vertices: &[VertexId] = match &self.normalisation {
+            Normalisation::Centred => &[],
+            Normalisation::Vertex(v) => std::slice::from_ref(v),
+            Normalisation::Three(v, angles) => {
+                if angles.iter().any(|a| !a.is_finite()) {
+                    return Err(Error::argument(
+                        "angles of the normalisation",
+                        format!("{angles:?}"),
+                        "finite",
+                    ));
+                }
+                v
+            }
+        };
+        if !is_planar && !vertices.is_empty() {
+            return Err(Error::argument(
+                "normalisation",
+                "of the unit disk",
+                "centred: only surfaces of genus 0 lie in the unit disk",
+            ));
+        }
+        vertices.iter().try_for_each(|&v| check_vertex(mesh, v))?;
+        self.flow.check()
+    }
+
+    /// Those of the flow.
+    pub(super) fn of_flow(&self) -> Options {
+        let Options { tolerance, max_iterations, threads, .. } = self.flow;
+        Options { tolerance, max_iterations, threads, ..Options::default() }
+    }
+}

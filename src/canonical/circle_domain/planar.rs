@@ -1,0 +1,235 @@
+//! Planar circle domains: through the plane of a punctured sphere into the unit disk.
+
+use super::super::puncture::Solver;
+use super::super::star::Punctured;
+use super::super::tries::{Flat, Tried};
+use super::disk::InDisk;
+use super::domain::{CircleDomain, CircleReport, DomainCircle};
+use super::options::CircleDomainOptions;
+use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edges, rims};
+use super::prepare::Prepared;
+use super::view::View;
+use crate::control::Control;
+use crate::embed::Layout;
+use crate::embed::planar::Placed;
+use crate::error::Result;
+use crate::flow::Solution;
+use crate::geometry::complex::{Complex, add, norm, scale, sub};
+use crate::geometry::mobius::PlaneCircle;
+use crate::geometry::twofold::two_sum;
+use crate::geometry::{Space, Twofold, triangle, worse};
+use crate::mesh::{EdgeId, Filled, Mesh, PerEdge, PerVertex, VertexId};
+use crate::metric::lengths::face_lengths;
+use crate::metric::{Metric, Refinement, Surface};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+pub(super) fn solve(
+    prepared: Prepared,
+    options: &CircleDomainOptions,
+    control: &Control,
+) -> Result<CircleDomain> {
+    let Prepared { split, surface, filled, start } = prepared;
+    let outer = options.outer.unwrap_or_else(|| longest_loop(&surface, &filled));
+    let weights = vertex_areas(&surface, &filled);
+    let flow = options.of_flow();
+    let (mesh, mut metric, followed) = start.parts();
+    let unit = unit(&metric);
+    in_units(&mesh, &mut metric, unit);
+    shift(&mut metric, 1, -unit.ln());
+    let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
+    let may = inside(&begin.mesh, surface.mesh(), &filled);
+    let mut tried = Tried::new(&weights, Solver::new(&begin, &flow, control)?).only(may);
+    let Flat { surface: found_on, plane, found } = tried.best(&begin)?;
+    let view = View::new(&found_on, &plane, &filled, outer);
+    let points = view.apply(&plane);
+    let inner: Vec<PlaneCircle> =
+        (0..filled.loops.len()).filter(|&k| k != outer).map(|k| view.circle(k)).collect();
+    let rim = rim_of(surface.mesh(), outer);
+    let disk = InDisk { points: &points, weights: &weights, inner: &inner, rim: &rim };
+    let view = view.then(&disk.normalised(&options.normalisation)?);
+    let mut metric = view.metric(&found_on, &plane);
+    in_units(&found_on.mesh, &mut metric, 1.0 / unit);
+    shift(&mut metric, 0, -unit.ln());
+    let puncture = Some(found_on.at);
+    let Punctured { mesh, followed, flips, .. } = found_on;
+    let solution = start.at(mesh, metric, followed, flips);
+    let domain = Domain { view, plane: &plane, solution: &solution, filled: &filled, outer };
+    let refinement = Arc::new(solution.refinement_where(&|f| filled.is_original(f), control)?);
+    let layout = domain.layout(surface.mesh(), refinement)?;
+    let circles = domain.circles(&layout);
+    let least_gap = least_gap(solution.mesh(), solution.metric(), &filled);
+    let vertices: usize = circles.iter().map(|c| c.vertices).sum();
+    let report = CircleReport {
+        converged: found.converged && layout.flipped.is_empty() && least_gap > 0.0,
+        stop_reason: found.stop_reason,
+        iterations: tried.solver.iterations,
+        flips: solution.flips(),
+        max_curvature_error: found.error,
+        domain_curvature_error: domain.curvature_error()?,
+        halved_edges: split.n_added(),
+        crossed_edges: vertices - filled.loops.iter().map(Vec::len).sum::<usize>(),
+        least_gap,
+        puncture,
+        seconds: tried.solver.seconds,
+    };
+    let modulus = (filled.loops.len() == 2).then(|| modulus_of(&domain));
+    drop(tried);
+    Ok(CircleDomain {
+        split,
+        circles,
+        modulus,
+        layout,
+        outer: Some(outer),
+        torus_modulus: None,
+        report,
+        metric: solution,
+        filled,
+    })
+}
+
+/// The loop with the longest edges together.
+fn longest_loop(surface: &Surface, filled: &Filled) -> usize {
+    let length = |k: usize| filled.loops[k].iter().map(|h| surface.lengths()[h.edge()]).sum::<f64>();
+    (0..filled.loops.len()).fold((0, 0.0), |best, k| if length(k) > best.1 { (k, length(k)) } else { best }).0
+}
+
+/// One third of the area of the given faces at each vertex, in units of the whole; 0 at hubs.
+fn vertex_areas(surface: &Surface, filled: &Filled) -> PerVertex<f64> {
+    let (mesh, space) = (surface.mesh(), surface.geometry());
+    let longest = surface.lengths().iter().fold(0.0, |m: f64, &l| m.max(l));
+    let unit = if space == Space::E2 { longest } else { 1.0 };
+    let mut areas = PerVertex::filled(filled.mesh.n_vertices(), 0.0);
+    for f in mesh.faces() {
+        let third = triangle::area(space, face_lengths(mesh, surface.lengths(), f).map(|l| l / unit)) / 3.0;
+        mesh.face_vertices(f).into_iter().for_each(|v| areas[v] += third);
+    }
+    areas
+}
+
+/// The vertices that may be sent to infinity: inside the surface, and not next to a loop if there are such.
+fn inside(mesh: &Mesh, open: &Mesh, filled: &Filled) -> PerVertex<bool> {
+    let is_inside = |v: VertexId| filled.loop_of(v).is_none() && !open.is_boundary_vertex(v);
+    let is_far = |v: VertexId| is_inside(v) && mesh.outgoing(v).all(|h| is_inside(mesh.tip(h)));
+    let far = PerVertex::from_fn(mesh.n_vertices(), is_far);
+    if far.contains(&true) { far } else { PerVertex::from_fn(mesh.n_vertices(), is_inside) }
+}
+
+/// A power of two of about the size of the longest edge.
+fn unit(metric: &Metric) -> f64 {
+    let largest = metric.eta.iter().map(|eta| eta.high).fold(f64::MIN_POSITIVE, f64::max);
+    2f64.powi((0.5 * largest.log2()).round() as i32)
+}
+
+/// η with the vectors of points divided by `unit`, a power of two.
+fn in_units(mesh: &Mesh, metric: &mut Metric, unit: f64) {
+    for e in mesh.edges() {
+        let points = mesh.ends(e).into_iter().filter(|&v| metric.epsilon[v] == 0).count();
+        let factor = unit.powi(-(points as i32));
+        metric.eta[e] = Twofold { high: metric.eta[e].high * factor, low: metric.eta[e].low * factor };
+    }
+}
+
+/// Adds to u at all vertices of a type.
+fn shift(metric: &mut Metric, epsilon: i8, by: f64) {
+    for v in
+        (0..metric.u.len()).map(VertexId::from).filter(|&v| metric.epsilon[v] == epsilon).collect::<Vec<_>>()
+    {
+        let (sum, lost) = two_sum(metric.u[v], by);
+        (metric.u[v], metric.u_low[v]) = two_sum(sum, lost + metric.u_low[v]);
+    }
+}
+
+/// The vertices of a loop, with the surface on their left.
+fn rim_of(open: &Mesh, k: usize) -> Vec<VertexId> {
+    let mut rim: Vec<VertexId> = open.boundary_loops()[k].iter().map(|&h| open.origin(h)).collect();
+    rim[1..].reverse();
+    rim
+}
+
+/// A planar circle domain that has been found.
+struct Domain<'a> {
+    view: View,
+    plane: &'a PerVertex<Complex>,
+    solution: &'a Solution,
+    filled: &'a Filled,
+    outer: usize,
+}
+
+impl Domain<'_> {
+    /// The layout on the refinement of the open surface.
+    fn layout(&self, open: &Arc<Mesh>, refinement: Arc<Refinement>) -> Result<Layout> {
+        let points = self.view.apply(self.plane);
+        let (mesh, metric) = (self.solution.mesh(), self.solution.metric());
+        let loops = loops_of_edges(self.filled);
+        let place = |e: EdgeId, input: EdgeId, weights: [f64; 2]| {
+            let ends = mesh.ends(e);
+            let Some(edge) = hub_edge(mesh, metric, self.filled, (e, Some(self.outer))) else {
+                return add(scale(weights[0], points[ends[0]]), scale(weights[1], points[ends[1]]));
+            };
+            let hubs = ends.map(|v| self.filled.loop_of(v));
+            let [a, b] = anchor_weights(&edge, hubs, loops.get(&input).copied(), weights);
+            let anchor = |i: usize| match hubs[i] {
+                Some(k) => self.view.anchor(self.plane, k, ends[1 - i]),
+                None => points[ends[i]],
+            };
+            add(scale(a, anchor(0)), scale(b, anchor(1)))
+        };
+        let mut places: Vec<Complex> = points.iter().take(refinement.n_input_vertices).copied().collect();
+        places
+            .extend(refinement.crossings.iter().map(|c| place(c.final_edge, c.input_edge, c.final_weights)));
+        let [disagreement, local_consistency] = self.misses(&points)?;
+        Layout::planar(open, refinement, Placed { plane: places.into(), disagreement, local_consistency })
+    }
+
+    /// Whether a face of the metric's triangulation lies in the disk as the metric has it: not at the outer hub.
+    fn is_inside(&self, vertices: [VertexId; 3]) -> bool {
+        !vertices.contains(&self.filled.hub(self.outer))
+    }
+
+    /// Largest difference of a length in the disk from that of the metric; and relative to the longest side of a face.
+    fn misses(&self, points: &PerVertex<Complex>) -> Result<[f64; 2]> {
+        let mesh = self.solution.mesh();
+        let lengths = self.solution.metric().lengths(mesh)?;
+        let off = PerEdge::from_fn(mesh.n_edges(), |e| {
+            let [a, b] = mesh.ends(e).map(|v| points[v]);
+            (norm(sub(a, b)) - lengths[e]).abs()
+        });
+        let inside = mesh.faces().filter(|&f| self.is_inside(mesh.face_vertices(f)));
+        Ok(inside.fold([0.0; 2], |[all, local], f| {
+            let sides = mesh.opposite_edges(f);
+            let miss = sides.iter().map(|&e| off[e]).fold(0.0, worse);
+            let longest = sides.iter().map(|&e| lengths[e]).fold(0.0, f64::max);
+            [worse(all, miss), worse(local, miss / longest)]
+        }))
+    }
+
+    /// Largest |K| of the disk's metric off the outer hub and its neighbours.
+    fn curvature_error(&self) -> Result<f64> {
+        let mesh = self.solution.mesh();
+        let mut counts = PerVertex::filled(mesh.n_vertices(), true);
+        let hub = self.filled.hub(self.outer);
+        counts[hub] = false;
+        mesh.outgoing(hub).for_each(|h| counts[mesh.tip(h)] = false);
+        let curvature = self.solution.metric().curvature(mesh)?.at;
+        Ok(mesh.vertices().filter(|&v| counts[v]).map(|v| curvature[v].abs()).fold(0.0, worse))
+    }
+
+    fn circles(&self, layout: &Layout) -> Vec<DomainCircle> {
+        let Some(refinement) = layout.refinement() else { return Vec::new() };
+        let all = rims(refinement, self.filled).into_iter().enumerate();
+        let circle = |(k, rim): (usize, Vec<crate::mesh::HalfedgeId>)| {
+            let PlaneCircle { center, radius } = self.view.circle(k);
+            let deviation = deviation(rim.len(), radius, |i| norm(sub(layout.uv(rim[i]), center)));
+            DomainCircle { boundary_loop: k, center, radius, deviation, vertices: rim.len() }
+        };
+        all.map(circle).collect()
+    }
+}
+
+/// Height over circumference of the cylinder that an annulus is.
+fn modulus_of(domain: &Domain) -> f64 {
+    let inner = domain.view.circle(1 - domain.outer);
+    let centred = inner.to_centre().apply_to_circle(inner);
+    -centred.radius.ln() / TAU
+}

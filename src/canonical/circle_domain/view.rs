@@ -1,0 +1,95 @@
+//! The plane of a punctured sphere as it comes to lie in the unit disk.
+
+use super::super::star::Punctured;
+use crate::geometry::Mobius;
+use crate::geometry::complex::{Complex, add, norm, scale, sub};
+use crate::geometry::mobius::PlaneCircle;
+use crate::geometry::twofold::two_sum;
+use crate::mesh::{Filled, PerVertex, VertexId};
+use crate::metric::Metric;
+
+/// A point of the unit disk that is moved to its centre before anchors are placed. Without it the vertex that was sent to infinity and
+/// the outer hub would both lie at 0, and the edge between them have no direction.
+const OFF_CENTRE: Complex = [0.31, 0.17];
+
+/// The plane of a punctured sphere as it comes to lie in the unit disk.
+pub(super) struct View {
+    map: Mobius,
+    /// The same, with another point at the centre, for anchors.
+    off_centre: Mobius,
+    /// The circles of the hubs in the plane.
+    circles: Vec<PlaneCircle>,
+    outer: usize,
+    puncture: VertexId,
+    n_points: usize,
+}
+
+impl View {
+    /// The outside of the outer circle on the unit disk.
+    pub fn new(on: &Punctured, plane: &PerVertex<Complex>, filled: &Filled, outer: usize) -> View {
+        let hubs = filled.hubs();
+        let circle = |&v: &VertexId| PlaneCircle { center: plane[v], radius: on.metric.u[v].exp() };
+        let circles: Vec<PlaneCircle> = hubs.iter().map(circle).collect();
+        let map = Mobius::outside(circles[outer]);
+        let off_centre = Mobius::to_origin(OFF_CENTRE).after(&map);
+        View { map, off_centre, circles, outer, puncture: on.at, n_points: plane.len() - hubs.len() }
+    }
+
+    /// Followed by a transformation of the disk.
+    pub fn then(self, next: &Mobius) -> View {
+        View { map: next.after(&self.map), ..self }
+    }
+
+    /// The circle of a hub in the disk.
+    pub fn circle(&self, k: usize) -> PlaneCircle {
+        self.circle_seen(&self.map, k)
+    }
+
+    fn circle_seen(&self, map: &Mobius, k: usize) -> PlaneCircle {
+        match k == self.outer {
+            true => PlaneCircle { center: [0.0; 2], radius: 1.0 },
+            false => map.apply_to_circle(self.circles[k]),
+        }
+    }
+
+    fn seen(&self, map: &Mobius, plane: &PerVertex<Complex>, v: VertexId) -> Complex {
+        match v.index().checked_sub(self.n_points) {
+            Some(k) => self.circle_seen(map, k).center,
+            None if v == self.puncture => map.at_infinity(),
+            None => map.apply(plane[v]),
+        }
+    }
+
+    /// The vertices in the disk, hubs at the centres of their circles.
+    pub fn apply(&self, plane: &PerVertex<Complex>) -> PerVertex<Complex> {
+        PerVertex::from_fn(plane.len(), |v| self.seen(&self.map, plane, v))
+    }
+
+    /// The metric of the class with the lengths of the disk.
+    pub fn metric(&self, on: &Punctured, plane: &PerVertex<Complex>) -> Metric {
+        let mut metric = on.metric.clone();
+        for v in on.mesh.vertices() {
+            let by = match v.index().checked_sub(self.n_points) {
+                Some(k) => {
+                    (metric.u[v], metric.u_low[v]) = (self.circle(k).radius.ln(), 0.0);
+                    continue;
+                }
+                None if v == self.puncture => self.map.log_scale_at_infinity(),
+                None => self.map.log_scale(plane[v]),
+            };
+            let (sum, lost) = two_sum(metric.u[v], by);
+            (metric.u[v], metric.u_low[v]) = two_sum(sum, lost + metric.u_low[v]);
+        }
+        metric
+    }
+
+    /// Where the edge from hub k to the vertex `to` leaves the circle: seen off the centre, then in the disk.
+    pub fn anchor(&self, plane: &PerVertex<Complex>, k: usize, to: VertexId) -> Complex {
+        let PlaneCircle { center, radius } = self.circle_seen(&self.off_centre, k);
+        let away = sub(self.seen(&self.off_centre, plane, to), center);
+        // The outer circle is seen from its other side.
+        let sign = if to.index() == self.n_points + self.outer { -1.0 } else { 1.0 };
+        let at = add(center, scale(sign * radius / norm(away), away));
+        self.map.after(&self.off_centre.inverse()).apply(at)
+    }
+}

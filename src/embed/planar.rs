@@ -1,0 +1,89 @@
+//! Layouts of planar domains, and areas of what is laid out.
+
+use super::layout::bounding_diagonal;
+use super::layout::{Layout, distance, distance_from_origin, flat};
+use super::pieces::Pieces;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::{Space, triangle};
+use crate::mesh::{Mesh, PerEdge, PerFace, PerHalfedge, PerVertex};
+use crate::metric::Refinement;
+use crate::parallel;
+use crate::topology::CutGraph;
+use std::sync::Arc;
+
+/// The vertices of a refinement in the plane, and how well they fit the metric.
+pub(crate) struct Placed {
+    /// Per vertex of the refinement.
+    pub plane: PerVertex<[f64; 2]>,
+    /// [`Layout::disagreement`].
+    pub disagreement: f64,
+    /// [`Layout::local_consistency`].
+    pub local_consistency: f64,
+}
+
+impl Layout {
+    /// The layout of a planar domain in E²: the refinement of the surface as it came, `given`, with a place for each of its vertices and no
+    /// cut.
+    ///
+    /// # Errors
+    /// [`Error::Size`]; [`Error::Layout`] for a place that is not finite.
+    pub(crate) fn planar(given: &Arc<Mesh>, refinement: Arc<Refinement>, placed: Placed) -> Result<Layout> {
+        let Placed { plane, disagreement, local_consistency } = placed;
+        let mesh = &refinement.mesh;
+        check_size("places", plane.len(), mesh.n_vertices())?;
+        if let Some(v) = mesh.vertices().find(|&v| plane[v].iter().any(|x| !x.is_finite())) {
+            return Err(Error::Layout(format!("vertex {v} of the refinement has no place in the plane")));
+        }
+        let uncut = |mesh: &Mesh| CutGraph {
+            is_cut: PerEdge::filled(mesh.n_edges(), false),
+            nodes: Vec::new(),
+            segments: Vec::new(),
+        };
+        let points: Vec<[f64; 3]> = plane.iter().map(|&[x, y]| [x, y, 1.0]).collect();
+        let coordinates = plane.into_vec();
+        let mut layout = Layout {
+            space: Space::E2,
+            cut: uncut(mesh),
+            corner_index: PerHalfedge::from_fn(mesh.n_halfedges(), |h| mesh.origin(h).0),
+            seams: Vec::new(),
+            flipped: Vec::new(),
+            degenerate: Vec::new(),
+            broken: Vec::new(),
+            disagreement,
+            local_consistency,
+            radius: points.iter().map(|&p| distance_from_origin(Space::E2, p)).fold(0.0, f64::max),
+            diameter: bounding_diagonal(&coordinates),
+            area: 0.0,
+            scale: 1.0,
+            input: Some((given.clone(), uncut(given))),
+            side: PerHalfedge::filled(mesh.n_halfedges(), 0),
+            n_steps: mesh.n_faces(),
+            frames: Vec::new(),
+            patch: PerFace::from(Vec::new()),
+            points,
+            coordinates,
+            pieces: Pieces::Refinement(refinement),
+        };
+        layout.measure_area();
+        layout.find_flat();
+        Ok(layout)
+    }
+
+    /// Sets the area to that of the triangles that are laid out, which is not that of the whole surface where disks are left out.
+    pub(crate) fn measure_area(&mut self) {
+        let mut areas = vec![0.0; self.mesh().n_faces()];
+        parallel::fill(&mut areas, |f| {
+            let points = self.face_points(f.into());
+            triangle::area(
+                self.space,
+                [1, 2, 0].map(|k| distance(self.space, points[k], points[(k + 1) % 3])),
+            )
+        });
+        self.area = areas.iter().sum();
+    }
+
+    /// Plane coordinates of a point in ambient coordinates: its own, those of the Poincaré disk, of the stereographic projection.
+    pub fn flat(&self, point: [f64; 3]) -> [f64; 2] {
+        flat(self.space, point)
+    }
+}

@@ -1,0 +1,238 @@
+//! Surfaces with vertices added on their edges.
+//!
+//! ```
+//! use ricci::{Surface, mesh::shapes, metric::Split};
+//! let disk = Surface::from_soup(&shapes::disk(1)?)?;
+//! let mut split = Split::new(&disk);
+//! split.halve(disk.mesh().boundary_loops()[0][0].edge())?;
+//! let finer = split.surface()?;
+//! assert_eq!(finer.mesh().n_vertices(), disk.mesh().n_vertices() + 1);
+//! assert!((finer.area()? / disk.area()? - 1.0).abs() < 1e-15);
+//! # Ok::<(), ricci::Error>(())
+//! ```
+
+use super::surface::Surface;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::flip::diagonal;
+use crate::geometry::triangle::{self, sine};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, Point};
+
+/// A surface some of whose edges have been halved, the faces beside them with them: the same metric on a finer triangulation.
+///
+/// The first vertices, edges and faces are the given ones, or one of their halves.
+#[derive(Debug, Clone)]
+pub struct Split {
+    given: Surface,
+    /// Per half-edge.
+    origin: Vec<u32>,
+    face: Vec<Option<u32>>,
+    sides: Vec<[u32; 3]>,
+    lengths: Vec<f64>,
+    positions: Option<Vec<Point>>,
+    n_vertices: usize,
+    /// The ends of the edge that each added vertex has parted, with their weights.
+    added: Vec<[(u32, f64); 2]>,
+    /// Per face: the given face that it is a part of, and the weights of its corners there.
+    parent: Vec<FaceId>,
+    corners: Vec<[[f64; 3]; 3]>,
+}
+
+/// Weights of a triangle's corners in that triangle.
+const CORNERS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+impl Split {
+    /// Nothing halved yet.
+    pub fn new(given: &Surface) -> Split {
+        let mesh = given.mesh();
+        Split {
+            origin: mesh.halfedges().map(|h| mesh.origin(h).0).collect(),
+            face: mesh.halfedges().map(|h| mesh.face(h).map(|f| f.0)).collect(),
+            sides: mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| h.0)).collect(),
+            lengths: given.lengths().iter().copied().collect(),
+            positions: given.positions().map(|positions| positions.to_vec()),
+            n_vertices: mesh.n_vertices(),
+            added: Vec::new(),
+            parent: mesh.faces().collect(),
+            corners: vec![CORNERS; mesh.n_faces()],
+            given: given.clone(),
+        }
+    }
+
+    /// The surface as it was given.
+    pub fn given(&self) -> &Surface {
+        &self.given
+    }
+
+    /// Vertices that were added.
+    pub fn n_added(&self) -> usize {
+        self.n_vertices - self.given.mesh().n_vertices()
+    }
+
+    /// The given face that a face is a part of, and the weights of its corners there: barycentric coordinates if that is plane.
+    pub fn place(&self, f: FaceId) -> (FaceId, [[f64; 3]; 3]) {
+        (self.parent[f.index()], self.corners[f.index()])
+    }
+
+    /// Weights of points in a face ([`Split::place`]) as weights in the given face that it is a part of.
+    pub fn carried<const M: usize>(&self, f: FaceId, weights: [[f64; 3]; M]) -> (FaceId, [[f64; 3]; M]) {
+        let (face, corners) = self.place(f);
+        (face, weights.map(|w| [0, 1, 2].map(|k| (0..3).map(|c| w[c] * corners[c][k]).sum())))
+    }
+
+    /// Values at the given vertices (V entries), on the finer triangulation: linear along the edges that were parted.
+    ///
+    /// # Errors
+    /// [`Error::Size`].
+    pub fn from_given_vertices<const N: usize>(&self, values: &[[f64; N]]) -> Result<Vec<[f64; N]>> {
+        check_size("values", values.len(), self.given.mesh().n_vertices())?;
+        let mut all = values.to_vec();
+        for &[(a, p), (b, q)] in &self.added {
+            let [a, b] = [a, b].map(|v| all[v as usize]);
+            all.push(std::array::from_fn(|k| p * a[k] + q * b[k]));
+        }
+        Ok(all)
+    }
+
+    /// Values at the corners of the given faces (F entries), at those of the finer triangulation: linear in each given face.
+    ///
+    /// # Errors
+    /// [`Error::Size`].
+    pub fn from_given_corners<const N: usize>(&self, values: &[[[f64; N]; 3]]) -> Result<Vec<[[f64; N]; 3]>> {
+        check_size("corner values", values.len(), self.given.mesh().n_faces())?;
+        let at = |f: usize| {
+            let corners = values[self.parent[f].index()];
+            self.corners[f].map(|w| std::array::from_fn(|k| (0..3).map(|c| w[c] * corners[c][k]).sum()))
+        };
+        Ok((0..self.parent.len()).map(at).collect())
+    }
+
+    /// Halve an edge: [`Split::part`] at its midpoint.
+    ///
+    /// # Errors
+    /// Those of [`Split::part`].
+    pub fn halve(&mut self, e: EdgeId) -> Result<EdgeId> {
+        self.part(e, 0.5)
+    }
+
+    /// Part an edge at this share of its length from the origin of its half-edge 2e, and each face beside it by the line from there to the
+    /// opposite corner. The edge keeps its number at that origin; the new vertex and the other part, which is returned, get the next ones.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for an edge that does not exist, and for a share outside (0, 1); [`Error::TooLarge`].
+    pub fn part(&mut self, e: EdgeId, share: f64) -> Result<EdgeId> {
+        let n_edges = self.lengths.len();
+        if e.index() >= n_edges {
+            return Err(Error::argument("edge to part", e, "an existing edge"));
+        }
+        if !(share > 0.0 && share < 1.0) {
+            return Err(Error::argument("share of an edge", share, "between 0 and 1"));
+        }
+        if u32::try_from(2 * n_edges + 6).is_err() {
+            return Err(Error::TooLarge { what: "half-edges of a split surface", count: 2 * n_edges + 6 });
+        }
+        let there = e.halfedge().index();
+        let (from, middle, to) = (self.origin[there], self.n_vertices as u32, self.origin[there ^ 1]);
+        let length = self.lengths[e.index()];
+        let (near, far) = (share * length, (1.0 - share) * length);
+        // The point as a combination of the ends, which are vectors in H² and S².
+        let weights = [far, near].map(|x| sine(self.given.geometry(), x));
+        let weights = weights.map(|w| w / (weights[0] + weights[1]));
+        self.n_vertices += 1;
+        self.added.push([(from, weights[0]), (to, weights[1])]);
+        if let Some(positions) = &mut self.positions {
+            let [a, b] = [from, to].map(|v| positions[v as usize]);
+            positions.push([0, 1, 2].map(|k| weights[0] * a[k] + weights[1] * b[k]));
+        }
+        // The faces are measured before the edge is shortened.
+        let lines = [(there, near), (there ^ 1, far)].map(|(h, x)| self.line(h, x));
+        let other = self.add_edge(middle, to, far);
+        self.lengths[e.index()] = near;
+        self.origin[there ^ 1] = middle;
+        for (k, line) in lines.into_iter().enumerate() {
+            if let Some(length) = line {
+                // The part at the origin of the half-edge 2e lies along `there`; of its twin, along the new edge.
+                let [first, second] = [[there, 2 * other], [2 * other + 1, there ^ 1]][k];
+                let weights = if k == 0 { weights } else { [weights[1], weights[0]] };
+                self.cut_face(there ^ k, ([first, second], weights), length);
+            }
+        }
+        Ok(EdgeId::from(other))
+    }
+
+    /// The face of a half-edge and its corner there.
+    fn corner(&self, h: usize) -> Option<(usize, usize)> {
+        let f = self.face[h]? as usize;
+        self.sides[f].iter().position(|&side| side as usize == h).map(|k| (f, k))
+    }
+
+    /// Length of the line from the point at distance `x` along a half-edge to the opposite corner of its face.
+    fn line(&self, h: usize, x: f64) -> Option<f64> {
+        let (f, k) = self.corner(h)?;
+        let space = self.given.geometry();
+        // Opposite the corners: of the half-edge's origin, its tip, the third one.
+        let [a, b, c] = [1, 2, 0].map(|turn| self.lengths[self.sides[f][(k + turn) % 3] as usize >> 1]);
+        let angle = triangle::angles(space, [a, b, c]).at[0];
+        Some(diagonal(space, b, x, angle))
+    }
+
+    fn add_edge(&mut self, from: u32, to: u32, length: f64) -> usize {
+        self.origin.extend([from, to]);
+        self.face.extend([None, None]);
+        self.lengths.push(length);
+        self.lengths.len() - 1
+    }
+
+    /// Cut the face of half-edge `h`, whose two parts are `parts` in its direction at the point with these weights of its ends, by a line of this
+    /// length.
+    fn cut_face(&mut self, h: usize, (parts, [p, q]): ([usize; 2], [f64; 2]), length: f64) {
+        let Some((f, k)) = self.corner(h) else { return };
+        let [next, prev] = [1, 2].map(|turn| self.sides[f][(k + turn) % 3]);
+        let [middle, opposite] = [self.origin[parts[1]], self.origin[prev as usize]];
+        let line = 2 * self.add_edge(middle, opposite, length) as u32;
+        let [a, b, c] = [0, 1, 2].map(|turn| self.corners[f][(k + turn) % 3]);
+        let m = [0, 1, 2].map(|i| p * a[i] + q * b[i]);
+        self.sides[f] = [parts[0] as u32, line, prev];
+        self.corners[f] = [a, m, c];
+        let new = self.sides.len();
+        self.sides.push([parts[1] as u32, next, line ^ 1]);
+        self.corners.push([m, b, c]);
+        self.parent.push(self.parent[f]);
+        for f in [f, new] {
+            self.sides[f].into_iter().for_each(|side| self.face[side as usize] = Some(f as u32));
+        }
+    }
+
+    /// The surface on the finer triangulation; the given one, arrays and all, where nothing was halved.
+    ///
+    /// # Errors
+    /// Those of [`Surface::intrinsic`].
+    pub fn surface(&self) -> Result<Surface> {
+        if self.n_added() == 0 {
+            return Ok(self.given.clone());
+        }
+        let mesh = Mesh::assemble(self.n_vertices, self.origin.clone(), &self.sides)?;
+        let lengths = PerEdge::from(self.lengths.clone());
+        let surface = Surface::intrinsic(mesh, lengths, self.given.geometry())?;
+        match &self.positions {
+            Some(positions) => surface.with_positions(positions.clone()),
+            None => Ok(surface),
+        }
+    }
+
+    /// Halve the longest edge of a loop, given by the boundary half-edges of its present edges, until it has this many.
+    ///
+    /// # Errors
+    /// Those of [`Split::halve`].
+    pub fn refine_loop(&mut self, rim: &[HalfedgeId], n: usize) -> Result<()> {
+        let mut edges: Vec<EdgeId> = rim.iter().map(|h| h.edge()).collect();
+        while edges.len() < n {
+            let Some(&longest) =
+                edges.iter().max_by(|a, b| self.lengths[a.index()].total_cmp(&self.lengths[b.index()]))
+            else {
+                break;
+            };
+            edges.push(self.halve(longest)?);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,107 @@
+//! Spline files: JSON that says all that is needed to evaluate a spline (`ricci-spline 1`).
+//!
+//! `{format, degree, patches: [{chart, knots, control}…], supports: [[{patch, to}…]…], control_points: [[X, Y, Z]…], hole}`, where
+//! `knots[k][j]` is t_{k,j} in the patch's chart, `control` is in the order of [`super::multi_indices`], and `supports[I]` has each patch
+//! that reaches into I with the affine map from its chart to I's.
+
+use super::patch::{Patch, Support};
+use super::space::SplineSpace;
+use super::surface::Spline;
+use crate::error::{At, Error, Result};
+use crate::geometry::vector::Vector;
+use crate::mesh::io::write_atomically;
+use serde::{Deserialize, Serialize};
+use std::io::Write;
+use std::path::Path;
+use std::sync::Arc;
+
+/// What `format` says in files that this version reads and writes.
+const FORMAT: &str = "ricci-spline 1";
+
+#[derive(Serialize, Deserialize)]
+struct Document {
+    format: String,
+    degree: usize,
+    patches: Vec<PatchEntry>,
+    supports: Vec<Vec<SupportEntry>>,
+    control_points: Vec<Vector>,
+    /// Null: planar splines have no hole.
+    hole: Option<serde_json::Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct PatchEntry {
+    chart: u32,
+    knots: [Vec<[f64; 2]>; 3],
+    control: Vec<u32>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct SupportEntry {
+    patch: u32,
+    to: [[f64; 3]; 2],
+}
+
+impl Spline {
+    /// The text of the spline's file. Numbers are read back as they were.
+    pub fn to_json(&self) -> String {
+        let space = self.space();
+        let entry =
+            |p: &Patch| PatchEntry { chart: p.chart, knots: p.knots.clone(), control: p.control.clone() };
+        let support = |s: &Support| SupportEntry { patch: s.patch, to: s.to };
+        let document = Document {
+            format: FORMAT.into(),
+            degree: space.degree(),
+            patches: space.patches().iter().map(entry).collect(),
+            supports: space.supports().iter().map(|of| of.iter().map(support).collect()).collect(),
+            control_points: self.control_points().to_vec(),
+            hole: None,
+        };
+        // Strings, finite numbers and arrays of them can always be written.
+        serde_json::to_string(&document).unwrap_or_default() + "\n"
+    }
+
+    /// A spline from the text of a file, which `name` names in errors.
+    ///
+    /// # Errors
+    /// [`Error::Parse`] for a text that is not such a file, or one of a version that this library does not know; those of
+    /// [`SplineSpace::new`] and [`Spline::new`].
+    pub fn from_json(text: &str, name: &str) -> Result<Spline> {
+        let parse = |at: At, message: String| Error::Parse { path: name.into(), at, message };
+        let document: Document =
+            serde_json::from_str(text).map_err(|why| parse(At::Line(why.line()), why.to_string()))?;
+        if document.format != FORMAT {
+            let message = format!("format is {:?}, this version reads {FORMAT:?}", document.format);
+            return Err(parse(At::Whole, message));
+        }
+        if document.hole.is_some() {
+            return Err(parse(At::Whole, "a spline with a hole, which this version does not read".into()));
+        }
+        let patch = |p: PatchEntry| Patch { chart: p.chart, knots: p.knots, control: p.control };
+        let support = |s: SupportEntry| Support { patch: s.patch, to: s.to };
+        let patches = document.patches.into_iter().map(patch).collect();
+        let supports =
+            document.supports.into_iter().map(|of| of.into_iter().map(support).collect()).collect();
+        let space = SplineSpace::new(document.degree, patches, supports)?;
+        Spline::new(Arc::new(space), document.control_points)
+    }
+
+    /// Read a spline file.
+    ///
+    /// # Errors
+    /// [`Error::Io`]; those of [`Spline::from_json`].
+    pub fn read(path: &Path) -> Result<Spline> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|why| Error::Io { path: name.clone(), message: why.to_string() })?;
+        Spline::from_json(&text, &name)
+    }
+
+    /// Write a spline file, whole or not at all.
+    ///
+    /// # Errors
+    /// [`Error::Io`].
+    pub fn write(&self, path: &Path) -> Result<()> {
+        write_atomically(path, |out| out.write_all(self.to_json().as_bytes()))
+    }
+}

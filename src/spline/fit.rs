@@ -1,0 +1,196 @@
+//! Least-squares fits of splines to points with given parameters.
+
+use super::patch::Parameter;
+use super::recurrence::{Jet, Scratch};
+use super::simplex::double_area;
+use super::space::SplineSpace;
+use super::surface::Spline;
+use crate::control::{Control, Stage};
+use crate::error::{Error, Result, check_size};
+use crate::geometry::vector::{Vector, distance};
+use crate::linalg::{Cholesky, Pattern, Symmetric};
+use crate::parallel::{self, Pool};
+use sprs::{CsMat, TriMat};
+use std::f64::consts::SQRT_2;
+use std::sync::Arc;
+
+/// Points of a patch per side at which its bending is measured: second derivatives of quartic pieces vary little in between.
+const BENDING_POINTS: usize = 3;
+
+/// What a fit can be asked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FitOptions {
+    /// Weight of the bending energy ∫ |D²F|², times the area of the domain, beside the mean of the squared distances; of splines of degree
+    /// 1 ∫ |DF|² takes its place. Default 1e-12: it decides where there are few points, and hardly
+    /// changes a fit to many.
+    pub fairness: f64,
+    /// Threads; 0 (default) is one per core. The result does not depend on it.
+    pub threads: usize,
+}
+
+impl Default for FitOptions {
+    fn default() -> Self {
+        FitOptions { fairness: 1e-12, threads: 0 }
+    }
+}
+
+/// A spline that was fitted to points.
+#[derive(Debug, Clone)]
+pub struct Fitted {
+    /// The spline.
+    pub spline: Spline,
+    /// Root of the mean of the squared distances between points and their places on the spline.
+    pub rms: f64,
+    /// The largest such distance.
+    pub max: f64,
+}
+
+/// The spline of a space that is nearest to points at given places in the sense of least squares.
+///
+/// # Errors
+/// [`Error::Size`] where points and places differ in number; [`Error::Argument`] for a fairness that is negative, or points that are not
+/// finite; [`Error::Factorisation`] where the points do not determine the spline (more of them, or a fairness above 0, would);
+/// [`Error::Spline`] for places outside their patches; [`Error::Cancelled`].
+pub fn fit(
+    space: &Arc<SplineSpace>,
+    places: &[Parameter],
+    points: &[Vector],
+    options: &FitOptions,
+    control: &Control,
+) -> Result<Fitted> {
+    check_size("points", points.len(), places.len())?;
+    let FitOptions { fairness, threads } = *options;
+    if !(fairness >= 0.0 && fairness.is_finite()) {
+        return Err(Error::argument("fairness", fairness, "0 or positive, and finite"));
+    }
+    if let Some(at) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        return Err(Error::argument("point", at, "one with finite coordinates"));
+    }
+    let control_points = Pool::new(threads)?.run(|| {
+        control.step(Stage::Flow, 0.0)?;
+        let mut equations = Equations { space, rows: Vec::new() };
+        let share = (1.0 / places.len().max(1) as f64).sqrt();
+        equations.add(places, 0, |_, jet| vec![share * jet[0]])?;
+        if fairness > 0.0 {
+            control.step(Stage::Flow, 0.3)?;
+            equations.bend(fairness)?;
+        }
+        control.step(Stage::Flow, 0.6)?;
+        let matrix = equations.matrix();
+        let mut right = vec![[0.0; 3]; space.n_control_points()];
+        for (row, point) in matrix.outer_iterator().zip(points) {
+            for (column, weight) in row.iter() {
+                (0..3).for_each(|x| right[column][x] += share * weight * point[x]);
+            }
+        }
+        solve(&(&matrix.transpose_view() * &matrix), right)
+    })?;
+    let spline = Spline::new(space.clone(), control_points)?;
+    let found = spline.evaluate(places, 0, threads, control)?;
+    let (mut sum, mut max) = (0.0, 0.0f64);
+    for (found, point) in found.iter().zip(points) {
+        let miss = distance(found.point, *point);
+        (sum, max) = (sum + miss * miss, max.max(miss));
+    }
+    Ok(Fitted { spline, rms: (sum / points.len().max(1) as f64).sqrt(), max })
+}
+
+/// Linear equations for control points, whose squares are summed.
+struct Equations<'a> {
+    space: &'a SplineSpace,
+    /// Per equation the control points and their factors.
+    rows: Vec<Vec<(u32, f64)>>,
+}
+
+impl Equations<'_> {
+    /// Equations at places from the derivatives, up to `order`, of the basis functions there: `of` gives a factor for each equation.
+    fn add(
+        &mut self,
+        places: &[Parameter],
+        order: usize,
+        of: impl Fn(usize, &Jet) -> Vec<f64> + Sync,
+    ) -> Result<()> {
+        let mut found = vec![Ok(Vec::new()); places.len()];
+        parallel::fill_with(&mut found, Scratch::default, |scratch, i| {
+            let mut rows: Vec<Vec<(u32, f64)>> = Vec::new();
+            self.space.each(places[i], order, scratch, |control, jet| {
+                let factors = of(i, jet);
+                rows.resize(factors.len(), Vec::new());
+                let terms = rows.iter_mut().zip(factors).filter(|(_, x)| *x != 0.0);
+                terms.for_each(|(row, x)| row.push((control, x)));
+            })?;
+            Ok(rows)
+        });
+        for rows in found {
+            self.rows.extend(rows?);
+        }
+        Ok(())
+    }
+
+    /// The bending energy, times its weight and the area of the domain, as equations with the right-hand side 0.
+    fn bend(&mut self, fairness: f64) -> Result<()> {
+        let k = BENDING_POINTS;
+        let (mut places, mut shares) = (Vec::new(), Vec::new());
+        for (at, patch) in self.space.patches().iter().enumerate() {
+            let corners = [0, 1, 2].map(|k| patch.knots[k][0]);
+            let share = 0.5 * double_area(corners[0], corners[1], corners[2]) / (k * k) as f64;
+            // Centres of the k² triangles into which the patch is divided.
+            for (i, j) in (0..k).flat_map(|i| (0..2 * (k - i) - 1).map(move |j| (i, j))) {
+                let third = (1 + j % 2) as f64 / 3.0;
+                let [s, t] = [i, j / 2].map(|cell| (cell as f64 + third) / k as f64);
+                let [x, y] =
+                    [0, 1].map(|x| (1.0 - s - t) * corners[0][x] + s * corners[1][x] + t * corners[2][x]);
+                places.push(Parameter { patch: at as u32, x, y });
+                shares.push(share);
+            }
+        }
+        let area: f64 = shares.iter().sum();
+        let weight = |i: usize| (fairness * area * shares[i]).sqrt();
+        match self.space.degree() {
+            1 => self.add(&places, 1, |i, jet| vec![weight(i) * jet[1], weight(i) * jet[2]]),
+            _ => self.add(&places, 2, |i, jet| {
+                vec![weight(i) * jet[3], weight(i) * SQRT_2 * jet[4], weight(i) * jet[5]]
+            }),
+        }
+    }
+
+    /// Equations × control points; a control point that an equation names twice has the sum of its factors.
+    fn matrix(&self) -> CsMat<f64> {
+        let mut triplets = TriMat::new((self.rows.len(), self.space.n_control_points()));
+        for (i, row) in self.rows.iter().enumerate() {
+            row.iter().for_each(|&(control, x)| triplets.add_triplet(i, control as usize, x));
+        }
+        triplets.to_csr()
+    }
+}
+
+/// The solution of a symmetric positive definite system with three right-hand sides.
+fn solve(matrix: &CsMat<f64>, right: Vec<Vector>) -> Result<Vec<Vector>> {
+    let n = right.len();
+    let lower: Vec<(u32, u32)> = entries(matrix).map(|(i, j, _)| (i as u32, j as u32)).collect();
+    let pattern = Pattern::new(n, &lower)?;
+    let mut values = vec![0.0; pattern.entries()];
+    for (i, j, x) in entries(matrix) {
+        if let Some(at) = pattern.position(i, j) {
+            values[at] += x;
+        }
+    }
+    let mut cholesky = Cholesky::analyse(&pattern)?;
+    cholesky.factor(Symmetric { pattern: &pattern, values: &values }).map_err(|_| Error::Factorisation {
+        size: n,
+        message: "the points do not determine the spline; give more of them, or a fairness above 0".into(),
+    })?;
+    let mut solution = right;
+    let mut column = vec![0.0; n];
+    for x in 0..3 {
+        column.iter_mut().zip(&solution).for_each(|(c, p)| *c = p[x]);
+        cholesky.solve(&mut column);
+        solution.iter_mut().zip(&column).for_each(|(p, c)| p[x] = *c);
+    }
+    Ok(solution)
+}
+
+/// The entries on and below the diagonal.
+fn entries(matrix: &CsMat<f64>) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+    matrix.iter().filter(|(_, (i, j))| i >= j).map(|(x, (i, j))| (i, j, *x))
+}

@@ -1,0 +1,146 @@
+//! How well a spline space keeps the identities of triangular B-splines, measured.
+
+use super::patch::Parameter;
+use super::simplex::double_area;
+use super::space::SplineSpace;
+use super::surface::Spline;
+use crate::control::Control;
+use crate::error::Result;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Points of a patch at which sums are taken, in barycentric coordinates: near corners, near sides and inside.
+const PLACES: [[f64; 3]; 7] = [
+    [0.96, 0.03, 0.01],
+    [0.01, 0.96, 0.03],
+    [0.03, 0.01, 0.96],
+    [0.52, 0.46, 0.02],
+    [0.02, 0.52, 0.46],
+    [0.46, 0.02, 0.52],
+    [0.34, 0.35, 0.31],
+];
+/// Height of a knot over the line of a side, over the patch's own height, below which the knot counts as lying on it: rounding.
+const ON_LINE: f64 = 1e-9;
+
+/// Largest deviations from what holds in exact arithmetic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Identities {
+    /// |Σ B − 1|.
+    pub partition_of_unity: f64,
+    /// Of the polynomial (x + y)^n, in coordinates from −1 to 1 over each chart, relative to the largest value; 0 of several charts.
+    pub polynomial_reproduction: f64,
+    /// Jump of the derivatives of order min(n − 1, 2) across sides of patches, of the control points' own surface, over the largest such
+    /// derivative there; across sides on whose line no more than two knots of the ends lie.
+    pub continuity: f64,
+    /// How many sides between patches have more knots on their line: the spline is less smooth there.
+    pub rough_sides: usize,
+}
+
+impl Spline {
+    /// The identities, measured at seven places of each patch and at the middle of each side between two patches of one chart.
+    ///
+    /// # Errors
+    /// Those of [`Spline::evaluate`].
+    pub fn identities(&self, threads: usize, control: &Control) -> Result<Identities> {
+        let space = self.space();
+        let places: Vec<Parameter> = (0..space.patches().len())
+            .flat_map(|patch| PLACES.map(|weights| place(space, patch, weights)))
+            .collect();
+        let ones = Spline::new(space.clone(), vec![[1.0, 0.0, 0.0]; space.n_control_points()])?;
+        let sums = ones.evaluate(&places, 0, threads, control)?;
+        let partition_of_unity = sums.iter().map(|sum| (sum.point[0] - 1.0).abs()).fold(0.0, f64::max);
+        let one_chart = space.patches().windows(2).all(|pair| pair[0].chart == pair[1].chart);
+        let polynomial_reproduction =
+            if one_chart { reproduction(space, &places, threads, control)? } else { 0.0 };
+        let Sides { beside, rough } = Sides::of(space);
+        let continuity = self.jump(&beside, threads, control)?;
+        Ok(Identities { partition_of_unity, polynomial_reproduction, continuity, rough_sides: rough })
+    }
+
+    /// Largest jump between the two places of each pair: each patch is evaluated at the limit from its inside.
+    fn jump(&self, beside: &[Parameter], threads: usize, control: &Control) -> Result<f64> {
+        let order = (self.space().degree() - 1).min(2);
+        let found = self.evaluate(beside, order, threads, control)?;
+        let (mut jump, mut largest) = (0.0f64, 0.0f64);
+        for pair in found.chunks_exact(2) {
+            let [a, b] = [&pair[0], &pair[1]].map(|at| match order {
+                0 => at.point.to_vec(),
+                1 => at.first.concat(),
+                _ => at.second.concat(),
+            });
+            jump = a.iter().zip(&b).map(|(x, y)| (x - y).abs()).fold(jump, f64::max);
+            largest = a.iter().map(|x| x.abs()).fold(largest, f64::max);
+        }
+        Ok(if largest > 0.0 { jump / largest } else { 0.0 })
+    }
+}
+
+fn place(space: &SplineSpace, patch: usize, weights: [f64; 3]) -> Parameter {
+    let corners = [0, 1, 2].map(|k| space.patches()[patch].knots[k][0]);
+    let [x, y] = [0, 1].map(|x| (0..3).map(|k| weights[k] * corners[k][x]).sum());
+    Parameter { patch: patch as u32, x, y }
+}
+
+/// Largest error of (x + y)^n at places, relative to its largest value there.
+fn reproduction(
+    space: &Arc<SplineSpace>,
+    places: &[Parameter],
+    threads: usize,
+    control: &Control,
+) -> Result<f64> {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for p in places {
+        (low, high) = ([low[0].min(p.x), low[1].min(p.y)], [high[0].max(p.x), high[1].max(p.y)]);
+    }
+    let half = 0.5 * (high[0] - low[0]).max(high[1] - low[1]);
+    let middle = [0, 1].map(|x| 0.5 * (low[x] + high[x]));
+    let linear = |[x, y]: [f64; 2]| ((x - middle[0]) + (y - middle[1])) / half;
+    // The polar form of a power of a linear function is the product of its values.
+    let mut points = vec![[0.0; 3]; space.n_control_points()];
+    space.for_each_argument(|control, arguments| {
+        points[control][0] = arguments.iter().map(|&p| linear(p)).product();
+    });
+    let power = Spline::new(space.clone(), points)?;
+    let found = power.evaluate(places, 0, threads, control)?;
+    let exact = |p: &Parameter| linear([p.x, p.y]).powi(space.degree() as i32);
+    let largest = places.iter().map(|p| exact(p).abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let worst = found.iter().zip(places).map(|(at, p)| (at.point[0] - exact(p)).abs()).fold(0.0, f64::max);
+    Ok(worst / largest)
+}
+
+/// The sides between two patches of one chart.
+struct Sides {
+    /// Two places each, the middle as a point of either patch, of those across which the spline is as smooth as its degree allows.
+    beside: Vec<Parameter>,
+    /// How many others there are.
+    rough: usize,
+}
+
+impl Sides {
+    fn of(space: &SplineSpace) -> Sides {
+        let mut open: HashMap<(u32, [u64; 4]), Parameter> = HashMap::new();
+        let mut sides = Sides { beside: Vec::new(), rough: 0 };
+        for (at, patch) in space.patches().iter().enumerate() {
+            for k in 0..3 {
+                let [i, j, across] = [k, (k + 1) % 3, (k + 2) % 3];
+                let [a, b, c] = [i, j, across].map(|k| patch.knots[k][0]);
+                let mut weights = [0.5; 3];
+                weights[across] = 0.0;
+                let here = place(space, at, weights);
+                let bits = |a: [f64; 2], b: [f64; 2]| [a[0], a[1], b[0], b[1]].map(f64::to_bits);
+                let Some(there) = open.remove(&(patch.chart, bits(b, a))) else {
+                    open.insert((patch.chart, bits(a, b)), here);
+                    continue;
+                };
+                let knots = patch.knots[i].iter().chain(&patch.knots[j]);
+                let on_line = |&&p: &&[f64; 2]| double_area(p, a, b).abs() < ON_LINE * double_area(a, b, c);
+                if knots.filter(on_line).count() > 2 {
+                    sides.rough += 1;
+                } else {
+                    sides.beside.extend([here, there]);
+                }
+            }
+        }
+        sides
+    }
+}

@@ -1,0 +1,81 @@
+//! Which triangle of a domain a point lies in.
+
+use super::knots::Domain;
+use super::patch::{OUTSIDE, Parameter};
+use super::simplex::double_area;
+
+/// The triangles of a domain in the cells of a grid.
+#[derive(Debug, Clone)]
+pub struct Locator<'a> {
+    domain: &'a Domain,
+    lower: [f64; 2],
+    /// Side of a cell.
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    /// Where the triangles of a cell begin in `triangles` (cells + 1 entries).
+    begins: Vec<u32>,
+    triangles: Vec<u32>,
+}
+
+impl<'a> Locator<'a> {
+    /// For a domain that [`Domain::check`] has found good. The grid has about as many cells as the domain has triangles.
+    pub fn new(domain: &'a Domain) -> Locator<'a> {
+        let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for p in &domain.vertices {
+            (0..2).for_each(|x| (lower[x], upper[x]) = (lower[x].min(p[x]), upper[x].max(p[x])));
+        }
+        let [width, height] = [0, 1].map(|x| (upper[x] - lower[x]).max(f64::MIN_POSITIVE));
+        let cell =
+            (width * height / domain.triangles.len().max(1) as f64).sqrt().max(width.max(height) * 1e-6);
+        let [columns, rows] = [width, height].map(|size| (size / cell) as usize + 1);
+        let mut grid =
+            Locator { domain, lower, cell, columns, rows, begins: Vec::new(), triangles: Vec::new() };
+        let mut counts = vec![0u32; columns * rows + 1];
+        let each = |t: usize, grid: &Locator, found: &mut dyn FnMut(usize)| {
+            let corners = domain.triangles[t].map(|v| grid.cell_of(domain.vertices[v as usize]));
+            let low = corners.iter().fold([usize::MAX; 2], |m, c| [m[0].min(c[0]), m[1].min(c[1])]);
+            let high = corners.iter().fold([0; 2], |m, c| [m[0].max(c[0]), m[1].max(c[1])]);
+            for row in low[1]..=high[1] {
+                (low[0]..=high[0]).for_each(|column| found(row * columns + column));
+            }
+        };
+        for t in 0..domain.triangles.len() {
+            each(t, &grid, &mut |cell| counts[cell + 1] += 1);
+        }
+        for cell in 0..columns * rows {
+            counts[cell + 1] += counts[cell];
+        }
+        let mut triangles = vec![0; counts[columns * rows] as usize];
+        let mut next = counts.clone();
+        for t in 0..domain.triangles.len() {
+            each(t, &grid, &mut |cell| {
+                triangles[next[cell] as usize] = t as u32;
+                next[cell] += 1;
+            });
+        }
+        (grid.begins, grid.triangles) = (counts, triangles);
+        grid
+    }
+
+    fn cell_of(&self, p: [f64; 2]) -> [usize; 2] {
+        let along = |x: usize, most: usize| (((p[x] - self.lower[x]) / self.cell) as usize).min(most - 1);
+        [along(0, self.columns), along(1, self.rows)]
+    }
+
+    /// The triangle that contains a point, of several the one inside which it lies deepest; none where the point is outside the domain by
+    /// more than rounding.
+    pub fn locate(&self, [x, y]: [f64; 2]) -> Option<Parameter> {
+        let [column, row] = self.cell_of([x, y]);
+        let cell = row * self.columns + column;
+        let here = &self.triangles[self.begins[cell] as usize..self.begins[cell + 1] as usize];
+        let depth = |t: u32| {
+            let [a, b, c] = self.domain.triangles[t as usize].map(|v| self.domain.vertices[v as usize]);
+            let whole = double_area(a, b, c);
+            let weights = [(b, c), (c, a), (a, b)].map(|(p, q)| double_area([x, y], p, q) / whole);
+            weights.into_iter().fold(f64::INFINITY, f64::min)
+        };
+        let best = here.iter().map(|&t| (depth(t), t)).max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+        best.filter(|(depth, _)| *depth >= -OUTSIDE).map(|(_, patch)| Parameter { patch, x, y })
+    }
+}

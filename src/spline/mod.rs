@@ -1,0 +1,33 @@
+//! Triangular B-splines: piecewise polynomial surfaces over triangles, as smooth as their degree allows, on the plane or on a surface
+//! with an affine atlas [DMS92; Sei91; GHQ06].
+
+mod ears;
+#[cfg(feature = "json")]
+mod file;
+mod fit;
+mod identities;
+mod index;
+mod knots;
+mod locate;
+mod overlap;
+mod patch;
+mod plan;
+mod polar;
+mod recurrence;
+mod simplex;
+mod space;
+mod surface;
+mod tessellate;
+mod triangulate;
+
+pub use fit::{FitOptions, Fitted, fit};
+pub use identities::Identities;
+pub use index::{MAX_DEGREE, basis_size, multi_indices};
+pub use knots::{Domain, KnotOptions, SPREAD};
+pub use locate::Locator;
+pub use patch::{Parameter, Patch, Support};
+pub use polar::{Polynomial, monomials};
+pub use simplex::{simplex_spline, simplex_spline_gradient};
+pub use space::SplineSpace;
+pub use surface::{Spline, SurfacePoint};
+pub use triangulate::triangulate;

@@ -1,0 +1,37 @@
+//! The triangles of a spline, and places in them.
+
+/// The identity as an affine map.
+pub(super) const IDENTITY: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+/// A point may be outside its patch by this share of it: rounding of coordinates that were computed elsewhere.
+pub(super) const OUTSIDE: f64 = 1e-9;
+/// One triangle of a spline.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Patch {
+    /// The chart in whose coordinates the knots are.
+    pub chart: u32,
+    /// t_{k,j}: of corner k the knots j = 0 … n, the first of them the corner itself. Corners are counterclockwise.
+    pub knots: [Vec<[f64; 2]>; 3],
+    /// The control point of each basis function, in the order of [`multi_indices`].
+    pub control: Vec<u32>,
+}
+
+/// A patch with a basis function that does not vanish inside another one, or that touches it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    /// The patch whose basis function it is.
+    pub patch: u32,
+    /// The affine map from that patch's chart to the other's, row by row: `x' = to[0] · (x, y, 1)`.
+    pub to: [[f64; 3]; 2],
+}
+
+/// A place in a patch, in the coordinates of its chart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter {
+    /// The patch.
+    pub patch: u32,
+    /// Abscissa.
+    pub x: f64,
+    /// Ordinate.
+    pub y: f64,
+}
