@@ -104,7 +104,8 @@ def main():
     print("intrinsic Delaunay triangulation. Times are those of one run on a shared machine and say little.\n")
     print("All checks of every report hold.\n" if not bad else "What fails:\n" + "\n".join(f"- {line}" for line in bad) + "\n")
     print("*d\\*ω*: largest of any form at any vertex, over the form's largest value; dω is 0 without rounding. *zeros*: of each holomorphic form of the")
-    print("basis, with multiplicity: 2g − 2. *largest index* of a real form of the basis at a vertex or a face: never positive. *outside*: check.py on")
+    print("basis, with multiplicity: 2g − 2. *largest index* of a real form of the basis at a vertex or a face: never positive where")
+    print("values are above the form's rounding, which they are not far out on horns. *outside*: check.py on")
     print("the file, where that is not too large for it.\n")
     print(text)
     if rows:
