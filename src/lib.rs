@@ -28,6 +28,7 @@ pub mod embed;
 pub mod error;
 pub mod flow;
 pub mod geometry;
+pub mod harmonic;
 pub mod linalg;
 pub mod mesh;
 pub mod metric;

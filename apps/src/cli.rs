@@ -3,6 +3,8 @@
 use crate::domain::CirclesArgs;
 use crate::failure::Failure;
 use crate::flow_args::FlowArgs;
+use crate::forms::FormsArgs;
+use crate::harmonic::HarmonicArgs;
 use crate::info::{DefectFigures, InfoArgs};
 use crate::options::Common;
 use crate::output::{self, Outputs};
@@ -48,6 +50,12 @@ pub enum Command {
     /// A finite piece of the universal cover, with the group that rebuilds the surface from one copy
     #[command(after_help = crate::uniform::COVER_HELP)]
     Cover(CoverArgs),
+    /// Harmonic maps to a disk, a rectangle, the sphere, or with given values
+    #[command(after_help = crate::harmonic::HELP)]
+    Harmonic(HarmonicArgs),
+    /// Harmonic and holomorphic 1-forms, period matrix, zeros and trajectories
+    #[command(after_help = crate::forms::HELP)]
+    Forms(FormsArgs),
     /// A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface
     #[command(after_help = crate::domain::HELP)]
     Circles(CirclesArgs),
@@ -78,6 +86,10 @@ impl Command {
             Command::Flow(args) => report_failure("flow", &args.to.file.mesh, &args.to.common, args, failure),
             Command::Info(args) => report_failure("info", &args.file.mesh, &args.common, args, failure),
             Command::Repair(args) => report_failure("repair", &args.mesh, &args.common, args, failure),
+            Command::Harmonic(args) => {
+                report_failure("harmonic", &args.file.mesh, &args.common, args, failure)
+            }
+            Command::Forms(args) => report_failure("forms", &args.file.mesh, &args.common, args, failure),
             Command::Uniformize(UniformizeArgs { canonical: args, .. }) => {
                 report_failure("uniformize", &args.to.file.mesh, &args.to.common, args, failure)
             }

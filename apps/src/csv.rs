@@ -32,6 +32,37 @@ pub fn read_curvatures(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, 
     Ok(rows)
 }
 
+/// Read `vertex,x,y` rows: where vertices go, each at most once. Lines as in [`read_curvatures`], but for the names of a header.
+pub fn read_places(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, [f64; 2])>, Failure> {
+    let text = read_text(path)?;
+    let mut named = vec![false; n_vertices];
+    let mut rows = Vec::new();
+    for (i, line) in
+        text.lines().enumerate().map(|(i, line)| (i + 1, line.trim().trim_start_matches('\u{feff}')))
+    {
+        if line.is_empty() || line.starts_with('#') || (rows.is_empty() && line.starts_with("vertex")) {
+            continue;
+        }
+        let fields: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
+        let [vertex, x, y] = fields[..] else {
+            return Err(refuse(path, i, "needs three fields: vertex,x,y".into()));
+        };
+        let v = vertex_of(path, i, vertex, n_vertices)?;
+        let number = |text: &str| text.parse().ok().filter(|x: &f64| x.is_finite());
+        let (Some(x), Some(y)) = (number(x), number(y)) else {
+            return Err(refuse(path, i, format!("`{x},{y}` is no point of the plane")));
+        };
+        if std::mem::replace(&mut named[v.index()], true) {
+            return Err(refuse(path, i, format!("vertex {v} is named twice")));
+        }
+        rows.push((v, [x, y]));
+    }
+    if rows.is_empty() {
+        return Err(Failure::Input(format!("{}: no vertex has a place", path.display())));
+    }
+    Ok(rows)
+}
+
 /// Read `vertex,vertex` rows: the edges of `mesh` between these pairs, each once, ascending. Lines as in [`read_curvatures`].
 pub fn read_edges(path: &Path, mesh: &Mesh) -> Result<Vec<EdgeId>, Failure> {
     let mut edges = Vec::new();

@@ -15,7 +15,9 @@ mod figures;
 mod flow;
 mod flow_args;
 mod flow_summary;
+mod forms;
 mod gallery;
+mod harmonic;
 mod info;
 mod input;
 mod job;
@@ -67,6 +69,8 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Flow(args) => flow::run(args, &control),
         Command::Uniformize(args) => uniform::uniformize(args, &control),
         Command::Cover(args) => uniform::cover(args, &control),
+        Command::Harmonic(args) => harmonic::run(args, &control),
+        Command::Forms(args) => forms::run(args, &control),
         Command::Circles(args) => domain::run(args, &control),
         Command::Info(args) => info::run(args, &control),
         Command::Repair(args) => repair::run(args, &control),

@@ -3,7 +3,7 @@
 use crate::failure::{Failure, names_element};
 use crate::input::Input;
 use crate::output::is_stdout;
-use crate::report::{Checks, Done};
+use crate::report::{Attempts, Checks, Done};
 use crate::shape_quality::thinnest;
 use crate::solved::Solved;
 use ricci::flow::Options;
@@ -82,9 +82,8 @@ fn slivers(input: &Input, checks: &Checks, may_flip: bool) -> String {
 
 /// The last lines of a summary: what is not there, whether the checks hold, the files, the time.
 pub fn ending<T>(done: &Done<T>, solved: &Solved) -> String {
-    let Done { checks, files, seconds, .. } = done;
     let Solved { failed, left_out, added, .. } = solved;
-    let mut text = slivers(&done.input, checks, solved.may_flip);
+    let mut text = slivers(&done.input, &done.checks, solved.may_flip);
     let [vertices, faces] = *added;
     if vertices + faces > 0 {
         text += &format!(
@@ -96,6 +95,13 @@ pub fn ending<T>(done: &Done<T>, solved: &Solved) -> String {
     for what in left_out {
         text += &format!("left out {what}\n");
     }
+    text + &finish(done, failed)
+}
+
+/// The last lines of every summary: wishes that failed, whether the checks hold, the files, the time.
+pub fn finish<T>(done: &Done<T>, failed: &Attempts) -> String {
+    let Done { checks, files, seconds, .. } = done;
+    let mut text = String::new();
     for (wishes, why) in failed.by_cause() {
         text += &format!("FAILED   --{}: {why}\n", wishes.join(", --"));
     }

@@ -9,7 +9,8 @@ use crate::options::{MetricArgs, OnChoice};
 use crate::output::{Outputs, extension};
 use crate::solved::Solved;
 use ricci::mesh::io::{self, Texture, Textured, Wrap};
-use ricci::mesh::{Mesh, PerHalfedge};
+use ricci::mesh::{Mesh, PerHalfedge, Point};
+use ricci::metric::Refinement;
 use std::io::Write;
 use std::path::Path;
 
@@ -39,27 +40,48 @@ pub fn write(
             return Err(Failure::Failed("--on input: the layout is not cut along the input's edges".into()));
         }
     };
-    let faces = mesh.triangles();
     let weights = if homogeneous { laid.weights() } else { Vec::new() };
-    let carried = carry(input, refinement)?;
-    let data = Textured {
-        positions,
-        colors: &carried.colors,
-        normals: &carried.normals,
-        face_normals: &carried.face_normals,
-        texcoords,
-        texcoord_weights: &weights,
-        faces: &faces,
-        face_texcoords: &corners(mesh, index),
-    };
-    if extension(path) == "glb" {
-        let png = checkerboard::png()?;
-        let texture = Texture { png: &png, wrap: Wrap::Repeat, repeat: checkerboard::repeat(texcoords) };
-        outputs.add_named(path, |path| io::write_glb(path, &data, Some(texture)).map(drop))?;
-    } else {
-        outputs.add_named(path, |path| io::write_obj(path, &data))?;
+    Drawn { mesh, positions, index, texcoords, weights: &weights, refinement }.write(outputs, path, input)?;
+    Ok([positions.len() - own_positions.len(), mesh.n_faces() - input.mesh().n_faces()])
+}
+
+/// A mesh in space with a drawing of it in the plane.
+pub struct Drawn<'a> {
+    pub mesh: &'a Mesh,
+    pub positions: &'a [Point],
+    /// Per half-edge, which of the coordinates the corner at its origin has.
+    pub index: &'a PerHalfedge<u32>,
+    pub texcoords: &'a [[f64; 2]],
+    /// Homogeneous weights of the coordinates; none for 1.
+    pub weights: &'a [f64],
+    /// Where the mesh is a refinement of the input.
+    pub refinement: Option<&'a Refinement>,
+}
+
+impl Drawn<'_> {
+    /// Add OBJ or, from a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
+    pub fn write(&self, outputs: &mut Outputs, path: &Path, input: &Input) -> Result<(), Failure> {
+        let faces = self.mesh.triangles();
+        let carried = carry(input, self.refinement)?;
+        let data = Textured {
+            positions: self.positions,
+            colors: &carried.colors,
+            normals: &carried.normals,
+            face_normals: &carried.face_normals,
+            texcoords: self.texcoords,
+            texcoord_weights: self.weights,
+            faces: &faces,
+            face_texcoords: &corners(self.mesh, self.index),
+        };
+        if extension(path) == "glb" {
+            let png = checkerboard::png()?;
+            let repeat = checkerboard::repeat(self.texcoords);
+            let texture = Texture { png: &png, wrap: Wrap::Repeat, repeat };
+            outputs.add_named(path, |path| io::write_glb(path, &data, Some(texture)).map(drop))
+        } else {
+            outputs.add_named(path, |path| io::write_obj(path, &data))
+        }
     }
-    Ok([positions.len() - own_positions.len(), faces.len() - input.mesh().n_faces()])
 }
 
 /// Write `--uv` and `--xref`, as far as they are asked for; what cannot be made is remembered with its reason.

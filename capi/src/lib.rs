@@ -42,6 +42,8 @@ pub mod deck;
 pub mod dirichlet;
 pub mod domain;
 pub mod flow;
+pub mod forms;
+pub mod harmonic;
 pub mod homotopy;
 pub mod init;
 pub mod last_error;

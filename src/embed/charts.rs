@@ -25,7 +25,6 @@
 //! ```
 
 use super::chart_growth::{Lie, Partition, Sheet, partition};
-use super::corner::number_corners;
 use super::overlap::Triangle;
 use super::pack::{least_rectangle, least_square, pack};
 use super::shape::{Shape, extent};
@@ -35,6 +34,7 @@ use crate::geometry::PlaneIsometry;
 use crate::geometry::complex::{distance, doubled_area};
 use crate::geometry::predicates::orientation;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge};
+use crate::topology::number_corners;
 use std::cmp::Ordering;
 use std::f64::consts::FRAC_PI_2;
 

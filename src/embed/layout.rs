@@ -14,7 +14,6 @@
 //! # }
 //! ```
 
-use super::corner::number_corners;
 use super::pieces::Pieces;
 use super::shape::{Shape, extent};
 use crate::error::{Error, Result};
@@ -27,7 +26,7 @@ use crate::geometry::{Motion, PlaneIsometry, Space, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
 use crate::parallel;
-use crate::topology::{CutGraph, corner_walk};
+use crate::topology::{CutGraph, corner_walk, number_corners};
 use std::cmp::Ordering;
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@
 pub mod border;
 mod chart_growth;
 pub mod charts;
-mod corner;
+
 pub mod cover;
 pub mod deck;
 mod develop;

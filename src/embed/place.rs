@@ -12,7 +12,6 @@
 //! # }
 //! ```
 
-use super::corner::number_corners;
 use super::develop::Development;
 use super::faces::Faces;
 use super::frame::Frame;
@@ -25,7 +24,7 @@ use crate::geometry::{Motion, Space, Twofold, worse};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
 use crate::metric::{Metric, Refinement};
 use crate::parallel;
-use crate::topology::{CutGraph, check_lengths, cut};
+use crate::topology::{CutGraph, check_lengths, cut, number_corners};
 use std::sync::Arc;
 
 /// Lays lengths that are flat off the cut out in E², in units of the lengths, by doubles, O(E log E). A corner of the smallest triangle

@@ -118,6 +118,34 @@ impl Cholesky {
             MemStack::new(&mut self.scratch),
         );
     }
+
+    /// Overwrite the columns of `x`, one after the other, with `A⁻¹` times them, A being the matrix factorised last. Several threads may
+    /// do so at the same time; each needs memory for its columns.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Factorisation`] where that memory is lacking.
+    ///
+    /// # Panics
+    ///
+    /// If `x` is no whole number of columns of n entries.
+    pub fn solve_columns(&self, x: &mut [f64]) -> Result<()> {
+        let n = self.symbolic.nrows();
+        let columns = x.len() / n.max(1);
+        assert_eq!(x.len(), n * columns, "columns have {n} entries each");
+        let need = self.symbolic.solve_in_place_scratch::<f64>(columns, PARTITION);
+        let mut scratch = MemBuffer::try_new(need).map_err(|_| Error::Factorisation {
+            size: n,
+            message: "not enough memory to solve with the factor".into(),
+        })?;
+        LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(x, n, columns),
+            PARTITION,
+            MemStack::new(&mut scratch),
+        );
+        Ok(())
+    }
 }
 
 fn structure(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, u32> {
@@ -166,6 +194,10 @@ mod tests {
             cholesky.solve(&mut x);
             matrix.residual(&x, &b, &mut r);
             assert!(r.iter().all(|r| r.abs() < 1e-13));
+            let mut columns = [b.clone(), b.iter().map(|x| 2.0 * x).collect()].concat();
+            cholesky.solve_columns(&mut columns).unwrap();
+            let [once, twice] = [0, 1].map(|c| &columns[c * k * k..(c + 1) * k * k]);
+            assert!((0..k * k).all(|i| (once[i] - x[i]).abs() < 1e-13 && twice[i] == 2.0 * once[i]));
         }
     }
 

@@ -15,6 +15,7 @@
 //! ```
 
 pub mod cholesky;
+pub mod dense;
 pub mod pattern;
 
 pub use cholesky::Cholesky;

@@ -19,6 +19,7 @@
 
 mod brahana;
 mod check;
+mod corner;
 mod corner_walk;
 pub mod cut;
 pub mod domain;
@@ -40,6 +41,7 @@ pub mod word;
 
 pub(crate) use check::{check_lengths, check_path, check_vertex};
 use check::{check_loop, corners_along};
+pub(crate) use corner::number_corners;
 pub(crate) use corner_walk::{corner_walk, crossed_halfedges};
 use cut::check_connected;
 pub use cut::{CutGraph, cut_graph};

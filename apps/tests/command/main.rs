@@ -12,6 +12,8 @@ mod cover;
 mod files;
 mod flips;
 mod flow;
+mod forms;
+mod harmonic;
 mod info;
 mod make;
 mod on_input;

@@ -1,0 +1,84 @@
+//! The options of `ricci forms`.
+
+use crate::options::{Common, FileName, GeometryChoice, MeshArgs, choices};
+use crate::picture::{PictureArgs, Texture};
+use clap::{Args, ValueEnum};
+use ricci::harmonic::Classes;
+use serde::Serialize;
+
+pub const HELP: &str = "\
+Example: the period matrix of a surface of genus 2, its holomorphic forms, and the trajectories of one
+    ricci make genus -o two.obj
+    ricci forms two.obj --forms F.json --picture two.png --show trajectories --report two.json
+
+Forms live on the intrinsic Delaunay triangulation of the surface. Form k has the integral 1 over loop k of the basis a1, b1, a2, b2, …
+(of absolute classes then the boundary loops c1, …; of relative ones the arcs between boundary loops) and 0 over the others.
+
+Files
+    --forms F.json             faces, lengths and edges of that triangulation, and per form a value for each edge; holomorphic forms
+                               with integrals 1 over a loop a_i and 0 over the others; of open surfaces each form with its conjugate
+    --uv OUT.obj | OUT.glb     the surface, opened, with the integral of the chosen form as texture coordinates";
+
+#[derive(Args, Serialize, Debug)]
+pub struct FormsArgs {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub file: MeshArgs,
+    /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
+    #[arg(long, value_enum, value_name = "GEOMETRY")]
+    #[serde(skip)]
+    pub input_geometry: Option<GeometryChoice>,
+    /// Classes of a surface with boundary: forms that flow along the boundary, or forms that are 0 along it
+    #[arg(long, value_enum, default_value_t = ClassesChoice::Absolute)]
+    pub classes: ClassesChoice,
+    /// The vertex (numbered from 0) where the loops meet [default: one from which they are short]
+    #[arg(long, value_name = "VERTEX")]
+    #[serde(skip)]
+    pub base: Option<u32>,
+    /// The form that is drawn, with its conjugate: a coefficient for each form of the basis [default: chosen to distort areas little]
+    #[arg(long, value_name = "X,X,…", value_delimiter = ',', allow_hyphen_values = true, value_parser = coefficient)]
+    #[serde(skip)]
+    pub combination: Vec<f64>,
+    /// Write the forms
+    #[arg(long, value_name = "F.json")]
+    pub forms: Option<FileName>,
+    /// Write the surface with the integral of the chosen form as texture coordinates, .obj or .glb
+    #[arg(long, value_name = "OUT.obj")]
+    pub uv: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub picture: PictureArgs,
+    /// What the picture shows [default: texture]
+    #[arg(long, value_enum, requires = "picture")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub show: Option<ShowChoice>,
+    /// Pattern of the integral of the form [default: checker]
+    #[arg(long, value_enum, requires = "picture")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub texture: Option<Texture>,
+    /// Distance between neighbouring trajectories, over the square root of the surface's area [default: 0.04]
+    #[arg(long, value_name = "SHARE", requires = "picture", value_parser = crate::options::positive)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<f64>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+/// What the picture shows.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum ShowChoice {
+    /// The surface with the pattern of the form's integral
+    Texture,
+    /// The surface with horizontal (red) and vertical (green) trajectories
+    Trajectories,
+    /// The surface with the pattern, beside the integral in the plane
+    Both,
+}
+
+choices!(ClassesChoice = Classes { Absolute, Relative });
+
+fn coefficient(text: &str) -> Result<f64, String> {
+    crate::options::number(text, |_| true, "must be a number")
+}

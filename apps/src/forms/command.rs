@@ -1,0 +1,130 @@
+//! The command from beginning to end.
+
+use super::args::FormsArgs;
+use super::drawn;
+use super::figures;
+use super::file::FormsFile;
+use super::found::Found;
+use crate::failure::Failure;
+use crate::input::{self, Input};
+use crate::output::{Outputs, check_extension, check_outputs};
+use crate::progress::{Progress, doing};
+use crate::report::{Done, Figures, InputSummary, Report, path_text, timed};
+use ricci::Control;
+use ricci::control::Stage;
+use ricci::geometry::Space;
+use serde::Serialize;
+use std::time::Instant;
+
+/// Run the command and say what came out; the exit code is 1 if a check fails or a file that was asked for has nothing to hold.
+pub fn run(args: &FormsArgs, control: &Control) -> Result<u8, Failure> {
+    let start = Instant::now();
+    check_request(args)?;
+    let progress = Progress::watch(control, args.common.quiet);
+    let input = input::read(&args.file, args.input_geometry.map(Space::from), control)?;
+    check_surface(args, &input)?;
+    let mut found = Found::new(&input, args, control)?;
+    let (files, figures) = write(args, &input, &mut found, control, start)?;
+    drop(progress);
+    let checks = found.checks();
+    let exit_code = if found.failed.0.is_empty() { checks.exit_code() } else { 1 };
+    let seconds = start.elapsed().as_secs_f64();
+    let done = Done { input, result: found, figures, checks, files, seconds, exit_code };
+    if !args.common.quiet {
+        figures::say(&done)?;
+    }
+    Ok(done.exit_code)
+}
+
+/// What can be refused before anything is read.
+fn check_request(args: &FormsArgs) -> Result<(), Failure> {
+    let picture = args.picture.picture.as_deref();
+    check_extension("--uv", args.uv.as_deref(), &["obj", "glb"])?;
+    check_extension("--picture", picture, &["png", "svg"])?;
+    if args.picture.is_svg() && (args.show.is_some() || args.picture.is_turned()) {
+        let why =
+            "--show, --view, --up: an SVG shows the integral of the form alone; use .png, or leave them out";
+        return Err(Failure::Usage(why.into()));
+    }
+    let files = [args.forms.as_deref(), args.uv.as_deref(), picture, args.common.report.as_deref()];
+    check_outputs(&[Some(&args.file.mesh)], &files)
+}
+
+/// What can be refused once the surface is known.
+fn check_surface(args: &FormsArgs, input: &Input) -> Result<(), Failure> {
+    let (mesh, in_space) = (input.mesh(), input.positions().is_some());
+    let n = mesh.n_vertices();
+    if let Some(v) = args.base.filter(|&v| v as usize >= n) {
+        return Err(Failure::Usage(format!("--base {v}: there is no such vertex, they are 0 to {}", n - 1)));
+    }
+    let drawn = [
+        (args.uv.is_some(), "--uv"),
+        (args.picture.picture.is_some() && !args.picture.is_svg(), "--picture: as .png"),
+    ];
+    match drawn.into_iter().find(|(wanted, _)| *wanted && !in_space) {
+        Some((_, option)) => {
+            Err(Failure::Usage(format!("{option}: an intrinsic metric has no positions in space")))
+        }
+        None => Ok(()),
+    }
+}
+
+/// What was asked, defaults put in: a run with these options is this run.
+#[derive(Serialize)]
+struct Asked<'a> {
+    input_geometry: &'static str,
+    base: u32,
+    combination: &'a [f64],
+    #[serde(flatten)]
+    args: &'a FormsArgs,
+}
+
+/// Write every file that was asked for, the report last; returns their names and the figures. One that cannot be made keeps none of the
+/// others back.
+fn write(
+    args: &FormsArgs,
+    input: &Input,
+    found: &mut Found,
+    control: &Control,
+    start: Instant,
+) -> Result<(Vec<String>, Figures), Failure> {
+    control.step(Stage::Write, 0.0)?;
+    let (begin, mut outputs) = (Instant::now(), Outputs::default());
+    if let Some(path) = &args.forms {
+        let written = outputs.add_json(path, &FormsFile::new(found));
+        found.failed.attempt("forms", written)?;
+    }
+    control.check()?;
+    let none = || Failure::Failed("the surface has no harmonic form but 0".into());
+    if let Some(path) = &args.uv {
+        let chosen = found.chosen.as_ref().ok_or_else(none);
+        let written = chosen.and_then(|chosen| drawn::write_uv(&mut outputs, path, input, &chosen.layout));
+        found.failed.attempt("uv", written)?;
+    }
+    if let Some(path) = &args.picture.picture {
+        let mut spent = 0.0;
+        let chosen = found.chosen.as_ref().ok_or_else(none);
+        let draw = || chosen.and_then(|chosen| drawn::draw(input, chosen, args, control));
+        let drawn = doing("drawing", || timed(&mut spent, draw));
+        found.seconds.picture = spent;
+        let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
+        found.failed.attempt("picture", written)?;
+    }
+    found.seconds.write = begin.elapsed().as_secs_f64() - found.seconds.picture;
+    found.seconds.total = start.elapsed().as_secs_f64();
+    let figures = figures::of_forms(found);
+    let mut report_failed = Ok(());
+    if let Some(path) = &args.common.report {
+        let asked = Asked {
+            input_geometry: input.surface.geometry().name(),
+            base: found.forms.basis.base.0,
+            combination: found.chosen.as_ref().map_or(&[], |chosen| &chosen.coefficients),
+            args,
+        };
+        let report = Report::new("forms", InputSummary::of(input), asked, figures.clone());
+        report_failed = outputs.add_report(path, &report.finished(found.checks(), found.seconds));
+    }
+    control.check()?;
+    let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
+    report_failed.map(|()| (files, figures))
+}

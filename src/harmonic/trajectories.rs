@@ -1,0 +1,225 @@
+//! Horizontal and vertical trajectories: the lines on the surface along which the imaginary, or the real, part of a form's integral stays
+//! the same.
+//!
+//! ```
+//! use ricci::harmonic::{Domain, FormsOptions, HarmonicForms, PeriodMatrix, TrajectoryOptions, integrate, trajectories};
+//! use ricci::{Control, Surface, mesh::shapes, topology::cut_graph};
+//! let soup = shapes::torus(2.0, 1.0, 24, 12)?;
+//! let control = Control::new();
+//! let forms = HarmonicForms::new(&Domain::new(&Surface::from_soup(&soup)?, &control)?, &FormsOptions::default(), &control)?;
+//! let form = PeriodMatrix::new(&forms)?.basis_form(&forms, 0)?;
+//! let cut = cut_graph(forms.domain.mesh(), forms.domain.lengths(), &[], &control)?;
+//! let layout = integrate(&forms.domain, &form, &cut)?;
+//! let lines = trajectories(&layout, forms.domain.face_areas(), &TrajectoryOptions::default(), &control)?;
+//! assert!(lines.len() > 5);
+//! # Ok::<(), ricci::Error>(())
+//! ```
+
+use super::integrate::FormLayout;
+use crate::control::Control;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::complex::{Complex, add, doubled_area, sub};
+use crate::mesh::{FaceId, HalfedgeId, Mesh};
+use std::collections::{HashSet, VecDeque};
+
+/// Which trajectories, and how many.
+#[derive(Debug, Clone, Copy)]
+pub struct TrajectoryOptions {
+    /// Along constant real part, in place of constant imaginary part.
+    pub vertical: bool,
+    /// Distance between neighbouring lines on the surface, over the square root of its area.
+    pub spacing: f64,
+    /// Length of a line on the surface at most, over the square root of its area.
+    pub longest: f64,
+}
+
+impl Default for TrajectoryOptions {
+    fn default() -> Self {
+        TrajectoryOptions { vertical: false, spacing: 0.04, longest: 6.0 }
+    }
+}
+
+/// A point on an edge: of the half-edge, in its face, this share of the way from its origin to its tip.
+pub type OnHalfedge = (HalfedgeId, f64);
+
+/// Share of the spacing down to which lines may approach each other before one of them ends [JL97].
+const NEAREST: f64 = 0.55;
+/// Lines shorter than this many spacings, as there are between others near zeros, are left out.
+const SHORTEST: f64 = 1.5;
+/// A line looks for others after each such share of the spacing.
+const LOOK: f64 = 0.25;
+
+/// Evenly placed trajectories of a form's drawing, each as the points where it crosses edges of [`FormLayout::mesh`], which it joins straight.
+/// Lines begin in faces from which no line is nearer than the spacing and end where they come nearer than about half of it to another or
+/// to themselves, at the boundary, or at their longest \[JL97\]. `areas`: of the faces on the surface (F entries, positive).
+///
+/// # Errors
+/// [`Error::Size`]; [`Error::Argument`] for a spacing or length that is not positive; [`Error::Cancelled`].
+pub fn trajectories(
+    layout: &FormLayout,
+    areas: &[f64],
+    options: &TrajectoryOptions,
+    control: &Control,
+) -> Result<Vec<Vec<OnHalfedge>>> {
+    let mesh = layout.mesh();
+    check_size("areas of faces", areas.len(), mesh.n_faces())?;
+    let need = "positive and finite";
+    for (what, x) in [("spacing of trajectories", options.spacing), ("longest trajectory", options.longest)] {
+        if !(x > 0.0 && x.is_finite()) {
+            return Err(Error::argument(what, x, need));
+        }
+    }
+    let unit = areas.iter().sum::<f64>().sqrt();
+    let turned = |z: Complex| if options.vertical { [z[1], -z[0]] } else { z };
+    let corners: Vec<[Complex; 3]> = mesh.faces().map(|f| layout.face(f).map(turned)).collect();
+    let scale = |f: usize| (0.5 * doubled_area(corners[f]).abs() / areas[f]).sqrt();
+    let scale: Vec<f64> = (0..corners.len()).map(scale).collect();
+    let mut tracer = Tracer {
+        mesh,
+        lines: vec![Vec::new(); corners.len()],
+        corners,
+        scale,
+        spacing: options.spacing * unit,
+        longest: options.longest * unit,
+    };
+    let mut found = Vec::new();
+    // A stride prime to the number of faces spreads the beginnings over the surface.
+    let stride = (0.618 * mesh.n_faces() as f64) as usize | 1;
+    let stride = (stride..).step_by(2).find(|&s| gcd(s, mesh.n_faces()) == 1).unwrap_or(1);
+    for k in 0..mesh.n_faces() {
+        control.check()?;
+        let f = FaceId::from(k * stride % mesh.n_faces());
+        let centre = tracer.centre(f);
+        if tracer.scale[f.index()] > 0.0 && !tracer.is_near(f, centre, 1.0, usize::MAX) {
+            found.extend(tracer.trace(f, centre[1], k));
+        }
+    }
+    Ok(found)
+}
+
+fn gcd(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+/// A line's part in a face: level, least and largest x in the face's own coordinates, and whose it is.
+#[derive(Clone, Copy)]
+struct Part {
+    level: f64,
+    range: [f64; 2],
+    line: usize,
+}
+
+struct Tracer<'a> {
+    mesh: &'a Mesh,
+    corners: Vec<[Complex; 3]>,
+    /// Per face, length in the drawing over length on the surface.
+    scale: Vec<f64>,
+    lines: Vec<Vec<Part>>,
+    spacing: f64,
+    longest: f64,
+}
+
+impl Tracer<'_> {
+    fn centre(&self, f: FaceId) -> Complex {
+        let [a, b, c] = self.corners[f.index()];
+        add(add(a, b), c).map(|x| x / 3.0)
+    }
+
+    /// The points at which the line of a level leaves the face, as a share of each side; two, or none if it misses the face.
+    fn crossings(&self, f: FaceId, level: f64) -> Vec<OnHalfedge> {
+        let (z, halfedges) = (self.corners[f.index()], self.mesh.face_halfedges(f));
+        let crossed = (0..3).filter(|&k| (z[k][1] >= level) != (z[(k + 1) % 3][1] >= level));
+        let share = |k: usize| (level - z[k][1]) / (z[(k + 1) % 3][1] - z[k][1]);
+        crossed.map(|k| (halfedges[k], share(k).clamp(0.0, 1.0))).collect()
+    }
+
+    fn at(&self, (h, share): OnHalfedge) -> Option<Complex> {
+        let (f, k) = self.mesh.corner(h)?;
+        let (a, b) = (self.corners[f.index()][k], self.corners[f.index()][(k + 1) % 3]);
+        Some([0, 1].map(|i| a[i] + share * (b[i] - a[i])))
+    }
+
+    /// The line of a level through a face, in both directions.
+    fn trace(&mut self, f: FaceId, level: f64, line: usize) -> Option<Vec<OnHalfedge>> {
+        let [first, last] = self.crossings(f, level).try_into().ok()?;
+        self.mark(f, level, [first, last], line);
+        let (mut points, back) = self.follow(first, line);
+        points.reverse();
+        points.push(first);
+        points.push(last);
+        let (ahead, length) = self.follow(last, line);
+        points.extend(ahead);
+        (back + length > SHORTEST * self.spacing).then_some(points)
+    }
+
+    /// The points after `from`, where the line leaves a face, and the length that they add.
+    fn follow(&mut self, from: OnHalfedge, line: usize) -> (Vec<OnHalfedge>, f64) {
+        let (mut points, mut length, mut unseen) = (Vec::new(), 0.0, 0.0);
+        let mut at = from;
+        while length < 0.5 * self.longest {
+            let (h, share) = (at.0.twin(), 1.0 - at.1);
+            let (Some(f), Some(z)) = (self.mesh.face(h), self.at((h, share))) else { break };
+            let Some(&next) = self.crossings(f, z[1]).iter().find(|(side, _)| *side != h) else { break };
+            let Some(w) = self.at(next) else { break };
+            let scale = self.scale[f.index()];
+            let step = (w[0] - z[0]).abs() / scale;
+            // Where the form is nearly 0 a line has no way to go on.
+            if !step.is_finite() || self.returns(f, z[1], line) {
+                break;
+            }
+            (length, unseen) = (length + step, unseen + step);
+            if unseen > LOOK * self.spacing {
+                unseen = 0.0;
+                if self.is_near(f, z, NEAREST, line) {
+                    break;
+                }
+            }
+            self.mark(f, z[1], [(h, share), next], line);
+            points.push(next);
+            at = next;
+        }
+        (points, length)
+    }
+
+    fn mark(&mut self, f: FaceId, level: f64, ends: [OnHalfedge; 2], line: usize) {
+        if let [Some(a), Some(b)] = ends.map(|end| self.at(end)) {
+            self.lines[f.index()].push(Part { level, range: [a[0].min(b[0]), a[0].max(b[0])], line });
+        }
+    }
+
+    /// Whether the line comes back to a face nearer to itself than lines may approach.
+    fn returns(&self, f: FaceId, level: f64, line: usize) -> bool {
+        let least = NEAREST * self.spacing * self.scale[f.index()];
+        self.lines[f.index()].iter().any(|part| part.line == line && (part.level - level).abs() < least)
+    }
+
+    /// Whether another line passes the point z of a face nearer than this share of the spacing, in a drawing of its surroundings.
+    fn is_near(&self, f: FaceId, z: Complex, share: f64, line: usize) -> bool {
+        let reach = share * self.spacing * self.scale[f.index()];
+        let mut seen = HashSet::from([f]);
+        let mut open = VecDeque::from([(f, z)]);
+        // Each face comes with the point as its own coordinates have it.
+        while let Some((f, z)) = open.pop_front() {
+            let passes = |part: &Part| {
+                let beside = part.range[0] - 0.5 * reach <= z[0] && z[0] <= part.range[1] + 0.5 * reach;
+                part.line != line && (part.level - z[1]).abs() < reach && beside
+            };
+            if self.lines[f.index()].iter().any(passes) {
+                return true;
+            }
+            for (k, h) in self.mesh.face_halfedges(f).into_iter().enumerate() {
+                let Some((next, j)) = self.mesh.corner(h.twin()) else { continue };
+                let shift = sub(self.corners[next.index()][(j + 1) % 3], self.corners[f.index()][k]);
+                let z = add(z, shift);
+                let touches = |i: usize| {
+                    let x = self.corners[next.index()].map(|c| c[i] - z[i]);
+                    x.iter().any(|x| *x <= reach) && x.iter().any(|x| *x >= -reach)
+                };
+                if touches(0) && touches(1) && seen.insert(next) {
+                    open.push_back((next, z));
+                }
+            }
+        }
+        false
+    }
+}

@@ -1,0 +1,46 @@
+//! Small dense matrices, given as rows.
+//!
+//! ```
+//! use ricci::linalg::dense::{solve_definite, symmetric_eigenvalues};
+//! let a = [vec![2.0, 1.0], vec![1.0, 2.0]];
+//! assert!((symmetric_eigenvalues(&a)?[0] - 1.0).abs() < 1e-15);
+//! let x = solve_definite(&a, &[vec![3.0], vec![3.0]])?;
+//! assert!((x[0][0] - 1.0).abs() < 1e-15);
+//! # Ok::<(), ricci::Error>(())
+//! ```
+
+use crate::error::{Error, Result};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
+
+/// `a⁻¹ b` for a symmetric positive definite matrix (n×n), whose lower triangle is read, and n rows `b`.
+///
+/// # Errors
+/// [`Error::Factorisation`] for a matrix that is not positive definite to working precision.
+///
+/// # Panics
+/// If rows have different lengths.
+pub fn solve_definite(a: &[Vec<f64>], b: &[Vec<f64>]) -> Result<Vec<Vec<f64>>> {
+    let message = "the dense matrix is not positive definite".to_string();
+    let factor = matrix(a).llt(Side::Lower).map_err(|_| Error::Factorisation { size: a.len(), message })?;
+    let x = factor.solve(matrix(b));
+    Ok((0..x.nrows()).map(|i| (0..x.ncols()).map(|j| x[(i, j)]).collect()).collect())
+}
+
+/// The eigenvalues of a symmetric matrix (n×n), whose lower triangle is read, ascending.
+///
+/// # Errors
+/// [`Error::Factorisation`] where the iteration does not end, as for entries that are not finite.
+///
+/// # Panics
+/// If rows have different lengths.
+pub fn symmetric_eigenvalues(a: &[Vec<f64>]) -> Result<Vec<f64>> {
+    let message = "the eigenvalues of the dense matrix were not found".to_string();
+    matrix(a)
+        .self_adjoint_eigenvalues(Side::Lower)
+        .map_err(|_| Error::Factorisation { size: a.len(), message })
+}
+
+fn matrix(rows: &[Vec<f64>]) -> Mat<f64> {
+    Mat::from_fn(rows.len(), rows.first().map_or(0, Vec::len), |i, j| rows[i][j])
+}

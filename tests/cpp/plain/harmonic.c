@@ -1,0 +1,123 @@
+/* Harmonic forms and maps through the C face: sums around faces, known moduli, zeros, and where maps go. */
+#include "samples.h"
+#include <math.h>
+#include <ricci/harmonic.h>
+
+static ricci_forms_summary summary_of(const ricci_forms *forms) {
+    ricci_forms_summary s;
+    OK(ricci_forms_summarise(forms, &s, sizeof s));
+    return s;
+}
+
+/* Every form adds up to 0 around every face; holomorphic ones have 2 g - 2 zeros. */
+static void check_forms(const ricci_mesh *mesh, size_t genus) {
+    ricci_forms *forms = NULL;
+    ricci_mesh *delaunay = NULL;
+    OK(ricci_forms_new(mesh, NULL, NULL, &forms));
+    const ricci_forms_summary s = summary_of(forms);
+    CHECK(s.genus == genus && s.n_forms == 2 * genus && s.closedness <= 1e-12 && s.coclosedness <= 1e-10);
+    CHECK(s.least_eigenvalue > 0 && s.asymmetry < 0.1 && (genus == 1) == (s.modulus[1] > 0));
+    OK(ricci_forms_mesh(forms, &delaunay));
+    const size_t n_faces = 2 * s.n_edges / 3;
+    int32_t *sides = (int32_t *)room(3 * n_faces, sizeof *sides);
+    double *values = (double *)room(2 * s.n_edges, sizeof *values);
+    OK(ricci_mesh_face_edges(delaunay, sides, 3 * n_faces));
+    for (size_t k = 0; k < s.n_forms; k++) {
+        OK(ricci_forms_values(forms, k, values, s.n_edges));
+        for (size_t f = 0; f < n_faces; f++) {
+            double sum = 0;
+            for (int i = 0; i < 3; i++) {
+                const int32_t e = sides[3 * f + i];
+                sum += e > 0 ? values[e - 1] : -values[-e - 1];
+            }
+            CHECK(fabs(sum) < 1e-12);
+        }
+    }
+    double *matrix = (double *)room(2 * genus * genus, sizeof *matrix);
+    OK(ricci_forms_periods(forms, matrix, 2 * genus * genus));
+    for (size_t i = 0; i < genus; i++) CHECK(matrix[2 * (genus * i + i) + 1] > 0);
+    double *first = (double *)room(s.n_forms, sizeof *first);
+    first[0] = 1;
+    OK(ricci_forms_holomorphic(forms, first, s.n_forms, values, 2 * s.n_edges));
+    double *real = (double *)room(s.n_edges, sizeof *real);
+    OK(ricci_forms_values(forms, 0, real, s.n_edges));
+    for (size_t e = 0; e < s.n_edges; e++) CHECK(values[2 * e] == real[e]);
+    size_t n = 0;
+    OK(ricci_forms_zeros(forms, first, s.n_forms, NULL, 0, &n));
+    int64_t *zeros = (int64_t *)room(n, sizeof *zeros), total = 0;
+    OK(ricci_forms_zeros(forms, first, s.n_forms, zeros, n, &n));
+    for (size_t k = 1; k < n; k += 2) total += zeros[k];
+    CHECK(total == 2 * (int64_t)genus - 2);
+    FAILS(ricci_forms_values(forms, s.n_forms, values, s.n_edges), RICCI_ARGUMENT, "n_forms");
+    free(zeros), free(real), free(first), free(matrix), free(values), free(sides);
+    ricci_mesh_free(delaunay);
+    ricci_forms_free(forms);
+}
+
+static void check_open(void) {
+    ricci_mesh *disk = NULL;
+    ricci_forms *forms = NULL;
+    ricci_forms_options options;
+    INIT(options);
+    options.classes = 7;
+    OK(make_disk(6, &disk));
+    FAILS(ricci_forms_new(disk, &options, NULL, &forms), RICCI_ARGUMENT, "classes");
+    options.classes = RICCI_CLASSES_RELATIVE;
+    OK(ricci_forms_new(disk, &options, NULL, &forms));
+    CHECK(summary_of(forms).n_forms == 0);
+    FAILS(ricci_forms_periods(forms, NULL, 0), RICCI_LAYOUT, "closed");
+    ricci_forms_free(forms);
+    ricci_mesh_free(disk);
+}
+
+/* The images of a mesh's vertices, and the greatest distance of one from the origin. */
+static double farthest(const ricci_mesh *mesh, const ricci_harmonic_spec *spec, double *least) {
+    ricci_mesh_summary s;
+    OK(ricci_mesh_summarise(mesh, &s, sizeof s));
+    double *points = (double *)room(3 * s.n_vertices, sizeof *points), most = 0;
+    OK(ricci_harmonic(mesh, spec, NULL, points, 3 * s.n_vertices));
+    *least = INFINITY;
+    for (size_t v = 0; v < s.n_vertices; v++) {
+        const double *p = points + 3 * v, r = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        most = r > most ? r : most, *least = r < *least ? r : *least;
+    }
+    free(points);
+    return most;
+}
+
+static void check_maps(void) {
+    ricci_mesh *disk = NULL, *sphere = NULL;
+    ricci_harmonic_spec spec;
+    double least, points[3];
+    INIT(spec);
+    OK(make_disk(6, &disk));
+    OK(make_sphere(4, &sphere));
+    CHECK(fabs(farthest(disk, NULL, &least) - 1) < 1e-12);
+    spec.target = RICCI_HARMONIC_RECTANGLE;
+    CHECK(farthest(disk, &spec, &least) > 1);
+    const uint32_t at[2] = {0, 1};
+    const double places[6] = {0, 0, 5, 0, 0, 5};
+    spec.target = RICCI_HARMONIC_VALUES, spec.vertices = at, spec.values = places, spec.n = 2;
+    CHECK(fabs(farthest(disk, &spec, &least) - 5) < 1e-9 && fabs(least - 5) < 1e-9);
+    INIT(spec);
+    spec.target = RICCI_HARMONIC_SPHERE;
+    CHECK(fabs(farthest(sphere, &spec, &least) - 1) < 1e-12 && fabs(least - 1) < 1e-12);
+    FAILS(ricci_harmonic(disk, &spec, NULL, points, 3), RICCI_LAYOUT, "genus 0");
+    spec.target = RICCI_HARMONIC_RECTANGLE, spec.vertices = at, spec.n = 2;
+    FAILS(ricci_harmonic(disk, &spec, NULL, points, 3), RICCI_ARGUMENT, "four");
+    ricci_mesh_free(disk);
+    ricci_mesh_free(sphere);
+}
+
+int main(void) {
+    ricci_mesh *mesh = NULL;
+    OK(make_bolza(2, &mesh));
+    check_forms(mesh, 2);
+    ricci_mesh_free(mesh);
+    OK(make_genus(1, 4, 0, &mesh));
+    check_forms(mesh, 1);
+    ricci_mesh_free(mesh);
+    check_open();
+    check_maps();
+    return 0;
+}

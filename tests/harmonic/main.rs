@@ -1,0 +1,12 @@
+//! Harmonic 1-forms, holomorphic forms and harmonic maps, by theorem.
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod forms;
+mod known;
+mod maps;
+mod open;
+mod operators;
+mod samples;
+mod zeros;
