@@ -55,7 +55,7 @@ pub fn draw(found: &Found, style: &Style, is_svg: bool) -> Result<Vec<u8>, Failu
         is_closed: false,
     });
     let drawn = Picture { surface, flat: Some(flat), ..Picture::default() };
-    if is_svg { Ok(picture::svg(&drawn, style)) } else { picture::png(&drawn, style) }
+    if is_svg { picture::svg(&drawn, style) } else { picture::png(&drawn, style) }
 }
 
 /// A circle in the coordinates of the layout: in the Poincaré disk one with another centre and radius.
