@@ -1,6 +1,5 @@
 //! What all metrics that flow from one start share: the surface, its triangulation at the start, and the initial metric there.
 
-use super::solution::Solution;
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{Double, EdgeId, FaceId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge};
@@ -119,17 +118,16 @@ impl Origin {
         (mesh, given.into_iter().chain(own).collect())
     }
 
-    /// The common refinement of the given triangulation with that of a solution, on the given faces that `keep` names, of a double on its
+    /// The common refinement of the given triangulation with that of a metric, on the given faces that `keep` names, of a double on its
     /// first half.
     pub fn refinement(
         &self,
-        solution: &Solution,
+        (mesh, metric, followed): (&Mesh, &Metric, &[NormalCoordinates]),
         keep: &dyn Fn(FaceId) -> bool,
         control: &Control,
     ) -> Result<Refinement> {
-        let Solution { mesh, metric, followed, .. } = solution;
         let unflipped;
-        let normal = match followed.as_slice() {
+        let normal = match followed {
             [normal, ..] => normal,
             [] => {
                 unflipped = NormalCoordinates::new(mesh);

@@ -262,7 +262,8 @@ impl Solution {
         keep: &(dyn Fn(FaceId) -> bool + Sync),
         control: &Control,
     ) -> Result<Refinement> {
-        within(self.threads, || self.origin.refinement(self, keep, control))
+        let now = (&*self.mesh, &self.metric, &self.followed[..]);
+        within(self.threads, || self.origin.refinement(now, keep, control))
     }
 
     /// Whether a flow can go on from here. A flow that is to be `doubled` can on the double, or on one copy that could be reflected,

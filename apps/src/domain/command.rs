@@ -33,7 +33,7 @@ pub fn run(args: &CirclesArgs, control: &Control) -> Result<u8, Failure> {
 }
 
 /// The exit code is 1 if a check fails or a file that was asked for has nothing to hold.
-fn execute(args: &CirclesArgs, control: &Control) -> Result<Done<Found>, Failure> {
+pub fn execute(args: &CirclesArgs, control: &Control) -> Result<Done<Found>, Failure> {
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.common.quiet);

@@ -7,4 +7,4 @@ mod found;
 mod picture;
 
 pub use args::{CirclesArgs, HELP};
-pub use command::run;
+pub use command::{execute, run};

@@ -54,8 +54,8 @@ fn the_way_back_leads_to_the_surface_as_it_was_given() {
     place.expect(0, "circles ring.obj --uv uv.obj --xref x.csv --report r.json");
     assert!(place.json("r.json")["result"]["halved_edges"].as_u64().unwrap() >= 12);
     // With the vertices as texture coordinates, which the parser asks for.
-    let ring = place.text("ring.obj");
-    let given = ring.lines().map(|line| {
+    let text = place.text("ring.obj");
+    let given = text.lines().map(|line| {
         let numbers: Vec<&str> =
             line.split_whitespace().skip(1).map(|n| n.split('/').next().unwrap()).collect();
         let corners: Vec<String> = numbers.iter().map(|n| format!("{n}/{n}")).collect();
