@@ -58,7 +58,7 @@ fn round(mesh: &Arc<Mesh>, given: &Quotient, flat: &Solution) -> [f64; 7] {
     done(&mut lap);
     let basis = homotopy_basis(mesh, &lengths, Some(base), &control).unwrap();
     done(&mut lap);
-    let deck = DeckGroup::new(metric.metric(), &layout, &basis, &control).unwrap();
+    let deck = DeckGroup::new(metric, &layout, &basis, &control).unwrap();
     done(&mut lap);
     let copies = elements_to_depth(&deck, 1, 1000, &control).unwrap();
     assert_eq!(copies.len(), COPIES);

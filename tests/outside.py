@@ -168,10 +168,39 @@ def check_disk(name, path, source):
     check(name + " seams", off <= 1, f"{off}")
 
 
-def check_deck(name, path, genus):
+def check_boundary(name, path, report, generators):
+    """Geodesic boundary loops: in the Klein disk their points lie on straight lines between the seams, and the traces have their lengths."""
+    _, vt, f, ft = read_obj(path)
+    half = {(a[k], a[(k + 1) % 3]): (b[k], b[(k + 1) % 3]) for a, b in zip(f.tolist(), np.array(ft).tolist()) for k in range(3)}
+    after = {a: (b, w) for (a, b), w in half.items() if (b, a) not in half}
+    points, worst, loops = klein(vt), 0.0, 0
+    while after:
+        loops, a, run = loops + 1, next(iter(after)), []
+        while a in after:
+            a, w = after.pop(a)
+            if run and run[-1] != w[0]:
+                run = []
+            run += [w[0], w[1]]
+            p, q = points[run[0]], points[w[1]]
+            if len(run) > 2:
+                d = q - p
+                off = np.abs(d[0] * (points[run] - p)[:, 1] - d[1] * (points[run] - p)[:, 0]) / np.hypot(*d)
+                worst = max(worst, off.max())
+    told = report["result"]["boundary_lengths"]
+    check(name + " loops", loops == len(told), f"{loops}, {told}")
+    check(name + " straight boundary", worst <= 1e-9, f"{worst}")
+    group = json.load(open(generators))["generators"]
+    for around in report["result"]["boundary"]:
+        m = np.array([[complex(*z) for z in row] for row in group[around["generator"]]])
+        length = 2 * np.arccosh(abs(np.trace(m)) / 2)
+        check(name + " length of " + around["generator"], abs(length - around["length"]) <= 1e-6 * length, f"{length}, {around}")
+
+
+def check_deck(name, path, genus, loops=0):
     group = json.load(open(path))
     matrices = {k: np.array([[complex(*z) for z in row] for row in m]) for k, m in group["generators"].items()}
     expected = [x for i in range(1, genus + 1) for x in (f"a{i}", f"b{i}", f"a{i}^-1", f"b{i}^-1")]
+    expected += [f"c{j}" for j in range(1, loops + 1)]
     check(name + " word", group["word"] == expected, group["word"])
     product, largest = np.eye(2, dtype=complex), 1.0
     for letter in group["word"]:
@@ -181,7 +210,7 @@ def check_deck(name, path, genus):
     off = min(np.linalg.norm(product - s * np.eye(2)) for s in (1, -1)) / largest
     check(name + " relation", off <= 1e-8, f"{off}")
     for k, m in matrices.items():
-        if genus == 1:
+        if genus == 1 and loops == 0:
             check(f"{name} {k} translation", abs(m[0, 0] - 1) <= 1e-10 and m[1, 0] == 0, m)
         else:
             size = abs(m).max() ** 2
@@ -234,33 +263,38 @@ def check_copies(name, path, generators):
     check(name + " copies", worst <= 1e-8, f"{worst}")
 
 
-def uniformize(name, mesh, genus, *options):
+def uniformize(name, mesh, genus, loops=0):
     with tempfile.TemporaryDirectory() as out:
         path = lambda file: os.path.join(out, file)
         files = ["--metric", path("m.json"), "--report", path("r.json"), "--generators", path("c.json")]
-        files += ["--sphere", path("s.obj")] if genus == 0 else ["--uv", path("uv.obj"), "--cover", path("all.obj")]
-        command = "uniformize" if genus == 0 else "cover"
-        depth = [] if genus == 0 else ["--depth", "1"]
-        code = subprocess.run([RICCI, command, mesh, *depth, *options, *files, "--quiet"]).returncode
+        round_ = genus == 0 and loops == 0
+        files += ["--sphere", path("s.obj")] if round_ else ["--uv", path("uv.obj"), "--cover", path("all.obj")]
+        command = "uniformize" if round_ else "cover"
+        depth = [] if round_ else ["--depth", "1"]
+        code = subprocess.run([RICCI, command, mesh, *depth, *files, "--quiet"]).returncode
         report = json.load(open(path("r.json")))
         check(name + " uniformizes", code == 0, f"exit {code}, {report['checks']}")
         check_metric(name, path("m.json"), report["result"]["max_curvature_error"])
-        if genus == 0:
+        if round_:
             check_sphere(name, path("s.obj"), mesh, report["result"]["u_range"])
             return
-        check_deck(name, path("c.json"), genus)
+        check_deck(name, path("c.json"), genus, loops)
         check_copies(name, path("all.obj"), path("c.json"))
-        if genus == 1:
+        if genus == 1 and loops == 0:
             check_uv(name, path("uv.obj"), mesh, path("m.json"))
         else:
             check_disk(name, path("uv.obj"), mesh)
+            if loops:
+                check_boundary(name, path("uv.obj"), report, path("c.json"))
             # The area by l'Huilier's formula, without angles.
             metric = json.load(open(path("m.json")))
             a, b, c = np.array(metric["lengths"], np.longdouble).T
             s = (a + b + c) / 2
             root = np.sqrt(np.tanh(s / 2) * np.tanh((s - a) / 2) * np.tanh((s - b) / 2) * np.tanh((s - c) / 2))
             area = float((4 * np.arctan(root)).sum())
-            exact = 4 * np.pi * (genus - 1)
+            exact = 2 * np.pi * (2 * genus - 2 + loops)
+            # The file of a surface with boundary has its double, if the flow has gone there.
+            area /= 2 if "mirror" in metric else 1
             check(name + " area of the metric", abs(area - exact) <= 1e-9 * exact, f"{area} of {exact}")
 
 
@@ -307,12 +341,19 @@ with tempfile.TemporaryDirectory() as folder:
     mesh = os.path.join(folder, "three.obj")
     check("genus 3 make", subprocess.run([RICCI, "make", "genus", "--genus", "3", "-n", "5", "-o", mesh, "--quiet"]).returncode == 0)
     uniformize("genus 3 uniformized", mesh, 3)
+    for shape, genus, loops in (("sphere", 0, 4), ("torus", 1, 1), ("genus", 2, 2)):
+        mesh = os.path.join(folder, shape + "_holes.obj")
+        made = subprocess.run([RICCI, "make", shape, "--holes", str(loops), "-o", mesh, "--quiet"])
+        check(shape + " with holes make", made.returncode == 0)
+        uniformize(f"{shape} with {loops} holes uniformized", mesh, genus, loops)
 
 names = "bunny_libigl camel_b cow_cgal face_1180 genus3 kitten_10k knot1 mushroom pipe spot_low".split()
 good = os.path.join(CORPUS, "good")
 if os.path.isdir(good):
     for name, genus in (("spot_low", 0), ("hand_cgal", 0), ("bob", 1), ("eight_315", 2), ("pretzel", 3), ("bamboo_pen", 8)):
         uniformize(name + " uniformized", os.path.join(good, name + ".obj"), genus)
+    for name, genus, loops in (("eight_open", 0, 4), ("punctured_torus", 1, 1), ("eight_hole", 2, 1)):
+        uniformize(name + " uniformized", os.path.join(good, name + ".obj"), genus, loops)
     for name in names:
         for scheme in ("yamabe", "inversive"):
             code = run(f"{name} {scheme} flips", os.path.join(good, name + ".obj"), "--space", "e2", "--scheme", scheme)

@@ -56,12 +56,12 @@ pub enum Command {
     /// Harmonic and holomorphic 1-forms, period matrix, zeros and trajectories
     #[command(after_help = crate::forms::HELP)]
     Forms(FormsArgs),
-    /// Triangular B-splines: fitted to meshes, evaluated
-    #[command(after_help = crate::spline::HELP)]
-    Spline(SplineArgs),
     /// A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface
     #[command(after_help = crate::domain::HELP)]
     Circles(CirclesArgs),
+    /// Triangular B-splines: fitted to meshes, evaluated
+    #[command(after_help = crate::spline::HELP)]
+    Spline(SplineArgs),
     /// Make a sample surface
     #[command(after_help = crate::make::HELP)]
     Make(crate::make::MakeArgs),

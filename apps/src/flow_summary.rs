@@ -79,7 +79,7 @@ fn why(outcome: &Outcome) -> String {
     if let StopReason::OutOfReach { step } = report.stop_reason {
         return format!(
             "lengths would differ by a factor of about e^{step:.0}: too much curvature at too few vertices; spread it over cones \
-             (--target auto:N), or flow in H² where χ < 0 (--space h2)"
+             (--target auto:N), or make the boundary geodesic where χ < 0 (ricci uniformize)"
         );
     }
     let worst: Vec<VertexId> = report.worst.iter().map(|&(v, _)| v).collect();

@@ -107,7 +107,7 @@ pub unsafe extern "C" fn ricci_dirichlet_partners(
     capacity: usize,
 ) -> ricci_status {
     guard::with(dirichlet, |ricci_dirichlet { domain, .. }| {
-        let numbers = domain.partner.iter().map(|&k| k as i32);
+        let numbers = domain.partner.iter().map(|partner| partner.map_or(-1, |k| k as i32));
         copy_each("partners", domain.partner.len(), numbers, partners, capacity)
     })
 }

@@ -24,6 +24,7 @@
 #![warn(clippy::too_many_lines)]
 
 mod arrays;
+mod boundary;
 mod choice;
 mod environment;
 mod failure;

@@ -1,6 +1,7 @@
-//! Closed surfaces in their canonical shape: on the sphere, or as quotients of the plane or the hyperbolic plane.
+//! Surfaces in their canonical shape: on the sphere, or as quotients of the plane or the hyperbolic plane.
 
 use crate::arrays::{check_buffer, copy_out};
+use crate::boundary;
 use crate::control::{self, ricci_control};
 use crate::domain::ricci_domain;
 use crate::failure::{Failure, Outcome};
@@ -16,7 +17,9 @@ use crate::report::stop_reason;
 use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::canonical::{Quotient, QuotientOptions, Sphere, Uniformization, quotient_of, uniformize};
+use ricci::embed::BoundaryLoop;
 use ricci::geometry::Model;
+use ricci::mesh::Mesh;
 use ricci::topology::FundamentalDomain;
 use std::ffi::c_char;
 use std::sync::Arc;
@@ -58,6 +61,11 @@ pub struct ricci_uniform_options {
     pub base: *const u32,
     pub scheme: u32,
     pub reserved: u32,
+    pub corners: *const u32,
+    pub corner_angles: *const f64,
+    pub n_corners: usize,
+    pub boundary: u32,
+    pub reserved_too: u32,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_uniform_options, "options");
@@ -95,6 +103,9 @@ pub struct ricci_uniform_summary {
     pub outline_turning: f64,
     pub nonconvexity: f64,
     pub off_centre: f64,
+    pub n_boundary_sides: usize,
+    pub straightness: f64,
+    pub extremal_distance: f64,
 }
 // SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
 sized!(ricci_uniform_summary, "summary");
@@ -111,6 +122,7 @@ pub unsafe extern "C" fn ricci_uniformize(
         let options = QuotientOptions {
             scheme: SCHEMES.choose(given.scheme)?,
             base: vertex_or_none(given.base)?,
+            boundary: boundary::read(given.boundary, (given.corners, given.corner_angles), given.n_corners)?,
             flow: read_options(given.flow)?,
         };
         if !given.start.is_null() {
@@ -166,7 +178,7 @@ pub unsafe extern "C" fn ricci_uniform_summarise(
         let space = SPACES.number(solution.metric().space)?;
         // SAFETY: zeros are valid (`Sized64`).
         let mut figures: ricci_uniform_summary = unsafe { std::mem::zeroed() };
-        figures.modulus = [f64::NAN; 2];
+        (figures.modulus, figures.extremal_distance) = ([f64::NAN; 2], f64::NAN);
         let stop = match &uniform.shape {
             Canonical::Sphere(sphere) => {
                 sphere_figures(sphere, &mut figures);
@@ -210,7 +222,8 @@ fn sphere_figures(sphere: &Sphere, figures: &mut ricci_uniform_summary) {
 }
 
 fn quotient_figures(quotient: &Quotient, figures: &mut ricci_uniform_summary) {
-    let Quotient { report, angle_defect, layout, basis, deck, .. } = quotient;
+    let Quotient { report, angle_defect, layout, basis, deck, boundary, .. } = quotient;
+    let sides = || boundary.iter().flat_map(|around| &around.sides);
     *figures = ricci_uniform_summary {
         base: basis.base.0,
         converged: report.converged().into(),
@@ -229,6 +242,9 @@ fn quotient_figures(quotient: &Quotient, figures: &mut ricci_uniform_summary) {
         side_residual: deck.side_residual,
         base_lift: layout.corner(deck.corner),
         modulus: deck.modulus().unwrap_or([f64::NAN; 2]),
+        n_boundary_sides: sides().count(),
+        straightness: sides().map(|side| side.straightness).fold(0.0, f64::max),
+        extremal_distance: quotient.extremal_distance().unwrap_or(f64::NAN),
         ..*figures
     };
 }
@@ -242,13 +258,40 @@ pub unsafe extern "C" fn ricci_uniform_metric(
 }
 
 #[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_uniform_sides(
+    uniform: *const ricci_uniform,
+    from: *mut u32,
+    lengths: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(uniform, |uniform| {
+        let quotient = uniform.quotient()?;
+        let number = |around: &BoundaryLoop| around.generator as u32 + 1;
+        let sides = quotient.boundary.iter().flat_map(|b| b.sides.iter().map(move |side| (number(b), side)));
+        let (starts, values): (Vec<[u32; 2]>, Vec<[f64; 2]>) =
+            sides.map(|(c, side)| ([c, side.from.0], [side.length, side.straightness])).unzip();
+        check_buffer("lengths", values.len(), lengths, capacity)?;
+        copy_out("from", &starts, from, capacity.saturating_mul(2))?;
+        copy_out("lengths", &values, lengths, capacity.saturating_mul(2))
+    })
+}
+
+/// What the basis of a quotient lives on.
+fn laid_out(quotient: &Quotient) -> Arc<Mesh> {
+    match quotient.layout.refinement() {
+        Some(refinement) => Arc::new(refinement.mesh.clone()),
+        None => quotient.metric.mesh().clone(),
+    }
+}
+
+#[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_uniform_homotopy(
     uniform: *const ricci_uniform,
     homotopy: *mut *mut ricci_homotopy,
 ) -> ricci_status {
     guard::make(homotopy, || {
         let quotient = shared(uniform)?.quotient()?;
-        Ok(ricci_homotopy { mesh: quotient.metric.mesh().clone(), basis: quotient.basis.clone() })
+        Ok(ricci_homotopy { mesh: laid_out(quotient), basis: quotient.basis.clone() })
     })
 }
 
@@ -258,8 +301,8 @@ pub unsafe extern "C" fn ricci_uniform_domain(
     domain: *mut *mut ricci_domain,
 ) -> ricci_status {
     guard::make(domain, || {
-        let Quotient { metric, layout, basis, .. } = &**shared(uniform)?.quotient()?;
-        Ok(ricci_domain(FundamentalDomain::new(metric.mesh(), &layout.cut.is_cut, basis)?))
+        let Quotient { layout, basis, .. } = &**shared(uniform)?.quotient()?;
+        Ok(ricci_domain(FundamentalDomain::new(layout.mesh(), &layout.cut.is_cut, basis)?))
     })
 }
 
@@ -276,6 +319,11 @@ pub unsafe extern "C" fn ricci_uniform_layout(
         let _reserve = memory::work(uniform.metric.0.solution.mesh().n_vertices(), memory::LAYOUT)?;
         let (quotient, state) = (uniform.quotient()?, &uniform.metric.0);
         let laid = match ON.choose(on)? {
+            On::Metric if quotient.layout.refinement().is_some() => {
+                let message = "the metric lives on the double of the surface: take RICCI_ON_REFINEMENT";
+                return Err(Failure::new(RICCI_LAYOUT, message));
+            }
+            On::Refinement if quotient.layout.refinement().is_some() => quotient.layout.clone(),
             On::Metric => quotient.layout.clone(),
             On::Refinement => {
                 let refinement = match state.refinement(&control)? {
@@ -319,8 +367,8 @@ pub unsafe extern "C" fn ricci_uniform_lift(
     capacity: usize,
 ) -> ricci_status {
     guard::with(uniform, |uniform| {
-        let Quotient { metric, layout, deck, .. } = &**uniform.quotient()?;
-        let path = halfedges(metric.mesh(), path, n_path)?;
+        let Quotient { layout, deck, .. } = &**uniform.quotient()?;
+        let path = halfedges(layout.mesh(), path, n_path)?;
         copy_out("points", &layout.lift(deck.corner, &path)?, points, capacity)
     })
 }

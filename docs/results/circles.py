@@ -129,7 +129,7 @@ def sphere_with_holes(sphere, path, n, seed):
 def of_spheres(folder):
     rows, bad = [], []
     sphere, path = os.path.join(folder, "sphere.obj"), os.path.join(folder, "holes.obj")
-    subprocess.run([ricci, "make", "sphere", "--resolution", "60", "--quiet", "-o", sphere], check=True)
+    subprocess.run([ricci, "make", "sphere", "-n", "60", "--quiet", "-o", sphere], check=True)
     for n in HOLES:
         sphere_with_holes(sphere, path, n, SEED)
         found = row(folder, path, bad, f"{n} holes")

@@ -98,7 +98,8 @@ extern "C" {
 
 /**
  * What a call returns. 1-9 are errors of the call, 10-99 of the C face, 100s of files, 200s of meshes, 300s
- * of metrics, 400s of targets, 500s of solvers, 600s of layouts. A number is never given out again.
+ * of metrics, 400s of targets, 500s of solvers, 600s of layouts, 700s of splines. A number is never given out
+ * again.
  */
 typedef uint32_t ricci_status;
 enum {
@@ -161,7 +162,9 @@ enum {
     /** A linear system could not be factorised. */
     RICCI_FACTORISATION = 500,
     /** The metric has no layout in this space. */
-    RICCI_LAYOUT = 600
+    RICCI_LAYOUT = 600,
+    /** A spline, or what one is made from, is not what it must be. */
+    RICCI_SPLINE = 700
 };
 
 /** What the index of a ricci_failure counts. */

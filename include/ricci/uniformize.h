@@ -29,11 +29,11 @@ extern "C" {
  */
 
 /**
- * A closed surface with its metric of constant curvature.
+ * A surface with its metric of constant curvature.
  *
- * Genus 0: a convex polyhedron inscribed in the unit sphere. Genus 1 and more: the quotient of the plane or
- * the hyperbolic plane by its deck group, with a layout about a base vertex, a homotopy basis and deck
- * transformations.
+ * Closed of genus 0: a convex polyhedron inscribed in the unit sphere. Others: the quotient of the plane or
+ * the hyperbolic plane, with boundary of a part with straight sides, by its deck group, with a layout about a
+ * base vertex, a homotopy basis and deck transformations.
  */
 typedef struct ricci_uniform ricci_uniform;
 
@@ -65,7 +65,8 @@ typedef struct ricci_deck ricci_deck;
 /**
  * The Dirichlet domain of a point in the universal cover: what is nearer to it than to its images under the
  * deck group. A convex polygon; each side lies on the bisector of the centre and its image under the side's
- * element, which carries the domain onto its neighbour there.
+ * element, which carries the domain onto its neighbour there, or on the straight boundary of the surface,
+ * which the side's element moves along itself.
  */
 typedef struct ricci_dirichlet ricci_dirichlet;
 
@@ -74,6 +75,17 @@ typedef struct ricci_atlas ricci_atlas;
 
 /** A surface with boundary whose loops are circles. */
 typedef struct ricci_circle_domain ricci_circle_domain;
+
+/** What the boundary of a surface becomes. */
+enum {
+    /**
+     * Closed geodesics: in the hyperbolic plane where chi < 0, in the plane around an annulus. A disk has
+     * none.
+     */
+    RICCI_BOUNDARY_GEODESIC = 0,
+    /** Straight sides between corners, in the plane. */
+    RICCI_BOUNDARY_STRAIGHT = 1
+};
 
 /** How a surface is uniformized. Zeroed by ricci_init: the defaults. */
 typedef struct ricci_uniform_options {
@@ -98,13 +110,34 @@ typedef struct ricci_uniform_options {
     uint32_t scheme;
     /** 0. */
     uint32_t reserved;
+    /**
+     * RICCI_BOUNDARY_STRAIGHT: n_corners vertices of the boundary. NULL: as many corners with equal angles,
+     * the vertices where the boundary turns by more than 45 degrees if there are just as many, else at equal
+     * distances along the longest loop; with n_corners = 0 four on a disk, none on an annulus, 4 |chi| on
+     * other surfaces.
+     */
+    const uint32_t *corners;
+    /**
+     * n_corners angles inside the corners, radians; 0: those without one share what is left. NULL: all are
+     * equal.
+     */
+    const double *corner_angles;
+    /** Number of corners. */
+    size_t n_corners;
+    /** RICCI_BOUNDARY_*: what the boundary becomes. */
+    uint32_t boundary;
+    /** 0. */
+    uint32_t reserved_too;
 } ricci_uniform_options;
 
 /** Figures of a uniformization. What a kind of surface does not have is 0. */
 typedef struct ricci_uniform_summary {
     /** Bytes of this struct that are filled. */
     size_t size;
-    /** RICCI_SPACE_S2 for genus 0, RICCI_SPACE_E2 for genus 1, RICCI_SPACE_H2 for more. */
+    /**
+     * RICCI_SPACE_S2, RICCI_SPACE_E2, RICCI_SPACE_H2 for chi > 0, = 0, < 0; RICCI_SPACE_E2 with straight
+     * sides.
+     */
     uint32_t space;
     /** The base vertex: at the origin of a quotient, at infinity of the plane under a sphere. */
     uint32_t base;
@@ -133,13 +166,13 @@ typedef struct ricci_uniform_summary {
     double angle_defect;
     /** |sum of curvatures + lambda area - 2 pi chi| of the metric. */
     double gauss_bonnet;
-    /** Area: of a torus that of the given surface, else 4 pi |g - 1|; by a formula without angles. */
+    /** Area: in the plane that of the given surface, else 2 pi |chi|; by a formula without angles. */
     double area;
-    /** Quotients: number of generators, 2 g. */
+    /** Quotients: number of generators, 2 g and one per boundary loop. */
     size_t n_generators;
     /** Quotients: number of sides of the layout as a fundamental domain. */
     size_t n_sides;
-    /** Quotients: corners of ricci_uniform_polygon, 4 g. */
+    /** Quotients: corners of ricci_uniform_polygon, 4 g and one per boundary loop. */
     size_t n_polygon;
     /**
      * Quotients: largest distance between where a face has its corner and where the corner lies, also
@@ -190,11 +223,23 @@ typedef struct ricci_uniform_summary {
      * Spheres: |sum of w x| / sum of w over the vertices, w one third of the area of the given faces at x.
      */
     double off_centre;
+    /** Number of straight sides of the boundary; a loop without corners has one. */
+    size_t n_boundary_sides;
+    /**
+     * Largest distance of a vertex of the boundary from the line through the ends of its side: in the
+     * hyperbolic plane a length, in the plane in units of the side.
+     */
+    double straightness;
+    /**
+     * Of an annulus in the plane, and of a disk with four right angles, height over base: the distance of
+     * the loops over the length of one, the length of the second side over that of the first. Else NaN.
+     */
+    double extremal_distance;
 } ricci_uniform_summary;
 
 /**
- * The metric of constant curvature in the conformal class of a closed surface: on the sphere, in the plane
- * or in the hyperbolic plane, by its Euler characteristic.
+ * The metric of constant curvature in the conformal class of a surface: on the sphere, in the plane or in the
+ * hyperbolic plane, by its Euler characteristic and what its boundary is to become.
  *
  * Genus 0: the polyhedron whose edges, after flips, are chords with lengths in the conformal class of the
  * surface; its vertices are moved by the Moebius transformation after which their mean is the centre, each
@@ -202,9 +247,11 @@ typedef struct ricci_uniform_summary {
  * 1: flat, with the area of the given surface; more: hyperbolic. Where it has not converged the rest is as
  * good as the metric is. Deterministic.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no such vertex; a sphere of less
- * than four vertices or in another scheme), RICCI_LAYOUT (a boundary; `start` in another space; a vertex of
- * a sphere has half of its area, or all lie on one circle), RICCI_EDGE_LENGTH, RICCI_TRIANGLE_INEQUALITY,
- * RICCI_EDGE_WEIGHT, RICCI_DOMAIN, RICCI_NO_MEMORY, RICCI_FACTORISATION, RICCI_CANCELLED.
+ * than four vertices or in another scheme; a corner that is not on the boundary), RICCI_LAYOUT (geodesics
+ * around a disk; `start` in another space; a vertex of a sphere has half of its area, or all lie on one
+ * circle), RICCI_TARGET_TOTAL (the angles of the corners), RICCI_TARGET_AT_VERTEX, RICCI_EDGE_LENGTH,
+ * RICCI_TRIANGLE_INEQUALITY, RICCI_EDGE_WEIGHT, RICCI_DOMAIN, RICCI_NO_MEMORY, RICCI_FACTORISATION,
+ * RICCI_CANCELLED.
  *
  * @param mesh     the mesh; may be NULL if the options have a `start`.
  * @param options  how; NULL for the defaults.
@@ -244,7 +291,24 @@ RICCI_API ricci_status ricci_uniform_summarise(const ricci_uniform *uniform, ric
 RICCI_API ricci_status ricci_uniform_metric(const ricci_uniform *uniform, ricci_metric **metric);
 
 /**
- * The homotopy basis whose loops generate the deck group: on the triangulation of the metric, short in it.
+ * The straight sides of the boundary, loop after loop in the order of the mesh's, from corner to corner with
+ * the surface on the left; a loop without corners is one side.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_LAYOUT (a sphere).
+ *
+ * @param uniform   the uniformization, of a quotient.
+ * @param from      out: n_boundary_sides x 2: the generator of the side's loop, 1-based, and the vertex of
+ *                  the mesh that the side starts at.
+ * @param lengths   out: n_boundary_sides x 2: the side's length; the largest distance of a vertex of the
+ *                  boundary from it, as `straightness` has it.
+ * @param capacity  rows of `from` and of `lengths`.
+ */
+RICCI_API ricci_status ricci_uniform_sides(const ricci_uniform *uniform, uint32_t *from, double *lengths,
+                                           size_t capacity);
+
+/**
+ * The homotopy basis whose loops generate the deck group: on the triangulation of the metric, short in it;
+ * where that is one of the double of the mesh, on the refinement.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_LAYOUT (a sphere).
  *
@@ -270,7 +334,8 @@ RICCI_API ricci_status ricci_uniform_domain(const ricci_uniform *uniform, ricci_
  * of the mesh.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (RICCI_MODEL_AMBIENT), RICCI_LAYOUT (a sphere, whose
- * points are ricci_sphere_points; RICCI_ON_INPUT: the cut does not run along edges of the mesh),
+ * points are ricci_sphere_points; RICCI_ON_INPUT: the cut does not run along edges of the mesh;
+ * RICCI_ON_METRIC: the metric lives on the double of the mesh),
  * RICCI_TRIANGLE_INEQUALITY, RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement),
  * RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
@@ -302,9 +367,9 @@ RICCI_API ricci_status ricci_uniform_polygon(const ricci_uniform *uniform, doubl
                                              size_t capacity);
 
 /**
- * The lift of an edge path of the metric's triangulation that starts at the base, from the base lift, in
- * ambient coordinates: the start, then the end of each edge. That of a loop ends where the loop's element
- * carries the base lift.
+ * The lift of an edge path of the triangulation of the homotopy basis that starts at the base, from the base
+ * lift, in ambient coordinates: the start, then the end of each edge. That of a loop ends where the loop's
+ * element carries the base lift.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such edges, no path, or
  * not from the base), RICCI_LAYOUT (a sphere).

@@ -1,5 +1,5 @@
-//! Closed surfaces in their canonical shape: spheres as convex polyhedra inscribed in the unit sphere, all others as quotients of the
-//! plane or the hyperbolic plane.
+//! Surfaces in their canonical shape: spheres as convex polyhedra inscribed in the unit sphere, all others as quotients of the plane or the
+//! hyperbolic plane, with straight boundary if they have any.
 //!
 //! ```
 //! use ricci::canonical::{QuotientOptions, Uniformization, uniformize};
@@ -13,6 +13,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+pub mod boundary;
 mod candidates;
 pub mod circle_domain;
 mod lift;
@@ -23,6 +24,7 @@ mod star;
 mod tries;
 pub mod uniformize;
 
+pub use boundary::{Boundary, Corner, Corners};
 pub use circle_domain::{CircleDomain, CircleDomainOptions, DomainCircle, Normalisation, circle_domain};
 pub use quotient::{Quotient, QuotientOptions, quotient_of, uniformize_quotient};
 pub use sphere::{Sphere, SphereOptions, SphereReport, uniformize_sphere};

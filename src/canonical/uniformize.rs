@@ -1,4 +1,4 @@
-//! One call for every closed surface.
+//! One call for every surface.
 //!
 //! ```
 //! use ricci::canonical::{QuotientOptions, uniformize};
@@ -17,12 +17,12 @@ use crate::flow::Solution;
 use crate::geometry::Space;
 use crate::metric::{Scheme, Surface};
 
-/// A closed surface in its canonical shape.
+/// A surface in its canonical shape.
 #[derive(Debug, Clone)]
 pub enum Uniformization {
-    /// Genus 0: a convex polyhedron inscribed in the unit sphere.
+    /// Closed of genus 0: a convex polyhedron inscribed in the unit sphere.
     Sphere(Box<Sphere>),
-    /// Genus 1 and more: the quotient of the plane or the hyperbolic plane by a group of isometries.
+    /// All others: the quotient of the plane, the hyperbolic plane or a part with straight boundary by a group of isometries.
     Quotient(Box<Quotient>),
 }
 
@@ -49,15 +49,15 @@ impl Uniformization {
     }
 }
 
-/// The metric of constant curvature in the conformal class of a closed surface. Its Euler characteristic decides whether it lies on the
-/// sphere, in the plane or in the hyperbolic plane.
+/// The metric of constant curvature in the conformal class of a surface. Its Euler characteristic decides whether it lies on the sphere, in
+/// the plane or in the hyperbolic plane; of a surface with boundary, that and what its boundary is to become.
 ///
 /// For a surface of genus 0 the base is the puncture, the tolerance, the step limit and the threads of the flow are used, and the
 /// scheme must be [`Scheme::Yamabe`].
 ///
 /// # Errors
 ///
-/// [`Error::Layout`] for a surface with boundary; [`Error::Argument`] for a sphere in another scheme; those of [`uniformize_sphere`] and
+/// [`Error::Argument`] for a sphere in another scheme; those of [`uniformize_sphere`] and
 /// [`uniformize_quotient`].
 pub fn uniformize(surface: &Surface, options: &QuotientOptions, control: &Control) -> Result<Uniformization> {
     let mesh = surface.mesh();

@@ -13,8 +13,9 @@
 //! # }
 //! ```
 
-use super::deck::{DeckElement, DeckGroup};
-use super::dirichlet::DirichletDomain;
+use super::deck::DeckGroup;
+use super::domain::DirichletDomain;
+use super::element::DeckElement;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
@@ -79,7 +80,8 @@ pub fn elements_within(
         let centre = g.inverse().conjugated_by(&home).origin();
         !lines.keep_off(deck.space, centre, radius)
     };
-    let found = elements_reached(deck, &domain.sides, meets, limit, control)?;
+    let sides: Vec<DeckElement> = domain.neighbours().cloned().collect();
+    let found = elements_reached(deck, &sides, meets, limit, control)?;
     let mut near: Vec<(f64, DeckElement)> =
         found.into_iter().map(|g| (moved(&g.motion), g)).filter(|(d, _)| *d <= radius).collect();
     near.sort_by(|(a, g), (b, h)| {

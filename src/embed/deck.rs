@@ -13,44 +13,20 @@
 //! # }
 //! ```
 
-use super::faces::{Faces, corner_of};
+use super::border::Border;
+use super::element::DeckElement;
 use super::layout::Layout;
+use super::walk::Walks;
 use crate::control::Control;
 use crate::error::{Error, Result};
+use crate::flow::Solution;
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold, worse};
 use crate::mesh::HalfedgeId;
-use crate::metric::Metric;
 use crate::topology::word::{Letter, Word};
-use crate::topology::{FundamentalDomain, HomotopyBasis, Side, SurfaceGroup, crossed_halfedges};
+use crate::topology::{FundamentalDomain, HomotopyBasis, Side, SurfaceGroup};
 use std::f64::consts::TAU;
-
-/// An element of the deck group.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DeckElement {
-    /// As a word in the canonical generators.
-    pub word: Word,
-    /// As an isometry.
-    pub motion: Motion<Twofold>,
-}
-
-impl DeckElement {
-    /// The identity.
-    pub fn identity(space: Space) -> DeckElement {
-        DeckElement { word: Word::identity(), motion: Motion::identity(space) }
-    }
-
-    /// The inverse.
-    pub fn inverse(&self) -> DeckElement {
-        DeckElement { word: self.word.inverse(), motion: self.motion.inverse() }
-    }
-
-    /// The conjugate `to ∘ self ∘ to⁻¹` as an isometry, under the same word.
-    pub(super) fn conjugated_by(&self, to: &Motion<Twofold>) -> DeckElement {
-        DeckElement { word: self.word.clone(), motion: self.motion.conjugated_by(to) }
-    }
-}
 
 /// The group of deck transformations of the universal cover of a layout, acting from the left: M(γ) carries the base lift to the end of
 /// γ's lift, `M(γδ) = M(γ) M(δ)`.
@@ -66,6 +42,9 @@ pub struct DeckGroup {
     pub generators: Vec<Motion<Twofold>>,
     /// Sides of the layout's fundamental domain: the elements that carry it onto its neighbours, counterclockwise.
     pub sides: Vec<DeckElement>,
+    /// The lines along which the layout's domain has the boundary of the surface, counterclockwise. Where the boundary is straight they bound
+    /// the universal cover.
+    pub borders: Vec<Border>,
     /// The corner of the layout that is the base lift: a half-edge of a face at the base vertex.
     pub corner: HalfedgeId,
     /// `‖R − I‖_F / max_k ‖P_k‖²` of the relator's matrix R over its partial products P_k (Frobenius norms of 2×2 matrices, R with the
@@ -78,14 +57,14 @@ pub struct DeckGroup {
 }
 
 impl DeckGroup {
-    /// The deck group of a layout without cones of this metric, with the generators of a homotopy basis of the mesh that is laid out: the
-    /// metric's own triangulation.
+    /// The deck group of a layout without cones of this metric ([`super::layout_about`]), with the generators of a homotopy basis of the mesh
+    /// that is laid out.
     ///
     /// # Errors
     /// [`Error::Layout`], [`Error::Size`] for a metric or basis of another mesh, or where the opened surface is no disk;
     /// [`Error::Cancelled`].
     pub fn new(
-        metric: &Metric,
+        metric: &Solution,
         layout: &Layout,
         basis: &HomotopyBasis,
         control: &Control,
@@ -99,6 +78,7 @@ impl DeckGroup {
             group: basis.group,
             generators: Vec::new(),
             sides: Vec::new(),
+            borders: Vec::new(),
             corner: corner.ok_or_else(no_face)?,
             relation_residual: 0.0,
             relation_error: 0.0,
@@ -114,18 +94,16 @@ impl DeckGroup {
             None => Err(Error::Layout("a side of the fundamental domain has no edges".into())),
         };
         let pairings: Vec<_> = domain.sides.iter().map(pairing).collect::<Result<_>>()?;
-        deck.generators = match layout.space {
-            Space::H2 => along_loops(&Faces::precise(mesh, metric)?, layout, (deck.corner, basis), control)?,
-            space => {
-                let product = |path| {
-                    let crossed = domain.crossings(mesh, deck.corner, path)?;
-                    let all = crossed.iter().fold(Motion::identity(space), |m, &k| m.compose(&pairings[k]));
-                    Ok(all.normalised())
-                };
-                basis.loops.iter().map(|path| product(path)).collect::<Result<_>>()?
+        let walks = Walks::new(metric, layout)?;
+        let element = |path: &Vec<HalfedgeId>| walks.element(deck.corner, path, control);
+        deck.generators = basis.loops.iter().map(element).collect::<Result<_>>()?;
+        for (k, (side, motion)) in domain.sides.iter().zip(pairings).enumerate() {
+            if side.partner.is_none() {
+                let start = side.halfedges.first().copied().unwrap_or(deck.corner);
+                let copy = &domain.corners[k].element;
+                deck.borders.push(Border::new(&walks, basis, (copy, start), control)?);
+                continue;
             }
-        };
-        for (side, motion) in domain.sides.iter().zip(pairings).filter(|(side, _)| side.partner.is_some()) {
             let word = side.element.clone();
             let spelled = deck.motion(&word)?.compose(&motion.inverse());
             deck.side_residual = worse(deck.side_residual, deck.residual(&word, &spelled)?);
@@ -196,7 +174,9 @@ impl DeckGroup {
     /// The modulus of a flat torus, `[Re τ, Im τ]` reduced ([`modulus`]); `None` for another group.
     pub fn modulus(&self) -> Option<[f64; 2]> {
         match self.generators.as_slice() {
-            [a, b] if self.space == Space::E2 => modulus([a, b].map(|g| g.mobius()[0][1])),
+            [a, b] if self.space == Space::E2 && self.group.genus == 1 => {
+                modulus([a, b].map(|g| g.mobius()[0][1]))
+            }
             _ => None,
         }
     }
@@ -244,45 +224,4 @@ impl DeckGroup {
         };
         (0..n).map(angle).collect()
     }
-}
-
-/// The isometries of a basis's loops, which start at `corner`, from face to face along each loop.
-///
-/// Products of the layout's side pairings lead from the middle of one copy to that of the next, in H² far from the loop, which costs
-/// e^{3 radius} of the digits; from face to face nothing leads farther than the loop. In E², where the layout has a scale of its own, the
-/// products cost none.
-fn along_loops(
-    faces: &Faces<Motion<Twofold>>,
-    layout: &Layout,
-    (corner, basis): (HalfedgeId, &HomotopyBasis),
-    control: &Control,
-) -> Result<Vec<Motion<Twofold>>> {
-    let home = layout.frame(faces, corner)?;
-    let along = |path| {
-        control.check()?;
-        let crossed = crossed_halfedges(faces.mesh, corner, path)?;
-        Ok(transport(faces, corner, &crossed)?.conjugated_by(&home).normalised())
-    };
-    basis.loops.iter().map(|path| along(path)).collect()
-}
-
-/// The isometry by which a walk from a half-edge and back to it moves a frame. The walk leads through the half-edges `crossed`, each of the
-/// face that the walk is in.
-fn transport(
-    faces: &Faces<Motion<Twofold>>,
-    corner: HalfedgeId,
-    crossed: &[HalfedgeId],
-) -> Result<Motion<Twofold>> {
-    let mut frame = Motion::identity(faces.space);
-    let (mut face, mut k) = corner_of(faces.mesh, corner)?;
-    for &h in crossed {
-        let (same, side) = corner_of(faces.mesh, h)?;
-        if same != face {
-            return Err(Error::Layout(format!("half-edge {h} is no side of face {face}, where a walk is")));
-        }
-        frame = faces.across(faces.around(face, k, frame)[side], h);
-        (face, k) = corner_of(faces.mesh, h.twin())?;
-    }
-    let (_, side) = corner_of(faces.mesh, corner)?;
-    Ok(faces.around(face, k, frame)[side])
 }

@@ -14,7 +14,6 @@
 //! # }
 //! ```
 
-use super::faces::{Faces, corner_of};
 use super::pieces::Pieces;
 use super::shape::{Shape, extent};
 use crate::error::{Error, Result};
@@ -302,6 +301,28 @@ impl Layout {
         Ok(factor)
     }
 
+    /// Moves a layout in E² by an isometry.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] in another space.
+    pub fn move_by(&mut self, motion: &Motion<Twofold>) -> Result<()> {
+        if self.space != Space::E2 || motion.space != Space::E2 {
+            return Err(Error::Layout(format!("a layout in {} stays about its base", self.space)));
+        }
+        let place = |p: &[f64; 3]| motion.apply(precise_point(Space::E2, *p)).map(f64::from);
+        self.points = self.points.iter().map(place).collect();
+        self.coordinates = self.points.iter().map(|&p| flat(Space::E2, p)).collect();
+        self.seams.iter_mut().for_each(|seam| seam.pairing = seam.pairing.conjugated_by(motion));
+        self.frames.iter_mut().for_each(|frame| *frame = motion.compose(frame));
+        // Reported disagreements are relative to the diameter, which depends on the axes.
+        let diameter = bounding_diagonal(&self.coordinates);
+        self.seams.iter_mut().for_each(|seam| seam.residual *= self.diameter / diameter);
+        self.diameter = diameter;
+        self.radius = self.points.iter().map(|&p| distance_from_origin(Space::E2, p)).fold(0.0, f64::max);
+        self.find_flat();
+        Ok(())
+    }
+
     pub(super) fn scale_by(&mut self, factor: f64) {
         if factor == 1.0 {
             return;
@@ -357,13 +378,10 @@ impl Layout {
         points.map(|p| home.apply(precise_point(self.space, p)).map(f64::from))
     }
 
-    /// The frame of a half-edge of a face, of a layout with frames of twice the digits ([`layout_of`]).
-    pub(super) fn frame(&self, faces: &Faces<Motion<Twofold>>, h: HalfedgeId) -> Result<Motion<Twofold>> {
-        let (f, k) = corner_of(self.mesh(), h)?;
-        match self.frames.get(*self.patch.get(f.index()).unwrap_or(&u32::MAX) as usize) {
-            Some(&frame) => Ok(faces.around(f, 0, frame)[k]),
-            None => Err(Error::Layout(format!("face {f} has no frame of twice the digits"))),
-        }
+    /// The frame of the first half-edge of a triangle's final face, of a layout with frames of twice the digits ([`super::layout_about`]).
+    pub(super) fn frame(&self, f: FaceId) -> Result<Motion<Twofold>> {
+        let frame = self.frames.get(*self.patch.get(f.index()).unwrap_or(&u32::MAX) as usize);
+        frame.copied().ok_or_else(|| Error::Layout(format!("face {f} has no frame of twice the digits")))
     }
 }
 

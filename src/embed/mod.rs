@@ -1,6 +1,7 @@
 //! Layouts of metrics: a surface that is opened along a cut and developed into the space of its metric, the isometries between the two
 //! sides of each seam, how much the map distorts, and charts that do not overlap.
 
+pub mod border;
 mod chart_growth;
 pub mod charts;
 
@@ -8,23 +9,33 @@ pub mod cover;
 pub mod deck;
 mod develop;
 pub mod dirichlet;
+mod domain;
+mod element;
 mod faces;
 mod frame;
 pub mod layout;
+mod line;
 pub mod overlap;
 pub mod pack;
 mod pieces;
 pub mod place;
 pub(crate) mod planar;
+mod polygon;
 pub mod quality;
 pub mod shape;
+pub mod sides;
 mod triangle;
 pub mod unroll;
+mod walk;
 
+pub use border::Border;
 pub use charts::{ChartOptions, Charts, charts};
-pub use deck::{DeckElement, DeckGroup};
-pub use dirichlet::{DirichletDomain, dirichlet_domain};
+pub use deck::DeckGroup;
+pub use dirichlet::dirichlet_domain;
+pub use domain::DirichletDomain;
+pub use element::DeckElement;
 pub use layout::{Layout, OnInput, Seam};
 pub use place::{layout, layout_of};
 pub use quality::Quality;
-pub use unroll::{Scale, Source, UnrollOptions, cones_of, unroll, unroll_source};
+pub use sides::{BoundaryLoop, BoundarySide, boundary_sides};
+pub use unroll::{About, Scale, Source, UnrollOptions, cones_of, layout_about, unroll, unroll_source};

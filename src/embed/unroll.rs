@@ -159,7 +159,10 @@ fn by<F: Frame>(
         }
     };
     let needs_lengths = options.cut.is_none() || (options.root.is_none() && space != Space::E2);
-    let lengths = if needs_lengths { lengths_of_input(&pieces, faces, given)? } else { Vec::new().into() };
+    let lengths = match needs_lengths {
+        true => lengths_of_input(&pieces, &lengths_of_pieces(&pieces, faces), given),
+        false => Vec::new().into(),
+    };
     control.check()?;
     let root = match options.root {
         None if space != Space::E2 => Some(central_vertex(given, &lengths, control)?),
@@ -180,8 +183,48 @@ fn by<F: Frame>(
     Ok(layout)
 }
 
-/// Lengths of the input's edges in the metric, each along itself: sums over the pieces.
-fn lengths_of_input<F: Frame>(pieces: &Pieces, faces: &Faces<F>, given: &Mesh) -> Result<PerEdge<f64>> {
+/// A layout about a base vertex, and lengths of the edges of what is laid out, in the metric, as searches for paths take them.
+#[derive(Debug, Clone)]
+pub struct About {
+    /// The layout.
+    pub layout: Layout,
+    /// Its base vertex, at the origin.
+    pub base: VertexId,
+    /// Per edge of [`Layout::mesh`].
+    pub lengths: PerEdge<f64>,
+}
+
+/// Lays a metric without cones out about a base vertex of the surface, with twice the digits of doubles, as deck groups need them: where the
+/// disk that grows about the base meets itself the surface is opened ([`super::layout_of`]).
+///
+/// What is laid out is the metric's triangulation; of one on a double, the refinement of that and the surface as it came, on the given half.
+/// `base`: default, a vertex from which none is far.
+///
+/// # Errors
+/// Those of [`super::layout_of`] and [`Solution::refinement`].
+pub fn layout_about(result: &Solution, base: Option<VertexId>, control: &Control) -> Result<About> {
+    let faces = Faces::precise(result.mesh(), result.metric())?;
+    let (pieces, centre) = match result.double() {
+        None => (Pieces::Mesh(result.mesh().clone()), result.mesh()),
+        Some(_) => (Pieces::Refinement(Arc::new(result.refinement(control)?)), result.given()),
+    };
+    let parts = lengths_of_pieces(&pieces, &faces);
+    let lengths = match pieces.refinement() {
+        None => result.metric().lengths(result.mesh())?,
+        Some(_) => with_least(parts.clone()),
+    };
+    let base = match base {
+        Some(base) => base,
+        None if pieces.refinement().is_none() => central_vertex(centre, &lengths, control)?,
+        None => central_vertex(centre, &lengths_of_input(&pieces, &parts, centre), control)?,
+    };
+    let mut layout = lay_out(pieces, &faces, Some(base), None, control)?;
+    layout.find_flat();
+    Ok(About { layout, base, lengths })
+}
+
+/// Lengths of the edges of the pieces in the metric.
+fn lengths_of_pieces<F: Frame>(pieces: &Pieces, faces: &Faces<F>) -> PerEdge<f64> {
     let mesh = pieces.mesh();
     let mut parts = vec![[0.0; 3]; mesh.n_faces()];
     parallel::fill(&mut parts, |f| {
@@ -190,18 +233,30 @@ fn lengths_of_input<F: Frame>(pieces: &Pieces, faces: &Faces<F>, given: &Mesh) -
         let points = pieces.final_barycentric(f).map(|w| combination(faces.space, corners, w));
         [0, 1, 2].map(|k| distance(faces.space, points[k], points[(k + 1) % 3]))
     });
-    let mut lengths = PerEdge::filled(given.n_edges(), 0.0);
+    let mut lengths = PerEdge::filled(mesh.n_edges(), 0.0);
     // Of the two sides of an edge inside, the one with the even half-edge counts.
     let counts = |h: HalfedgeId| h.0 & 1 == 0 || mesh.is_outside(h.twin());
     for f in mesh.faces() {
-        for (h, part) in mesh.face_halfedges(f).into_iter().zip(parts[f.index()]).filter(|(h, _)| counts(*h))
-        {
-            if let Some(e) = pieces.input_edge(h.edge()) {
-                lengths[e] += part;
-            }
+        let sides = mesh.face_halfedges(f).into_iter().zip(parts[f.index()]);
+        sides.filter(|(h, _)| counts(*h)).for_each(|(h, part)| lengths[h.edge()] = part);
+    }
+    lengths
+}
+
+/// Lengths of the input's edges, each along itself: sums over those of the pieces.
+fn lengths_of_input(pieces: &Pieces, parts: &PerEdge<f64>, given: &Mesh) -> PerEdge<f64> {
+    let mut lengths = PerEdge::filled(given.n_edges(), 0.0);
+    for part in pieces.mesh().edges() {
+        if let Some(e) = pieces.input_edge(part) {
+            lengths[e] += parts[part];
         }
     }
+    with_least(lengths)
+}
+
+/// Lengths, none below [`SHORTEST`].
+fn with_least(mut lengths: PerEdge<f64>) -> PerEdge<f64> {
     let least = SHORTEST * lengths.iter().copied().fold(0.0, f64::max);
     lengths.iter_mut().for_each(|l| *l = l.max(least));
-    Ok(lengths)
+    lengths
 }

@@ -80,7 +80,7 @@ impl Flow {
 
     /// Whether a flow to this target ends with [`Flow::flatten`]: layouts in H² magnify what is left of the curvature by e^distance.
     fn is_to_be_flattened(&self, target: &PerVertex<f64>) -> bool {
-        self.metric.space == Space::H2 && self.mesh.is_closed() && target.iter().all(|&k| k == 0.0)
+        self.metric.space == Space::H2 && target.iter().all(|&k| k == 0.0)
     }
 
     /// A solve, on the double where it leads there; the flow is as before where that is an error.

@@ -234,6 +234,18 @@ impl Mesh {
         loops
     }
 
+    /// The boundary loop of a half-edge of a face on the boundary, from there on: half-edges of faces, the surface on their left.
+    pub fn boundary_from(&self, h: HalfedgeId) -> Vec<HalfedgeId> {
+        if !self.is_outside(h.twin()) {
+            return Vec::new();
+        }
+        // Half-edges outside the surface run backwards.
+        let before = |at: &HalfedgeId| Some(self.next(*at)).filter(|&next| next != h.twin());
+        let mut path: Vec<_> = std::iter::successors(Some(h.twin()), before).map(HalfedgeId::twin).collect();
+        path[1..].reverse();
+        path
+    }
+
     /// Euler characteristic χ = V − E + F.
     pub fn euler(&self) -> i64 {
         self.n_vertices() as i64 - self.n_edges() as i64 + self.n_faces() as i64

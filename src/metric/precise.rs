@@ -33,8 +33,8 @@ impl Metric {
         chords.into()
     }
 
-    /// By how much the angles around each vertex inside miss 2π, in (−2π, 2π], to twice the digits; 0 on the boundary. It is the
-    /// curvature of vertices that are meant to be flat, where sums of angles in doubles would show their own rounding.
+    /// By how much the angles around each vertex inside miss 2π, those at a vertex of the boundary π, in (−2π, 2π], to twice the digits. It
+    /// is the curvature of vertices that are meant to be flat, where sums of angles in doubles would show their own rounding.
     ///
     /// The rotations by all the angles are multiplied; no angle is formed.
     ///
@@ -52,9 +52,9 @@ impl Metric {
             }
         }
         Ok(PerVertex::from_fn(mesh.n_vertices(), |v| {
-            // `turn` is the rotation by half of all the angles, which add up to π − K/2.
+            // `turn` is the rotation by half of all the angles, which add up to π − K/2, on the boundary to π/2 − K/2.
             let [x, y] = turn[v].map(f64::from);
-            if mesh.is_boundary_vertex(v) { 0.0 } else { 2.0 * y.atan2(-x) }
+            2.0 * if mesh.is_boundary_vertex(v) { x.atan2(y) } else { y.atan2(-x) }
         }))
     }
 }

@@ -23,8 +23,8 @@ fn dirichlet_domains_meet_the_conditions_of_the_polygon_theorem() {
         assert!((d.area / q.layout.area - 1.0).abs() < 1e-9, "{name}");
         let far = |p: [f64; 3], q: [f64; 3]| (p[0] - q[0]).hypot(p[1] - q[1]) / p[2].max(q[2]);
         for (k, side) in d.sides.iter().enumerate() {
-            let partner = d.partner[k];
-            assert!(d.partner[partner] == k && partner != k, "{name}");
+            let partner = d.partner[k].unwrap();
+            assert!(d.partner[partner] == Some(k) && partner != k, "{name}");
             assert!(q.deck.group.is_trivial(&side.word.times(&d.sides[partner].word)), "{name}");
             // The element carries the partner onto this side, turned round, and its word is the element's.
             let apply = |p: [f64; 3]| side.motion.apply(precise_point(q.layout.space, p)).map(f64::from);
@@ -54,7 +54,7 @@ fn dirichlet_domains_meet_the_conditions_of_the_polygon_theorem() {
             let (mut k, mut sum) = (start, 0.0);
             while !std::mem::replace(&mut seen[k], true) {
                 sum += angle[k];
-                k = (d.partner[k] + 1) % n;
+                k = (d.partner[k].unwrap() + 1) % n;
             }
             assert!(sum == 0.0 || (sum - TAU).abs() < 1e-6, "{name}: cycle of {start}: {sum}");
         }

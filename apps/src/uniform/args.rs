@@ -1,5 +1,6 @@
 //! The options of `ricci uniformize` and `ricci cover`.
 
+use super::boundary::BoundaryArgs;
 use crate::options::{FileName, MetricArgs, choices};
 use crate::picture::{PictureArgs, Texture};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -12,8 +13,17 @@ Example: a surface of genus 2 in the hyperbolic plane, the group of its universa
     ricci make genus -o two.obj
     ricci uniformize two.obj --uv disk.obj --generators group.json --picture two.png --report two.json
 
+Example: a pair of pants with geodesic boundary, and a bumpy disk as a rectangle
+    ricci make pants --lengths 1 2 3 -o pants.json
+    ricci uniformize pants.json --generators group.json --picture pants.png
+    ricci make disk --height 0.4 -o disk.obj
+    ricci uniformize disk.obj --boundary straight --uv rectangle.obj --picture rectangle.png
+
 A torus comes to lie in the plane, surfaces of higher genus in the hyperbolic plane, about the base vertex. A sphere comes to lie on the
 unit sphere, as a convex polyhedron with its centre of mass in the middle (with --method gradient by the flow in S², not centred).
+A surface with boundary and χ < 0 gets closed geodesics for its boundary loops, in the hyperbolic plane; an annulus becomes a flat cylinder,
+whose modulus is height over circumference. With --boundary straight the surface lies in the plane, its boundary straight from corner to
+corner; four right angles on a disk make a rectangle, whose modulus is the length of its second side over that of its first.
 
 Files
     --metric M.json            the metric on its triangulation, as of ricci flow
@@ -53,6 +63,9 @@ pub struct CanonicalArgs {
     /// Write the generators of the deck group
     #[arg(long, value_name = "C.json")]
     pub generators: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub boundary: BoundaryArgs,
     #[command(flatten)]
     #[serde(flatten)]
     pub picture: PictureArgs,

@@ -61,15 +61,20 @@ fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure
     }
 }
 
-/// Uniformize a closed surface: by the library's one call, but for the paper's flow of spheres.
+/// Uniformize a surface: by the library's one call, but for the paper's flow of spheres.
 fn shape(task: &Task<'_>) -> Result<Shape, Failure> {
     let Task { input, args, control, .. } = *task;
     let (base, mut taken) = (base(input, args)?, 0.0);
-    if input.mesh().euler() > 0 && args.to.solve.method == MethodChoice::Gradient {
+    if input.mesh().euler() > 1 && args.to.solve.method == MethodChoice::Gradient {
         let found = timed(&mut taken, || flowed(task, base))?;
         return Ok(Shape::Sphere(Box::new(Round::new(task, found, taken)?)));
     }
-    let options = QuotientOptions { scheme: args.to.solve.scheme.into(), base, flow: args.to.options() };
+    let options = QuotientOptions {
+        scheme: args.to.solve.scheme.into(),
+        base,
+        boundary: args.boundary.to_library(),
+        flow: args.to.options(),
+    };
     Ok(match timed(&mut taken, || canonical::uniformize(&input.surface, &options, control))? {
         Uniformization::Sphere(sphere) => {
             Shape::Sphere(Box::new(Round::new(task, punctured(*sphere), taken)?))
@@ -87,7 +92,7 @@ fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done<Shape>, Failure> {
     let progress = Progress::watch(control, to.common.quiet);
     let input = input::read(&to.file, to.input_geometry.map(Space::from), control)?;
     let shown = wish.check_surface(&input)?;
-    let task = Task { input: &input, args: wish.args, needs: wish.needs(shown), control };
+    let task = Task { input: &input, args: wish.args, needs: wish.needs(&input, shown), control };
     let mut shape = shape(&task)?;
     if let (Shape::Quotient(u), Some(cover)) = (&mut shape, &wish.cover) {
         cover.find(u, control)?;

@@ -3,14 +3,15 @@
 use super::group_file::letters;
 use super::quotient::Uniformized;
 use crate::report::Figures;
+use ricci::embed::{BoundaryLoop, BoundarySide};
 use ricci::mesh::HalfedgeId;
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// `copies`: whether they were asked for.
 pub fn of_quotient(u: &Uniformized, copies: bool) -> Figures {
     let laid = u.laid().ok();
     let layout = laid.map_or(&u.layout, |laid| &laid.layout);
-    let lengths = &u.solved.lengths;
+    let lengths = &u.lengths;
     let length = |path: &Vec<HalfedgeId>| path.iter().map(|h| lengths[h.edge()]).sum::<f64>();
     Figures::of_metric(&u.solved)
         .course(&u.report, &u.solved)
@@ -38,6 +39,17 @@ pub fn of_quotient(u: &Uniformized, copies: bool) -> Figures {
         // Total length of each generator's loop on the surface, in the metric.
         .with("loop_lengths", u.basis.loops.iter().map(length).collect::<Vec<_>>())
         .if_some("modulus", u.deck.modulus())
+        .if_some("modulus", u.extremal_distance)
+        .if_some(
+            "boundary_lengths",
+            bordered(u).then(|| u.boundary.iter().map(|b| b.length()).collect::<Vec<_>>()),
+        )
+        .if_some(
+            "boundary",
+            bordered(u).then(|| u.boundary.iter().map(|b| loop_figures(u, b)).collect::<Vec<_>>()),
+        )
+        .if_some("corners", (!u.corners.is_empty()).then(|| corners(u)))
+        .if_some("geodesics", (!u.geodesics.is_empty()).then(|| words(u)))
         .with(
             "domain",
             u.domain().ok().map(|d| json!({"sides": d.sides.len(), "area": d.area, "radius": d.radius})),
@@ -48,4 +60,31 @@ pub fn of_quotient(u: &Uniformized, copies: bool) -> Figures {
         .if_some("copies", u.elements.as_ref().ok().filter(|_| copies).map(Vec::len))
         .missing(&u.solved)
         .with("residuals", u.report.residuals.clone())
+}
+
+fn bordered(u: &Uniformized) -> bool {
+    !u.boundary.is_empty()
+}
+
+/// A boundary loop, in the order of the input's: its generator, its length, and its sides from corner to corner.
+fn loop_figures(u: &Uniformized, around: &BoundaryLoop) -> Value {
+    let side = |side: &BoundarySide| {
+        let BoundarySide { from, length, straightness } = side;
+        json!({"from": from.0, "length": length, "straightness": straightness})
+    };
+    json!({
+        "generator": u.deck.group.name(around.generator),
+        "length": around.length(),
+        "sides": around.sides.iter().map(side).collect::<Vec<_>>()
+    })
+}
+
+/// The corners with the angles inside, in degrees.
+fn corners(u: &Uniformized) -> Value {
+    u.corners.iter().map(|(v, angle)| json!({"vertex": v.0, "angle": angle.to_degrees()})).collect()
+}
+
+/// The words that were asked for, with the lengths of their closed geodesics.
+fn words(u: &Uniformized) -> Value {
+    u.geodesics.iter().map(|(word, length)| json!({"word": word, "length": length})).collect()
 }

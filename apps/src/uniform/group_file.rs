@@ -43,7 +43,7 @@ impl GroupFile {
         let named = || basis.iter().cloned().zip(&deck.generators);
         Ok(GroupFile {
             space: deck.space.name(),
-            intersections: intersection_matrix(u.solved.solution.mesh(), &u.basis.loops)?,
+            intersections: intersection_matrix(u.layout.mesh(), &u.basis.loops)?,
             word: letters(&deck.group, &deck.group.relator()),
             generators: named().map(|(name, g)| (name, g.mobius())).collect(),
             generators_lo: named().map(|(name, g)| (name, g.mobius_remainder())).collect(),
@@ -76,8 +76,8 @@ struct SideFile {
     matrix: Mobius,
     /// What the doubles of `matrix` lose.
     matrix_lo: Mobius,
-    /// The side with the inverse transformation.
-    partner: usize,
+    /// The side with the inverse transformation; none on the boundary of the surface, which its word moves along itself.
+    partner: Option<usize>,
 }
 
 /// The polygon from lift to lift of the base point along the relator.

@@ -1,6 +1,7 @@
-//! `ricci uniformize` and `ricci cover`: closed surfaces in their metric of constant curvature, and their universal covers.
+//! `ricci uniformize` and `ricci cover`: surfaces in their metric of constant curvature, and their universal covers.
 
 mod args;
+mod boundary;
 mod commands;
 mod copies;
 mod cover_glb;

@@ -58,7 +58,7 @@ impl Opened {
 
 /// The number of each side's pair.
 pub fn pairs(domain: &DirichletDomain) -> Vec<usize> {
-    let first = |k: usize| k.min(domain.partner[k]);
+    let first = |k: usize| k.min(domain.partner[k].unwrap_or(k));
     let leads = |k: &usize| first(*k) == *k;
     (0..domain.sides.len()).map(|k| (0..first(k)).filter(leads).count()).collect()
 }
@@ -86,7 +86,7 @@ impl Folding {
     fn new(domain: &DirichletDomain, space: Space) -> Folding {
         let c = domain.centre;
         // Nearer to the image of the centre than to the centre: by cosh of the distances, or by their squares.
-        let across = domain.sides.iter().map(|side| {
+        let across = domain.neighbours().map(|side| {
             let i = side.motion.apply(c.map(Twofold::from)).map(f64::from);
             let square = |p: [f64; 3]| p[0] * p[0] + p[1] * p[1];
             match space {
@@ -94,7 +94,7 @@ impl Folding {
                 _ => [2.0 * (i[0] - c[0]), 2.0 * (i[1] - c[1]), square(c) - square(i)],
             }
         });
-        let back = domain.sides.iter().map(|side| side.motion.inverse()).collect();
+        let back = domain.neighbours().map(|side| side.motion.inverse()).collect();
         Folding { space, across: across.collect(), back }
     }
 
@@ -148,7 +148,7 @@ mod tests {
             centre: ORIGIN,
             corners: [[0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5]].map(|[x, y]| [x, y, 1.0]).to_vec(),
             sides: [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(side).to_vec(),
-            partner: vec![2, 3, 0, 1],
+            partner: [2, 3, 0, 1].map(Some).to_vec(),
             area: 1.0,
             radius: 0.5f64.sqrt(),
         }

@@ -16,12 +16,14 @@ pub struct Side {
     pub pair: usize,
     /// The deck transformation onto the neighbour across it, in letters with spaces.
     pub word: String,
+    /// Whether it lies on the boundary of the surface, and has no neighbour.
+    pub is_border: bool,
 }
 
 /// The sides of the opened surface, counterclockwise.
 pub fn sides(u: &Uniformized) -> ricci::Result<Vec<Side>> {
     let whole = &u.layout;
-    let mesh = &**u.solved.solution.mesh();
+    let mesh = whole.mesh();
     let domain = FundamentalDomain::new(mesh, &whole.cut.is_cut, &u.basis)?;
     let mut pair = vec![usize::MAX; domain.sides.len()];
     let mut n_pairs = 0;
@@ -37,7 +39,8 @@ pub fn sides(u: &Uniformized) -> ricci::Result<Vec<Side>> {
     let side = |(k, side): (usize, &ricci::topology::Side)| Side {
         points: chain(mesh, whole, &side.halfedges),
         pair: pair[k],
-        word: u.deck.sides.get(k).map_or_else(String::new, |g| u.deck.group.text(&g.word)),
+        word: side.partner.map_or_else(String::new, |_| u.deck.group.text(&side.element)),
+        is_border: side.partner.is_none(),
     };
     Ok(domain.sides.iter().enumerate().map(side).collect())
 }
@@ -62,7 +65,7 @@ pub fn touching(u: &Uniformized, limit: usize, control: &Control) -> ricci::Resu
     };
     let touches = |g: &Motion<Twofold>| meets(g, &opened) || meets(g, dirichlet);
     let across: Vec<DeckElement> =
-        u.deck.sides.iter().chain(domain.iter().flat_map(|d| &d.sides)).cloned().collect();
+        u.deck.sides.iter().chain(domain.iter().flat_map(|d| d.neighbours())).cloned().collect();
     elements_reached(&u.deck, &across, touches, limit, control)
 }
 
@@ -73,14 +76,17 @@ fn chain(mesh: &Mesh, whole: &Layout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]>
 
 /// The loops of the generators on the surface as it was given: edges of the common refinement, with the loop's number.
 pub fn loops_on_surface(u: &Uniformized) -> Vec<(u32, u32, usize)> {
-    let Some(refinement) = u.laid().ok().and_then(|laid| laid.refinement()) else { return Vec::new() };
-    let mut of_edge = vec![None; u.solved.solution.mesh().n_edges()];
+    let refinement = u.laid().ok().and_then(|laid| laid.refinement());
+    // The loop around a disk says nothing.
+    let Some(refinement) = refinement.filter(|_| !u.deck.sides.is_empty()) else { return Vec::new() };
+    let mut of_edge = vec![None; u.layout.mesh().n_edges()];
     for (k, path) in u.basis.loops.iter().enumerate() {
         path.iter().for_each(|h| of_edge[h.edge().index()] = Some(k));
     }
-    let mesh = &refinement.mesh;
+    let (mesh, is_laid) = (&refinement.mesh, u.layout.refinement().is_some());
     let numbered = mesh.edges().filter_map(|e| {
-        let k = of_edge[refinement.origin[e].result?.index()]?;
+        let laid = if is_laid { Some(e) } else { refinement.origin[e].result };
+        let k = of_edge[laid?.index()]?;
         let [a, b] = mesh.ends(e);
         Some((a.0, b.0, k))
     });

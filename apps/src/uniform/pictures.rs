@@ -12,8 +12,10 @@ use crate::picture::{self, Frame, PALE, Pattern, Picture, Style, Surface, Tiles}
 use ricci::embed::layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
+use ricci::geometry::motion::precise_point;
 use ricci::geometry::{Motion, Space, Twofold};
 use ricci::topology::word::Word;
+use std::f64::consts::PI;
 
 /// Copies in the background of a polygon at most.
 const BACKGROUND: usize = 250;
@@ -22,6 +24,8 @@ const SAME: f64 = 1e-6;
 /// Widths of lines, in those of a seam.
 const THIN: f64 = 0.45;
 const BOLD: f64 = 1.8;
+/// The same of the boundary of copies.
+const EDGE: f64 = 1.2;
 /// How much higher than its domain the shown part of the half-plane is.
 const HEADROOM: f64 = 1.12;
 
@@ -55,6 +59,7 @@ pub fn draw(u: &Uniformized, shown: Shown, canvas: &Canvas, svg: bool) -> Result
         Shown::Cover(TilesChoice::Tiles) => Some(tiled(u, canvas, stamp)?),
     };
     let drawing = tiling.as_ref().map(Tiling::drawing);
+    let cones: Vec<(u32, f64)> = u.corners.iter().map(|(v, angle)| (v.0, PI - angle)).collect();
     if svg {
         return picture::svg(&Picture { drawing: drawing.as_ref(), ..Picture::default() }, &canvas.style);
     }
@@ -64,8 +69,8 @@ pub fn draw(u: &Uniformized, shown: Shown, canvas: &Canvas, svg: bool) -> Result
         faces: &surface.triangles,
         corner_uv: Some(&uv),
         seams: &surface.cut,
-        cones: &[],
-        is_closed: true,
+        cones: &cones,
+        is_closed: u.boundary.is_empty(),
     });
     let drawn = Picture { surface, drawing: drawing.as_ref(), pattern: Some(&tiles), ..Picture::default() };
     picture::png(&drawn, &canvas.style)
@@ -111,10 +116,15 @@ fn domain(u: &Uniformized, canvas: &Canvas, shape: &Stamp, sides: Vec<Side>) -> 
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
     tiling.copy(shape, &Motion::identity(u.deck.space), 0, None);
     for side in sides {
-        tiling.line(&side.points, Some(side.pair), BOLD);
-        tiling.name_line(side.word, ORIGIN);
+        tiling.line(&side.points, Some(side.pair).filter(|_| !side.is_border), BOLD);
+        if !side.is_border {
+            tiling.name_line(side.word, ORIGIN);
+        }
     }
-    tiling.dots.push(canvas.at.flat(ORIGIN));
+    match u.corners.is_empty() {
+        true => tiling.dots.push(canvas.at.flat(ORIGIN)),
+        false => tiling.dots.extend(u.corner_places().map(|p| canvas.at.flat(p))),
+    }
     Ok(tiling)
 }
 
@@ -163,7 +173,7 @@ fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> ricci::R
             .min_by(|&a, &b| waiting[a].displacement().total_cmp(&waiting[b].displacement()));
         let Some(nearest) = nearest else { break };
         let g = waiting.swap_remove(nearest);
-        for side in &domain.sides {
+        for side in domain.neighbours() {
             let next = g.compose(&side.motion);
             let at = place(&next);
             // The base's images are apart; out there coordinates are as large as their digits allow.
@@ -183,8 +193,11 @@ fn dirichlet(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, 
     let domain = u.domain()?;
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &shape.border), canvas.style.size);
     tiling.copy(shape, &Motion::identity(u.deck.space), 0, None);
-    for g in &domain.sides {
+    for g in domain.neighbours() {
         tiling.copy(shape, &g.motion, PALE, Some(THIN));
+    }
+    for g in domain.neighbours() {
+        borders(&mut tiling, domain, &g.motion);
     }
     outline(u, &mut tiling, domain, true);
     tiling.dots.push(canvas.at.flat(domain.centre));
@@ -195,10 +208,21 @@ fn dirichlet(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, 
 fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named: bool) {
     let n = domain.sides.len();
     for (k, color) in pairs(domain).into_iter().enumerate() {
-        tiling.line(&[domain.corners[k], domain.corners[(k + 1) % n]], Some(color), BOLD);
-        if named {
+        let is_border = domain.partner[k].is_none();
+        let color = Some(color).filter(|_| !is_border);
+        tiling.line(&[domain.corners[k], domain.corners[(k + 1) % n]], color, BOLD);
+        if named && !is_border {
             tiling.name_line(u.deck.group.text(&domain.sides[k].word), domain.centre);
         }
+    }
+}
+
+/// The sides of a copy of the Dirichlet domain that lie on the boundary.
+fn borders(tiling: &mut Tiling, domain: &DirichletDomain, motion: &Motion<Twofold>) {
+    let n = domain.sides.len();
+    let moved = |k: usize| motion.apply(precise_point(motion.space, domain.corners[k])).map(f64::from);
+    for k in (0..n).filter(|&k| domain.partner[k].is_none()) {
+        tiling.line_if_seen([moved(k), moved((k + 1) % n)], EDGE);
     }
 }
 
@@ -217,6 +241,7 @@ fn copies(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, Fai
 fn tiled(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, Failure> {
     let domain = u.domain()?;
     let mut tiling = copies(u, canvas, shape)?;
+    u.copies()?.iter().for_each(|g| borders(&mut tiling, domain, &g.motion));
     outline(u, &mut tiling, domain, false);
     Ok(tiling)
 }

@@ -1,6 +1,7 @@
 //! What is asked of the commands, and what they refuse.
 
 use super::args::{CanonicalArgs, CoverArgs, ModelChoice, ShowChoice, Shown, TilesChoice};
+use super::boundary::BoundaryChoice;
 use super::model_place::ModelPlace;
 use super::needs::Needs;
 use super::outline::touching;
@@ -70,7 +71,7 @@ impl CoverWish<'_> {
 
 impl Wish<'_> {
     /// What the outputs that are asked for are made from.
-    pub fn needs(&self, shown: Shown) -> Needs {
+    pub fn needs(&self, input: &Input, shown: Shown) -> Needs {
         let (report, drawn) = (self.args.to.common.report.is_some(), self.args.picture.picture.is_some());
         let of_domain = matches!(
             shown,
@@ -83,7 +84,7 @@ impl Wish<'_> {
         Needs {
             refinement: report || drawn || copies || self.args.to.uv.is_some(),
             on_input: self.args.to.on == OnChoice::Input && self.args.to.uv.is_some(),
-            domain: report || by_domain || (drawn && of_domain),
+            domain: (report || by_domain || (drawn && of_domain)) && !self.args.boundary.has_corners(input),
         }
     }
 
@@ -128,15 +129,15 @@ impl Wish<'_> {
     /// What can be refused once the surface is known; what the picture shows.
     pub fn check_surface(&self, input: &Input) -> Result<Shown, Failure> {
         let mesh = input.mesh();
-        let refuse = |why: &str| Err(Failure::Input(format!("{}: {why}", input.path.display())));
-        if !mesh.is_closed() {
-            return refuse(
-                "the surface has a boundary, and closed surfaces only are uniformized so far; ricci flow lays out \
-                 surfaces with boundary",
-            );
-        }
-        if mesh.euler() > 0 {
+        self.args.boundary.check(input)?;
+        if mesh.euler() > 1 {
             return self.check_sphere(input);
+        }
+        let (in_plane, has_corners) = (self.lies_in_plane(input), self.args.boundary.has_corners(input));
+        if has_corners && self.cover.is_some() {
+            return Err(Failure::Usage(
+                "cover: a surface with corners does not tile the plane; use ricci uniformize, or --boundary geodesic".into(),
+            ));
         }
         if self.args.sphere.is_some() {
             return Err(Failure::Usage(format!(
@@ -144,14 +145,21 @@ impl Wish<'_> {
                 mesh.genus()
             )));
         }
-        if self.model.is_some() && mesh.euler() == 0 {
+        if self.model.is_some() && in_plane {
             return Err(Failure::Usage(
-                "--model: a torus lies in the plane, which has no other model".into(),
+                "--model: the surface lies in the plane, which has no other model".into(),
             ));
         }
         let beside = input.positions().is_some() && !self.args.picture.is_svg();
-        let usual = if beside { ShowChoice::Both } else { ShowChoice::Dirichlet };
+        let usual = match (beside, has_corners) {
+            (true, _) => ShowChoice::Both,
+            (_, true) => ShowChoice::Domain,
+            _ => ShowChoice::Dirichlet,
+        };
         let shown = self.shown.unwrap_or(Shown::Uniform(usual));
+        if let (true, Shown::Uniform(ShowChoice::Dirichlet | ShowChoice::Polygon)) = (has_corners, shown) {
+            return Err(Failure::Usage("--show: with corners there is the layout alone; use domain".into()));
+        }
         if input.positions().is_none() {
             let nothing = "an intrinsic metric has no positions in space";
             if self.args.to.uv.is_some() {
@@ -164,6 +172,12 @@ impl Wish<'_> {
             }
         }
         Ok(shown)
+    }
+
+    /// Whether the metric of the surface is flat.
+    fn lies_in_plane(&self, input: &Input) -> bool {
+        input.mesh().euler() == 0
+            || !input.mesh().is_closed() && self.args.boundary.choice() == BoundaryChoice::Straight
     }
 
     /// The same for a sphere.
@@ -226,7 +240,9 @@ impl Wish<'_> {
             input_geometry: input.surface.geometry().name(),
             max_iterations: args.to.options().iteration_limit(),
             base,
-            model: (input.mesh().euler() < 0).then(|| self.place(Space::H2).name()),
+            model: (!self.lies_in_plane(input) && input.mesh().euler() < 0)
+                .then(|| self.place(Space::H2).name()),
+            boundary: (!input.mesh().is_closed()).then(|| self.args.boundary.choice()),
             texture: args.texture.or(drawn.then_some(Texture::Checker)),
             show: drawn.then_some(shown),
             args,
@@ -239,6 +255,8 @@ impl Wish<'_> {
 pub struct Asked<'a> {
     input_geometry: &'static str,
     max_iterations: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    boundary: Option<BoundaryChoice>,
     /// The base vertex; of a sphere the one at infinity, if one was asked for.
     base: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -31,9 +31,14 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
     );
     let flipped = || say::count(u.flipped().len(), "triangle flipped", "triangles flipped");
     let layout = u.laid().map_or_else(|_| flipped(), flow_summary::layout);
-    text += &format!("layout   {layout}{}\n", say::modulus(u.deck.modulus()));
+    let modulus = u.extremal_distance.map_or_else(String::new, |m| format!(", modulus {m:.6}"));
+    text += &format!("layout   {layout}{}{modulus}\n", say::modulus(u.deck.modulus()));
     if let Some(Err(why)) = &u.laid {
         text += &format!("FAILED   to carry it back to the given triangulation: {why}\n");
+    }
+    text += &boundary(u);
+    if u.deck.sides.is_empty() {
+        return text;
     }
     let [least, most] = [(f64::min as fn(f64, f64) -> f64, f64::INFINITY), (f64::max, 0.0)]
         .map(|(pick, start)| u.deck.translation_lengths().into_iter().fold(start, pick));
@@ -60,6 +65,29 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
         let n = elements.len();
         text += &format!("cover    {}", say::count(n, "copy", "copies"));
         text += &u.laid().map_or("\n".into(), |laid| format!(", {} triangles\n", n * laid.mesh().n_faces()));
+    }
+    text
+}
+
+/// What the boundary has become.
+fn boundary(u: &Uniformized) -> String {
+    let sides: Vec<f64> = u.boundary.iter().flat_map(|b| &b.sides).map(|side| side.length).collect();
+    if sides.is_empty() {
+        return String::new();
+    }
+    let (kind, [least, most]) = (
+        if u.corners.is_empty() { ["closed geodesic", "closed geodesics"] } else { ["side", "sides"] },
+        [sides.iter().copied().fold(f64::INFINITY, f64::min), sides.iter().copied().fold(0.0, f64::max)],
+    );
+    let mut text = format!(
+        "boundary {}, lengths {} to {}, straight to {:.1e}\n",
+        say::count(sides.len(), kind[0], kind[1]),
+        say::size(least, 4),
+        say::size(most, 4),
+        u.straightness(),
+    );
+    for (word, length) in &u.geodesics {
+        text += &format!("geodesic {word}: length {}\n", say::size(*length, 6));
     }
     text
 }

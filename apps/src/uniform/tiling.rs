@@ -139,6 +139,14 @@ impl Tiling {
         self.lines.push(Line { points: drawn, color, width });
     }
 
+    /// Add a geodesic, unless it is too short to be seen.
+    pub fn line_if_seen(&mut self, ends: [[f64; 3]; 2], width: f64) {
+        let [p, q] = ends.map(|p| self.at.flat(p));
+        if self.scale * (p[0] - q[0]).hypot(p[1] - q[1]) > BORDERED {
+            self.line(&ends, None, width);
+        }
+    }
+
     /// Name the last line beside its middle, away from a point.
     pub fn name_line(&mut self, text: String, from: [f64; 3]) {
         let Some(line) = self.lines.last() else { return };

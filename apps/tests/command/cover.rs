@@ -268,7 +268,7 @@ fn covers_are_the_same_for_any_number_of_threads_and_end_at_their_limit() {
         (2, "cover two.obj --radius inf", "finite distance greater than 0"),
         (2, "cover two.obj --cover c.ply", ".obj or .glb"),
         (2, "cover ball.obj --domain d.json", "own universal cover"),
-        (2, "cover torus.obj --model klein --cover c.obj", "torus"),
+        (2, "cover torus.obj --model klein --cover c.obj", "plane"),
     ] {
         let ended = place.expect(code, line);
         assert!(ended.err.contains(says), "{line}: {}", ended.err);

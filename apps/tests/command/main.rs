@@ -4,7 +4,9 @@
 #![allow(clippy::unwrap_used)]
 
 mod attributes;
+mod boundaries;
 mod charts;
+mod circles;
 mod complex;
 mod cover;
 mod files;

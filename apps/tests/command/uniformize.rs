@@ -279,7 +279,7 @@ fn what_cannot_be_done_is_refused_with_what_to_do() {
     let place = place();
     let before = place.files();
     for (code, line, says) in [
-        (3, "uniformize disk.obj", "ricci flow"),
+        (3, "uniformize disk.obj", "--boundary straight"),
         (2, "uniformize egg.obj --uv u.obj", "--sphere"),
         (2, "uniformize egg.obj --model klein --picture p.png", "hyperbolic plane"),
         (2, "uniformize egg.obj --scheme inversive", "--method gradient"),
@@ -287,7 +287,7 @@ fn what_cannot_be_done_is_refused_with_what_to_do() {
         (2, "uniformize egg.obj --show domain --picture p.png", "use both"),
         (2, "uniformize egg.obj --picture p.svg", ".png"),
         (2, "uniformize two.obj --sphere s.obj", "use --uv"),
-        (2, "uniformize torus.obj --model klein --picture p.png", "torus"),
+        (2, "uniformize torus.obj --model klein --picture p.png", "plane"),
         (2, "uniformize two.obj --model klein", "--picture"),
         (2, "uniformize two.obj --show both --picture p.svg", "--show domain"),
         (2, "uniformize two.obj --model hyperboloid --picture p.png", "poincare"),

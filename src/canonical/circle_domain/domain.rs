@@ -2,9 +2,8 @@
 
 use super::place::hub_pairs;
 use crate::embed::Layout;
-use crate::error::Result;
 use crate::flow::{Seconds, Solution, StopReason};
-use crate::mesh::{Filled, PerEdge, VertexId};
+use crate::mesh::{Filled, VertexId};
 use crate::metric::Split;
 
 /// A boundary loop as a circle.
@@ -86,10 +85,5 @@ impl CircleDomain {
         all.sort_unstable();
         all.dedup();
         all
-    }
-
-    /// Lengths of the edges of the surface of [`CircleDomain::split`].
-    pub fn split_lengths(&self) -> Result<PerEdge<f64>> {
-        Ok(PerEdge::clone(self.split.surface()?.lengths()))
     }
 }

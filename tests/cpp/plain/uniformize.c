@@ -342,7 +342,7 @@ static void one_call_takes_every_closed_surface(void) {
     }
     INIT(options);
     options.scheme = RICCI_SCHEME_INVERSIVE;
-    FAILS(ricci_uniformize(disk, NULL, NULL, &none), RICCI_LAYOUT, "closed");
+    FAILS(ricci_uniformize(disk, NULL, NULL, &none), RICCI_LAYOUT, "disk");
     FAILS(ricci_uniformize(meshes[0], &options, NULL, &none), RICCI_ARGUMENT, "yamabe");
     FAILS(ricci_uniformize(meshes[0], NULL, NULL, NULL), RICCI_NULL_POINTER, "uniform");
     CHECK(none == NULL);

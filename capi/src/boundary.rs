@@ -1,0 +1,35 @@
+//! What the boundary of a surface becomes.
+
+use crate::arrays::array;
+use crate::choice::choices;
+use crate::failure::Outcome;
+use ricci::canonical::{Boundary, Corner, Corners};
+use ricci::mesh::VertexId;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    Geodesic,
+    Straight,
+}
+
+choices!(KINDS: Kind = "boundary", [
+    RICCI_BOUNDARY_GEODESIC => Kind::Geodesic,
+    RICCI_BOUNDARY_STRAIGHT => Kind::Straight,
+]);
+
+/// The boundary of this kind, with `n` corners: vertices and angles, either of which may be NULL.
+pub fn read(kind: u32, (corners, angles): (*const u32, *const f64), n: usize) -> Outcome<Boundary> {
+    if KINDS.choose(kind)? == Kind::Geodesic {
+        return Ok(Boundary::Geodesic);
+    }
+    if corners.is_null() {
+        return Ok(Boundary::Straight(if n == 0 { Corners::Default } else { Corners::Count(n) }));
+    }
+    let angles: Vec<f64> = if angles.is_null() { vec![0.0; n] } else { array("corner_angles", angles, n)? };
+    let corner = |(v, angle): (u32, f64)| Corner {
+        vertex: VertexId(v),
+        angle: Some(angle).filter(|angle| *angle != 0.0),
+    };
+    let vertices: Vec<u32> = array("corners", corners, n)?;
+    Ok(Boundary::Straight(Corners::At(vertices.into_iter().zip(angles).map(corner).collect())))
+}

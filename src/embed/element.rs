@@ -1,0 +1,30 @@
+//! Elements of deck groups.
+
+use crate::geometry::{Motion, Space, Twofold};
+use crate::topology::word::Word;
+
+/// An element of the deck group.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeckElement {
+    /// As a word in the canonical generators.
+    pub word: Word,
+    /// As an isometry.
+    pub motion: Motion<Twofold>,
+}
+
+impl DeckElement {
+    /// The identity.
+    pub fn identity(space: Space) -> DeckElement {
+        DeckElement { word: Word::identity(), motion: Motion::identity(space) }
+    }
+
+    /// The inverse.
+    pub fn inverse(&self) -> DeckElement {
+        DeckElement { word: self.word.inverse(), motion: self.motion.inverse() }
+    }
+
+    /// The conjugate `to ∘ self ∘ to⁻¹` as an isometry, under the same word.
+    pub(super) fn conjugated_by(&self, to: &Motion<Twofold>) -> DeckElement {
+        DeckElement { word: self.word.clone(), motion: self.motion.conjugated_by(to) }
+    }
+}

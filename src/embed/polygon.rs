@@ -1,0 +1,350 @@
+//! Convex polygons that half-planes cut out, about the origin of the plane or of the hyperbolic plane.
+
+use super::border::Border;
+use super::deck::DeckGroup;
+use super::domain::DirichletDomain;
+use super::element::DeckElement;
+use super::line::Line;
+use crate::control::Control;
+use crate::error::Result;
+use crate::geometry::{Motion, Space, Twofold, triangle};
+
+/// Rounds of products of side elements, at most. Each round at least doubles the word length that is reached; two or three rounds are usual.
+const ROUNDS: usize = 12;
+fn product(deck: &DeckGroup, g: &DeckElement, h: &DeckElement, motion: Motion<Twofold>) -> DeckElement {
+    DeckElement { word: deck.group.reduce(&g.word.times(&h.word)), motion }
+}
+
+/// Largest number of products that are added to factors whose bisectors do not bound the polygon. Finding them takes the square of this number
+/// of compositions, below a second.
+const MOST_FACTORS: usize = 600;
+
+/// Of some elements and their products by twos, other than the identity, those that move the origin least: twice as many as were given.
+fn shortest_products(
+    deck: &DeckGroup,
+    all: &[DeckElement],
+    same: f64,
+    control: &Control,
+) -> Result<Vec<DeckElement>> {
+    let identity = DeckElement::identity(deck.space);
+    let mut pairs = Vec::with_capacity(all.len() * (all.len() + 1));
+    for (i, g) in all.iter().enumerate() {
+        control.check()?;
+        for (j, h) in std::iter::once(&identity).chain(all).enumerate() {
+            let motion = g.motion.compose(&h.motion);
+            pairs.push((motion.displacement(), i, j, motion));
+        }
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let most = (2 * all.len()).min(MOST_FACTORS).max(all.len());
+    let mut found: Vec<DeckElement> = Vec::new();
+    for (moved, i, j, motion) in pairs.into_iter().filter(|pair| pair.0 > same) {
+        let back = motion.inverse();
+        let is_known = |g: &&DeckElement| back.compose(&g.motion).displacement() <= same;
+        let near = found.iter().rev().take_while(|g| g.motion.displacement() > moved - same);
+        if near.into_iter().any(|g| is_known(&g)) {
+            continue;
+        }
+        let h = if j == 0 { &identity } else { &all[j - 1] };
+        found.push(product(deck, &all[i], h, motion));
+        if found.len() == most {
+            break;
+        }
+    }
+    Ok(found)
+}
+
+/// Where the search for a polygon gives up.
+pub(super) struct Limits {
+    /// Radius below which no polygon has room for the surface.
+    pub least: f64,
+    /// Products of elements that may still be formed, for all polygons together.
+    pub left: usize,
+}
+
+/// Generators of a group and lines that bound what it acts on, about the origin.
+pub(super) struct Given<'a> {
+    pub deck: &'a DeckGroup,
+    /// Elements that generate the group.
+    pub factors: Vec<DeckElement>,
+    /// A lift of each boundary loop, at least, and the largest distance of their points.
+    pub borders: Vec<Border>,
+    pub reach: f64,
+}
+
+/// What a side of the polygon lies on.
+#[derive(Clone)]
+enum Side {
+    /// The square that the polygon starts from.
+    Start,
+    /// The bisector of the origin and its image under this element.
+    Bisector(DeckElement),
+    /// A given border, moved by this element.
+    Border(usize, DeckElement),
+}
+
+/// A convex polygon about the origin in the plane or in the Klein disk. Corners are vectors `[x, y, w]` of height 1, with twice the digits:
+/// at distance d the Klein disk's border is e^{−2d} away.
+pub(super) struct Polygon {
+    space: Space,
+    corners: Vec<[Twofold; 3]>,
+    sides: Vec<Side>,
+    /// Largest distance of a corner from the origin.
+    pub radius: f64,
+    /// How far a line must cut into the polygon to count; the displacement up to which an element is the identity. Lengths.
+    tolerance: f64,
+    same: f64,
+}
+
+impl Polygon {
+    /// A square about the whole Klein disk; in the plane, one about the disk of radius `reach`.
+    pub fn around(space: Space, reach: f64, [tolerance, same]: [f64; 2]) -> Polygon {
+        let far = if space == Space::H2 { 2.0 } else { 2.0 * reach };
+        let corners = [[far, far], [-far, far], [-far, -far], [far, -far]];
+        let corners = corners.map(|[x, y]| [x, y, 1.0].map(Twofold::from)).to_vec();
+        Polygon { space, corners, sides: vec![Side::Start; 4], radius: f64::INFINITY, tolerance, same }
+    }
+
+    /// Cuts by the bisectors of the given factors and of their inverses, then of products of the elements of its sides, and by the images of the
+    /// given borders under these, until none cuts anything off. Where the factors move the centre so far that their bisectors do not bound the
+    /// polygon, short products are added to them. It ends early at the `limits`, which wrong elements bring about.
+    pub fn close(&mut self, all: &Given<'_>, limits: &mut Limits, control: &Control) -> Result<()> {
+        // These generate the group, so that they stay among the factors.
+        let given: Vec<_> = all.factors.iter().flat_map(|g| [g.clone(), g.inverse()]).collect();
+        let (deck, mut factors) = (all.deck, given.clone());
+        for _ in 0..ROUNDS {
+            factors.iter().for_each(|g| {
+                self.cut_by_both(g);
+            });
+            let mut changed = self.cut_by_borders(all, &factors);
+            let sides: Vec<DeckElement> = self.elements().cloned().collect();
+            for g in sides.iter().chain(&factors) {
+                control.check()?;
+                if self.radius < limits.least || limits.left == 0 {
+                    return Ok(());
+                }
+                limits.left = limits.left.saturating_sub(sides.len());
+                for h in &sides {
+                    let motion = g.motion.compose(&h.motion);
+                    if self.is_cut_by(&motion) || self.is_cut_by(&motion.inverse()) {
+                        changed |= self.cut_by_both(&product(deck, g, h, motion));
+                    }
+                }
+            }
+            match self.is_bounded() {
+                true if !changed => break,
+                true => {}
+                // This round has cut nothing off, and no more products may be added.
+                false if !changed && factors.len() > MOST_FACTORS => break,
+                false => {
+                    limits.left = limits.left.saturating_sub(factors.len() * factors.len());
+                    factors = shortest_products(deck, &factors, self.same, control)?;
+                    factors.extend_from_slice(&given);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Cuts by the bisectors of an element and of its inverse, since each is the other's partner.
+    fn cut_by_both(&mut self, g: &DeckElement) -> bool {
+        let mut cut = |g: &DeckElement| {
+            self.is_cut_by(&g.motion) && self.cut(&Line::bisector(&g.motion), Side::Bisector(g.clone()))
+        };
+        let first = cut(g);
+        cut(&g.inverse()) || first
+    }
+
+    /// Cuts by the given borders and by those that it has, and by the images of them all under the factors and the elements of its sides.
+    fn cut_by_borders(&mut self, all: &Given<'_>, factors: &[DeckElement]) -> bool {
+        let one = DeckElement::identity(self.space);
+        let mut known: Vec<(usize, DeckElement)> = (0..all.borders.len()).map(|k| (k, one.clone())).collect();
+        known.extend(self.sides.iter().filter_map(|side| match side {
+            Side::Border(k, g) => Some((*k, g.clone())),
+            _ => None,
+        }));
+        let mut elements: Vec<DeckElement> =
+            std::iter::once(&one).chain(self.elements()).chain(factors).cloned().collect();
+        // The shortest first: once the polygon is bounded, elements that move the given borders too far to touch it need not be tried, which
+        // would be known to few digits.
+        elements.sort_by(|g, h| g.motion.displacement().total_cmp(&h.motion.displacement()));
+        let mut changed = false;
+        for h in &elements {
+            for (k, g) in &known {
+                // Of an image of an image the elements are multiplied first, which costs fewer digits.
+                let motion = h.motion.compose(&g.motion);
+                if motion.displacement() > self.radius + all.reach {
+                    continue;
+                }
+                let line = all.borders[*k].conjugated_by(&motion).line();
+                if self.is_beyond(&line) && !self.has(&line) {
+                    changed |= self.cut(&line, Side::Border(*k, product(all.deck, h, g, motion)));
+                }
+            }
+        }
+        changed
+    }
+
+    /// Whether one of its sides on the boundary lies on a line, up to rounding.
+    fn has(&self, line: &Line) -> bool {
+        let (n, near) = (self.corners.len(), |p| line.beyond(self.space, p).abs() <= self.same);
+        let is_on = |k: &usize| near(&self.corners[*k]) && near(&self.corners[(k + 1) % n]);
+        (0..n).filter(|&k| matches!(self.sides[k], Side::Border(..))).any(|k| is_on(&k))
+    }
+
+    /// The elements of its sides.
+    fn elements(&self) -> impl Iterator<Item = &DeckElement> {
+        self.sides.iter().filter_map(|side| match side {
+            Side::Bisector(g) => Some(g),
+            _ => None,
+        })
+    }
+
+    /// Whether it lies inside the Klein disk, and nothing of the square is left that it started from.
+    pub fn is_bounded(&self) -> bool {
+        self.radius < f64::INFINITY && !self.sides.iter().any(|side| matches!(side, Side::Start))
+    }
+
+    /// Whether the bisector of `g` cuts a corner off.
+    fn is_cut_by(&self, g: &Motion<Twofold>) -> bool {
+        let moved = g.displacement();
+        if moved <= self.same || moved > 2.0 * self.radius + self.tolerance {
+            return false;
+        }
+        self.is_beyond(&Line::bisector(g))
+    }
+
+    /// Whether a corner lies beyond a line.
+    fn is_beyond(&self, line: &Line) -> bool {
+        self.corners.iter().any(|p| line.beyond(self.space, p) > self.tolerance)
+    }
+
+    /// Cuts off the part beyond a line; false if that is all of it.
+    fn cut(&mut self, line: &Line, side: Side) -> bool {
+        let n = self.corners.len();
+        let beyond: Vec<f64> = self.corners.iter().map(|p| line.beyond(self.space, p)).collect();
+        // The corners that are cut off lie in a row around the farthest one, between two that stay.
+        let farthest = (0..n).fold(0, |far, k| if beyond[k] > beyond[far] { k } else { far });
+        let stays = |k: &usize| beyond[*k] <= 0.0;
+        let Some(last) = (1..n).map(|step| (farthest + n - step) % n).find(stays) else { return false };
+        let Some(first) = (1..n).map(|step| (farthest + step) % n).find(stays) else { return false };
+        let before_first = (first + n - 1) % n;
+        // A corner nearer than the tolerance takes the place of the crossing beside it.
+        let (mut corners, mut sides) = (Vec::with_capacity(n + 1), Vec::with_capacity(n + 1));
+        if beyond[last] < -self.tolerance {
+            corners.push(meeting(line, &self.corners[last], &self.corners[(last + 1) % n]));
+        } else {
+            corners.push(self.corners[last]);
+        }
+        sides.push(side);
+        if beyond[first] < -self.tolerance {
+            corners.push(meeting(line, &self.corners[before_first], &self.corners[first]));
+            sides.push(self.sides[before_first].clone());
+        }
+        let mut k = first;
+        while k != last {
+            corners.push(self.corners[k]);
+            sides.push(self.sides[k].clone());
+            k = (k + 1) % n;
+        }
+        if beyond[last] < -self.tolerance {
+            corners.push(self.corners[last]);
+            sides.push(self.sides[last].clone());
+        }
+        (self.corners, self.sides) = (corners, sides);
+        self.radius = self.corners.iter().map(|p| self.distance(p)).fold(0.0, f64::max);
+        true
+    }
+
+    /// Distance of a corner from the origin; infinite outside the Klein disk.
+    fn distance(&self, [x, y, _]: &[Twofold; 3]) -> f64 {
+        let square = *x * *x + *y * *y;
+        match self.space {
+            Space::H2 => {
+                let rest = f64::from(Twofold::from(1.0) - square);
+                // sinh² d = r²/(1 − r²)
+                if rest > 0.0 { (square.high / rest).sqrt().asinh() } else { f64::INFINITY }
+            }
+            _ => square.high.sqrt(),
+        }
+    }
+
+    /// The side with the inverse element, or that there is none on the boundary; none where it is missing.
+    fn partner(&self, k: usize) -> Option<Option<usize>> {
+        let Side::Bisector(g) = &self.sides[k] else { return Some(None) };
+        let is_inverse = |side: &Side| match side {
+            Side::Bisector(h) => g.motion.compose(&h.motion).displacement() <= self.same,
+            _ => false,
+        };
+        self.sides.iter().position(is_inverse).map(Some)
+    }
+
+    /// The domain of the group and borders that it was cut by, with every side's partner; none if a side has no element or no partner.
+    pub fn finish(
+        self,
+        all: &Given<'_>,
+        centre: [f64; 3],
+        back: &Motion<Twofold>,
+    ) -> Option<DirichletDomain> {
+        if !self.is_bounded() {
+            return None;
+        }
+        let (space, radius) = (self.space, self.radius);
+        let partner = (0..self.sides.len()).map(|k| self.partner(k)).collect::<Option<Vec<_>>>()?;
+        let points: Vec<[Twofold; 3]> = self.corners.iter().map(|&p| on_hyperboloid(space, p)).collect();
+        let n = points.len();
+        let ray = |k: usize| self.distance(&self.corners[k]);
+        let side = |k: usize| {
+            let to_corner = Motion::to_origin(space, points[k]);
+            let [x, y, w] = to_corner.apply(points[(k + 1) % n]).map(f64::from);
+            super::layout::distance_from_origin(space, [x, y, w])
+        };
+        let sector = |k: usize| match space {
+            Space::H2 => triangle::area(space, [side(k), ray((k + 1) % n), ray(k)]),
+            _ => {
+                let (p, q) = (points[k], points[(k + 1) % n]);
+                f64::from((p[0] * q[1] - p[1] * q[0]) * 0.5.into())
+            }
+        };
+        let area = (0..n).map(sector).sum();
+        Some(DirichletDomain {
+            centre,
+            corners: points.iter().map(|&p| back.apply(p).map(f64::from)).collect(),
+            sides: self
+                .sides
+                .iter()
+                .filter_map(|side| Some(all.element(side)?.conjugated_by(back)))
+                .collect(),
+            partner,
+            area,
+            radius,
+        })
+    }
+}
+
+impl Given<'_> {
+    /// The element of a side; of one on the boundary, that which moves it along itself.
+    fn element(&self, side: &Side) -> Option<DeckElement> {
+        match side {
+            Side::Start => None,
+            Side::Bisector(g) => Some(g.clone()),
+            Side::Border(k, g) => Some(self.borders[*k].moved_by(g, &self.deck.group).element),
+        }
+    }
+}
+
+/// Where the side between two corners crosses a line, at height 1.
+fn meeting(line: &Line, p: &[Twofold; 3], q: &[Twofold; 3]) -> [Twofold; 3] {
+    let (a, b) = (line.value(p), line.value(q));
+    let sum = [0, 1, 2].map(|i| b * p[i] - a * q[i]);
+    sum.map(|x| x / sum[2])
+}
+
+/// The point of the hyperboloid (the plane) over a vector of height 1.
+fn on_hyperboloid(space: Space, [x, y, w]: [Twofold; 3]) -> [Twofold; 3] {
+    if space != Space::H2 {
+        return [x, y, w];
+    }
+    let scale = Twofold::from(1.0) / (Twofold::from(1.0) - x * x - y * y).sqrt();
+    [x * scale, y * scale, scale]
+}
