@@ -102,7 +102,8 @@ impl Polygon {
         let far = if space == Space::H2 { 2.0 } else { 2.0 * reach };
         let corners = [[far, far], [-far, far], [-far, -far], [far, -far]];
         let corners = corners.map(|[x, y]| [x, y, 1.0].map(Twofold::from)).to_vec();
-        Polygon { space, corners, sides: vec![Side::Start; 4], radius: f64::INFINITY, tolerance, same }
+        let sides = corners.iter().map(|_| Side::Start).collect();
+        Polygon { space, corners, sides, radius: f64::INFINITY, tolerance, same }
     }
 
     /// Cuts by the bisectors of the given factors and of their inverses, then of products of the elements of its sides, and by the images of the

@@ -40,7 +40,7 @@ impl BoundaryLoop {
     }
 }
 
-/// The boundary loops of a surface, in the order of [`Mesh::boundary_loops`] on the surface as it came, with sides from corner to corner.
+/// The boundary loops of a surface, in the order of [`crate::mesh::Mesh::boundary_loops`] on the surface as it came, with sides from corner to corner.
 ///
 /// `layout`, `basis`: of this metric ([`super::layout_about`]). `corners`: in the order in which loops are to start with them.
 ///

@@ -12,7 +12,7 @@ pub struct Patch {
     pub chart: u32,
     /// t_{k,j}: of corner k the knots j = 0 … n, the first of them the corner itself. Corners are counterclockwise.
     pub knots: [Vec<[f64; 2]>; 3],
-    /// The control point of each basis function, in the order of [`multi_indices`].
+    /// The control point of each basis function, in the order of [`super::multi_indices`].
     pub control: Vec<u32>,
 }
 

@@ -35,7 +35,7 @@ impl<const D: usize> Polynomial<D> {
         self.polar(&[u; MAX_DEGREE][..self.degree])
     }
 
-    /// The polar form: symmetric, affine in each of its n arguments, and the polynomial itself where all are equal [Sei91].
+    /// The polar form: symmetric, affine in each of its n arguments, and the polynomial itself where all are equal \[Sei91\].
     ///
     /// # Panics
     /// If there are not n arguments.

@@ -185,7 +185,7 @@ impl SplineSpace {
         Ok([0, 1].map(|x| (0..3).map(|k| weights[k] / sum * corners[k][x]).sum()))
     }
 
-    /// The control points of a polynomial: its polar form at t_{0,0}, …, t_{0,β_0−1}, t_{1,0}, … [DMS92]. Exact where all patches lie in
+    /// The control points of a polynomial: its polar form at t_{0,0}, …, t_{0,β_0−1}, t_{1,0}, … \[DMS92\]. Exact where all patches lie in
     /// one chart.
     ///
     /// # Errors

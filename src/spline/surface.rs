@@ -115,7 +115,7 @@ impl Spline {
     }
 
     /// The polar form of the polynomial that the surface is on Ω of a patch, at n points of its chart: the blossom, by the recurrence
-    /// of B-patches [Sei91].
+    /// of B-patches \[Sei91\].
     ///
     /// # Errors
     /// [`Error::Size`] for another count of points; [`Error::Spline`] for a patch that does not exist.

@@ -9,7 +9,10 @@ pub const HELP: &str = "\
 Example: a smooth cubic surface through the heights of a mesh, some of its points with derivatives, and a fine mesh of it
     ricci make disk --height 0.3 -o hill.obj
     ricci spline fit hill.obj --planar --degree 3 -o hill.json --report fit.json
-    printf 'patch,x,y\\n0,0,0\\n' > q.csv; ricci spline eval hill.json --tessellate 4 -o fine.obj
+    ricci spline eval hill.json --at places.csv --derivatives -o points.csv
+    ricci spline eval hill.json --tessellate 4 -o fine.obj
+
+places.csv has rows patch,x,y: a triangle of the spline, numbered from 0, and a place in it, in the coordinates of its chart.
 
 The spline file says all that is needed to evaluate it (`ricci-spline 1`): knots and control points of each triangle, and which others
 reach into it.";

@@ -21,7 +21,7 @@ pub enum Normalisation {
     Three([VertexId; 3], [f64; 3]),
 }
 
-/// Options of [`circle_domain`].
+/// Options of [`super::circle_domain()`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct CircleDomainOptions {
     /// Of a surface of genus 0, the loop that becomes the unit circle, by its place in [`crate::mesh::Mesh::boundary_loops`]. Default: the longest.
