@@ -7,7 +7,7 @@
 //! ```
 //! use ricci::canonical::{CircleDomainOptions, circle_domain};
 //! use ricci::{Control, Surface, mesh::shapes};
-//! let annulus = Surface::from_soup(&shapes::annulus(0.5, 1.0, 48, 5)?)?;
+//! let annulus = Surface::from_soup(&shapes::annulus(0.5, 1.0, 6, 60)?)?;
 //! let domain = circle_domain(&annulus, &CircleDomainOptions::default(), &Control::new())?;
 //! assert!(domain.report.converged && domain.circles.len() == 2);
 //! assert!((domain.modulus.unwrap() - 2f64.ln() / std::f64::consts::TAU).abs() < 1e-3);
