@@ -4,8 +4,7 @@
 //! corner has one triangle alone there is no such edge.
 
 use super::knots::{Domain, is_straight};
-use super::simplex::double_area;
-use crate::geometry::complex::{distance, sub};
+use crate::geometry::complex::{distance, doubled_area, sub};
 use std::collections::HashMap;
 
 /// Least height of a triangle that a flip makes, over its longest side.
@@ -57,7 +56,7 @@ impl Domain {
         let is_good = |triangle: [u32; 3]| {
             let [a, b, c] = triangle.map(|v| self.vertices[v as usize]);
             let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
-            double_area(a, b, c) > LEAST_HEIGHT * longest * longest
+            doubled_area([a, b, c]) > LEAST_HEIGHT * longest * longest
         };
         is_good([corner, from, to]) && is_good([from, middle, to])
     }

@@ -2,11 +2,11 @@
 
 use super::patch::Parameter;
 use super::recurrence::{Jet, Scratch};
-use super::simplex::double_area;
 use super::space::SplineSpace;
 use super::surface::Spline;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result, check_size};
+use crate::geometry::complex::doubled_area;
 use crate::geometry::vector::{Vector, distance};
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use crate::parallel::{self, Pool};
@@ -133,7 +133,7 @@ impl Equations<'_> {
         let (mut places, mut shares) = (Vec::new(), Vec::new());
         for (at, patch) in self.space.patches().iter().enumerate() {
             let corners = [0, 1, 2].map(|k| patch.knots[k][0]);
-            let share = 0.5 * double_area(corners[0], corners[1], corners[2]) / (k * k) as f64;
+            let share = 0.5 * doubled_area([corners[0], corners[1], corners[2]]) / (k * k) as f64;
             // Centres of the k² triangles into which the patch is divided.
             for (i, j) in (0..k).flat_map(|i| (0..2 * (k - i) - 1).map(move |j| (i, j))) {
                 let third = (1 + j % 2) as f64 / 3.0;

@@ -1,11 +1,11 @@
 //! How well a spline space keeps the identities of triangular B-splines, measured.
 
 use super::patch::Parameter;
-use super::simplex::double_area;
 use super::space::SplineSpace;
 use super::surface::Spline;
 use crate::control::Control;
 use crate::error::Result;
+use crate::geometry::complex::doubled_area;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -133,7 +133,8 @@ impl Sides {
                     continue;
                 };
                 let knots = patch.knots[i].iter().chain(&patch.knots[j]);
-                let on_line = |&&p: &&[f64; 2]| double_area(p, a, b).abs() < ON_LINE * double_area(a, b, c);
+                let on_line =
+                    |&&p: &&[f64; 2]| doubled_area([p, a, b]).abs() < ON_LINE * doubled_area([a, b, c]);
                 if knots.filter(on_line).count() > 2 {
                     sides.rough += 1;
                 } else {

@@ -1,9 +1,8 @@
 //! The knots of a triangulated domain in the plane.
 
 use super::index::MAX_DEGREE;
-use super::simplex::double_area;
 use crate::error::{Error, Result};
-use crate::geometry::complex::{cross, distance, dot, sub};
+use crate::geometry::complex::{cross, distance, dot, doubled_area, sub};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
@@ -74,7 +73,7 @@ impl Domain {
                 );
             }
             let [a, b, c] = corners.map(|v| self.vertices[v as usize]);
-            if double_area(a, b, c) <= 0.0 {
+            if doubled_area([a, b, c]) <= 0.0 {
                 return refuse(t, "its corners are not counterclockwise (turn it, or remove it)".into());
             }
             for k in 0..3 {
@@ -123,7 +122,7 @@ impl Domain {
         let mut around = vec![Around { radius: f64::INFINITY, edges: Vec::new(), lines: Vec::new() }; n];
         for &[a, b, c] in &self.triangles {
             let [p, q, r] = [a, b, c].map(|v| self.vertices[v as usize]);
-            let inscribed = double_area(p, q, r) / (distance(p, q) + distance(q, r) + distance(r, p));
+            let inscribed = doubled_area([p, q, r]) / (distance(p, q) + distance(q, r) + distance(r, p));
             for (v, to) in [(a, b), (b, c), (c, a)] {
                 let around = &mut around[v as usize];
                 around.radius = around.radius.min(inscribed);
@@ -208,7 +207,7 @@ pub(super) fn check_knots(patch: usize, knots: &[Vec<[f64; 2]>; 3]) -> Result<()
         for (b, &q) in knots[1].iter().enumerate() {
             for (c, &r) in knots[2].iter().enumerate() {
                 let longest = distance(p, q).max(distance(q, r)).max(distance(r, p));
-                if double_area(p, q, r) < LEAST_HEIGHT * longest * longest {
+                if doubled_area([p, q, r]) < LEAST_HEIGHT * longest * longest {
                     return refuse(format!(
                         "its knots t[0][{a}], t[1][{b}], t[2][{c}] are clockwise or on a line; move knots nearer to their vertices"
                     ));
@@ -255,7 +254,7 @@ fn clipped(polygon: &[[f64; 2]], a: [f64; 2], b: [f64; 2]) -> Vec<[f64; 2]> {
             left.push([p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])]);
         }
     }
-    let area: f64 = (1..left.len().max(2) - 1).map(|i| double_area(left[0], left[i], left[i + 1])).sum();
+    let area: f64 = (1..left.len().max(2) - 1).map(|i| doubled_area([left[0], left[i], left[i + 1]])).sum();
     if area > zero { left } else { Vec::new() }
 }
 

@@ -2,7 +2,7 @@
 
 use super::knots::Domain;
 use super::patch::{OUTSIDE, Parameter};
-use super::simplex::double_area;
+use crate::geometry::complex::doubled_area;
 
 /// The triangles of a domain in the cells of a grid.
 #[derive(Debug, Clone)]
@@ -71,8 +71,8 @@ impl<'a> Locator<'a> {
         let here = &self.triangles[self.begins[cell] as usize..self.begins[cell + 1] as usize];
         let depth = |t: u32| {
             let [a, b, c] = self.domain.triangles[t as usize].map(|v| self.domain.vertices[v as usize]);
-            let whole = double_area(a, b, c);
-            let weights = [(b, c), (c, a), (a, b)].map(|(p, q)| double_area([x, y], p, q) / whole);
+            let whole = doubled_area([a, b, c]);
+            let weights = [(b, c), (c, a), (a, b)].map(|(p, q)| doubled_area([[x, y], p, q]) / whole);
             weights.into_iter().fold(f64::INFINITY, f64::min)
         };
         let best = here.iter().map(|&t| (depth(t), t)).max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));

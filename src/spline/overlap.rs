@@ -1,7 +1,7 @@
 //! Which patches of one chart reach into each other.
 
 use super::patch::{IDENTITY, Patch, Support};
-use super::simplex::double_area;
+use crate::geometry::complex::doubled_area;
 
 /// Per patch all those whose knots have a convex hull that touches its triangle, itself included, ascending.
 pub(super) fn supports_in_plane(patches: &[Patch]) -> Vec<Vec<Support>> {
@@ -45,11 +45,12 @@ fn touches(reaching: &Patch, of: &Patch) -> bool {
     let knots = reaching.knots.concat();
     let corners = [0, 1, 2].map(|k| of.knots[k][0]);
     let is_beyond =
-        |a: [f64; 2], b: [f64; 2], points: &[[f64; 2]]| points.iter().all(|&p| double_area(p, a, b) < 0.0);
+        |a: [f64; 2], b: [f64; 2], points: &[[f64; 2]]| points.iter().all(|&p| doubled_area([p, a, b]) < 0.0);
     let by_triangle = (0..3).any(|k| is_beyond(corners[k], corners[(k + 1) % 3], &knots));
     let by_hull = || {
         let pairs = knots.iter().flat_map(|&a| knots.iter().map(move |&b| [a, b]));
-        let is_side = |[a, b]: &[[f64; 2]; 2]| a != b && knots.iter().all(|&p| double_area(p, *a, *b) >= 0.0);
+        let is_side =
+            |[a, b]: &[[f64; 2]; 2]| a != b && knots.iter().all(|&p| doubled_area([p, *a, *b]) >= 0.0);
         pairs.filter(is_side).any(|[a, b]| is_beyond(a, b, &corners))
     };
     !by_triangle && !by_hull()

@@ -9,8 +9,7 @@
 
 use super::index::basis_size;
 use super::recurrence::{Jet, Recurrence, Scratch, Sets};
-use super::simplex::double_area;
-use crate::geometry::complex::{cross, sub};
+use crate::geometry::complex::{cross, doubled_area, sub};
 
 /// The recurrences of the basis functions of one patch, in the patch's own coordinates.
 #[derive(Debug, Clone)]
@@ -33,7 +32,7 @@ impl Plan {
         let degree = knots[0].len() - 1;
         let sets = Sets::new(knots);
         let all = &sets.knots;
-        let is_outer = |[a, b]: &[usize; 2]| all.iter().all(|&p| double_area(p, all[*a], all[*b]) >= 0.0);
+        let is_outer = |[a, b]: &[usize; 2]| all.iter().all(|&p| doubled_area([p, all[*a], all[*b]]) >= 0.0);
         let bound = |pick: fn(f64, f64) -> f64| {
             all.iter().copied().reduce(|a, b| [pick(a[0], b[0]), pick(a[1], b[1])]).unwrap_or_default()
         };

@@ -1,8 +1,8 @@
 //! Micchelli's recurrence over the sets of knots of one patch [Mic80].
 
 use super::index::multi_indices;
-use super::simplex::{double_area, is_left};
-use crate::geometry::complex::{cross, sub};
+use super::simplex::is_left;
+use crate::geometry::complex::{cross, doubled_area, sub};
 use std::collections::HashMap;
 
 /// The slot of a simplex spline that vanishes, because its knots lie on a line or because the point is inside Ω.
@@ -42,7 +42,7 @@ impl Sets {
     /// |d| of β: twice the area of the triangle of the last knots.
     pub fn weight(&self, beta: [usize; 3]) -> f64 {
         let [a, b, c] = [0, 1, 2].map(|k| self.knots[k * self.per_vertex + beta[k]]);
-        double_area(a, b, c).abs()
+        doubled_area([a, b, c]).abs()
     }
 
     /// The cross products of pairs of knots seen from u; returns whether u lies in Ω, and then leaves out pairs of one vertex.
@@ -269,7 +269,7 @@ impl Making<'_> {
         for (i, &a) in among.iter().enumerate() {
             for (j, &b) in among.iter().enumerate().skip(i + 1) {
                 for &c in &among[j + 1..] {
-                    let twice_area = double_area(knots[a], knots[b], knots[c]);
+                    let twice_area = doubled_area([knots[a], knots[b], knots[c]]);
                     if twice_area.abs() > best.1.abs() {
                         best = ([a, b, c], twice_area);
                     }

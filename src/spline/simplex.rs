@@ -2,7 +2,7 @@
 //!
 //! This is the definition in a few lines, against which the shared recurrence of [`super::plan`] is tested and measured.
 
-use crate::geometry::complex::cross;
+use crate::geometry::complex::doubled_area;
 
 /// The simplex spline M(u | V) of degree `V.len() − 3`, normalised to `∫ M = n!/(n+2)!`.
 ///
@@ -20,7 +20,7 @@ pub fn simplex_spline(knots: &[[f64; 2]], u: [f64; 2]) -> f64 {
         return if contains(corners, u) { 1.0 / twice_area.abs() } else { 0.0 };
     }
     let part = |k: usize| {
-        let lambda = double_area(u, corners[(k + 1) % 3], corners[(k + 2) % 3]) / twice_area;
+        let lambda = doubled_area([u, corners[(k + 1) % 3], corners[(k + 2) % 3]]) / twice_area;
         lambda * simplex_spline(&without(knots, triple[k]), u)
     };
     part(0) + part(1) + part(2)
@@ -52,7 +52,7 @@ fn widest(knots: &[[f64; 2]]) -> Option<([usize; 3], f64)> {
     for i in 0..knots.len() {
         for j in i + 1..knots.len() {
             for k in j + 1..knots.len() {
-                let area = double_area(knots[i], knots[j], knots[k]);
+                let area = doubled_area([knots[i], knots[j], knots[k]]);
                 if area.abs() > best.1.abs() {
                     best = ([i, j, k], area);
                 }
@@ -62,16 +62,11 @@ fn widest(knots: &[[f64; 2]]) -> Option<([usize; 3], f64)> {
     (best.1 != 0.0).then_some(best)
 }
 
-/// Twice the signed area of a triangle, from differences to its first corner.
-pub(super) fn double_area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    cross([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]])
-}
-
 /// Whether a triangle of either orientation contains u, its sides belonging to the triangle on the side of (1, ε).
 fn contains(corners: [[f64; 2]; 3], u: [f64; 2]) -> bool {
     let left = |k: usize| {
         let (a, b) = (corners[k], corners[(k + 1) % 3]);
-        is_left(double_area(u, a, b), a, b)
+        is_left(doubled_area([u, a, b]), a, b)
     };
     left(0) == left(1) && left(1) == left(2)
 }

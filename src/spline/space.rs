@@ -25,8 +25,8 @@ use super::patch::{IDENTITY, OUTSIDE, Parameter, Patch, Support};
 use super::plan::Plan;
 use super::polar::Polynomial;
 use super::recurrence::{Jet, Scratch};
-use super::simplex::double_area;
 use crate::error::{Error, Result, check_size};
+use crate::geometry::complex::doubled_area;
 use crate::geometry::worse;
 use crate::parallel;
 use std::collections::HashMap;
@@ -167,8 +167,8 @@ impl SplineSpace {
             ));
         };
         let corners = [0, 1, 2].map(|k| knots[k][0]);
-        let whole = double_area(corners[0], corners[1], corners[2]);
-        let weight = |k: usize| double_area([x, y], corners[(k + 1) % 3], corners[(k + 2) % 3]) / whole;
+        let whole = doubled_area([corners[0], corners[1], corners[2]]);
+        let weight = |k: usize| doubled_area([[x, y], corners[(k + 1) % 3], corners[(k + 2) % 3]]) / whole;
         let weights = [weight(0), weight(1), weight(2)];
         let least = -weights.iter().map(|w| -w).fold(f64::NEG_INFINITY, worse);
         if least >= INSIDE {

@@ -4,10 +4,10 @@ use super::index::{multi_indices, position};
 use super::knots::omega;
 use super::patch::Parameter;
 use super::recurrence::Scratch;
-use super::simplex::double_area;
 use super::space::SplineSpace;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result, check_size};
+use crate::geometry::complex::doubled_area;
 use crate::geometry::vector::{self, Vector};
 use crate::parallel::{self, Pool};
 use std::sync::Arc;
@@ -131,10 +131,10 @@ impl Spline {
             points = multi_indices(below)
                 .map(|beta| {
                     let corners = [0, 1, 2].map(|k| of.knots[k][beta[k]]);
-                    let whole = double_area(corners[0], corners[1], corners[2]);
+                    let whole = doubled_area([corners[0], corners[1], corners[2]]);
                     let mut sum = [0.0; 3];
                     for k in 0..3 {
-                        let weight = double_area(u, corners[(k + 1) % 3], corners[(k + 2) % 3]) / whole;
+                        let weight = doubled_area([u, corners[(k + 1) % 3], corners[(k + 2) % 3]]) / whole;
                         let mut raised = beta;
                         raised[k] += 1;
                         let part = points[position(raised)];

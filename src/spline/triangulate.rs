@@ -2,7 +2,7 @@
 
 use super::knots::{Domain, is_straight};
 use crate::error::{Error, Result};
-use crate::geometry::complex::{distance, sub};
+use crate::geometry::complex::{cross, distance, sub};
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
 use std::collections::HashSet;
 
@@ -39,7 +39,7 @@ pub fn triangulate(polygons: &[Vec<[f64; 2]>], edge: f64) -> Result<Domain> {
             return Err(wrong(at, "it has fewer than three corners".into()));
         }
         let around = |i: usize| corners[(i + 1) % corners.len()];
-        area += 0.5 * (0..corners.len()).map(|i| cross_product(corners[i], around(i))).sum::<f64>();
+        area += 0.5 * (0..corners.len()).map(|i| cross(corners[i], around(i))).sum::<f64>();
         let mut vertices = Vec::with_capacity(corners.len());
         for &[x, y] in &corners {
             let inserted = cdt.insert(Point2::new(x, y));
@@ -88,10 +88,6 @@ pub fn triangulate(polygons: &[Vec<[f64; 2]>], edge: f64) -> Result<Domain> {
     let mut domain = Domain { vertices, triangles };
     domain.cut_ears();
     Ok(domain)
-}
-
-fn cross_product([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
-    a * d - b * c
 }
 
 /// The vertices at which a polygon turns.
