@@ -24,7 +24,7 @@ mod polygon;
 pub mod quality;
 pub mod shape;
 pub mod sides;
-mod triangle;
+pub(crate) mod triangle;
 pub mod unroll;
 mod walk;
 

@@ -142,18 +142,18 @@ impl Domain {
 
 /// What the knots of a vertex have to keep clear of, and to keep to.
 #[derive(Debug, Clone)]
-struct Around {
+pub(crate) struct Around {
     /// Of the smallest circle inscribed in a triangle at the vertex; infinite without triangles.
-    radius: f64,
+    pub radius: f64,
     /// Directions of its edges.
-    edges: Vec<[f64; 2]>,
+    pub edges: Vec<[f64; 2]>,
     /// Directions of the lines on which its knots have to lie.
-    lines: Vec<[f64; 2]>,
+    pub lines: Vec<[f64; 2]>,
 }
 
 impl Around {
     /// The knots of a vertex at `center`, the farthest of them `spread` times the radius away.
-    fn knots(&self, center: [f64; 2], degree: usize, spread: f64) -> Vec<[f64; 2]> {
+    pub fn knots(&self, center: [f64; 2], degree: usize, spread: f64) -> Vec<[f64; 2]> {
         let reach = if self.radius.is_finite() { spread * self.radius } else { 0.0 };
         let first = self.first_turn(degree);
         let direction = |j: usize| match self.lines.split_first() {

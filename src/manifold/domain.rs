@@ -1,0 +1,245 @@
+//! Domains of splines on surfaces: a coarse flat triangulation with a chart for each of its triangles.
+
+use super::coarse::{Coarse, Place};
+use crate::embed::triangle::Triangle;
+use crate::error::Result;
+use crate::geometry::Space;
+use crate::geometry::complex::{Complex, add, conj, distance, mul, norm2, scale, sub, unit};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex, VertexId};
+use crate::spline::knots::Around;
+use crate::spline::overlap::overlaps;
+use crate::spline::{Parameter, Patch, SplineSpace, Support, multi_indices};
+use std::collections::HashMap;
+
+/// Largest curvature, in radians, of a vertex that counts as flat.
+const FLAT: f64 = 1e-6;
+/// Share of a triangle by which the knots of another must reach into it for its basis functions to count: rounding.
+const REACH: f64 = 1e-12;
+/// Two developments of a triangle are the same where a corner of unit triangles is less far apart.
+const SAME: f64 = 1e-6;
+
+/// A triangulated flat surface with coordinates in each triangle: corner 0 is at 0, corner 1 on the positive axis, and the longest side has
+/// the length 1.
+#[derive(Debug, Clone)]
+pub struct SurfaceDomain {
+    coarse: Coarse,
+    corners: PerFace<[Complex; 3]>,
+    /// Per face the length that is 1 in its chart.
+    unit: PerFace<f64>,
+    /// Per half-edge of a face its angle with the first one of its vertex, counterclockwise.
+    angle: PerHalfedge<f64>,
+    /// Per vertex whether the surface is flat around it; on the boundary, whether that is straight there.
+    is_flat: PerVertex<bool>,
+}
+
+impl SurfaceDomain {
+    /// The charts of a triangulation.
+    ///
+    /// # Errors
+    /// Those of [`crate::metric::curvature`].
+    pub fn new(coarse: Coarse) -> Result<SurfaceDomain> {
+        let Coarse { mesh, lengths, .. } = &coarse;
+        let curvature = crate::metric::curvature(mesh, Space::E2, lengths)?.at;
+        let is_flat = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| curvature[v].abs() <= FLAT);
+        let unit = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
+            mesh.opposite_edges(f).into_iter().map(|e| lengths[e]).fold(0.0, f64::max)
+        });
+        let triangle = |f: FaceId| {
+            let sides = mesh.opposite_edges(f).map(|e| lengths[e] / unit[f]);
+            (sides, Triangle::from_sides(sides))
+        };
+        let corners = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
+            let ([_, ca, ab], triangle) = triangle(f);
+            [[0.0; 2], [ab, 0.0], scale(ca, triangle.direction[0])]
+        });
+        let mut angle = PerHalfedge::filled(mesh.n_halfedges(), 0.0);
+        for v in mesh.vertices() {
+            let mut sum = 0.0;
+            for h in mesh.fan(v) {
+                angle[h] = sum;
+                if let Some((f, k)) = mesh.corner(h) {
+                    let [c, s] = triangle(f).1.direction[k];
+                    sum += s.atan2(c);
+                }
+            }
+        }
+        Ok(SurfaceDomain { corners, unit, angle, is_flat, coarse })
+    }
+
+    /// The triangulation.
+    pub fn coarse(&self) -> &Coarse {
+        &self.coarse
+    }
+
+    /// Corners of a triangle in its chart.
+    pub fn corners(&self, f: FaceId) -> [Complex; 3] {
+        self.corners[f]
+    }
+
+    /// The vertices inside the surface around which it is not flat.
+    pub fn singular(&self) -> Vec<VertexId> {
+        let mesh = &self.coarse.mesh;
+        mesh.vertices().filter(|&v| self.is_cone(v)).collect()
+    }
+
+    fn is_cone(&self, v: VertexId) -> bool {
+        !self.is_flat[v] && !self.coarse.mesh.is_boundary_vertex(v)
+    }
+
+    /// A place as coordinates in the chart of its triangle.
+    pub fn parameter(&self, place: Place) -> Parameter {
+        let corners = self.corners[place.face];
+        let [x, y] = (0..3).fold([0.0; 2], |sum, k| add(sum, scale(place.weights[k], corners[k])));
+        Parameter { patch: place.face.0, x, y }
+    }
+
+    /// The triangular B-splines of a degree on this domain: their knots are in general position around flat vertices, along straight boundaries, and
+    /// coincide at singular vertices and corners of the boundary. `spread` as in [`crate::spline::KnotOptions`].
+    ///
+    /// # Errors
+    /// Those of [`SplineSpace::new`].
+    pub fn space(&self, degree: usize, spread: f64) -> Result<SplineSpace> {
+        let mesh = &self.coarse.mesh;
+        let around = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
+            self.around(v).knots([0.0; 2], degree, if self.is_flat[v] { spread } else { 0.0 })
+        });
+        let mut numbers = HashMap::new();
+        let patches: Vec<Patch> = mesh
+            .faces()
+            .map(|f| {
+                let knots = std::array::from_fn(|k| self.in_chart(f, k, &around[mesh.face_vertices(f)[k]]));
+                let control = multi_indices(degree).map(|beta| {
+                    let next = numbers.len() as u32;
+                    *numbers.entry(owner(mesh, f, beta)).or_insert(next)
+                });
+                Patch { chart: f.0, control: control.collect(), knots }
+            })
+            .collect();
+        let supports = mesh.faces().map(|f| self.supports(f, &patches)).collect();
+        SplineSpace::new(degree, patches, supports)
+    }
+
+    /// The surroundings of a vertex, in its own plane: the unit is that of the metric, the first half-edge points along the axis.
+    fn around(&self, v: VertexId) -> Around {
+        let Coarse { mesh, lengths, .. } = &self.coarse;
+        let inscribed = |h: &HalfedgeId| {
+            let f = mesh.face(*h)?;
+            let sides = mesh.opposite_edges(f).map(|e| lengths[e]);
+            Some(2.0 * Triangle::from_sides(sides).area / (sides[0] + sides[1] + sides[2]))
+        };
+        let spokes: Vec<HalfedgeId> = mesh.fan(v);
+        let radius = spokes.iter().filter_map(inscribed).fold(f64::INFINITY, f64::min);
+        let direction = |angle: f64| [angle.cos(), angle.sin()];
+        let edges = spokes.iter().map(|&h| direction(self.angle[h])).collect();
+        let lines = if mesh.is_boundary_vertex(v) { vec![[1.0, 0.0]] } else { Vec::new() };
+        Around { radius, edges, lines }
+    }
+
+    /// Vectors at corner k of a triangle in its chart, from those in the plane of the vertex.
+    fn in_chart(&self, f: FaceId, k: usize, vectors: &[Complex]) -> Vec<Complex> {
+        let h = self.coarse.mesh.face_halfedges(f)[k];
+        let corners = self.corners[f];
+        let turn =
+            mul(unit(sub(corners[(k + 1) % 3], corners[k])), [self.angle[h].cos(), -self.angle[h].sin()]);
+        vectors.iter().map(|&p| add(corners[k], mul(turn, scale(1.0 / self.unit[f], p)))).collect()
+    }
+
+    /// The patches that reach into triangle f, with the maps of their charts to its own.
+    fn supports(&self, f: FaceId, patches: &[Patch]) -> Vec<Support> {
+        let mesh = &self.coarse.mesh;
+        let mut found = vec![Way { face: f, to: Similarity::IDENTITY, around: None }];
+        let mut next = 0;
+        while let Some(&way) = found.get(next) {
+            next += 1;
+            for h in mesh.face_halfedges(way.face) {
+                let Some((g, across)) = self.across(h) else { continue };
+                let cones = [mesh.origin(h), mesh.tip(h)].into_iter().filter(|&v| self.is_cone(v));
+                let cones: Vec<VertexId> = cones.collect();
+                // Around a cone no function reaches beyond the next triangle.
+                if way.around.is_some_and(|v| cones.contains(&v)) {
+                    continue;
+                }
+                let to = way.to.after(&across);
+                let knots: Vec<Complex> =
+                    patches[g.index()].knots.iter().flatten().map(|&p| to.of(p)).collect();
+                let at = |to: &Similarity| self.corners[g].map(|p| to.of(p));
+                let is_same = |other: &Way| {
+                    let pairs = at(&other.to).into_iter().zip(at(&to));
+                    other.face == g && pairs.into_iter().all(|(p, q)| distance(p, q) < SAME)
+                };
+                if overlaps(&knots, self.corners[f], -REACH) && !found.iter().any(is_same) {
+                    found.push(Way { face: g, to, around: cones.last().copied().or(way.around) });
+                }
+            }
+        }
+        found.retain(|way| {
+            let knots: Vec<Complex> =
+                patches[way.face.index()].knots.iter().flatten().map(|&p| way.to.of(p)).collect();
+            overlaps(&knots, self.corners[f], REACH)
+        });
+        found.sort_by_key(|way| way.face);
+        found.into_iter().map(|way| Support { patch: way.face.0, to: way.to.rows() }).collect()
+    }
+
+    /// The face on the other side of a half-edge, and the map of its chart to the chart on this side; none on the boundary.
+    fn across(&self, h: HalfedgeId) -> Option<(FaceId, Similarity)> {
+        let corner = |h: HalfedgeId| self.coarse.mesh.corner(h);
+        let ends = |(f, k): (FaceId, usize)| (self.corners[f][k], self.corners[f][(k + 1) % 3]);
+        let ((a, b), there) = (ends(corner(h)?), corner(h.twin())?);
+        let (c, d) = ends(there);
+        // c goes to b and d to a.
+        let turn = scale(1.0 / norm2(sub(d, c)), mul(sub(a, b), conj(sub(d, c))));
+        Some((there.0, Similarity { turn, shift: sub(b, mul(turn, c)) }))
+    }
+}
+
+/// An orientation-preserving similarity of the plane: z ↦ turn z + shift.
+#[derive(Debug, Clone, Copy)]
+struct Similarity {
+    turn: Complex,
+    shift: Complex,
+}
+
+impl Similarity {
+    const IDENTITY: Similarity = Similarity { turn: [1.0, 0.0], shift: [0.0, 0.0] };
+
+    fn of(&self, p: Complex) -> Complex {
+        add(mul(self.turn, p), self.shift)
+    }
+
+    /// First `other`, then this.
+    fn after(&self, other: &Similarity) -> Similarity {
+        Similarity { turn: mul(self.turn, other.turn), shift: self.of(other.shift) }
+    }
+
+    fn rows(&self) -> [[f64; 3]; 2] {
+        let ([a, b], [x, y]) = (self.turn, self.shift);
+        [[a, -b, x], [b, a, y]]
+    }
+}
+
+/// A triangle as it is seen from another one.
+#[derive(Debug, Clone, Copy)]
+struct Way {
+    face: FaceId,
+    to: Similarity,
+    /// The last cone from which an edge on the way starts.
+    around: Option<VertexId>,
+}
+
+/// What owns a basis function: the vertex, edge or triangle whose knots its polar arguments are. Functions with the same owner and counts are one.
+fn owner(mesh: &Mesh, f: FaceId, beta: [usize; 3]) -> (u8, u32, [usize; 3]) {
+    let zero: Vec<usize> = (0..3).filter(|&k| beta[k] == 0).collect();
+    match zero[..] {
+        [] => (2, f.0, beta),
+        [k] => {
+            let h = mesh.face_halfedges(f)[(k + 1) % 3];
+            let (from, to) = (beta[(k + 1) % 3], beta[(k + 2) % 3]);
+            (1, h.edge().0, if h == h.edge().halfedge() { [from, to, 0] } else { [to, from, 0] })
+        }
+        _ => {
+            let k = (0..3).find(|&k| beta[k] > 0).unwrap_or(0);
+            (0, mesh.face_vertices(f)[k].0, [beta[k], 0, 0])
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! Splines over whole surfaces.
+
+mod coarse;
+mod space;
