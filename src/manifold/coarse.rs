@@ -12,7 +12,7 @@ use crate::geometry::complex::{Complex, add, cross, distance, doubled_area, mul,
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, Thinning, VertexId};
 
 /// Largest curvature of a vertex that is removed, in radians: what a converged flow leaves, and its rounding.
-const FLAT: f64 = 1e-7;
+pub(super) const FLAT: f64 = 1e-7;
 /// A diagonal is taken where both of its triangles have at least this share of the quadrilateral's area.
 const LEAST_SHARE: f64 = 1e-9;
 /// Share of the sum of terms by which an edge must fail the Delaunay condition to be flipped: rounding.

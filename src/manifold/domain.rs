@@ -4,7 +4,9 @@ use super::coarse::{Coarse, Place};
 use crate::embed::triangle::Triangle;
 use crate::error::Result;
 use crate::geometry::Space;
-use crate::geometry::complex::{Complex, add, conj, distance, mul, norm2, scale, sub, unit};
+use crate::geometry::complex::{
+    Complex, add, conj, distance, dot, doubled_area, mul, norm2, scale, sub, unit,
+};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex, VertexId};
 use crate::spline::knots::Around;
 use crate::spline::overlap::overlaps;
@@ -15,6 +17,8 @@ use std::collections::HashMap;
 const FLAT: f64 = 1e-6;
 /// Share of a triangle by which the knots of another must reach into it for its basis functions to count: rounding.
 const REACH: f64 = 1e-12;
+/// Triangles that a walk crosses at most: steps are shorter than a triangle.
+const MOST_TRIANGLES: usize = 16;
 /// Two developments of a triangle are the same where a corner of unit triangles is less far apart.
 const SAME: f64 = 1e-6;
 
@@ -91,6 +95,30 @@ impl SurfaceDomain {
         let corners = self.corners[place.face];
         let [x, y] = (0..3).fold([0.0; 2], |sum, k| add(sum, scale(place.weights[k], corners[k])));
         Parameter { patch: place.face.0, x, y }
+    }
+
+    /// The place at the end of a straight line from another one, in its chart; on the boundary and after [`MOST_TRIANGLES`] the nearest one in the last triangle.
+    pub fn walk(&self, from: Parameter, by: Complex) -> Parameter {
+        let mesh = &self.coarse.mesh;
+        let (mut f, mut at) = (FaceId(from.patch), add([from.x, from.y], by));
+        for step in 0.. {
+            let corners = self.corners[f];
+            let side = |k: usize| [corners[k], corners[(k + 1) % 3]];
+            let height =
+                |k: usize| doubled_area([at, side(k)[0], side(k)[1]]) / distance(side(k)[0], side(k)[1]);
+            let lowest = (0..3).min_by(|&j, &k| height(j).total_cmp(&height(k))).unwrap_or(0);
+            if height(lowest) >= 0.0 {
+                break;
+            }
+            match self.across(mesh.face_halfedges(f)[lowest]) {
+                Some((g, across)) if step < MOST_TRIANGLES => (f, at) = (g, across.inverse().of(at)),
+                _ => {
+                    at = nearest(at, corners);
+                    break;
+                }
+            }
+        }
+        Parameter { patch: f.0, x: at[0], y: at[1] }
     }
 
     /// The triangular B-splines of a degree on this domain: their knots are in general position around flat vertices, along straight boundaries, and
@@ -212,10 +240,25 @@ impl Similarity {
         Similarity { turn: mul(self.turn, other.turn), shift: self.of(other.shift) }
     }
 
+    fn inverse(&self) -> Similarity {
+        let turn = scale(1.0 / norm2(self.turn), conj(self.turn));
+        Similarity { turn, shift: mul(turn, sub([0.0; 2], self.shift)) }
+    }
+
     fn rows(&self) -> [[f64; 3]; 2] {
         let ([a, b], [x, y]) = (self.turn, self.shift);
         [[a, -b, x], [b, a, y]]
     }
+}
+
+/// The point of a triangle that is nearest to one outside it.
+fn nearest(p: Complex, corners: [Complex; 3]) -> Complex {
+    let on_side = |k: usize| {
+        let (a, along) = (corners[k], sub(corners[(k + 1) % 3], corners[k]));
+        add(a, scale((dot(sub(p, a), along) / norm2(along)).clamp(0.0, 1.0), along))
+    };
+    let sides = [on_side(0), on_side(1), on_side(2)];
+    sides.into_iter().min_by(|a, b| distance(*a, p).total_cmp(&distance(*b, p))).unwrap_or(p)
 }
 
 /// A triangle as it is seen from another one.

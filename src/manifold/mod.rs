@@ -2,6 +2,10 @@
 
 mod coarse;
 mod domain;
+mod fit;
+mod sample;
 
 pub use coarse::{Coarse, Place};
 pub use domain::SurfaceDomain;
+pub use fit::{SurfaceFit, SurfaceFitOptions, fit_surface};
+pub use sample::spread_vertices;
