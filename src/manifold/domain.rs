@@ -5,7 +5,7 @@ use crate::embed::triangle::Triangle;
 use crate::error::Result;
 use crate::geometry::Space;
 use crate::geometry::complex::{
-    Complex, add, conj, distance, dot, doubled_area, mul, norm2, scale, sub, unit,
+    Complex, add, conj, cross, distance, dot, doubled_area, mul, norm, norm2, scale, sub, unit,
 };
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex, VertexId};
 use crate::spline::knots::Around;
@@ -86,6 +86,58 @@ impl SurfaceDomain {
         mesh.vertices().filter(|&v| self.is_cone(v)).collect()
     }
 
+    /// The sum of the angles at a vertex.
+    pub fn total_angle(&self, v: VertexId) -> f64 {
+        let spokes = self.coarse.mesh.fan(v);
+        spokes.last().map_or(0.0, |&h| self.angle[h] + self.angle_at(h))
+    }
+
+    /// The angle of the triangle on the left of a half-edge, at its origin.
+    fn angle_at(&self, h: HalfedgeId) -> f64 {
+        let Some((f, k)) = self.coarse.mesh.corner(h) else { return 0.0 };
+        let [a, b, c] = [0, 1, 2].map(|j| self.corners[f][(k + j) % 3]);
+        cross(sub(b, a), sub(c, a)).atan2(dot(sub(b, a), sub(c, a)))
+    }
+
+    /// The distance of a vertex from the sides opposite it, in the unit of the metric: triangles around it cover a disk of this radius.
+    pub fn clearance(&self, v: VertexId) -> f64 {
+        let distance_to_side = |h: HalfedgeId| {
+            let (f, k) = self.coarse.mesh.corner(h)?;
+            let [a, b, c] = [0, 1, 2].map(|j| self.corners[f][(k + j) % 3]);
+            Some(self.unit[f] * distance(a, nearest_on_side(a, b, c)))
+        };
+        self.coarse.mesh.fan(v).into_iter().filter_map(distance_to_side).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The place at a distance from a vertex, in the unit of the metric, in a direction: an angle from its first half-edge, counterclockwise. None
+    /// beyond the triangles around it.
+    pub fn around(&self, v: VertexId, radius: f64, angle: f64) -> Option<Parameter> {
+        let spokes = self.coarse.mesh.fan(v);
+        let h = *spokes.iter().rev().find(|&&h| self.angle[h] <= angle)?;
+        let (f, k) = self.coarse.mesh.corner(h)?;
+        let corners = self.corners[f];
+        let (far, turn) = (radius / self.unit[f], angle - self.angle[h]);
+        let along = mul(unit(sub(corners[(k + 1) % 3], corners[k])), [turn.cos(), turn.sin()]);
+        let [x, y] = add(corners[k], scale(far, along));
+        let is_inside = (0..3).all(|j| doubled_area([[x, y], corners[j], corners[(j + 1) % 3]]) >= -REACH);
+        is_inside.then_some(Parameter { patch: f.0, x, y })
+    }
+
+    /// A place in a triangle at a vertex: its difference from the vertex in the chart, and its polar coordinates around the vertex as in
+    /// [`SurfaceDomain::around`].
+    pub(super) fn polar(&self, v: VertexId, at: Parameter) -> Option<(Complex, [f64; 2])> {
+        let (mesh, f) = (&self.coarse.mesh, FaceId(at.patch));
+        let corners = self.corners[f];
+        // A triangle may have the vertex at several corners: the nearest one counts.
+        let at_vertex = (0..3).filter(|&k| mesh.face_vertices(f)[k] == v);
+        let far = |k: usize| distance([at.x, at.y], corners[k]);
+        let k = at_vertex.min_by(|&j, &k| far(j).total_cmp(&far(k)))?;
+        let z = sub([at.x, at.y], corners[k]);
+        let side = sub(corners[(k + 1) % 3], corners[k]);
+        let angle = self.angle[mesh.face_halfedges(f)[k]] + cross(side, z).atan2(dot(side, z));
+        Some((z, [self.unit[f] * norm(z), angle]))
+    }
+
     fn is_cone(&self, v: VertexId) -> bool {
         !self.is_flat[v] && !self.coarse.mesh.is_boundary_vertex(v)
     }
@@ -129,7 +181,7 @@ impl SurfaceDomain {
     pub fn space(&self, degree: usize, spread: f64) -> Result<SplineSpace> {
         let mesh = &self.coarse.mesh;
         let around = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
-            self.around(v).knots([0.0; 2], degree, if self.is_flat[v] { spread } else { 0.0 })
+            self.surroundings(v).knots([0.0; 2], degree, if self.is_flat[v] { spread } else { 0.0 })
         });
         let mut numbers = HashMap::new();
         let patches: Vec<Patch> = mesh
@@ -148,7 +200,7 @@ impl SurfaceDomain {
     }
 
     /// The surroundings of a vertex, in its own plane: the unit is that of the metric, the first half-edge points along the axis.
-    fn around(&self, v: VertexId) -> Around {
+    fn surroundings(&self, v: VertexId) -> Around {
         let Coarse { mesh, lengths, .. } = &self.coarse;
         let inscribed = |h: &HalfedgeId| {
             let f = mesh.face(*h)?;
@@ -253,12 +305,15 @@ impl Similarity {
 
 /// The point of a triangle that is nearest to one outside it.
 fn nearest(p: Complex, corners: [Complex; 3]) -> Complex {
-    let on_side = |k: usize| {
-        let (a, along) = (corners[k], sub(corners[(k + 1) % 3], corners[k]));
-        add(a, scale((dot(sub(p, a), along) / norm2(along)).clamp(0.0, 1.0), along))
-    };
+    let on_side = |k: usize| nearest_on_side(p, corners[k], corners[(k + 1) % 3]);
     let sides = [on_side(0), on_side(1), on_side(2)];
     sides.into_iter().min_by(|a, b| distance(*a, p).total_cmp(&distance(*b, p))).unwrap_or(p)
+}
+
+/// The point between a and b that is nearest to p.
+fn nearest_on_side(p: Complex, a: Complex, b: Complex) -> Complex {
+    let along = sub(b, a);
+    add(a, scale((dot(sub(p, a), along) / norm2(along)).clamp(0.0, 1.0), along))
 }
 
 /// A triangle as it is seen from another one.

@@ -1,4 +1,5 @@
 //! Splines over whole surfaces.
 
 mod coarse;
+mod hole;
 mod space;

@@ -1,0 +1,43 @@
+//! Functions of two variables at a point: value and derivatives up to the second.
+
+use crate::geometry::complex::Complex;
+
+/// Value, ∂x, ∂y, ∂xx, ∂xy, ∂yy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Jet(pub [f64; 6]);
+
+impl Jet {
+    /// A constant.
+    pub fn constant(x: f64) -> Jet {
+        Jet([x, 0.0, 0.0, 0.0, 0.0, 0.0])
+    }
+
+    /// Real and imaginary part of a holomorphic function of x + iy with this value and first and second derivative.
+    pub fn of_holomorphic([value, first, second]: [Complex; 3]) -> [Jet; 2] {
+        let ([a, b], [c, d]) = (first, second);
+        [Jet([value[0], a, -b, c, -d, -c]), Jet([value[1], b, a, d, c, -d])]
+    }
+
+    pub fn plus(self, other: Jet) -> Jet {
+        Jet(std::array::from_fn(|k| self.0[k] + other.0[k]))
+    }
+
+    pub fn times(self, other: Jet) -> Jet {
+        let ([a, ax, ay, axx, axy, ayy], [b, bx, by, bxx, bxy, byy]) = (self.0, other.0);
+        Jet([
+            a * b,
+            ax * b + a * bx,
+            ay * b + a * by,
+            axx * b + 2.0 * ax * bx + a * bxx,
+            axy * b + ax * by + ay * bx + a * bxy,
+            ayy * b + 2.0 * ay * by + a * byy,
+        ])
+    }
+
+    /// f of this function, for f with this value and first and second derivative there.
+    pub fn through(self, [value, first, second]: [f64; 3]) -> Jet {
+        let [_, x, y, xx, xy, yy] = self.0;
+        let of = |a: f64, b: f64, ab: f64| second * a * b + first * ab;
+        Jet([value, first * x, first * y, of(x, x, xx), of(x, y, xy), of(y, y, yy)])
+    }
+}
