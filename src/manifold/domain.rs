@@ -2,21 +2,26 @@
 
 use super::coarse::{Coarse, Place};
 use crate::embed::triangle::Triangle;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::complex::{
-    Complex, add, conj, cross, distance, dot, doubled_area, mul, norm, norm2, scale, sub, unit,
+    Complex, add, conj, cross, distance, dot, doubled_area, mul, norm2, scale, sub, unit,
 };
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex, VertexId};
 use crate::spline::knots::Around;
 use crate::spline::overlap::overlaps;
-use crate::spline::{Parameter, Patch, SplineSpace, Support, multi_indices};
+use crate::spline::{Hole, Parameter, Patch, Sector, SplineSpace, Support, multi_indices};
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 
 /// Largest curvature, in radians, of a vertex that counts as flat.
 const FLAT: f64 = 1e-6;
 /// Share of a triangle by which the knots of another must reach into it for its basis functions to count: rounding.
 const REACH: f64 = 1e-12;
+/// Radius of a hole over the distance of its vertex from the sides opposite it.
+const HOLE: f64 = 0.9;
+/// How far the total angle of a hole's vertex may be from a multiple of 2π, in turns.
+const WHOLE: f64 = 1e-6;
 /// Triangles that a walk crosses at most: steps are shorter than a triangle.
 const MOST_TRIANGLES: usize = 16;
 /// Two developments of a triangle are the same where a corner of unit triangles is less far apart.
@@ -109,33 +114,23 @@ impl SurfaceDomain {
         self.coarse.mesh.fan(v).into_iter().filter_map(distance_to_side).fold(f64::INFINITY, f64::min)
     }
 
-    /// The place at a distance from a vertex, in the unit of the metric, in a direction: an angle from its first half-edge, counterclockwise. None
-    /// beyond the triangles around it.
-    pub fn around(&self, v: VertexId, radius: f64, angle: f64) -> Option<Parameter> {
-        let spokes = self.coarse.mesh.fan(v);
-        let h = *spokes.iter().rev().find(|&&h| self.angle[h] <= angle)?;
-        let (f, k) = self.coarse.mesh.corner(h)?;
-        let corners = self.corners[f];
-        let (far, turn) = (radius / self.unit[f], angle - self.angle[h]);
-        let along = mul(unit(sub(corners[(k + 1) % 3], corners[k])), [turn.cos(), turn.sin()]);
-        let [x, y] = add(corners[k], scale(far, along));
-        let is_inside = (0..3).all(|j| doubled_area([[x, y], corners[j], corners[(j + 1) % 3]]) >= -REACH);
-        is_inside.then_some(Parameter { patch: f.0, x, y })
-    }
-
-    /// A place in a triangle at a vertex: its difference from the vertex in the chart, and its polar coordinates around the vertex as in
-    /// [`SurfaceDomain::around`].
-    pub(super) fn polar(&self, v: VertexId, at: Parameter) -> Option<(Complex, [f64; 2])> {
-        let (mesh, f) = (&self.coarse.mesh, FaceId(at.patch));
-        let corners = self.corners[f];
-        // A triangle may have the vertex at several corners: the nearest one counts.
-        let at_vertex = (0..3).filter(|&k| mesh.face_vertices(f)[k] == v);
-        let far = |k: usize| distance([at.x, at.y], corners[k]);
-        let k = at_vertex.min_by(|&j, &k| far(j).total_cmp(&far(k)))?;
-        let z = sub([at.x, at.y], corners[k]);
-        let side = sub(corners[(k + 1) % 3], corners[k]);
-        let angle = self.angle[mesh.face_halfedges(f)[k]] + cross(side, z).atan2(dot(side, z));
-        Some((z, [self.unit[f] * norm(z), angle]))
+    /// The hole around a singular vertex whose total angle is a multiple of 2π, with nothing in it yet.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for another vertex.
+    pub fn hole(&self, v: VertexId) -> Result<Hole> {
+        let turns = self.total_angle(v) / TAU;
+        let is_whole = (turns - turns.round()).abs() < WHOLE && turns > 0.5;
+        if self.coarse.mesh.is_boundary_vertex(v) || !is_whole {
+            let need = "a multiple of one turn, at a vertex inside the surface";
+            return Err(Error::argument("total angle in turns", turns, need));
+        }
+        let sector = |h: HalfedgeId| {
+            let (f, corner) = self.coarse.mesh.corner(h)?;
+            Some(Sector { patch: f.0, corner, angle: self.angle[h], unit: self.unit[f] })
+        };
+        let sectors = self.coarse.mesh.fan(v).into_iter().filter_map(sector).collect();
+        Hole::new(sectors, turns.round() as u32, HOLE * self.clearance(v))
     }
 
     fn is_cone(&self, v: VertexId) -> bool {

@@ -117,10 +117,13 @@ pub fn fit_surface(
             }
             found.fitted = Some(fit(&space, &found.places, points, &fit_options, control)?);
         }
+        found.fill_holes(points, options.threads, control)?;
         found.measure(points, options.threads, control)?;
         adapt(mesh, &found, options.degree, &mut sizes);
-        let Some(Fitted { spline, rms, max }) = found.fitted else { continue };
-        let (rms, max) = (rms / diagonal, max / diagonal);
+        let Some(Fitted { spline, .. }) = found.fitted else { continue };
+        let squares: f64 = found.misses.iter().map(|miss| miss * miss).sum();
+        let rms = (squares / points.len().max(1) as f64).sqrt() / diagonal;
+        let max = found.misses.iter().copied().fold(0.0, f64::max) / diagonal;
         if best.as_ref().is_none_or(|best| max < best.max) {
             let rounds = round + 1;
             best = Some(SurfaceFit { spline, domain: found.domain, places: found.places, rms, max, rounds });
@@ -163,6 +166,24 @@ impl Round {
                 *place = self.domain.walk(*place, step.map(|x| shorter * x));
             }
         }
+        Ok(())
+    }
+
+    /// Fill the surroundings of the singular vertices, from the spline around them and the vertices in them.
+    fn fill_holes(&mut self, points: &[Vector], threads: usize, control: &Control) -> Result<()> {
+        let Some(fitted) = &mut self.fitted else { return Ok(()) };
+        let space = fitted.spline.space().clone();
+        let mut holes = Vec::new();
+        for v in self.domain.singular() {
+            let mut hole = self.domain.hole(v)?;
+            let rings = hole.rings(&space);
+            let found = fitted.spline.evaluate(&rings, 0, threads, control)?;
+            let places = [&rings[..], &self.places].concat();
+            let points = found.iter().map(|at| at.point).chain(points.iter().copied());
+            hole.fill(&space, &places, &points.collect::<Vec<_>>())?;
+            holes.push(hole);
+        }
+        fitted.spline = fitted.spline.clone().with_holes(holes);
         Ok(())
     }
 

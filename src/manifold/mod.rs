@@ -3,12 +3,9 @@
 mod coarse;
 mod domain;
 mod fit;
-mod hole;
-mod jet;
 mod sample;
 
 pub use coarse::{Coarse, Place};
 pub use domain::SurfaceDomain;
 pub use fit::{SurfaceFit, SurfaceFitOptions, fit_surface};
-pub use hole::Hole;
 pub use sample::spread_vertices;

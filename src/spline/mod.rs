@@ -5,8 +5,10 @@ mod ears;
 #[cfg(feature = "json")]
 mod file;
 mod fit;
+mod hole;
 mod identities;
 mod index;
+mod jet;
 pub(crate) mod knots;
 mod locate;
 pub(crate) mod overlap;
@@ -21,6 +23,7 @@ mod tessellate;
 mod triangulate;
 
 pub use fit::{FitOptions, Fitted, fit};
+pub use hole::{Hole, Sector};
 pub use identities::Identities;
 pub use index::{MAX_DEGREE, basis_size, multi_indices};
 pub use knots::{Domain, KnotOptions, SPREAD};

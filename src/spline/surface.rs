@@ -1,5 +1,6 @@
 //! Spline surfaces: points, derivatives, curvatures.
 
+use super::hole::Hole;
 use super::index::{multi_indices, position};
 use super::knots::omega;
 use super::patch::Parameter;
@@ -20,6 +21,7 @@ const BATCH: usize = 1 << 16;
 pub struct Spline {
     space: Arc<SplineSpace>,
     control_points: Vec<Vector>,
+    holes: Vec<Hole>,
 }
 
 /// A point of a surface with its derivatives by the coordinates (x, y) of the chart.
@@ -44,7 +46,17 @@ impl Spline {
             let message = "a coordinate is no finite number".into();
             return Err(Error::Spline { what: "control point", index: at, message });
         }
-        Ok(Spline { space, control_points })
+        Ok(Spline { space, control_points, holes: Vec::new() })
+    }
+
+    /// The same surface with the surroundings of singular vertices replaced by what fills them.
+    pub fn with_holes(self, holes: Vec<Hole>) -> Spline {
+        Spline { holes, ..self }
+    }
+
+    /// The holes around singular vertices, with what fills them.
+    pub fn holes(&self) -> &[Hole] {
+        &self.holes
     }
 
     /// The basis.
@@ -111,7 +123,9 @@ impl Spline {
             }
         })?;
         let [point, x, y, xx, xy, yy] = sums;
-        Ok(SurfacePoint { point, first: [x, y], second: [xx, xy, yy] })
+        let found = SurfacePoint { point, first: [x, y], second: [xx, xy, yy] };
+        let filled = self.holes.iter().find_map(|hole| hole.surface(&self.space, at, &found));
+        Ok(filled.map_or(found, |filled| filled.cut(order)))
     }
 
     /// The polar form of the polynomial that the surface is on Ω of a patch, at n points of its chart: the blossom, by the recurrence
@@ -160,6 +174,13 @@ impl Default for SurfacePoint {
 }
 
 impl SurfacePoint {
+    /// Derivatives beyond this order set to 0.
+    fn cut(self, order: usize) -> SurfacePoint {
+        let zero = SurfacePoint::default();
+        let first = if order < 1 { zero.first } else { self.first };
+        SurfacePoint { first, second: if order < 2 { zero.second } else { self.second }, ..self }
+    }
+
     /// The unit normal, to the side from which the chart is seen counterclockwise; none where the first derivatives are parallel.
     pub fn normal(&self) -> Option<Vector> {
         let across = vector::cross(self.first[0], self.first[1]);

@@ -1,0 +1,195 @@
+//! The surface around a singular vertex.
+//!
+//! Around a vertex with a total angle of 2πm a spline over the flat metric is continuous and no more. There the surface is a polynomial of the
+//! coordinate w = z^{1/m}, in which the vertex is a point as any other, and goes over into the spline by a weight that is 1 for
+//! |w| ≤ ρ/2, 0 for |w| ≥ ρ, and has two continuous derivatives:
+//!
+//! ```text
+//!     F̃ = F + φ(|w|/ρ) (G(w) − F),        φ = 1 for t ≤ ½,  1 − (10 s³ − 15 s⁴ + 6 s⁵), s = 2t − 1, for ½ ≤ t ≤ 1.
+//! ```
+//!
+//! So F̃ has as many continuous derivatives as F, up to two, on all of the hole.
+
+use super::jet::Jet;
+use super::patch::Parameter;
+use super::space::SplineSpace;
+use super::surface::SurfacePoint;
+use crate::error::{Error, Result};
+use crate::geometry::complex::{
+    Complex, add, conj, cross, distance, dot, mul, norm, norm2, scale, sub, unit,
+};
+use crate::geometry::vector::Vector;
+use crate::linalg::dense::solve_definite;
+use std::f64::consts::TAU;
+
+/// Degree of the polynomial.
+const DEGREE: usize = 6;
+/// Number of its coefficients.
+const COEFFICIENTS: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
+/// Circles around the vertex, and places on each, at which the polynomial is fitted to the spline: where the weight goes from 1 to 0.
+const RINGS: [usize; 2] = [6, 48];
+/// Weight of the size of the polynomial's coefficients beside the squares of its distances: decides where there are few points.
+const SMALL: f64 = 1e-10;
+
+/// A patch at a singular vertex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sector {
+    /// The patch.
+    pub patch: u32,
+    /// Which of its corners is the vertex: 0, 1 or 2.
+    pub corner: usize,
+    /// The angle around the vertex at which the patch begins, with its side from that corner to the next.
+    pub angle: f64,
+    /// The length that is 1 in the patch's chart.
+    pub unit: f64,
+}
+
+/// The hole around a singular vertex, and what fills it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hole {
+    /// The patches around the vertex, counterclockwise.
+    pub sectors: Vec<Sector>,
+    /// m: the total angle in turns.
+    pub turns: u32,
+    /// Radius of the hole in the unit of the flat metric; the patches around the vertex contain it.
+    pub radius: f64,
+    /// Coefficients of p^i q^j for i + j = 0, 1, …, 6, each with falling i, where p + iq = w/ρ.
+    pub coefficients: Vec<Vector>,
+}
+
+impl Hole {
+    /// A hole that nothing fills yet.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for no sectors, no turns, or a radius that is not positive.
+    pub fn new(sectors: Vec<Sector>, turns: u32, radius: f64) -> Result<Hole> {
+        if sectors.is_empty() || turns == 0 {
+            return Err(Error::argument(
+                "turns of a hole",
+                turns,
+                "1 or more, with patches around the vertex",
+            ));
+        }
+        if !(radius > 0.0 && radius.is_finite()) {
+            return Err(Error::argument("radius of a hole", radius, "positive"));
+        }
+        Ok(Hole { sectors, turns, radius, coefficients: vec![[0.0; 3]; COEFFICIENTS] })
+    }
+
+    /// Fill the hole: the polynomial that is nearest, in the sense of least squares, to points at places, of which those outside the hole do not count.
+    ///
+    /// # Errors
+    /// [`Error::Factorisation`] without points.
+    pub fn fill(&mut self, space: &SplineSpace, places: &[Parameter], points: &[Vector]) -> Result<()> {
+        let n = COEFFICIENTS;
+        let (mut matrix, mut right) = (vec![vec![0.0; n]; n], vec![vec![0.0; 3]; n]);
+        for (place, point) in places.iter().zip(points) {
+            let Some([w, ..]) = self.coordinate(space, *place).filter(|w| norm(w[0]) <= 1.0) else {
+                continue;
+            };
+            let row: Vec<f64> =
+                powers([Jet::constant(w[0]), Jet::constant(w[1])]).map(|jet| jet.0[0]).collect();
+            for (i, a) in row.iter().enumerate() {
+                row.iter().enumerate().for_each(|(j, b)| matrix[i][j] += a * b);
+                (0..3).for_each(|x| right[i][x] += a * point[x]);
+            }
+        }
+        let trace: f64 = (0..n).map(|i| matrix[i][i]).sum();
+        (0..n).for_each(|i| matrix[i][i] += SMALL * trace);
+        self.coefficients = solve_definite(&matrix, &right)?.iter().map(|c| [c[0], c[1], c[2]]).collect();
+        Ok(())
+    }
+
+    /// Places on circles around the vertex, where the weight goes from 1 to 0.
+    pub fn rings(&self, space: &SplineSpace) -> Vec<Parameter> {
+        let [circles, each] = RINGS;
+        let each = each * self.turns as usize;
+        let ring = |k: usize| 0.5 + 0.5 * (k as f64 + 0.5) / circles as f64;
+        let angle = |j: usize| TAU * f64::from(self.turns) * (j as f64 + 0.5) / each as f64;
+        let place =
+            |k: usize, j: usize| self.place(space, self.radius * ring(k).powi(self.turns as i32), angle(j));
+        (0..circles).flat_map(|k| (0..each).filter_map(move |j| place(k, j))).collect()
+    }
+
+    /// The place at a distance from the vertex, in the unit of the metric, in a direction: an angle from the first sector, counterclockwise.
+    pub fn place(&self, space: &SplineSpace, far: f64, angle: f64) -> Option<Parameter> {
+        let sector = self.sectors.iter().rev().find(|sector| sector.angle <= angle)?;
+        let [corner, next] = sector.side(space)?;
+        let turn = angle - sector.angle;
+        let along = mul(unit(sub(next, corner)), [turn.cos(), turn.sin()]);
+        let [x, y] = add(corner, scale(far / sector.unit, along));
+        Some(Parameter { patch: sector.patch, x, y })
+    }
+
+    /// w/ρ of a place in the chart of its patch, with first and second derivative there; none in patches that do not have the vertex.
+    fn coordinate(&self, space: &SplineSpace, at: Parameter) -> Option<[Complex; 3]> {
+        // A patch may have the vertex at several corners: the nearest one counts.
+        let here = self.sectors.iter().filter(|sector| sector.patch == at.patch);
+        let sides = here.filter_map(|sector| Some((sector, sector.side(space)?)));
+        let far = |side: &[Complex; 2]| distance(side[0], [at.x, at.y]);
+        let (sector, [corner, next]) = sides.min_by(|(_, a), (_, b)| far(a).total_cmp(&far(b)))?;
+        let (z, side) = (sub([at.x, at.y], corner), sub(next, corner));
+        let angle = sector.angle + cross(side, z).atan2(dot(side, z));
+        let share = 1.0 / f64::from(self.turns);
+        let size = (sector.unit * norm(z) / self.radius).powf(share);
+        let w = [size * (share * angle).cos(), size * (share * angle).sin()];
+        if z == [0.0; 2] {
+            return Some([w, [0.0; 2], [0.0; 2]]);
+        }
+        // w = c z^(1/m): w' = w/(m z), w'' = (1/m − 1) w'/z.
+        let over_z = |a: Complex| scale(1.0 / norm2(z), mul(a, conj(z)));
+        let first = scale(share, over_z(w));
+        Some([w, first, scale(share - 1.0, over_z(first))])
+    }
+
+    /// The surface at a place where the spline has this point; none outside the hole. At the vertex itself the derivatives are 0: there the chart is none of the surface.
+    pub fn surface(&self, space: &SplineSpace, at: Parameter, spline: &SurfacePoint) -> Option<SurfacePoint> {
+        let w = self.coordinate(space, at).filter(|w| norm(w[0]) < 1.0)?;
+        let w = Jet::of_holomorphic(w);
+        let square = w[0].times(w[0]).plus(w[1].times(w[1]));
+        let weight = square.through(fade(square.0[0]));
+        let rest = Jet::constant(1.0).plus(weight.times(Jet::constant(-1.0)));
+        let powers: Vec<Jet> = powers(w).collect();
+        let mut found = SurfacePoint::default();
+        for x in 0..3 {
+            let [a, b] = spline.first.map(|d| d[x]);
+            let [aa, ab, bb] = spline.second.map(|d| d[x]);
+            let outside = Jet([spline.point[x], a, b, aa, ab, bb]);
+            let terms = powers.iter().zip(&self.coefficients).map(|(p, c)| p.times(Jet::constant(c[x])));
+            let inside = terms.fold(Jet::constant(0.0), Jet::plus);
+            let Jet(all) = weight.times(inside).plus(rest.times(outside));
+            found.point[x] = all[0];
+            (0..2).for_each(|k| found.first[k][x] = all[1 + k]);
+            (0..3).for_each(|k| found.second[k][x] = all[3 + k]);
+        }
+        Some(found)
+    }
+}
+
+impl Sector {
+    /// The vertex and the next corner of the patch, in its chart.
+    fn side(&self, space: &SplineSpace) -> Option<[Complex; 2]> {
+        let knots = &space.patches().get(self.patch as usize)?.knots;
+        Some([knots[self.corner % 3][0], knots[(self.corner + 1) % 3][0]])
+    }
+}
+
+/// p^i q^j for i + j = 0, 1, …, each with falling i.
+fn powers([p, q]: [Jet; 2]) -> impl Iterator<Item = Jet> {
+    let power = |x: Jet, n: usize| (0..n).fold(Jet::constant(1.0), |y, _| y.times(x));
+    (0..=DEGREE).flat_map(move |n| (0..=n).map(move |j| power(p, n - j).times(power(q, j))))
+}
+
+/// φ(√x) with its first and second derivative by x.
+fn fade(x: f64) -> [f64; 3] {
+    let t = x.sqrt();
+    if t <= 0.5 {
+        return [1.0, 0.0, 0.0];
+    }
+    let s = (2.0 * t - 1.0).min(1.0);
+    let value = 1.0 - s * s * s * (10.0 + s * (6.0 * s - 15.0));
+    // By t: ds/dt = 2; by x: dt/dx = 1/(2t).
+    let first = -2.0 * 30.0 * s * s * (1.0 - s) * (1.0 - s);
+    let second = -4.0 * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
+    [value, first / (2.0 * t), (second - first / t) / (4.0 * t * t)]
+}
