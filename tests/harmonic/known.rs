@@ -102,6 +102,18 @@ fn hyperelliptic_surfaces_converge_to_the_period_matrix_of_their_curve() {
     assert!(errors.windows(2).all(|pair| pair[1] < 0.7 * pair[0]) && errors[2] < 0.2, "{errors:?}");
 }
 
+/// Drawn in towards the branch points triangles resolve the forms there: rate 2. Points without symmetry.
+#[test]
+fn grading_towards_the_branch_points_gives_the_second_rate() {
+    let points = [[-1.6, 0.1], [-0.7, -0.3], [-0.1, 0.6], [0.5, -0.5], [1.1, 0.4], [1.5, -0.2]]
+        .map(|[re, im]| Complex64::new(re, im));
+    let found = [8, 16, 32]
+        .map(|n| periods(&intrinsic(&shapes::hyperelliptic_graded(&points, n, 3.0).unwrap(), Space::S2)));
+    falls(&found.each_ref().map(|p| spectral_distance(p, &points)), "energies");
+    let asymmetries = found.each_ref().map(|p| p.asymmetry);
+    assert!(asymmetries.windows(2).all(|pair| 2.5 * pair[1] <= pair[0]), "{asymmetries:?}");
+}
+
 #[test]
 fn moduli_of_the_flow_and_of_the_form_approach_each_other() {
     let errors = [12, 24, 48].map(|n| {

@@ -3,6 +3,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod factor;
 mod forms;
 mod known;
 mod maps;
