@@ -46,9 +46,9 @@ fn check_request(args: &FormsArgs) -> Result<(), Failure> {
     let picture = args.picture.picture.as_deref();
     check_extension("--uv", args.uv.as_deref(), &["obj", "glb"])?;
     check_extension("--picture", picture, &["png", "svg"])?;
-    if args.picture.is_svg() && (args.show.is_some() || args.picture.is_turned()) {
-        let why =
-            "--show, --view, --up: an SVG shows the integral of the form alone; use .png, or leave them out";
+    let in_space = args.show.is_some() || args.zoom.is_some() || args.picture.is_turned();
+    if args.picture.is_svg() && in_space {
+        let why = "--show, --zoom, --view, --up: an SVG shows the integral of the form alone; use .png, or leave them out";
         return Err(Failure::Usage(why.into()));
     }
     let files = [args.forms.as_deref(), args.uv.as_deref(), picture, args.common.report.as_deref()];
@@ -59,8 +59,11 @@ fn check_request(args: &FormsArgs) -> Result<(), Failure> {
 fn check_surface(args: &FormsArgs, input: &Input) -> Result<(), Failure> {
     let (mesh, in_space) = (input.mesh(), input.positions().is_some());
     let n = mesh.n_vertices();
-    if let Some(v) = args.base.filter(|&v| v as usize >= n) {
-        return Err(Failure::Usage(format!("--base {v}: there is no such vertex, they are 0 to {}", n - 1)));
+    for (option, v) in [("--base", args.base), ("--zoom", args.zoom.map(|zoom| zoom.vertex))] {
+        if let Some(v) = v.filter(|&v| v as usize >= n) {
+            let why = format!("{option} {v}: there is no such vertex, they are 0 to {}", n - 1);
+            return Err(Failure::Usage(why));
+        }
     }
     let drawn = [
         (args.uv.is_some(), "--uv"),
