@@ -10,7 +10,7 @@ use crate::picture::{
 };
 use crate::quantity;
 use ricci::mesh::io::Soup;
-use ricci::mesh::{FaceId, HalfedgeId, Mesh, Point, PerVertex, VertexId};
+use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
 
 /// Only vertices with at least this much target curvature get a dot; a uniform target on a torus-like layout has none.
 const CONE: f64 = 1e-6;

@@ -10,4 +10,5 @@ mod maps;
 mod open;
 mod operators;
 mod samples;
+mod trajectories;
 mod zeros;
