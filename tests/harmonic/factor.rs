@@ -13,7 +13,6 @@ fn flown(surface: Surface, space: Space, target: &Target) -> Solution {
 
 /// Each error is at most a third of the one before: the edges are halved, and the rate is 2.
 fn falls(errors: &[f64], what: &str) {
-    println!("{what}: {errors:?}");
     assert!(errors.windows(2).all(|pair| 3.0 * pair[1] <= pair[0]), "{what}: {errors:?}");
 }
 
