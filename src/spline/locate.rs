@@ -1,6 +1,7 @@
 //! Which triangle of a domain a point lies in.
 
 use super::knots::Domain;
+use super::overlap::bounds;
 use super::patch::{OUTSIDE, Parameter};
 use crate::geometry::complex::doubled_area;
 
@@ -21,10 +22,7 @@ pub struct Locator<'a> {
 impl<'a> Locator<'a> {
     /// For a domain that [`Domain::check`] has found good. The grid has about as many cells as the domain has triangles.
     pub fn new(domain: &'a Domain) -> Locator<'a> {
-        let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for p in &domain.vertices {
-            (0..2).for_each(|x| (lower[x], upper[x]) = (lower[x].min(p[x]), upper[x].max(p[x])));
-        }
+        let [lower, upper] = bounds(domain.vertices.iter());
         let [width, height] = [0, 1].map(|x| (upper[x] - lower[x]).max(f64::MIN_POSITIVE));
         let cell =
             (width * height / domain.triangles.len().max(1) as f64).sqrt().max(width.max(height) * 1e-6);

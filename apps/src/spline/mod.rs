@@ -4,6 +4,7 @@ mod args;
 mod eval;
 mod fit;
 mod height_field;
+mod picture;
 
 pub use args::{HELP, SplineArgs, SplineCommand};
 pub use eval::eval;
