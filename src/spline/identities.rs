@@ -50,7 +50,7 @@ impl Spline {
         let ones = Spline::new(space.clone(), vec![[1.0, 0.0, 0.0]; space.n_control_points()])?;
         let sums = ones.evaluate(&places, 0, threads, control)?;
         let partition_of_unity = sums.iter().map(|sum| (sum.point[0] - 1.0).abs()).fold(0.0, f64::max);
-        let one_chart = space.patches().windows(2).all(|pair| pair[0].chart == pair[1].chart);
+        let one_chart = space.check_one_chart().is_ok();
         let polynomial_reproduction =
             one_chart.then(|| reproduction(space, &places, threads, control)).transpose()?;
         let Sides { beside, rough } = Sides::of(space);

@@ -3,7 +3,22 @@
 use super::knots::Domain;
 use super::overlap::bounds;
 use super::patch::{OUTSIDE, Parameter};
+use super::space::SplineSpace;
+use crate::error::Result;
 use crate::geometry::complex::doubled_area;
+
+impl SplineSpace {
+    /// The triangles of the patches, each with vertices of its own: triangle k is patch k.
+    ///
+    /// # Errors
+    /// [`crate::Error::Argument`] where patches lie in several charts: a point of the plane is a place in one chart.
+    pub fn domain(&self) -> Result<Domain> {
+        self.check_one_chart()?;
+        let corners = self.patches().iter().flat_map(|patch| [0, 1, 2].map(|k| patch.knots[k][0]));
+        let triangles = (0..self.patches().len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]);
+        Ok(Domain { vertices: corners.collect(), triangles: triangles.collect() })
+    }
+}
 
 /// The triangles of a domain in the cells of a grid.
 #[derive(Debug, Clone)]
