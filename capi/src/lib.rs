@@ -57,6 +57,7 @@ pub mod shapes;
 pub mod soup;
 pub mod spline;
 pub mod spline_file;
+pub mod spline_fit;
 pub mod spline_places;
 pub mod status;
 pub mod target;

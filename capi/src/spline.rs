@@ -1,4 +1,4 @@
-//! Triangular B-splines over the plane: made, fitted, their parts handed out.
+//! Triangular B-splines over the plane: made, their parts handed out.
 
 use crate::arrays::{array, array_of, copy_out, optional};
 use crate::choice::choices;
@@ -7,19 +7,16 @@ use crate::failure::{Element, Failure, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::ricci_mesh;
-use crate::spline_places::{located, ricci_spline_places};
 use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::mesh::io::Soup;
-use ricci::spline::{
-    Domain, FitOptions, KnotOptions, Polynomial, Spline, SplineSpace, basis_size, fit, triangulate,
-};
+use ricci::spline::{Domain, KnotOptions, Polynomial, Spline, SplineSpace, basis_size, triangulate};
 use std::sync::Arc;
 
 pub struct ricci_spline {
     pub(crate) spline: Spline,
     /// Of one that was fitted: root mean square and largest distance.
-    fitted: Option<[f64; 2]>,
+    pub(crate) fitted: Option<[f64; 2]>,
 }
 handle!(ricci_spline, "spline");
 
@@ -57,17 +54,6 @@ pub struct ricci_spline_spec {
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_spline_spec, "spec");
-
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct ricci_spline_fit_options {
-    pub size: usize,
-    pub places: *const ricci_spline_places,
-    pub fairness: f64,
-    pub threads: usize,
-}
-// SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
-sized!(ricci_spline_fit_options, "options");
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -181,36 +167,6 @@ pub unsafe extern "C" fn ricci_spline_with_polynomial(
             array_of("coefficients", coefficients.cast(), n_coefficients, basis_size(degree))?;
         let points = space.control_points_of(&Polynomial::new(degree, coefficients))?;
         Ok(Spline::new(space.clone(), points)?.into())
-    })
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_spline_fit(
-    spline: *const ricci_spline,
-    points: *const f64,
-    n_points: usize,
-    options: *const ricci_spline_fit_options,
-    control: *const ricci_control,
-    fitted: *mut *mut ricci_spline,
-) -> ricci_status {
-    guard::make(fitted, || {
-        let (spline, given) = (&shared(spline)?.spline, structs::read(options)?);
-        let space = spline.space();
-        let _reserve = memory::work(n_points.saturating_add(space.n_control_points()), memory::FIT)?;
-        let points: Vec<[f64; 3]> = array("points", points.cast(), n_points)?;
-        let places = if given.places.is_null() {
-            let over: Vec<[f64; 2]> = points.iter().map(|p| [p[0], p[1]]).collect();
-            located(space, &over)?
-        } else {
-            structs::read(given.places)?.read(space)?
-        };
-        let usual = FitOptions::default();
-        let fairness = if given.fairness == 0.0 { usual.fairness } else { given.fairness };
-        // Below 0 stands for none; NaN is no weight, which the library says.
-        let fairness = if fairness < 0.0 { 0.0 } else { fairness };
-        let options = FitOptions { fairness, threads: given.threads };
-        let found = fit(space, &places, &points, &options, &control::of(control))?;
-        Ok(ricci_spline { spline: found.spline, fitted: Some([found.rms, found.max]) })
     })
 }
 
