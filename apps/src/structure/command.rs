@@ -20,6 +20,15 @@ use std::time::Instant;
 
 /// Run the command and say what came out; the exit code is 1 if a check fails or a file that was asked for could not be made.
 pub fn run(args: &StructureArgs, control: &Control) -> Result<u8, Failure> {
+    let done = execute(args, control)?;
+    if !args.common.quiet {
+        figures::say(&done)?;
+    }
+    Ok(done.exit_code)
+}
+
+/// The command without its summary.
+pub fn execute(args: &StructureArgs, control: &Control) -> Result<Done<Found>, Failure> {
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.common.quiet);
@@ -42,11 +51,7 @@ pub fn run(args: &StructureArgs, control: &Control) -> Result<u8, Failure> {
     let checks = found.checks();
     let exit_code = if found.failed.0.is_empty() { checks.exit_code() } else { 1 };
     let seconds = start.elapsed().as_secs_f64();
-    let done = Done { input, result: found, figures, checks, files, seconds, exit_code };
-    if !args.common.quiet {
-        figures::say(&done)?;
-    }
-    Ok(done.exit_code)
+    Ok(Done { input, result: found, figures, checks, files, seconds, exit_code })
 }
 
 /// What can be refused before anything is read.

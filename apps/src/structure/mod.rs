@@ -7,4 +7,4 @@ mod figures;
 mod file;
 
 pub use args::{HELP, StructureArgs};
-pub use command::run;
+pub use command::{execute, run};
