@@ -4,7 +4,7 @@ use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
 use crate::output::{Outputs, check_outputs};
 use crate::report::{Checks, Done, InputSummary, Report, Seconds, path_text};
-use crate::{domain, flow, make, say, uniform};
+use crate::{domain, flow, make, say, structure, uniform};
 use clap::Parser;
 use ricci::Control;
 use serde_json::{Value, json};
@@ -124,6 +124,7 @@ pub fn execute(command: Command, control: &Control) -> Result<Done<()>, Failure>
         Command::Uniformize(args) => uniform::execute_uniformize(&args, control)?.drop_result(),
         Command::Cover(args) => uniform::execute_cover(&args, control)?.drop_result(),
         Command::Circles(args) => domain::execute(&args, control)?.drop_result(),
+        Command::Structure(args) => structure::execute(&args, control)?.drop_result(),
         other => return Err(Failure::Failed(format!("{other:?} finds no metric"))),
     })
 }

@@ -37,6 +37,7 @@ mod shape_quality;
 mod show;
 mod solved;
 mod spline;
+mod structure;
 mod timing;
 mod uniform;
 mod uv;
@@ -72,6 +73,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Harmonic(args) => harmonic::run(args, &control),
         Command::Forms(args) => forms::run(args, &control),
         Command::Circles(args) => domain::run(args, &control),
+        Command::Structure(args) => structure::run(args, &control),
         Command::Info(args) => info::run(args, &control),
         Command::Repair(args) => repair::run(args, &control),
         Command::Spline(args) => match &args.command {
