@@ -60,6 +60,8 @@ pub mod spline_file;
 pub mod spline_fit;
 pub mod spline_places;
 pub mod status;
+pub mod structure;
+pub mod structure_parts;
 pub mod target;
 pub mod uniformize;
 pub mod version;

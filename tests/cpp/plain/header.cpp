@@ -4,6 +4,7 @@
 #include <ricci/harmonic.hpp>
 #include <ricci/repair.hpp>
 #include <ricci/spline.hpp>
+#include <ricci/structure.hpp>
 #include <ricci/uniformize.hpp>
 
 #include <algorithm>
@@ -110,6 +111,27 @@ int forms_and_maps() {
                : 36;
 }
 
+// The projective structure of a surface of genus 2.
+int structures() {
+    ricci_shape shape = ricci::init<ricci_shape>();
+    shape.shape = RICCI_SHAPE_GENUS, shape.n = 4, shape.genus = 2;
+    const ricci::structure atlas(ricci::mesh::made(shape), RICCI_STRUCTURE_PROJECTIVE);
+    const auto all = atlas.summary();
+    const auto places = atlas.places(0, {{0.5, 0.25, 0.25}});
+    if (places.size() != 3 || atlas.holonomy().size() != 9 * all.n_generators) return 37;
+    const auto moved = atlas.carry(places[0], places[1], places[0].coordinates);
+    if (std::hypot(moved[0] - places[1].coordinates[0], moved[1] - places[1].coordinates[1]) > 1e-11)
+        return 38;
+    const auto joined = atlas.transitions();
+    if (joined.charts.size() != 2 * all.n_transitions || joined.matrices.size() != 9 * all.n_transitions)
+        return 39;
+    if (atlas.rows(RICCI_CHART_VERTICES)[0].size() * 2 != atlas.coordinates(0).size() ||
+        atlas.rows(RICCI_TRANSITION_PAIRS).size() != all.n_transitions ||
+        !atlas.list(RICCI_STRUCTURE_SINGULAR).empty())
+        return 40;
+    return 0;
+}
+
 // A spline of a parabola over a square with a hole.
 int splines() {
     const std::vector<double> outer = {0, 0, 2, 0, 2, 2, 0, 2};
@@ -170,7 +192,7 @@ int failures() {
 } // namespace
 
 int main() {
-    for (int failed : {whole_job(), uniformization(), forms_and_maps(), splines(), failures()})
+    for (int failed : {whole_job(), uniformization(), forms_and_maps(), structures(), splines(), failures()})
         if (failed) return failed;
     return 0;
 }
