@@ -12,6 +12,12 @@ use crate::mesh::{FaceId, VertexId};
 /// The number of a face that a chart has not.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// Area of a triangle over the square of its longest side below which overlaps with others are not looked for: rounding of its corners moves it by
+/// a good part of its height.
+const LOW: f64 = 1e-9;
+/// By how much triangles are shrunk about their middles before overlaps are looked for: those that rounding makes are smaller by far.
+const ROUNDING: f64 = 1e-6;
+
 /// Lifts of faces, each beside one of those before it.
 #[derive(Default)]
 pub(super) struct Draft {
@@ -156,14 +162,21 @@ impl Draft {
         self.corners.iter().map(triangle).collect()
     }
 
-    /// Whether its faces lie counterclockwise beside each other, but for those that rounding leaves no area.
+    /// Whether its faces lie counterclockwise beside each other, but for faces that are nearly flat ([`LOW`]) and overlaps that rounding can explain
+    /// ([`ROUNDING`]).
     pub fn is_embedded(&self, sheet: &Sheet, control: &Control) -> Result<bool> {
         let Some(mut triangles) = self.triangles(sheet) else { return Ok(false) };
         let size = extent(triangles.as_flattened());
         if triangles.iter().any(|&t| Shape::of(t).is_flipped(size)) {
             return Ok(false);
         }
-        triangles.retain(|&t| !Shape::of(t).is_degenerate(size));
+        triangles.retain(|&t| Shape::of(t).share > LOW && !Shape::of(t).is_degenerate(size));
+        let triangles: Vec<Triangle> = triangles.into_iter().map(shrunk).collect();
         Ok(overlapping(&triangles, control)?.is_empty())
     }
+}
+
+fn shrunk(triangle: Triangle) -> Triangle {
+    let middle = [0, 1].map(|i| triangle.iter().map(|p| p[i]).sum::<f64>() / 3.0);
+    triangle.map(|p| [0, 1].map(|i| p[i] + ROUNDING * (middle[i] - p[i])))
 }

@@ -58,8 +58,7 @@ pub(super) fn developed(surface: &Surface, options: &AtlasOptions, control: &Con
         }
         _ if closed && euler == 2 => {
             let sphere = sphere(surface, options, control)?;
-            let mesh = sphere.metric.mesh();
-            let sheet = Sheet::of_points(mesh, Space::S2, |v| sphere.positions[VertexId::from(v)]);
+            let sheet = Sheet::new(steps(&sphere.metric, None)?);
             simply_connected(sheet, &sphere, control)
         }
         _ => of_quotient(surface, options, control),
