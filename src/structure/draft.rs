@@ -5,6 +5,7 @@ use crate::control::Control;
 use crate::embed::overlap::{Triangle, overlapping};
 use crate::embed::shape::{Shape, extent};
 use crate::error::Result;
+use crate::geometry::vector::{cross, dot};
 use crate::geometry::{Motion, Twofold};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{FaceId, VertexId};
@@ -162,10 +163,19 @@ impl Draft {
         self.corners.iter().map(triangle).collect()
     }
 
+    /// Whether all faces are counterclockwise, seen from outside the sphere.
+    fn is_oriented(&self) -> bool {
+        self.corners.iter().all(|corners| {
+            let [p, q, r] = corners.map(|v| self.points[v as usize]);
+            dot(p, cross(q, r)) >= 0.0
+        })
+    }
+
     /// Whether its faces lie counterclockwise beside each other, but for faces that are nearly flat ([`LOW`]) and overlaps that rounding can explain
     /// ([`ROUNDING`]).
     pub fn is_embedded(&self, sheet: &Sheet, control: &Control) -> Result<bool> {
-        let Some(mut triangles) = self.triangles(sheet) else { return Ok(false) };
+        // Geodesic triangles about a common corner that close up do not overlap on the sphere either, whatever its size.
+        let Some(mut triangles) = self.triangles(sheet) else { return Ok(self.is_oriented()) };
         let size = extent(triangles.as_flattened());
         if triangles.iter().any(|&t| Shape::of(t).is_flipped(size)) {
             return Ok(false);
