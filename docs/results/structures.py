@@ -22,6 +22,8 @@ judge = os.environ.get("RICCI_CHECK", os.path.join(root, "..", "shared", "tools"
 JUDGED = 150_000_000
 # Seconds for one atlas.
 PATIENCE = 900
+# Seconds for the outside program, which compares triples one by one.
+JUDGING = 120
 TITLES = {
     "conformal": "Conformal", "spherical": "Spherical", "affine": "Affine, by the flow, stars", "affine patches": "Affine, by the flow, patches",
     "affine form": "Affine, from a holomorphic 1-form", "hyperbolic": "Hyperbolic, stars", "hyperbolic patches": "Hyperbolic, patches",
@@ -69,7 +71,11 @@ def one(mesh, kind, folder):
     if "form" in words and row["zeros"] != 2 * genus - 2:
         row["bad"].append(f"{row['zeros']} zeros")
     if os.path.exists(judge) and os.path.getsize(out) <= JUDGED:
-        outside = json.loads(subprocess.run([sys.executable, judge, "atlas", out], capture_output=True, text=True).stdout)
+        try:
+            outside = subprocess.run([sys.executable, judge, "atlas", out], capture_output=True, text=True, timeout=JUDGING)
+        except subprocess.TimeoutExpired:
+            return row
+        outside = json.loads(outside.stdout)
         row["outside"] = [outside["worst_transition"], outside["triples"], outside["worst_cocycle"]]
         if max(outside["worst_transition"], outside["worst_cocycle"]) > 1e-9:
             row["bad"].append(f"outside: {outside}")
@@ -128,7 +134,7 @@ def main():
     print("No check fails.\n" if not bad else "What fails:\n" + "\n".join(bad) + "\n")
     print("*at vertices*: largest distance between the image of a shared vertex and its place, over the size of the chart; *cocycle*: largest difference of")
     print("T_jk T_ij and T_ik over all overlaps of three charts (*triples*); *relation*: of the holonomy; *curvature*: largest |K − K̄|, radians. *outside*:")
-    print("check.py on the file where that is not too large for it; it looks at the triples that begin at the first 300 charts.\n")
+    print("check.py on the file where that is not too large or too long for it; it looks at the triples that begin at the first 300 charts.\n")
     for kind, title in TITLES.items():
         of = [row for row in whole if row["kind"] == kind]
         if of:

@@ -1,13 +1,14 @@
-//! Flat charts turned so that as many transitions as possible are translations.
+//! Charts turned so that as many transitions as possible are translations.
 
 use super::draft::Draft;
 use super::overlaps::Overlap;
 use super::sheet::Sheet;
 use crate::geometry::Motion;
+use crate::geometry::complex::norm2;
 use std::collections::VecDeque;
 
-/// Turns flat charts about their origins so that along a tree of overlaps, and everywhere where the holonomy has no rotation, transitions are
-/// translations.
+/// Turns charts about their origins so that transitions along a tree of overlaps are translations; in E² then all are, where the holonomy has no
+/// rotation.
 pub(super) fn align(drafts: &mut [Draft], overlaps: &[Overlap], sheet: &Sheet) {
     let mut beside: Vec<Vec<(usize, usize)>> = vec![Vec::new(); drafts.len()];
     for (k, overlap) in overlaps.iter().enumerate() {
@@ -32,8 +33,11 @@ pub(super) fn align(drafts: &mut [Draft], overlaps: &[Overlap], sheet: &Sheet) {
                     false => [overlap.face[1], overlap.face[0]],
                 };
                 let there = drafts[j].places[b as usize].compose(&drafts[i].places[a as usize].inverse());
-                let back = Motion { b: [0.0.into(); 2], ..there }.inverse().normalised();
-                drafts[j].turn(sheet, &back);
+                // A sphere's charts about antipodes have no translation between them.
+                if f64::from(norm2(there.a)) > 0.0 {
+                    let back = Motion { b: [0.0.into(); 2], ..there }.inverse().normalised();
+                    drafts[j].turn(sheet, &back);
+                }
                 open.push_back(j);
             }
         }

@@ -62,7 +62,8 @@ pub struct Atlas {
     pub charts: Vec<Chart>,
     /// One transition per connected overlap, from the chart of the lower number to the other.
     pub transitions: Vec<Transition>,
-    /// Vertices that no chart has inside, ascending: cone points of the flat metric, or the vertices at the zeros of the form.
+    /// Vertices that no chart has inside, ascending: cone points of the flat metric, vertices of the boundary whose angle there is a full turn or
+    /// more, or the vertices at the zeros of the form.
     pub singular_vertices: Vec<VertexId>,
     /// Faces of no chart: those at the vertex at infinity of a sphere in the plane, or those that a form does not draw counterclockwise,
     /// each of which holds one of its zeros.

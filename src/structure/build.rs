@@ -12,7 +12,6 @@ use super::source::{Developed, developed};
 use super::stars::star;
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::geometry::Space;
 use crate::mesh::VertexId;
 use crate::metric::Surface;
 use crate::parallel::{self, Pool};
@@ -24,8 +23,8 @@ use crate::parallel::{self, Pool};
 /// exist or on a surface that needs none, a radius that is not positive; [`Error::Layout`] for a surface without a regular vertex; those of
 /// [`crate::canonical::uniformize()`], [`flow::flow`] and [`crate::harmonic::HarmonicForms::new`]; [`Error::Cancelled`].
 pub fn atlas(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Atlas> {
-    if !(options.radius > 0.0) {
-        return Err(Error::argument("radius", options.radius, "positive"));
+    if let Some(radius) = options.radius.filter(|r| !(*r > 0.0)) {
+        return Err(Error::argument("radius", radius, "positive"));
     }
     let found = developed(surface, options, control)?;
     Pool::new(options.flow.threads)?.run(|| chart(found, options, control))
@@ -36,7 +35,7 @@ fn chart(found: Developed, options: &AtlasOptions, control: &Control) -> Result<
     let (sheet, structure) = (&found.sheet, options.structure);
     let holonomy = Holonomy::new(sheet, &found.basis, control)?;
     let mut drafts = match options.charts {
-        Charts::Stars => stars(sheet, options, control)?,
+        Charts::Stars => stars(sheet, options.radius, control)?,
         Charts::Patches => Patches::new(sheet, options.radius, control).cover()?,
     };
     if drafts.is_empty() {
@@ -44,9 +43,7 @@ fn chart(found: Developed, options: &AtlasOptions, control: &Control) -> Result<
     }
     let mut lifts = Lifts::new(&drafts, sheet.mesh().n_faces());
     let overlaps = lifts.find_overlaps(&drafts, &sheet.singular, control)?;
-    if sheet.steps.space == Space::E2 {
-        align(&mut drafts, &overlaps, sheet);
-    }
+    align(&mut drafts, &overlaps, sheet);
     let mut embedded: Vec<Result<bool>> = (0..drafts.len()).map(|_| Ok(false)).collect();
     parallel::fill(&mut embedded, |i| drafts[i].is_embedded(sheet, control));
     let mut folded = Vec::new();
@@ -78,11 +75,11 @@ fn chart(found: Developed, options: &AtlasOptions, control: &Control) -> Result<
 }
 
 /// The stars of all regular vertices, and patches about the faces that these leave over.
-fn stars(sheet: &Sheet, options: &AtlasOptions, control: &Control) -> Result<Vec<Draft>> {
+fn stars(sheet: &Sheet, radius: Option<f64>, control: &Control) -> Result<Vec<Draft>> {
     let vertices: Vec<VertexId> = sheet.mesh().vertices().filter(|&v| !sheet.singular[v]).collect();
     let mut found: Vec<Option<Draft>> = (0..vertices.len()).map(|_| None).collect();
     parallel::fill(&mut found, |i| star(sheet, vertices[i]));
     let mut drafts: Vec<Draft> = found.into_iter().flatten().collect();
-    drafts.extend(Patches::new(sheet, options.radius, control).cover_rest(&drafts)?);
+    drafts.extend(Patches::new(sheet, radius, control).cover_rest(&drafts)?);
     Ok(drafts)
 }

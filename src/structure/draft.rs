@@ -5,12 +5,19 @@ use crate::control::Control;
 use crate::embed::overlap::{Triangle, overlapping};
 use crate::embed::shape::{Shape, extent};
 use crate::error::Result;
+use crate::geometry::vector::{cross, dot};
 use crate::geometry::{Motion, Twofold};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{FaceId, VertexId};
 
 /// The number of a face that a chart has not.
 pub(super) const NONE: u32 = u32::MAX;
+
+/// Area of a triangle over the square of its longest side below which overlaps with others are not looked for: rounding of its corners moves it by
+/// a good part of its height.
+const LOW: f64 = 1e-9;
+/// By how much triangles are shrunk about their middles before overlaps are looked for: those that rounding makes are smaller by far.
+const ROUNDING: f64 = 1e-6;
 
 /// Lifts of faces, each beside one of those before it.
 #[derive(Default)]
@@ -156,14 +163,30 @@ impl Draft {
         self.corners.iter().map(triangle).collect()
     }
 
-    /// Whether its faces lie counterclockwise beside each other, but for those that rounding leaves no area.
+    /// Whether all faces are counterclockwise, seen from outside the sphere.
+    fn is_oriented(&self) -> bool {
+        self.corners.iter().all(|corners| {
+            let [p, q, r] = corners.map(|v| self.points[v as usize]);
+            dot(p, cross(q, r)) >= 0.0
+        })
+    }
+
+    /// Whether its faces lie counterclockwise beside each other, but for faces that are nearly flat ([`LOW`]) and overlaps that rounding can explain
+    /// ([`ROUNDING`]).
     pub fn is_embedded(&self, sheet: &Sheet, control: &Control) -> Result<bool> {
-        let Some(mut triangles) = self.triangles(sheet) else { return Ok(false) };
+        // Geodesic triangles about a common corner that close up do not overlap on the sphere either, whatever its size.
+        let Some(mut triangles) = self.triangles(sheet) else { return Ok(self.is_oriented()) };
         let size = extent(triangles.as_flattened());
         if triangles.iter().any(|&t| Shape::of(t).is_flipped(size)) {
             return Ok(false);
         }
-        triangles.retain(|&t| !Shape::of(t).is_degenerate(size));
+        triangles.retain(|&t| Shape::of(t).share > LOW && !Shape::of(t).is_degenerate(size));
+        let triangles: Vec<Triangle> = triangles.into_iter().map(shrunk).collect();
         Ok(overlapping(&triangles, control)?.is_empty())
     }
+}
+
+fn shrunk(triangle: Triangle) -> Triangle {
+    let middle = [0, 1].map(|i| triangle.iter().map(|p| p[i]).sum::<f64>() / 3.0);
+    triangle.map(|p| [0, 1].map(|i| p[i] + ROUNDING * (middle[i] - p[i])))
 }

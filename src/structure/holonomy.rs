@@ -6,6 +6,7 @@ use super::sheet::Sheet;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::norm2;
+use crate::geometry::motion::Real;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::topology::{HomotopyBasis, SurfaceGroup, crossed_halfedges};
 
@@ -49,20 +50,36 @@ impl Holonomy {
     }
 }
 
+/// Products of 2 to this power, and larger ones, are as far from the identity as they are large, to all digits.
+const FAR: i32 = 120;
+
 /// `unit`: a length that the surface is about as large as.
 fn residual(group: SurfaceGroup, generators: &[Motion<Twofold>], unit: f64) -> f64 {
     let Some(first) = generators.first() else { return 0.0 };
     let longest = generators.iter().map(|g| f64::from(norm2(g.b)).sqrt()).fold(unit, f64::max);
     let unit = if first.space == Space::E2 { longest } else { 1.0 };
     let in_units = |g: &Motion<Twofold>| Motion { b: g.b.map(|x| x / unit.into()), ..*g };
-    let mut product = Motion::identity(first.space);
-    let mut largest = product.norm_square();
+    // The product is `product · 2^power`, of a size near 1: products of many far translations are beyond the range of doubles.
+    let (mut product, mut power) = (Motion::<Twofold>::identity(first.space), 0);
+    let size = |m: &Motion<Twofold>, power: i32| 0.5 * m.norm_square().log2() + f64::from(power);
+    let mut largest = size(&product, power);
     for letter in group.relator().letters() {
         let g = in_units(&generators[letter.index()]);
         product = product.compose(&if letter.is_inverse() { g.inverse() } else { g });
-        largest = largest.max(product.norm_square());
+        largest = largest.max(size(&product, power));
+        let by = size(&product, 0).floor() as i32;
+        (product, power) = (scaled(&product, -by), power + by);
     }
-    let residual = product.distance_from_identity() / largest;
-    // A product beyond the range of doubles gives NaN.
+    let off = match power < FAR {
+        true => scaled(&product, power).distance_from_identity().log2(),
+        false => size(&product, power),
+    };
+    let residual = (off - 2.0 * largest).exp2();
+    // A generator beyond the range of doubles gives NaN.
     if residual.is_nan() { f64::MAX } else { residual }
+}
+
+/// Both parameters times 2^k.
+fn scaled(m: &Motion<Twofold>, k: i32) -> Motion<Twofold> {
+    Motion { a: m.a.map(|x| x.times_two_to(k)), b: m.b.map(|x| x.times_two_to(k)), ..*m }
 }

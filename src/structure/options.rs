@@ -34,8 +34,9 @@ pub struct AtlasOptions {
     /// Its charts. Default [`Charts::Stars`].
     pub charts: Charts,
     /// How far the core of a patch reaches at most, on the unit sphere or in the hyperbolic plane; only its first face may reach
-    /// farther. Default 0.5.
-    pub radius: f64,
+    /// farther. Default: three times the median of the longest sides of the triangles, but from 0.5 to 0.8 on the sphere, to 3 in the hyperbolic plane,
+    /// so that coordinates keep their digits.
+    pub radius: Option<f64>,
     /// Where an affine structure comes from. Default [`AffineSource::Flow`].
     pub source: AffineSource,
     /// The singular vertex of the flow's affine structure on a closed surface of genus 0 (where it is sent to infinity) or at least 2.
@@ -50,7 +51,7 @@ impl Default for AtlasOptions {
         AtlasOptions {
             structure: Structure::Conformal,
             charts: Charts::default(),
-            radius: 0.5,
+            radius: None,
             source: AffineSource::default(),
             singular: None,
             flow: flow::Options::default(),

@@ -7,6 +7,8 @@ use crate::control::{Control, Stage};
 use crate::embed::overlap::BoxTree;
 use crate::embed::shape::{Shape, extent};
 use crate::error::Result;
+use crate::geometry::model::distance;
+use crate::geometry::vector::{norm, sub};
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, PerFace, PerVertex, VertexId};
 use crate::topology::spanning::Key;
@@ -38,7 +40,9 @@ pub(super) struct Patches<'a> {
 }
 
 impl<'a> Patches<'a> {
-    pub fn new(sheet: &'a Sheet, radius: f64, control: &'a Control) -> Self {
+    /// `radius`: default, that of [`super::AtlasOptions::radius`].
+    pub fn new(sheet: &'a Sheet, radius: Option<f64>, control: &'a Control) -> Self {
+        let radius = radius.unwrap_or_else(|| usual_radius(sheet));
         Patches { sheet, radius, taken: sheet.excluded.clone(), control }
     }
 
@@ -235,6 +239,26 @@ fn assemble(sheet: &Sheet, all: &[Candidate], kept: &[bool]) -> Draft {
     }
     draft.close(sheet);
     draft
+}
+
+/// Three times the median of the longest sides of the triangles, within what the coordinates of a disk or a plane show well.
+fn usual_radius(sheet: &Sheet) -> f64 {
+    let most = match sheet.steps.space {
+        Space::E2 => return f64::INFINITY,
+        Space::S2 => 0.8,
+        Space::H2 => 3.0,
+    };
+    let longest = |corners: &[[f64; 3]; 3]| {
+        let side = |k: usize| match sheet.steps.space {
+            Space::H2 => distance(corners[k], corners[(k + 1) % 3]),
+            _ => 2.0 * (0.5 * norm(sub(corners[k], corners[(k + 1) % 3]))).asin(),
+        };
+        (0..3).map(side).fold(0.0, f64::max)
+    };
+    let mut sides: Vec<f64> = sheet.steps.corners.iter().map(longest).collect();
+    sides.sort_by(f64::total_cmp);
+    let median = sides.get(sides.len() / 2).copied().unwrap_or(0.0);
+    (3.0 * median).clamp(0.5, most)
 }
 
 fn within(size: f64, first: f64) -> bool {

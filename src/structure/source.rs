@@ -10,7 +10,7 @@ use crate::embed::steps;
 use crate::error::{Error, Result};
 use crate::flow::{Solution, flow};
 use crate::geometry::Space;
-use crate::geometry::complex::{cross, dot, neg};
+use crate::geometry::complex::{cross, dot, neg, sub};
 use crate::harmonic::{Domain, FormsOptions, HarmonicForms, Zero, even_combination, with_conjugate, zeros};
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::{Class, Refinement, Surface, Target};
@@ -21,6 +21,8 @@ use std::sync::Arc;
 
 /// Length of the shortest edge relative to the longest below which a search for loops takes edges to have this length.
 const SHORTEST: f64 = 1e-12;
+/// Radians. By how much an angle may miss a full turn and count as one.
+const FULL: f64 = 1e-9;
 
 /// A surface that charts can be developed from.
 pub(super) struct Developed {
@@ -58,8 +60,7 @@ pub(super) fn developed(surface: &Surface, options: &AtlasOptions, control: &Con
         }
         _ if closed && euler == 2 => {
             let sphere = sphere(surface, options, control)?;
-            let mesh = sphere.metric.mesh();
-            let sheet = Sheet::of_points(mesh, Space::S2, |v| sphere.positions[VertexId::from(v)]);
+            let sheet = Sheet::new(steps(&sphere.metric, None)?);
             simply_connected(sheet, &sphere, control)
         }
         _ => of_quotient(surface, options, control),
@@ -169,6 +170,7 @@ fn of_flow(
     let factor = (surface.area()? / steps.area).sqrt();
     let mut sheet = Sheet::new(steps).scaled(factor);
     target.named().into_iter().for_each(|v| sheet.singular[v] = true);
+    mark_wide_corners(&mut sheet);
     Ok(Developed {
         basis: homotopy_basis(sheet.mesh(), &lengths(&sheet), None, control)?,
         sheet,
@@ -178,6 +180,21 @@ fn of_flow(
         metric: Arc::new(metric),
         refinement,
     })
+}
+
+/// Marks the vertices of the boundary whose angle is at least a full turn: no chart in the plane can have such a vertex with all of its faces.
+fn mark_wide_corners(sheet: &mut Sheet) {
+    let mesh = sheet.steps.mesh.clone();
+    let mut angle = PerVertex::filled(mesh.n_vertices(), 0.0);
+    for f in mesh.faces() {
+        let corners = sheet.steps.corners[f].map(|[x, y, _]| [x, y]);
+        for (k, v) in mesh.face_vertices(f).into_iter().enumerate() {
+            let [z, w] = [1, 2].map(|i| sub(corners[(k + i) % 3], corners[k]));
+            angle[v] += cross(z, w).atan2(dot(z, w));
+        }
+    }
+    let is_wide = |v: &VertexId| mesh.is_boundary_vertex(*v) && angle[*v] > TAU - FULL;
+    mesh.vertices().filter(is_wide).for_each(|v| sheet.singular[v] = true);
 }
 
 /// The lengths of the edges of a flat sheet, as searches for loops take them.

@@ -183,7 +183,7 @@ fn what_does_not_exist_is_refused_by_name() {
     assert!(refused(&two, &at(1_000_000)).contains("singular vertex is 1000000"));
     assert!(refused(&torus, &at(0)).contains("genus other than 1"));
     assert!(refused(&disk, &at(0)).contains("closed surfaces"));
-    assert!(refused(&two, &AtlasOptions { radius: 0.0, ..affine }).contains("radius"));
+    assert!(refused(&two, &AtlasOptions { radius: Some(0.0), ..affine }).contains("radius"));
     assert!("round".parse::<Structure>().is_err() && "Affine".parse() == Ok(Structure::Affine));
     let cancelled = Control::new();
     cancelled.cancel();

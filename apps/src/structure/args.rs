@@ -45,9 +45,10 @@ pub struct StructureArgs {
     /// The charts: stars of vertices, or patches that grow until they would overlap themselves
     #[arg(long, value_enum, default_value_t = ChartsChoice::Stars)]
     pub charts: ChartsChoice,
-    /// How far a patch reaches in the sphere or the hyperbolic plane
-    #[arg(long, value_name = "R", default_value = "0.5", value_parser = positive)]
-    pub radius: f64,
+    /// How far a patch reaches on the sphere or in the hyperbolic plane [default: three of the triangles' longest sides, at least 0.5]
+    #[arg(long, value_name = "R", value_parser = positive)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
     /// Write the atlas
     #[arg(long, value_name = "A.json")]
     pub atlas: Option<FileName>,
