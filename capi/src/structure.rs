@@ -97,11 +97,10 @@ pub unsafe extern "C" fn ricci_structure_new(
     guard::make(structure, || {
         let (mesh, given, control) = (shared(mesh)?, structs::read(options)?, control::of(control));
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::UNIFORM)?;
-        let usual = AtlasOptions::default();
         let options = AtlasOptions {
             structure: KINDS.choose(kind)?,
             charts: CHARTS.choose(given.charts)?,
-            radius: if given.radius == 0.0 { usual.radius } else { given.radius },
+            radius: (given.radius != 0.0).then_some(given.radius),
             source: SOURCES.choose(given.source)?,
             singular: vertex_or_none(given.singular)?,
             flow: read_options(given.flow)?,

@@ -89,7 +89,7 @@ typedef struct ricci_structure_options {
     const ricci_flow_options *flow;
     /** The singular vertex of an affine structure by the flow; NULL: where areas are distorted least. */
     const uint32_t *singular;
-    /** How far a patch reaches in the sphere or the hyperbolic plane; 0: a half. */
+    /** How far a patch reaches in the sphere or the hyperbolic plane; 0: by the size of the triangles. */
     double radius;
     /** RICCI_CHARTS_... */
     uint32_t charts;

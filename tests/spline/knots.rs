@@ -48,6 +48,31 @@ fn knots_are_in_general_position_inside_on_straight_sides_and_at_corners() {
 }
 
 #[test]
+fn many_places_at_a_time_are_the_same_as_one_by_one_for_any_number_of_threads() {
+    let domain = square(3);
+    let knots = domain.knots(3, &KnotOptions::default()).unwrap();
+    let space = Arc::new(SplineSpace::planar(&domain, &knots).unwrap());
+    let surface = random_surface(&space);
+    let mut random = Random(43);
+    // More than one batch.
+    let places: Vec<_> = (0..70_000).map(|_| random.place(&space)).collect();
+    let control = ricci::Control::new();
+    let one = surface.evaluate(&places, 2, 1, &control).unwrap();
+    assert_eq!(one, surface.evaluate(&places, 2, 3, &control).unwrap());
+    for (found, &at) in one.iter().zip(&places).step_by(997) {
+        assert_eq!(*found, surface.surface_point(at).unwrap());
+    }
+    let values = surface.evaluate(&places, 0, 2, &control).unwrap();
+    assert!(one.iter().zip(&values).all(|(a, b)| a.point == b.point && b.first == [[0.0; 3]; 2]));
+    assert!(matches!(
+        surface.evaluate(&places, 3, 1, &control),
+        Err(ricci::Error::Argument { what: "order of derivatives", .. })
+    ));
+    control.cancel();
+    assert_eq!(surface.evaluate(&places, 0, 1, &control).unwrap_err(), ricci::Error::Cancelled);
+}
+
+#[test]
 fn coincident_knots_make_bezier_triangles() {
     let domain = square(2);
     let all =
