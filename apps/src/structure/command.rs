@@ -4,13 +4,13 @@ use super::args::StructureArgs;
 use super::drawn;
 use super::figures::{self, Found};
 use super::file::AtlasFile;
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::output::{Outputs, check_extension, check_outputs};
+use crate::output::{check_extension, check_outputs};
 use crate::progress::{Progress, doing};
-use crate::report::{Attempts, Done, Figures, InputSummary, Report, path_text, timed};
+use crate::report::{Attempts, Done, Figures, InputSummary, Report, timed};
 use ricci::Control;
-use ricci::control::Stage;
 use ricci::flow;
 use ricci::geometry::Space;
 use ricci::mesh::VertexId;
@@ -95,34 +95,23 @@ fn write(
     control: &Control,
     start: Instant,
 ) -> Result<(Vec<String>, Figures), Failure> {
-    control.step(Stage::Write, 0.0)?;
-    let (begin, mut outputs) = (Instant::now(), Outputs::default());
+    let mut delivery = Delivery::new(control, start)?;
     if let Some(path) = &args.atlas {
-        let written = outputs.add_json(path, &AtlasFile::new(&found.atlas));
+        let written = delivery.outputs.add_json(path, &AtlasFile::new(&found.atlas));
         found.failed.attempt("atlas", written)?;
     }
-    control.check()?;
-    if let Some(path) = &args.picture.picture {
-        let mut spent = 0.0;
-        let draw = || drawn::draw(input, &found.atlas, args, control);
-        let drawn = doing("drawing", || timed(&mut spent, draw));
-        input.seconds.picture = spent;
-        let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
-        found.failed.attempt("picture", written)?;
-    }
-    input.seconds.write = begin.elapsed().as_secs_f64() - input.seconds.picture;
-    input.seconds.total = start.elapsed().as_secs_f64();
+    let picture = args.picture.picture.as_deref();
+    let drawn = delivery.picture(picture, || drawn::draw(input, &found.atlas, args, control));
+    found.failed.attempt("picture", drawn)?;
+    delivery.close(&mut input.seconds);
     let figures = figures::of_structure(&found.atlas);
-    let mut report_failed = Ok(());
-    if let Some(path) = &args.common.report {
+    let files = delivery.commit(args.common.report.as_deref(), || {
         let singular = (args.singular.is_some() || found.atlas.zeros.is_empty())
             .then(|| found.atlas.singular_vertices.first().map(|v| v.0));
         let asked =
             Asked { input_geometry: input.surface.geometry().name(), singular: singular.flatten(), args };
         let report = Report::new("structure", InputSummary::of(input), asked, figures.clone());
-        report_failed = outputs.add_report(path, &report.finished(found.checks(), input.seconds));
-    }
-    control.check()?;
-    let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
-    report_failed.map(|()| (files, figures))
+        report.finished(found.checks(), input.seconds)
+    })?;
+    Ok((files, figures))
 }
