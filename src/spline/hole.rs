@@ -14,7 +14,7 @@ use super::jet::Jet;
 use super::patch::Parameter;
 use super::space::SplineSpace;
 use super::surface::SurfacePoint;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{
     Complex, add, conj, cross, distance, dot, mul, norm, norm2, scale, sub, unit,
 };
@@ -74,6 +74,30 @@ impl Hole {
             return Err(Error::argument("radius of a hole", radius, "positive"));
         }
         Ok(Hole { sectors, turns, radius, coefficients: vec![[0.0; 3]; COEFFICIENTS] })
+    }
+
+    /// A hole filled by a polynomial with these coefficients.
+    ///
+    /// # Errors
+    /// [`Error::Size`]; [`Error::Spline`] for a sector that is no corner of a patch.
+    pub fn filled_by(self, space: &SplineSpace, coefficients: Vec<Vector>) -> Result<Hole> {
+        check_size("coefficients of a hole", coefficients.len(), COEFFICIENTS)?;
+        let is_sound = |s: &Sector| {
+            s.side(space).is_some()
+                && s.corner < 3
+                && s.angle.is_finite()
+                && s.unit > 0.0
+                && s.unit.is_finite()
+        };
+        if let Some(at) = self.sectors.iter().position(|sector| !is_sound(sector)) {
+            let message = "it is no corner of a patch with an angle and a unit".into();
+            return Err(Error::Spline { what: "sector of a hole", index: at, message });
+        }
+        if let Some(at) = coefficients.iter().position(|c| !c.iter().all(|x| x.is_finite())) {
+            let message = "it is no finite number".into();
+            return Err(Error::Spline { what: "coefficient of a hole", index: at, message });
+        }
+        Ok(Hole { coefficients, ..self })
     }
 
     /// Fill the hole: the polynomial that is nearest, in the sense of least squares, to points at places, of which those outside the hole do not count.
