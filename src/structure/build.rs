@@ -42,7 +42,7 @@ fn chart(found: Developed, options: &AtlasOptions, control: &Control) -> Result<
         return Err(Error::Layout("every vertex is singular: refine the surface".into()));
     }
     let mut lifts = Lifts::new(&drafts, sheet.mesh().n_faces());
-    let overlaps = lifts.find_overlaps(&drafts, &sheet.singular, control)?;
+    let overlaps = lifts.find_overlaps(&drafts, control)?;
     align(&mut drafts, &overlaps, sheet);
     let mut embedded: Vec<Result<bool>> = (0..drafts.len()).map(|_| Ok(false)).collect();
     parallel::fill(&mut embedded, |i| drafts[i].is_embedded(sheet, control));
