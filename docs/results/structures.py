@@ -66,7 +66,7 @@ def one(mesh, kind, folder):
     row["singular"] = len(figures["singular_vertices"])
     row["zeros"] = sum(zero["multiplicity"] for zero in figures["zeros"])
     genus, closed = int(mesh["genus"]), int(mesh["boundary_loops"]) == 0
-    if words[0] == "affine" and "form" not in words and row["singular"] != int(closed and genus != 1):
+    if words[0] == "affine" and "form" not in words and closed and row["singular"] != int(genus != 1):
         row["bad"].append(f"{row['singular']} singular vertices")
     if "form" in words and row["zeros"] != 2 * genus - 2:
         row["bad"].append(f"{row['zeros']} zeros")
