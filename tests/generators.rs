@@ -291,6 +291,17 @@ fn hyperelliptic_surfaces_are_double_covers_of_the_round_sphere() {
             assert!((k.at[v] - known).abs() < 1e-12);
         }
     }
+    // Drawn in towards the branch points it is the same surface.
+    let points = [0.0, 1.0, -1.3, 2.1].map(|x| num_complex::Complex64::new(x, 0.3 * x * x));
+    for grading in [2.0, 3.0] {
+        let (mesh, lengths) = shapes::hyperelliptic_graded(&points, 16, grading).unwrap().build().unwrap();
+        let k = curvature(&mesh, Space::S2, &lengths).unwrap();
+        assert!(k.broken.is_empty() && (k.area - 8.0 * PI).abs() < 1e-11 && mesh.genus() == 1);
+        let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(shortest < 0.06 / grading, "{shortest}");
+        assert!(mesh.vertices().all(|v| k.at[v].abs() < 1e-11 || v.index() < 4));
+    }
+    assert!(shapes::hyperelliptic_graded(&points, 16, 0.5).is_err());
     let close = [0.0, 1.0, 1.001].map(|x| num_complex::Complex64::new(x, 0.0));
     assert!(shapes::hyperelliptic(&close, 8).is_err() && shapes::hyperelliptic(&close[..2], 8).is_err());
 }

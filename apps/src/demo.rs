@@ -4,7 +4,7 @@ use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
 use crate::output::{Outputs, check_outputs};
 use crate::report::{Checks, Done, InputSummary, Report, Seconds, path_text};
-use crate::{domain, flow, make, say, structure, uniform};
+use crate::{domain, flow, forms, harmonic, make, say, structure, uniform};
 use clap::Parser;
 use ricci::Control;
 use serde_json::{Value, json};
@@ -117,15 +117,17 @@ pub fn parse(line: Vec<String>) -> Result<Command, Failure> {
     Cli::try_parse_from(words).map(|cli| cli.command).map_err(|e| Failure::Usage(e.to_string()))
 }
 
-/// Run a command that finds a metric, without a word.
+/// Run a command that finds a metric, a map or forms, without a word.
 pub fn execute(command: Command, control: &Control) -> Result<Done<()>, Failure> {
     Ok(match command {
         Command::Flow(args) => flow::execute(&args, control)?.drop_result(),
         Command::Uniformize(args) => uniform::execute_uniformize(&args, control)?.drop_result(),
         Command::Cover(args) => uniform::execute_cover(&args, control)?.drop_result(),
         Command::Circles(args) => domain::execute(&args, control)?.drop_result(),
+        Command::Harmonic(args) => harmonic::execute(&args, control)?.drop_result(),
+        Command::Forms(args) => forms::execute(&args, control)?.drop_result(),
         Command::Structure(args) => structure::execute(&args, control)?.drop_result(),
-        other => return Err(Failure::Failed(format!("{other:?} finds no metric"))),
+        other => return Err(Failure::Failed(format!("{other:?} has nothing to draw"))),
     })
 }
 

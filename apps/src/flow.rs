@@ -3,6 +3,7 @@
 use crate::charts;
 use crate::circles::circles;
 use crate::csv;
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::figures;
 use crate::flow_args::{FlowArgs, PinChoice, TargetChoice};
@@ -10,14 +11,13 @@ use crate::flow_summary;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
 use crate::options::{MethodChoice, OnChoice};
-use crate::output::{self, Outputs, check_extension};
+use crate::output::{self, check_extension};
 use crate::picture::ColorChoice;
 use crate::progress::{Progress, doing};
-use crate::report::{Done, Figures, InputSummary, Report, Seconds, path_text, timed};
+use crate::report::{Done, Figures, InputSummary, Report};
 use crate::show;
 use crate::uv;
 use ricci::Control;
-use ricci::control::Stage;
 use ricci::flow::{Gradient, Options};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, VertexId};
@@ -50,7 +50,7 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done<Outcome>, Fail
         let cut = doing("cutting", || charts::cut(&mut outcome, args.margin, control));
         outcome.solved.failed.attempt("charts", cut)?;
     }
-    let (files, figures) = write(args, &input, &mut outcome, control, start)?;
+    let (files, figures) = write(args, &input, &mut outcome, Delivery::new(control, start)?)?;
     drop(progress);
     let checks = outcome.checks();
     let exit_code = if outcome.solved.failed.0.is_empty() { checks.exit_code() } else { 1 };
@@ -220,22 +220,18 @@ fn write(
     args: &FlowArgs,
     input: &Input,
     outcome: &mut Outcome,
-    control: &Control,
-    start: Instant,
+    mut delivery: Delivery,
 ) -> Result<(Vec<String>, Figures), Failure> {
-    control.step(Stage::Write, 0.0)?;
-    let mut outputs = Outputs::default();
-    let begin = Instant::now();
-    outcome.solved.write_metric(&mut outputs, args.to.metric.as_deref())?;
+    let outputs = &mut delivery.outputs;
+    outcome.solved.write_metric(outputs, args.to.metric.as_deref())?;
     if let Some(path) = &args.trace {
         let written = outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace));
         outcome.solved.failed.attempt("trace", written)?;
     }
-    control.check()?;
     match &outcome.layout {
         Ok(laid) => {
             let solved = &mut outcome.solved;
-            uv::write_asked(&mut outputs, input, laid, (&args.to, args.homogeneous), solved)?;
+            uv::write_asked(outputs, input, laid, (&args.to, args.homogeneous), solved)?;
             if let Some(path) = &args.circles {
                 let all = circles(solved, laid).ok_or(Failure::Failed("the metric has no circles".into()));
                 let written = all.and_then(|all| outputs.add_json(path, &all));
@@ -254,29 +250,19 @@ fn write(
             outcome.solved.failed.0.extend(missing.map(|(wish, _)| (wish, why.clone())));
         }
     }
-    control.check()?;
     let drawable = outcome.layout.is_ok() || !args.picture.base.is_svg();
-    if let Some(path) = args.picture.base.picture.as_ref().filter(|_| drawable) {
-        let draw = || show::draw(input, outcome, &args.picture, args.to.common.threads);
-        let mut spent = 0.0;
-        let drawn = doing("drawing", || timed(&mut spent, draw));
-        outcome.solved.seconds.picture = spent;
-        let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
-        outcome.solved.failed.attempt("picture", written)?;
-    }
-    let seconds = &mut outcome.solved.seconds;
-    seconds.write += begin.elapsed().as_secs_f64() - seconds.picture;
-    control.step(Stage::Write, 0.5)?;
-    let (mut report_failed, figures) = (Ok(()), figures::of_flow(input, outcome));
-    if let Some(path) = &args.to.common.report {
-        let seconds = Seconds { total: start.elapsed().as_secs_f64(), ..outcome.solved.seconds };
+    let picture = args.picture.base.picture.as_deref().filter(|_| drawable);
+    let drawn =
+        delivery.picture(picture, || show::draw(input, outcome, &args.picture, args.to.common.threads));
+    outcome.solved.failed.attempt("picture", drawn)?;
+    delivery.close(&mut outcome.solved.seconds);
+    let figures = figures::of_flow(input, outcome);
+    let files = delivery.commit(args.to.common.report.as_deref(), || {
         let asked = Asked::new(args, input, outcome);
         let report = Report::new("flow", InputSummary::of(input), asked, figures.clone());
-        report_failed = outputs.add_report(path, &report.finished(outcome.checks(), seconds));
-    }
-    control.check()?;
-    let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
-    report_failed.map(|()| (files, figures))
+        report.finished(outcome.checks(), outcome.solved.seconds)
+    })?;
+    Ok((files, figures))
 }
 
 /// What was asked, defaults put in: a run with these options is this run.

@@ -20,7 +20,7 @@ const BESIDE: &str = include_str!("gallery_beside.md");
 struct Row {
     name: &'static str,
     source: Source,
-    /// `flow …`, `uniformize …`, `cover …`, `structure …` or `info …`; for what `make` draws itself nothing.
+    /// `flow …`, `uniformize …`, `cover …`, `circles …`, `harmonic …`, `forms …`, `structure …` or `info …`; for what `make` draws itself nothing.
     draw: &'static str,
     about: &'static str,
 }

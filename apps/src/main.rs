@@ -8,6 +8,7 @@ mod checkerboard;
 mod circles;
 mod cli;
 mod csv;
+mod delivery;
 mod demo;
 mod domain;
 mod failure;

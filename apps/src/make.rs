@@ -65,7 +65,9 @@ pub fn run(args: &MakeArgs) -> Result<u8, Failure> {
         Shape::Pants { lengths, level, to } => {
             metric(shapes::pants([lengths[0], lengths[1], lengths[2]], *level), to)
         }
-        Shape::Hyperelliptic { at, n, to } => metric(shapes::hyperelliptic(at, *n), to),
+        Shape::Hyperelliptic { at, n, grading, to } => {
+            metric(shapes::hyperelliptic_graded(at, *n, *grading), to)
+        }
         Shape::Bolza { level, to } => metric(shapes::bolza(*level), to),
         Shape::OneVertex { genus, to } => metric(shapes::one_vertex(*genus), to),
         Shape::TwoVertex { genus, to } => metric(shapes::two_vertex(*genus), to),

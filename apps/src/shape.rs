@@ -141,6 +141,9 @@ pub enum Shape {
         /// Frequency of the sphere below; 40 N² faces
         #[arg(short, long, default_value_t = 16)]
         n: usize,
+        /// Draw vertices in towards the branch points: at distance r, edges are about r^(1 − 1/P) as long as elsewhere; from 1 (even) to 4
+        #[arg(long, value_name = "P", default_value_t = 1.0)]
+        grading: f64,
         #[command(flatten)]
         to: ToMetric,
     },

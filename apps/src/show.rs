@@ -10,7 +10,7 @@ use crate::picture::{
 };
 use crate::quantity;
 use ricci::mesh::io::Soup;
-use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, VertexId};
+use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
 
 /// Only vertices with at least this much target curvature get a dot; a uniform target on a torus-like layout has none.
 const CONE: f64 = 1e-6;
@@ -50,32 +50,44 @@ pub fn draw(
     picture::png(&Picture { surface, flat, field: field.as_ref(), ..Picture::default() }, &style)
 }
 
-/// The surroundings of a vertex, as much of the surface as of the layout.
+/// The surroundings of a vertex; of a metric without positions, of its layout alone.
 fn focus(zoom: &Zoom, laid: &Laid) -> Option<Focus> {
     let mesh = laid.mesh();
+    if let Some(positions) = &laid.positions {
+        return surroundings(mesh, positions, zoom, |f| laid.face_uv(f));
+    }
     let v = VertexId(zoom.vertex);
-    let around: Vec<FaceId> = mesh.faces().filter(|&f| mesh.face_vertices(f).contains(&v)).collect();
     let h = mesh.halfedges().find(|&h| !mesh.is_outside(h) && mesh.origin(h) == v)?;
-    let at_layout = laid.corner_uv(h);
-    let Some(positions) = &laid.positions else {
-        let radius = 0.5 * laid.layout.diameter / zoom.factor;
-        return Some(Focus { at: [0.0; 3], radius, normal: [0.0; 3], at_layout, radius_layout: radius });
-    };
+    let (at_layout, radius) = (laid.corner_uv(h), 0.5 * laid.layout.diameter / zoom.factor);
+    Some(Focus { at: [0.0; 3], radius, normal: [0.0; 3], at_layout, radius_layout: radius })
+}
+
+/// The surroundings of a vertex, as much of the surface as of its drawing in the plane; none where either has no area there.
+pub fn surroundings(
+    mesh: &Mesh,
+    positions: &[Point],
+    zoom: &Zoom,
+    drawn: impl Fn(FaceId) -> [[f64; 2]; 3],
+) -> Option<Focus> {
+    let v = VertexId(zoom.vertex);
     let extent = |k: usize| {
         let x = positions.iter().map(|p| p[k]);
         x.clone().fold(f64::NEG_INFINITY, f64::max) - x.fold(f64::INFINITY, f64::min)
     };
     let radius = 0.5 * extent(0).max(extent(1)).max(extent(2)) / zoom.factor;
-    let (mut normal, mut area, mut area_layout) = ([0.0; 3], 0.0, 0.0);
-    for f in around {
-        let n = picture::normal(mesh.face_vertices(f).map(|v| positions[v.index()]));
+    let (mut normal, mut area, mut area_layout, mut at_layout) = ([0.0; 3], 0.0, 0.0, None);
+    for f in mesh.faces().filter(|&f| mesh.face_vertices(f).contains(&v)) {
+        let (corners, uv) = (mesh.face_vertices(f), drawn(f));
+        let n = picture::normal(corners.map(|v| positions[v.index()]));
         normal = [0, 1, 2].map(|k| normal[k] + n[k]);
         area += n.iter().map(|x| x * x).sum::<f64>().sqrt();
-        area_layout += picture::doubled_area(laid.face_uv(f)).abs();
+        area_layout += picture::doubled_area(uv).abs();
+        at_layout = at_layout.or(corners.iter().position(|w| *w == v).map(|k| uv[k]));
     }
     let radius_layout = radius * (area_layout / area).sqrt();
     let finite = radius_layout.is_finite() && radius_layout > 0.0 && radius > 0.0;
-    finite.then_some(Focus { at: positions[v.index()], radius, normal, at_layout, radius_layout })
+    let focus = |at_layout| Focus { at: positions[v.index()], radius, normal, at_layout, radius_layout };
+    at_layout.filter(|_| finite).map(focus)
 }
 
 /// A PNG of a surface without a layout; faces that name no or a non-finite vertex are left out.

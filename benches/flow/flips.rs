@@ -1,13 +1,12 @@
 //! What edge flips cost: where none is needed, where many are, and the way back.
 
-use super::{heap, median};
+use crate::common::{heap, median, seconds};
 use ricci::flow::{Flips, Options, Report};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerVertex, shapes};
 use ricci::metric::Scheme;
 use ricci::{Class, Control, Flow, Surface, Target};
 use std::f64::consts::PI;
-use std::time::Instant;
 
 /// Rounds of measurements, of which the medians are printed: below 100,000 vertices they are short.
 fn rounds(vertices: usize) -> usize {
@@ -48,12 +47,6 @@ pub struct Row {
     pub refinement: (f64, usize),
     /// Heap bytes of flow and refinement per vertex of the input.
     pub bytes: usize,
-}
-
-fn seconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
-    let start = Instant::now();
-    let result = work();
-    (start.elapsed().as_secs_f64(), result)
 }
 
 /// The surface in the class of `scheme`, and the seconds that took.

@@ -1,7 +1,7 @@
 //! The measurements of flips as the page docs/results/bench-flips.md.
 
 use super::flips::{Row, Run};
-use super::page::{load, machine, put};
+use crate::common::machine::{load, machine, put};
 
 /// What the project asks: auto over never where no flip is needed, and the share of flips and checks where many are.
 const RATIO: f64 = 1.10;

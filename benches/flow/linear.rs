@@ -1,11 +1,11 @@
 //! The linear algebra of one Newton step: the matrix, and what faer needs for it.
 
+use crate::common::seconds;
 use ricci::flow::curvature_derivative;
 use ricci::linalg::{Cholesky, Pattern, Symmetric};
 use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::Metric;
 use std::io::Write;
-use std::time::Instant;
 
 /// What one solver took for one analysis, factorisation and solve.
 #[derive(Clone)]
@@ -97,12 +97,6 @@ impl Matrix {
 /// 1, −1, 1, −1, …: of mean about 0, so that the solution is of the size of the right-hand side.
 fn right_hand_side(i: usize) -> f64 {
     if i.is_multiple_of(2) { 1.0 } else { -1.0 }
-}
-
-fn seconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
-    let start = Instant::now();
-    let result = work();
-    (start.elapsed().as_secs_f64(), result)
 }
 
 /// Processor seconds of this thread (faer runs on it alone); NaN where the system does not tell.

@@ -8,19 +8,20 @@
 //! `cargo bench --bench flow -- flips [VERTICES… SCHEME…] > docs/results/bench-flips.md` (default: 10000 50000 200000 400000) measures
 //! what edge flips cost instead.
 //!
-//! CHOLMOD and Eigen are measured by the program of benches/peers: `RICCI_PEERS` names it, or else cmake builds it. Where
+//! CHOLMOD and Eigen are measured by the program of benches/peers: it stands in the folder `RICCI_PEERS`, or else cmake builds it. Where
 //! cmake, Eigen or CHOLMOD are missing, the page says so and has no columns for them.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
+#[path = "../common/mod.rs"]
+mod common;
 mod flips;
 mod flips_page;
-mod heap;
 mod linear;
 mod page;
 mod peers;
 
+use common::{heap, machine, median, peers::Program};
 use linear::{Linear, Matrix};
-use peers::Peers;
 use ricci::flow::{Flips, Options, Report, flow};
 use ricci::geometry::Space;
 use ricci::mesh::shapes;
@@ -48,12 +49,6 @@ struct Row {
     linear: Vec<Linear>,
 }
 
-fn median(x: impl Iterator<Item = f64>) -> f64 {
-    let mut x: Vec<f64> = x.collect();
-    x.sort_by(f64::total_cmp);
-    x[x.len() / 2]
-}
-
 /// The medians of the same solver over the rounds.
 fn medians(rounds: &[Vec<Linear>], solver: usize) -> Linear {
     let of = |field: fn(&Linear) -> f64| median(rounds.iter().map(|round| field(&round[solver])));
@@ -66,7 +61,7 @@ fn medians(rounds: &[Vec<Linear>], solver: usize) -> Linear {
     }
 }
 
-fn measure(vertices: usize, scheme: Scheme, peers: Option<&Peers>) -> Row {
+fn measure(vertices: usize, scheme: Scheme, peers: Option<&Program>) -> Row {
     let side = (vertices as f64 / 2.0).sqrt();
     let mut soup = shapes::torus(2.0, 0.9, (2.0 * side) as usize, side as usize).unwrap();
     shapes::noise(&mut soup, 0.05, 1).unwrap();
@@ -87,7 +82,7 @@ fn measure(vertices: usize, scheme: Scheme, peers: Option<&Peers>) -> Row {
         let matrix = Matrix::new(solution.mesh(), solution.metric());
         let mut linear = vec![matrix.faer()];
         if let Some(peers) = peers {
-            linear.extend(peers.measure(&matrix));
+            linear.extend(peers::measure(peers, &matrix));
         }
         for solver in &linear {
             assert!(solver.residual <= SOLVED, "{} leaves {:e}", solver.solver, solver.residual);
@@ -126,7 +121,7 @@ fn main() {
     if schemes.is_empty() {
         schemes = vec![Scheme::Yamabe, Scheme::Inversive];
     }
-    let load = page::load();
+    let load = machine::load();
     let cases: Vec<_> =
         sizes.iter().flat_map(|&size| schemes.iter().map(move |&scheme| (size, scheme))).collect();
     if with_flips {
@@ -134,11 +129,11 @@ fn main() {
         println!("{}", flips_page::page(&rows, load));
         return;
     }
-    let peers = Peers::find();
+    let peers = Program::find("peers");
     if let Err(why) = &peers {
         eprintln!("no peers: {why}");
     }
     let rows: Vec<Row> =
         cases.into_iter().map(|(size, scheme)| measure(size, scheme, peers.as_ref().ok())).collect();
-    println!("{}", page::page(&rows, peers.map(|p| p.libraries()), [load, page::load()]));
+    println!("{}", page::page(&rows, peers.map(|p| p.libraries()), [load, machine::load()]));
 }

@@ -6,57 +6,19 @@ usage: docs/results/circles.py [CORPUS [NAME…]] > docs/results/circles.md     
 RICCI_CHECK names the program that judges the files from outside (by default ../shared/tools/check.py beside the repository);
 where it or numpy is absent, the page says so.
 """
-import contextlib
-import csv
-import importlib.util
-import io
 import json
 import math
 import os
 import random
 import subprocess
-import sys
 import tempfile
 
-root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-corpus = sys.argv[1] if len(sys.argv) > 1 else os.path.join(root, "..", "shared", "meshes", "good")
-ricci = os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(root, "target")), "release", "ricci")
-judge = os.environ.get("RICCI_CHECK", os.path.join(root, "..", "shared", "tools", "check.py"))
+from page import CHECK, WHY, corpus, judged, make, meshes, named, ricci, small, table
+
 HOLES = [3, 10, 20, 40, 70, 100]
 SEED = 1
 
-meshes = [m for m in csv.DictReader(open(os.path.join(corpus, "INDEX.csv"))) if int(m["boundary_loops"]) > 0]
-meshes = [m for m in meshes if int(m["components"]) == 1 and (not sys.argv[2:] or m["name"] in sys.argv[2:])]
-meshes.sort(key=lambda m: (int(m["genus"]), int(m["V"])))
-
-
-def outside():
-    """The outside program as a module, or why there is none."""
-    try:
-        spec = importlib.util.spec_from_file_location("check", judge)
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        return module, None
-    except (ImportError, OSError) as why:
-        return None, f"{judge}: {why}"
-
-
-CHECK, WHY = outside()
-
-
-def judged(call, *paths):
-    """What the outside program says of a file."""
-    with contextlib.redirect_stdout(io.StringIO()):
-        return getattr(CHECK, call)(*paths)
-
-
-def small(x):
-    return "–" if x is None else "0" if x == 0 else f"{x:.1e}" if abs(x) < 1e-2 or abs(x) >= 1e4 else f"{x:.3g}"
-
-
-def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+MESHES = meshes(lambda m: int(m["boundary_loops"]) > 0)
 
 
 def row(folder, path, bad, name):
@@ -100,7 +62,7 @@ FIGURES = ["steps", "flips", "max \\|K\\|", "deviation", "overlaps", "flipped", 
 
 def of_corpus(folder):
     rows, bad = [], []
-    for mesh in meshes:
+    for mesh in MESHES:
         found = row(folder, os.path.join(corpus, mesh["file"]), bad, mesh["name"])
         if found:
             rows.append([mesh["name"], mesh["V"], mesh["genus"], mesh["boundary_loops"]] + found[1])
@@ -128,8 +90,7 @@ def sphere_with_holes(sphere, path, n, seed):
 
 def of_spheres(folder):
     rows, bad = [], []
-    sphere, path = os.path.join(folder, "sphere.obj"), os.path.join(folder, "holes.obj")
-    subprocess.run([ricci, "make", "sphere", "-n", "60", "--quiet", "-o", sphere], check=True)
+    sphere, path = make(folder, "sphere.obj", "sphere", "-n", "60"), os.path.join(folder, "holes.obj")
     for n in HOLES:
         sphere_with_holes(sphere, path, n, SEED)
         found = row(folder, path, bad, f"{n} holes")
@@ -144,10 +105,10 @@ def of_spheres(folder):
 def page():
     with tempfile.TemporaryDirectory() as folder:
         corpus_rows, bad = of_corpus(folder)
-        sphere_rows, more = ([], []) if sys.argv[2:] else of_spheres(folder)
+        sphere_rows, more = ([], []) if named else of_spheres(folder)
     bad += more
     print("# Circle domains\n")
-    print(f"Every open mesh of the corpus ({len(corpus_rows)} of {len(meshes)}), made by `docs/results/circles.py`: `ricci circles MESH` with default options. "
+    print(f"Every open mesh of the corpus ({len(corpus_rows)} of {len(MESHES)}), made by `docs/results/circles.py`: `ricci circles MESH` with default options. "
           "Times are those of one run on a shared machine.\n")
     print("All checks of every report hold." if not bad else "What does not hold:\n\n" + "\n".join(f"- {line}" for line in bad))
     print("\n*deviation*: of a loop from its circle, a share of the radius. *without area*: pieces of the layout whose area is below rounding. "

@@ -8,7 +8,6 @@ where it or numpy is absent, the page says so. Two flows run at a time, on one t
 """
 import concurrent.futures
 import csv
-import importlib.util
 import json
 import math
 import os
@@ -18,10 +17,9 @@ import subprocess
 import sys
 import tempfile
 
-root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-corpus = sys.argv[1] if len(sys.argv) > 1 else os.path.join(root, "..", "shared", "meshes", "good")
-ricci = os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(root, "target")), "release", "ricci")
-judge = os.environ.get("RICCI_CHECK", os.path.join(root, "..", "shared", "tools", "check.py"))
+import page
+from page import CHECK, WHY, corpus, named, ricci
+
 SCHEMES = ["yamabe", "inversive"]
 RIGID = ["yamabe", "inversive", "thurston", "tangential"]
 TARGETS = {
@@ -36,19 +34,8 @@ TARGETS = {
 TOLERANCE = 1e-10
 SECONDS = 900
 
-meshes = [m for m in csv.DictReader(open(os.path.join(corpus, "INDEX.csv"))) if not sys.argv[2:] or m["name"] in sys.argv[2:]]
+meshes = [m for m in csv.DictReader(open(os.path.join(corpus, "INDEX.csv"))) if not named or m["name"] in named]
 meshes.sort(key=lambda m: (int(m["boundary_loops"]) > 0, int(m["genus"]), int(m["V"])))
-
-
-def outside():
-    """The outside program as a module, or why there is none."""
-    try:
-        spec = importlib.util.spec_from_file_location("check", judge)
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        return module, None
-    except (ImportError, OSError) as why:
-        return None, f"{judge}: {why}"
 
 
 def euler(mesh):
@@ -125,10 +112,9 @@ def run(mesh, scheme, target, flips="auto"):
         result = {**found["result"], "seconds": found["seconds"], "code": done.returncode}
         result["failed"] = [name for name, check in found["checks"].items() if not check["holds"]]
         result["done"] = result["converged"] and result["max_curvature_error"] <= TOLERANCE and result["broken_triangles"] == 0
-        module = outside()[0]
-        if files and module:
-            result["metric"] = module.metric(metric)
-            result["uv"] = module.uv(uv, path) if os.path.exists(uv) else None
+        if files and CHECK:
+            result["metric"] = CHECK.metric(metric)
+            result["uv"] = CHECK.uv(uv, path) if os.path.exists(uv) else None
         return result
 
 
@@ -139,8 +125,7 @@ def on_input(mesh):
         report, uv = (os.path.join(folder, name) for name in ("r.json", "uv.obj"))
         line = [ricci, "flow", path, "--uv", uv, "--on", "input", "--threads", "1", "--report", report, "--quiet"]
         done = subprocess.run(line, stderr=subprocess.PIPE, text=True, timeout=SECONDS)
-        module = outside()[0]
-        found = module.corners(uv, path) if module and done.returncode == 0 else {}
+        found = CHECK.corners(uv, path) if CHECK and done.returncode == 0 else {}
         folded = json.load(open(report))["result"]["flipped_input_faces"] if done.returncode == 0 else None
         return {"code": done.returncode, "folded": folded, **found}
 
@@ -160,10 +145,7 @@ def kind(mesh):
 
 
 def table(head, rows):
-    print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
-    for row in rows:
-        print("| " + " | ".join(str(x) for x in row) + " |")
-    print()
+    print(page.table(head, rows) + "\n")
 
 
 def number(x, form):
@@ -256,9 +238,8 @@ print(f"Made by `docs/results/flow.py`: `ricci flow` on each of the {len(meshes)
 for name, text in TARGETS.items():
     print(f"- *{name}*: {text}")
 print("\n## With flips\n")
-absent = outside()[1]
-if absent:
-    print(f"No outside verdict: {absent}.\n")
+if WHY:
+    print(f"No outside verdict: {WHY}.\n")
 else:
     print("The last two columns are the verdict of a program that shares nothing with this project (`check.py metric`, `check.py uv`), on the "
           "files written: how many metrics have max |K − K̄| ≤ 1e-10 and no broken triangle, recomputed from faces and lengths in long "

@@ -6,67 +6,17 @@ usage: docs/results/uniformization.py [CORPUS [NAME…]] > docs/results/uniformi
 RICCI_CHECK names the program that judges the files from outside (by default ../shared/tools/check.py beside the repository);
 where it or numpy is absent, the page says so.
 """
-import contextlib
-import csv
-import importlib.util
-import io
 import json
 import math
 import os
-import subprocess
-import sys
 import tempfile
 
-root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-corpus = sys.argv[1] if len(sys.argv) > 1 else os.path.join(root, "..", "shared", "meshes", "good")
-ricci = os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(root, "target")), "release", "ricci")
-judge = os.environ.get("RICCI_CHECK", os.path.join(root, "..", "shared", "tools", "check.py"))
+from page import CHECK, WHY, failures, file_of, judge, judged, make, meshes, run, small, table, verdict
+
 GENERA = {2: [2, 4, 8, 16], 3: [2, 4, 8, 16], 4: [2, 4, 8, 16], 5: [2, 4, 8, 16]}
 GEODESICS = 2
 
-closed = [m for m in csv.DictReader(open(os.path.join(corpus, "INDEX.csv"))) if int(m["boundary_loops"]) == 0]
-closed = [m for m in closed if int(m["components"]) == 1 and (not sys.argv[2:] or m["name"] in sys.argv[2:])]
-closed.sort(key=lambda m: (int(m["genus"]), int(m["V"])))
-
-
-def outside():
-    """The outside program as a module, or why there is none."""
-    try:
-        spec = importlib.util.spec_from_file_location("check", judge)
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        return module, None
-    except (ImportError, OSError) as why:
-        return None, f"{judge}: {why}"
-
-
-CHECK, WHY = outside()
-
-
-def run(folder, *arguments):
-    """The report of a command."""
-    report = os.path.join(folder, "report.json")
-    done = subprocess.run([ricci, *arguments, "--quiet", "--report", report], capture_output=True, text=True)
-    if not os.path.exists(report):
-        return None, done.stderr.strip()
-    return json.load(open(report)), None
-
-
-def judged(call, *paths):
-    """What the outside program says of a file; None where there is no such program."""
-    if CHECK is None:
-        return None
-    with contextlib.redirect_stdout(io.StringIO()):
-        return getattr(CHECK, call)(*paths)
-
-
-def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
-
-
-def small(x):
-    return "0" if x == 0 else f"{x:.1e}" if abs(x) < 1e-2 or abs(x) >= 1e4 else f"{x:.3g}"
+closed = meshes(lambda m: int(m["boundary_loops"]) == 0)
 
 
 def seconds(report):
@@ -76,15 +26,14 @@ def seconds(report):
 def spheres(folder):
     rows, bad = [], []
     for mesh in (m for m in closed if int(m["genus"]) == 0):
-        path, out = os.path.join(corpus, mesh["file"]), os.path.join(folder, "sphere.obj")
+        path, out = file_of(mesh), os.path.join(folder, "sphere.obj")
         report, why = run(folder, "uniformize", path, "--sphere", out)
         if report is None:
             bad.append(f"{mesh['name']}: {why}")
             continue
         r = report["result"]
         seen = judged("sphere", out, path)
-        if not all(c["holds"] for c in report["checks"].values()):
-            bad.append(mesh["name"] + ": " + ", ".join(k for k, c in report["checks"].items() if not c["holds"]))
+        bad += failures(mesh["name"], report)
         rows.append([
             mesh["name"], mesh["V"], str(r["iterations"]), str(r["flips"]), small(r["max_curvature_error"]), f"{r['u_range']:.1f}",
             small(r["delaunay_violation"]), small(r["link_turning"]), small(r["nonconvexity"]), small(r["centring"]), small(r["smallest_edge"]),
@@ -98,15 +47,14 @@ def spheres(folder):
 def quotients(folder, genus_one):
     rows, bad = [], []
     for mesh in (m for m in closed if (int(m["genus"]) == 1) == genus_one and int(m["genus"]) > 0):
-        path = os.path.join(corpus, mesh["file"])
+        path = file_of(mesh)
         uv, deck, metric = (os.path.join(folder, name) for name in ("uv.obj", "deck.json", "metric.json"))
         report, why = run(folder, "uniformize", path, "--uv", uv, "--generators", deck, "--metric", metric)
         if report is None:
             bad.append(f"{mesh['name']}: {why}")
             continue
         r, checks = report["result"], report["checks"]
-        if not all(c["holds"] for c in checks.values()):
-            bad.append(mesh["name"] + ": " + ", ".join(k for k, c in checks.items() if not c["holds"]))
+        bad += failures(mesh["name"], report)
         verdicts = "–"
         if CHECK is not None:
             k = judged("metric", metric)["max_curvature_error"]
@@ -148,8 +96,7 @@ def family(folder, genus, layers):
     """Shortest geodesics of the same smooth surface on ever finer meshes."""
     rows, values = [], []
     for n in layers:
-        mesh, deck = os.path.join(folder, "made.obj"), os.path.join(folder, "deck.json")
-        subprocess.run([ricci, "make", "genus", "--genus", str(genus), "-n", str(n), "-o", mesh], check=True, capture_output=True)
+        mesh, deck = make(folder, "made.obj", "genus", "--genus", str(genus), "-n", str(n)), os.path.join(folder, "deck.json")
         report, why = run(folder, "uniformize", mesh, "--generators", deck)
         if report is None:
             raise SystemExit(f"genus {genus}, {n} layers: {why}")
@@ -182,8 +129,8 @@ def conformal_height(t, a, c):
 
 def spheroid(folder, n, a=1.0, c=1.6):
     """Largest error of the distances between vertices of a spheroid on the unit sphere, over some pairs."""
-    mesh, out = os.path.join(folder, "made.obj"), os.path.join(folder, "sphere.obj")
-    subprocess.run([ricci, "make", "ellipsoid", "--axes", str(a), str(a), str(c), "-n", str(n), "-o", mesh], check=True, capture_output=True)
+    mesh = make(folder, "made.obj", "ellipsoid", "--axes", str(a), str(a), str(c), "-n", str(n))
+    out = os.path.join(folder, "sphere.obj")
     report, why = run(folder, "uniformize", mesh, "--sphere", out)
     if report is None:
         raise SystemExit(f"spheroid {n}: {why}")
@@ -212,9 +159,7 @@ def convergence(folder):
     exact = max(exact, 1 / exact)
     errors = []
     for n in (16, 32, 64, 128):
-        mesh = os.path.join(folder, "made.obj")
-        subprocess.run([ricci, "make", "torus", "--big", "2", "--small", "1.2", "-n", str(n), "-m", str(n), "-o", mesh],
-                       check=True, capture_output=True)
+        mesh = make(folder, "made.obj", "torus", "--big", "2", "--small", "1.2", "-n", str(n), "-m", str(n))
         report, why = run(folder, "uniformize", mesh)
         if report is None:
             raise SystemExit(f"torus {n}: {why}")
@@ -245,7 +190,7 @@ def main():
     print(f"Every closed mesh of the corpus ({len(closed)}), made by `docs/results/uniformization.py`: `ricci uniformize MESH` with default options. "
           "Times are those of one run on a shared machine and say little.")
     print()
-    print("All checks of every report hold." if not bad else "Not everything holds:\n\n" + "\n".join(f"- {line}" for line in bad))
+    print(verdict(bad))
     print()
     print(f"*outside*: what an independent program finds in the files ({os.path.basename(judge)})." if WHY is None else f"No outside program: {WHY}.")
     print()

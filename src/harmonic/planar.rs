@@ -54,7 +54,7 @@ fn with_values(
 }
 
 /// The harmonic map of a disk onto the unit disk with the boundary by its length: injective on a Delaunay triangulation, by the theorem of Tutte
-/// and Floater \[Flo03\], since the weights are at least 0.
+/// and Floater \[Flo03\], since the weights are at least 0, where no two edges have the same ends ([`super::simple_domain`]).
 ///
 /// # Errors
 /// [`Error::Layout`] for a surface that is no disk; those of [`harmonic_map`].
@@ -114,6 +114,27 @@ pub fn to_polygon(
     with_values(domain, around.iter().copied().map(on_polygon).collect(), control)
 }
 
+/// The boundary vertex whose share of the length is nearest to this one.
+fn nearest(around: &[(VertexId, f64)], share: f64) -> VertexId {
+    let off = |x: f64| (x - share).abs();
+    around.iter().min_by(|a, b| off(a.1).total_cmp(&off(b.1))).map_or(VertexId(0), |(v, _)| *v)
+}
+
+/// The boundary vertices of a disk nearest to the n-th parts of its length, from its first vertex on: corners for [`to_polygon`].
+///
+/// # Errors
+/// [`Error::Layout`] for a surface that is no disk.
+pub fn corners_by_length(domain: &Domain, n: usize) -> Result<Vec<VertexId>> {
+    let around = boundary(domain)?;
+    Ok((0..n).map(|k| nearest(&around, k as f64 / n as f64)).collect())
+}
+
+/// The regular polygon with n corners on the unit circle, counterclockwise from (1, 0).
+pub fn regular_polygon(n: usize) -> Vec<Complex> {
+    let corner = |k: usize| (TAU * k as f64 / n as f64).sin_cos();
+    (0..n).map(corner).map(|(sin, cos)| [cos, sin]).collect()
+}
+
 /// The shares of length at which corners lie.
 fn corner_shares(around: &[(VertexId, f64)], corners: &[VertexId], n: usize) -> Result<Vec<f64>> {
     let share = |c: &VertexId| around.iter().find(|(v, _)| v == c).map(|(_, share)| *share);
@@ -133,8 +154,8 @@ fn corner_shares(around: &[(VertexId, f64)], corners: &[VertexId], n: usize) -> 
 /// The map of a disk with four corners onto the rectangle of its modulus, `[0, width] × [0, 1]`: each coordinate is harmonic with two sides given and no flux
 /// through the others, so the map is conformal up to O(h²). The first side, from corner 0 to corner 1, is the bottom.
 ///
-/// `corners`: four vertices of the boundary in its order with the surface on the left; without them those nearest to the quarters of its
-/// length from its first vertex. Returned with the corners.
+/// `corners`: four vertices of the boundary in its order with the surface on the left; without them [`corners_by_length`]. Returned with the
+/// corners.
 ///
 /// # Errors
 /// As [`to_polygon`].
@@ -144,11 +165,7 @@ pub fn to_rectangle(
     control: &Control,
 ) -> Result<(HarmonicMap<2>, [VertexId; 4])> {
     let around = boundary(domain)?;
-    let nearest = |k: usize| {
-        let off = |share: f64| (share - 0.25 * k as f64).abs();
-        around.iter().min_by(|a, b| off(a.1).total_cmp(&off(b.1))).map_or(VertexId(0), |(v, _)| *v)
-    };
-    let corners = corners.unwrap_or_else(|| [0, 1, 2, 3].map(nearest));
+    let corners = corners.unwrap_or_else(|| [0, 1, 2, 3].map(|k| nearest(&around, 0.25 * f64::from(k))));
     let shares = corner_shares(&around, &corners, 4)?;
     let along = |x: f64| (x - shares[0]).rem_euclid(1.0);
     let side = |k: usize| -> Vec<VertexId> {

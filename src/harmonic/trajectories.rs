@@ -18,7 +18,7 @@
 use super::integrate::FormLayout;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::complex::{Complex, add, doubled_area, sub};
+use crate::geometry::complex::{Complex, add, doubled_area, norm2, sub};
 use crate::mesh::{FaceId, HalfedgeId, Mesh};
 use std::collections::{HashSet, VecDeque};
 
@@ -46,11 +46,13 @@ pub type OnHalfedge = (HalfedgeId, f64);
 const NEAREST: f64 = 0.55;
 /// Lines shorter than this many spacings, as there are between others near zeros, are left out.
 const SHORTEST: f64 = 1.5;
+/// Spacings from a zero up to which the lines that run into it do not end near each other.
+const ALONE: f64 = 1.0;
 /// A line looks for others after each such share of the spacing.
 const LOOK: f64 = 0.25;
 
 /// Evenly placed trajectories of a form's drawing, each as the points where it crosses edges of [`FormLayout::mesh`], which it joins straight.
-/// Lines begin in faces from which no line is nearer than the spacing and end where they come nearer than about half of it to another or
+/// Lines through zeros come first. Others begin in faces from which no line is nearer than the spacing and end where they come nearer than about half of it to another or
 /// to themselves, at the boundary, or at their longest \[JL97\]. `areas`: of the faces on the surface (F entries, positive).
 ///
 /// # Errors
@@ -72,7 +74,7 @@ pub fn trajectories(
     let unit = areas.iter().sum::<f64>().sqrt();
     let turned = |z: Complex| if options.vertical { [z[1], -z[0]] } else { z };
     let corners: Vec<[Complex; 3]> = mesh.faces().map(|f| layout.face(f).map(turned)).collect();
-    let scale = |f: usize| (0.5 * doubled_area(corners[f]).abs() / areas[f]).sqrt();
+    let scale = |f: usize| (drawn_area(corners[f]) / areas[f]).sqrt();
     let scale: Vec<f64> = (0..corners.len()).map(scale).collect();
     let mut tracer = Tracer {
         mesh,
@@ -82,7 +84,12 @@ pub fn trajectories(
         spacing: options.spacing * unit,
         longest: options.longest * unit,
     };
+    // First the lines that run into zeros, which part the others.
     let mut found = Vec::new();
+    for (k, (f, corner)) in tracer.prongs().into_iter().enumerate() {
+        control.check()?;
+        found.extend(tracer.prong(f, corner, mesh.n_faces() + k));
+    }
     // A stride prime to the number of faces spreads the beginnings over the surface.
     let stride = (0.618 * mesh.n_faces() as f64) as usize | 1;
     let stride = (stride..).step_by(2).find(|&s| gcd(s, mesh.n_faces()) == 1).unwrap_or(1);
@@ -90,11 +97,18 @@ pub fn trajectories(
         control.check()?;
         let f = FaceId::from(k * stride % mesh.n_faces());
         let centre = tracer.centre(f);
-        if tracer.scale[f.index()] > 0.0 && !tracer.is_near(f, centre, 1.0, usize::MAX) {
+        if doubled_area(tracer.corners[f.index()]) > 0.0 && !tracer.is_near(f, centre, 1.0, usize::MAX) {
             found.extend(tracer.trace(f, centre[1], k));
         }
     }
     Ok(found)
+}
+
+/// Area of a drawn face; of one that a zero turns over, that of an equilateral one with sides as long.
+fn drawn_area(z: [Complex; 3]) -> f64 {
+    let doubled = doubled_area(z);
+    let squares: f64 = (0..3).map(|k| norm2(sub(z[(k + 1) % 3], z[k]))).sum();
+    if doubled > 0.0 { 0.5 * doubled } else { squares / (4.0 * 3f64.sqrt()) }
 }
 
 fn gcd(a: usize, b: usize) -> usize {
@@ -139,21 +153,49 @@ impl Tracer<'_> {
         Some([0, 1].map(|i| a[i] + share * (b[i] - a[i])))
     }
 
+    /// The faces, with their corners, into which lines of one level run from a vertex where more than two do.
+    fn prongs(&self) -> Vec<(FaceId, usize)> {
+        let inside = self.mesh.vertices().filter(|&v| !self.mesh.is_boundary_vertex(v));
+        let around = |v| {
+            let corners = self.mesh.outgoing(v).filter_map(|h| self.mesh.corner(h));
+            corners.filter(|&(f, k)| self.opposite(f, k).is_some()).collect::<Vec<_>>()
+        };
+        inside.map(around).filter(|prongs| prongs.len() > 2).flatten().collect()
+    }
+
+    /// Where the line from a corner into its face leaves that through the opposite side, if it does.
+    fn opposite(&self, f: FaceId, k: usize) -> Option<OnHalfedge> {
+        let (z, side) = (self.corners[f.index()], (k + 1) % 3);
+        let [from, to] = [z[side][1], z[(side + 1) % 3][1]].map(|y| y - z[k][1]);
+        let is_crossed = (from >= 0.0) != (to >= 0.0);
+        is_crossed.then(|| (self.mesh.face_halfedges(f)[side], (from / (from - to)).clamp(0.0, 1.0)))
+    }
+
+    /// The line from a corner into its face and beyond. Near their zero lines may be as near to each other as they are.
+    fn prong(&mut self, f: FaceId, k: usize, line: usize) -> Option<Vec<OnHalfedge>> {
+        let (start, level) = ((self.mesh.face_halfedges(f)[k], 0.0), self.corners[f.index()][k][1]);
+        let first = self.opposite(f, k)?;
+        self.mark(f, level, [start, first], line);
+        let (ahead, _) = self.follow(first, line, ALONE * self.spacing);
+        Some([start, first].into_iter().chain(ahead).collect())
+    }
+
     /// The line of a level through a face, in both directions.
     fn trace(&mut self, f: FaceId, level: f64, line: usize) -> Option<Vec<OnHalfedge>> {
         let [first, last] = self.crossings(f, level).try_into().ok()?;
         self.mark(f, level, [first, last], line);
-        let (mut points, back) = self.follow(first, line);
+        let (mut points, back) = self.follow(first, line, 0.0);
         points.reverse();
         points.push(first);
         points.push(last);
-        let (ahead, length) = self.follow(last, line);
+        let (ahead, length) = self.follow(last, line, 0.0);
         points.extend(ahead);
         (back + length > SHORTEST * self.spacing).then_some(points)
     }
 
-    /// The points after `from`, where the line leaves a face, and the length that they add.
-    fn follow(&mut self, from: OnHalfedge, line: usize) -> (Vec<OnHalfedge>, f64) {
+    /// The points after `from`, where the line leaves a face, and the length that they add. For the length `alone` the line does not look for
+    /// others.
+    fn follow(&mut self, from: OnHalfedge, line: usize, alone: f64) -> (Vec<OnHalfedge>, f64) {
         let (mut points, mut length, mut unseen) = (Vec::new(), 0.0, 0.0);
         let mut at = from;
         while length < 0.5 * self.longest {
@@ -168,7 +210,7 @@ impl Tracer<'_> {
                 break;
             }
             (length, unseen) = (length + step, unseen + step);
-            if unseen > LOOK * self.spacing {
+            if length > alone && unseen > LOOK * self.spacing {
                 unseen = 0.0;
                 if self.is_near(f, z, NEAREST, line) {
                     break;

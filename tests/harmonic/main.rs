@@ -3,10 +3,12 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod factor;
 mod forms;
 mod known;
 mod maps;
 mod open;
 mod operators;
 mod samples;
+mod trajectories;
 mod zeros;

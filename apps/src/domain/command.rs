@@ -5,18 +5,18 @@ use super::figures::{of_domain, say};
 use super::found::Found;
 use super::picture;
 use crate::carry::left_out;
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::metric_file::MetricFile;
 use crate::options::OnChoice;
 use crate::output::{Outputs, check_extension, check_outputs};
 use crate::picture::Texture;
-use crate::progress::{Progress, doing};
-use crate::report::{Done, Figures, InputSummary, Report, path_text, timed};
+use crate::progress::Progress;
+use crate::report::{Done, Figures, InputSummary, Report, timed};
 use crate::uv;
 use ricci::Control;
 use ricci::canonical::{CircleDomainOptions, Normalisation, circle_domain};
-use ricci::control::Stage;
 use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::{PerVertex, VertexId};
@@ -42,7 +42,7 @@ pub fn execute(args: &CirclesArgs, control: &Control) -> Result<Done<Found>, Fai
     let mut taken = 0.0;
     let domain = timed(&mut taken, || circle_domain(&input.surface, &options(args), control))?;
     let mut found = Found::new(&input, domain, taken)?;
-    let (files, figures) = write(args, &input, &mut found, control, start)?;
+    let (files, figures) = write(args, &input, &mut found, Delivery::new(control, start)?)?;
     drop(progress);
     let checks = found.checks(args.tolerance);
     let exit_code = if found.failed.0.is_empty() { checks.exit_code() } else { 1 };
@@ -123,18 +123,16 @@ fn write(
     args: &CirclesArgs,
     input: &Input,
     found: &mut Found,
-    control: &Control,
-    start: Instant,
+    mut delivery: Delivery,
 ) -> Result<(Vec<String>, Figures), Failure> {
-    control.step(Stage::Write, 0.0)?;
-    let (begin, mut outputs) = (Instant::now(), Outputs::default());
+    let outputs = &mut delivery.outputs;
     if let Some(path) = &args.metric {
-        let written = write_metric(&mut outputs, path, found);
+        let written = write_metric(outputs, path, found);
         found.failed.attempt("metric", written)?;
     }
     if let Some(path) = &args.uv {
         let faces = (OnChoice::Refined, false);
-        let written = uv::write(&mut outputs, path, &found.halved, &found.laid, faces);
+        let written = uv::write(outputs, path, &found.halved, &found.laid, faces);
         if let Some([vertices, faces]) = found.failed.attempt("uv", written)? {
             let [v, f] = [found.halved.mesh().n_vertices(), found.halved.mesh().n_faces()];
             found.added = [vertices + v - input.mesh().n_vertices(), faces + f - input.mesh().n_faces()];
@@ -145,28 +143,18 @@ fn write(
         let written = outputs.add(path, |out| uv::write_origins(out, halved, laid, OnChoice::Refined));
         found.failed.attempt("xref", written)?;
     }
-    control.check()?;
-    if let Some(path) = &args.picture.picture {
-        let style = args.picture.style(args.texture.unwrap_or(Texture::Circles), args.common.threads);
-        let mut spent = 0.0;
-        let draw = || picture::draw(found, &style, args.picture.is_svg());
-        let drawn = doing("drawing", || timed(&mut spent, draw));
-        found.seconds.picture = spent;
-        let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
-        found.failed.attempt("picture", written)?;
-    }
-    found.seconds.write += begin.elapsed().as_secs_f64() - found.seconds.picture;
-    found.seconds.total = start.elapsed().as_secs_f64();
-    let (mut report_failed, figures) = (Ok(()), of_domain(found).with("left_out", left_out(input)));
-    if let Some(path) = &args.common.report {
-        let report =
-            Report::new("circles", InputSummary::of(input), Asked::new(args, input, found), figures.clone());
-        report_failed =
-            outputs.add_report(path, &report.finished(found.checks(args.tolerance), found.seconds));
-    }
-    control.check()?;
-    let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
-    report_failed.map(|()| (files, figures))
+    let style = args.picture.style(args.texture.unwrap_or(Texture::Circles), args.common.threads);
+    let draw = || picture::draw(found, &style, args.picture.is_svg());
+    let drawn = delivery.picture(args.picture.picture.as_deref(), draw);
+    found.failed.attempt("picture", drawn)?;
+    delivery.close(&mut found.seconds);
+    let figures = of_domain(found).with("left_out", left_out(input));
+    let files = delivery.commit(args.common.report.as_deref(), || {
+        let asked = Asked::new(args, input, found);
+        let report = Report::new("circles", InputSummary::of(input), asked, figures.clone());
+        report.finished(found.checks(args.tolerance), found.seconds)
+    })?;
+    Ok((files, figures))
 }
 
 /// The metric of the surface with its disks; in the unit disk without the hub of the outer loop, whose disk lies outside.

@@ -1,7 +1,7 @@
 //! The options of `ricci forms`.
 
 use crate::options::{Common, FileName, GeometryChoice, MeshArgs, choices};
-use crate::picture::{PictureArgs, Texture};
+use crate::picture::{PictureArgs, Texture, Zoom, zoom};
 use clap::{Args, ValueEnum};
 use ricci::harmonic::Classes;
 use serde::Serialize;
@@ -60,6 +60,10 @@ pub struct FormsArgs {
     #[arg(long, value_name = "SHARE", requires = "picture", value_parser = crate::options::positive)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
+    /// Show the surroundings of a vertex (numbered from 0), of a zero maybe, so many times larger
+    #[arg(long, value_name = "VERTEX,FACTOR", requires = "picture", value_parser = zoom)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub zoom: Option<Zoom>,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,

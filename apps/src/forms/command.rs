@@ -5,35 +5,40 @@ use super::drawn;
 use super::figures;
 use super::file::FormsFile;
 use super::found::Found;
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::output::{Outputs, check_extension, check_outputs};
-use crate::progress::{Progress, doing};
-use crate::report::{Done, Figures, InputSummary, Report, path_text, timed};
+use crate::output::{check_extension, check_outputs};
+use crate::progress::Progress;
+use crate::report::{Done, Figures, InputSummary, Report};
 use ricci::Control;
-use ricci::control::Stage;
 use ricci::geometry::Space;
 use serde::Serialize;
 use std::time::Instant;
 
-/// Run the command and say what came out; the exit code is 1 if a check fails or a file that was asked for has nothing to hold.
+/// Run the command and say what came out.
 pub fn run(args: &FormsArgs, control: &Control) -> Result<u8, Failure> {
+    let done = execute(args, control)?;
+    if !args.common.quiet {
+        figures::say(&done)?;
+    }
+    Ok(done.exit_code)
+}
+
+/// The exit code is 1 if a check fails or a file that was asked for has nothing to hold.
+pub fn execute(args: &FormsArgs, control: &Control) -> Result<Done<Found>, Failure> {
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.common.quiet);
     let input = input::read(&args.file, args.input_geometry.map(Space::from), control)?;
     check_surface(args, &input)?;
     let mut found = Found::new(&input, args, control)?;
-    let (files, figures) = write(args, &input, &mut found, control, start)?;
+    let (files, figures) = write(args, &input, &mut found, Delivery::new(control, start)?)?;
     drop(progress);
     let checks = found.checks();
     let exit_code = if found.failed.0.is_empty() { checks.exit_code() } else { 1 };
     let seconds = start.elapsed().as_secs_f64();
-    let done = Done { input, result: found, figures, checks, files, seconds, exit_code };
-    if !args.common.quiet {
-        figures::say(&done)?;
-    }
-    Ok(done.exit_code)
+    Ok(Done { input, result: found, figures, checks, files, seconds, exit_code })
 }
 
 /// What can be refused before anything is read.
@@ -41,9 +46,9 @@ fn check_request(args: &FormsArgs) -> Result<(), Failure> {
     let picture = args.picture.picture.as_deref();
     check_extension("--uv", args.uv.as_deref(), &["obj", "glb"])?;
     check_extension("--picture", picture, &["png", "svg"])?;
-    if args.picture.is_svg() && (args.show.is_some() || args.picture.is_turned()) {
-        let why =
-            "--show, --view, --up: an SVG shows the integral of the form alone; use .png, or leave them out";
+    let in_space = args.show.is_some() || args.zoom.is_some() || args.picture.is_turned();
+    if args.picture.is_svg() && in_space {
+        let why = "--show, --zoom, --view, --up: an SVG shows the integral of the form alone; use .png, or leave them out";
         return Err(Failure::Usage(why.into()));
     }
     let files = [args.forms.as_deref(), args.uv.as_deref(), picture, args.common.report.as_deref()];
@@ -54,8 +59,11 @@ fn check_request(args: &FormsArgs) -> Result<(), Failure> {
 fn check_surface(args: &FormsArgs, input: &Input) -> Result<(), Failure> {
     let (mesh, in_space) = (input.mesh(), input.positions().is_some());
     let n = mesh.n_vertices();
-    if let Some(v) = args.base.filter(|&v| v as usize >= n) {
-        return Err(Failure::Usage(format!("--base {v}: there is no such vertex, they are 0 to {}", n - 1)));
+    for (option, v) in [("--base", args.base), ("--zoom", args.zoom.map(|zoom| zoom.vertex))] {
+        if let Some(v) = v.filter(|&v| v as usize >= n) {
+            let why = format!("{option} {v}: there is no such vertex, they are 0 to {}", n - 1);
+            return Err(Failure::Usage(why));
+        }
     }
     let drawn = [
         (args.uv.is_some(), "--uv"),
@@ -85,36 +93,27 @@ fn write(
     args: &FormsArgs,
     input: &Input,
     found: &mut Found,
-    control: &Control,
-    start: Instant,
+    mut delivery: Delivery,
 ) -> Result<(Vec<String>, Figures), Failure> {
-    control.step(Stage::Write, 0.0)?;
-    let (begin, mut outputs) = (Instant::now(), Outputs::default());
     if let Some(path) = &args.forms {
-        let written = outputs.add_json(path, &FormsFile::new(found));
+        let written = delivery.outputs.add_json(path, &FormsFile::new(found));
         found.failed.attempt("forms", written)?;
     }
-    control.check()?;
     let none = || Failure::Failed("the surface has no harmonic form but 0".into());
     if let Some(path) = &args.uv {
         let chosen = found.chosen.as_ref().ok_or_else(none);
-        let written = chosen.and_then(|chosen| drawn::write_uv(&mut outputs, path, input, &chosen.layout));
+        let outputs = &mut delivery.outputs;
+        let written = chosen.and_then(|chosen| drawn::write_uv(outputs, path, input, &chosen.layout));
         found.failed.attempt("uv", written)?;
     }
-    if let Some(path) = &args.picture.picture {
-        let mut spent = 0.0;
-        let chosen = found.chosen.as_ref().ok_or_else(none);
-        let draw = || chosen.and_then(|chosen| drawn::draw(input, chosen, args, control));
-        let drawn = doing("drawing", || timed(&mut spent, draw));
-        found.seconds.picture = spent;
-        let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
-        found.failed.attempt("picture", written)?;
-    }
-    found.seconds.write = begin.elapsed().as_secs_f64() - found.seconds.picture;
-    found.seconds.total = start.elapsed().as_secs_f64();
+    let chosen = found.chosen.as_ref().ok_or_else(none);
+    let control = delivery.control();
+    let draw = || chosen.and_then(|chosen| drawn::draw(input, chosen, args, control));
+    let drawn = delivery.picture(args.picture.picture.as_deref(), draw);
+    found.failed.attempt("picture", drawn)?;
+    delivery.close(&mut found.seconds);
     let figures = figures::of_forms(found);
-    let mut report_failed = Ok(());
-    if let Some(path) = &args.common.report {
+    let files = delivery.commit(args.common.report.as_deref(), || {
         let asked = Asked {
             input_geometry: input.surface.geometry().name(),
             base: found.forms.basis.base.0,
@@ -122,9 +121,7 @@ fn write(
             args,
         };
         let report = Report::new("forms", InputSummary::of(input), asked, figures.clone());
-        report_failed = outputs.add_report(path, &report.finished(found.checks(), found.seconds));
-    }
-    control.check()?;
-    let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
-    report_failed.map(|()| (files, figures))
+        report.finished(found.checks(), found.seconds)
+    })?;
+    Ok((files, figures))
 }

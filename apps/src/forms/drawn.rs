@@ -5,7 +5,8 @@ use super::found::Chosen;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Outputs;
-use crate::picture::{self, Flat, Picture, Surface, Texture};
+use crate::picture::{self, Flat, Picture, Style, Surface, Texture};
+use crate::show::surroundings;
 use crate::uv;
 use ricci::Control;
 use ricci::harmonic::trajectories::OnHalfedge;
@@ -58,6 +59,8 @@ pub fn draw(input: &Input, chosen: &Chosen, args: &FormsArgs, control: &Control)
         return picture::svg(&Picture { flat: Some(flat), ..Picture::default() }, &style);
     }
     let mut positions = positions(input, layout)?;
+    let focus = args.zoom.and_then(|zoom| surroundings(mesh, &positions, &zoom, |f| layout.face(f)));
+    let style = Style { focus, ..style };
     let faces = mesh.triangles();
     let strokes = match show {
         ShowChoice::Trajectories => lines_in_space(layout, &mut positions, args, control)?,

@@ -8,4 +8,4 @@ mod file;
 mod found;
 
 pub use args::{FormsArgs, HELP};
-pub use command::run;
+pub use command::{execute, run};

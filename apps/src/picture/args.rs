@@ -185,7 +185,7 @@ fn angles(text: &str) -> Result<Angles, String> {
     }
 }
 
-fn zoom(text: &str) -> Result<Zoom, String> {
+pub fn zoom(text: &str) -> Result<Zoom, String> {
     let parts = text.split_once(',').map(|(vertex, factor)| (vertex.trim().parse(), factor.trim().parse()));
     match parts {
         Some((Ok(vertex), Ok(factor))) if (1.0..=1e6).contains(&factor) => Ok(Zoom { vertex, factor }),

@@ -29,7 +29,7 @@ mod texture;
 mod upright;
 mod vector;
 
-pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom};
+pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom, zoom};
 pub use camera::View;
 pub use colormap::{CLASSES, Scale};
 pub use drawing::{Area, Drawing, Frame, Label, Line, PALE, Pattern, TINTS, tint_color};

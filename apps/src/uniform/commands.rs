@@ -7,6 +7,7 @@ use super::request::{CoverWish, Wish};
 use super::shape::Shape;
 use super::sphere::{Round, flowed, punctured};
 use super::summary;
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::options::MethodChoice;
@@ -97,7 +98,7 @@ fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done<Shape>, Failure> {
     if let (Shape::Quotient(u), Some(cover)) = (&mut shape, &wish.cover) {
         cover.find(u, control)?;
     }
-    let written = wish.write(&task, &mut shape, shown, start)?;
+    let written = wish.write(&task, &mut shape, shown, Delivery::new(control, start)?)?;
     drop(progress);
     let checks = shape.checks();
     let exit_code = if shape.solved().failed.0.is_empty() { checks.exit_code() } else { 1 };

@@ -13,18 +13,17 @@ use super::shape::Shape;
 use super::sphere::Round;
 use super::sphere_figures::of_sphere;
 use super::sphere_picture;
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{Outputs, extension};
 use crate::picture::{Style, Texture};
-use crate::progress::doing;
-use crate::report::{Figures, InputSummary, Report, path_text, timed};
+use crate::report::{Figures, InputSummary, Report};
 use crate::uv;
 use ricci::control::Stage;
 use ricci::mesh::io::{self, Textured};
 use std::io::Write;
 use std::path::Path;
-use std::time::Instant;
 
 impl Wish<'_> {
     /// Write every file that was asked for, the report last; returns their names and the figures. One that cannot be made keeps none of
@@ -34,35 +33,25 @@ impl Wish<'_> {
         task: &Task<'_>,
         shape: &mut Shape,
         shown: Shown,
-        start: Instant,
+        mut delivery: Delivery,
     ) -> Result<(Vec<String>, Figures), Failure> {
-        task.control.step(Stage::Write, 0.0)?;
-        let begin = Instant::now();
-        let mut outputs = Outputs::default();
-        shape.solved_mut().write_metric(&mut outputs, self.args.to.metric.as_deref())?;
+        shape.solved_mut().write_metric(&mut delivery.outputs, self.args.to.metric.as_deref())?;
         match shape {
-            Shape::Quotient(u) => self.write_quotient(&mut outputs, task, u, shown)?,
-            Shape::Sphere(s) => self.write_sphere(&mut outputs, task.input, s, shown)?,
+            Shape::Quotient(u) => self.write_quotient(&mut delivery, task, u, shown)?,
+            Shape::Sphere(s) => self.write_sphere(&mut delivery, task.input, s, shown)?,
         }
-        task.control.check()?;
-        let seconds = &mut shape.solved_mut().seconds;
-        seconds.write += begin.elapsed().as_secs_f64() - seconds.picture;
-        seconds.total = start.elapsed().as_secs_f64();
+        delivery.close(&mut shape.solved_mut().seconds);
         let copies = self.cover.is_some();
         let (base, figures) = match shape {
             Shape::Quotient(u) => (Some(u.basis.base.0), of_quotient(u, copies)),
             Shape::Sphere(s) => (self.args.base, of_sphere(task.input, s, copies)),
         };
-        let mut report_failed = Ok(());
-        if let Some(path) = &self.args.to.common.report {
+        let files = delivery.commit(self.args.to.common.report.as_deref(), || {
             let asked = self.asked(task.input, base, shown);
             let report = Report::new(self.command, InputSummary::of(task.input), asked, figures.clone());
-            report_failed =
-                outputs.add_report(path, &report.finished(shape.checks(), shape.solved().seconds));
-        }
-        task.control.check()?;
-        let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
-        report_failed.map(|()| (files, figures))
+            report.finished(shape.checks(), shape.solved().seconds)
+        })?;
+        Ok((files, figures))
     }
 
     /// How the picture is drawn.
@@ -73,7 +62,7 @@ impl Wish<'_> {
 
     fn write_quotient(
         &self,
-        outputs: &mut Outputs,
+        delivery: &mut Delivery,
         task: &Task<'_>,
         u: &mut Uniformized,
         shown: Shown,
@@ -81,7 +70,7 @@ impl Wish<'_> {
         let (args, at) = (self.args, self.place(u.deck.space));
         match &u.laid {
             Some(Ok(laid)) => {
-                uv::write_asked(outputs, task.input, laid, (&args.to, false), &mut u.solved)?;
+                uv::write_asked(&mut delivery.outputs, task.input, laid, (&args.to, false), &mut u.solved)?;
             }
             Some(Err(why)) => {
                 let of_layout = [("uv", args.to.uv.is_some()), ("xref", args.to.xref.is_some())];
@@ -92,28 +81,23 @@ impl Wish<'_> {
         }
         if let Some(path) = &args.generators {
             let file = GroupFile::new(u).map_err(Failure::from);
-            let written = file.and_then(|file| outputs.add_json(path, &file));
+            let written = file.and_then(|file| delivery.outputs.add_json(path, &file));
             u.solved.failed.attempt("generators", written)?;
         }
         task.control.check()?;
         if let Some(path) = self.cover.and_then(|c| c.domain) {
             let file = u.domain().and_then(|domain| Ok(DomainFile::new(u, domain, at)?));
-            let written = file.and_then(|file| outputs.add_json(path, &file));
+            let written = file.and_then(|file| delivery.outputs.add_json(path, &file));
             u.solved.failed.attempt("domain", written)?;
         }
-        if let Some(path) = &args.picture.picture {
-            let canvas = pictures::Canvas { at: self.drawn_place(u.deck.space), style: self.style() };
-            let draw = || pictures::draw(u, shown, &canvas, args.picture.is_svg());
-            let mut spent = 0.0;
-            let drawn = doing("drawing", || timed(&mut spent, draw));
-            u.solved.seconds.picture = spent;
-            let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
-            u.solved.failed.attempt("picture", written)?;
-        }
+        let canvas = pictures::Canvas { at: self.drawn_place(u.deck.space), style: self.style() };
+        let draw = || pictures::draw(u, shown, &canvas, args.picture.is_svg());
+        let drawn = delivery.picture(args.picture.picture.as_deref(), draw);
+        u.solved.failed.attempt("picture", drawn)?;
         task.control.step(Stage::Write, 0.3)?;
         if let Some(path) = self.cover.and_then(|c| c.cover) {
             let copies = Copies::new(u, at, &args.to.common, task.control);
-            let written = copies.and_then(|copies| write_copies(outputs, path, &copies));
+            let written = copies.and_then(|copies| write_copies(&mut delivery.outputs, path, &copies));
             u.solved.failed.attempt("cover", written)?;
         }
         Ok(())
@@ -121,7 +105,7 @@ impl Wish<'_> {
 
     fn write_sphere(
         &self,
-        outputs: &mut Outputs,
+        delivery: &mut Delivery,
         input: &Input,
         s: &mut Round,
         shown: Shown,
@@ -129,23 +113,18 @@ impl Wish<'_> {
         let args = self.args;
         for (wish, path) in [("sphere", args.sphere.as_ref()), ("cover", self.cover.and_then(|c| c.cover))] {
             if let Some(path) = path {
-                let written = write_on_sphere(outputs, path, input, s);
+                let written = write_on_sphere(&mut delivery.outputs, path, input, s);
                 s.solved.failed.attempt(wish, written)?;
             }
         }
         if let Some(path) = &args.generators {
-            let written = outputs.add_json(path, &GroupFile::trivial("s2"));
+            let written = delivery.outputs.add_json(path, &GroupFile::trivial("s2"));
             s.solved.failed.attempt("generators", written)?;
         }
-        if let Some(path) = &args.picture.picture {
-            let beside = matches!(shown, Shown::Uniform(ShowChoice::Both));
-            let draw = || sphere_picture::draw(input, s, &self.style(), beside);
-            let mut spent = 0.0;
-            let drawn = doing("drawing", || timed(&mut spent, draw));
-            s.solved.seconds.picture = spent;
-            let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
-            s.solved.failed.attempt("picture", written)?;
-        }
+        let beside = matches!(shown, Shown::Uniform(ShowChoice::Both));
+        let draw = || sphere_picture::draw(input, s, &self.style(), beside);
+        let drawn = delivery.picture(args.picture.picture.as_deref(), draw);
+        s.solved.failed.attempt("picture", drawn)?;
         Ok(())
     }
 }

@@ -24,6 +24,24 @@ fn disks_go_to_the_disk_and_the_rectangle() {
 }
 
 #[test]
+fn disks_go_to_polygons() {
+    let place = Place::new();
+    place.expect(0, "make disk -n 8 --height 0.4 -o d.obj");
+    place.expect(0, "harmonic d.obj --to polygon:5 --uv flat.obj --report r.json");
+    let report = place.json("r.json");
+    assert_eq!(report["checks"]["flipped_triangles"]["value"].as_f64(), Some(0.0));
+    assert_eq!(report["options"]["to"]["polygon"].as_u64(), Some(5));
+    let corners = numbers(&report["result"]["corners"]);
+    let line = corners.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+    place.expect(0, &format!("harmonic d.obj --to polygon --corners {line} --uv named.obj"));
+    assert_eq!(place.text("flat.obj"), place.text("named.obj"));
+    assert!(place.expect(2, "harmonic d.obj --to polygon").err.contains("polygon:N"));
+    assert!(place.expect(2, "harmonic d.obj --to polygon:2").err.contains("at least 3"));
+    assert!(place.expect(2, "harmonic d.obj --to polygon:4 --corners 1,2,3").err.contains("4 corners"));
+    place.expect(2, "harmonic d.obj --to polygon --corners 0,1,2");
+}
+
+#[test]
 fn spheres_go_to_the_sphere() {
     let place = Place::new();
     place.expect(0, "make ellipsoid -n 5 -o e.obj");
@@ -55,5 +73,5 @@ fn values_come_from_a_file() {
     assert!(places.iter().any(|p| (p[0] - 1.0).abs() < 1e-12 && (p[1] - 0.5).abs() < 1e-12), "{text}");
     place.put("g.csv", "0,0,0\n0,1,1\n");
     assert!(place.expect(3, "harmonic d.obj --to file:g.csv").err.contains("named twice"));
-    assert!(place.expect(2, "harmonic d.obj --to moon").err.contains("disk, rectangle"));
+    assert!(place.expect(2, "harmonic d.obj --to moon").err.contains("disk, polygon:N"));
 }

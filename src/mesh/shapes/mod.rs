@@ -23,7 +23,7 @@ mod torus;
 pub use genus::genus;
 pub use grading::{Sliver, grade, slivers};
 pub use holes::punch;
-pub use hyperelliptic::hyperelliptic;
+pub use hyperelliptic::{hyperelliptic, hyperelliptic_graded};
 pub use intrinsic::{Intrinsic, bolza, flat_torus, one_vertex, two_triangle_sphere, two_vertex};
 pub use inversion::{invert, tapered_genus};
 pub use knot::TorusKnot;

@@ -45,6 +45,11 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
+/// Bytes that are live.
+pub fn live() -> usize {
+    LIVE.load(Ordering::Relaxed)
+}
+
 /// The result of `work` and the most bytes that were live meanwhile, those that were live before included.
 pub fn peak<R>(work: impl FnOnce() -> R) -> (usize, R) {
     PEAK.store(LIVE.load(Ordering::Relaxed), Ordering::Relaxed);

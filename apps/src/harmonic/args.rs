@@ -1,0 +1,86 @@
+//! The options of `ricci harmonic`.
+
+use crate::options::{Common, FileName, GeometryChoice, MeshArgs};
+use crate::picture::PictureArgs;
+use clap::Args;
+use serde::Serialize;
+
+pub const HELP: &str = "\
+Example: a disk onto the unit disk, without a flipped triangle
+    ricci make disk --bump -o d.obj
+    ricci harmonic d.obj --to disk --uv flat.obj --picture flat.png
+
+Maps are linear on the intrinsic Delaunay triangulation of the surface, where the weights of the Laplacian are at least 0: maps of disks onto
+convex regions then flip no triangle. Where two edges of it have the same ends, around spikes, vertices are added first.
+
+--to
+    disk             a disk onto the unit disk, the boundary by its length
+    polygon[:N]      a disk onto the regular polygon with N corners, at the boundary vertices of --corners or evenly by length
+    rectangle        a disk onto the rectangle of its modulus, four boundary vertices (--corners) at the corners
+    sphere           a closed surface of genus 0 onto the unit sphere, centred
+    file:F.csv       rows vertex,x,y: where these vertices go; the others are free
+
+Files
+    --uv OUT.obj | OUT.glb     the surface with the map to the plane as texture coordinates
+    --sphere S.obj | S.glb     the input's vertices on the unit sphere, with the faces of the intrinsic Delaunay triangulation";
+
+#[derive(Args, Serialize, Debug)]
+pub struct HarmonicArgs {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub file: MeshArgs,
+    /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
+    #[arg(long, value_enum, value_name = "GEOMETRY")]
+    #[serde(skip)]
+    pub input_geometry: Option<GeometryChoice>,
+    /// Where to: disk, polygon:N, rectangle, sphere or file:F.csv [default: sphere for closed surfaces, else disk]
+    #[arg(long, value_name = "TARGET", value_parser = target)]
+    #[serde(skip)]
+    pub to: Option<Target>,
+    /// Corners of the polygon or the rectangle, which has four: boundary vertices (numbered from 0), in order with the surface on the left
+    /// [default: evenly by the length of the boundary]
+    #[arg(long, value_name = "V,V,…", value_delimiter = ',')]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub corners: Vec<u32>,
+    /// Write the surface with its map to the plane as texture coordinates, .obj or .glb
+    #[arg(long, value_name = "OUT.obj")]
+    pub uv: Option<FileName>,
+    /// Write the map to the sphere, .obj or .glb
+    #[arg(long, value_name = "S.obj")]
+    pub sphere: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub picture: PictureArgs,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+/// Where a surface is mapped to.
+#[derive(Serialize, Debug, Clone, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum Target {
+    Disk,
+    /// With this many corners; none for those that are named.
+    Polygon(Option<u32>),
+    Rectangle,
+    Sphere,
+    File(FileName),
+}
+
+fn target(text: &str) -> Result<Target, String> {
+    match text {
+        "disk" => Ok(Target::Disk),
+        "polygon" => Ok(Target::Polygon(None)),
+        "rectangle" => Ok(Target::Rectangle),
+        "sphere" => Ok(Target::Sphere),
+        _ => match (text.strip_prefix("polygon:"), text.strip_prefix("file:")) {
+            (Some(n), _) => match n.parse() {
+                Ok(n) if n >= 3 => Ok(Target::Polygon(Some(n))),
+                _ => Err(format!("polygon:{n}: a polygon has at least 3 corners")),
+            },
+            (_, Some(path)) if !path.is_empty() => Ok(Target::File(std::ffi::OsString::from(path).into())),
+            _ => Err("must be disk, polygon:N, rectangle, sphere or file:F.csv".into()),
+        },
+    }
+}

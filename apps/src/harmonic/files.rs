@@ -1,0 +1,96 @@
+//! Harmonic maps as files and in pictures.
+
+use super::args::HarmonicArgs;
+use super::found::{Found, Plane};
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::output::{Outputs, extension};
+use crate::picture::{self, Flat, Picture, Surface, Texture};
+use crate::uv::Drawn;
+use ricci::harmonic::SphereMap;
+use ricci::mesh::io::{self, Textured};
+use ricci::mesh::{Mesh, PerHalfedge, Point, VertexId};
+use std::path::Path;
+
+impl Plane {
+    fn mesh<'a>(&'a self, input: &'a Input) -> &'a Mesh {
+        self.refinement.as_ref().map_or(input.mesh(), |r| &r.mesh)
+    }
+
+    fn positions(&self, input: &Input) -> Result<Vec<Point>, Failure> {
+        let Some(given) = input.positions() else {
+            return Err(Failure::Failed("an intrinsic metric has no positions in space".into()));
+        };
+        Ok(self.refinement.as_ref().map_or_else(|| Ok(given.to_vec()), |r| r.from_input_vertices(given))?)
+    }
+
+    /// The surface with the map as texture coordinates.
+    pub fn write(&self, outputs: &mut Outputs, path: &Path, input: &Input) -> Result<(), Failure> {
+        let mesh = self.mesh(input);
+        let index = PerHalfedge::from_fn(mesh.n_halfedges(), |h| mesh.origin(h).0);
+        let drawn = Drawn {
+            mesh,
+            positions: &self.positions(input)?,
+            index: &index,
+            texcoords: &self.points,
+            weights: &[],
+            refinement: self.refinement.as_ref(),
+        };
+        drawn.write(outputs, path, input)
+    }
+
+    /// The surface beside its image, or as SVG the image alone.
+    pub fn draw(&self, input: &Input, args: &HarmonicArgs) -> Result<Vec<u8>, Failure> {
+        let mesh = self.mesh(input);
+        let style = args.picture.style(Texture::Checker, args.common.threads);
+        let faces = mesh.triangles();
+        let corner_uv: Vec<_> = faces.iter().map(|f| f.map(|v| self.points[v as usize])).collect();
+        let outer = mesh.halfedges().filter(|&h| mesh.is_outside(h.twin()));
+        let at = |v: VertexId| self.points[v.index()];
+        let boundary: Vec<_> = outer.map(|h| (at(mesh.origin(h)), at(mesh.tip(h)))).collect();
+        let flat = Some(Flat { corner_uv: &corner_uv, boundary: &boundary, ..Flat::default() });
+        if args.picture.is_svg() {
+            return picture::svg(&Picture { flat, ..Picture::default() }, &style);
+        }
+        let positions = self.positions(input)?;
+        let surface = Surface {
+            positions: &positions,
+            faces: &faces,
+            corner_uv: Some(&corner_uv),
+            seams: &[],
+            cones: &[],
+            is_closed: false,
+        };
+        picture::png(&Picture { surface: Some(surface), flat, ..Picture::default() }, &style)
+    }
+}
+
+/// The sphere as a mesh file, with the faces of the domain.
+pub fn write_sphere(
+    outputs: &mut Outputs,
+    path: &Path,
+    found: &Found,
+    map: &SphereMap,
+) -> Result<(), Failure> {
+    let faces = found.domain.mesh().triangles();
+    let data = Textured { positions: &map.points, faces: &faces, ..Textured::default() };
+    match extension(path).as_str() {
+        "glb" => outputs.add_named(path, |path| io::write_glb(path, &data, None).map(drop)),
+        _ => outputs.add_named(path, |path| io::write_obj(path, &data)),
+    }
+}
+
+/// The sphere with the edges of the domain.
+pub fn draw_sphere(found: &Found, map: &SphereMap, args: &HarmonicArgs) -> Result<Vec<u8>, Failure> {
+    let faces = found.domain.mesh().triangles();
+    let surface = Surface {
+        positions: &map.points,
+        faces: &faces,
+        corner_uv: None,
+        seams: &[],
+        cones: &[],
+        is_closed: true,
+    };
+    let style = picture::Style { wire: true, ..args.picture.style(Texture::None, args.common.threads) };
+    picture::png(&Picture { surface: Some(surface), ..Picture::default() }, &style)
+}
