@@ -4,13 +4,13 @@ use super::args::StructureArgs;
 use super::drawn;
 use super::figures::{self, Found};
 use super::file::AtlasFile;
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::output::{Outputs, check_extension, check_outputs};
+use crate::output::{check_extension, check_outputs};
 use crate::progress::{Progress, doing};
-use crate::report::{Attempts, Done, Figures, InputSummary, Report, path_text, timed};
+use crate::report::{Attempts, Done, Figures, InputSummary, Report, timed};
 use ricci::Control;
-use ricci::control::Stage;
 use ricci::flow;
 use ricci::geometry::Space;
 use ricci::mesh::VertexId;
@@ -46,7 +46,7 @@ pub fn execute(args: &StructureArgs, control: &Control) -> Result<Done<Found>, F
     let found = timed(&mut seconds.solve, || doing("atlas", || atlas(&input.surface, &options, control)))?;
     input.seconds = seconds;
     let mut found = Found { atlas: found, failed: Attempts::default() };
-    let (files, figures) = write(args, &mut input, &mut found, control, start)?;
+    let (files, figures) = write(args, &mut input, &mut found, Delivery::new(control, start)?)?;
     drop(progress);
     let checks = found.checks();
     let exit_code = if found.failed.0.is_empty() { checks.exit_code() } else { 1 };
@@ -92,37 +92,28 @@ fn write(
     args: &StructureArgs,
     input: &mut Input,
     found: &mut Found,
-    control: &Control,
-    start: Instant,
+    mut delivery: Delivery,
 ) -> Result<(Vec<String>, Figures), Failure> {
-    control.step(Stage::Write, 0.0)?;
-    let (begin, mut outputs) = (Instant::now(), Outputs::default());
     if let Some(path) = &args.atlas {
-        let written = outputs.add_json(path, &AtlasFile::new(&found.atlas));
+        let written = delivery.outputs.add_json(path, &AtlasFile::new(&found.atlas));
         found.failed.attempt("atlas", written)?;
     }
-    control.check()?;
-    if let Some(path) = &args.picture.picture {
-        let mut spent = 0.0;
-        let draw = || drawn::draw(input, &found.atlas, args, control);
-        let drawn = doing("drawing", || timed(&mut spent, draw));
-        input.seconds.picture = spent;
-        let written = drawn.and_then(|bytes| outputs.add_bytes(path, &bytes));
-        found.failed.attempt("picture", written)?;
-    }
-    input.seconds.write = begin.elapsed().as_secs_f64() - input.seconds.picture;
-    input.seconds.total = start.elapsed().as_secs_f64();
+    let control = delivery.control();
+    let draw = || drawn::draw(input, &found.atlas, args, control);
+    let drawn = delivery.picture(args.picture.picture.as_deref(), draw);
+    found.failed.attempt("picture", drawn)?;
+    delivery.close(&mut input.seconds);
     let figures = figures::of_structure(&found.atlas);
-    let mut report_failed = Ok(());
-    if let Some(path) = &args.common.report {
-        let singular = (args.singular.is_some() || found.atlas.zeros.is_empty())
-            .then(|| found.atlas.singular_vertices.first().map(|v| v.0));
-        let asked =
-            Asked { input_geometry: input.surface.geometry().name(), singular: singular.flatten(), args };
+    let files = delivery.commit(args.common.report.as_deref(), || {
+        let singular = || found.atlas.singular_vertices.first().map(|v| v.0);
+        let has_one = args.singular.is_some() || found.atlas.singular_vertices.len() == 1;
+        let asked = Asked {
+            input_geometry: input.surface.geometry().name(),
+            singular: has_one.then(singular).flatten(),
+            args,
+        };
         let report = Report::new("structure", InputSummary::of(input), asked, figures.clone());
-        report_failed = outputs.add_report(path, &report.finished(found.checks(), input.seconds));
-    }
-    control.check()?;
-    let files = outputs.commit()?.iter().map(|p| path_text(p)).collect();
-    report_failed.map(|()| (files, figures))
+        report.finished(found.checks(), input.seconds)
+    })?;
+    Ok((files, figures))
 }
