@@ -66,7 +66,7 @@ def one(mesh, kind, folder):
     row["singular"] = len(figures["singular_vertices"])
     row["zeros"] = sum(zero["multiplicity"] for zero in figures["zeros"])
     genus, closed = int(mesh["genus"]), int(mesh["boundary_loops"]) == 0
-    if words[0] == "affine" and "form" not in words and row["singular"] != int(closed and genus != 1):
+    if words[0] == "affine" and "form" not in words and closed and row["singular"] != int(genus != 1):
         row["bad"].append(f"{row['singular']} singular vertices")
     if "form" in words and row["zeros"] != 2 * genus - 2:
         row["bad"].append(f"{row['zeros']} zeros")
@@ -104,8 +104,8 @@ def small(x):
 
 
 def table(kind, rows):
-    last = "zeros" if "form" in kind else "singular"
-    head = ["mesh", "V", "genus", "loops", "charts", "transitions", "at vertices", "triples", "cocycle", "relation", "curvature", last,
+    last = ["zeros", "singular"] if "form" in kind else ["singular"]
+    head = ["mesh", "V", "genus", "loops", "charts", "transitions", "at vertices", "triples", "cocycle", "relation", "curvature", *last,
             "outside: vertices, triples, cocycle", "s"]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     for row in rows:
@@ -113,7 +113,7 @@ def table(kind, rows):
         seen = "–" if outside is None else f"{small(outside[0])}, {outside[1]}, {small(outside[2])}"
         cells = [str(row["charts"]), str(row["transitions"]), small(row["transition_residual"]), str(row["triples"])]
         cells += [small(row[name]) for name in ("cocycle_residual", "relation_residual", "max_curvature_error")]
-        lines.append("| " + " | ".join([row["mesh"], row["V"], row["genus"], row["loops"], *cells, str(row[last]), seen, f"{row['seconds']:.1f}"]) + " |")
+        lines.append("| " + " | ".join([row["mesh"], row["V"], row["genus"], row["loops"], *cells, *(str(row[name]) for name in last), seen, f"{row['seconds']:.1f}"]) + " |")
     return "\n".join(lines)
 
 
@@ -133,7 +133,8 @@ def main():
     print(f"relation of the holonomy {small(most('relation_residual'))}, shared vertices {small(most('transition_residual'))}.\n")
     print("No check fails.\n" if not bad else "What fails:\n" + "\n".join(bad) + "\n")
     print("*at vertices*: largest distance between the image of a shared vertex and its place, over the size of the chart; *cocycle*: largest difference of")
-    print("T_jk T_ij and T_ik over all overlaps of three charts (*triples*); *relation*: of the holonomy; *curvature*: largest |K − K̄|, radians. *outside*:")
+    print("T_jk T_ij and T_ik over all overlaps of three charts (*triples*); *relation*: of the holonomy; *curvature*: largest |K − K̄|, radians. *singular*: vertices that no chart")
+    print("has inside: from a form those at its zeros and at faces that it draws clockwise, many where faces are thin; on a flat boundary those with an angle of 360° and more. *outside*:")
     print("check.py on the file where that is not too large or too long for it; it looks at the triples that begin at the first 300 charts.\n")
     for kind, title in TITLES.items():
         of = [row for row in whole if row["kind"] == kind]
