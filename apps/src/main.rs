@@ -46,7 +46,6 @@ mod uv;
 use clap::{CommandFactory, Parser};
 use cli::{Cli, Command};
 use failure::Failure;
-use spline::SplineCommand;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -77,10 +76,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Structure(args) => structure::run(args, &control),
         Command::Info(args) => info::run(args, &control),
         Command::Repair(args) => repair::run(args, &control),
-        Command::Spline(args) => match &args.command {
-            SplineCommand::Fit(args) => spline::fit(args, &control),
-            SplineCommand::Eval(args) => spline::eval(args, &control),
-        },
+        Command::Spline(args) => spline::run(args, &control),
         Command::Make(args) => make::run(args),
         Command::Demo(args) => demo::run(args, &control),
         Command::Gallery(args) => gallery::run(args, &control),

@@ -27,8 +27,9 @@ const ON_LINE: f64 = 1e-9;
 pub struct Identities {
     /// |Σ B − 1|.
     pub partition_of_unity: f64,
-    /// Of the polynomial (x + y)^n, in coordinates from −1 to 1 over each chart, relative to the largest value; 0 of several charts.
-    pub polynomial_reproduction: f64,
+    /// Of the polynomial (x + y)^n, in coordinates from −1 to 1 over each chart, relative to the largest value; none where patches lie in
+    /// several charts, which have no polynomials in common.
+    pub polynomial_reproduction: Option<f64>,
     /// Jump of the derivatives of order min(n − 1, 2) across sides of patches, of the control points' own surface, over the largest such
     /// derivative there; across sides on whose line no more than two knots of the ends lie.
     pub continuity: f64,
@@ -49,9 +50,9 @@ impl Spline {
         let ones = Spline::new(space.clone(), vec![[1.0, 0.0, 0.0]; space.n_control_points()])?;
         let sums = ones.evaluate(&places, 0, threads, control)?;
         let partition_of_unity = sums.iter().map(|sum| (sum.point[0] - 1.0).abs()).fold(0.0, f64::max);
-        let one_chart = space.patches().windows(2).all(|pair| pair[0].chart == pair[1].chart);
+        let one_chart = space.check_one_chart().is_ok();
         let polynomial_reproduction =
-            if one_chart { reproduction(space, &places, threads, control)? } else { 0.0 };
+            one_chart.then(|| reproduction(space, &places, threads, control)).transpose()?;
         let Sides { beside, rough } = Sides::of(space);
         let continuity = self.jump(&beside, threads, control)?;
         Ok(Identities { partition_of_unity, polynomial_reproduction, continuity, rough_sides: rough })

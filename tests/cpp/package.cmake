@@ -21,7 +21,7 @@ endforeach()
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${EXAMPLES} -B ${WORK}/examples -DCMAKE_PREFIX_PATH=${_prefix}
   COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK}/examples COMMAND_ERROR_IS_FATAL ANY)
-foreach(_program example_openmesh example_eigen)
+foreach(_program example_openmesh example_eigen example_spline)
   if(EXISTS ${WORK}/examples/${_program})
     execute_process(COMMAND ${WORK}/examples/${_program} ${MESH} COMMAND_ERROR_IS_FATAL ANY)
   endif()
