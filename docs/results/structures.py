@@ -3,25 +3,18 @@
 
 usage: docs/results/structures.py [CORPUS [NAME…]] > docs/results/structures.md     (after: cargo build --release -p ricci-apps)
 
-RICCI_CHECK names the program that judges the files from outside (by default ../shared/tools/check.py beside the repository). RICCI_ROWS names a
-file that keeps what is finished, a line per atlas: an interrupted run goes on from there.
+RICCI_ROWS names a file that keeps what is finished, a line per atlas: an interrupted run goes on from there.
 """
-import csv
 import json
 import os
 import subprocess
 import sys
 import tempfile
-import time
 
-root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-corpus = sys.argv[1] if len(sys.argv) > 1 else os.path.join(root, "..", "shared", "meshes", "good")
-ricci = os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(root, "target")), "release", "ricci")
-judge = os.environ.get("RICCI_CHECK", os.path.join(root, "..", "shared", "tools", "check.py"))
+import page
+
 # Bytes of a file above which the outside program, which needs ten times as much memory, is not asked.
 JUDGED = 150_000_000
-# Seconds for one atlas.
-PATIENCE = 900
 # Seconds for the outside program, which compares triples one by one.
 JUDGING = 120
 TITLES = {
@@ -41,38 +34,30 @@ def kinds(mesh):
 
 def one(mesh, kind, folder):
     """One atlas: the figures of its report, what the outside program says, and what fails."""
-    words, out, said = kind.split(), os.path.join(folder, "A.json"), os.path.join(folder, "R.json")
-    for path in (out, said):
-        if os.path.exists(path):
-            os.remove(path)
+    words, out = kind.split(), os.path.join(folder, "A.json")
+    if os.path.exists(out):
+        os.remove(out)
     asked = ["--from", "form"] if "form" in words else []
     asked += ["--charts", "patches"] if "patches" in words else []
-    command = [ricci, "structure", os.path.join(corpus, mesh["file"]), "--kind", words[0], *asked, "--atlas", out, "--report", said, "--quiet"]
-    start, row = time.time(), {"mesh": mesh["name"], "kind": kind, "bad": []}
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE)
-    except subprocess.TimeoutExpired:
-        return row | {"bad": [f"no end in {PATIENCE} s"]}
-    row["seconds"] = time.time() - start
-    if not os.path.exists(said) or not os.path.exists(out):
-        return row | {"bad": [f"exit {done.returncode}: {done.stderr.strip()}"]}
-    report = json.load(open(said))
+    row = {"mesh": mesh["name"], "kind": kind, "bad": []}
+    report, code = page.run(folder, "structure", page.file_of(mesh), "--kind", words[0], *asked, "--atlas", out)
+    if report is None or not os.path.exists(out):
+        return row | {"bad": [str(code if report is None else report["result"])]}
     figures = report["result"]
-    if "charts" not in figures:
-        return row | {"bad": [str(figures)]}
+    row["seconds"] = report["seconds"]["total"]
     row["bad"] += [f"{name} is {c['value']:.1e}" for name, c in report["checks"].items() if not c["holds"]]
     for name in ("charts", "transitions", "triples", "transition_residual", "cocycle_residual", "relation_residual", "max_curvature_error"):
         row[name] = figures[name]
     row["singular"] = len(figures["singular_vertices"])
     row["zeros"] = sum(zero["multiplicity"] for zero in figures["zeros"])
     genus, closed = int(mesh["genus"]), int(mesh["boundary_loops"]) == 0
-    if words[0] == "affine" and "form" not in words and row["singular"] != int(closed and genus != 1):
+    if words[0] == "affine" and "form" not in words and closed and row["singular"] != int(genus != 1):
         row["bad"].append(f"{row['singular']} singular vertices")
     if "form" in words and row["zeros"] != 2 * genus - 2:
         row["bad"].append(f"{row['zeros']} zeros")
-    if os.path.exists(judge) and os.path.getsize(out) <= JUDGED:
+    if page.CHECK is not None and os.path.getsize(out) <= JUDGED:
         try:
-            outside = subprocess.run([sys.executable, judge, "atlas", out], capture_output=True, text=True, timeout=JUDGING)
+            outside = subprocess.run([sys.executable, page.judge, "atlas", out], capture_output=True, text=True, timeout=JUDGING)
         except subprocess.TimeoutExpired:
             return row
         outside = json.loads(outside.stdout)
@@ -99,41 +84,37 @@ def rows_of(meshes, folder):
     return rows
 
 
-def small(x):
-    return "0" if x == 0 else f"{x:.1e}"
-
-
 def table(kind, rows):
-    last = "zeros" if "form" in kind else "singular"
-    head = ["mesh", "V", "genus", "loops", "charts", "transitions", "at vertices", "triples", "cocycle", "relation", "curvature", last,
+    last = ["zeros", "singular"] if "form" in kind.split() else ["singular"]
+    head = ["mesh", "V", "genus", "loops", "charts", "transitions", "at vertices", "triples", "cocycle", "relation", "curvature", *last,
             "outside: vertices, triples, cocycle", "s"]
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    lines = []
     for row in rows:
         outside = row.get("outside")
-        seen = "–" if outside is None else f"{small(outside[0])}, {outside[1]}, {small(outside[2])}"
-        cells = [str(row["charts"]), str(row["transitions"]), small(row["transition_residual"]), str(row["triples"])]
-        cells += [small(row[name]) for name in ("cocycle_residual", "relation_residual", "max_curvature_error")]
-        lines.append("| " + " | ".join([row["mesh"], row["V"], row["genus"], row["loops"], *cells, str(row[last]), seen, f"{row['seconds']:.1f}"]) + " |")
-    return "\n".join(lines)
+        seen = "–" if outside is None else f"{page.small(outside[0])}, {outside[1]}, {page.small(outside[2])}"
+        cells = [str(row["charts"]), str(row["transitions"]), page.small(row["transition_residual"]), str(row["triples"])]
+        cells += [page.small(row[name]) for name in ("cocycle_residual", "relation_residual", "max_curvature_error")]
+        singular = [row[name] for name in last]
+        lines.append([row["mesh"], row["V"], row["genus"], row["loops"], *cells, *singular, seen, f"{row['seconds']:.1f}"])
+    return page.table(head, lines)
 
 
 def main():
-    meshes = [m for m in csv.DictReader(open(os.path.join(corpus, "INDEX.csv"))) if int(m["components"]) == 1]
-    meshes = [m for m in meshes if not sys.argv[2:] or m["name"] in sys.argv[2:]]
-    meshes.sort(key=lambda m: int(m["V"]))
+    meshes = page.meshes(lambda m: True, key=lambda m: int(m["V"]))
     with tempfile.TemporaryDirectory() as folder:
         rows = rows_of(meshes, folder)
-    bad = [f"- {row['mesh']}, {row['kind']}: {'; '.join(row['bad'])}" for row in rows if row["bad"]]
+    bad = [f"{row['mesh']}, {row['kind']}: {'; '.join(row['bad'])}" for row in rows if row["bad"]]
     whole = [row for row in rows if "charts" in row]
     most = lambda name: max(row[name] for row in whole)
     print("# Geometric structures\n")
     print("Every mesh of the corpus with every structure that it has, made by `docs/results/structures.py`: `ricci structure MESH --kind …` with default")
     print("options. Times are those of one run on a shared machine and say little.\n")
-    print(f"{len(rows)} atlases of {len(meshes)} meshes; {len(rows) - len(bad)} hold all their checks. Worst of those that were made: cocycle {small(most('cocycle_residual'))},")
-    print(f"relation of the holonomy {small(most('relation_residual'))}, shared vertices {small(most('transition_residual'))}.\n")
-    print("No check fails.\n" if not bad else "What fails:\n" + "\n".join(bad) + "\n")
+    print(f"{len(rows)} atlases of {len(meshes)} meshes; {len(rows) - len(bad)} hold all their checks. Worst of those that were made: cocycle {page.small(most('cocycle_residual'))},")
+    print(f"relation of the holonomy {page.small(most('relation_residual'))}, shared vertices {page.small(most('transition_residual'))}.\n")
+    print(page.verdict(bad) + "\n")
     print("*at vertices*: largest distance between the image of a shared vertex and its place, over the size of the chart; *cocycle*: largest difference of")
-    print("T_jk T_ij and T_ik over all overlaps of three charts (*triples*); *relation*: of the holonomy; *curvature*: largest |K − K̄|, radians. *outside*:")
+    print("T_jk T_ij and T_ik over all overlaps of three charts (*triples*); *relation*: of the holonomy; *curvature*: largest |K − K̄|, radians. *singular*: vertices that no chart")
+    print("has inside: from a form those at its zeros and at faces that it draws clockwise, many where faces are thin; on a flat boundary those with an angle of 360° and more. *outside*:")
     print("check.py on the file where that is not too large or too long for it; it looks at the triples that begin at the first 300 charts.\n")
     for kind, title in TITLES.items():
         of = [row for row in whole if row["kind"] == kind]

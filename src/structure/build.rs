@@ -23,7 +23,7 @@ use crate::parallel::{self, Pool};
 /// exist or on a surface that needs none, a radius that is not positive; [`Error::Layout`] for a surface without a regular vertex; those of
 /// [`crate::canonical::uniformize()`], [`flow::flow`] and [`crate::harmonic::HarmonicForms::new`]; [`Error::Cancelled`].
 pub fn atlas(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Atlas> {
-    if let Some(radius) = options.radius.filter(|r| !(*r > 0.0)) {
+    if let Some(radius) = options.radius.filter(|r| r.is_nan() || *r <= 0.0) {
         return Err(Error::argument("radius", radius, "positive"));
     }
     let found = developed(surface, options, control)?;
@@ -42,7 +42,7 @@ fn chart(found: Developed, options: &AtlasOptions, control: &Control) -> Result<
         return Err(Error::Layout("every vertex is singular: refine the surface".into()));
     }
     let mut lifts = Lifts::new(&drafts, sheet.mesh().n_faces());
-    let overlaps = lifts.find_overlaps(&drafts, &sheet.singular, control)?;
+    let overlaps = lifts.find_overlaps(&drafts, control)?;
     align(&mut drafts, &overlaps, sheet);
     let mut embedded: Vec<Result<bool>> = (0..drafts.len()).map(|_| Ok(false)).collect();
     parallel::fill(&mut embedded, |i| drafts[i].is_embedded(sheet, control));

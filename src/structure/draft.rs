@@ -13,10 +13,11 @@ use crate::mesh::{FaceId, VertexId};
 /// The number of a face that a chart has not.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Area of a triangle over the square of its longest side below which overlaps with others are not looked for: rounding of its corners moves it by
-/// a good part of its height.
+/// Area of a triangle over the square of its longest side below which overlaps with others are not looked for: rounding moves its corners by a good
+/// part of its height.
 const LOW: f64 = 1e-9;
-/// By how much triangles are shrunk about their middles before overlaps are looked for: those that rounding makes are smaller by far.
+/// By which share triangles are shrunk about their middles before overlaps are looked for. Those whose corners rounding may move by as much are left
+/// out.
 const ROUNDING: f64 = 1e-6;
 
 /// Lifts of faces, each beside one of those before it.
@@ -180,7 +181,10 @@ impl Draft {
         if triangles.iter().any(|&t| Shape::of(t).is_flipped(size)) {
             return Ok(false);
         }
-        triangles.retain(|&t| Shape::of(t).share > LOW && !Shape::of(t).is_degenerate(size));
+        triangles.retain(|&t| {
+            let shape = Shape::of(t);
+            shape.share > LOW + f64::EPSILON * size / (ROUNDING * shape.longest)
+        });
         let triangles: Vec<Triangle> = triangles.into_iter().map(shrunk).collect();
         Ok(overlapping(&triangles, control)?.is_empty())
     }

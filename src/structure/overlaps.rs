@@ -5,7 +5,7 @@ use super::element::Element;
 use super::kind::Structure;
 use crate::control::{Control, Stage};
 use crate::error::Result;
-use crate::mesh::{FaceId, PerVertex};
+use crate::mesh::FaceId;
 use std::collections::BTreeMap;
 
 /// Charts between two looks at the control.
@@ -29,7 +29,7 @@ pub struct Transition {
     pub to: u32,
     /// The map.
     pub element: Element,
-    /// The vertices of the overlap that are not singular: their numbers in both charts.
+    /// The vertices of the overlap: their numbers in both charts.
     pub pairs: Vec<[u32; 2]>,
 }
 
@@ -83,12 +83,7 @@ impl Lifts {
     }
 
     /// Finds the connected overlaps: faces in both charts that hang together in both. Per chart, those with later charts and with itself.
-    pub fn find_overlaps(
-        &mut self,
-        drafts: &[Draft],
-        singular: &PerVertex<bool>,
-        control: &Control,
-    ) -> Result<Vec<Overlap>> {
+    pub fn find_overlaps(&mut self, drafts: &[Draft], control: &Control) -> Result<Vec<Overlap>> {
         let mut found = Vec::new();
         for (i, draft) in drafts.iter().enumerate() {
             if i.is_multiple_of(CHARTS_PER_STEP) {
@@ -105,7 +100,7 @@ impl Lifts {
             for (j, nodes) in shared {
                 for part in connected(&nodes, draft, &drafts[j as usize]) {
                     self.number(&part, [i as u32, j], draft, found.len() as u32);
-                    found.push(Overlap::new([i as u32, j], part, drafts, singular));
+                    found.push(Overlap::new([i as u32, j], part, drafts));
                 }
             }
         }
@@ -132,15 +127,12 @@ pub(super) struct Overlap {
 }
 
 impl Overlap {
-    fn new(charts: [u32; 2], part: Vec<[u32; 2]>, drafts: &[Draft], singular: &PerVertex<bool>) -> Overlap {
+    fn new(charts: [u32; 2], part: Vec<[u32; 2]>, drafts: &[Draft]) -> Overlap {
         let [i, j] = charts.map(|chart| &drafts[chart as usize]);
         let mut pairs = Vec::new();
         for &[a, b] in &part {
             for k in 0..3 {
-                let pair = [i.corners[a as usize][k], j.corners[b as usize][k]];
-                if !singular[i.vertices[pair[0] as usize]] {
-                    pairs.push(pair);
-                }
+                pairs.push([i.corners[a as usize][k], j.corners[b as usize][k]]);
             }
         }
         pairs.sort_unstable();

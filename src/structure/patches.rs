@@ -106,8 +106,7 @@ impl<'a> Patches<'a> {
         let mut waiting: Vec<Option<Candidate>> = Vec::new();
         let first = Candidate { face: seed, place: sheet.place_about(seed, None), parent: None };
         let (size, mut next) = (self.size(seed), Some(first));
-        loop {
-            let Some(candidate) = next else { break };
+        while let Some(candidate) = next {
             let number = grown.len() as u32;
             let face = candidate.face;
             grown.push(candidate);

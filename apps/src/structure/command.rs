@@ -46,7 +46,7 @@ pub fn execute(args: &StructureArgs, control: &Control) -> Result<Done<Found>, F
     let found = timed(&mut seconds.solve, || doing("atlas", || atlas(&input.surface, &options, control)))?;
     input.seconds = seconds;
     let mut found = Found { atlas: found, failed: Attempts::default() };
-    let (files, figures) = write(args, &mut input, &mut found, control, start)?;
+    let (files, figures) = write(args, &mut input, &mut found, Delivery::new(control, start)?)?;
     drop(progress);
     let checks = found.checks();
     let exit_code = if found.failed.0.is_empty() { checks.exit_code() } else { 1 };
@@ -92,24 +92,26 @@ fn write(
     args: &StructureArgs,
     input: &mut Input,
     found: &mut Found,
-    control: &Control,
-    start: Instant,
+    mut delivery: Delivery,
 ) -> Result<(Vec<String>, Figures), Failure> {
-    let mut delivery = Delivery::new(control, start)?;
     if let Some(path) = &args.atlas {
         let written = delivery.outputs.add_json(path, &AtlasFile::new(&found.atlas));
         found.failed.attempt("atlas", written)?;
     }
-    let picture = args.picture.picture.as_deref();
-    let drawn = delivery.picture(picture, || drawn::draw(input, &found.atlas, args, control));
+    let control = delivery.control();
+    let draw = || drawn::draw(input, &found.atlas, args, control);
+    let drawn = delivery.picture(args.picture.picture.as_deref(), draw);
     found.failed.attempt("picture", drawn)?;
     delivery.close(&mut input.seconds);
     let figures = figures::of_structure(&found.atlas);
     let files = delivery.commit(args.common.report.as_deref(), || {
-        let singular = (args.singular.is_some() || found.atlas.zeros.is_empty())
-            .then(|| found.atlas.singular_vertices.first().map(|v| v.0));
-        let asked =
-            Asked { input_geometry: input.surface.geometry().name(), singular: singular.flatten(), args };
+        let singular = || found.atlas.singular_vertices.first().map(|v| v.0);
+        let has_one = args.singular.is_some() || found.atlas.singular_vertices.len() == 1;
+        let asked = Asked {
+            input_geometry: input.surface.geometry().name(),
+            singular: has_one.then(singular).flatten(),
+            args,
+        };
         let report = Report::new("structure", InputSummary::of(input), asked, figures.clone());
         report.finished(found.checks(), input.seconds)
     })?;
