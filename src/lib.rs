@@ -14,6 +14,7 @@
 //! | [`flow`] | Newton and gradient flow, cones |
 //! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |
 //! | [`canonical`] | closed surfaces in their canonical shape |
+//! | [`structure`] | atlases: conformal, spherical, affine, hyperbolic, projective |
 //! | [`spline`] | triangular B-splines |
 //!
 //! Three cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf,
@@ -34,6 +35,7 @@ pub mod mesh;
 pub mod metric;
 pub mod parallel;
 pub mod spline;
+pub mod structure;
 pub mod topology;
 
 pub use control::Control;

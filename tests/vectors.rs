@@ -4,6 +4,7 @@
 mod common;
 
 use common::flow::{converged, rigid, solve};
+use common::hex;
 use ricci::flow::curvature_derivative;
 use ricci::geometry::conformal::{Vertex, differences, edge, length};
 use ricci::geometry::triangle::angles_from;
@@ -12,18 +13,6 @@ use ricci::geometry::{Space, triangle};
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
 use ricci::metric::{Class, Metric, Scheme, curvature, initial_metric};
 use std::collections::HashMap;
-
-/// A double as C's `%a` writes it.
-fn hex(text: &str) -> f64 {
-    let (sign, digits) = text.strip_prefix('-').map_or((1.0, text), |digits| (-1.0, digits));
-    let (mantissa, exponent) = digits.strip_prefix("0x").unwrap().split_once('p').unwrap();
-    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let bits = u64::from_str_radix(&format!("{whole}{fraction}"), 16).unwrap();
-    // Exact: at most 53 bits, and powers of two.
-    let exponent = exponent.parse::<i32>().unwrap() - 4 * fraction.len() as i32;
-    let half = exponent / 2;
-    sign * bits as f64 * 2f64.powi(half) * 2f64.powi(exponent - half)
-}
 
 fn space(name: &str) -> Space {
     [Space::E2, Space::H2, Space::S2].into_iter().find(|s| s.name() == name).unwrap()

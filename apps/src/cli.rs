@@ -11,6 +11,7 @@ use crate::output::{self, Outputs};
 use crate::repair::RepairArgs;
 use crate::report::{Checks, Figures, InputSummary, Report, Seconds};
 use crate::spline::SplineArgs;
+use crate::structure::StructureArgs;
 use crate::uniform::{CoverArgs, UniformizeArgs};
 use clap::{Args, Parser, Subcommand};
 use serde::Serialize;
@@ -59,6 +60,9 @@ pub enum Command {
     /// A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface
     #[command(after_help = crate::domain::HELP)]
     Circles(CirclesArgs),
+    /// An atlas of a conformal, spherical, affine, hyperbolic or projective structure, with its transitions and holonomy
+    #[command(after_help = crate::structure::HELP)]
+    Structure(StructureArgs),
     /// Triangular B-splines: fitted to meshes, evaluated
     #[command(after_help = crate::spline::HELP)]
     Spline(SplineArgs),
@@ -97,6 +101,9 @@ impl Command {
                 report_failure("cover", &args.to.file.mesh, &args.to.common, args, failure)
             }
             Command::Circles(args) => report_failure("circles", &args.file.mesh, &args.common, args, failure),
+            Command::Structure(args) => {
+                report_failure("structure", &args.file.mesh, &args.common, args, failure)
+            }
             _ => Ok(()),
         }
     }

@@ -6,7 +6,7 @@ use crate::demo::{execute, make_directory, parse};
 use crate::failure::Failure;
 use crate::output::Outputs;
 use crate::report::path_text;
-use crate::{info, make, say};
+use crate::{info, make, say, spline};
 use ricci::Control;
 use std::path::Path;
 
@@ -16,11 +16,12 @@ const PICTURES: &str = include_str!("gallery.txt");
 /// What other programs' pictures of the same layouts look like; it ends the page where the corpus is at hand.
 const BESIDE: &str = include_str!("gallery_beside.md");
 
-/// One picture. In the command lines `{}` stands for the surface's file.
+/// One picture. In the command lines `{}` stands for the surface's file, `{spline}` for a spline's.
 struct Row {
     name: &'static str,
     source: Source,
-    /// `flow …`, `uniformize …`, `cover …`, `circles …`, `harmonic …`, `forms …` or `info …`; for what `make` draws itself nothing.
+    /// `flow …`, `uniformize …`, `cover …`, `circles …`, `harmonic …`, `forms …`, `structure …` or `info …`, or such commands with ` && ` between them, of which the last one draws; for
+    /// what `make` draws itself nothing.
     draw: &'static str,
     about: &'static str,
 }
@@ -147,8 +148,9 @@ impl Row {
             }
             Corpus(_) => None,
         };
-        let draw = self.draw.replace("{}", &file);
-        let draw = (!draw.is_empty()).then(|| format!("`ricci {draw}{picture}`"));
+        let draw = self.draw.replace("{}", &file).replace("{spline}", &format!("{}.json", self.name));
+        let draw =
+            (!draw.is_empty()).then(|| format!("`ricci {}{picture}`", draw.replace(" && ", "`<br>`ricci ")));
         make.into_iter().chain(draw).collect::<Vec<_>>().join("<br>")
     }
 }
@@ -172,6 +174,7 @@ impl Studio<'_> {
         let words = |line: String| -> Vec<String> {
             let to = |word: &str| match word {
                 "{}" => path_text(&surface),
+                "{spline}" => path_text(&self.scratch.join(format!("{}.json", row.name))),
                 "PICTURE" => path_text(&out.join(format!("{}.png", row.name))),
                 word => word.into(),
             };
@@ -188,13 +191,27 @@ impl Studio<'_> {
         if row.draw.is_empty() {
             return Ok(());
         }
-        let command = parse(words(format!("{} {drawing}", row.draw)))?;
-        if let Command::Info(args) = &command {
-            return info::run(args, self.control).map(|_| ());
+        let commands: Vec<&str> = row.draw.split(" && ").collect();
+        for (i, line) in commands.iter().enumerate() {
+            let options = if i + 1 == commands.len() { &drawing } else { &quiet };
+            self.run(parse(words(format!("{line} {options}")))?)?;
         }
-        match execute(command, self.control)?.checks.failed().as_slice() {
-            [] => Ok(()),
-            failed => Err(Failure::Failed(format!("these checks fail: {failed:?}"))),
+        Ok(())
+    }
+
+    /// Run a command, whose checks must hold.
+    fn run(&self, command: Command) -> Result<(), Failure> {
+        let failed = |checks: String| Err(Failure::Failed(format!("these checks fail: {checks}")));
+        match command {
+            Command::Info(args) => info::run(&args, self.control).map(|_| ()),
+            Command::Spline(args) => match spline::run(&args, self.control)? {
+                0 => Ok(()),
+                _ => failed("those of the spline".into()),
+            },
+            command => match execute(command, self.control)?.checks.failed().as_slice() {
+                [] => Ok(()),
+                checks => failed(format!("{checks:?}")),
+            },
         }
     }
 }
@@ -218,8 +235,12 @@ mod tests {
             if let Made(line, _) = row.source {
                 Cli::try_parse_from(words(&format!("make {line} -o {{}}"))).unwrap();
             }
-            if !row.draw.is_empty() {
-                Cli::try_parse_from(words(&format!("{} --picture p.png", row.draw))).unwrap();
+            let (first, last) = row.draw.rsplit_once(" && ").unwrap_or(("", row.draw));
+            for line in first.split(" && ").filter(|line| !line.is_empty()) {
+                Cli::try_parse_from(words(line)).unwrap();
+            }
+            if !last.is_empty() {
+                Cli::try_parse_from(words(&format!("{last} --picture p.png"))).unwrap();
             }
         }
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/pictures");

@@ -38,6 +38,7 @@ mod shape_quality;
 mod show;
 mod solved;
 mod spline;
+mod structure;
 mod timing;
 mod uniform;
 mod uv;
@@ -45,7 +46,6 @@ mod uv;
 use clap::{CommandFactory, Parser};
 use cli::{Cli, Command};
 use failure::Failure;
-use spline::SplineCommand;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -73,12 +73,10 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Harmonic(args) => harmonic::run(args, &control),
         Command::Forms(args) => forms::run(args, &control),
         Command::Circles(args) => domain::run(args, &control),
+        Command::Structure(args) => structure::run(args, &control),
         Command::Info(args) => info::run(args, &control),
         Command::Repair(args) => repair::run(args, &control),
-        Command::Spline(args) => match &args.command {
-            SplineCommand::Fit(args) => spline::fit(args, &control),
-            SplineCommand::Eval(args) => spline::eval(args, &control),
-        },
+        Command::Spline(args) => spline::run(args, &control),
         Command::Make(args) => make::run(args),
         Command::Demo(args) => demo::run(args, &control),
         Command::Gallery(args) => gallery::run(args, &control),

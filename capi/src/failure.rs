@@ -83,6 +83,9 @@ impl From<Error> for Failure {
             Error::Domain { vertex, u, .. } => ((Element::Vertex, *vertex), *u),
             Error::TargetAtVertex { vertex, excess, .. } => ((Element::Vertex, *vertex), *excess),
             Error::TargetBelow { vertex, excess, .. } => ((Element::Vertex, *vertex), *excess),
+            Error::Spline { what: "patch" | "triangle", index, .. } => ((Element::Face, *index), 0.0),
+            Error::Spline { what: "vertex", index, .. } => ((Element::Vertex, *index), 0.0),
+            Error::Spline { index, .. } => ((Element::Entry, *index), 0.0),
             Error::TargetTotal { miss, .. } => ((Element::None, 0), *miss),
             _ => return failure,
         };

@@ -6,8 +6,16 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The headers, with the most functions that each may have.
-const HEADERS: &[(&str, usize)] =
-    &[("ricci", 60), ("uniformize", 60), ("harmonic", 20), ("repair", 20), ("shapes", 10)];
+const HEADERS: &[(&str, usize)] = &[
+    ("ricci", 60),
+    ("uniformize", 60),
+    ("circles", 10),
+    ("harmonic", 20),
+    ("spline", 20),
+    ("structure", 20),
+    ("repair", 20),
+    ("shapes", 10),
+];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

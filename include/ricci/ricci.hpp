@@ -7,16 +7,16 @@
 //     const std::vector<double> uv = layout.uv(), factor = flat.factor();
 //
 // C++11; nothing is hidden: every function of the C headers takes the handles by .get(), and ricci::make,
-// ricci::values and ricci::rows call those that have no method here. Objects are moved, not copied.
+// ricci::values and ricci::rows call those that have no method here. Objects are moved, not copied. What
+// ricci/uniformize.h, circles.h, harmonic.h, spline.h and repair.h have is in headers of the same names,
+// .hpp.
 //
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #ifndef RICCI_HPP
 #define RICCI_HPP
 
-#include <ricci/repair.h>
 #include <ricci/ricci.h>
 #include <ricci/shapes.h>
-#include <ricci/uniformize.h>
 
 #include <array>
 #include <cstddef>
@@ -377,159 +377,6 @@ public:
     std::vector<double> weights() const { return values<double>(ricci_map_weights, get()); }
     std::vector<double> carry(const ricci_carried &given) const {
         return values<double>(ricci_map_carry, get(), &given);
-    }
-};
-
-using soup_handle = owned<ricci_soup, ricci_soup_free>;
-
-// A triangle list, whatever its defects.
-class soup : public soup_handle {
-public:
-    using soup_handle::soup_handle;
-    static soup read(const std::string &path) {
-        return soup(make<ricci_soup>(ricci_soup_read, path.c_str()));
-    }
-    static soup from(span<double> positions, span<std::uint32_t> faces) {
-        return soup(make<ricci_soup>(ricci_soup_from_arrays, positions.data(), std::size_t(0),
-                                     positions.size() / 3, faces.data(), faces.size() / 3));
-    }
-    ricci_soup_summary summary() const { return ricci::summary(ricci_soup_summarise, get()); }
-    ricci_defect defect(std::size_t index) const {
-        ricci_defect one;
-        check(ricci_soup_defect(handle_, index, &one, sizeof one));
-        return one;
-    }
-    std::vector<double> values(std::uint32_t which) const {
-        return ricci::values<double>(ricci_soup_values, get(), which);
-    }
-    std::vector<std::uint32_t> faces() const { return ricci::values<std::uint32_t>(ricci_soup_faces, get()); }
-    soup repaired(const ricci_repair_options &options = init<ricci_repair_options>()) const {
-        return soup(make<ricci_soup>(ricci_soup_repair, get(), &options));
-    }
-    // Vertices and faces of the list that was repaired.
-    std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> origins() const {
-        const ricci_soup_summary n = summary();
-        std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> both{
-            std::vector<std::uint32_t>(n.n_vertices), std::vector<std::uint32_t>(n.n_faces)};
-        check(ricci_soup_origins(handle_, both.first.data(), both.first.size(), both.second.data(),
-                                 both.second.size()));
-        return both;
-    }
-    ricci::mesh build() const { return ricci::mesh(make<ricci_mesh>(ricci_soup_mesh, get())); }
-    void write(const std::string &path) const { check(ricci_soup_write(handle_, path.c_str())); }
-};
-
-using homotopy_handle = owned<ricci_homotopy, ricci_homotopy_free>;
-
-class homotopy : public homotopy_handle {
-public:
-    using homotopy_handle::homotopy_handle;
-    explicit homotopy(const mesh &on, const std::uint32_t *base = nullptr, const control *watched = nullptr)
-        : homotopy_handle(make<ricci_homotopy>(ricci_homotopy_new, on.get(), base, of(watched))) {}
-    ricci_homotopy_summary summary() const { return ricci::summary(ricci_homotopy_summarise, get()); }
-    lists<std::int32_t> loops() const {
-        return rows<std::int32_t>(summary().n_generators, ricci_homotopy_loops, get());
-    }
-    std::vector<std::int32_t> reduced(span<std::int32_t> word) const {
-        std::vector<std::int32_t> shorter(word.size());
-        std::size_t n = 0;
-        check(ricci_homotopy_reduce(handle_, word.data(), word.size(), shorter.data(), shorter.size(), &n));
-        shorter.resize(n);
-        return shorter;
-    }
-};
-
-using deck_handle = owned<ricci_deck, ricci_deck_free>;
-
-class deck : public deck_handle {
-public:
-    using deck_handle::deck_handle;
-    ricci_deck_summary summary() const { return ricci::summary(ricci_deck_summarise, get()); }
-    lists<std::int32_t> words() const {
-        return rows<std::int32_t>(summary().n_elements, ricci_deck_words, get());
-    }
-    std::vector<double> values(std::uint32_t which) const {
-        return ricci::values<double>(ricci_deck_values, get(), which);
-    }
-    // Points in ambient coordinates, moved by one element.
-    std::vector<double> moved(std::size_t element, span<double> points) const {
-        return ricci::values<double>(ricci_deck_apply, get(), element, points.data(), points.size() / 3);
-    }
-};
-
-using dirichlet_handle = owned<ricci_dirichlet, ricci_dirichlet_free>;
-
-class dirichlet : public dirichlet_handle {
-public:
-    using dirichlet_handle::dirichlet_handle;
-    ricci_dirichlet_summary summary() const { return ricci::summary(ricci_dirichlet_summarise, get()); }
-    std::vector<double> corners() const { return values<double>(ricci_dirichlet_corners, get()); }
-    std::vector<std::int32_t> partners() const {
-        return values<std::int32_t>(ricci_dirichlet_partners, get());
-    }
-};
-
-using uniform_handle = owned<ricci_uniform, ricci_uniform_free>;
-
-// A closed surface with its metric of constant curvature.
-class uniform : public uniform_handle {
-public:
-    explicit uniform(const mesh &on, const ricci_uniform_options &options = init<ricci_uniform_options>(),
-                     const control *watched = nullptr)
-        : uniform_handle(make<ricci_uniform>(ricci_uniformize, on.get(), &options, of(watched))) {}
-    ricci_uniform_summary summary() const { return ricci::summary(ricci_uniform_summarise, get()); }
-    ricci::metric metric() const { return ricci::metric(make<ricci_metric>(ricci_uniform_metric, get())); }
-    ricci::homotopy homotopy() const {
-        return ricci::homotopy(make<ricci_homotopy>(ricci_uniform_homotopy, get()));
-    }
-    ricci::layout layout(std::uint32_t on = RICCI_ON_REFINEMENT,
-                         std::uint32_t model = RICCI_MODEL_POINCARE) const {
-        return ricci::layout(make<ricci_layout>(ricci_uniform_layout, get(), on, model, of(nullptr)));
-    }
-    ricci::deck deck(const ricci_deck_spec &spec = init<ricci_deck_spec>(),
-                     const control *watched = nullptr) const {
-        return ricci::deck(make<ricci_deck>(ricci_deck_new, get(), &spec, of(watched)));
-    }
-    ricci::dirichlet dirichlet(const double *centre = nullptr) const {
-        return ricci::dirichlet(make<ricci_dirichlet>(ricci_dirichlet_new, get(), centre, of(nullptr)));
-    }
-    std::vector<double> sphere_points(std::uint32_t model = RICCI_MODEL_AMBIENT) const {
-        return values<double>(ricci_sphere_points, get(), model);
-    }
-};
-
-using circle_domain_handle = owned<ricci_circle_domain, ricci_circle_domain_free>;
-
-// A surface with boundary whose loops are circles.
-class circle_domain : public circle_domain_handle {
-public:
-    explicit circle_domain(const mesh &on,
-                           const ricci_circle_domain_options &options = init<ricci_circle_domain_options>(),
-                           const control *watched = nullptr)
-        : circle_domain_handle(
-              make<ricci_circle_domain>(ricci_circle_domain_new, on.get(), &options, of(watched))) {}
-    ricci_circle_domain_summary summary() const {
-        return ricci::summary(ricci_circle_domain_summarise, get());
-    }
-    std::vector<double> circles() const { return values<double>(ricci_circle_domain_circles, get()); }
-    ricci::mesh mesh() const { return ricci::mesh(make<ricci_mesh>(ricci_circle_domain_mesh, get())); }
-    ricci::layout layout(std::uint32_t model = RICCI_MODEL_POINCARE) const {
-        return ricci::layout(make<ricci_layout>(ricci_circle_domain_layout, get(), model));
-    }
-};
-
-using atlas_handle = owned<ricci_atlas, ricci_atlas_free>;
-
-class atlas : public atlas_handle {
-public:
-    explicit atlas(const layout &of_layout, double margin = 1.0 / 256, const control *watched = nullptr)
-        : atlas_handle(make<ricci_atlas>(ricci_atlas_new, of_layout.get(), margin, of(watched))) {}
-    ricci_atlas_summary summary() const { return ricci::summary(ricci_atlas_summarise, get()); }
-    std::vector<std::uint32_t> faces() const { return values<std::uint32_t>(ricci_atlas_faces, get()); }
-    std::vector<double> points() const { return values<double>(ricci_atlas_points, get()); }
-    std::vector<std::uint32_t> corners() const { return values<std::uint32_t>(ricci_atlas_corners, get()); }
-    void write(const std::string &path, bool homogeneous = false) const {
-        check(ricci_atlas_write(handle_, homogeneous ? 1 : 0, path.c_str()));
     }
 };
 

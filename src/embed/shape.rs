@@ -22,7 +22,7 @@ pub const LEAST_SHARE: f64 = 1e-12;
 
 /// A triangle in the plane.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Shape {
+pub(crate) struct Shape {
     /// Signed area over the square of the longest edge; 0 for a point.
     pub share: f64,
     pub longest: f64,
@@ -61,6 +61,6 @@ impl Shape {
 }
 
 /// The largest absolute value of the points' coordinates.
-pub(super) fn extent(points: &[[f64; 2]]) -> f64 {
+pub(crate) fn extent(points: &[[f64; 2]]) -> f64 {
     points.as_flattened().iter().fold(0.0, |m, x| m.max(x.abs()))
 }

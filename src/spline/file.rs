@@ -10,7 +10,7 @@ use super::surface::Spline;
 use crate::error::{At, Error, Result};
 use crate::geometry::vector::Vector;
 use crate::mesh::io::write_atomically;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// What `format` says in files that this version reads and writes.
 const FORMAT: &str = "ricci-spline 1";
 
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 struct Document {
     format: String,
     degree: usize,
@@ -29,36 +29,36 @@ struct Document {
     hole: Option<serde_json::Value>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 struct PatchEntry {
     chart: u32,
     knots: [Vec<[f64; 2]>; 3],
     control: Vec<u32>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 struct SupportEntry {
     patch: u32,
     to: [[f64; 3]; 2],
 }
 
 impl Spline {
-    /// The text of the spline's file. Numbers are read back as they were.
+    /// The text of the spline's file. Numbers are read back as they were: a spline has finite ones alone, whose [`Debug`](std::fmt::Debug)
+    /// text is JSON.
     pub fn to_json(&self) -> String {
         let space = self.space();
-        let entry =
-            |p: &Patch| PatchEntry { chart: p.chart, knots: p.knots.clone(), control: p.control.clone() };
-        let support = |s: &Support| SupportEntry { patch: s.patch, to: s.to };
-        let document = Document {
-            format: FORMAT.into(),
-            degree: space.degree(),
-            patches: space.patches().iter().map(entry).collect(),
-            supports: space.supports().iter().map(|of| of.iter().map(support).collect()).collect(),
-            control_points: self.control_points().to_vec(),
-            hole: None,
+        let patch = |Patch { chart, knots, control }: &Patch| {
+            format!("{{\"chart\":{chart},\"knots\":{knots:?},\"control\":{control:?}}}")
         };
-        // Strings, finite numbers and arrays of them can always be written.
-        serde_json::to_string(&document).unwrap_or_default() + "\n"
+        let support = |Support { patch, to }: &Support| format!("{{\"patch\":{patch},\"to\":{to:?}}}");
+        let supports = |of: &Vec<Support>| list(of.iter().map(support));
+        format!(
+            "{{\"format\":{FORMAT:?},\"degree\":{},\"patches\":{},\"supports\":{},\"control_points\":{:?},\"hole\":null}}\n",
+            space.degree(),
+            list(space.patches().iter().map(patch)),
+            list(space.supports().iter().map(supports)),
+            self.control_points(),
+        )
     }
 
     /// A spline from the text of a file, which `name` names in errors.
@@ -104,4 +104,8 @@ impl Spline {
     pub fn write(&self, path: &Path) -> Result<()> {
         write_atomically(path, |out| out.write_all(self.to_json().as_bytes()))
     }
+}
+
+fn list(entries: impl Iterator<Item = String>) -> String {
+    format!("[{}]", entries.collect::<Vec<_>>().join(","))
 }

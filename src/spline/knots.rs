@@ -179,7 +179,10 @@ impl Around {
             lines.fold(f64::INFINITY, f64::min)
         };
         let turns = (0..FIRST_TURNS).map(|k| k as f64 / FIRST_TURNS as f64);
-        turns.max_by(|a, b| clearance(*a).total_cmp(&clearance(*b))).unwrap_or(0.0)
+        let best = turns
+            .map(|turn| (clearance(turn), turn))
+            .fold((0.0, 0.0), |best, next| if next.0 >= best.0 { next } else { best });
+        best.1
     }
 }
 

@@ -1,8 +1,24 @@
 //! Which triangle of a domain a point lies in.
 
 use super::knots::Domain;
+use super::overlap::bounds;
 use super::patch::{OUTSIDE, Parameter};
+use super::space::SplineSpace;
+use crate::error::Result;
 use crate::geometry::complex::doubled_area;
+
+impl SplineSpace {
+    /// The triangles of the patches, each with vertices of its own: triangle k is patch k.
+    ///
+    /// # Errors
+    /// [`crate::Error::Argument`] where patches lie in several charts: a point of the plane is a place in one chart.
+    pub fn domain(&self) -> Result<Domain> {
+        self.check_one_chart()?;
+        let corners = self.patches().iter().flat_map(|patch| [0, 1, 2].map(|k| patch.knots[k][0]));
+        let triangles = (0..self.patches().len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]);
+        Ok(Domain { vertices: corners.collect(), triangles: triangles.collect() })
+    }
+}
 
 /// The triangles of a domain in the cells of a grid.
 #[derive(Debug, Clone)]
@@ -21,10 +37,7 @@ pub struct Locator<'a> {
 impl<'a> Locator<'a> {
     /// For a domain that [`Domain::check`] has found good. The grid has about as many cells as the domain has triangles.
     pub fn new(domain: &'a Domain) -> Locator<'a> {
-        let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for p in &domain.vertices {
-            (0..2).for_each(|x| (lower[x], upper[x]) = (lower[x].min(p[x]), upper[x].max(p[x])));
-        }
+        let [lower, upper] = bounds(domain.vertices.iter());
         let [width, height] = [0, 1].map(|x| (upper[x] - lower[x]).max(f64::MIN_POSITIVE));
         let cell =
             (width * height / domain.triangles.len().max(1) as f64).sqrt().max(width.max(height) * 1e-6);

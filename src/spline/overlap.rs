@@ -34,7 +34,8 @@ pub(super) fn supports_in_plane(patches: &[Patch]) -> Vec<Vec<Support>> {
         .collect()
 }
 
-fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
+/// The least and the largest coordinates of points.
+pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2]; 2] {
     points.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], p| {
         [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]]
     })

@@ -8,6 +8,7 @@
 //! \[Sei91\]: there a much shorter recurrence is enough, which is that of a B-patch.
 
 use super::index::basis_size;
+use super::overlap::bounds;
 use super::recurrence::{Jet, Recurrence, Scratch, Sets};
 use crate::geometry::complex::{cross, doubled_area, sub};
 
@@ -33,17 +34,15 @@ impl Plan {
         let sets = Sets::new(knots);
         let all = &sets.knots;
         let is_outer = |[a, b]: &[usize; 2]| all.iter().all(|&p| doubled_area([p, all[*a], all[*b]]) >= 0.0);
-        let bound = |pick: fn(f64, f64) -> f64| {
-            all.iter().copied().reduce(|a, b| [pick(a[0], b[0]), pick(a[1], b[1])]).unwrap_or_default()
-        };
+        let [lower, upper] = bounds(all.iter());
         Plan {
             degree,
             everywhere: Recurrence::new(&sets, false),
             inside: Recurrence::new(&sets, true),
             weights: super::index::multi_indices(degree).map(|beta| sets.weight(beta)).collect(),
             outer: sets.crossing().iter().copied().filter(is_outer).collect(),
-            lower: bound(f64::min),
-            upper: bound(f64::max),
+            lower,
+            upper,
             sets,
         }
     }

@@ -198,16 +198,22 @@ impl SplineSpace {
                 "that of the spline",
             ));
         }
-        if let Some(patch) = self.patches.iter().find(|patch| patch.chart != self.patches[0].chart) {
-            return Err(Error::argument(
-                "chart",
-                patch.chart,
-                "that of the first patch: a polynomial lives in one chart",
-            ));
-        }
+        self.check_one_chart()?;
         let mut points = vec![[0.0; D]; self.n_control_points];
         self.for_each_argument(|control, arguments| points[control] = polynomial.polar(arguments));
         Ok(points)
+    }
+
+    /// That all patches lie in one chart.
+    pub(super) fn check_one_chart(&self) -> Result<()> {
+        match self.patches.iter().find(|patch| patch.chart != self.patches[0].chart) {
+            Some(patch) => Err(Error::argument(
+                "chart",
+                patch.chart,
+                "that of the first patch: this needs a single chart",
+            )),
+            None => Ok(()),
+        }
     }
 
     /// Calls `take` with each control point and its polar arguments, once per patch that has it: t_{k,j} for j < β_k.

@@ -82,3 +82,15 @@ impl Random {
         (self.0.bits() % n as u64) as usize
     }
 }
+
+/// A double as C's `%a` writes it.
+pub fn hex(text: &str) -> f64 {
+    let (sign, digits) = text.strip_prefix('-').map_or((1.0, text), |digits| (-1.0, digits));
+    let (mantissa, exponent) = digits.strip_prefix("0x").unwrap().split_once('p').unwrap();
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let bits = u64::from_str_radix(&format!("{whole}{fraction}"), 16).unwrap();
+    // Exact: at most 53 bits, and powers of two.
+    let exponent = exponent.parse::<i32>().unwrap() - 4 * fraction.len() as i32;
+    let half = exponent / 2;
+    sign * bits as f64 * 2f64.powi(half) * 2f64.powi(exponent - half)
+}

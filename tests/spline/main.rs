@@ -1,8 +1,13 @@
 //! Triangular B-splines against their theorems and against the bare recurrence.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
+#[path = "../common/mod.rs"]
+mod common;
+mod exact;
 mod fit;
+mod knots;
+mod smooth;
 
 use ricci::spline::{
     Domain, KnotOptions, Parameter, Patch, Polynomial, Spline, SplineSpace, Support, monomials,
@@ -196,16 +201,45 @@ fn derivatives_are_those_of_finite_differences() {
 fn places_outside_and_other_bad_input_have_names() {
     let space = space(2, 3);
     let surface = random_surface(&space);
-    let outside = surface.point(Parameter { patch: 0, x: 2.0, y: 2.0 });
-    assert!(matches!(outside, Err(Error::Spline { what: "patch", index: 0, .. })), "{outside:?}");
-    assert!(surface.point(Parameter { patch: 99, x: 0.0, y: 0.0 }).is_err());
-    assert!(surface.point(Parameter { patch: 0, x: f64::NAN, y: 0.0 }).is_err());
-    assert!(square(2).knots(6, &KnotOptions::default()).is_err());
-    assert!(square(2).knots(0, &KnotOptions::default()).is_err());
+    for (at, index) in [((0, 2.0, 2.0), 0), ((99, 0.0, 0.0), 99), ((0, f64::NAN, 0.0), 0)] {
+        let (patch, x, y) = at;
+        let refused = surface.point(Parameter { patch, x, y });
+        assert!(
+            matches!(refused, Err(Error::Spline { what: "patch", index: i, .. }) if i == index),
+            "{refused:?}"
+        );
+    }
+    for degree in [0, 6] {
+        let refused = square(2).knots(degree, &KnotOptions::default());
+        assert!(matches!(refused, Err(Error::Argument { what: "degree", .. })), "{refused:?}");
+        let text = refused.unwrap_err().to_string();
+        assert!(text.contains(&degree.to_string()) && text.contains("1 to 5"), "{text}");
+    }
+    for spread in [0.0, 1.0, f64::NAN] {
+        let refused = square(2).knots(3, &KnotOptions { spread, ..KnotOptions::default() });
+        assert!(matches!(refused, Err(Error::Argument { what: "spread", .. })), "{refused:?}");
+    }
+    for options in [
+        KnotOptions { coincident: vec![0, 9], ..KnotOptions::default() },
+        KnotOptions { creases: vec![[9, 0]], ..KnotOptions::default() },
+    ] {
+        let refused = square(2).knots(3, &options);
+        assert!(matches!(refused, Err(Error::Spline { what: "vertex", index: 9, .. })), "{refused:?}");
+    }
+    let mut turned = square(2);
+    turned.triangles[5].swap(0, 1);
+    let refused = turned.knots(3, &KnotOptions::default());
+    assert!(matches!(refused, Err(Error::Spline { what: "triangle", index: 5, .. })), "{refused:?}");
     let mut knots = square(2).knots(2, &KnotOptions::default()).unwrap();
     knots[4] = vec![[0.5, 0.5], [0.0, 0.0], [1.0, 1.0]];
     let crossed = SplineSpace::planar(&square(2), &knots).unwrap_err();
     assert!(matches!(crossed, Error::Spline { what: "patch", .. }), "{crossed}");
+    // Three knots of different corners on a line.
+    let [a, b] = [square(2).vertices[0], square(2).vertices[1]];
+    let mut knots = square(2).knots(1, &KnotOptions::default()).unwrap();
+    knots[4][1] = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+    let collinear = SplineSpace::planar(&square(2), &knots).unwrap_err().to_string();
+    assert!(collinear.contains("on a line") && collinear.contains("t[0][0]"), "{collinear}");
     let places = [Parameter { patch: 0, x: 5.0, y: 0.0 }];
     assert!(surface.evaluate(&places, 0, 1, &Control::new()).is_err());
 }

@@ -1,6 +1,7 @@
 //! The options of `ricci spline`.
 
 use crate::options::{Common, FileName, number, positive};
+use crate::picture::SurfacePictureArgs;
 use clap::{Args, Subcommand};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -11,6 +12,10 @@ Example: a smooth cubic surface through the heights of a mesh, some of its point
     ricci spline fit hill.obj --planar --degree 3 -o hill.json --report fit.json
     ricci spline eval hill.json --at places.csv --derivatives -o points.csv
     ricci spline eval hill.json --tessellate 4 -o fine.obj
+    ricci spline eval hill.json --picture hill.png --wire --color curvature
+
+--picture draws --tessellate N x N triangles per patch, or 12 x 12; --wire draws the sides of the patches, and colours show the Gaussian
+curvature of the surface itself.
 
 places.csv has rows patch,x,y: a triangle of the spline, numbered from 0, and a place in it, in the coordinates of its chart.
 
@@ -63,7 +68,7 @@ pub struct EvalArgs {
     #[serde(skip)]
     pub spline: PathBuf,
     /// Points at these places: rows patch,x,y in the chart of the patch
-    #[arg(long, value_name = "Q.csv", conflicts_with = "tessellate", required_unless_present = "tessellate")]
+    #[arg(long, value_name = "Q.csv", conflicts_with = "tessellate", requires = "out")]
     pub at: Option<FileName>,
     /// Add first and second derivatives, normal and principal curvatures to the rows
     #[arg(long, requires = "at")]
@@ -72,8 +77,15 @@ pub struct EvalArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub tessellate: Option<u16>,
     /// Write rows (.csv) or the mesh (.obj, .off, .ply, .glb)
-    #[arg(short = 'o', long = "out", value_name = "OUT")]
-    pub out: FileName,
+    #[arg(short = 'o', long = "out", value_name = "OUT", required_unless_present = "picture")]
+    pub out: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub picture: SurfacePictureArgs,
+    /// Draw the control net over the surface
+    #[arg(long, requires = "picture")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub net: bool,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,

@@ -1,6 +1,7 @@
 //! `ricci spline eval`.
 
 use super::args::EvalArgs;
+use super::picture::draw;
 use crate::csv::read_rows;
 use crate::failure::Failure;
 use crate::output::{Outputs, check_extension, check_outputs, format_of};
@@ -11,38 +12,51 @@ use ricci::Control;
 use ricci::mesh::io;
 use ricci::spline::{Parameter, Spline, SurfacePoint};
 use std::io::Write;
+use std::path::Path;
 use std::time::Instant;
 
-/// Evaluate a spline at places, or all over.
+/// What `-o` is to hold.
+enum Wanted<'a> {
+    Rows { at: &'a Path, out: &'a Path },
+    Mesh { sides: u16, out: &'a Path },
+    Nothing,
+}
+
+impl Wanted<'_> {
+    fn of(args: &EvalArgs) -> Result<Wanted<'_>, Failure> {
+        match (args.out.as_deref(), args.at.as_deref(), args.tessellate) {
+            (Some(out), Some(at), _) => Ok(Wanted::Rows { at, out }),
+            (Some(out), None, Some(sides)) => Ok(Wanted::Mesh { sides, out }),
+            (None, None, _) => Ok(Wanted::Nothing),
+            (Some(_), None, None) => {
+                Err(Failure::Usage("-o: say with --at Q.csv or --tessellate N what is to be written".into()))
+            }
+            (None, Some(_), _) => Err(Failure::Usage("--at: say with -o where the rows go".into())),
+        }
+    }
+}
+
+/// Evaluate a spline at places, or all over, and draw it.
 pub fn eval(args: &EvalArgs, control: &Control) -> Result<u8, Failure> {
     let start = Instant::now();
+    let wanted = Wanted::of(args)?;
     let known: &[&str] = if args.at.is_some() { &["csv"] } else { &["obj", "off", "ply", "glb"] };
-    check_extension("-o", Some(&args.out), known)?;
+    let picture = args.picture.base.picture.as_deref();
+    check_extension("-o", args.out.as_deref(), known)?;
+    check_extension("--picture", picture, &["png"])?;
     check_outputs(
         &[Some(&args.spline), args.at.as_deref()],
-        &[Some(&*args.out), args.common.report.as_deref()],
+        &[args.out.as_deref(), picture, args.common.report.as_deref()],
     )?;
     let progress = Progress::watch(control, args.common.quiet);
     let mut seconds = Seconds::default();
     let spline = timed(&mut seconds.read, || Spline::read(&args.spline))?;
     let mut outputs = Outputs::default();
-    let points = match &args.at {
-        Some(path) => {
-            let places = places(path)?;
-            let order = if args.derivatives { 2 } else { 0 };
-            let found =
-                timed(&mut seconds.solve, || spline.evaluate(&places, order, args.common.threads, control))?;
-            outputs.add(&args.out, |out| write_rows(out, &places, &found, args.derivatives))?;
-            found.len()
-        }
-        None => {
-            let n = args.tessellate.unwrap_or(1).into();
-            let soup = timed(&mut seconds.solve, || spline.tessellate(n, args.common.threads, control))?;
-            let format = format_of(&args.out)?;
-            outputs.add_named(&args.out, |path| io::write_as(path, format, &soup))?;
-            soup.positions.len()
-        }
-    };
+    let points = timed(&mut seconds.solve, || write(&wanted, &spline, args, (&mut outputs, control)))?;
+    if let Some(path) = picture {
+        let drawn = timed(&mut seconds.picture, || draw(&spline, args, control));
+        outputs.add_bytes(path, &drawn?)?;
+    }
     if let Some(path) = &args.common.report {
         let space = spline.space();
         let figures = Figures::default()
@@ -58,14 +72,41 @@ pub fn eval(args: &EvalArgs, control: &Control) -> Result<u8, Failure> {
     let files = outputs.commit()?;
     drop(progress);
     if !args.common.quiet {
-        let text = format!("{}: {}\n", args.out.display(), count(points, "point", "points"));
+        let text = args.out.as_ref().map_or_else(String::new, |out| {
+            format!("{}: {}\n", out.display(), count(points, "point", "points"))
+        });
         say::lines(&text, &files)?;
     }
     Ok(0)
 }
 
+/// Add what `-o` is to hold; returns how many points that is.
+fn write(
+    wanted: &Wanted<'_>,
+    spline: &Spline,
+    args: &EvalArgs,
+    (outputs, control): (&mut Outputs, &Control),
+) -> Result<usize, Failure> {
+    let threads = args.common.threads;
+    match *wanted {
+        Wanted::Rows { at, out } => {
+            let places = places(at)?;
+            let found = spline.evaluate(&places, if args.derivatives { 2 } else { 0 }, threads, control)?;
+            outputs.add(out, |file| write_rows(file, &places, &found, args.derivatives))?;
+            Ok(found.len())
+        }
+        Wanted::Mesh { sides, out } => {
+            let soup = spline.tessellate(sides.into(), threads, control)?;
+            let format = format_of(out)?;
+            outputs.add_named(out, |path| io::write_as(path, format, &soup))?;
+            Ok(soup.positions.len())
+        }
+        Wanted::Nothing => Ok(0),
+    }
+}
+
 /// The rows of a file of places.
-fn places(path: &std::path::Path) -> Result<Vec<Parameter>, Failure> {
+fn places(path: &Path) -> Result<Vec<Parameter>, Failure> {
     let refuse = |line: usize, what: &str| {
         Failure::Input(format!("{}:{line}: `{what}` is no number of a place", path.display()))
     };

@@ -1,7 +1,7 @@
 //! `ricci spline fit`.
 
 use super::args::FitArgs;
-use super::height_field::outline;
+use super::height_field::{HeightField, height_field};
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::options::MeshArgs;
@@ -42,17 +42,18 @@ pub fn fit(args: &FitArgs, control: &Control) -> Result<u8, Failure> {
     let file = MeshArgs { mesh: args.mesh.clone(), weld: None };
     let input = input::read(&file, None, control)?;
     let mut seconds = Seconds { ..input.seconds };
-    let outline = outline(&input)?;
+    let field = height_field(&input)?;
     let edge =
-        args.edge.unwrap_or_else(|| usual_edge(&outline, input.mesh().n_vertices(), args.degree.into()));
-    let fitted = timed(&mut seconds.solve, || fitted(args, &input, &outline, edge, control))?;
+        args.edge.unwrap_or_else(|| usual_edge(&field.outline, field.points.len(), args.degree.into()));
+    let fitted = timed(&mut seconds.solve, || fitted(args, &field, edge, control))?;
     let identities = fitted.spline.identities(args.common.threads, control)?;
-    let (figures, checks) = told(&fitted, &identities, &input);
+    let (diagonal, checks) = (diagonal(field.points), checks(&identities));
+    let figures = figures(&fitted, &identities, diagonal);
     let mut outputs = Outputs::default();
     timed(&mut seconds.write, || {
         outputs.add(&args.out, |out| out.write_all(fitted.spline.to_json().as_bytes()))
     })?;
-    let text = text(args, &input, &figures, &checks);
+    let text = text(args, &input, (&fitted, diagonal), &checks);
     if let Some(path) = &args.common.report {
         seconds.total = start.elapsed().as_secs_f64();
         let report = Report::new("spline", InputSummary::of(&input), Asked { edge, args }, figures);
@@ -67,18 +68,11 @@ pub fn fit(args: &FitArgs, control: &Control) -> Result<u8, Failure> {
     Ok(checks.exit_code())
 }
 
-fn fitted(
-    args: &FitArgs,
-    input: &Input,
-    outline: &[Vec<[f64; 2]>],
-    edge: f64,
-    control: &Control,
-) -> Result<Fitted, Failure> {
-    let domain = triangulate(outline, edge)?;
+fn fitted(args: &FitArgs, field: &HeightField<'_>, edge: f64, control: &Control) -> Result<Fitted, Failure> {
+    let domain = triangulate(&field.outline, edge)?;
     control.check()?;
     let space = SplineSpace::planar(&domain, &domain.knots(args.degree.into(), &KnotOptions::default())?)?;
     let locator = Locator::new(&domain);
-    let points = input.positions().unwrap_or_default();
     let place = |(v, p): (usize, &[f64; 3])| -> Result<Parameter, Failure> {
         locator.locate([p[0], p[1]]).ok_or_else(|| {
             let path = args.mesh.display();
@@ -87,9 +81,9 @@ fn fitted(
             ))
         })
     };
-    let places = points.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
+    let places = field.points.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
     let options = FitOptions { fairness: args.fairness, threads: args.common.threads };
-    Ok(fit_points(&Arc::new(space), &places, points, &options, control)?)
+    Ok(fit_points(&Arc::new(space), &places, field.points, &options, control)?)
 }
 
 /// The edge for which there is about a quarter as many control points as vertices: n²/2 of them come to a triangle.
@@ -103,15 +97,18 @@ fn usual_edge(outline: &[Vec<[f64; 2]>], vertices: usize, degree: usize) -> f64 
     (4.0 / 3f64.sqrt() * area / triangles.max(1.0)).sqrt()
 }
 
-fn told(fitted: &Fitted, identities: &Identities, input: &Input) -> (Figures, Checks) {
-    let points = input.positions().unwrap_or_default();
+/// The diagonal of the bounding box of points.
+fn diagonal(points: &[[f64; 3]]) -> f64 {
     let extent = |x: usize| {
         let all = points.iter().map(|p| p[x]);
         all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
     };
-    let diagonal = [0, 1, 2].map(extent).iter().map(|x| x * x).sum::<f64>().sqrt();
+    [0, 1, 2].map(extent).iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn figures(fitted: &Fitted, identities: &Identities, diagonal: f64) -> Figures {
     let space = fitted.spline.space();
-    let figures = Figures::default()
+    Figures::default()
         .with("degree", space.degree())
         .with("patches", space.patches().len())
         .with("control_points", space.n_control_points())
@@ -119,29 +116,33 @@ fn told(fitted: &Fitted, identities: &Identities, input: &Input) -> (Figures, Ch
         .with("rms", fitted.rms / diagonal)
         .with("max", fitted.max / diagonal)
         .with("partition_of_unity", identities.partition_of_unity)
-        .with("polynomial_reproduction", identities.polynomial_reproduction)
+        .if_some("polynomial_reproduction", identities.polynomial_reproduction)
         .with("continuity", identities.continuity)
         // Sides between patches, at corners of the boundary, across which the spline is less smooth.
-        .with("rough_sides", identities.rough_sides);
-    let mut checks = Checks::default();
-    checks.add("partition_of_unity", identities.partition_of_unity, UNITY);
-    checks.add("polynomial_reproduction", identities.polynomial_reproduction, REPRODUCTION);
-    checks.add("continuity", identities.continuity, CONTINUITY);
-    (figures, checks)
+        .with("rough_sides", identities.rough_sides)
 }
 
-fn text(args: &FitArgs, input: &Input, figures: &Figures, checks: &Checks) -> String {
-    let number = |name: &str| figures.get(name).as_f64().unwrap_or(f64::NAN);
-    let whole = |name: &str, one: &str, many: &str| count(number(name) as usize, one, many);
+fn checks(identities: &Identities) -> Checks {
+    let mut checks = Checks::default();
+    checks.add("partition_of_unity", identities.partition_of_unity, UNITY);
+    if let Some(error) = identities.polynomial_reproduction {
+        checks.add("polynomial_reproduction", error, REPRODUCTION);
+    }
+    checks.add("continuity", identities.continuity, CONTINUITY);
+    checks
+}
+
+fn text(args: &FitArgs, input: &Input, (fitted, diagonal): (&Fitted, f64), checks: &Checks) -> String {
+    let space = fitted.spline.space();
     let failed = checks.failed();
     format!(
         "{}spline   degree {}, {}, {}\nfit      root mean square {:.2e}, largest {:.2e} of the diagonal of the bounding box\nchecks   {}\nwrote    {}\n",
         say::surface(input),
         args.degree,
-        whole("patches", "patch", "patches"),
-        whole("control_points", "control point", "control points"),
-        number("rms"),
-        number("max"),
+        count(space.patches().len(), "patch", "patches"),
+        count(space.n_control_points(), "control point", "control points"),
+        fitted.rms / diagonal,
+        fitted.max / diagonal,
         if failed.is_empty() { "all hold".into() } else { format!("FAILED: {}", failed.join(", ")) },
         args.out.display(),
     )

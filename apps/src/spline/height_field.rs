@@ -5,18 +5,25 @@ use crate::input::Input;
 use ricci::geometry::predicates::orientation;
 use std::cmp::Ordering;
 
-/// Closed polygons over which a mesh lies: its boundary loops, in x and y. Errors: [`Failure::Input`] for a mesh without boundary, or one
-/// whose faces, seen from above, do not all turn the same way.
-pub fn outline(input: &Input) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
+/// A mesh over the plane.
+pub struct HeightField<'a> {
+    pub points: &'a [[f64; 3]],
+    /// Closed polygons over which it lies: its boundary loops, in x and y.
+    pub outline: Vec<Vec<[f64; 2]>>,
+}
+
+/// The mesh as a height field. Errors: [`Failure::Input`] for a mesh without boundary, or one whose faces, seen from above, do not all
+/// turn the same way.
+pub fn height_field(input: &Input) -> Result<HeightField<'_>, Failure> {
     let refuse = |why: String| Err(Failure::Input(format!("{}: {why}", input.path.display())));
     let mesh = input.mesh();
-    let Some(positions) = input.positions() else {
+    let Some(points) = input.positions() else {
         return refuse("an intrinsic metric has no heights".into());
     };
     if mesh.is_closed() {
         return refuse("a closed surface does not lie over a plane without folds".into());
     }
-    let place = |v: ricci::mesh::VertexId| [positions[v.index()][0], positions[v.index()][1]];
+    let place = |v: ricci::mesh::VertexId| [points[v.index()][0], points[v.index()][1]];
     let turn = |f| {
         let [a, b, c] = mesh.face_vertices(f).map(place);
         orientation(a, b, c)
@@ -28,6 +35,7 @@ pub fn outline(input: &Input) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
              (turn it, or flatten it with ricci flow)"
         ));
     }
-    let loops = mesh.boundary_loops();
-    Ok(loops.iter().map(|around| around.iter().map(|&h| place(mesh.origin(h))).collect()).collect())
+    let polygon =
+        |around: &Vec<ricci::mesh::HalfedgeId>| around.iter().map(|&h| place(mesh.origin(h))).collect();
+    Ok(HeightField { points, outline: mesh.boundary_loops().iter().map(polygon).collect() })
 }

@@ -4,7 +4,18 @@ mod args;
 mod eval;
 mod fit;
 mod height_field;
+mod picture;
 
-pub use args::{HELP, SplineArgs, SplineCommand};
-pub use eval::eval;
-pub use fit::fit;
+pub use args::{HELP, SplineArgs};
+
+use crate::failure::Failure;
+use args::SplineCommand;
+use ricci::Control;
+
+/// Run the subcommand; the exit code is 1 if a check fails.
+pub fn run(args: &SplineArgs, control: &Control) -> Result<u8, Failure> {
+    match &args.command {
+        SplineCommand::Fit(args) => fit::fit(args, control),
+        SplineCommand::Eval(args) => eval::eval(args, control),
+    }
+}

@@ -22,6 +22,7 @@ mod picture;
 mod repair;
 mod run;
 mod spline;
+mod structure;
 mod surfaces;
 mod uniformize;
 mod usage;

@@ -43,6 +43,34 @@ fn a_spline_is_fitted_written_evaluated_and_drawn_as_triangles() {
 }
 
 #[test]
+fn surfaces_are_drawn_with_their_patches_net_and_curvature() {
+    let place = Place::new();
+    place.expect(0, "make disk --height 0.4 -n 8 -o hill.obj --quiet");
+    place.expect(0, "spline fit hill.obj --planar --edge 0.6 -o s.json --quiet");
+    let mut pictures = Vec::new();
+    for options in ["", "--wire", "--wire --net", "--color curvature", "--tessellate 1"] {
+        let line = format!("spline eval s.json {options} --picture p.png --size 96 --draft --quiet");
+        place.expect(0, &line);
+        let bytes = std::fs::read(place.path("p.png")).unwrap();
+        assert!(bytes.starts_with(b"\x89PNG"));
+        assert!(!pictures.contains(&bytes), "{options} draws nothing new");
+        pictures.push(bytes);
+    }
+    // Points and a picture in one run; nothing to write, or not said what.
+    place.put("q.csv", "patch,x,y\n");
+    place
+        .expect(0, "spline eval s.json --tessellate 2 -o fine.obj --picture p.png --size 96 --draft --quiet");
+    for line in [
+        "spline eval s.json",
+        "spline eval s.json -o fine.obj",
+        "spline eval s.json --at q.csv --picture p.png",
+    ] {
+        place.expect(2, line);
+    }
+    place.expect(2, "spline eval s.json --net -o fine.obj --tessellate 1");
+}
+
+#[test]
 fn what_no_spline_can_be_made_of_is_refused() {
     let place = Place::new();
     place.expect(0, "make sphere -n 2 -o ball.obj --quiet");

@@ -6,7 +6,7 @@
 #include "measure.hpp"
 
 #include <random>
-#include <ricci/ricci.hpp>
+#include <ricci/uniformize.hpp>
 
 namespace {
 

@@ -1,7 +1,7 @@
 /* Circle domains: loops on their circles, found again from the layout's points; annuli, holes, refusals. */
 #include "arrays.h"
 #include "samples.h"
-#include <ricci/uniformize.h>
+#include <ricci/circles.h>
 
 /* Every boundary point of the layout lies on one of the circles. */
 static void lies_on_circles(const ricci_circle_domain *domain, size_t n_circles) {

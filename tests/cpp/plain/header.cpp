@@ -1,7 +1,13 @@
 // The headers are clean C++; handles free themselves, failures throw with status, element, amount and
 // message.
-#include <ricci/ricci.hpp>
+#include <ricci/circles.hpp>
+#include <ricci/harmonic.hpp>
+#include <ricci/repair.hpp>
+#include <ricci/spline.hpp>
+#include <ricci/structure.hpp>
+#include <ricci/uniformize.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -71,6 +77,98 @@ int uniformization() {
     return edges == basis.summary().n_loop_edges && basis.reduced(none).empty() ? 0 : 15;
 }
 
+// Forms with the periods of the flat torus of i, a map of a disk, and an annulus between circles.
+int forms_and_maps() {
+    ricci_shape shape = ricci::init<ricci_shape>();
+    shape.shape = RICCI_SHAPE_DISK, shape.n = 5;
+    const auto disk = ricci::mesh::made(shape);
+    const std::vector<double> round = ricci::harmonic(disk);
+    double farthest = 0;
+    for (std::size_t v = 0; v + 2 < round.size(); v += 3)
+        farthest = std::max(farthest, std::hypot(round[v], round[v + 1]));
+    if (round.size() != 3 * disk.summary().n_vertices || std::abs(farthest - 1) > 1e-12) return 31;
+    const std::vector<std::uint32_t> at = {0, 1};
+    const std::vector<double> places = {0, 0, 2, 0, 0, 2};
+    for (std::size_t v = 0; v < round.size() / 3; v++)
+        if (std::abs(ricci::harmonic(disk, at, places)[3 * v + 2] - 2) > 1e-9) return 32;
+    shape.shape = RICCI_SHAPE_GENUS, shape.n = 4, shape.genus = 2;
+    const ricci::forms forms(ricci::mesh::made(shape));
+    const auto figures = forms.summary();
+    if (figures.n_forms != 4 || forms.periods().size() != 8 || figures.least_eigenvalue <= 0) return 33;
+    const std::vector<double> first = {1, 0, 0, 0};
+    const auto real = forms.values(0), both = forms.holomorphic(first);
+    if (both.size() != 2 * real.size() || both[0] != real[0]) return 34;
+    std::int64_t zeros = 0;
+    for (const ricci::zero &zero : forms.zeros(first)) zeros += zero.multiplicity;
+    if (zeros != 2 || forms.triangulation().summary().n_edges != figures.n_edges) return 35;
+    shape = ricci::init<ricci_shape>();
+    shape.shape = RICCI_SHAPE_ANNULUS, shape.n = 2, shape.m = 24, shape.a = 0.5, shape.b = 1;
+    const ricci::circle_domain ring(ricci::mesh::made(shape));
+    const auto circles = ring.circles();
+    return circles.size() == 8 && ring.summary().converged == 1 && ring.layout().summary().n_flipped == 0 &&
+                   ring.mesh().summary().n_vertices >= 72
+               ? 0
+               : 36;
+}
+
+// The projective structure of a surface of genus 2.
+int structures() {
+    ricci_shape shape = ricci::init<ricci_shape>();
+    shape.shape = RICCI_SHAPE_GENUS, shape.n = 4, shape.genus = 2;
+    const ricci::structure atlas(ricci::mesh::made(shape), RICCI_STRUCTURE_PROJECTIVE);
+    const auto all = atlas.summary();
+    const auto places = atlas.places(0, {{0.5, 0.25, 0.25}});
+    if (places.size() != 3 || atlas.holonomy().size() != 9 * all.n_generators) return 37;
+    const auto moved = atlas.carry(places[0], places[1], places[0].coordinates);
+    if (std::hypot(moved[0] - places[1].coordinates[0], moved[1] - places[1].coordinates[1]) > 1e-11)
+        return 38;
+    const auto joined = atlas.transitions();
+    if (joined.charts.size() != 2 * all.n_transitions || joined.matrices.size() != 9 * all.n_transitions)
+        return 39;
+    if (atlas.rows(RICCI_CHART_VERTICES)[0].size() * 2 != atlas.coordinates(0).size() ||
+        atlas.rows(RICCI_TRANSITION_PAIRS).size() != all.n_transitions ||
+        !atlas.list(RICCI_STRUCTURE_SINGULAR).empty())
+        return 40;
+    return 0;
+}
+
+// A spline of a parabola over a square with a hole.
+int splines() {
+    const std::vector<double> outer = {0, 0, 2, 0, 2, 2, 0, 2};
+    ricci::lists<double> both;
+    both.entries = {0, 0, 2, 0, 2, 2, 0, 2, 0.8, 0.8, 1.2, 0.8, 1, 1.2}, both.starts = {0, 8, 14};
+    const ricci::spline flat(ricci::spline_domain(both, 0.4), 2);
+    const std::vector<double> terms = {0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0, 0, 0, 0, 0, 0.5};
+    const ricci::spline bowl = flat.with_polynomial(terms);
+    const std::vector<double> places = {0.3, 0.4, 1.7, 0.2}, middle = {1, 1, 0.3, 0.4};
+    const std::vector<std::int32_t> patches = bowl.locate(middle);
+    if (patches[0] != -1 || patches[1] < 0) return 41;
+    const std::vector<double> points = bowl.evaluate(places),
+                              jets = bowl.evaluate(places, RICCI_SPLINE_SECOND);
+    if (points.size() != 6 || jets.size() != 36 || std::abs(points[2] - 1.125) > 1e-13) return 42;
+    const std::vector<std::uint32_t> patch = {static_cast<std::uint32_t>(patches[1])};
+    const std::vector<double> there = {0.3, 0.4}, twice = {0.3, 0.4, 0.3, 0.4};
+    if (bowl.evaluate(patch, there)[2] != points[2]) return 43;
+    if (std::abs(bowl.blossom(patch[0], twice)[2] - 1.125) > 1e-12) return 44;
+    const auto again = ricci::spline::parse(bowl.text());
+    if (again.control_points() != bowl.control_points() || again.knots() != bowl.knots()) return 45;
+    if (again.controls().size() != 6 * bowl.summary().n_patches) return 46;
+    bowl.write("bowl.json");
+    if (ricci::spline::read("bowl.json").text() != bowl.text()) return 47;
+    std::vector<double> samples;
+    for (double x = 0; x < 2.01; x += 0.125)
+        for (double y = 0; y < 0.7; y += 0.125) samples.insert(samples.end(), {x, y, x * y});
+    if (flat.fitted(samples).summary().fit_max > 1e-6) return 48;
+    if (flat.with_points(bowl.control_points()).text() != bowl.text()) return 49;
+    if (bowl.tessellated(2).summary().n_faces != 4 * bowl.summary().n_patches) return 50;
+    try {
+        const ricci::spline none(ricci::spline_domain(outer, 0.5), 6);
+        return 51;
+    } catch (const ricci::error &error) {
+        return error.status() == RICCI_ARGUMENT && std::strstr(error.what(), "degree") ? 0 : 52;
+    }
+}
+
 int failures() {
     try {
         ricci::mesh::read("no such file.obj");
@@ -94,7 +192,7 @@ int failures() {
 } // namespace
 
 int main() {
-    for (int failed : {whole_job(), uniformization(), failures()})
+    for (int failed : {whole_job(), uniformization(), forms_and_maps(), structures(), splines(), failures()})
         if (failed) return failed;
     return 0;
 }

@@ -1,10 +1,12 @@
 /* Memory that the system refuses is RICCI_NO_MEMORY, and nothing is changed: every allocation of one job is
- * made to fail in turn, and all that follow until a large block is given back; then jobs run under limits of
- * the address space. Usage: test_memory [STRIDE]: every STRIDE-th allocation only. */
+ * made to fail in turn, and all that follow until a large block is given back, of splines every seventh; then
+ * jobs run under limits of the address space. Usage: test_memory [STRIDE]: every STRIDE-th allocation only.
+ */
 #define _GNU_SOURCE
 #include "torus.h"
 #include <errno.h>
 #include <malloc.h>
+#include <ricci/spline.h>
 #include <stdatomic.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -58,6 +60,7 @@ int munmap(void *p, size_t size) {
 }
 
 static int refusals;
+enum { SPLINE_PLACES = 25 };
 
 /* The answer of a call in a shortage; after RICCI_NO_MEMORY memory is there again, and so is what the call
  * needs. */
@@ -104,28 +107,64 @@ static void shortage_from(long k) {
     armed = 1;
 }
 
-static void every_allocation_fails_in_turn(long stride) {
+/* From a polygon to points of a fitted spline, whose text is read back. */
+static void spline_job(const torus *t, double *values) {
+    const double corners[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+    const size_t starts[2] = {0, 4};
+    ricci_mesh *domain = NULL;
+    ricci_spline *flat = NULL, *fitted = NULL, *parsed = NULL;
+    ricci_spline_spec spec;
+    ricci_spline_fit_options options;
+    ricci_spline_places places;
+    size_t n = 0;
+    (void)t;
+    INIT(spec), INIT(options), INIT(places);
+    double points[3 * SPLINE_PLACES], parameters[2 * SPLINE_PLACES];
+    for (int i = 0; i < SPLINE_PLACES; i++) {
+        const double x = 0.1 + 0.2 * (i % 5), y = 0.1 + 0.2 * (i / 5); /* NOLINT: rows */
+        points[3 * i] = parameters[2 * i] = x, points[3 * i + 1] = parameters[2 * i + 1] = y;
+        points[3 * i + 2] = x * y;
+    }
+    spec.degree = 2, options.threads = 1, options.fairness = 1e-6;
+    places.parameters = parameters, places.n = SPLINE_PLACES, places.threads = 1;
+    MUST(ricci_spline_domain(corners, starts, 1, 0.8, &domain));
+    MUST(ricci_spline_new(domain, &spec, &flat));
+    MUST(ricci_spline_fit(flat, points, SPLINE_PLACES, &options, NULL, &fitted));
+    MUST(ricci_spline_text(fitted, NULL, 0, &n));
+    char *text = (char *)__libc_malloc(n);
+    MUST(ricci_spline_text(fitted, text, n, &n));
+    MUST(ricci_spline_parse(text, &parsed));
+    MUST(ricci_spline_evaluate(parsed, &places, RICCI_SPLINE_POINT, NULL, values, 3 * SPLINE_PLACES));
+    __libc_free(text);
+    ricci_spline_free(parsed), ricci_spline_free(fitted), ricci_spline_free(flat);
+    ricci_mesh_free(domain);
+}
+
+static void every_allocation_fails_in_turn(void (*run)(const torus *, double *), const char *name,
+                                           long stride) {
     torus t = torus_new(7, 5);
     const size_t bytes = 6 * t.n_faces * sizeof(double);
     double *expected = (double *)room(6 * t.n_faces, sizeof *expected);
-    double *uv = (double *)room(6 * t.n_faces, sizeof *uv);
-    job(&t, expected);
+    double *found = (double *)room(6 * t.n_faces, sizeof *found);
+    CHECK(6 * t.n_faces >= 3 * SPLINE_PLACES);
+    run(&t, expected);
     shortage_from(1L << 60);
-    job(&t, uv);
+    run(&t, found);
     armed = 0;
     const long n = count;
-    CHECK(n > 300 && memcmp(uv, expected, bytes) == 0);
+    const int before = refusals;
+    CHECK(n > 300 && memcmp(found, expected, bytes) == 0);
     for (long k = 1; k <= n; k += stride) {
-        memset(uv, 0, bytes);
+        memset(found, 0, bytes);
         shortage_from(k);
-        job(&t, uv);
+        run(&t, found);
         armed = 0;
-        CHECK(memcmp(uv, expected, bytes) == 0);
+        CHECK(memcmp(found, expected, bytes) == 0);
     }
-    printf("%ld allocations were refused in turn; %d calls answered that there is no memory\n",
-           (n + stride - 1) / stride, refusals);
-    CHECK(refusals > 0);
-    free(expected), free(uv);
+    printf("%s: %ld allocations were refused in turn; %d calls answered that there is no memory\n", name,
+           (n + stride - 1) / stride, refusals - before);
+    CHECK(refusals > before);
+    free(expected), free(found);
     torus_free(&t);
 }
 
@@ -174,7 +213,9 @@ static void limits_are_answered(void) {
 }
 
 int main(int argc, char **argv) {
-    every_allocation_fails_in_turn(argc > 1 ? strtol(argv[1], NULL, 10) : 1);
+    const long stride = argc > 1 ? strtol(argv[1], NULL, 10) : 1;
+    every_allocation_fails_in_turn(job, "flow and layout", stride);
+    every_allocation_fails_in_turn(spline_job, "spline", stride);
     limits_are_answered();
     return 0;
 }

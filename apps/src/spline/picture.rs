@@ -1,0 +1,80 @@
+//! Pictures of spline surfaces.
+
+use super::args::EvalArgs;
+use crate::failure::Failure;
+use crate::picture::{Field, Picture, Scale, Style, Surface, png};
+use ricci::Control;
+use ricci::mesh::io::Soup;
+use ricci::spline::{Parameter, Spline, SurfacePoint, multi_indices};
+use std::collections::HashSet;
+
+/// Triangles per side of a patch, where `--tessellate` does not say it: a cubic patch looks smooth at the usual size.
+const SIDES: usize = 12;
+/// The colours of the sides of patches and of the control net, as numbers of seams.
+const SIDE: usize = 0;
+const NET: usize = 2;
+
+/// The surface with what was asked for: sides of patches, control net, Gaussian curvature.
+pub fn draw(spline: &Spline, args: &EvalArgs, control: &Control) -> Result<Vec<u8>, Failure> {
+    let sides = args.tessellate.map_or(SIDES, usize::from);
+    let threads = args.common.threads;
+    let soup = spline.tessellate(sides, threads, control)?;
+    let field = if args.picture.curvature() { Some(curvature(spline, &soup, args, control)?) } else { None };
+    let mut lines = if args.picture.base.wire { outlines(&soup, sides) } else { Vec::new() };
+    let mut positions = soup.positions;
+    if args.net {
+        let first = positions.len() as u32;
+        lines.extend(net(spline).into_iter().map(|[a, b]| (first + a, first + b, NET)));
+        positions.extend(spline.control_points());
+    }
+    let surface = Surface {
+        positions: &positions,
+        faces: &soup.faces,
+        corner_uv: None,
+        seams: &lines,
+        cones: &[],
+        is_closed: false,
+    };
+    let style = Style { wire: false, ..args.picture.style(threads) };
+    png(&Picture { surface: Some(surface), field: field.as_ref(), ..Picture::default() }, &style)
+}
+
+/// The Gaussian curvature of the surface at the corners of its triangles.
+fn curvature(spline: &Spline, soup: &Soup, args: &EvalArgs, control: &Control) -> Result<Field, Failure> {
+    let per_patch = soup.faces.len() / spline.space().patches().len().max(1);
+    let corners = soup.attributes.uv.iter().flatten().enumerate();
+    let places: Vec<Parameter> = corners
+        .flat_map(|(f, uv)| uv.map(|[x, y]| Parameter { patch: (f / per_patch) as u32, x, y }))
+        .collect();
+    let found = spline.evaluate(&places, 2, args.common.threads, control)?;
+    let gauss = |at: &SurfacePoint| at.principal_curvatures().map_or(f64::NAN, |[a, b]| a * b);
+    let values: Vec<f64> = found.iter().map(gauss).collect();
+    let scale = Scale::of_signed("Gaussian curvature", &values);
+    Ok(Field { corners: values.as_chunks().0.to_vec(), scale })
+}
+
+/// The edges along the sides of patches, each once.
+fn outlines(soup: &Soup, sides: usize) -> Vec<(u32, u32, usize)> {
+    let mut known = HashSet::new();
+    let mut lines = Vec::new();
+    for patch in soup.faces.chunks_exact(sides * sides) {
+        let mut inner: HashSet<[u32; 2]> = HashSet::new();
+        let edges = || patch.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        inner.extend(edges());
+        let outer = edges().filter(|&[a, b]| !inner.contains(&[b, a]));
+        lines.extend(outer.filter(|&[a, b]| known.insert([a.min(b), a.max(b)])).map(|[a, b]| (a, b, SIDE)));
+    }
+    lines
+}
+
+/// Pairs of control points of a patch whose indices β differ by one step, each once.
+fn net(spline: &Spline) -> Vec<[u32; 2]> {
+    let indices: Vec<[usize; 3]> = multi_indices(spline.space().degree()).collect();
+    let is_step = |a: [usize; 3], b: [usize; 3]| (0..3).map(|k| a[k].abs_diff(b[k])).sum::<usize>() == 2;
+    let pairs = (0..indices.len()).flat_map(|i| (0..i).map(move |j| [i, j]));
+    let pairs: Vec<[usize; 2]> = pairs.filter(|&[i, j]| is_step(indices[i], indices[j])).collect();
+    let mut known = HashSet::new();
+    let patches = spline.space().patches().iter();
+    let all = patches.flat_map(|patch| pairs.iter().map(|pair| pair.map(|i| patch.control[i])));
+    all.filter(|&[a, b]| known.insert([a.min(b), a.max(b)])).collect()
+}

@@ -1,0 +1,69 @@
+//! Spline files, on disk and in memory.
+
+use crate::arrays::{self, copy_counted};
+use crate::failure::Outcome;
+use crate::guard;
+use crate::memory;
+use crate::spline::ricci_spline;
+use crate::status::ricci_status;
+use ricci::spline::Spline;
+use std::ffi::c_char;
+
+/// What messages call a text that was given in memory.
+const TEXT_NAME: &str = "text";
+
+/// A spline, with memory in reserve for a text of so many bytes.
+fn made(bytes: usize, make: impl FnOnce() -> ricci::Result<Spline>) -> Outcome<ricci_spline> {
+    let _reserve = memory::work(bytes, memory::TEXT)?;
+    Ok(make()?.into())
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_read(
+    path: *const c_char,
+    spline: *mut *mut ricci_spline,
+) -> ricci_status {
+    guard::make(spline, || {
+        let path = arrays::path(path)?;
+        // A file that cannot be looked at cannot be read either, and that error has its name.
+        let bytes = std::fs::metadata(&path).map_or(0, |file| file.len() as usize);
+        made(bytes, || Spline::read(&path))
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_parse(
+    text: *const c_char,
+    spline: *mut *mut ricci_spline,
+) -> ricci_status {
+    guard::make(spline, || {
+        let text = arrays::text("text", text)?;
+        made(text.len(), || Spline::from_json(text, TEXT_NAME))
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_write(
+    spline: *const ricci_spline,
+    path: *const c_char,
+) -> ricci_status {
+    guard::with(spline, |ricci_spline { spline, .. }| {
+        let _reserve = memory::work(spline.space().patches().len(), memory::SPLINE_TEXT)?;
+        Ok(spline.write(&arrays::path(path)?)?)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_text(
+    spline: *const ricci_spline,
+    text: *mut c_char,
+    capacity: usize,
+    n_bytes: *mut usize,
+) -> ricci_status {
+    guard::with(spline, |ricci_spline { spline, .. }| {
+        let _reserve = memory::work(spline.space().patches().len(), memory::SPLINE_TEXT)?;
+        let mut bytes = spline.to_json().into_bytes();
+        bytes.push(0);
+        copy_counted("text", &bytes, text.cast(), capacity, n_bytes)
+    })
+}

@@ -1,0 +1,141 @@
+//! Points of splines, and where they lie in them.
+
+use crate::arrays::{array, array_of, check_buffer, copy_each, copy_out};
+use crate::choice::choices;
+use crate::control::{self, ricci_control};
+use crate::failure::{Element, Failure, Outcome};
+use crate::guard;
+use crate::memory;
+use crate::spline::ricci_spline;
+use crate::status::*;
+use crate::structs::{self, sized};
+use ricci::spline::{Locator, Parameter, SplineSpace, SurfacePoint};
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Quantity {
+    Point,
+    First,
+    Second,
+    Shape,
+}
+
+choices!(QUANTITIES: Quantity = "which", [
+    RICCI_SPLINE_POINT => Quantity::Point,
+    RICCI_SPLINE_FIRST => Quantity::First,
+    RICCI_SPLINE_SECOND => Quantity::Second,
+    RICCI_SPLINE_SHAPE => Quantity::Shape,
+]);
+
+impl Quantity {
+    /// How many derivatives it takes, and how many numbers it has.
+    fn sizes(self) -> (usize, usize) {
+        match self {
+            Quantity::Point => (0, 3),
+            Quantity::First => (1, 9),
+            Quantity::Second => (2, 18),
+            Quantity::Shape => (2, 5),
+        }
+    }
+
+    fn add(self, at: &SurfacePoint, row: &mut Vec<f64>) {
+        if self == Quantity::Shape {
+            row.extend(at.normal().unwrap_or([f64::NAN; 3]));
+            row.extend(at.principal_curvatures().unwrap_or([f64::NAN; 2]));
+            return;
+        }
+        let derivatives = at.first.iter().chain(&at.second).flatten();
+        row.extend(at.point.iter().chain(derivatives).take(self.sizes().1));
+    }
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_spline_places {
+    pub size: usize,
+    pub patches: *const u32,
+    pub parameters: *const f64,
+    pub n: usize,
+    pub threads: usize,
+}
+// SAFETY: numbers and raw pointers; 8-byte alignment, size first.
+sized!(ricci_spline_places, "places");
+
+impl ricci_spline_places {
+    pub(crate) fn read(&self, space: &SplineSpace) -> Outcome<Vec<Parameter>> {
+        let points: Vec<[f64; 2]> = array("parameters", self.parameters.cast(), self.n)?;
+        if self.patches.is_null() {
+            return located(space, &points);
+        }
+        let patches = array("patches", self.patches, self.n)?;
+        let place = |(patch, [x, y]): (u32, [f64; 2])| Parameter { patch, x, y };
+        Ok(patches.into_iter().zip(points).map(place).collect())
+    }
+}
+
+/// The patches in which points lie.
+pub(crate) fn located(space: &SplineSpace, points: &[[f64; 2]]) -> Outcome<Vec<Parameter>> {
+    let domain = space.domain()?;
+    let locator = Locator::new(&domain);
+    let place = |(i, &[x, y]): (usize, &[f64; 2])| {
+        locator.locate([x, y]).ok_or_else(|| {
+            let message = format!("point {i}: ({x}, {y}) lies outside the domain");
+            Failure::new(RICCI_SPLINE, message).at(Element::Entry, i)
+        })
+    };
+    points.iter().enumerate().map(place).collect()
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_locate(
+    spline: *const ricci_spline,
+    points: *const f64,
+    n: usize,
+    patches: *mut i32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(spline, |ricci_spline { spline, .. }| {
+        let _reserve = memory::work(n.saturating_add(spline.space().patches().len()), memory::POINT)?;
+        let points: Vec<[f64; 2]> = array("points", points.cast(), n)?;
+        let domain = spline.space().domain()?;
+        let locator = Locator::new(&domain);
+        let found = points.iter().map(|&p| locator.locate(p).map_or(-1, |at| at.patch as i32));
+        copy_each("patches", n, found, patches, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_evaluate(
+    spline: *const ricci_spline,
+    places: *const ricci_spline_places,
+    which: u32,
+    control: *const ricci_control,
+    values: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(spline, |ricci_spline { spline, .. }| {
+        let (places, which) = (structs::read(places)?, QUANTITIES.choose(which)?);
+        let (order, size) = which.sizes();
+        check_buffer("values", places.n.saturating_mul(size), values, capacity)?;
+        let _reserve = memory::work(places.n, memory::POINT)?;
+        let at = places.read(spline.space())?;
+        let found = spline.evaluate(&at, order, places.threads, &control::of(control))?;
+        let mut all = Vec::with_capacity(found.len() * size);
+        found.iter().for_each(|at| which.add(at, &mut all));
+        copy_out("values", &all, values, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_blossom(
+    spline: *const ricci_spline,
+    patch: usize,
+    arguments: *const f64,
+    n_arguments: usize,
+    point: *mut f64,
+) -> ricci_status {
+    guard::with(spline, |ricci_spline { spline, .. }| {
+        let degree = spline.space().degree();
+        let arguments: Vec<[f64; 2]> = array_of("arguments", arguments.cast(), n_arguments, degree)?;
+        copy_out("point", &spline.blossom(patch, &arguments)?, point, 3)
+    })
+}

@@ -1,0 +1,53 @@
+// Triangle lists with defects: C++ ownership and errors, as ricci/ricci.hpp has them.
+//
+// SPDX-License-Identifier: MIT OR Apache-2.0
+#ifndef RICCI_REPAIR_HPP
+#define RICCI_REPAIR_HPP
+
+#include <ricci/repair.h>
+#include <ricci/ricci.hpp>
+
+namespace ricci {
+
+using soup_handle = owned<ricci_soup, ricci_soup_free>;
+
+// A triangle list, whatever its defects.
+class soup : public soup_handle {
+public:
+    using soup_handle::soup_handle;
+    static soup read(const std::string &path) {
+        return soup(make<ricci_soup>(ricci_soup_read, path.c_str()));
+    }
+    static soup from(span<double> positions, span<std::uint32_t> faces) {
+        return soup(make<ricci_soup>(ricci_soup_from_arrays, positions.data(), std::size_t(0),
+                                     positions.size() / 3, faces.data(), faces.size() / 3));
+    }
+    ricci_soup_summary summary() const { return ricci::summary(ricci_soup_summarise, get()); }
+    ricci_defect defect(std::size_t index) const {
+        ricci_defect one;
+        check(ricci_soup_defect(handle_, index, &one, sizeof one));
+        return one;
+    }
+    std::vector<double> values(std::uint32_t which) const {
+        return ricci::values<double>(ricci_soup_values, get(), which);
+    }
+    std::vector<std::uint32_t> faces() const { return ricci::values<std::uint32_t>(ricci_soup_faces, get()); }
+    soup repaired(const ricci_repair_options &options = init<ricci_repair_options>()) const {
+        return soup(make<ricci_soup>(ricci_soup_repair, get(), &options));
+    }
+    // Vertices and faces of the list that was repaired.
+    std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> origins() const {
+        const ricci_soup_summary n = summary();
+        std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> both{
+            std::vector<std::uint32_t>(n.n_vertices), std::vector<std::uint32_t>(n.n_faces)};
+        check(ricci_soup_origins(handle_, both.first.data(), both.first.size(), both.second.data(),
+                                 both.second.size()));
+        return both;
+    }
+    ricci::mesh build() const { return ricci::mesh(make<ricci_mesh>(ricci_soup_mesh, get())); }
+    void write(const std::string &path) const { check(ricci_soup_write(handle_, path.c_str())); }
+};
+
+} // namespace ricci
+
+#endif

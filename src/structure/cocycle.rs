@@ -1,0 +1,36 @@
+//! How well the transitions of an atlas compose.
+
+use super::overlaps::{Lifts, Transition};
+use crate::geometry::worse;
+use crate::mesh::FaceId;
+use std::collections::BTreeSet;
+
+/// The check of `T_jk T_ij = T_ik` wherever three charts overlap.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Cocycles {
+    /// Overlaps of three charts that were compared: different triples of transitions.
+    pub triples: usize,
+    /// The largest difference ([`super::Element::difference`]).
+    pub residual: f64,
+}
+
+/// Compares the transitions of every three lifts of a face, each triple of transitions once.
+pub(super) fn cocycles(lifts: &Lifts, transitions: &[Transition], n_faces: usize) -> Cocycles {
+    let (mut seen, mut residual) = (BTreeSet::new(), 0.0);
+    for f in (0..n_faces).map(FaceId::from) {
+        let n = lifts.of(f).len();
+        for i in 0..n {
+            for j in i + 1..n {
+                for k in j + 1..n {
+                    let triple = [(i, j), (j, k), (i, k)].map(|(a, b)| lifts.transition(f, a, b));
+                    if seen.insert(triple) {
+                        let [first, second, whole] = triple.map(|t| &transitions[t as usize].element);
+                        let off = second.after(first).map_or(f64::INFINITY, |both| both.difference(whole));
+                        residual = worse(residual, off);
+                    }
+                }
+            }
+        }
+    }
+    Cocycles { triples: seen.len(), residual }
+}

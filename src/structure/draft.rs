@@ -1,0 +1,196 @@
+//! A chart before its coordinates are read: lifts of faces with the places where they lie.
+
+use super::sheet::{Sheet, straight_triangle};
+use crate::control::Control;
+use crate::embed::overlap::{Triangle, overlapping};
+use crate::embed::shape::{Shape, extent};
+use crate::error::Result;
+use crate::geometry::vector::{cross, dot};
+use crate::geometry::{Motion, Twofold};
+use crate::mesh::union_find::UnionFind;
+use crate::mesh::{FaceId, VertexId};
+
+/// The number of a face that a chart has not.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Area of a triangle over the square of its longest side below which overlaps with others are not looked for: rounding moves its corners by a good
+/// part of its height.
+const LOW: f64 = 1e-9;
+/// By which share triangles are shrunk about their middles before overlaps are looked for. Those whose corners rounding may move by as much are left
+/// out.
+const ROUNDING: f64 = 1e-6;
+
+/// Lifts of faces, each beside one of those before it.
+#[derive(Default)]
+pub(super) struct Draft {
+    pub faces: Vec<FaceId>,
+    pub places: Vec<Motion<Twofold>>,
+    /// Across each side of each face, in the order of its half-edges, the lift of the chart that lies there.
+    pub neighbours: Vec<[u32; 3]>,
+    /// The first so many faces are no other chart's.
+    pub n_core: usize,
+    /// Per corner of each face the number of its vertex in the chart.
+    pub corners: Vec<[u32; 3]>,
+    /// The vertices, with their ambient coordinates.
+    pub vertices: Vec<VertexId>,
+    pub points: Vec<[f64; 3]>,
+}
+
+impl Draft {
+    pub fn push(&mut self, f: FaceId, place: Motion<Twofold>) -> u32 {
+        self.faces.push(f);
+        self.places.push(place);
+        self.neighbours.push([NONE; 3]);
+        self.faces.len() as u32 - 1
+    }
+
+    /// Makes side `k` of one lift and side `l` of another one edge of the chart.
+    pub fn join(&mut self, (i, k): (u32, usize), (j, l): (u32, usize)) {
+        self.neighbours[i as usize][k] = j;
+        self.neighbours[j as usize][l] = i;
+    }
+
+    /// Joins lifts that lie beside each other and numbers the vertices. Every face is there once, and those of its neighbours that it was
+    /// reached from are joined.
+    ///
+    /// Two lifts that share a regular vertex are joined across an edge at it: around such a vertex the surface closes up. What a chart
+    /// goes around, a singular vertex or a handle, stays open.
+    pub fn close(&mut self, sheet: &Sheet) {
+        let mesh = sheet.mesh();
+        let mut same = self.joined_corners(sheet);
+        let mut number: Vec<(FaceId, u32)> = self.faces.iter().copied().zip(0..).collect();
+        number.sort_unstable();
+        let find = |f: FaceId| number.binary_search_by_key(&f, |x| x.0).ok().map(|k| number[k].1);
+        let mut open: Vec<[(u32, usize); 2]> = Vec::new();
+        for (i, &f) in self.faces.iter().enumerate() {
+            for (k, h) in mesh.face_halfedges(f).into_iter().enumerate() {
+                let beyond = mesh.corner(h.twin()).filter(|_| self.neighbours[i][k] == NONE);
+                if let Some((j, l)) = beyond.and_then(|(g, l)| Some((find(g)?, l)))
+                    && (i as u32, k) < (j, l)
+                {
+                    open.push([(i as u32, k), (j, l)]);
+                }
+            }
+        }
+        loop {
+            let before = open.len();
+            open.retain(|&[(i, k), (j, l)]| {
+                let ends = [(k, (l + 1) % 3), ((k + 1) % 3, l)];
+                let mut is_shared =
+                    |&(p, q): &(usize, usize)| same.root(3 * i + p as u32) == same.root(3 * j + q as u32);
+                let vertices = mesh.face_vertices(self.faces[i as usize]);
+                let closes: Vec<bool> =
+                    ends.iter().map(|end| is_shared(end) && !sheet.singular[vertices[end.0]]).collect();
+                if !closes.contains(&true) {
+                    return true;
+                }
+                ends.iter().for_each(|&(p, q)| {
+                    same.join(3 * i + p as u32, 3 * j + q as u32);
+                });
+                self.neighbours[i as usize][k] = j;
+                self.neighbours[j as usize][l] = i;
+                false
+            });
+            if open.len() == before {
+                break;
+            }
+        }
+        self.number_vertices(sheet, same);
+    }
+
+    /// Numbers the vertices by the lifts that are joined.
+    pub fn finish(&mut self, sheet: &Sheet) {
+        let same = self.joined_corners(sheet);
+        self.number_vertices(sheet, same);
+    }
+
+    /// Which corners are one by the lifts that are joined; corner k of lift i has the number 3i + k.
+    fn joined_corners(&self, sheet: &Sheet) -> UnionFind {
+        let mesh = sheet.mesh();
+        let mut same = UnionFind::new(3 * self.faces.len());
+        for (i, &f) in self.faces.iter().enumerate() {
+            for (k, h) in mesh.face_halfedges(f).into_iter().enumerate() {
+                let j = self.neighbours[i][k];
+                if let Some((_, l)) = mesh.corner(h.twin()).filter(|_| j != NONE) {
+                    let number = |i: u32, k: usize| 3 * i + (k % 3) as u32;
+                    same.join(number(i as u32, k), number(j, l + 1));
+                    same.join(number(i as u32, k + 1), number(j, l));
+                }
+            }
+        }
+        same
+    }
+
+    fn number_vertices(&mut self, sheet: &Sheet, mut same: UnionFind) {
+        let mut number = vec![NONE; 3 * self.faces.len()];
+        self.corners = vec![[NONE; 3]; self.faces.len()];
+        (self.vertices, self.points) = (Vec::new(), Vec::new());
+        for i in 0..self.faces.len() {
+            let f = self.faces[i];
+            let vertices = sheet.mesh().face_vertices(f);
+            let mut placed = None;
+            for k in 0..3 {
+                let root = same.root((3 * i + k) as u32) as usize;
+                if number[root] == NONE {
+                    number[root] = self.vertices.len() as u32;
+                    self.vertices.push(vertices[k]);
+                    let corners = placed.get_or_insert_with(|| sheet.corners(f, &self.places[i]));
+                    self.points.push(corners[k]);
+                }
+                self.corners[i][k] = number[root];
+            }
+        }
+    }
+
+    /// Turns the chart about its origin.
+    pub fn turn(&mut self, sheet: &Sheet, by: &Motion<Twofold>) {
+        self.places.iter_mut().for_each(|place| *place = by.compose(place));
+        let mut fresh = vec![true; self.vertices.len()];
+        for i in 0..self.faces.len() {
+            let corners = sheet.corners(self.faces[i], &self.places[i]);
+            for (k, &v) in self.corners[i].iter().enumerate() {
+                if std::mem::replace(&mut fresh[v as usize], false) {
+                    self.points[v as usize] = corners[k];
+                }
+            }
+        }
+    }
+
+    /// The faces in straight coordinates; none if one has none.
+    pub fn triangles(&self, sheet: &Sheet) -> Option<Vec<Triangle>> {
+        let triangle = |corners: &[u32; 3]| {
+            straight_triangle(sheet.steps.space, corners.map(|v| self.points[v as usize]))
+        };
+        self.corners.iter().map(triangle).collect()
+    }
+
+    /// Whether all faces are counterclockwise, seen from outside the sphere.
+    fn is_oriented(&self) -> bool {
+        self.corners.iter().all(|corners| {
+            let [p, q, r] = corners.map(|v| self.points[v as usize]);
+            dot(p, cross(q, r)) >= 0.0
+        })
+    }
+
+    /// Whether its faces lie counterclockwise beside each other, but for faces that are nearly flat ([`LOW`]) and overlaps that rounding can explain
+    /// ([`ROUNDING`]).
+    pub fn is_embedded(&self, sheet: &Sheet, control: &Control) -> Result<bool> {
+        // Geodesic triangles about a common corner that close up do not overlap on the sphere either, whatever its size.
+        let Some(mut triangles) = self.triangles(sheet) else { return Ok(self.is_oriented()) };
+        let size = extent(triangles.as_flattened());
+        if triangles.iter().any(|&t| Shape::of(t).is_flipped(size)) {
+            return Ok(false);
+        }
+        triangles.retain(|&t| {
+            let shape = Shape::of(t);
+            shape.share > LOW + f64::EPSILON * size / (ROUNDING * shape.longest)
+        });
+        let triangles: Vec<Triangle> = triangles.into_iter().map(shrunk).collect();
+        Ok(overlapping(&triangles, control)?.is_empty())
+    }
+}
+
+fn shrunk(triangle: Triangle) -> Triangle {
+    let middle = [0, 1].map(|i| triangle.iter().map(|p| p[i]).sum::<f64>() / 3.0);
+    triangle.map(|p| [0, 1].map(|i| p[i] + ROUNDING * (middle[i] - p[i])))
+}

@@ -1,0 +1,97 @@
+//! The structures that an atlas can have, and the coordinates of their charts.
+
+use crate::error::Error;
+use crate::geometry::Space;
+use crate::geometry::model::{from_klein, from_poincare, klein, poincare};
+
+/// A geometric structure of a surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Structure {
+    /// Charts in the complex plane, transitions Möbius transformations: those of the surface's metric of constant curvature, in the
+    /// stereographic plane, the Euclidean plane or the Poincaré disk. A disk has a flat metric.
+    Conformal,
+    /// Genus 0: stereographic charts of the unit sphere, transitions rotations in SU(2).
+    Spherical,
+    /// Charts in the Euclidean plane, transitions its motions. Closed surfaces of genus other than 1 have singular vertices.
+    Affine,
+    /// χ < 0: charts in the Poincaré disk, transitions in SU(1,1).
+    Hyperbolic,
+    /// χ < 0: charts in the Klein disk, where geodesics are straight; transitions in SO⁺(2,1) ⊂ PGL(3,R).
+    Projective,
+}
+
+impl Structure {
+    /// All structures.
+    pub const ALL: [Structure; 5] = [
+        Structure::Conformal,
+        Structure::Spherical,
+        Structure::Affine,
+        Structure::Hyperbolic,
+        Structure::Projective,
+    ];
+
+    /// The name used on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Structure::Conformal => "conformal",
+            Structure::Spherical => "spherical",
+            Structure::Affine => "affine",
+            Structure::Hyperbolic => "hyperbolic",
+            Structure::Projective => "projective",
+        }
+    }
+
+    /// Whether coordinates are complex numbers, on which Möbius transformations act.
+    pub fn is_complex(self) -> bool {
+        matches!(self, Structure::Conformal | Structure::Spherical | Structure::Hyperbolic)
+    }
+
+    /// The chart's coordinates of a point in ambient coordinates.
+    pub(super) fn coordinates(self, space: Space, p: [f64; 3]) -> [f64; 2] {
+        match (self, space) {
+            (_, Space::E2) => [p[0], p[1]],
+            (Structure::Projective, _) => klein(p),
+            // The stereographic plane of the sphere by the same formula.
+            _ => poincare(p),
+        }
+    }
+
+    /// The point with these coordinates.
+    pub(super) fn ambient(self, space: Space, [x, y]: [f64; 2]) -> [f64; 3] {
+        match (self, space) {
+            (_, Space::E2) => [x, y, 1.0],
+            (Structure::Projective, _) => from_klein([x, y]),
+            (_, Space::H2) => from_poincare([x, y]),
+            (_, Space::S2) => {
+                let r = x.hypot(y);
+                let sum = 1.0 + r * r;
+                [2.0 * x / sum, 2.0 * y / sum, (1.0 - r) * (1.0 + r) / sum]
+            }
+        }
+    }
+}
+
+/// Coordinates in which geodesics are straight: of the plane, the Klein disk, the central projection of a hemisphere; none beyond that.
+pub(super) fn straight(space: Space, [x, y, w]: [f64; 3]) -> Option<[f64; 2]> {
+    match space {
+        Space::E2 => Some([x, y]),
+        _ => (w > 0.0).then(|| [x / w, y / w]),
+    }
+}
+
+impl std::fmt::Display for Structure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl std::str::FromStr for Structure {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Structure, Error> {
+        let found = Structure::ALL.into_iter().find(|kind| kind.name().eq_ignore_ascii_case(name));
+        found.ok_or_else(|| {
+            Error::argument("structure", name, "conformal, spherical, affine, hyperbolic or projective")
+        })
+    }
+}

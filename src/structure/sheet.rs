@@ -1,0 +1,141 @@
+//! Triangles with the isometries between neighbours: what charts of every structure are developed from.
+
+use super::kind::straight;
+use crate::embed::Steps;
+use crate::embed::overlap::Triangle;
+use crate::error::{Error, Result};
+use crate::geometry::motion::precise_point;
+use crate::geometry::{Motion, Space, Twofold};
+use crate::harmonic::ComplexForm;
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex};
+use std::sync::Arc;
+
+/// A developable surface.
+pub(super) struct Sheet {
+    pub steps: Steps,
+    /// Faces that no chart may contain.
+    pub excluded: PerFace<bool>,
+    /// Vertices that no chart may contain inside.
+    pub singular: PerVertex<bool>,
+}
+
+impl Sheet {
+    /// Without singular vertices.
+    pub fn new(steps: Steps) -> Sheet {
+        let excluded = PerFace::filled(steps.mesh.n_faces(), false);
+        let singular = PerVertex::filled(steps.mesh.n_vertices(), false);
+        Sheet { steps, excluded, singular }
+    }
+
+    /// Vertices in a space in which the whole surface lies; faces with a point that is not finite are excluded.
+    pub fn of_points(mesh: &Arc<Mesh>, space: Space, point: impl Fn(usize) -> [f64; 3]) -> Sheet {
+        let corners =
+            PerFace::from_fn(mesh.n_faces(), |f: FaceId| mesh.face_vertices(f).map(|v| point(v.index())));
+        let across = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(space));
+        let mut sheet = Sheet::new(Steps { mesh: mesh.clone(), space, corners, across, area: f64::NAN });
+        for f in mesh.faces() {
+            sheet.excluded[f] = !sheet.steps.corners[f].as_flattened().iter().all(|x| x.is_finite());
+        }
+        sheet
+    }
+
+    /// The plane in which the integrals of a closed form draw the faces. Faces that are not drawn counterclockwise are excluded.
+    pub fn of_form(mesh: &Arc<Mesh>, form: &ComplexForm) -> Result<Sheet> {
+        let corners = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
+            let [first, second, _] = mesh.face_halfedges(f).map(|h| form.along(h));
+            [[0.0, 0.0, 1.0], [first[0], first[1], 1.0], [first[0] + second[0], first[1] + second[1], 1.0]]
+        });
+        let place = |h: HalfedgeId| -> Result<[f64; 2]> {
+            let none = || Error::Layout(format!("half-edge {h} belongs to no face"));
+            let (f, k) = mesh.corner(h).ok_or_else(none)?;
+            let [x, y, _] = corners[f][k];
+            Ok([x, y])
+        };
+        let still = Motion::identity(Space::E2);
+        let step = |h: HalfedgeId| -> Result<Motion<Twofold>> {
+            if mesh.is_boundary_edge(h.edge()) {
+                return Ok(still);
+            }
+            // The origin of h in the place of its face, and in that of the face beyond.
+            let (here, beyond) = (place(h)?, place(mesh.next(h.twin()))?);
+            let by = [0, 1].map(|i| Twofold::from(here[i]) - Twofold::from(beyond[i]));
+            Ok(Motion::in_plane([1.0, 0.0].map(Twofold::from), by))
+        };
+        let across = mesh.halfedges().map(step).collect::<Result<Vec<_>>>()?.into();
+        let clockwise = |f: FaceId| {
+            let [_, p, q] = corners[f];
+            p[0] * q[1] - p[1] * q[0] <= 0.0
+        };
+        let excluded = PerFace::from_fn(mesh.n_faces(), clockwise);
+        let steps = Steps { mesh: mesh.clone(), space: Space::E2, corners, across, area: f64::NAN };
+        Ok(Sheet { excluded, ..Sheet::new(steps) })
+    }
+
+    /// The same plane surface with all lengths multiplied.
+    pub fn scaled(mut self, factor: f64) -> Sheet {
+        let steps = &mut self.steps;
+        for corner in steps.corners.iter_mut().flatten() {
+            *corner = [factor * corner[0], factor * corner[1], corner[2]];
+        }
+        for step in steps.across.iter_mut() {
+            step.b = step.b.map(|x| x * factor.into());
+        }
+        steps.area *= factor * factor;
+        self
+    }
+
+    pub fn mesh(&self) -> &Mesh {
+        &self.steps.mesh
+    }
+
+    /// Ambient coordinates of the corners of a face that lies at a place.
+    pub fn corners(&self, f: FaceId, place: &Motion<Twofold>) -> [[f64; 3]; 3] {
+        let space = self.steps.space;
+        self.steps.corners[f].map(|p| place.apply(precise_point(space, p)).map(f64::from))
+    }
+
+    /// The place of a face that has its corner `k` at the origin, or its middle where that is none.
+    pub fn place_about(&self, f: FaceId, k: Option<usize>) -> Motion<Twofold> {
+        let (space, corners) = (self.steps.space, self.steps.corners[f]);
+        let at = match k {
+            Some(k) => precise_point(space, corners[k]),
+            None => middle(space, corners),
+        };
+        if space == Space::S2 && f64::from(at[2]) < 0.0 {
+            // From the lower half of the sphere by way of the half turn about the x axis, since the pole's antipode has no shortest way.
+            let [zero, one] = [0.0, 1.0].map(Twofold::from);
+            let over = Motion { space, a: [zero; 2], b: [zero, one] };
+            return Motion::to_origin(space, over.apply(at)).compose(&over);
+        }
+        Motion::to_origin(space, at)
+    }
+
+    /// A length of the size of the whole surface: in E² the root of its area, elsewhere 1.
+    pub fn size(&self) -> f64 {
+        if self.steps.space != Space::E2 {
+            return 1.0;
+        }
+        let area = |[a, b, c]: &[[f64; 3]; 3]| {
+            let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            if doubled.is_finite() { 0.5 * doubled.abs() } else { 0.0 }
+        };
+        self.steps.corners.iter().map(area).sum::<f64>().sqrt()
+    }
+}
+
+/// The point of a space in the direction of the sum of three points.
+fn middle(space: Space, corners: [[f64; 3]; 3]) -> [Twofold; 3] {
+    let [x, y, w] = [0, 1, 2].map(|i| corners[0][i] + corners[1][i] + corners[2][i]);
+    let norm = match space {
+        Space::E2 => w,
+        Space::H2 => (w * w - x * x - y * y).max(1.0).sqrt(),
+        Space::S2 => (x * x + y * y + w * w).sqrt(),
+    };
+    precise_point(space, [x / norm, y / norm, w / norm])
+}
+
+/// The corners of a triangle as straight coordinates have them; none where they have none.
+pub(super) fn straight_triangle(space: Space, corners: [[f64; 3]; 3]) -> Option<Triangle> {
+    let [p, q, r] = corners.map(|p| straight(space, p));
+    Some([p?, q?, r?])
+}

@@ -1,0 +1,252 @@
+//! The metrics and forms that structures come from.
+
+use super::kind::Structure;
+use super::least::least_distorting_vertex;
+use super::options::{AffineSource, AtlasOptions};
+use super::sheet::Sheet;
+use crate::canonical::{QuotientOptions, Sphere, SphereOptions, uniformize_quotient, uniformize_sphere};
+use crate::control::Control;
+use crate::embed::steps;
+use crate::error::{Error, Result};
+use crate::flow::{Solution, flow};
+use crate::geometry::Space;
+use crate::geometry::complex::{cross, dot, neg, sub};
+use crate::harmonic::{Domain, FormsOptions, HarmonicForms, Zero, even_combination, with_conjugate, zeros};
+use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use crate::metric::{Class, Refinement, Surface, Target};
+use crate::parallel::Pool;
+use crate::topology::{HomotopyBasis, homotopy_basis};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Length of the shortest edge relative to the longest below which a search for loops takes edges to have this length.
+const SHORTEST: f64 = 1e-12;
+/// Radians. By how much an angle may miss a full turn and count as one.
+const FULL: f64 = 1e-9;
+
+/// A surface that charts can be developed from.
+pub(super) struct Developed {
+    pub sheet: Sheet,
+    pub metric: Arc<Solution>,
+    /// What the sheet lies on, where that is not the metric's triangulation.
+    pub refinement: Option<Arc<Refinement>>,
+    pub basis: HomotopyBasis,
+    pub zeros: Vec<Zero>,
+    pub curvature_error: f64,
+    pub converged: bool,
+}
+
+/// The surface that the charts of a structure are developed from.
+pub(super) fn developed(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Developed> {
+    let mesh = surface.mesh();
+    check(mesh, options)?;
+    let (closed, euler) = (mesh.is_closed(), mesh.euler());
+    match (options.structure, options.source) {
+        (Structure::Affine, AffineSource::Form) => of_form(surface, options, control),
+        (Structure::Affine, _) if closed && euler == 2 => of_plane(surface, options, control),
+        (Structure::Affine, _) if closed && euler < 0 => {
+            let v = match options.singular {
+                Some(v) => v,
+                None => {
+                    let domain = Domain::new(surface, control)?;
+                    Pool::new(options.flow.threads)?.run(|| least_distorting_vertex(&domain, control))?
+                }
+            };
+            of_flow(surface, &Target::Single(v), options, control)
+        }
+        (Structure::Affine, _) if !closed => of_flow(surface, &Target::Boundary, options, control),
+        (Structure::Conformal, _) if !closed && euler > 0 => {
+            of_flow(surface, &Target::Boundary, options, control)
+        }
+        _ if closed && euler == 2 => {
+            let sphere = sphere(surface, options, control)?;
+            let sheet = Sheet::new(steps(&sphere.metric, None)?);
+            simply_connected(sheet, &sphere, control)
+        }
+        _ => of_quotient(surface, options, control),
+    }
+}
+
+/// Whether a surface has a structure, and options belong to it.
+fn check(mesh: &Mesh, options: &AtlasOptions) -> Result<()> {
+    let (closed, euler, structure) = (mesh.is_closed(), mesh.euler(), options.structure);
+    let need = match structure {
+        Structure::Spherical if !closed || euler != 2 => "closed of genus 0 for a spherical structure",
+        Structure::Hyperbolic if euler >= 0 => "of negative Euler characteristic for a hyperbolic structure",
+        Structure::Projective if euler >= 0 => {
+            "of negative Euler characteristic for the projective structure of the Klein disk (a flat surface has its affine one)"
+        }
+        Structure::Affine if options.source == AffineSource::Form && (!closed || euler > 0) => {
+            "closed of genus at least 1 for an affine structure from a holomorphic form"
+        }
+        _ => "",
+    };
+    if !need.is_empty() {
+        let kind = if closed { "closed" } else { "with boundary" };
+        let value = format!("{kind}, of genus {} and Euler characteristic {euler}", mesh.genus());
+        return Err(Error::Argument { what: "surface", value, need });
+    }
+    if options.source == AffineSource::Form && structure != Structure::Affine {
+        return Err(Error::argument("structure from a form", structure, "affine"));
+    }
+    let Some(v) = options.singular else { return Ok(()) };
+    let one_cone = structure == Structure::Affine && options.source == AffineSource::Flow;
+    if !one_cone || !closed || euler == 0 {
+        let need =
+            "left out: only affine structures by the flow on closed surfaces of genus other than 1 have one";
+        return Err(Error::argument("singular vertex", v, need));
+    }
+    if v.index() >= mesh.n_vertices() {
+        return Err(Error::argument("singular vertex", v, "a vertex of the surface, numbered from 0"));
+    }
+    Ok(())
+}
+
+fn sphere(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Sphere> {
+    let flow = &options.flow;
+    let sphere = SphereOptions {
+        tolerance: flow.tolerance,
+        max_iterations: flow.max_iterations,
+        puncture: options.singular,
+        threads: flow.threads,
+    };
+    uniformize_sphere(surface, &sphere, control)
+}
+
+/// A sphere in the plane, one vertex at infinity.
+fn of_plane(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Developed> {
+    let sphere = sphere(surface, options, control)?;
+    let mut sheet = Sheet::of_points(sphere.metric.mesh(), Space::E2, |v| {
+        let [x, y] = sphere.plane[VertexId::from(v)];
+        [x, y, 1.0]
+    });
+    sheet.singular[sphere.report.puncture] = true;
+    let found = simply_connected(sheet, &sphere, control)?;
+    Ok(Developed { curvature_error: sphere.report.max_curvature_error, ..found })
+}
+
+fn simply_connected(sheet: Sheet, sphere: &Sphere, control: &Control) -> Result<Developed> {
+    let ones = PerEdge::filled(sheet.mesh().n_edges(), 1.0);
+    Ok(Developed {
+        basis: homotopy_basis(sheet.mesh(), &ones, None, control)?,
+        sheet,
+        metric: Arc::new(sphere.metric.clone()),
+        refinement: None,
+        zeros: Vec::new(),
+        curvature_error: sphere.report.spherical_curvature_error,
+        converged: sphere.report.converged,
+    })
+}
+
+/// The metric of constant curvature, with geodesic boundary.
+fn of_quotient(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Developed> {
+    let asked = QuotientOptions { flow: options.flow.clone(), ..QuotientOptions::default() };
+    let quotient = uniformize_quotient(surface, &asked, control)?;
+    let refinement = quotient.layout.refinement().cloned();
+    let steps = steps(&quotient.metric, refinement.as_ref())?;
+    let factor = if steps.space == Space::E2 { (surface.area()? / steps.area).sqrt() } else { 1.0 };
+    Ok(Developed {
+        sheet: Sheet::new(steps).scaled(factor),
+        zeros: Vec::new(),
+        curvature_error: quotient.angle_defect,
+        converged: quotient.report.converged(),
+        basis: quotient.basis,
+        metric: Arc::new(quotient.metric),
+        refinement,
+    })
+}
+
+/// A flat metric with curvature at one vertex or on the boundary.
+fn of_flow(
+    surface: &Surface,
+    target: &Target,
+    options: &AtlasOptions,
+    control: &Control,
+) -> Result<Developed> {
+    let metric = flow(surface.clone(), Class::yamabe(Space::E2), target, &options.flow, control)?;
+    // Of a double, the given half.
+    let refinement = metric.double().map(|_| metric.refinement(control).map(Arc::new)).transpose()?;
+    let steps = steps(&metric, refinement.as_ref())?;
+    let factor = (surface.area()? / steps.area).sqrt();
+    let mut sheet = Sheet::new(steps).scaled(factor);
+    target.named().into_iter().for_each(|v| sheet.singular[v] = true);
+    mark_wide_corners(&mut sheet);
+    Ok(Developed {
+        basis: homotopy_basis(sheet.mesh(), &lengths(&sheet), None, control)?,
+        sheet,
+        zeros: Vec::new(),
+        curvature_error: metric.report().map_or(f64::NAN, |report| report.max_curvature_error),
+        converged: metric.converged(),
+        metric: Arc::new(metric),
+        refinement,
+    })
+}
+
+/// Marks the vertices of the boundary whose angle is at least a full turn: no chart in the plane can have such a vertex with all of its faces.
+fn mark_wide_corners(sheet: &mut Sheet) {
+    let mesh = sheet.steps.mesh.clone();
+    let mut angle = PerVertex::filled(mesh.n_vertices(), 0.0);
+    for f in mesh.faces() {
+        let corners = sheet.steps.corners[f].map(|[x, y, _]| [x, y]);
+        for (k, v) in mesh.face_vertices(f).into_iter().enumerate() {
+            let [z, w] = [1, 2].map(|i| sub(corners[(k + i) % 3], corners[k]));
+            angle[v] += cross(z, w).atan2(dot(z, w));
+        }
+    }
+    let is_wide = |v: &VertexId| mesh.is_boundary_vertex(*v) && angle[*v] > TAU - FULL;
+    mesh.vertices().filter(is_wide).for_each(|v| sheet.singular[v] = true);
+}
+
+/// The lengths of the edges of a flat sheet, as searches for loops take them.
+fn lengths(sheet: &Sheet) -> PerEdge<f64> {
+    let mesh = sheet.mesh();
+    let mut lengths = PerEdge::filled(mesh.n_edges(), 0.0);
+    for f in mesh.faces() {
+        let corners = sheet.steps.corners[f];
+        for (k, h) in mesh.face_halfedges(f).into_iter().enumerate() {
+            let (p, q) = (corners[k], corners[(k + 1) % 3]);
+            lengths[h.edge()] = (p[0] - q[0]).hypot(p[1] - q[1]);
+        }
+    }
+    let least = SHORTEST * lengths.iter().copied().fold(0.0, f64::max);
+    lengths.iter_mut().for_each(|l| *l = l.max(least));
+    lengths
+}
+
+/// The plane in which a holomorphic 1-form draws the surface.
+fn of_form(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Developed> {
+    let domain = Domain::new(surface, control)?;
+    Pool::new(options.flow.threads)?.run(|| {
+        let forms = HarmonicForms::new(&domain, &FormsOptions::default(), control)?;
+        let form = with_conjugate(&forms, &forms, &even_combination(&forms, control)?)?;
+        let mesh = domain.mesh();
+        let mut sheet = Sheet::of_form(mesh, &form)?;
+        let mut turned = PerVertex::filled(mesh.n_vertices(), 0.0);
+        for f in mesh.faces() {
+            let sides = mesh.face_halfedges(f).map(|h| form.along(h));
+            for (k, v) in mesh.face_vertices(f).into_iter().enumerate() {
+                let [z, w] = [sides[k], neg(sides[(k + 2) % 3])];
+                turned[v] += cross(z, w).atan2(dot(z, w));
+                sheet.singular[v] |= sheet.excluded[f];
+            }
+        }
+        mesh.vertices().for_each(|v| sheet.singular[v] |= (turned[v] / TAU).round() != 1.0);
+        let area: f64 = mesh
+            .faces()
+            .map(|f| {
+                let [_, p, q] = sheet.steps.corners[f];
+                0.5 * (p[0] * q[1] - p[1] * q[0])
+            })
+            .sum();
+        let factor = (surface.area()? / area).sqrt();
+        Ok(Developed {
+            zeros: zeros(mesh, &form),
+            metric: domain.metric().clone(),
+            refinement: None,
+            basis: forms.basis.clone(),
+            sheet: sheet.scaled(factor),
+            curvature_error: 0.0,
+            converged: true,
+        })
+    })
+}
