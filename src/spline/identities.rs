@@ -22,9 +22,9 @@ const PLACES: [[f64; 3]; 7] = [
 /// Height of a knot over the line of a side, over the patch's own height, below which the knot counts as lying on it: rounding.
 const ON_LINE: f64 = 1e-9;
 
-/// Derivatives of order k below this share of the surface's extent over h^k, with the sides h of the smallest patch, are those of a surface that
-/// is flat there: ten digits above their rounding.
-const FLAT: f64 = 1e-6;
+/// Least size of derivatives of order k to which jumps are compared, as a share of the surface's extent over h^k, with the sides h of the smallest patch:
+/// rounding leaves jumps of up to 2e-12 of that, in a plane too.
+const FLAT: f64 = 1e-3;
 
 /// Largest deviations from what holds in exact arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq)]
