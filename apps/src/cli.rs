@@ -174,4 +174,22 @@ mod tests {
     fn the_command_line_is_well_formed() {
         Cli::command().debug_assert();
     }
+
+    #[test]
+    fn the_examples_of_the_help_are_commands() {
+        let mut seen = 0;
+        for command in Cli::command().get_subcommands() {
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            let lines = help.lines().filter(|line| line.starts_with("    ricci "));
+            for example in lines.flat_map(|line| line.split("&&")).map(|line| line.split(['>', '#']).next()) {
+                let words: Vec<&str> = example.unwrap_or_default().split_whitespace().collect();
+                if words.first() == Some(&"ricci") {
+                    let parsed = Cli::try_parse_from(&words);
+                    assert!(parsed.is_ok(), "{words:?}: {}", parsed.unwrap_err());
+                    seen += 1;
+                }
+            }
+        }
+        assert!(seen > 15, "{seen}");
+    }
 }

@@ -10,7 +10,9 @@ use crate::mesh::ricci_mesh;
 use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::Control;
-use ricci::harmonic::{Domain, Prescribed, SphereMapOptions, harmonic_map, planar, sphere_map};
+use ricci::harmonic::{
+    Domain, HarmonicMap, Prescribed, SphereMapOptions, harmonic_map, planar, simple_domain, sphere_map,
+};
 use ricci::mesh::VertexId;
 
 #[derive(Clone, Copy, PartialEq)]
@@ -19,6 +21,7 @@ enum Target {
     Rectangle,
     Sphere,
     Values,
+    Polygon,
 }
 
 choices!(TARGETS: Target = "target of a harmonic map", [
@@ -26,6 +29,7 @@ choices!(TARGETS: Target = "target of a harmonic map", [
     RICCI_HARMONIC_RECTANGLE => Target::Rectangle,
     RICCI_HARMONIC_SPHERE => Target::Sphere,
     RICCI_HARMONIC_VALUES => Target::Values,
+    RICCI_HARMONIC_POLYGON => Target::Polygon,
 ]);
 
 #[repr(C)]
@@ -53,18 +57,42 @@ pub unsafe extern "C" fn ricci_harmonic(
         let (spec, control) = (structs::read(spec)?, control::of(control));
         let target = TARGETS.choose(spec.target)?;
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::UNIFORM)?;
-        let domain = Domain::new(mesh.surface()?, &control)?;
-        let place = |p: [f64; 2]| [p[0], p[1], 0.0];
+        let surface = mesh.surface()?;
         let found: Vec<[f64; 3]> = match target {
-            Target::Sphere => sphere_map(&domain, &SphereMapOptions::default(), &control)?.points,
-            Target::Disk => planar::to_disk(&domain, &control)?.points.into_iter().map(place).collect(),
-            Target::Rectangle => {
-                let map = planar::to_rectangle(&domain, corners(&spec)?, &control)?.0;
-                map.points.into_iter().map(place).collect()
+            Target::Sphere => {
+                let domain = Domain::new(surface, &control)?;
+                sphere_map(&domain, &SphereMapOptions::default(), &control)?.points
             }
-            Target::Values => given(&domain, &spec, &control)?,
+            Target::Values => given(&Domain::new(surface, &control)?, &spec, &control)?,
+            Target::Disk | Target::Polygon | Target::Rectangle => {
+                let (_, domain) = simple_domain(surface, target == Target::Polygon, &control)?;
+                let map = plane(&domain, target, &spec, &control)?;
+                // Vertices that the domain had to be given come behind those of the mesh.
+                let own = map.points.into_iter().take(mesh.connectivity.n_vertices());
+                own.map(|[x, y]| [x, y, 0.0]).collect()
+            }
         };
         copy_out("points", &found, points, capacity)
+    })
+}
+
+fn plane(
+    domain: &Domain,
+    target: Target,
+    spec: &ricci_harmonic_spec,
+    control: &Control,
+) -> Outcome<HarmonicMap<2>> {
+    Ok(match target {
+        Target::Polygon => {
+            let corners = if spec.vertices.is_null() {
+                planar::corners_by_length(domain, spec.n)?
+            } else {
+                vertices(spec)?
+            };
+            planar::to_polygon(domain, &planar::regular_polygon(spec.n), Some(&corners), control)?
+        }
+        Target::Rectangle => planar::to_rectangle(domain, corners(spec)?, control)?.0,
+        _ => planar::to_disk(domain, control)?,
     })
 }
 

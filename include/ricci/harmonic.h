@@ -41,7 +41,9 @@ enum {
     /** A closed surface of genus 0 to the unit sphere, centred. */
     RICCI_HARMONIC_SPHERE = 2,
     /** Given places for some vertices. */
-    RICCI_HARMONIC_VALUES = 3
+    RICCI_HARMONIC_VALUES = 3,
+    /** A disk to the regular polygon with n corners on the unit circle, the first at (1, 0). */
+    RICCI_HARMONIC_POLYGON = 4
 };
 
 /** What ricci_forms_new can be asked; zeros are the defaults. */
@@ -88,12 +90,13 @@ typedef struct ricci_harmonic_spec {
     size_t size;
     /**
      * Of RICCI_HARMONIC_VALUES: the vertices that are given, n of them. Of RICCI_HARMONIC_RECTANGLE: its four
-     * corners, boundary vertices in order with the surface on the left, or none.
+     * corners, boundary vertices in order with the surface on the left, or none. Of RICCI_HARMONIC_POLYGON:
+     * its n corners in that order; NULL: those nearest to the n-th parts of the boundary's length.
      */
     const uint32_t *vertices;
     /** Of RICCI_HARMONIC_VALUES: their places, n x 3. */
     const double *values;
-    /** Number of vertices. */
+    /** Number of vertices, and of a polygon's corners. */
     size_t n;
     /** RICCI_HARMONIC_... */
     uint32_t target;
@@ -102,9 +105,11 @@ typedef struct ricci_harmonic_spec {
 } ricci_harmonic_spec;
 
 /**
- * The harmonic map of a surface with given boundary values, to a disk, a rectangle or the sphere.
+ * The harmonic map of a surface with given boundary values, to a disk, a rectangle, a polygon or the sphere.
  *
- * On the Delaunay triangulation of a disk the map to the unit disk flips no triangle.
+ * On the Delaunay triangulation of a disk the maps to the unit disk and to polygons flip no triangle. Where
+ * two edges of that have the same ends, or of a polygon an edge inside joins boundary vertices, it is given
+ * vertices of its own, which are left out of `points`.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (a surface of
  *         another topology), RICCI_TRIANGLE_INEQUALITY, RICCI_FACTORISATION, RICCI_NO_MEMORY,

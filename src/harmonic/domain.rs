@@ -4,7 +4,7 @@
 //!        k            w_ij = (cot α + cot β) / 2, on the boundary cot α / 2
 //!       /α\
 //!      /   \          α + β ≤ π on a Delaunay triangulation: w_ij ≥ 0
-//!     i ─── j
+//!     i ─── j                on edges inside
 //!      \   /
 //!       \β/
 //! ```
@@ -30,7 +30,8 @@ use std::sync::Arc;
 /// A metric on a triangulation of its own, as harmonic maps and forms see it. Clones share the metric.
 ///
 /// Triangles of curved spaces count as the Euclidean triangles of their chords, 2 sinh(l/2) and 2 sin(l/2), which differ from the
-/// lengths by O(l³). A triangulation that is Delaunay in its space is Delaunay in the chords, so its weights stay at least 0.
+/// lengths by O(l³). A triangulation that is Delaunay in its space is Delaunay in the chords, so the weights of its edges inside stay at
+/// least 0; that of a boundary edge is negative where the angle across from it is obtuse.
 #[derive(Debug, Clone)]
 pub struct Domain {
     metric: Arc<Solution>,

@@ -50,7 +50,7 @@ const BALANCED: f64 = 1e-10;
 ///
 /// # Errors
 /// [`Error::Argument`] for values that are not finite, or of what is no vertex, and for fluxes that do not add up to 0 where no value is
-/// given; [`Error::Size`]; those of [`Laplace::new`].
+/// given, and for values so far apart that the energy overflows; [`Error::Size`]; those of [`Laplace::new`].
 pub fn harmonic_map<const N: usize>(
     domain: &Domain,
     data: &Prescribed<N>,
@@ -83,7 +83,11 @@ pub fn harmonic_map<const N: usize>(
     }
     let is_free = |v: usize| !laplace.is_held(v);
     let mean_value_residual = mean_value_residual(domain, &points, data.flux.as_deref(), is_free);
-    Ok(HarmonicMap { energy: energy(domain, &points), mean_value_residual, points })
+    let energy = energy(domain, &points);
+    if !energy.is_finite() {
+        return Err(Error::argument("energy of the map", energy, "finite: the values are too far apart"));
+    }
+    Ok(HarmonicMap { energy, mean_value_residual, points })
 }
 
 fn check_flux<const N: usize>(flux: &[[f64; N]], n: usize, is_all: bool) -> Result<()> {

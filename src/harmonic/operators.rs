@@ -44,7 +44,7 @@ impl Domain {
         diagonal(self.vertex_areas())
     }
 
-    /// The Hodge star of 1-forms: E×E, diagonal; the cotangent weights, at least 0 on a Delaunay triangulation.
+    /// The Hodge star of 1-forms: E×E, diagonal; the cotangent weights, at least 0 on edges inside of a Delaunay triangulation.
     pub fn star1(&self) -> CsMat<f64> {
         diagonal(self.weights())
     }

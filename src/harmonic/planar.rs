@@ -17,6 +17,7 @@ use crate::geometry::complex::{Complex, add, distance, scale, sub};
 use crate::geometry::predicates::orientation;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 /// The boundary of a disk once around, with the surface on the left: its vertices, each with its share of the length before it.
@@ -123,10 +124,21 @@ fn nearest(around: &[(VertexId, f64)], share: f64) -> VertexId {
 /// The boundary vertices of a disk nearest to the n-th parts of its length, from its first vertex on: corners for [`to_polygon`].
 ///
 /// # Errors
-/// [`Error::Layout`] for a surface that is no disk.
+/// [`Error::Layout`] for a surface that is no disk; [`Error::Argument`] where one vertex is nearest to two of the parts.
 pub fn corners_by_length(domain: &Domain, n: usize) -> Result<Vec<VertexId>> {
-    let around = boundary(domain)?;
-    Ok((0..n).map(|k| nearest(&around, k as f64 / n as f64)).collect())
+    evenly(&boundary(domain)?, n)
+}
+
+fn evenly(around: &[(VertexId, f64)], n: usize) -> Result<Vec<VertexId>> {
+    // More corners than vertices are refused before there is memory for them.
+    let found: Vec<VertexId> =
+        (0..n.min(around.len() + 1)).map(|k| nearest(around, k as f64 / n as f64)).collect();
+    let distinct = found.iter().collect::<BTreeSet<_>>().len();
+    if distinct < n {
+        let need = "fewer, or named ones: one boundary vertex is nearest to two of them";
+        return Err(Error::argument("number of corners", n, need));
+    }
+    Ok(found)
 }
 
 /// The regular polygon with n corners on the unit circle, counterclockwise from (1, 0).
@@ -165,7 +177,13 @@ pub fn to_rectangle(
     control: &Control,
 ) -> Result<(HarmonicMap<2>, [VertexId; 4])> {
     let around = boundary(domain)?;
-    let corners = corners.unwrap_or_else(|| [0, 1, 2, 3].map(|k| nearest(&around, 0.25 * f64::from(k))));
+    let corners = match corners {
+        Some(corners) => corners,
+        None => {
+            let found = evenly(&around, 4)?;
+            [0, 1, 2, 3].map(|k| found[k])
+        }
+    };
     let shares = corner_shares(&around, &corners, 4)?;
     let along = |x: f64| (x - shares[0]).rem_euclid(1.0);
     let side = |k: usize| -> Vec<VertexId> {

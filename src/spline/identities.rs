@@ -1,11 +1,11 @@
 //! How well a spline space keeps the identities of triangular B-splines, measured.
 
-use super::patch::Parameter;
+use super::patch::{Parameter, Patch};
 use super::space::SplineSpace;
 use super::surface::Spline;
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::complex::doubled_area;
+use crate::geometry::complex::{distance, doubled_area};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -22,6 +22,10 @@ const PLACES: [[f64; 3]; 7] = [
 /// Height of a knot over the line of a side, over the patch's own height, below which the knot counts as lying on it: rounding.
 const ON_LINE: f64 = 1e-9;
 
+/// Least size of derivatives of order k to which jumps are compared, as a share of the surface's extent over h^k, with the sides h of the smallest patch:
+/// rounding leaves jumps of up to 2e-12 of that, in a plane too.
+const FLAT: f64 = 1e-3;
+
 /// Largest deviations from what holds in exact arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Identities {
@@ -31,7 +35,7 @@ pub struct Identities {
     /// several charts, which have no polynomials in common.
     pub polynomial_reproduction: Option<f64>,
     /// Jump of the derivatives of order min(n − 1, 2) across sides of patches, of the control points' own surface, over the largest such
-    /// derivative there; across sides on whose line no more than two knots of the ends lie.
+    /// derivative there, or what counts as flat; across sides on whose line no more than two knots of the ends lie.
     pub continuity: f64,
     /// How many sides between patches have more knots on their line: the spline is less smooth there.
     pub rough_sides: usize,
@@ -72,7 +76,29 @@ impl Spline {
             jump = a.iter().zip(&b).map(|(x, y)| (x - y).abs()).fold(jump, f64::max);
             largest = a.iter().map(|x| x.abs()).fold(largest, f64::max);
         }
+        let flat = FLAT * self.extent() / self.space().finest_side().powi(order as i32);
+        let largest = largest.max(flat);
         Ok(if largest > 0.0 { jump / largest } else { 0.0 })
+    }
+
+    /// The largest range of a coordinate of the control points.
+    fn extent(&self) -> f64 {
+        let range = |x: usize| {
+            let all = || self.control_points().iter().map(|p| p[x]);
+            all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+        };
+        (0..3).map(range).fold(0.0, f64::max)
+    }
+}
+
+impl SplineSpace {
+    /// The longest side of the smallest patch.
+    fn finest_side(&self) -> f64 {
+        let longest = |patch: &Patch| {
+            let [a, b, c] = [0, 1, 2].map(|k| patch.knots[k][0]);
+            distance(a, b).max(distance(b, c)).max(distance(c, a))
+        };
+        self.patches().iter().map(longest).fold(f64::INFINITY, f64::min)
     }
 }
 

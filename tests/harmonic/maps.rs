@@ -140,6 +140,7 @@ fn maps_to_convex_polygons_flip_no_triangle() {
     }
     let concave = [[0.0, 0.0], [2.0, 0.0], [0.5, 0.5], [0.0, 2.0]];
     assert!(to_polygon(&domain, &concave, None, &Control::new()).is_err());
+    assert!(matches!(corners_by_length(&domain, usize::MAX), Err(Error::Argument { .. })));
     let annulus = self::domain(&in_space(&shapes::annulus(0.4, 1.0, 3, 16).unwrap()));
     assert!(matches!(to_disk(&annulus, &Control::new()), Err(Error::Layout(_))));
 }
@@ -209,7 +210,7 @@ fn maps_of_the_round_sphere_are_moebius_up_to_the_square_of_the_edges() {
         sphere.mesh().edges().map(off).fold(0.0, f64::max)
     };
     let errors = [4, 8, 16].map(error);
-    assert!(errors.windows(2).all(|pair| 2.5 * pair[1] <= pair[0]), "{errors:?}");
+    assert!(errors.windows(2).all(|pair| 3.2 * pair[1] <= pair[0]), "{errors:?}");
 }
 
 /// The paper's flow and implicit steps end at one map, up to a rotation and to O(h²): the energy of a mesh is that far from invariant under the

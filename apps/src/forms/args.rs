@@ -83,6 +83,10 @@ pub enum ShowChoice {
 
 choices!(ClassesChoice = Classes { Absolute, Relative });
 
+/// Sizes of coefficients: from one over this up to it, so that no square over- or underflows.
+const LARGEST: f64 = 1e100;
+
 fn coefficient(text: &str) -> Result<f64, String> {
-    crate::options::number(text, |_| true, "must be a number")
+    let fits = |x: f64| x == 0.0 || (1.0 / LARGEST..=LARGEST).contains(&x.abs());
+    crate::options::number(text, fits, "must be 0 or a number between 1e-100 and 1e100 in size")
 }

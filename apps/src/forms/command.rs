@@ -46,6 +46,11 @@ fn check_request(args: &FormsArgs) -> Result<(), Failure> {
     let picture = args.picture.picture.as_deref();
     check_extension("--uv", args.uv.as_deref(), &["obj", "glb"])?;
     check_extension("--picture", picture, &["png", "svg"])?;
+    if !args.combination.is_empty() && args.combination.iter().all(|&x| x == 0.0) {
+        let why =
+            "--combination: the form 0 has no zeros and no trajectories; give a coefficient that is not 0";
+        return Err(Failure::Usage(why.into()));
+    }
     let in_space = args.show.is_some() || args.zoom.is_some() || args.picture.is_turned();
     if args.picture.is_svg() && in_space {
         let why = "--show, --zoom, --view, --up: an SVG shows the integral of the form alone; use .png, or leave them out";

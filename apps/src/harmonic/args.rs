@@ -7,7 +7,7 @@ use serde::Serialize;
 
 pub const HELP: &str = "\
 Example: a disk onto the unit disk, without a flipped triangle
-    ricci make disk --bump -o d.obj
+    ricci make disk --height 0.4 -o d.obj
     ricci harmonic d.obj --to disk --uv flat.obj --picture flat.png
 
 Maps are linear on the intrinsic Delaunay triangulation of the surface, where the weights of the Laplacian are at least 0: maps of disks onto
@@ -77,7 +77,7 @@ fn target(text: &str) -> Result<Target, String> {
         _ => match (text.strip_prefix("polygon:"), text.strip_prefix("file:")) {
             (Some(n), _) => match n.parse() {
                 Ok(n) if n >= 3 => Ok(Target::Polygon(Some(n))),
-                _ => Err(format!("polygon:{n}: a polygon has at least 3 corners")),
+                _ => Err(format!("polygon:{n}: the number of corners is whole, at least 3 and below 2^32")),
             },
             (_, Some(path)) if !path.is_empty() => Ok(Target::File(std::ffi::OsString::from(path).into())),
             _ => Err("must be disk, polygon:N, rectangle, sphere or file:F.csv".into()),

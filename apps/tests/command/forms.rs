@@ -78,6 +78,10 @@ fn a_torus_has_a_modulus_and_the_combination_that_is_asked_for() {
     assert!(place.exists("p.png"));
     let refused = place.expect(2, "forms t.obj --combination 1,2,3");
     assert!(refused.err.contains("3 coefficients for 2 forms"), "{}", refused.err);
+    assert!(place.expect(2, "forms t.obj --combination 0,-0").err.contains("not 0"));
+    for size in ["nan", "1e200", "1e-200"] {
+        assert!(place.expect(2, &format!("forms t.obj --combination {size},1")).err.contains("1e-100"));
+    }
 }
 
 #[test]

@@ -39,6 +39,10 @@ fn disks_go_to_polygons() {
     assert!(place.expect(2, "harmonic d.obj --to polygon:2").err.contains("at least 3"));
     assert!(place.expect(2, "harmonic d.obj --to polygon:4 --corners 1,2,3").err.contains("4 corners"));
     place.expect(2, "harmonic d.obj --to polygon --corners 0,1,2");
+    for many in ["1000", "4294967295"] {
+        let refused = place.expect(2, &format!("harmonic d.obj --to polygon:{many}"));
+        assert!(refused.err.contains(&format!("number of corners is {many}")), "{}", refused.err);
+    }
 }
 
 #[test]
@@ -71,6 +75,8 @@ fn values_come_from_a_file() {
     let numbers = |line: &str| line.split(' ').skip(1).map(|x| x.parse().unwrap()).collect::<Vec<f64>>();
     let places: Vec<Vec<f64>> = text.lines().filter(|l| l.starts_with("vt ")).map(numbers).collect();
     assert!(places.iter().any(|p| (p[0] - 1.0).abs() < 1e-12 && (p[1] - 0.5).abs() < 1e-12), "{text}");
+    place.put("far.csv", "0,1e200,0\n2,-1e200,1\n");
+    assert!(place.expect(2, "harmonic d.obj --to file:far.csv").err.contains("too far apart"));
     place.put("g.csv", "0,0,0\n0,1,1\n");
     assert!(place.expect(3, "harmonic d.obj --to file:g.csv").err.contains("named twice"));
     assert!(place.expect(2, "harmonic d.obj --to moon").err.contains("disk, polygon:N"));

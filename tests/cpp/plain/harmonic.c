@@ -109,6 +109,56 @@ static void check_maps(void) {
     ricci_mesh_free(sphere);
 }
 
+/* A disk of four triangles around vertex 4, one of them with a spike and a vertex half-way up it: two edges
+ * of its Delaunay triangulation have the same ends. */
+static void make_spike(ricci_mesh **mesh) {
+    const double points[7][3] = {{0, 0, 0},     {1, 0, 0}, {1, 1, 0},    {0, 1, 0},
+                                 {0.5, 0.5, 0}, {0, 0, 0}, {0.5, 0.2, 3}};
+    const uint32_t faces[8][3] = {{1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 1, 5},
+                                  {5, 1, 6}, {1, 4, 6}, {4, 5, 6}, {4, 0, 5}};
+    double placed[7][3];
+    memcpy(placed, points, sizeof placed);
+    for (int k = 0; k < 3; k++) placed[5][k] = 0.5 * (points[0][k] + points[6][k]);
+    OK(ricci_mesh_from_arrays(&placed[0][0], 7, 0, &faces[0][0], 8, mesh));
+}
+
+/* Maps that collapse without vertices on edges inside: all vertices stay apart, and the points are those of
+ * the mesh. */
+static void check_simple(void) {
+    ricci_mesh *spike = NULL;
+    ricci_harmonic_spec spec;
+    double points[3 * 7 + 1];
+    make_spike(&spike);
+    INIT(spec);
+    for (int k = 0; k < 2; k++) {
+        points[21] = 7;
+        OK(ricci_harmonic(spike, &spec, NULL, points, 21));
+        CHECK(points[21] == 7);
+        for (int i = 0; i < 7; i++) {
+            for (int j = 0; j < i; j++) {
+                CHECK(hypot(points[3 * i] - points[3 * j], points[3 * i + 1] - points[3 * j + 1]) > 1e-9);
+            }
+        }
+        spec.target = RICCI_HARMONIC_POLYGON, spec.n = 3;
+    }
+    const uint32_t corners[4] = {1, 2, 3, 0};
+    spec.vertices = corners, spec.n = 4;
+    OK(ricci_harmonic(spike, &spec, NULL, points, 21));
+    for (int k = 0; k < 4; k++) {
+        const double *p = points + 3 * corners[k], angle = k * acos(0);
+        CHECK(hypot(p[0] - cos(angle), p[1] - sin(angle)) < 1e-12);
+    }
+    spec.n = 2;
+    FAILS(ricci_harmonic(spike, &spec, NULL, points, 21), RICCI_ARGUMENT, "convex");
+    spec.vertices = NULL, spec.n = 0;
+    FAILS(ricci_harmonic(spike, &spec, NULL, points, 21), RICCI_ARGUMENT, "convex");
+    spec.n = (size_t)-1;
+    FAILS(ricci_harmonic(spike, &spec, NULL, points, 21), RICCI_ARGUMENT, "number of corners");
+    spec.n = 3;
+    FAILS(ricci_harmonic(spike, &spec, NULL, points, 20), RICCI_BUFFER_TOO_SMALL, "21");
+    ricci_mesh_free(spike);
+}
+
 int main(void) {
     ricci_mesh *mesh = NULL;
     OK(make_bolza(2, &mesh));
@@ -119,5 +169,6 @@ int main(void) {
     ricci_mesh_free(mesh);
     check_open();
     check_maps();
+    check_simple();
     return 0;
 }
