@@ -13,8 +13,8 @@ import tempfile
 
 import page
 
-# Bytes of a file above which the outside program, which needs ten times as much memory, is not asked.
-JUDGED = 150_000_000
+# Bytes of a file above which the outside program is not asked: it would take minutes and much memory.
+JUDGED = 15_000_000
 # Seconds for the outside program, which compares triples one by one.
 JUDGING = 120
 TITLES = {
@@ -115,7 +115,9 @@ def main():
     print("*at vertices*: largest distance between the image of a shared vertex and its place, over the size of the chart; *cocycle*: largest difference of")
     print("T_jk T_ij and T_ik over all overlaps of three charts (*triples*); *relation*: of the holonomy; *curvature*: largest |K − K̄|, radians. *singular*: vertices that no chart")
     print("has inside: from a form those at its zeros and at faces that it draws clockwise, many where faces are thin; on a flat boundary those with an angle of 360° and more. *outside*:")
-    print("check.py on the file where that is not too large or too long for it; it looks at the triples that begin at the first 300 charts.\n")
+    print("check.py on the file where that is not too large or too long for it; it looks at the triples that begin at the first 300 charts.")
+    print("It divides matrices by their largest entry; a rotation of the sphere by more than 90° between two charts, which only very coarse parts of a sphere")
+    print("need, has two of the same size, and rounding decides which one a product is divided by.\n")
     for kind, title in TITLES.items():
         of = [row for row in whole if row["kind"] == kind]
         if of:

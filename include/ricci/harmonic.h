@@ -107,9 +107,9 @@ typedef struct ricci_harmonic_spec {
 /**
  * The harmonic map of a surface with given boundary values, to a disk, a rectangle, a polygon or the sphere.
  *
- * On the Delaunay triangulation of a disk the maps to the unit disk and to polygons flip no triangle. Where
- * two edges of that have the same ends, or of a polygon an edge inside joins boundary vertices, it is given
- * vertices of its own, which are left out of `points`.
+ * On the Delaunay triangulation of a disk the maps to the unit disk and to polygons flip no triangle that is
+ * not too thin for coordinates in doubles. Where two edges of that triangulation have the same ends, or for a
+ * polygon an edge inside joins two boundary vertices, vertices are added to it, which `points` leaves out.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (a surface of
  *         another topology), RICCI_TRIANGLE_INEQUALITY, RICCI_FACTORISATION, RICCI_NO_MEMORY,

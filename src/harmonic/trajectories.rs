@@ -27,7 +27,7 @@ use std::collections::{HashSet, VecDeque};
 pub struct TrajectoryOptions {
     /// Along constant real part, in place of constant imaginary part.
     pub vertical: bool,
-    /// Distance between neighbouring lines on the surface, over the square root of its area.
+    /// Distance between neighbouring lines on the surface, over the square root of its area; 1e-4 or more.
     pub spacing: f64,
     /// Length of a line on the surface at most, over the square root of its area.
     pub longest: f64,
@@ -42,6 +42,8 @@ impl Default for TrajectoryOptions {
 /// A point on an edge: of the half-edge, in its face, this share of the way from its origin to its tip.
 pub type OnHalfedge = (HalfedgeId, f64);
 
+/// Least [`TrajectoryOptions::spacing`]: some ten thousand lines, with as many points each as there are edges on their way.
+const LEAST_SPACING: f64 = 1e-4;
 /// Share of the spacing down to which lines may approach each other before one of them ends [JL97].
 const NEAREST: f64 = 0.55;
 /// Lines shorter than this many spacings, as there are between others near zeros, are left out.
@@ -56,7 +58,7 @@ const LOOK: f64 = 0.25;
 /// to themselves, at the boundary, or at their longest \[JL97\]. `areas`: of the faces on the surface (F entries, positive).
 ///
 /// # Errors
-/// [`Error::Size`]; [`Error::Argument`] for a spacing or length that is not positive; [`Error::Cancelled`].
+/// [`Error::Size`]; [`Error::Argument`] for a spacing below 1e-4 or a length that is not positive; [`Error::Cancelled`].
 pub fn trajectories(
     layout: &FormLayout,
     areas: &[f64],
@@ -70,6 +72,9 @@ pub fn trajectories(
         if !(x > 0.0 && x.is_finite()) {
             return Err(Error::argument(what, x, need));
         }
+    }
+    if options.spacing < LEAST_SPACING {
+        return Err(Error::argument("spacing of trajectories", options.spacing, "1e-4 or more"));
     }
     let unit = areas.iter().sum::<f64>().sqrt();
     let turned = |z: Complex| if options.vertical { [z[1], -z[0]] } else { z };

@@ -20,6 +20,15 @@ fn lines_on_a_flat_torus_fill_it_evenly() {
     let layout = drawn(&forms, &[1.0, 0.0]);
     let options = TrajectoryOptions { spacing: 0.1, ..TrajectoryOptions::default() };
     let lines = trajectories(&layout, forms.domain.face_areas(), &options, &Control::new()).unwrap();
+    for spacing in [0.0, 1e-9, f64::NAN, f64::INFINITY] {
+        let refused = trajectories(
+            &layout,
+            forms.domain.face_areas(),
+            &TrajectoryOptions { spacing, ..TrajectoryOptions::default() },
+            &Control::new(),
+        );
+        assert!(refused.unwrap_err().to_string().contains("spacing of trajectories"));
+    }
     // Closed lines of the torus one after the other: neighbours are between one and two spacings apart.
     assert!((5..=10).contains(&lines.len()), "{}", lines.len());
     let level = |(h, share): (ricci::mesh::HalfedgeId, f64)| {
