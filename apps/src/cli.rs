@@ -87,22 +87,28 @@ impl Command {
     /// Write the report of a command whose input is not what it needs, or that cannot deliver, if a report was asked for.
     pub fn report_failure(&self, failure: &Failure) -> Result<(), Failure> {
         match self {
-            Command::Flow(args) => report_failure("flow", &args.to.file.mesh, &args.to.common, args, failure),
+            Command::Flow(args) => {
+                report_failure("flow", &args.to.surface.file.mesh, &args.to.common, args, failure)
+            }
             Command::Info(args) => report_failure("info", &args.file.mesh, &args.common, args, failure),
             Command::Repair(args) => report_failure("repair", &args.mesh, &args.common, args, failure),
             Command::Harmonic(args) => {
-                report_failure("harmonic", &args.file.mesh, &args.common, args, failure)
+                report_failure("harmonic", &args.surface.file.mesh, &args.common, args, failure)
             }
-            Command::Forms(args) => report_failure("forms", &args.file.mesh, &args.common, args, failure),
+            Command::Forms(args) => {
+                report_failure("forms", &args.surface.file.mesh, &args.common, args, failure)
+            }
             Command::Uniformize(UniformizeArgs { canonical: args, .. }) => {
-                report_failure("uniformize", &args.to.file.mesh, &args.to.common, args, failure)
+                report_failure("uniformize", &args.to.surface.file.mesh, &args.to.common, args, failure)
             }
             Command::Cover(CoverArgs { canonical: args, .. }) => {
-                report_failure("cover", &args.to.file.mesh, &args.to.common, args, failure)
+                report_failure("cover", &args.to.surface.file.mesh, &args.to.common, args, failure)
             }
-            Command::Circles(args) => report_failure("circles", &args.file.mesh, &args.common, args, failure),
+            Command::Circles(args) => {
+                report_failure("circles", &args.surface.file.mesh, &args.common, args, failure)
+            }
             Command::Structure(args) => {
-                report_failure("structure", &args.file.mesh, &args.common, args, failure)
+                report_failure("structure", &args.surface.file.mesh, &args.common, args, failure)
             }
             _ => Ok(()),
         }

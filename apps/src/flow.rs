@@ -40,7 +40,7 @@ pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done<Outcome>, Fail
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.to.common.quiet);
-    let input = input::read(&args.to.file, args.to.input_geometry.map(Space::from), control)?;
+    let input = input::surface(&args.to.surface, control)?;
     // Placed cones exist in E² alone.
     let automatic = matches!(args.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
     let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
@@ -148,7 +148,7 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
     };
     let files = [&to.metric, &to.uv, &to.xref, &args.circles, &args.trace, &to.common.report];
     let files: Vec<Option<&Path>> = files.map(|path| path.as_deref()).into_iter().chain([picture]).collect();
-    output::check_outputs(&[Some(&to.file.mesh), args.keep_edges.as_deref(), table], &files)
+    output::check_outputs(&[Some(&to.surface.file.mesh), args.keep_edges.as_deref(), table], &files)
 }
 
 /// What can be refused once the surface is known.

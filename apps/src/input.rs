@@ -3,7 +3,7 @@
 use crate::csv::read_text;
 use crate::failure::Failure;
 use crate::metric_file;
-use crate::options::MeshArgs;
+use crate::options::{MeshArgs, SurfaceArgs};
 use crate::output::{STANDARD, extension};
 use crate::timing::{Seconds, timed};
 use ricci::Control;
@@ -111,6 +111,11 @@ pub fn out_of_range(soup: &Soup) -> Option<String> {
     Some(format!(
         "vertex {v}: the coordinate {x:e} is outside the range: lengths between {least:e} and {most:e} (rescale)"
     ))
+}
+
+/// Read the surface of a command.
+pub fn surface(args: &SurfaceArgs, control: &Control) -> Result<Input, Failure> {
+    read(&args.file, args.input_geometry.map(Space::from), control)
 }
 
 /// Read a surface; its lengths in a `geometry` other than the file's if one is given.

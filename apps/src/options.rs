@@ -66,9 +66,9 @@ pub struct MeshArgs {
     pub weld: Option<f64>,
 }
 
-/// What the commands take that compute a metric: the surface, the way, and the files that all of them write.
+/// A surface: its file, and how its lengths are read.
 #[derive(Args, Serialize, Debug, Clone)]
-pub struct MetricArgs {
+pub struct SurfaceArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub file: MeshArgs,
@@ -76,6 +76,14 @@ pub struct MetricArgs {
     #[arg(long, value_enum, value_name = "GEOMETRY")]
     #[serde(skip)]
     pub input_geometry: Option<GeometryChoice>,
+}
+
+/// What the commands take that compute a metric: the surface, the way, and the files that all of them write.
+#[derive(Args, Serialize, Debug, Clone)]
+pub struct MetricArgs {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub surface: SurfaceArgs,
     #[command(flatten)]
     #[serde(flatten)]
     pub solve: SolveArgs,

@@ -22,8 +22,8 @@ const PLACES: [[f64; 3]; 7] = [
 /// Height of a knot over the line of a side, over the patch's own height, below which the knot counts as lying on it: rounding.
 const ON_LINE: f64 = 1e-9;
 
-/// Least size of derivatives of order k to which jumps are compared, as a share of the surface's extent over h^k, with the sides h of the smallest patch:
-/// rounding leaves jumps of up to 2e-12 of that, in a plane too.
+/// Least size of derivatives of order k to which jumps are compared, as a share of the surface's extent over h^k, with the height h of the thinnest
+/// patch: rounding leaves jumps of up to 2e-12 of that, in a plane too.
 const FLAT: f64 = 1e-3;
 
 /// Largest deviations from what holds in exact arithmetic.
@@ -76,7 +76,7 @@ impl Spline {
             jump = a.iter().zip(&b).map(|(x, y)| (x - y).abs()).fold(jump, f64::max);
             largest = a.iter().map(|x| x.abs()).fold(largest, f64::max);
         }
-        let flat = FLAT * self.extent() / self.space().finest_side().powi(order as i32);
+        let flat = FLAT * self.extent() / self.space().least_height().powi(order as i32);
         let largest = largest.max(flat);
         Ok(if largest > 0.0 { jump / largest } else { 0.0 })
     }
@@ -92,13 +92,14 @@ impl Spline {
 }
 
 impl SplineSpace {
-    /// The longest side of the smallest patch.
-    fn finest_side(&self) -> f64 {
-        let longest = |patch: &Patch| {
+    /// The least height of a patch over its longest side.
+    fn least_height(&self) -> f64 {
+        let height = |patch: &Patch| {
             let [a, b, c] = [0, 1, 2].map(|k| patch.knots[k][0]);
-            distance(a, b).max(distance(b, c)).max(distance(c, a))
+            let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
+            doubled_area([a, b, c]).abs() / longest
         };
-        self.patches().iter().map(longest).fold(f64::INFINITY, f64::min)
+        self.patches().iter().map(height).fold(f64::INFINITY, f64::min)
     }
 }
 

@@ -16,7 +16,7 @@ const STEPS: usize = 32;
 /// The vertex at which the whole curvature 2πχ of a closed surface distorts areas least by the linearised flow.
 ///
 /// The conformal factor that the flow would find solves, to first order, `L u = K̄ − K` with the cotangent Laplacian of the surface, and
-/// its area-weighted variance measures the distortion: 0 if all areas change alike. One factorisation serves all vertices. The best of [`FIRST`]
+/// its area-weighted variance measures the distortion: 0 if all areas change alike. One factorisation serves all vertices. The best of 48
 /// vertices far from each other is taken, then the best of its neighbours as long as there is a better one.
 ///
 /// # Errors

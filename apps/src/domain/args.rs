@@ -1,6 +1,6 @@
 //! The options of `ricci circles`.
 
-use crate::options::{Common, FileName, GeometryChoice, MeshArgs, positive};
+use crate::options::{Common, FileName, SurfaceArgs, positive};
 use crate::picture::{PictureArgs, Texture};
 use clap::Args;
 use serde::Serialize;
@@ -24,11 +24,7 @@ Files
 pub struct CirclesArgs {
     #[command(flatten)]
     #[serde(flatten)]
-    pub file: MeshArgs,
-    /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
-    #[arg(long, value_enum, value_name = "GEOMETRY")]
-    #[serde(skip)]
-    pub input_geometry: Option<GeometryChoice>,
+    pub surface: SurfaceArgs,
     /// The loop that becomes the unit circle (genus 0) [default: the longest]
     #[arg(long, value_name = "LOOP")]
     #[serde(skip)]

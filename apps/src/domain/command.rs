@@ -18,7 +18,6 @@ use crate::uv;
 use ricci::Control;
 use ricci::canonical::{CircleDomainOptions, Normalisation, circle_domain};
 use ricci::flow::Options;
-use ricci::geometry::Space;
 use ricci::mesh::{PerVertex, VertexId};
 use serde::Serialize;
 use std::time::Instant;
@@ -37,7 +36,7 @@ pub fn execute(args: &CirclesArgs, control: &Control) -> Result<Done<Found>, Fai
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.common.quiet);
-    let input = input::read(&args.file, args.input_geometry.map(Space::from), control)?;
+    let input = input::surface(&args.surface, control)?;
     check_surface(args, &input)?;
     let mut taken = 0.0;
     let domain = timed(&mut taken, || circle_domain(&input.surface, &options(args), control))?;
@@ -66,7 +65,7 @@ fn check_request(args: &CirclesArgs) -> Result<(), Failure> {
         picture,
         args.common.report.as_deref(),
     ];
-    check_outputs(&[Some(&args.file.mesh)], &files)
+    check_outputs(&[Some(&args.surface.file.mesh)], &files)
 }
 
 /// What can be refused once the surface is known.

@@ -1,6 +1,6 @@
 //! The options of `ricci forms`.
 
-use crate::options::{Common, FileName, GeometryChoice, MeshArgs, choices};
+use crate::options::{Common, FileName, SurfaceArgs, choices};
 use crate::picture::{PictureArgs, Texture, Zoom, zoom};
 use clap::{Args, ValueEnum};
 use ricci::harmonic::Classes;
@@ -23,11 +23,7 @@ Files
 pub struct FormsArgs {
     #[command(flatten)]
     #[serde(flatten)]
-    pub file: MeshArgs,
-    /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
-    #[arg(long, value_enum, value_name = "GEOMETRY")]
-    #[serde(skip)]
-    pub input_geometry: Option<GeometryChoice>,
+    pub surface: SurfaceArgs,
     /// Classes of a surface with boundary: forms that flow along the boundary, or forms that are 0 along it
     #[arg(long, value_enum, default_value_t = ClassesChoice::Absolute)]
     pub classes: ClassesChoice,

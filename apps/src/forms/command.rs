@@ -12,7 +12,6 @@ use crate::output::{check_extension, check_outputs};
 use crate::progress::Progress;
 use crate::report::{Done, Figures, InputSummary, Report};
 use ricci::Control;
-use ricci::geometry::Space;
 use serde::Serialize;
 use std::time::Instant;
 
@@ -30,7 +29,7 @@ pub fn execute(args: &FormsArgs, control: &Control) -> Result<Done<Found>, Failu
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.common.quiet);
-    let input = input::read(&args.file, args.input_geometry.map(Space::from), control)?;
+    let input = input::surface(&args.surface, control)?;
     check_surface(args, &input)?;
     let mut found = Found::new(&input, args, control)?;
     let (files, figures) = write(args, &input, &mut found, Delivery::new(control, start)?)?;
@@ -57,7 +56,7 @@ fn check_request(args: &FormsArgs) -> Result<(), Failure> {
         return Err(Failure::Usage(why.into()));
     }
     let files = [args.forms.as_deref(), args.uv.as_deref(), picture, args.common.report.as_deref()];
-    check_outputs(&[Some(&args.file.mesh)], &files)
+    check_outputs(&[Some(&args.surface.file.mesh)], &files)
 }
 
 /// What can be refused once the surface is known.

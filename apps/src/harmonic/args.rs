@@ -1,6 +1,6 @@
 //! The options of `ricci harmonic`.
 
-use crate::options::{Common, FileName, GeometryChoice, MeshArgs};
+use crate::options::{Common, FileName, SurfaceArgs};
 use crate::picture::PictureArgs;
 use clap::Args;
 use serde::Serialize;
@@ -28,11 +28,7 @@ Files
 pub struct HarmonicArgs {
     #[command(flatten)]
     #[serde(flatten)]
-    pub file: MeshArgs,
-    /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
-    #[arg(long, value_enum, value_name = "GEOMETRY")]
-    #[serde(skip)]
-    pub input_geometry: Option<GeometryChoice>,
+    pub surface: SurfaceArgs,
     /// Where to: disk, polygon:N, rectangle, sphere or file:F.csv [default: sphere for closed surfaces, else disk]
     #[arg(long, value_name = "TARGET", value_parser = target)]
     #[serde(skip)]

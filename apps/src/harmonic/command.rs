@@ -11,7 +11,6 @@ use crate::progress::Progress;
 use crate::report::{Done, Figures, InputSummary, Report};
 use crate::say;
 use ricci::Control;
-use ricci::geometry::Space;
 use serde::Serialize;
 use std::time::Instant;
 
@@ -30,7 +29,7 @@ pub fn execute(args: &HarmonicArgs, control: &Control) -> Result<Done<Found>, Fa
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.common.quiet);
-    let input = input::read(&args.file, args.input_geometry.map(Space::from), control)?;
+    let input = input::surface(&args.surface, control)?;
     let usual = if input.mesh().is_closed() { Target::Sphere } else { Target::Disk };
     let to = args.to.clone().unwrap_or(usual);
     check_surface(args, &input, &to)?;
@@ -76,7 +75,7 @@ fn check_request(args: &HarmonicArgs) -> Result<(), Failure> {
         args.picture.picture.as_deref(),
         args.common.report.as_deref(),
     ];
-    check_outputs(&[Some(&args.file.mesh), values], &files)
+    check_outputs(&[Some(&args.surface.file.mesh), values], &files)
 }
 
 /// What can be refused once the surface is known.

@@ -1,6 +1,6 @@
 //! The options of `ricci structure`.
 
-use crate::options::{Common, FileName, GeometryChoice, MeshArgs, choices, positive};
+use crate::options::{Common, FileName, SurfaceArgs, choices, positive};
 use crate::picture::PictureArgs;
 use clap::Args;
 use ricci::structure::{AffineSource, Charts, Structure};
@@ -27,11 +27,7 @@ Files
 pub struct StructureArgs {
     #[command(flatten)]
     #[serde(flatten)]
-    pub file: MeshArgs,
-    /// Geometry in which the input's lengths are read [default: the file's, e2 for mesh files]
-    #[arg(long, value_enum, value_name = "GEOMETRY")]
-    #[serde(skip)]
-    pub input_geometry: Option<GeometryChoice>,
+    pub surface: SurfaceArgs,
     /// The structure
     #[arg(long, value_enum)]
     pub kind: KindChoice,

@@ -12,7 +12,6 @@ use crate::progress::{Progress, doing};
 use crate::report::{Attempts, Done, Figures, InputSummary, Report, timed};
 use ricci::Control;
 use ricci::flow;
-use ricci::geometry::Space;
 use ricci::mesh::VertexId;
 use ricci::structure::{AtlasOptions, atlas};
 use serde::Serialize;
@@ -32,7 +31,7 @@ pub fn execute(args: &StructureArgs, control: &Control) -> Result<Done<Found>, F
     let start = Instant::now();
     check_request(args)?;
     let progress = Progress::watch(control, args.common.quiet);
-    let mut input = input::read(&args.file, args.input_geometry.map(Space::from), control)?;
+    let mut input = input::surface(&args.surface, control)?;
     check_surface(args, &input)?;
     let mut seconds = input.seconds;
     let options = AtlasOptions {
@@ -59,7 +58,7 @@ fn check_request(args: &StructureArgs) -> Result<(), Failure> {
     let picture = args.picture.picture.as_deref();
     check_extension("--picture", picture, &["png"])?;
     let files = [args.atlas.as_deref(), picture, args.common.report.as_deref()];
-    check_outputs(&[Some(&args.file.mesh)], &files)
+    check_outputs(&[Some(&args.surface.file.mesh)], &files)
 }
 
 /// What can be refused once the surface is known.

@@ -15,7 +15,6 @@ use crate::progress::Progress;
 use crate::report::{Done, timed};
 use ricci::Control;
 use ricci::canonical::{self, QuotientOptions, Uniformization};
-use ricci::geometry::Space;
 use ricci::mesh::VertexId;
 use std::time::Instant;
 
@@ -91,7 +90,7 @@ fn execute(wish: &Wish<'_>, control: &Control) -> Result<Done<Shape>, Failure> {
     let (start, to) = (Instant::now(), &wish.args.to);
     wish.check_request()?;
     let progress = Progress::watch(control, to.common.quiet);
-    let input = input::read(&to.file, to.input_geometry.map(Space::from), control)?;
+    let input = input::surface(&to.surface, control)?;
     let shown = wish.check_surface(&input)?;
     let task = Task { input: &input, args: wish.args, needs: wish.needs(&input, shown), control };
     let mut shape = shape(&task)?;

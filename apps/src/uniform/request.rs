@@ -123,7 +123,7 @@ impl Wish<'_> {
             copies,
             domain,
         ];
-        check_outputs(&[Some(&args.to.file.mesh)], &files)
+        check_outputs(&[Some(&args.to.surface.file.mesh)], &files)
     }
 
     /// What can be refused once the surface is known; what the picture shows.

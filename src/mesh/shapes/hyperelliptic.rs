@@ -34,14 +34,14 @@ pub fn hyperelliptic(branch_points: &[Complex64], n: usize) -> Result<Intrinsic>
     hyperelliptic_graded(branch_points, n, 1.0)
 }
 
-/// [`hyperelliptic`] with edges that shorten towards the branch points: around each, up to half of the distance R from the nearest other
+/// [`hyperelliptic()`] with edges that shorten towards the branch points: around each, up to half of the distance R from the nearest other
 /// one, a vertex at distance r is moved to `R (r/R)^grading`. Edges at distance r are then about `r^(1 − 1/grading)` as long as
 /// elsewhere. Holomorphic forms are as large as `r^(−1/2)` there, so that linear elements have rate 1 for grading 1, rate 2 but for a
 /// logarithm for 2, which makes triangles even in the chart √(x − e), and rate 2 beyond.
 ///
 /// # Errors
 ///
-/// Those of [`hyperelliptic`]; [`Error::Argument`] for a grading outside 1 … 4, and one that turns a triangle over (raise n).
+/// Those of [`hyperelliptic()`]; [`Error::Argument`] for a grading outside 1 … 4, and one that turns a triangle over (raise n).
 pub fn hyperelliptic_graded(branch_points: &[Complex64], n: usize, grading: f64) -> Result<Intrinsic> {
     check_count("branch points", branch_points.len(), 3, 20.0 * (n as f64).powi(2))?;
     check_count("frequency", n, 1, 20.0 * (n as f64).powi(2))?;
