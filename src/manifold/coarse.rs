@@ -3,20 +3,19 @@
 //! A vertex around which the angles add up to 2π (on the boundary to π) is no corner of the metric: it can be removed, and the
 //! triangles around it replaced by fewer that cover the same flat region. The metric stays as it is.
 
+use super::flat::{FLAT, Flat};
 use crate::control::{Control, Stage};
 use crate::embed::triangle::Triangle;
-use crate::error::{Error, Result, check_size};
-use crate::flow::Solution;
-use crate::geometry::Space;
+use crate::error::{Result, check_size};
 use crate::geometry::complex::{Complex, add, cross, distance, doubled_area, mul, scale, sub};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, Thinning, VertexId};
 
-/// Largest curvature of a vertex that is removed, in radians: what a converged flow leaves, and its rounding.
-pub(super) const FLAT: f64 = 1e-7;
 /// A diagonal is taken where both of its triangles have at least this share of the quadrilateral's area.
 const LEAST_SHARE: f64 = 1e-9;
 /// Share of the sum of terms by which an edge must fail the Delaunay condition to be flipped: rounding.
 const DELAUNAY: f64 = 1e-12;
+/// Least share of the quadrilateral's area that the triangle at a corner of the boundary gets, and what is left beside it.
+const EAR: f64 = 0.1;
 /// Removals between two looks at the control.
 const STEPS: usize = 256;
 
@@ -46,22 +45,18 @@ impl Coarse {
     /// The triangulation of a flat metric by the vertices that `keep` names, and those that are not flat: its cones, and corners of its boundary.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a metric that is not Euclidean; [`Error::Size`]; [`Error::Cancelled`].
-    pub fn new(flat: &Solution, keep: &PerVertex<bool>, control: &Control) -> Result<Coarse> {
-        if flat.metric().space != Space::E2 {
-            return Err(Error::argument("metric", flat.metric().space, "flat, of the Euclidean plane"));
-        }
-        let mesh = flat.mesh();
+    /// [`crate::Error::Size`]; [`crate::Error::Cancelled`].
+    pub fn new(flat: &Flat, keep: &PerVertex<bool>, control: &Control) -> Result<Coarse> {
+        let mesh = &flat.mesh;
         check_size("vertices to keep", keep.len(), mesh.n_vertices())?;
-        let curvature = flat.metric().curvature(mesh)?.at;
-        let lengths = flat.metric().lengths(mesh)?;
+        let curvature = flat.curvature()?;
         let mut work = Work {
             n_vertices: mesh.n_vertices(),
             points: vec![Vec::new(); mesh.n_faces()],
             queue: Vec::new(),
             is_queued: vec![false; mesh.n_edges()],
             thinning: Thinning::new(Mesh::clone(mesh)),
-            lengths,
+            lengths: flat.lengths.clone(),
         };
         let mut steps = 0;
         for v in mesh.vertices() {
@@ -72,6 +67,9 @@ impl Coarse {
                 work.remove(v);
                 steps += 1;
             }
+        }
+        for v in mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v) && curvature[v] > FLAT) {
+            work.cut_ear(v);
         }
         work.finish()
     }
@@ -199,6 +197,20 @@ impl Work {
             self.flip(h, quad);
         }
         self.make_delaunay();
+    }
+
+    /// Flip the edges at a corner of the boundary, as far as triangles stay fat, so that one triangle alone has it: a spline is less smooth across edges
+    /// that end at a corner.
+    fn cut_ear(&mut self, v: VertexId) {
+        loop {
+            let fan = self.mesh().fan(v);
+            let inner = fan.iter().filter(|h| !self.mesh().is_boundary_edge(h.edge()));
+            let quads = inner.filter_map(|&h| Some((h, self.quad(h)?)));
+            let fat = quads.filter(|(_, quad)| quad.shares().iter().all(|&share| share > EAR));
+            let best = fat.max_by(|(e, x), (f, y)| x.quality().total_cmp(&y.quality()).then(f.cmp(e)));
+            let Some((h, quad)) = best else { break };
+            self.flip(h, &quad);
+        }
     }
 
     /// Take out a vertex whose degree allows it; it and the points of its triangles go to the one that is left.

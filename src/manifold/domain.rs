@@ -20,6 +20,9 @@ const FLAT: f64 = 1e-6;
 const REACH: f64 = 1e-12;
 /// Radius of a hole over the distance of its vertex from the sides opposite it.
 const HOLE: f64 = 0.9;
+/// Around a singular vertex the angle, in radians, beyond which no basis function reaches: outside the disk of its knots, a convex hull of points on one side
+/// of it lies there.
+const HALF_TURN: f64 = std::f64::consts::PI;
 /// How far the total angle of a hole's vertex may be from a multiple of 2π, in turns.
 const WHOLE: f64 = 1e-6;
 /// Triangles that a walk crosses at most: steps are shorter than a triangle.
@@ -169,14 +172,23 @@ impl SurfaceDomain {
     }
 
     /// The triangular B-splines of a degree on this domain: their knots are in general position around flat vertices, along straight boundaries, and
-    /// coincide at singular vertices and corners of the boundary. `spread` as in [`crate::spline::KnotOptions`].
+    /// coincide at corners of the boundary. `spread` as in [`crate::spline::KnotOptions`].
+    ///
+    /// A singular vertex whose total angle is a multiple of 2π has directions as any other, and its knots lie in general position in the core of its
+    /// hole: outside that core every flat region is as in the plane, and the splines are as smooth there. At another one knots coincide.
     ///
     /// # Errors
     /// Those of [`SplineSpace::new`].
     pub fn space(&self, degree: usize, spread: f64) -> Result<SplineSpace> {
         let mesh = &self.coarse.mesh;
         let around = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
-            self.surroundings(v).knots([0.0; 2], degree, if self.is_flat[v] { spread } else { 0.0 })
+            let around = self.surroundings(v);
+            let spread = match (self.is_flat[v], self.hole(v)) {
+                (true, _) => spread,
+                (false, Ok(hole)) => spread.min(hole.core() / around.radius),
+                _ => 0.0,
+            };
+            around.knots([0.0; 2], degree, spread)
         });
         let mut numbers = HashMap::new();
         let patches: Vec<Patch> = mesh
@@ -228,12 +240,18 @@ impl SurfaceDomain {
             next += 1;
             for h in mesh.face_halfedges(way.face) {
                 let Some((g, across)) = self.across(h) else { continue };
-                let cones = [mesh.origin(h), mesh.tip(h)].into_iter().filter(|&v| self.is_cone(v));
-                let cones: Vec<VertexId> = cones.collect();
-                // Around a cone no function reaches beyond the next triangle.
-                if way.around.is_some_and(|v| cones.contains(&v)) {
+                // Of the cones at this edge, the triangle that it leads to.
+                let ends = [(mesh.origin(h), mesh.next(h.twin())), (mesh.tip(h), h.twin())];
+                let cones: Vec<(VertexId, HalfedgeId)> =
+                    ends.into_iter().filter(|&(v, _)| self.is_cone(v)).collect();
+                let known = |v: VertexId| way.around.filter(|&(cone, _)| cone == v).map(|(_, turned)| turned);
+                if cones.iter().any(|&(v, _)| known(v).is_some_and(|turned| turned >= HALF_TURN)) {
                     continue;
                 }
+                let entered = |&(v, beyond): &(VertexId, HalfedgeId)| {
+                    (v, known(v).unwrap_or(0.0) + self.angle_at(beyond))
+                };
+                let around = cones.iter().find(|(v, _)| known(*v).is_some()).or(cones.last()).map(entered);
                 let to = way.to.after(&across);
                 let knots: Vec<Complex> =
                     patches[g.index()].knots.iter().flatten().map(|&p| to.of(p)).collect();
@@ -243,7 +261,7 @@ impl SurfaceDomain {
                     other.face == g && pairs.into_iter().all(|(p, q)| distance(p, q) < SAME)
                 };
                 if overlaps(&knots, self.corners[f], -REACH) && !found.iter().any(is_same) {
-                    found.push(Way { face: g, to, around: cones.last().copied().or(way.around) });
+                    found.push(Way { face: g, to, around: around.or(way.around) });
                 }
             }
         }
@@ -316,8 +334,8 @@ fn nearest_on_side(p: Complex, a: Complex, b: Complex) -> Complex {
 struct Way {
     face: FaceId,
     to: Similarity,
-    /// The last cone from which an edge on the way starts.
-    around: Option<VertexId>,
+    /// The last cone at an edge on the way, and the sum of the angles there of the triangles that the way entered by such edges.
+    around: Option<(VertexId, f64)>,
 }
 
 /// What owns a basis function: the vertex, edge or triangle whose knots its polar arguments are. Functions with the same owner and counts are one.

@@ -2,10 +2,10 @@
 
 use super::coarse::Coarse;
 use super::domain::SurfaceDomain;
+use super::flat::{FLAT, Flat};
 use super::sample::spread_vertices;
 use crate::control::Control;
-use crate::error::{Error, Result, check_size};
-use crate::flow::Solution;
+use crate::error::{Error, Result};
 use crate::geometry::complex::Complex;
 use crate::geometry::vector::{Vector, distance, dot, sub};
 use crate::mesh::{Mesh, PerVertex, VertexId};
@@ -83,21 +83,20 @@ pub struct SurfaceFit {
 /// [`Error::Cancelled`].
 pub fn fit_surface(
     surface: &Surface,
-    flat: &Solution,
+    flat: &Flat,
     options: &SurfaceFitOptions,
     control: &Control,
 ) -> Result<SurfaceFit> {
     let Some(points) = surface.positions() else {
         return Err(Error::argument("surface", "without positions", "in space, to be fitted"));
     };
-    if flat.double().is_some() {
-        return Err(Error::argument("metric", "of a double", "on the surface itself"));
-    }
     let mesh = surface.mesh();
-    check_size("vertices of the metric", flat.mesh().n_vertices(), mesh.n_vertices())?;
-    let curvature = flat.curvature()?.at;
-    let always: Vec<VertexId> =
-        mesh.vertices().filter(|&v| curvature[v].abs() > super::coarse::FLAT).collect();
+    if flat.mesh.n_vertices() < mesh.n_vertices() {
+        let need = "at least those of the surface, which come first";
+        return Err(Error::argument("vertices of the flat metric", flat.mesh.n_vertices(), need));
+    }
+    let curvature = flat.curvature()?;
+    let always: Vec<VertexId> = mesh.vertices().filter(|&v| curvature[v].abs() > FLAT).collect();
     let diagonal = diagonal(points);
     let most = options.control_points.unwrap_or(mesh.n_vertices() / 4);
     // Of a closed surface with many triangles there are n² control points per two of these, and so per vertex.
@@ -105,11 +104,15 @@ pub fn fit_surface(
     let mut sizes = PerVertex::filled(mesh.n_vertices(), 1.0);
     let mut best: Option<SurfaceFit> = None;
     for round in 0..options.rounds.max(1) {
-        let keep = spread_vertices((mesh, surface.lengths()), &sizes, &always, count, control)?;
+        let chosen = spread_vertices((mesh, surface.lengths()), &sizes, &always, count, control)?;
+        let keep = PerVertex::from_fn(flat.mesh.n_vertices(), |v: VertexId| {
+            v.index() < mesh.n_vertices() && chosen[v]
+        });
         let domain = SurfaceDomain::new(Coarse::new(flat, &keep, control)?)?;
         let space = Arc::new(domain.space(options.degree, options.spread)?);
         let mut found = Round { domain, places: Vec::new(), misses: Vec::new(), fitted: None };
-        found.places = found.domain.coarse().places.iter().map(|&p| found.domain.parameter(p)).collect();
+        let places = found.domain.coarse().places.iter().take(mesh.n_vertices());
+        found.places = places.map(|&p| found.domain.parameter(p)).collect();
         let fit_options = FitOptions { fairness: options.fairness, threads: options.threads };
         for correction in 0..=options.corrections {
             if correction > 0 {

@@ -3,9 +3,11 @@
 mod coarse;
 mod domain;
 mod fit;
+mod flat;
 mod sample;
 
 pub use coarse::{Coarse, Place};
 pub use domain::SurfaceDomain;
 pub use fit::{SurfaceFit, SurfaceFitOptions, fit_surface};
+pub use flat::{Flat, FlatOptions};
 pub use sample::spread_vertices;

@@ -43,6 +43,22 @@ struct SupportEntry {
     to: [[f64; 3]; 2],
 }
 
+#[derive(Deserialize)]
+struct HoleEntry {
+    turns: u32,
+    radius: f64,
+    sectors: Vec<SectorEntry>,
+    coefficients: Vec<Vector>,
+}
+
+#[derive(Deserialize)]
+struct SectorEntry {
+    patch: u32,
+    corner: usize,
+    angle: f64,
+    unit: f64,
+}
+
 impl Spline {
     /// The text of the spline's file. Numbers are read back as they were: a spline has finite ones alone, whose [`Debug`](std::fmt::Debug)
     /// text is JSON.

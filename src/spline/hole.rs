@@ -1,12 +1,14 @@
 //! The surface around a singular vertex.
 //!
-//! Around a vertex with a total angle of 2πm a spline over the flat metric is continuous and no more. There the surface is a polynomial of the
-//! coordinate w = z^{1/m}, in which the vertex is a point as any other, and goes over into the spline by a weight that is 1 for
-//! |w| ≤ ρ/2, 0 for |w| ≥ ρ, and has two continuous derivatives:
+//! Around a vertex with a total angle of 2πm the sum of the basis functions of a spline over the flat metric is not 1: in the core of the hole, the disk
+//! of its knots. There the surface is a polynomial of the coordinate w = z^{1/m}, in which the vertex is a point as any other, and goes over
+//! into the spline by a weight that is 1 for |w| ≤ τρ, 0 for |w| ≥ ρ, and has two continuous derivatives:
 //!
 //! ```text
-//!     F̃ = F + φ(|w|/ρ) (G(w) − F),        φ = 1 for t ≤ ½,  1 − (10 s³ − 15 s⁴ + 6 s⁵), s = 2t − 1, for ½ ≤ t ≤ 1.
+//!     F̃ = F + φ(|w|/ρ) (G(w) − F),        φ = 1 for t ≤ τ,  1 − (10 s³ − 15 s⁴ + 6 s⁵), s = (t − τ)/(1 − τ), for τ ≤ t ≤ 1.
 //! ```
+//!
+//! τ is ½, or where the core is wider in w, its rim.
 //!
 //! So F̃ has as many continuous derivatives as F, up to two, on all of the hole.
 
@@ -26,6 +28,13 @@ use std::f64::consts::TAU;
 const DEGREE: usize = 6;
 /// Number of its coefficients.
 const COEFFICIENTS: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
+/// Radius of the core over that of the hole: large enough that the spline does not bend sharply along the sides at the vertex, small enough that the core is a
+/// small part of the triangles there.
+const CORE: f64 = 0.05;
+/// How much wider than the core the disk is in which the spline has no weight.
+const CLEAR: f64 = 1.1;
+/// Least τ.
+const LEAST_INNER: f64 = 0.5;
 /// Circles around the vertex, and places on each, at which the polynomial is fitted to the spline: where the weight goes from 1 to 0.
 const RINGS: [usize; 2] = [6, 48];
 /// Weight of the size of the polynomial's coefficients beside the squares of its distances: decides where there are few points.
@@ -74,6 +83,21 @@ impl Hole {
             return Err(Error::argument("radius of a hole", radius, "positive"));
         }
         Ok(Hole { sectors, turns, radius, coefficients: vec![[0.0; 3]; COEFFICIENTS] })
+    }
+
+    /// Radius of the core, in the unit of the metric: knots of the vertex lie in it.
+    pub fn core(&self) -> f64 {
+        CORE * self.radius
+    }
+
+    /// τ: the share of |w| up to which the surface is the polynomial alone.
+    fn inner(&self) -> f64 {
+        (CLEAR * CORE).powf(1.0 / f64::from(self.turns)).max(LEAST_INNER)
+    }
+
+    /// Whether a place is in the core.
+    pub(super) fn is_core(&self, space: &SplineSpace, at: Parameter) -> bool {
+        self.coordinate(space, at).is_some_and(|[w, ..]| norm(w) <= self.inner())
     }
 
     /// A hole filled by a polynomial with these coefficients.
@@ -128,7 +152,8 @@ impl Hole {
     pub fn rings(&self, space: &SplineSpace) -> Vec<Parameter> {
         let [circles, each] = RINGS;
         let each = each * self.turns as usize;
-        let ring = |k: usize| 0.5 + 0.5 * (k as f64 + 0.5) / circles as f64;
+        let inner = self.inner();
+        let ring = |k: usize| inner + (1.0 - inner) * (k as f64 + 0.5) / circles as f64;
         let angle = |j: usize| TAU * f64::from(self.turns) * (j as f64 + 0.5) / each as f64;
         let place =
             |k: usize, j: usize| self.place(space, self.radius * ring(k).powi(self.turns as i32), angle(j));
@@ -171,7 +196,7 @@ impl Hole {
         let w = self.coordinate(space, at).filter(|w| norm(w[0]) < 1.0)?;
         let w = Jet::of_holomorphic(w);
         let square = w[0].times(w[0]).plus(w[1].times(w[1]));
-        let weight = square.through(fade(square.0[0]));
+        let weight = square.through(fade(square.0[0], self.inner()));
         let rest = Jet::constant(1.0).plus(weight.times(Jet::constant(-1.0)));
         let powers: Vec<Jet> = powers(w).collect();
         let mut found = SurfacePoint::default();
@@ -204,16 +229,17 @@ fn powers([p, q]: [Jet; 2]) -> impl Iterator<Item = Jet> {
     (0..=DEGREE).flat_map(move |n| (0..=n).map(move |j| power(p, n - j).times(power(q, j))))
 }
 
-/// φ(√x) with its first and second derivative by x.
-fn fade(x: f64) -> [f64; 3] {
+/// φ(√x) with its first and second derivative by x, for this τ.
+fn fade(x: f64, inner: f64) -> [f64; 3] {
     let t = x.sqrt();
-    if t <= 0.5 {
+    if t <= inner {
         return [1.0, 0.0, 0.0];
     }
-    let s = (2.0 * t - 1.0).min(1.0);
+    let scale = 1.0 / (1.0 - inner);
+    let s = (scale * (t - inner)).min(1.0);
     let value = 1.0 - s * s * s * (10.0 + s * (6.0 * s - 15.0));
-    // By t: ds/dt = 2; by x: dt/dx = 1/(2t).
-    let first = -2.0 * 30.0 * s * s * (1.0 - s) * (1.0 - s);
-    let second = -4.0 * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
+    // By t: ds/dt = 1/(1 − τ); by x: dt/dx = 1/(2t).
+    let first = -scale * 30.0 * s * s * (1.0 - s) * (1.0 - s);
+    let second = -scale * scale * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
     [value, first / (2.0 * t), (second - first / t) / (4.0 * t * t)]
 }

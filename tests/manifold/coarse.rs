@@ -36,7 +36,12 @@ fn vertices_of_a_square_lie_where_their_places_say() {
     let points = surface.positions().unwrap().clone();
     let flat = Solution::initial_of(surface, Class::yamabe(Space::E2)).unwrap();
     for step in [2, 5, 17, 1000] {
-        let coarse = Coarse::new(&flat, &every(points.len(), step), &Control::new()).unwrap();
+        let coarse = Coarse::new(
+            &Flat::of(&flat, &Control::new()).unwrap(),
+            &every(points.len(), step),
+            &Control::new(),
+        )
+        .unwrap();
         let mesh = &coarse.mesh;
         mesh.validate().unwrap();
         assert_eq!((mesh.euler(), mesh.genus()), (1, 0));
@@ -65,7 +70,9 @@ fn a_torus_keeps_few_vertices_and_its_area() {
     let torus = Surface::intrinsic(mesh, lengths, Space::E2).unwrap();
     let flat = Solution::initial_of(torus, Class::yamabe(Space::E2)).unwrap();
     for step in [144, 48, 5] {
-        let coarse = Coarse::new(&flat, &every(144, step), &Control::new()).unwrap();
+        let coarse =
+            Coarse::new(&Flat::of(&flat, &Control::new()).unwrap(), &every(144, step), &Control::new())
+                .unwrap();
         coarse.mesh.validate().unwrap();
         // The last vertices of a torus may not be removable.
         assert!(coarse.mesh.n_vertices() <= 144usize.div_ceil(step) + 1);
@@ -82,7 +89,8 @@ fn a_metric_with_one_cone_keeps_its_area_and_its_cone() {
     let class = Class::yamabe(Space::E2);
     let flat = flow(surface, class, &target, &Options::default(), &Control::new()).unwrap();
     let n = flat.mesh().n_vertices();
-    let coarse = Coarse::new(&flat, &every(n, 20), &Control::new()).unwrap();
+    let coarse =
+        Coarse::new(&Flat::of(&flat, &Control::new()).unwrap(), &every(n, 20), &Control::new()).unwrap();
     coarse.mesh.validate().unwrap();
     assert_eq!(coarse.mesh.euler(), -2);
     let curvature = ricci::metric::curvature(&coarse.mesh, Space::E2, &coarse.lengths).unwrap();

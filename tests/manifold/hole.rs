@@ -2,7 +2,7 @@
 
 use ricci::flow::{Options, flow};
 use ricci::geometry::Space;
-use ricci::manifold::{SurfaceFitOptions, fit_surface};
+use ricci::manifold::{Flat, SurfaceFitOptions, fit_surface};
 use ricci::mesh::{VertexId, shapes};
 use ricci::spline::{Parameter, Spline, SurfacePoint};
 use ricci::{Class, Control, Surface, Target};
@@ -16,7 +16,7 @@ fn a_filled_hole_is_smooth_and_near_the_surface() {
     let flat =
         flow(surface.clone(), Class::yamabe(Space::E2), &target, &Options::default(), &control).unwrap();
     let options = SurfaceFitOptions { rounds: 4, ..SurfaceFitOptions::default() };
-    let fitted = fit_surface(&surface, &flat, &options, &control).unwrap();
+    let fitted = fit_surface(&surface, &Flat::of(&flat, &control).unwrap(), &options, &control).unwrap();
     assert!(fitted.rms < 1e-3 && fitted.max < 0.01, "{} {}", fitted.rms, fitted.max);
     let (domain, spline) = (&fitted.domain, &fitted.spline);
     let [vertex] = domain.singular()[..] else { panic!("one singular vertex") };

@@ -15,7 +15,7 @@ fn domain(surface: Surface, step: usize) -> (Solution, SurfaceDomain) {
     let target = if surface.mesh().euler() == 0 { Target::Uniform } else { Target::Single(VertexId(0)) };
     let flat = flow(surface, class, &target, &Options::default(), &Control::new()).unwrap();
     let keep = PerVertex::from_fn(flat.mesh().n_vertices(), |v: VertexId| v.index() % step == 0);
-    let coarse = Coarse::new(&flat, &keep, &Control::new()).unwrap();
+    let coarse = Coarse::new(&Flat::of(&flat, &Control::new()).unwrap(), &keep, &Control::new()).unwrap();
     (flat, SurfaceDomain::new(coarse).unwrap())
 }
 
