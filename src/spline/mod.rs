@@ -4,6 +4,7 @@
 mod ears;
 #[cfg(feature = "json")]
 mod file;
+mod fill;
 mod fit;
 mod hole;
 mod identities;
@@ -22,6 +23,7 @@ mod surface;
 mod tessellate;
 mod triangulate;
 
+pub use fill::Fill;
 pub use fit::{FitOptions, Fitted, fit};
 pub use hole::{Hole, Sector};
 pub use identities::Identities;
