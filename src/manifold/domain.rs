@@ -20,9 +20,11 @@ const FLAT: f64 = 1e-6;
 const REACH: f64 = 1e-12;
 /// Radius of a hole over the distance of its vertex from the sides opposite it.
 const HOLE: f64 = 0.9;
-/// Around a singular vertex the angle, in radians, beyond which no basis function reaches: outside the disk of its knots, a convex hull of points on one side
-/// of it lies there.
-const HALF_TURN: f64 = std::f64::consts::PI;
+/// Around a singular vertex the angle between two triangles there, in radians, from which on no basis function reaches from one to the other outside the core.
+const APART: f64 = std::f64::consts::FRAC_PI_2;
+/// Largest angle, in radians, that two triangles at a singular vertex and those between them may have together: others overlap each other in the plane without
+/// doing so on the surface.
+const MOST_TOGETHER: f64 = TAU - std::f64::consts::FRAC_PI_6;
 /// How far the total angle of a hole's vertex may be from a multiple of 2π, in turns.
 const WHOLE: f64 = 1e-6;
 /// Triangles that a walk crosses at most: steps are shorter than a triangle.
@@ -330,14 +332,26 @@ impl SurfaceDomain {
                 let ends = [(mesh.origin(h), mesh.next(h.twin())), (mesh.tip(h), h.twin())];
                 let cones: Vec<(VertexId, HalfedgeId)> =
                     ends.into_iter().filter(|&(v, _)| self.is_cone(v)).collect();
-                let known = |v: VertexId| way.around.filter(|&(cone, _)| cone == v).map(|(_, turned)| turned);
-                if cones.iter().any(|&(v, _)| known(v).is_some_and(|turned| turned >= HALF_TURN)) {
+                let fan = |&(v, beyond): &(VertexId, HalfedgeId)| {
+                    let before = way.around.filter(|fan| fan.vertex == v);
+                    let first = || if v == mesh.origin(h) { h } else { mesh.next(h) };
+                    let before = before.unwrap_or_else(|| Fan {
+                        vertex: v,
+                        first: self.angle_at(first()),
+                        turned: 0.0,
+                    });
+                    (before, self.angle_at(beyond))
+                };
+                let fans: Vec<(Fan, f64)> = cones.iter().map(fan).collect();
+                let is_far = |(fan, angle): &(Fan, f64)| {
+                    fan.turned >= APART
+                        || (fan.turned > 0.0 && fan.first + fan.turned + angle >= MOST_TOGETHER)
+                };
+                if fans.iter().any(is_far) {
                     continue;
                 }
-                let entered = |&(v, beyond): &(VertexId, HalfedgeId)| {
-                    (v, known(v).unwrap_or(0.0) + self.angle_at(beyond))
-                };
-                let around = cones.iter().find(|(v, _)| known(*v).is_some()).or(cones.last()).map(entered);
+                let longest = fans.into_iter().max_by(|(a, _), (b, _)| a.turned.total_cmp(&b.turned));
+                let around = longest.map(|(fan, angle)| Fan { turned: fan.turned + angle, ..fan });
                 let to = way.to.after(&across);
                 let knots: Vec<Complex> =
                     patches[g.index()].knots.iter().flatten().map(|&p| to.of(p)).collect();
@@ -419,6 +433,15 @@ fn nearest_on_side(p: Complex, a: Complex, b: Complex) -> Complex {
     add(a, scale((dot(sub(p, a), along) / norm2(along)).clamp(0.0, 1.0), along))
 }
 
+/// Triangles one after the other around a cone.
+#[derive(Debug, Clone, Copy)]
+struct Fan {
+    vertex: VertexId,
+    /// Angle there of the first one, and the sum of those of the others.
+    first: f64,
+    turned: f64,
+}
+
 /// The triangles around a vertex.
 struct Surroundings {
     sectors: Vec<Sector>,
@@ -431,8 +454,8 @@ struct Surroundings {
 struct Way {
     face: FaceId,
     to: Similarity,
-    /// The last cone at an edge on the way, and the sum of the angles there of the triangles that the way entered by such edges.
-    around: Option<(VertexId, f64)>,
+    /// The triangles around the last cone at an edge on the way.
+    around: Option<Fan>,
 }
 
 /// What owns a basis function: the vertex, edge or triangle whose knots its polar arguments are. Functions with the same owner and counts are one.

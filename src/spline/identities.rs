@@ -60,6 +60,8 @@ impl Spline {
         let polynomial_reproduction =
             one_chart.then(|| reproduction(space, &places, threads, control)).transpose()?;
         let Sides { beside, rough } = Sides::of(space);
+        let is_open = |side: &Side| !self.holes().iter().any(|hole| hole.is_core(side.places[0]));
+        let beside: Vec<Side> = beside.into_iter().filter(is_open).collect();
         let continuity = self.jump(&beside, threads, control)?;
         Ok(Identities { partition_of_unity, polynomial_reproduction, continuity, rough_sides: rough })
     }

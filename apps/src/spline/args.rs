@@ -2,12 +2,18 @@
 
 use crate::options::{Common, FileName, choices, number, positive};
 use crate::picture::SurfacePictureArgs;
+use crate::uniform::CornersChoice;
 use clap::{Args, Subcommand};
 use ricci::structure::AffineSource;
 use serde::Serialize;
 use std::path::PathBuf;
 
 pub const HELP: &str = "\
+Example: a smooth cubic surface of genus 2 with one singular vertex, and a picture of it with its control net
+    ricci make genus -o two.obj
+    ricci spline fit two.obj --degree 3 -o two.json --report two_fit.json
+    ricci spline eval two.json --picture two.png --wire --net
+
 Example: a smooth cubic surface through the heights of a mesh, some of its points with derivatives, and a fine mesh of it
     ricci make disk --height 0.3 -o hill.obj
     ricci spline fit hill.obj --planar --degree 3 -o hill.json --report fit.json

@@ -5,6 +5,8 @@ mod eval;
 mod fit;
 mod height_field;
 mod picture;
+mod planar;
+mod whole;
 
 pub use args::{HELP, SplineArgs};
 
