@@ -39,6 +39,8 @@ const LEAST_INNER: f64 = 0.5;
 const RINGS: [usize; 2] = [6, 48];
 /// Weight of the size of the polynomial's coefficients beside the squares of its distances: decides where there are few points.
 const SMALL: f64 = 1e-10;
+/// Nearer to the vertex, in the unit of the chart, a place is the vertex: derivatives by the chart's coordinates would overflow.
+const VERTEX: f64 = 1e-50;
 
 /// A patch at a singular vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +93,7 @@ impl Hole {
     }
 
     /// τ: the share of |w| up to which the surface is the polynomial alone.
-    fn inner(&self) -> f64 {
+    pub(super) fn inner(&self) -> f64 {
         (CLEAR * CORE).powf(1.0 / f64::from(self.turns)).max(LEAST_INNER)
     }
 
@@ -170,7 +172,8 @@ impl Hole {
         Some(Parameter { patch: sector.patch, x, y })
     }
 
-    /// w/ρ of a place in the chart of its patch, with first and second derivative there; none in patches that do not have the vertex.
+    /// w/ρ of a place in the chart of its patch, with first and second derivative there; at the vertex, where w has none, those of w/ρ itself. None
+    /// in patches that do not have the vertex.
     fn coordinate(&self, space: &SplineSpace, at: Parameter) -> Option<[Complex; 3]> {
         // A patch may have the vertex at several corners: the nearest one counts.
         let here = self.sectors.iter().filter(|sector| sector.patch == at.patch);
@@ -182,8 +185,8 @@ impl Hole {
         let share = 1.0 / f64::from(self.turns);
         let size = (sector.unit * norm(z) / self.radius).powf(share);
         let w = [size * (share * angle).cos(), size * (share * angle).sin()];
-        if z == [0.0; 2] {
-            return Some([w, [0.0; 2], [0.0; 2]]);
+        if norm(z) <= VERTEX {
+            return Some([[0.0; 2], [1.0, 0.0], [0.0; 2]]);
         }
         // w = c z^(1/m): w' = w/(m z), w'' = (1/m − 1) w'/z.
         let over_z = |a: Complex| scale(1.0 / norm2(z), mul(a, conj(z)));
@@ -191,7 +194,30 @@ impl Hole {
         Some([w, first, scale(share - 1.0, over_z(first))])
     }
 
-    /// The surface at a place where the spline has this point; none outside the hole. At the vertex itself the derivatives are 0: there the chart is none of the surface.
+    /// Whether a place is in the hole.
+    pub fn contains(&self, space: &SplineSpace, at: Parameter) -> bool {
+        self.coordinate(space, at).is_some_and(|[w, ..]| norm(w) < 1.0)
+    }
+
+    /// G without the spline around it, with derivatives by p and q where p + iq = w/ρ. For |w| ≤ τρ that is the surface.
+    pub(super) fn filling(&self, w: Complex) -> SurfacePoint {
+        let w = Jet::of_holomorphic([w, [1.0, 0.0], [0.0; 2]]);
+        let mut sums = [Jet::constant(0.0); 3];
+        for (power, c) in powers(w).zip(&self.coefficients) {
+            (0..3).for_each(|x| sums[x] = sums[x].plus(power.times(Jet::constant(c[x]))));
+        }
+        let at = |k: usize| sums.map(|Jet(all)| all[k]);
+        SurfacePoint { point: at(0), first: [at(1), at(2)], second: [at(3), at(4), at(5)] }
+    }
+
+    /// The place whose w/ρ is a number, or where that is larger than 1, the one on the rim in its direction.
+    pub(super) fn place_of(&self, space: &SplineSpace, w: Complex) -> Option<Parameter> {
+        let angle = f64::from(self.turns) * w[1].atan2(w[0]).rem_euclid(TAU);
+        self.place(space, self.radius * norm(w).min(1.0).powi(self.turns as i32), angle)
+    }
+
+    /// The surface at a place where the spline has this point; none outside the hole. At the vertex itself, where the chart is none of the
+    /// surface, the derivatives are those by real and imaginary part of w/ρ: normal and curvatures do not depend on coordinates.
     pub fn surface(&self, space: &SplineSpace, at: Parameter, spline: &SurfacePoint) -> Option<SurfacePoint> {
         let w = self.coordinate(space, at).filter(|w| norm(w[0]) < 1.0)?;
         let w = Jet::of_holomorphic(w);

@@ -1,6 +1,9 @@
 //! Triangular B-splines: piecewise polynomial surfaces over triangles, as smooth as their degree allows, on the plane or on a surface
 //! with an affine atlas [DMS92; Sei91; GHQ06].
 
+mod bounds;
+mod closest;
+mod descent;
 mod ears;
 #[cfg(feature = "json")]
 mod file;
@@ -22,6 +25,7 @@ mod surface;
 mod tessellate;
 mod triangulate;
 
+pub use closest::{ClosestPoint, ClosestPoints};
 pub use fit::{FitOptions, Fitted, fit};
 pub use hole::{Hole, Sector};
 pub use identities::Identities;

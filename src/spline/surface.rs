@@ -59,6 +59,11 @@ impl Spline {
         &self.holes
     }
 
+    /// Whether a hole's filling has a part in the surface at a place.
+    pub fn is_in_hole(&self, at: Parameter) -> bool {
+        self.holes.iter().any(|hole| hole.contains(&self.space, at))
+    }
+
     /// The basis.
     pub fn space(&self) -> &Arc<SplineSpace> {
         &self.space
@@ -99,21 +104,22 @@ impl Spline {
         if order > 2 {
             return Err(Error::argument("order of derivatives", order, "0, 1 or 2"));
         }
-        Pool::new(threads)?.run(|| {
-            let mut found = Vec::with_capacity(places.len());
-            for batch in places.chunks(BATCH) {
-                control.step(Stage::Layout, found.len() as f64 / places.len() as f64)?;
-                let mut points = vec![Ok(SurfacePoint::default()); batch.len()];
-                parallel::fill_with(&mut points, Scratch::default, |scratch, i| {
-                    self.at(batch[i], order, scratch)
-                });
-                found.extend(points.into_iter().collect::<Result<Vec<_>>>()?);
-            }
-            Ok(found)
-        })
+        in_batches((places, BATCH), threads, control, |scratch, &place| self.at(place, order, scratch))
     }
 
-    fn at(&self, at: Parameter, order: usize, scratch: &mut Scratch) -> Result<SurfacePoint> {
+    pub(super) fn at(&self, at: Parameter, order: usize, scratch: &mut Scratch) -> Result<SurfacePoint> {
+        let found = self.unfilled(at, order, scratch)?;
+        let filled = self.holes.iter().find_map(|hole| hole.surface(&self.space, at, &found));
+        Ok(filled.map_or(found, |filled| filled.cut(order)))
+    }
+
+    /// The spline without what fills its holes.
+    pub(super) fn unfilled(
+        &self,
+        at: Parameter,
+        order: usize,
+        scratch: &mut Scratch,
+    ) -> Result<SurfacePoint> {
         let mut sums = [[0.0; 3]; 6];
         let terms = [1, 3, 6][order];
         self.space.each(at, order, scratch, |control, jet| {
@@ -123,9 +129,7 @@ impl Spline {
             }
         })?;
         let [point, x, y, xx, xy, yy] = sums;
-        let found = SurfacePoint { point, first: [x, y], second: [xx, xy, yy] };
-        let filled = self.holes.iter().find_map(|hole| hole.surface(&self.space, at, &found));
-        Ok(filled.map_or(found, |filled| filled.cut(order)))
+        Ok(SurfacePoint { point, first: [x, y], second: [xx, xy, yy] })
     }
 
     /// The polar form of the polynomial that the surface is on Ω of a patch, at n points of its chart: the blossom, by the recurrence
@@ -165,6 +169,25 @@ impl Spline {
     pub fn omega(&self, patch: usize) -> Vec<[f64; 2]> {
         self.space.patches().get(patch).map_or_else(Vec::new, |patch| omega(&patch.knots))
     }
+}
+
+/// `work(memory, &all[i])` for every i, in parallel, with a look at the control after every `size` of them.
+pub(super) fn in_batches<A: Sync, T: Send>(
+    (all, size): (&[A], usize),
+    threads: usize,
+    control: &Control,
+    work: impl Fn(&mut Scratch, &A) -> Result<T> + Sync,
+) -> Result<Vec<T>> {
+    Pool::new(threads)?.run(|| {
+        let mut done = Vec::with_capacity(all.len());
+        for batch in all.chunks(size) {
+            control.step(Stage::Layout, done.len() as f64 / all.len() as f64)?;
+            let mut found: Vec<Option<Result<T>>> = batch.iter().map(|_| None).collect();
+            parallel::fill_with(&mut found, Scratch::default, |scratch, i| Some(work(scratch, &batch[i])));
+            done.extend(found.into_iter().flatten().collect::<Result<Vec<_>>>()?);
+        }
+        Ok(done)
+    })
 }
 
 impl Default for SurfacePoint {

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
+mod closest;
 #[path = "../common/mod.rs"]
 mod common;
 mod exact;
