@@ -10,7 +10,7 @@ use super::descent::{Reached, descend, is_convex};
 use super::hole::Hole;
 use super::patch::Parameter;
 use super::recurrence::Scratch;
-use super::surface::{Spline, SurfacePoint, in_batches};
+use super::surface::{LARGEST, Spline, SurfacePoint, in_batches};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, add, scale};
@@ -36,8 +36,6 @@ const SIDES: usize = 12;
 const SLACK: f64 = 1e-12;
 /// Pieces that are cut, and points that are looked at, between two looks at whether the caller has cancelled.
 const BATCH: usize = 1 << 12;
-/// Largest coordinate of points: squares of distances stay finite.
-const LARGEST: f64 = 1e150;
 
 /// The nearest point of a surface to a point in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,15 +86,12 @@ impl Spline {
     /// What finds nearest points of the surface, with the fillings of its holes.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a spline without patches, or with coordinates above 1e150; [`Error::Cancelled`].
+    /// [`Error::Argument`] for a spline without patches; [`Error::Cancelled`].
     pub fn closest_points(&self, threads: usize, control: &Control) -> Result<ClosestPoints<'_>> {
         if self.space().patches().is_empty() {
             return Err(Error::argument("patches", 0, "1 or more"));
         }
         let largest = self.control_points().iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-        if largest > LARGEST {
-            return Err(Error::argument("coordinate of a control point", largest, "1e150 at most"));
-        }
         let patches = (0..self.space().patches().len()).map(|patch| Piece::Patch(patch as u32));
         let middle = |hole| (0..SIDES).map(move |side| Piece::Middle { hole, side });
         let pieces: Vec<Piece> = patches.chain((0..self.holes().len()).flat_map(middle)).collect();

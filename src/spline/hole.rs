@@ -41,6 +41,8 @@ const RINGS: [usize; 2] = [6, 48];
 const SMALL: f64 = 1e-10;
 /// Nearer to the vertex, in the unit of the chart, a place is the vertex: derivatives by the chart's coordinates would overflow.
 const VERTEX: f64 = 1e-50;
+/// Most turns of a hole: surfaces of any genus that can be triangulated here have fewer.
+const MOST_TURNS: u32 = 1 << 16;
 
 /// A patch at a singular vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,11 +76,11 @@ impl Hole {
     /// # Errors
     /// [`Error::Argument`] for no sectors, no turns, or a radius that is not positive.
     pub fn new(sectors: Vec<Sector>, turns: u32, radius: f64) -> Result<Hole> {
-        if sectors.is_empty() || turns == 0 {
+        if sectors.is_empty() || !(1..=MOST_TURNS).contains(&turns) {
             return Err(Error::argument(
                 "turns of a hole",
                 turns,
-                "1 or more, with patches around the vertex",
+                "1 to 65536, with patches around the vertex",
             ));
         }
         if !(radius > 0.0 && radius.is_finite()) {

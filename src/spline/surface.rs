@@ -16,6 +16,9 @@ use std::sync::Arc;
 /// Points that are evaluated between two looks at whether the caller has cancelled.
 const BATCH: usize = 1 << 16;
 
+/// Largest size of a coordinate: squares of distances stay finite.
+pub(super) const LARGEST: f64 = 1e150;
+
 /// A surface: a spline space with a control point in space for each basis function.
 #[derive(Debug, Clone)]
 pub struct Spline {
@@ -39,11 +42,11 @@ impl Spline {
     /// A surface from its control points.
     ///
     /// # Errors
-    /// [`Error::Size`]; [`Error::Spline`] for a control point that is not finite.
+    /// [`Error::Size`]; [`Error::Spline`] for a control point that is not finite, or has a coordinate above 1e150 in size.
     pub fn new(space: Arc<SplineSpace>, control_points: Vec<Vector>) -> Result<Spline> {
         check_size("control points", control_points.len(), space.n_control_points())?;
-        if let Some(at) = control_points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-            let message = "a coordinate is no finite number".into();
+        if let Some(at) = control_points.iter().position(|p| !p.iter().all(|x| x.abs() <= LARGEST)) {
+            let message = "a coordinate is no finite number, or above 1e150".into();
             return Err(Error::Spline { what: "control point", index: at, message });
         }
         Ok(Spline { space, control_points, holes: Vec::new() })

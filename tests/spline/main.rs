@@ -6,6 +6,8 @@ mod closest;
 #[path = "../common/mod.rs"]
 mod common;
 mod exact;
+#[cfg(feature = "json")]
+mod files;
 mod fit;
 mod knots;
 mod smooth;
