@@ -29,6 +29,8 @@ pub struct ricci_spline_surface_options {
 sized!(ricci_spline_surface_options, "options");
 
 impl ricci_spline_surface_options {
+    /// What C has no field for keeps its default.
+    #[allow(clippy::needless_update)]
     fn read(&self) -> SurfaceFitOptions {
         let usual = SurfaceFitOptions::default();
         let real = |given: f64, usual: f64| if given == 0.0 { usual } else { given };

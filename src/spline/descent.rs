@@ -1,6 +1,6 @@
 //! The nearest point of a smooth surface over one triangle, from a start: Newton's method on half the squared distance.
 
-use super::surface::SurfacePoint;
+use super::point::SurfacePoint;
 use crate::error::Result;
 use crate::geometry::complex::{Complex, add, distance, dot, doubled_area, norm, scale, sub};
 use crate::geometry::vector::{self, Vector};
@@ -104,7 +104,7 @@ pub(super) fn descend(
         let model = Model::new(&here, vector::sub(here.point, target));
         let step = model.step(corners.map(|c| sub(c, at)));
         let decrease = model.decrease(step);
-        if !(decrease > 0.0) {
+        if decrease.is_nan() || decrease <= 0.0 {
             break;
         }
         steps += 1;

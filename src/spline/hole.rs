@@ -14,8 +14,8 @@
 
 use super::jet::Jet;
 use super::patch::Parameter;
+use super::point::SurfacePoint;
 use super::space::SplineSpace;
-use super::surface::SurfacePoint;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{
     Complex, add, conj, cross, distance, dot, mul, norm, norm2, scale, sub, unit,

@@ -86,7 +86,7 @@ static void a_torus_is_fitted(void) {
     CHECK(figures.n_faces == 9 * s.n_patches && figures.genus == 1 && figures.n_boundary_loops == 0);
     /* A file says all of it. */
     size_t n = 0;
-    CHECK(ricci_spline_text(spline, NULL, 0, &n) == RICCI_BUFFER_TOO_SMALL);
+    OK(ricci_spline_text(spline, NULL, 0, &n));
     char *text = (char *)room(n, 1);
     OK(ricci_spline_text(spline, text, n, &n));
     OK(ricci_spline_parse(text, &again));
