@@ -50,7 +50,7 @@ fn nearest_points_are_found_everywhere() {
         assert_eq!(found.point, spline.point(found.place).unwrap());
         (cells, steps) = (cells + found.cells as usize, steps + found.steps as usize);
     }
-    eprintln!("{} cells, {} steps per point", cells / points.len(), steps / points.len());
+    assert!(steps <= 60 * 3 * cells);
     // Points on normals come back.
     let lifted = |far: f64| -> Vec<[f64; 3]> {
         let lift = |at: &ricci::spline::SurfacePoint| {

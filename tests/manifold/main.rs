@@ -1,5 +1,7 @@
 //! Splines over whole surfaces.
 
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
+
 mod closest;
 mod coarse;
 mod hole;
