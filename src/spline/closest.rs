@@ -95,7 +95,9 @@ impl Spline {
         let largest = self.control_points().iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
         let patches = (0..self.space().patches().len()).map(|patch| Piece::Patch(patch as u32));
         let middle = |hole| (0..SIDES).map(move |side| Piece::Middle { hole, side });
-        let pieces: Vec<Piece> = patches.chain((0..self.holes().len()).flat_map(middle)).collect();
+        let pieces: Vec<Piece> = patches
+            .chain((0..self.holes().len()).filter(|&hole| self.holes()[hole].fill.is_some()).flat_map(middle))
+            .collect();
         let cut = in_batches((&pieces, BATCH), threads, control, |scratch, &piece| {
             let mut cutting = Cutting { spline: self, piece, scratch, cells: Vec::new(), boxes: Vec::new() };
             let corners = self.corners_of(piece);
@@ -134,20 +136,19 @@ impl Spline {
     ) -> Result<SurfacePoint> {
         match piece {
             Piece::Patch(patch) => self.at(Parameter { patch, x, y }, order, scratch),
-            Piece::Middle { hole, .. } => Ok(self.holes()[hole].filling([x, y])),
+            Piece::Middle { hole, .. } => {
+                let message = "nothing fills it".into();
+                let empty = || Error::Spline { what: "hole", index: hole, message };
+                self.holes()[hole].filling([x, y]).ok_or_else(empty)
+            }
         }
     }
 
-    fn place_on(&self, piece: Piece, [x, y]: Complex) -> Result<Parameter> {
+    /// None where a hole reaches beyond its patches.
+    fn place_on(&self, piece: Piece, [x, y]: Complex) -> Option<Parameter> {
         match piece {
-            Piece::Patch(patch) => Ok(Parameter { patch, x, y }),
-            Piece::Middle { hole, .. } => {
-                self.holes()[hole].place_of(self.space(), [x, y]).ok_or_else(|| Error::Spline {
-                    what: "hole",
-                    index: hole,
-                    message: "its first sector does not begin at the angle 0".into(),
-                })
-            }
+            Piece::Patch(patch) => Some(Parameter { patch, x, y }),
+            Piece::Middle { hole, .. } => self.holes()[hole].place_of(self.space(), [x, y]),
         }
     }
 }
@@ -175,7 +176,7 @@ impl Cutting<'_> {
         let spline = self.spline;
         if let Piece::Patch(patch) = self.piece {
             let is_in =
-                |hole: &Hole, [x, y]: Complex| hole.is_core(spline.space(), Parameter { patch, x, y });
+                |hole: &Hole, [x, y]: Complex| hole.fill.is_some() && hole.is_core(Parameter { patch, x, y });
             if spline.holes().iter().any(|hole| corners.iter().all(|&corner| is_in(hole, corner))) {
                 return Ok(());
             }
@@ -271,10 +272,10 @@ impl ClosestPoints<'_> {
                 }
             }
         }
-        let Some((piece, Reached { at, .. })) = best else {
+        let place = best.and_then(|(piece, Reached { at, .. })| self.spline.place_on(piece, at));
+        let Some(place) = place else {
             return Err(Error::argument("point", format!("{target:?}"), "at a finite distance"));
         };
-        let place = self.spline.place_on(piece, at)?;
         let point = self.spline.at(place, 0, scratch)?.point;
         Ok(ClosestPoint { place, point, distance: distance(point, target), cells, steps })
     }
@@ -296,8 +297,10 @@ impl ClosestPoints<'_> {
             let mut reached = descend(corners, start, target, surface)?;
             if let Piece::Middle { .. } = piece {
                 // Corners of the polygon lie where the filling goes over into the spline.
-                let place = self.spline.place_on(piece, reached.at)?;
-                reached.distance = distance(self.spline.at(place, 0, scratch)?.point, target);
+                reached.distance = match self.spline.place_on(piece, reached.at) {
+                    Some(place) => distance(self.spline.at(place, 0, scratch)?.point, target),
+                    None => f64::INFINITY,
+                };
             }
             reached.steps += best.steps;
             best = if reached.distance < best.distance {

@@ -7,6 +7,7 @@ mod descent;
 mod ears;
 #[cfg(feature = "json")]
 mod file;
+mod fill;
 mod fit;
 mod hole;
 mod identities;
@@ -27,6 +28,7 @@ mod tessellate;
 mod triangulate;
 
 pub use closest::{ClosestPoint, ClosestPoints};
+pub use fill::Fill;
 pub use fit::{FitOptions, Fitted, fit};
 pub use hole::{Hole, Sector};
 pub use identities::Identities;

@@ -54,7 +54,7 @@ impl Spline {
 
     /// Whether a hole's filling has a part in the surface at a place.
     pub fn is_in_hole(&self, at: Parameter) -> bool {
-        self.holes.iter().any(|hole| hole.contains(&self.space, at))
+        self.holes.iter().any(|hole| hole.fill.is_some() && hole.contains(at))
     }
 
     /// The basis.
@@ -102,7 +102,7 @@ impl Spline {
 
     pub(super) fn at(&self, at: Parameter, order: usize, scratch: &mut Scratch) -> Result<SurfacePoint> {
         let found = self.unfilled(at, order, scratch)?;
-        let filled = self.holes.iter().find_map(|hole| hole.surface(&self.space, at, &found));
+        let filled = self.holes.iter().find_map(|hole| hole.surface(at, &found));
         Ok(filled.map_or(found, |filled| filled.cut(order)))
     }
 
