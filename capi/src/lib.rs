@@ -59,6 +59,7 @@ pub mod spline;
 pub mod spline_file;
 pub mod spline_fit;
 pub mod spline_places;
+pub mod spline_surface;
 pub mod status;
 pub mod structure;
 pub mod structure_parts;

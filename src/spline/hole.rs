@@ -15,8 +15,8 @@
 use super::fill::Fill;
 use super::jet::Jet;
 use super::patch::Parameter;
+use super::point::SurfacePoint;
 use super::space::SplineSpace;
-use super::surface::SurfacePoint;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{Complex, add, conj, doubled_area, mul, norm, norm2, scale, sub};
 use crate::geometry::vector::Vector;
@@ -31,6 +31,10 @@ const CLEAR: f64 = 1.1;
 const LEAST_INNER: f64 = 0.7;
 /// Circles around the vertex, and places on each, at which the polynomial is fitted to the spline: where the weight goes from 1 to 0.
 const RINGS: [usize; 2] = [6, 48];
+/// Nearer to the vertex, in the unit of the metric, a place is the vertex: derivatives by the chart's coordinates would overflow.
+const VERTEX: f64 = 1e-50;
+/// Most turns of a hole: surfaces of any genus that can be triangulated here have fewer.
+const MOST_TURNS: u32 = 1 << 16;
 /// Share of a triangle's area by which a place may lie outside it: rounding.
 const OUTSIDE: f64 = 1e-9;
 
@@ -65,11 +69,11 @@ impl Hole {
     /// # Errors
     /// [`Error::Argument`] for no sectors, no turns, or a radius that is not positive.
     pub fn new(mut sectors: Vec<Sector>, turns: u32, radius: f64) -> Result<Hole> {
-        if sectors.is_empty() || turns == 0 {
+        if sectors.is_empty() || !(1..=MOST_TURNS).contains(&turns) {
             return Err(Error::argument(
                 "turns of a hole",
                 turns,
-                "1 or more, with patches around the vertex",
+                "1 to 65536, with patches around the vertex",
             ));
         }
         if !(radius > 0.0 && radius.is_finite()) {
@@ -85,7 +89,7 @@ impl Hole {
     }
 
     /// τ: the share of |w| up to which the surface is the polynomial alone.
-    fn inner(&self) -> f64 {
+    pub(super) fn inner(&self) -> f64 {
         (CLEAR * CORE).powf(1.0 / f64::from(self.turns)).max(LEAST_INNER)
     }
 
@@ -173,7 +177,8 @@ impl Hole {
         all.filter_map(inside).max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, found)| found)
     }
 
-    /// w/ρ of a place in the chart of its patch, with first and second derivative there; none in patches that the hole does not meet.
+    /// w/ρ of a place in the chart of its patch, with first and second derivative there; at the vertex, where w has none, those of w/ρ itself.
+    /// None in patches that the hole does not meet.
     fn coordinate(&self, at: Parameter) -> Option<[Complex; 3]> {
         let first = self.sectors.partition_point(|sector| sector.patch < at.patch);
         // A patch may lie around the vertex in several ways: the one nearest to it counts.
@@ -183,8 +188,8 @@ impl Hole {
         let share = 1.0 / f64::from(self.turns);
         let angle = share * (sector.angle + z[1].atan2(z[0]));
         let w = scale((norm(z) / self.radius).powf(share), [angle.cos(), angle.sin()]);
-        if z == [0.0; 2] {
-            return Some([w, [0.0; 2], [0.0; 2]]);
+        if norm(z) <= VERTEX {
+            return Some([[0.0; 2], [1.0, 0.0], [0.0; 2]]);
         }
         // w = c z^(1/m) and dz = turn dp for places p in the chart: w' = turn w/(m z), w'' = (1/m − 1) w' turn/z.
         let over_z = scale(1.0 / norm2(z), mul(sector.turn(), conj(z)));
@@ -192,7 +197,8 @@ impl Hole {
         Some([w, first, scale(share - 1.0, mul(first, over_z))])
     }
 
-    /// The surface at a place where the spline has this point; none outside the hole. At the vertex itself the derivatives are 0: there the chart is none of the surface.
+    /// The surface at a place where the spline has this point; none outside the hole. At the vertex itself, where the chart is none of the
+    /// surface, the derivatives are those by real and imaginary part of w/ρ: normal and curvatures do not depend on coordinates.
     pub fn surface(&self, at: Parameter, spline: &SurfacePoint) -> Option<SurfacePoint> {
         let w = self.coordinate(at).filter(|w| norm(w[0]) < 1.0)?;
         let w = Jet::of_holomorphic(w);
@@ -200,18 +206,33 @@ impl Hole {
         let weight = square.through(fade(square.0[0], self.inner()));
         let rest = Jet::constant(1.0).plus(weight.times(Jet::constant(-1.0)));
         let inside = self.fill.as_ref()?.at(w);
-        let mut found = SurfacePoint::default();
-        for x in 0..3 {
+        let blended = |x: usize| {
             let [a, b] = spline.first.map(|d| d[x]);
             let [aa, ab, bb] = spline.second.map(|d| d[x]);
             let outside = Jet([spline.point[x], a, b, aa, ab, bb]);
-            let Jet(all) = weight.times(inside[x]).plus(rest.times(outside));
-            found.point[x] = all[0];
-            (0..2).for_each(|k| found.first[k][x] = all[1 + k]);
-            (0..3).for_each(|k| found.second[k][x] = all[3 + k]);
-        }
-        Some(found)
+            weight.times(inside[x]).plus(rest.times(outside))
+        };
+        Some(surface_point([blended(0), blended(1), blended(2)]))
     }
+
+    /// G without the spline around it, with derivatives by p and q where p + iq = w/ρ. For |w| ≤ τρ that is the surface. None before the hole
+    /// is filled.
+    pub(super) fn filling(&self, w: Complex) -> Option<SurfacePoint> {
+        let w = Jet::of_holomorphic([w, [1.0, 0.0], [0.0; 2]]);
+        Some(surface_point(self.fill.as_ref()?.at(w)))
+    }
+
+    /// The place whose w/ρ is a number, or where that is larger than 1, the one on the rim in its direction. None beyond the patches.
+    pub(super) fn place_of(&self, space: &SplineSpace, w: Complex) -> Option<Parameter> {
+        let angle = f64::from(self.turns) * w[1].atan2(w[0]);
+        self.place(space, self.radius * norm(w).min(1.0).powi(self.turns as i32), angle)
+    }
+}
+
+/// The point and derivatives of three coordinates.
+fn surface_point(coordinates: [Jet; 3]) -> SurfacePoint {
+    let at = |k: usize| coordinates.map(|Jet(all)| all[k]);
+    SurfacePoint { point: at(0), first: [at(1), at(2)], second: [at(3), at(4), at(5)] }
 }
 
 impl Sector {

@@ -1,8 +1,9 @@
 //! How well a spline space keeps the identities of triangular B-splines, measured.
 
 use super::patch::{Parameter, Patch, Support};
+use super::point::SurfacePoint;
 use super::space::SplineSpace;
-use super::surface::{Spline, SurfacePoint};
+use super::surface::Spline;
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::complex::{distance, doubled_area};
@@ -74,7 +75,7 @@ impl Spline {
         let found = bare.evaluate(&places, order, threads, control)?;
         let (mut jump, mut largest) = (0.0f64, 0.0f64);
         for (side, pair) in beside.iter().zip(found.chunks_exact(2)) {
-            let [a, b] = [side.pulled_back(&pair[0]), pair[1].clone()].map(|at| match order {
+            let [a, b] = [side.pulled_back(&pair[0]), pair[1]].map(|at| match order {
                 0 => at.point.to_vec(),
                 1 => at.first.concat(),
                 _ => at.second.concat(),

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::geometry::complex::{cross, distance, dot, doubled_area, sub};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
 /// Knots lie no farther from their vertex than this share of the smallest distance at which Ω of a triangle at the vertex could vanish:
 /// the radius of its inscribed circle. Far knots make a spline smoother to look at, near ones make more points need one patch alone.
@@ -14,6 +15,8 @@ const STRAIGHT: f64 = 1e-9;
 /// Part of the smallest side over which three knots of a patch must be apart from a line, so that barycentric coordinates in them keep
 /// ten digits.
 const LEAST_HEIGHT: f64 = 1e-5;
+/// Sizes that patches may have in their charts: products of doubled areas stay in the range of doubles.
+const SIZES: RangeInclusive<f64> = 1e-60..=1e60;
 /// Turn from one knot of a vertex to the next, in turns: the golden section, whose multiples are as far apart as can be.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 /// How many directions of a vertex's first knot are compared.
@@ -210,9 +213,11 @@ pub(super) fn check_knots(patch: usize, knots: &[Vec<[f64; 2]>; 3]) -> Result<()
         for (b, &q) in knots[1].iter().enumerate() {
             for (c, &r) in knots[2].iter().enumerate() {
                 let longest = distance(p, q).max(distance(q, r)).max(distance(r, p));
-                if doubled_area([p, q, r]) < LEAST_HEIGHT * longest * longest {
+                let twice_area = doubled_area([p, q, r]);
+                if !(twice_area >= LEAST_HEIGHT * longest * longest && SIZES.contains(&longest)) {
                     return refuse(format!(
-                        "its knots t[0][{a}], t[1][{b}], t[2][{c}] are clockwise or on a line; move knots nearer to their vertices"
+                        "its knots t[0][{a}], t[1][{b}], t[2][{c}] are clockwise or on a line, or not between 1e-60 and 1e60 apart; move \
+                         knots nearer to their vertices, or scale the chart"
                     ));
                 }
             }

@@ -1,6 +1,9 @@
 //! Triangular B-splines: piecewise polynomial surfaces over triangles, as smooth as their degree allows, on the plane or on a surface
 //! with an affine atlas [DMS92; Sei91; GHQ06].
 
+mod bounds;
+mod closest;
+mod descent;
 mod ears;
 #[cfg(feature = "json")]
 mod file;
@@ -15,6 +18,7 @@ mod locate;
 pub(crate) mod overlap;
 mod patch;
 mod plan;
+mod point;
 mod polar;
 mod recurrence;
 mod simplex;
@@ -23,6 +27,7 @@ mod surface;
 mod tessellate;
 mod triangulate;
 
+pub use closest::{ClosestPoint, ClosestPoints};
 pub use fill::Fill;
 pub use fit::{FitOptions, Fitted, fit};
 pub use hole::{Hole, Sector};
@@ -31,8 +36,9 @@ pub use index::{MAX_DEGREE, basis_size, multi_indices};
 pub use knots::{Domain, KnotOptions, SPREAD};
 pub use locate::Locator;
 pub use patch::{Parameter, Patch, Support};
+pub use point::SurfacePoint;
 pub use polar::{Polynomial, monomials};
 pub use simplex::{simplex_spline, simplex_spline_gradient};
 pub use space::SplineSpace;
-pub use surface::{Spline, SurfacePoint};
+pub use surface::Spline;
 pub use triangulate::triangulate;

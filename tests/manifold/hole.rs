@@ -27,7 +27,7 @@ fn a_filled_hole_is_smooth_and_near_the_surface() {
     assert!(domain.coarse().vertices[vertex.index()] == VertexId(0));
     assert_eq!(hole.turns, 3);
     let at = |place: Parameter| -> Option<SurfacePoint> {
-        hole.surface(space, place, &bare.surface_point(place).unwrap())
+        hole.surface(place, &bare.surface_point(place).unwrap())
     };
     // Derivatives against differences, from the middle to the rim.
     let (mut compared, mut worst) = (0, [0.0f64; 2]);

@@ -2,7 +2,7 @@
 
 use ricci::flow::{Options, Solution, flow};
 use ricci::geometry::Space;
-use ricci::manifold::{Coarse, SurfaceDomain};
+use ricci::manifold::{Coarse, Flat, SurfaceDomain};
 use ricci::mesh::shapes::SplitMix64;
 use ricci::mesh::{PerVertex, VertexId, shapes};
 use ricci::spline::{FitOptions, Parameter, Spline, SplineSpace, fit};
@@ -14,7 +14,7 @@ fn domain(surface: Surface, step: usize) -> (Solution, SurfaceDomain) {
     let class = Class::yamabe(Space::E2);
     let target = if surface.mesh().euler() == 0 { Target::Uniform } else { Target::Single(VertexId(0)) };
     let flat = flow(surface, class, &target, &Options::default(), &Control::new()).unwrap();
-    let keep = PerVertex::from_fn(flat.mesh().n_vertices(), |v: VertexId| v.index() % step == 0);
+    let keep = PerVertex::from_fn(flat.mesh().n_vertices(), |v: VertexId| v.index().is_multiple_of(step));
     let coarse = Coarse::new(&Flat::of(&flat, &Control::new()).unwrap(), &keep, &Control::new()).unwrap();
     (flat, SurfaceDomain::new(coarse).unwrap())
 }

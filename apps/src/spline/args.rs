@@ -19,12 +19,18 @@ Example: a smooth cubic surface through the heights of a mesh, some of its point
     ricci spline fit hill.obj --planar --degree 3 -o hill.json --report fit.json
     ricci spline eval hill.json --at places.csv --derivatives -o points.csv
     ricci spline eval hill.json --tessellate 4 -o fine.obj
+    ricci spline eval hill.json --closest scan.csv -o nearest.csv
     ricci spline eval hill.json --picture hill.png --wire --color curvature
 
 --picture draws --tessellate N x N triangles per patch, or 12 x 12; --wire draws the sides of the patches, and colours show the Gaussian
 curvature of the surface itself.
 
-places.csv has rows patch,x,y: a triangle of the spline, numbered from 0, and a place in it, in the coordinates of its chart.
+places.csv has rows patch,x,y: a triangle of the spline, numbered from 0, and a place in it, in the coordinates of its chart. Its
+points are the sums of the basis functions. Around singular vertices, where a filling takes their place, a column `hole` says 1; with --filled
+rows have the points of the surface with its fillings, as everything else has.
+
+scan.csv has rows x,y,z. For each of these points the nearest one of the surface is written: x,y,z,patch,u,v,X,Y,Z,distance, where u,v is
+its place in the chart of the patch.
 
 The spline file says all that is needed to evaluate it (`ricci-spline 1`): knots and control points of each triangle, and which others
 reach into it.";
@@ -107,6 +113,13 @@ pub struct EvalArgs {
     /// Points at these places: rows patch,x,y in the chart of the patch
     #[arg(long, value_name = "Q.csv", conflicts_with = "tessellate", requires = "out")]
     pub at: Option<FileName>,
+    /// Rows of --at are those of the surface with the fillings of its holes
+    #[arg(long, requires = "at")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub filled: bool,
+    /// The nearest points of the surface to these: rows x,y,z
+    #[arg(long, value_name = "P.csv", conflicts_with_all = ["at", "tessellate"], requires = "out")]
+    pub closest: Option<FileName>,
     /// Add first and second derivatives, normal and principal curvatures to the rows
     #[arg(long, requires = "at")]
     pub derivatives: bool,
