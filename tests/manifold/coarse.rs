@@ -2,7 +2,7 @@
 
 use ricci::flow::{Options, Solution, flow};
 use ricci::geometry::Space;
-use ricci::manifold::Coarse;
+use ricci::manifold::{Coarse, Flat};
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::SplitMix64;
 use ricci::mesh::{PerVertex, VertexId, shapes};

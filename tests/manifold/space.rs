@@ -2,7 +2,7 @@
 
 use ricci::flow::{Options, Solution, flow};
 use ricci::geometry::Space;
-use ricci::manifold::{Coarse, SurfaceDomain};
+use ricci::manifold::{Coarse, Flat, SurfaceDomain};
 use ricci::mesh::shapes::SplitMix64;
 use ricci::mesh::{PerVertex, VertexId, shapes};
 use ricci::spline::{FitOptions, Parameter, Spline, SplineSpace, fit};
