@@ -29,7 +29,7 @@ fn a_torus_closes_up_with_its_volume() {
     );
     assert!(surface.is_closed() && surface.open_sides() == 0 && distance <= 1e-3);
     let all: Vec<usize> = (0..surface.patches.len()).collect();
-    assert_eq!(surface.parts(), [all.clone()]);
+    assert_eq!(surface.parts(), std::slice::from_ref(&all));
     let exact = 2.0 * std::f64::consts::PI.powi(2) * 2.0 * 0.8 * 0.8;
     assert!((surface.volume(&all) / exact - 1.0).abs() < 0.02, "{} {exact}", surface.volume(&all));
 }

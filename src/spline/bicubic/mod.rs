@@ -1,9 +1,9 @@
 //! Bicubic patches near a spline, for CAD: three to a triangle, with sides that neighbours have in common to the last bit.
 //!
-//! Each triangle becomes three quadrilaterals, from a corner over the middles of its sides to the centroid ([`quad`]). In its own
-//! coordinates a quadrilateral is a C² bicubic over clamped knots that interpolates the spline at the ends of its spans, with the spline's
-//! derivatives along its sides and its twists at the corners. A side's curve is made once, from the side's own points, and both
-//! neighbours have its control points; corners likewise.
+//! Each triangle becomes three quadrilaterals, from a corner over the middles of its sides to the centroid. In its own coordinates a
+//! quadrilateral is a C² bicubic over clamped knots that interpolates the spline at the ends of its spans; derivatives along its rim are
+//! difference quotients of the spline, turned into tangent planes that neighbours have in common. A side's curve is made once, from the
+//! side's own points, and both neighbours have its control points; corners likewise.
 //!
 //! Spans go on across opposite sides of quadrilaterals, and so around one vertex of the triangles: quadrilaterals between the vertices a and
 //! b of a side have as many spans along it near a as b asks for. So every vertex has a number of its own, and the patches are refined

@@ -66,7 +66,7 @@ fn along(surface: &BicubicSurface, of: (usize, usize), i: usize, spans: usize) -
 
 /// Turn the derivatives across a curve, of the two patches with their sides and entries, into the mean of the two tangent planes.
 fn share_plane(sides: [(usize, usize, usize); 2], tangent: Vector, across: &mut [[Vec<Vector>; 4]]) {
-    // ∂s × ∂t has one direction on both sides, up to the sign of the tangent: out of the patch on its sides 1 and 2 the curve crosses.
+    // Derivatives point into the one patch and out of the other, or both in: the normals agree up to their sign.
     let derivative = |across: &[[Vec<Vector>; 4]], (q, k, i): (usize, usize, usize)| across[q][k][i];
     let [a, b] = sides.map(|of| normalised(cross(tangent, derivative(across, of))));
     let b = if dot(a, b) < 0.0 { scale(-1.0, b) } else { b };
