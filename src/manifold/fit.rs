@@ -3,22 +3,25 @@
 use super::coarse::Coarse;
 use super::domain::SurfaceDomain;
 use super::flat::{FLAT, Flat};
+use super::grade::{Grade, Miss};
 use super::sample::spread_vertices;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::Complex;
 use crate::geometry::vector::{Vector, distance, dot, sub};
-use crate::mesh::{Mesh, PerVertex, VertexId};
+use crate::mesh::{PerVertex, VertexId};
 use crate::metric::Surface;
-use crate::spline::{FitOptions, Fitted, Parameter, SPREAD, Spline, fit};
+use crate::spline::{FitOptions, Hole, Parameter, SPREAD, Spline, SplineSpace, fit};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Sizes of triangles change by at most this factor from round to round, and stay within [`SIZES`].
-const CHANGE: [f64; 2] = [0.6, 1.4];
-/// Least and largest size of a triangle over the one of an even distribution.
-const SIZES: [f64; 2] = [0.1, 3.0];
-/// Rounds in which a size becomes the mean of itself and its neighbours'.
-const SMOOTHINGS: usize = 5;
+/// Least number of vertices in a hole, and largest share of all vertices.
+const LEAST_INSIDE: usize = 60;
+const MOST_INSIDE: f64 = 0.3;
+/// The root of the mean squared distance that is asked for, over the largest distance.
+const RMS: f64 = 0.1;
+/// Growth of the hole's radius in the coordinate in which its vertex is a point as any other.
+const GROWTH: f64 = 1.15;
 /// Longest step of a parameter in one correction, over the longest side of its triangle.
 const LONGEST_STEP: f64 = 0.25;
 
@@ -29,7 +32,7 @@ pub struct SurfaceFitOptions {
     pub degree: usize,
     /// Number of control points at most; default a quarter of the vertices.
     pub control_points: Option<usize>,
-    /// Largest distance of a vertex from the spline that is asked for, over the diagonal of the bounding box. Default 0.01.
+    /// Largest distance of a vertex from the spline that is asked for, over the diagonal of the bounding box; that of the root of the mean square is a tenth of it. Default 0.01.
     pub tolerance: f64,
     /// Times that the triangles' sizes are adapted to the errors. Default 6.
     pub rounds: usize,
@@ -39,6 +42,8 @@ pub struct SurfaceFitOptions {
     pub fairness: f64,
     /// [`crate::spline::KnotOptions::spread`].
     pub spread: f64,
+    /// Area of a hole over m² mean triangles, for a vertex with a total angle of m turns. Default 1.
+    pub hole: f64,
     /// Threads; 0 (default) is one per core. The result does not depend on it.
     pub threads: usize,
 }
@@ -53,6 +58,7 @@ impl Default for SurfaceFitOptions {
             corrections: 2,
             fairness: 1e-10,
             spread: SPREAD,
+            hole: 1.0,
             threads: 0,
         }
     }
@@ -97,39 +103,39 @@ pub fn fit_surface(
     }
     let curvature = flat.curvature()?;
     let always: Vec<VertexId> = mesh.vertices().filter(|&v| curvature[v].abs() > FLAT).collect();
+    let turns = |&v: &VertexId| (v, (1.0 - curvature[v] / TAU).round().max(1.0) as u32);
+    let singular = always.iter().filter(|&&v| !mesh.is_boundary_vertex(v)).map(turns).collect::<Vec<_>>();
     let diagonal = diagonal(points);
     let most = options.control_points.unwrap_or(mesh.n_vertices() / 4);
     // Of a closed surface with many triangles there are n² control points per two of these, and so per vertex.
     let count = most / (options.degree * options.degree).max(1);
-    let mut sizes = PerVertex::filled(mesh.n_vertices(), 1.0);
+    let mut grade = Grade::new(surface, 2 * count, &singular, control)?;
     let mut best: Option<SurfaceFit> = None;
     for round in 0..options.rounds.max(1) {
-        let chosen = spread_vertices((mesh, surface.lengths()), &sizes, &always, count, control)?;
+        let chosen = spread_vertices((mesh, surface.lengths()), &grade.sizes, &always, count, control)?;
         let keep = PerVertex::from_fn(flat.mesh.n_vertices(), |v: VertexId| {
             v.index() < mesh.n_vertices() && chosen[v]
         });
-        let domain = SurfaceDomain::new(Coarse::new(flat, &keep, control)?)?;
-        let space = Arc::new(domain.space(options.degree, options.spread)?);
-        let mut found = Round { domain, places: Vec::new(), misses: Vec::new(), fitted: None };
-        let places = found.domain.coarse().places.iter().take(mesh.n_vertices());
-        found.places = places.map(|&p| found.domain.parameter(p)).collect();
-        let fit_options = FitOptions { fairness: options.fairness, threads: options.threads };
+        let mut found = Round::new(SurfaceDomain::new(Coarse::new(flat, &keep, control)?)?, points, options)?;
         for correction in 0..=options.corrections {
             if correction > 0 {
-                found.correct(points, options.threads, control)?;
+                found.correct(control)?;
             }
-            found.fitted = Some(fit(&space, &found.places, points, &fit_options, control)?);
+            found.fit(control)?;
         }
-        found.fill_holes(points, options.threads, control)?;
-        found.measure(points, options.threads, control)?;
-        adapt(mesh, &found, options.degree, &mut sizes);
-        let Some(Fitted { spline, .. }) = found.fitted else { continue };
-        let squares: f64 = found.misses.iter().map(|miss| miss * miss).sum();
+        found.fill_holes(control)?;
+        let misses = found.measure(control)?;
+        grade.adapt(mesh, &found.triangles(&misses), (found.space.patches().len(), options.degree));
+        let Some(spline) = found.spline else { continue };
+        let squares: f64 = misses.iter().map(|miss| miss * miss).sum();
         let rms = (squares / points.len().max(1) as f64).sqrt() / diagonal;
-        let max = found.misses.iter().copied().fold(0.0, f64::max) / diagonal;
+        let max = misses.iter().copied().fold(0.0, f64::max) / diagonal;
         if best.as_ref().is_none_or(|best| max < best.max) {
             let rounds = round + 1;
             best = Some(SurfaceFit { spline, domain: found.domain, places: found.places, rms, max, rounds });
+        }
+        if max <= options.tolerance && rms <= RMS * options.tolerance {
+            break;
         }
     }
     best.ok_or_else(|| Error::argument("rounds", options.rounds, "1 or more"))
@@ -142,23 +148,71 @@ fn diagonal(points: &[Vector]) -> f64 {
     distance(bound(f64::min), bound(f64::max))
 }
 
-/// A fit with what it misses.
-struct Round {
+/// One domain, and what is fitted on it.
+struct Round<'a> {
     domain: SurfaceDomain,
+    space: Arc<SplineSpace>,
+    points: &'a [Vector],
     places: Vec<Parameter>,
-    /// Per vertex its distance from its place.
-    misses: Vec<f64>,
-    fitted: Option<Fitted>,
+    /// Those around the singular vertices, not filled yet.
+    holes: Vec<Hole>,
+    spline: Option<Spline>,
+    options: &'a SurfaceFitOptions,
 }
 
-impl Round {
+impl<'a> Round<'a> {
+    fn new(domain: SurfaceDomain, points: &'a [Vector], options: &'a SurfaceFitOptions) -> Result<Round<'a>> {
+        let space = Arc::new(domain.space(options.degree, options.spread)?);
+        let places = domain.coarse().places.iter().take(points.len()).map(|&p| domain.parameter(p)).collect();
+        let mut round = Round { domain, space, points, places, holes: Vec::new(), spline: None, options };
+        round.holes = round.domain.singular().into_iter().map(|v| round.hole(v)).collect::<Result<_>>()?;
+        Ok(round)
+    }
+
+    /// The hole around a singular vertex, wide enough that triangles beyond it are small beside their distance from the vertex.
+    fn hole(&self, v: VertexId) -> Result<Hole> {
+        let mut hole = self.domain.hole(v)?;
+        let wanted = self.options.hole * f64::from(hole.turns * hole.turns) * self.points.len() as f64
+            / self.space.patches().len() as f64;
+        let wanted = (wanted as usize)
+            .clamp(LEAST_INSIDE, LEAST_INSIDE.max((MOST_INSIDE * self.points.len() as f64) as usize));
+        let growth = GROWTH.powi(hole.turns as i32);
+        while self.places.iter().filter(|&&at| hole.contains(at)).count() < wanted {
+            let wider = self.domain.wide_hole(v, growth * hole.radius)?;
+            if wider.radius <= hole.radius {
+                break;
+            }
+            hole = wider;
+        }
+        Ok(hole)
+    }
+
+    /// Whether the spline has no weight at a place.
+    fn is_covered(&self, at: Parameter) -> bool {
+        self.holes.iter().any(|hole| hole.is_core(at))
+    }
+
+    /// The spline nearest to the points, but for those where a hole takes its place.
+    fn fit(&mut self, control: &Control) -> Result<()> {
+        let SurfaceFitOptions { fairness, threads, .. } = *self.options;
+        let all = self.places.iter().copied().zip(self.points.iter().copied());
+        let (places, points): (Vec<_>, Vec<_>) = all.filter(|(at, _)| !self.is_covered(*at)).unzip();
+        let fitted = fit(&self.space, &places, &points, &FitOptions { fairness, threads }, control)?;
+        self.spline = Some(fitted.spline);
+        Ok(())
+    }
+
     /// Move every place to where the spline is nearest to its vertex, by one step of Gauss and Newton.
-    fn correct(&mut self, points: &[Vector], threads: usize, control: &Control) -> Result<()> {
-        let Some(fitted) = &self.fitted else { return Ok(()) };
-        let found = fitted.spline.evaluate(&self.places, 1, threads, control)?;
-        for ((place, at), point) in self.places.iter_mut().zip(found).zip(points) {
+    fn correct(&mut self, control: &Control) -> Result<()> {
+        let Some(spline) = &self.spline else { return Ok(()) };
+        let found = spline.evaluate(&self.places, 1, self.options.threads, control)?;
+        for k in 0..self.places.len() {
+            let (place, at) = (self.places[k], &found[k]);
+            if self.is_covered(place) {
+                continue;
+            }
             let [x, y] = at.first;
-            let miss = sub(*point, at.point);
+            let miss = sub(self.points[k], at.point);
             let (a, b, c) = (dot(x, x), dot(x, y), dot(y, y));
             let (p, q) = (dot(x, miss), dot(y, miss));
             let det = a * c - b * b;
@@ -166,58 +220,34 @@ impl Round {
             let length = f64::hypot(step[0], step[1]);
             if length.is_finite() && length > 0.0 {
                 let shorter = f64::min(1.0, LONGEST_STEP / length);
-                *place = self.domain.walk(*place, step.map(|x| shorter * x));
+                self.places[k] = self.domain.walk(place, step.map(|x| shorter * x));
             }
         }
         Ok(())
     }
 
     /// Fill the surroundings of the singular vertices, from the spline around them and the vertices in them.
-    fn fill_holes(&mut self, points: &[Vector], threads: usize, control: &Control) -> Result<()> {
-        let Some(fitted) = &mut self.fitted else { return Ok(()) };
-        let space = fitted.spline.space().clone();
-        let mut holes = Vec::new();
-        for v in self.domain.singular() {
-            let mut hole = self.domain.hole(v)?;
-            let rings = hole.rings(&space);
-            let found = fitted.spline.evaluate(&rings, 0, threads, control)?;
-            let places = [&rings[..], &self.places].concat();
-            let points = found.iter().map(|at| at.point).chain(points.iter().copied());
-            hole.fill(&space, &places, &points.collect::<Vec<_>>())?;
-            holes.push(hole);
+    fn fill_holes(&mut self, control: &Control) -> Result<()> {
+        let Some(spline) = self.spline.take() else { return Ok(()) };
+        for hole in &mut self.holes {
+            let rings = spline.evaluate(&hole.rings(&self.space), 0, self.options.threads, control)?;
+            let rings: Vec<Vector> = rings.iter().map(|at| at.point).collect();
+            hole.fill(&self.space, (&self.places, self.points), &rings)?;
         }
-        fitted.spline = fitted.spline.clone().with_holes(holes);
+        self.spline = Some(spline.with_holes(self.holes.clone()));
         Ok(())
     }
 
-    fn measure(&mut self, points: &[Vector], threads: usize, control: &Control) -> Result<()> {
-        let Some(fitted) = &self.fitted else { return Ok(()) };
-        let found = fitted.spline.evaluate(&self.places, 0, threads, control)?;
-        self.misses = found.iter().zip(points).map(|(at, point)| distance(at.point, *point)).collect();
-        Ok(())
+    /// Per vertex its distance from its place.
+    fn measure(&self, control: &Control) -> Result<Vec<f64>> {
+        let Some(spline) = &self.spline else { return Ok(Vec::new()) };
+        let found = spline.evaluate(&self.places, 0, self.options.threads, control)?;
+        Ok(found.iter().zip(self.points).map(|(at, point)| distance(at.point, *point)).collect())
     }
-}
 
-/// Sizes for triangles whose errors would be alike: a polynomial of degree n misses by the power n + 1 of the size.
-fn adapt(mesh: &Mesh, found: &Round, degree: usize, sizes: &mut PerVertex<f64>) {
-    let mut worst = vec![0.0f64; found.domain.coarse().mesh.n_faces()];
-    for (place, &miss) in found.places.iter().zip(&found.misses) {
-        let of = &mut worst[place.patch as usize];
-        *of = of.max(miss);
-    }
-    let mut sorted = worst.clone();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted[sorted.len() / 2].max(f64::MIN_POSITIVE);
-    for v in mesh.vertices() {
-        let error = worst[found.places[v.index()].patch as usize].max(f64::MIN_POSITIVE);
-        let change = (middle / error).powf(1.0 / (degree + 1) as f64).clamp(CHANGE[0], CHANGE[1]);
-        sizes[v] = (sizes[v] * change).clamp(SIZES[0], SIZES[1]);
-    }
-    for _ in 0..SMOOTHINGS {
-        let before = sizes.clone();
-        for v in mesh.vertices() {
-            let (sum, n) = mesh.outgoing(v).fold((0.0, 0.0), |(s, n), h| (s + before[mesh.tip(h)], n + 1.0));
-            sizes[v] = 0.5 * (before[v] + sum / n);
-        }
+    /// Per vertex its triangle and its distance, outside what holes take the place of.
+    fn triangles(&self, misses: &[f64]) -> Vec<Miss> {
+        let all = self.places.iter().zip(misses);
+        all.map(|(&at, &miss)| (!self.is_covered(at)).then_some((at.patch as usize, miss))).collect()
     }
 }

@@ -4,6 +4,7 @@ mod coarse;
 mod domain;
 mod fit;
 mod flat;
+mod grade;
 mod sample;
 
 pub use coarse::{Coarse, Place};

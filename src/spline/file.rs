@@ -4,6 +4,7 @@
 //! `knots[k][j]` is t_{k,j} in the patch's chart, `control` is in the order of [`super::multi_indices`], and `supports[I]` has each patch
 //! that reaches into I with the affine map from its chart to I's.
 
+use super::fill::Fill;
 use super::hole::{Hole, Sector};
 use super::patch::{Patch, Support};
 use super::space::SplineSpace;
@@ -54,9 +55,8 @@ struct HoleEntry {
 #[derive(Deserialize)]
 struct SectorEntry {
     patch: u32,
-    corner: usize,
     angle: f64,
-    unit: f64,
+    to: [[f64; 3]; 2],
 }
 
 impl Spline {
@@ -68,11 +68,12 @@ impl Spline {
             format!("{{\"chart\":{chart},\"knots\":{knots:?},\"control\":{control:?}}}")
         };
         let support = |Support { patch, to }: &Support| format!("{{\"patch\":{patch},\"to\":{to:?}}}");
-        let sector = |Sector { patch, corner, angle, unit }: &Sector| {
-            format!("{{\"patch\":{patch},\"corner\":{corner},\"angle\":{angle:?},\"unit\":{unit:?}}}")
+        let sector = |Sector { patch, angle, to }: &Sector| {
+            format!("{{\"patch\":{patch},\"angle\":{angle:?},\"to\":{to:?}}}")
         };
-        let hole = |Hole { sectors, turns, radius, coefficients }: &Hole| {
+        let hole = |Hole { sectors, turns, radius, fill }: &Hole| {
             let sectors = list(sectors.iter().map(sector));
+            let coefficients = fill.as_ref().map_or(&[][..], Fill::coefficients);
             format!(
                 "{{\"turns\":{turns},\"radius\":{radius:?},\"sectors\":{sectors},\"coefficients\":{coefficients:?}}}"
             )
@@ -107,11 +108,10 @@ impl Spline {
         let supports =
             document.supports.into_iter().map(|of| of.into_iter().map(support).collect()).collect();
         let space = SplineSpace::new(document.degree, patches, supports)?;
-        let sector =
-            |s: SectorEntry| Sector { patch: s.patch, corner: s.corner, angle: s.angle, unit: s.unit };
+        let sector = |s: SectorEntry| Sector { patch: s.patch, angle: s.angle, to: s.to };
         let hole = |h: HoleEntry| {
             let sectors = h.sectors.into_iter().map(sector).collect();
-            Hole::new(sectors, h.turns, h.radius)?.filled_by(&space, h.coefficients)
+            Hole::new(sectors, h.turns, h.radius)?.filled_by(&space, Fill::new(h.coefficients)?)
         };
         let holes = document.hole.unwrap_or_default().into_iter().map(hole).collect::<Result<_>>()?;
         Ok(Spline::new(Arc::new(space), document.control_points)?.with_holes(holes))

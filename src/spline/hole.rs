@@ -1,69 +1,62 @@
 //! The surface around a singular vertex.
 //!
 //! Around a vertex with a total angle of 2πm the sum of the basis functions of a spline over the flat metric is not 1: in the core of the hole, the disk
-//! of its knots. There the surface is a polynomial of the coordinate w = z^{1/m}, in which the vertex is a point as any other, and goes over
+//! of its knots. There the surface is a function G of the coordinate w = z^{1/m}, in which the vertex is a point as any other, and goes over
 //! into the spline by a weight that is 1 for |w| ≤ τρ, 0 for |w| ≥ ρ, and has two continuous derivatives:
 //!
 //! ```text
 //!     F̃ = F + φ(|w|/ρ) (G(w) − F),        φ = 1 for t ≤ τ,  1 − (10 s³ − 15 s⁴ + 6 s⁵), s = (t − τ)/(1 − τ), for τ ≤ t ≤ 1.
 //! ```
 //!
-//! τ is ½, or where the core is wider in w, its rim.
+//! τ is 0.7, or where the core is wider in w, its rim. G is a bicubic B-spline, [`Fill`].
 //!
 //! So F̃ has as many continuous derivatives as F, up to two, on all of the hole.
 
+use super::fill::Fill;
 use super::jet::Jet;
 use super::patch::Parameter;
 use super::space::SplineSpace;
 use super::surface::SurfacePoint;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::complex::{
-    Complex, add, conj, cross, distance, dot, mul, norm, norm2, scale, sub, unit,
-};
+use crate::geometry::complex::{Complex, add, conj, doubled_area, mul, norm, norm2, scale, sub};
 use crate::geometry::vector::Vector;
-use crate::linalg::dense::solve_definite;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-/// Degree of the polynomial.
-const DEGREE: usize = 6;
-/// Number of its coefficients.
-const COEFFICIENTS: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
-/// Radius of the core over that of the hole: large enough that the spline does not bend sharply along the sides at the vertex, small enough that the core is a
+/// Radius of the core over that of the smallest hole, the one inside the triangles at the vertex: large enough that the spline does not bend sharply along the sides at the vertex, small enough that the core is a
 /// small part of the triangles there.
 const CORE: f64 = 0.05;
 /// How much wider than the core the disk is in which the spline has no weight.
 const CLEAR: f64 = 1.1;
 /// Least τ.
-const LEAST_INNER: f64 = 0.5;
+const LEAST_INNER: f64 = 0.7;
 /// Circles around the vertex, and places on each, at which the polynomial is fitted to the spline: where the weight goes from 1 to 0.
 const RINGS: [usize; 2] = [6, 48];
-/// Weight of the size of the polynomial's coefficients beside the squares of its distances: decides where there are few points.
-const SMALL: f64 = 1e-10;
+/// Share of a triangle's area by which a place may lie outside it: rounding.
+const OUTSIDE: f64 = 1e-9;
 
-/// A patch at a singular vertex.
+/// Where a patch lies around a singular vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sector {
     /// The patch.
     pub patch: u32,
-    /// Which of its corners is the vertex: 0, 1 or 2.
-    pub corner: usize,
-    /// The angle around the vertex at which the patch begins, with its side from that corner to the next.
+    /// The direction of its middle: an angle around the vertex, from a fixed direction, counterclockwise.
     pub angle: f64,
-    /// The length that is 1 in the patch's chart.
-    pub unit: f64,
+    /// The map of its chart to the plane in which the vertex is 0, the direction of the patch's middle that of the x axis, and the unit that of the
+    /// flat metric: a motion and a change of scale, as the rows `[a, −b, x]`, `[b, a, y]`.
+    pub to: [[f64; 3]; 2],
 }
 
 /// The hole around a singular vertex, and what fills it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hole {
-    /// The patches around the vertex, counterclockwise.
+    /// The patches that the hole meets, in the order of their numbers. A patch that meets it in several ways is there as often.
     pub sectors: Vec<Sector>,
     /// m: the total angle in turns.
     pub turns: u32,
-    /// Radius of the hole in the unit of the flat metric; the patches around the vertex contain it.
+    /// Radius of the hole in the unit of the flat metric.
     pub radius: f64,
-    /// Coefficients of p^i q^j for i + j = 0, 1, …, 6, each with falling i, where p + iq = w/ρ.
-    pub coefficients: Vec<Vector>,
+    /// G of p + iq = w/ρ. None before the hole is filled.
+    pub fill: Option<Fill>,
 }
 
 impl Hole {
@@ -71,7 +64,7 @@ impl Hole {
     ///
     /// # Errors
     /// [`Error::Argument`] for no sectors, no turns, or a radius that is not positive.
-    pub fn new(sectors: Vec<Sector>, turns: u32, radius: f64) -> Result<Hole> {
+    pub fn new(mut sectors: Vec<Sector>, turns: u32, radius: f64) -> Result<Hole> {
         if sectors.is_empty() || turns == 0 {
             return Err(Error::argument(
                 "turns of a hole",
@@ -82,10 +75,11 @@ impl Hole {
         if !(radius > 0.0 && radius.is_finite()) {
             return Err(Error::argument("radius of a hole", radius, "positive"));
         }
-        Ok(Hole { sectors, turns, radius, coefficients: vec![[0.0; 3]; COEFFICIENTS] })
+        sectors.sort_by_key(|sector| sector.patch);
+        Ok(Hole { sectors, turns, radius, fill: None })
     }
 
-    /// Radius of the core, in the unit of the metric: knots of the vertex lie in it.
+    /// Radius of the core where this is the smallest hole, in the unit of the metric: knots of the vertex lie in it.
     pub fn core(&self) -> f64 {
         CORE * self.radius
     }
@@ -95,56 +89,58 @@ impl Hole {
         (CLEAR * CORE).powf(1.0 / f64::from(self.turns)).max(LEAST_INNER)
     }
 
-    /// Whether a place is in the core.
-    pub(super) fn is_core(&self, space: &SplineSpace, at: Parameter) -> bool {
-        self.coordinate(space, at).is_some_and(|[w, ..]| norm(w) <= self.inner())
+    /// Whether a place is in the hole.
+    pub fn contains(&self, at: Parameter) -> bool {
+        self.coordinate(at).is_some_and(|[w, ..]| norm(w) < 1.0)
     }
 
-    /// A hole filled by a polynomial with these coefficients.
+    /// Whether the spline has no weight at a place: there its basis functions need not add up to 1.
+    pub(crate) fn is_core(&self, at: Parameter) -> bool {
+        self.coordinate(at).is_some_and(|[w, ..]| norm(w) <= self.inner())
+    }
+
+    /// This hole, filled, around a vertex of this domain.
     ///
     /// # Errors
-    /// [`Error::Size`]; [`Error::Spline`] for a sector that is no corner of a patch.
-    pub fn filled_by(self, space: &SplineSpace, coefficients: Vec<Vector>) -> Result<Hole> {
-        check_size("coefficients of a hole", coefficients.len(), COEFFICIENTS)?;
+    /// [`Error::Spline`] for a sector that is no patch.
+    pub fn filled_by(self, space: &SplineSpace, fill: Fill) -> Result<Hole> {
+        let patches = space.patches().len();
         let is_sound = |s: &Sector| {
-            s.side(space).is_some()
-                && s.corner < 3
-                && s.angle.is_finite()
-                && s.unit > 0.0
-                && s.unit.is_finite()
+            let [[a, b, x], [c, d, y]] = s.to;
+            let is_finite = [s.angle, a, b, x, y].iter().all(|x| x.is_finite());
+            (s.patch as usize) < patches && is_finite && a * a + b * b > 0.0 && a == d && b == -c
         };
         if let Some(at) = self.sectors.iter().position(|sector| !is_sound(sector)) {
-            let message = "it is no corner of a patch with an angle and a unit".into();
+            let message = "it is no patch with an angle and a map that turns and scales".into();
             return Err(Error::Spline { what: "sector of a hole", index: at, message });
         }
-        if let Some(at) = coefficients.iter().position(|c| !c.iter().all(|x| x.is_finite())) {
-            let message = "it is no finite number".into();
-            return Err(Error::Spline { what: "coefficient of a hole", index: at, message });
-        }
-        Ok(Hole { coefficients, ..self })
+        Ok(Hole { fill: Some(fill), ..self })
     }
 
-    /// Fill the hole: the polynomial that is nearest, in the sense of least squares, to points at places, of which those outside the hole do not count.
+    /// Fill the hole: the function that is nearest, in the sense of least squares, to points at places, and to the spline's points at those of
+    /// [`Hole::rings`], which together weigh as much as the others; places outside the hole do not count.
     ///
     /// # Errors
-    /// [`Error::Factorisation`] without points.
-    pub fn fill(&mut self, space: &SplineSpace, places: &[Parameter], points: &[Vector]) -> Result<()> {
-        let n = COEFFICIENTS;
-        let (mut matrix, mut right) = (vec![vec![0.0; n]; n], vec![vec![0.0; 3]; n]);
-        for (place, point) in places.iter().zip(points) {
-            let Some([w, ..]) = self.coordinate(space, *place).filter(|w| norm(w[0]) <= 1.0) else {
-                continue;
-            };
-            let row: Vec<f64> =
-                powers([Jet::constant(w[0]), Jet::constant(w[1])]).map(|jet| jet.0[0]).collect();
-            for (i, a) in row.iter().enumerate() {
-                row.iter().enumerate().for_each(|(j, b)| matrix[i][j] += a * b);
-                (0..3).for_each(|x| right[i][x] += a * point[x]);
-            }
-        }
-        let trace: f64 = (0..n).map(|i| matrix[i][i]).sum();
-        (0..n).for_each(|i| matrix[i][i] += SMALL * trace);
-        self.coefficients = solve_definite(&matrix, &right)?.iter().map(|c| [c[0], c[1], c[2]]).collect();
+    /// [`Error::Size`]; [`Error::Factorisation`] without points.
+    pub fn fill(
+        &mut self,
+        space: &SplineSpace,
+        (places, points): (&[Parameter], &[Vector]),
+        rings: &[Vector],
+    ) -> Result<()> {
+        check_size("points of a hole", points.len(), places.len())?;
+        let inside = |(place, point): (&Parameter, &Vector)| {
+            let [w, ..] = self.coordinate(*place).filter(|w| norm(w[0]) <= 1.0)?;
+            Some((w, *point))
+        };
+        let given: Vec<(Complex, Vector)> = places.iter().zip(points).filter_map(inside).collect();
+        let around = self.rings(space);
+        check_size("points on the rings of a hole", rings.len(), around.len())?;
+        let around: Vec<(Complex, Vector)> = around.iter().zip(rings).filter_map(inside).collect();
+        let weight = given.len().max(1) as f64 / around.len().max(1) as f64;
+        let points = given.iter().map(|&(w, point)| (1.0, w, point));
+        let all: Vec<_> = points.chain(around.into_iter().map(|(w, point)| (weight, w, point))).collect();
+        self.fill = Some(Fill::fitted(&all, given.len())?);
         Ok(())
     }
 
@@ -160,53 +156,56 @@ impl Hole {
         (0..circles).flat_map(|k| (0..each).filter_map(move |j| place(k, j))).collect()
     }
 
-    /// The place at a distance from the vertex, in the unit of the metric, in a direction: an angle from the first sector, counterclockwise.
+    /// The place at a distance from the vertex, in the unit of the metric, in a direction: an angle as those of the sectors. None beyond the patches.
     pub fn place(&self, space: &SplineSpace, far: f64, angle: f64) -> Option<Parameter> {
-        let sector = self.sectors.iter().rev().find(|sector| sector.angle <= angle)?;
-        let [corner, next] = sector.side(space)?;
-        let turn = angle - sector.angle;
-        let along = mul(unit(sub(next, corner)), [turn.cos(), turn.sin()]);
-        let [x, y] = add(corner, scale(far / sector.unit, along));
-        Some(Parameter { patch: sector.patch, x, y })
+        let whole = TAU * f64::from(self.turns);
+        let inside = |sector: &Sector| {
+            let turn = angle - sector.angle;
+            let turn = turn - whole * (turn / whole).round();
+            let at = sector.chart(scale(far, [turn.cos(), turn.sin()]));
+            let [a, b, c] = [0, 1, 2].map(|k| space.patches()[sector.patch as usize].knots[k][0]);
+            let sides = [doubled_area([at, a, b]), doubled_area([at, b, c]), doubled_area([at, c, a])];
+            let least = sides.into_iter().fold(f64::INFINITY, f64::min) / doubled_area([a, b, c]);
+            let found = Parameter { patch: sector.patch, x: at[0], y: at[1] };
+            (turn.abs() < PI && least > -OUTSIDE).then_some((least, found))
+        };
+        let all = self.sectors.iter().filter(|s| (s.patch as usize) < space.patches().len());
+        all.filter_map(inside).max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, found)| found)
     }
 
-    /// w/ρ of a place in the chart of its patch, with first and second derivative there; none in patches that do not have the vertex.
-    fn coordinate(&self, space: &SplineSpace, at: Parameter) -> Option<[Complex; 3]> {
-        // A patch may have the vertex at several corners: the nearest one counts.
-        let here = self.sectors.iter().filter(|sector| sector.patch == at.patch);
-        let sides = here.filter_map(|sector| Some((sector, sector.side(space)?)));
-        let far = |side: &[Complex; 2]| distance(side[0], [at.x, at.y]);
-        let (sector, [corner, next]) = sides.min_by(|(_, a), (_, b)| far(a).total_cmp(&far(b)))?;
-        let (z, side) = (sub([at.x, at.y], corner), sub(next, corner));
-        let angle = sector.angle + cross(side, z).atan2(dot(side, z));
+    /// w/ρ of a place in the chart of its patch, with first and second derivative there; none in patches that the hole does not meet.
+    fn coordinate(&self, at: Parameter) -> Option<[Complex; 3]> {
+        let first = self.sectors.partition_point(|sector| sector.patch < at.patch);
+        // A patch may lie around the vertex in several ways: the one nearest to it counts.
+        let here = self.sectors[first..].iter().take_while(|sector| sector.patch == at.patch);
+        let places = here.map(|sector| (sector, sector.local([at.x, at.y])));
+        let (sector, z) = places.min_by(|(_, a), (_, b)| norm2(*a).total_cmp(&norm2(*b)))?;
         let share = 1.0 / f64::from(self.turns);
-        let size = (sector.unit * norm(z) / self.radius).powf(share);
-        let w = [size * (share * angle).cos(), size * (share * angle).sin()];
+        let angle = share * (sector.angle + z[1].atan2(z[0]));
+        let w = scale((norm(z) / self.radius).powf(share), [angle.cos(), angle.sin()]);
         if z == [0.0; 2] {
             return Some([w, [0.0; 2], [0.0; 2]]);
         }
-        // w = c z^(1/m): w' = w/(m z), w'' = (1/m − 1) w'/z.
-        let over_z = |a: Complex| scale(1.0 / norm2(z), mul(a, conj(z)));
-        let first = scale(share, over_z(w));
-        Some([w, first, scale(share - 1.0, over_z(first))])
+        // w = c z^(1/m) and dz = turn dp for places p in the chart: w' = turn w/(m z), w'' = (1/m − 1) w' turn/z.
+        let over_z = scale(1.0 / norm2(z), mul(sector.turn(), conj(z)));
+        let first = scale(share, mul(w, over_z));
+        Some([w, first, scale(share - 1.0, mul(first, over_z))])
     }
 
     /// The surface at a place where the spline has this point; none outside the hole. At the vertex itself the derivatives are 0: there the chart is none of the surface.
-    pub fn surface(&self, space: &SplineSpace, at: Parameter, spline: &SurfacePoint) -> Option<SurfacePoint> {
-        let w = self.coordinate(space, at).filter(|w| norm(w[0]) < 1.0)?;
+    pub fn surface(&self, at: Parameter, spline: &SurfacePoint) -> Option<SurfacePoint> {
+        let w = self.coordinate(at).filter(|w| norm(w[0]) < 1.0)?;
         let w = Jet::of_holomorphic(w);
         let square = w[0].times(w[0]).plus(w[1].times(w[1]));
         let weight = square.through(fade(square.0[0], self.inner()));
         let rest = Jet::constant(1.0).plus(weight.times(Jet::constant(-1.0)));
-        let powers: Vec<Jet> = powers(w).collect();
+        let inside = self.fill.as_ref()?.at(w);
         let mut found = SurfacePoint::default();
         for x in 0..3 {
             let [a, b] = spline.first.map(|d| d[x]);
             let [aa, ab, bb] = spline.second.map(|d| d[x]);
             let outside = Jet([spline.point[x], a, b, aa, ab, bb]);
-            let terms = powers.iter().zip(&self.coefficients).map(|(p, c)| p.times(Jet::constant(c[x])));
-            let inside = terms.fold(Jet::constant(0.0), Jet::plus);
-            let Jet(all) = weight.times(inside).plus(rest.times(outside));
+            let Jet(all) = weight.times(inside[x]).plus(rest.times(outside));
             found.point[x] = all[0];
             (0..2).for_each(|k| found.first[k][x] = all[1 + k]);
             (0..3).for_each(|k| found.second[k][x] = all[3 + k]);
@@ -216,17 +215,22 @@ impl Hole {
 }
 
 impl Sector {
-    /// The vertex and the next corner of the patch, in its chart.
-    fn side(&self, space: &SplineSpace) -> Option<[Complex; 2]> {
-        let knots = &space.patches().get(self.patch as usize)?.knots;
-        Some([knots[self.corner % 3][0], knots[(self.corner + 1) % 3][0]])
+    /// The factor of its map.
+    fn turn(&self) -> Complex {
+        [self.to[0][0], self.to[1][0]]
     }
-}
 
-/// p^i q^j for i + j = 0, 1, …, each with falling i.
-fn powers([p, q]: [Jet; 2]) -> impl Iterator<Item = Jet> {
-    let power = |x: Jet, n: usize| (0..n).fold(Jet::constant(1.0), |y, _| y.times(x));
-    (0..=DEGREE).flat_map(move |n| (0..=n).map(move |j| power(p, n - j).times(power(q, j))))
+    /// Where a point of the chart lies beside the vertex.
+    pub fn local(&self, at: Complex) -> Complex {
+        let [[.., x], [.., y]] = self.to;
+        add(mul(self.turn(), at), [x, y])
+    }
+
+    /// The point of the chart at a place beside the vertex.
+    pub fn chart(&self, z: Complex) -> Complex {
+        let ([[.., x], [.., y]], turn) = (self.to, self.turn());
+        scale(1.0 / norm2(turn), mul(conj(turn), sub(z, [x, y])))
+    }
 }
 
 /// φ(√x) with its first and second derivative by x, for this τ.

@@ -51,7 +51,7 @@ impl Spline {
         let space = self.space();
         let places: Vec<Parameter> = (0..space.patches().len())
             .flat_map(|patch| PLACES.map(|weights| place(space, patch, weights)))
-            .filter(|&at| !self.holes().iter().any(|hole| hole.is_core(space, at)))
+            .filter(|&at| !self.holes().iter().any(|hole| hole.is_core(at)))
             .collect();
         let ones = Spline::new(space.clone(), vec![[1.0, 0.0, 0.0]; space.n_control_points()])?;
         let sums = ones.evaluate(&places, 0, threads, control)?;

@@ -34,6 +34,27 @@ impl Jet {
         ])
     }
 
+    /// f of two functions, for f with these value and derivatives f_p, f_q, f_pp, f_pq, f_qq there.
+    pub fn of_two([f, fp, fq, fpp, fpq, fqq]: [f64; 6], [p, q]: [Jet; 2]) -> Jet {
+        let ([_, px, py, pxx, pxy, pyy], [_, qx, qy, qxx, qxy, qyy]) = (p.0, q.0);
+        let second = |a: [f64; 2], b: [f64; 2], ab: [f64; 2]| {
+            fpp * a[0] * b[0]
+                + fpq * (a[0] * b[1] + a[1] * b[0])
+                + fqq * a[1] * b[1]
+                + fp * ab[0]
+                + fq * ab[1]
+        };
+        let (x, y) = ([px, qx], [py, qy]);
+        Jet([
+            f,
+            fp * px + fq * qx,
+            fp * py + fq * qy,
+            second(x, x, [pxx, qxx]),
+            second(x, y, [pxy, qxy]),
+            second(y, y, [pyy, qyy]),
+        ])
+    }
+
     /// f of this function, for f with this value and first and second derivative there.
     pub fn through(self, [value, first, second]: [f64; 3]) -> Jet {
         let [_, x, y, xx, xy, yy] = self.0;

@@ -5,6 +5,7 @@ mod bicubic;
 mod ears;
 #[cfg(feature = "json")]
 mod file;
+mod fill;
 mod fit;
 mod hole;
 mod identities;
@@ -28,6 +29,7 @@ pub use bicubic::{
 };
 #[cfg(feature = "step")]
 pub use bicubic::{LengthUnit, StepOptions};
+pub use fill::Fill;
 pub use fit::{FitOptions, Fitted, fit};
 pub use hole::{Hole, Sector};
 pub use identities::Identities;

@@ -124,7 +124,7 @@ impl Spline {
         })?;
         let [point, x, y, xx, xy, yy] = sums;
         let found = SurfacePoint { point, first: [x, y], second: [xx, xy, yy] };
-        let filled = self.holes.iter().find_map(|hole| hole.surface(&self.space, at, &found));
+        let filled = self.holes.iter().find_map(|hole| hole.surface(at, &found));
         Ok(filled.map_or(found, |filled| filled.cut(order)))
     }
 

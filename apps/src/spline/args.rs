@@ -1,8 +1,9 @@
 //! The options of `ricci spline`.
 
-use crate::options::{Common, FileName, number, positive};
+use crate::options::{Common, FileName, choices, number, positive};
 use crate::picture::SurfacePictureArgs;
 use clap::{Args, Subcommand, ValueEnum};
+use ricci::structure::AffineSource;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -50,23 +51,53 @@ pub struct FitArgs {
     /// Write the spline
     #[arg(short = 'o', long = "out", value_name = "S.json")]
     pub out: FileName,
-    /// Take x and y of the mesh as parameters: it must lie over the plane z = 0 without folds
-    #[arg(long, required = true)]
-    pub planar: bool,
     /// Degree of the spline, 1 to 5
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=5))]
     pub degree: u8,
-    /// Edge of the domain's triangles, in units of the mesh [default: so that there are about a quarter as many control points as vertices]
-    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    /// Weight of the bending energy beside the mean squared distance [default: 1e-10, 1e-12 with --planar]
+    #[arg(long, value_name = "W", value_parser = not_negative)]
+    #[serde(skip)]
+    pub fairness: Option<f64>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub whole: WholeArgs,
+    /// Take x and y of the mesh as parameters: it must lie over the plane z = 0 without folds
+    #[arg(long, conflicts_with_all = ["tolerance", "control_points", "atlas", "singular", "corners"])]
+    pub planar: bool,
+    /// With --planar, edge of the domain's triangles, in units of the mesh [default: so that there are about a quarter as many control
+    /// points as vertices]
+    #[arg(long, value_name = "LENGTH", value_parser = positive, requires = "planar")]
     #[serde(skip)]
     pub edge: Option<f64>,
-    /// Weight of the bending energy beside the mean squared distance
-    #[arg(long, value_name = "W", default_value_t = 1e-12, value_parser = not_negative)]
-    pub fairness: f64,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,
 }
+
+/// A spline over a whole surface.
+#[derive(Args, Serialize, Debug)]
+pub struct WholeArgs {
+    /// Largest distance of a vertex from the spline, in diagonals of the bounding box; where it is missed the exit code is 1
+    #[arg(long, value_name = "T", default_value_t = 0.01, value_parser = positive)]
+    pub tolerance: f64,
+    /// Most control points [default: a quarter as many as vertices]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control_points: Option<u32>,
+    /// Where the affine structure comes from: the flow to one singular vertex, or a holomorphic 1-form with 2g − 2
+    #[arg(long, value_enum, default_value_t = AtlasChoice::Flow)]
+    pub atlas: AtlasChoice,
+    /// The singular vertex (numbered from 0) [default: where areas are distorted least]
+    #[arg(long, value_name = "VERTEX")]
+    #[serde(skip)]
+    pub singular: Option<u32>,
+    /// Corners of the boundary of a disk, V,V,…, with right angles or V:ANGLE in degrees [default: four]
+    #[arg(long, value_name = "V,V,…")]
+    #[serde(skip)]
+    pub corners: Option<CornersChoice>,
+}
+
+choices!(AtlasChoice = AffineSource { Flow, Form });
 
 #[derive(Args, Serialize, Debug)]
 pub struct EvalArgs {

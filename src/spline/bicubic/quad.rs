@@ -12,10 +12,14 @@
 //! [Coo67], and bilinear in the chart. Around a singular vertex with the total angle 2πm the surface is smooth in w = z^{1/m}: there
 //! u = w, so that the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments.
 
-use crate::geometry::complex::{Complex, add, conj, mul, norm, norm2, scale, sub, unit};
+use crate::geometry::complex::{Complex, add, conj, distance, mul, norm, norm2, scale, sub, unit};
 use crate::spline::hole::Sector;
 use crate::spline::patch::Parameter;
+use crate::spline::space::affine;
 use crate::spline::surface::Spline;
+
+/// A corner is the vertex of a hole where it is nearer to it than this share of its side: rounding.
+const AT_VERTEX: f64 = 1e-6;
 
 /// A quadrilateral of a triangle.
 #[derive(Debug, Clone)]
@@ -38,7 +42,10 @@ impl Quad {
         let knots = &spline.space().patches()[patch].knots;
         let [a, b, c] = [0, 1, 2].map(|j| knots[(k + j) % 3][0]);
         let (next, last) = (scale(0.5, sub(b, a)), scale(0.5, sub(c, a)));
-        let is_here = |s: &Sector| s.patch as usize == patch && s.corner == k;
+        let is_here = |s: &Sector| {
+            let [corner, other] = [a, b].map(|p| affine(&s.to, p));
+            s.patch as usize == patch && norm(corner) < AT_VERTEX * distance(corner, other)
+        };
         let hole = spline.holes().iter().find(|hole| hole.sectors.iter().any(is_here));
         let (turns, frame) = hole.map_or((1, [1.0, 0.0]), |hole| (hole.turns as i32, unit(next)));
         let over = |z: Complex| scale(1.0 / norm2(frame), mul(z, conj(frame)));
