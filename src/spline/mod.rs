@@ -1,6 +1,7 @@
 //! Triangular B-splines: piecewise polynomial surfaces over triangles, as smooth as their degree allows, on the plane or on a surface
 //! with an affine atlas [DMS92; Sei91; GHQ06].
 
+mod bicubic;
 mod bounds;
 mod closest;
 mod descent;
@@ -27,6 +28,11 @@ mod surface;
 mod tessellate;
 mod triangulate;
 
+pub use bicubic::{
+    Bicubic, BicubicOptions, BicubicPatch, BicubicSurface, NormalAngles, PatchCurve, PatchSide,
+};
+#[cfg(feature = "step")]
+pub use bicubic::{LengthUnit, StepOptions};
 pub use closest::{ClosestPoint, ClosestPoints};
 pub use fill::Fill;
 pub use fit::{FitOptions, Fitted, fit};

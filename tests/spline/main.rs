@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
+mod bicubic;
+mod closed;
 mod closest;
 #[path = "../common/mod.rs"]
 mod common;

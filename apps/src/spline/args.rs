@@ -3,7 +3,7 @@
 use crate::options::{Common, FileName, choices, number, positive};
 use crate::picture::SurfacePictureArgs;
 use crate::uniform::CornersChoice;
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use ricci::structure::AffineSource;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -21,6 +21,7 @@ Example: a smooth cubic surface through the heights of a mesh, some of its point
     ricci spline eval hill.json --tessellate 4 -o fine.obj
     ricci spline eval hill.json --closest scan.csv -o nearest.csv
     ricci spline eval hill.json --picture hill.png --wire --color curvature
+    ricci spline export hill.json -o hill.step --tolerance 1e-3
 
 --picture draws --tessellate N x N triangles per patch, or 12 x 12; --wire draws the sides of the patches, and colours show the Gaussian
 curvature of the surface itself.
@@ -31,6 +32,9 @@ rows have the points of the surface with its fillings, as everything else has.
 
 scan.csv has rows x,y,z. For each of these points the nearest one of the surface is written: x,y,z,patch,u,v,X,Y,Z,distance, where u,v is
 its place in the chart of the patch.
+
+export writes bicubic B-spline patches, three to a triangle, that share their edges: a solid where the surface is closed, else a shell.
+--tolerance is over the diagonal of the bounding box; patches that must turn sharply to keep it fail the check `normal_jump`.
 
 The spline file says all that is needed to evaluate it (`ricci-spline 1`): knots and control points of each triangle, and which others
 reach into it.";
@@ -47,6 +51,8 @@ pub enum SplineCommand {
     Fit(FitArgs),
     /// Points, derivatives and triangles of a spline
     Eval(EvalArgs),
+    /// Bicubic patches near a spline, for CAD
+    Export(ExportArgs),
 }
 
 #[derive(Args, Serialize, Debug)]
@@ -139,6 +145,34 @@ pub struct EvalArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,
+}
+
+#[derive(Args, Serialize, Debug)]
+pub struct ExportArgs {
+    /// Spline file
+    #[serde(skip)]
+    pub spline: PathBuf,
+    /// Write the patches: STEP AP242 (.step, .stp), or plain JSON (.json)
+    #[arg(short = 'o', long = "out", value_name = "OUT")]
+    pub out: FileName,
+    /// Largest distance from the spline, over the diagonal of its bounding box
+    #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = positive)]
+    pub tolerance: f64,
+    /// The unit of the coordinates, which STEP files say
+    #[arg(long, value_enum, value_name = "UNIT", default_value = "mm")]
+    pub unit: Unit,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+pub enum Unit {
+    /// Millimetres
+    Mm,
+    /// Metres
+    M,
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {

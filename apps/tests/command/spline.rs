@@ -147,3 +147,38 @@ fn rows_say_where_a_hole_is_filled() {
     assert_eq!(filled[0][3..6], spline.point(inside).unwrap());
     assert!(sums[1] == filled[1] && sums[0] != filled[0]);
 }
+
+#[test]
+fn patches_for_cad_are_written_with_their_checks() {
+    let place = Place::new();
+    let vertex = |i: u32| (f64::from(i % 4) / 3.0, f64::from(i / 4) / 3.0);
+    let mut mesh: String = (0..16).map(vertex).map(|(x, y)| format!("v {x} {y} {}\n", 0.1 * x * y)).collect();
+    for i in [1, 2, 3, 5, 6, 7, 9, 10, 11] {
+        mesh += &format!("f {i} {} {}\nf {i} {} {}\n", i + 1, i + 5, i + 5, i + 4);
+    }
+    place.put("square.obj", &mesh);
+    place.expect(0, "spline fit square.obj --planar --edge 1 -o s.json --quiet");
+    place.expect(0, "spline export s.json -o s.step --report r.json");
+    let report = place.json("r.json");
+    assert_eq!(report["result"]["closed"], false);
+    for check in ["distance", "normal_jump", "open_sides"] {
+        assert_eq!(report["checks"][check]["holds"], true, "{check}");
+    }
+    let first = place.text("s.step");
+    assert!(
+        first.starts_with("ISO-10303-21;")
+            && first.contains("OPEN_SHELL")
+            && first.contains(".MILLI.,.METRE.")
+    );
+    place.expect(0, "spline export s.json -o s.step --quiet");
+    assert_eq!(first, place.text("s.step"));
+    place.expect(0, "spline export s.json -o metres.stp --unit m --quiet");
+    assert!(!place.text("metres.stp").contains(".MILLI."));
+    place.expect(0, "spline export s.json -o s_patches.json --quiet");
+    assert!(place.text("s_patches.json").starts_with("{\"format\":\"ricci-patches 1\""));
+    // Not reached, not known, not a spline.
+    let far = place.expect(3, "spline export s.json -o far.step --tolerance 1e-10");
+    assert!(far.err.contains("spans per side") && !place.exists("far.step"), "{}", far.err);
+    place.expect(2, "spline export s.json -o s.iges");
+    place.expect(3, "spline export square.obj -o t.step");
+}
