@@ -1,16 +1,17 @@
 //! Domains of splines on surfaces: a coarse flat triangulation with a chart for each of its triangles.
 
 use super::coarse::{Coarse, Place};
+use super::similarity::Similarity;
 use crate::embed::triangle::Triangle;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::geometry::Space;
 use crate::geometry::complex::{
-    Complex, add, conj, cross, distance, dot, doubled_area, mul, norm, norm2, scale, sub, unit,
+    Complex, add, conj, cross, distance, dot, doubled_area, mul, norm2, scale, sub, unit,
 };
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex, VertexId};
 use crate::spline::knots::Around;
 use crate::spline::overlap::overlaps;
-use crate::spline::{Hole, Parameter, Patch, Sector, SplineSpace, Support, multi_indices};
+use crate::spline::{Parameter, Patch, SplineSpace, Support, multi_indices};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
@@ -18,32 +19,28 @@ use std::f64::consts::TAU;
 const FLAT: f64 = 1e-6;
 /// Share of a triangle by which the knots of another must reach into it for its basis functions to count: rounding.
 const REACH: f64 = 1e-12;
-/// Radius of a hole over the distance of its vertex from the sides opposite it.
-const HOLE: f64 = 0.9;
 /// Around a singular vertex the angle between two triangles there, in radians, from which on no basis function reaches from one to the other outside the core.
 const APART: f64 = std::f64::consts::FRAC_PI_2;
 /// Largest angle, in radians, that two triangles at a singular vertex and those between them may have together: others overlap each other in the plane without
 /// doing so on the surface.
 const MOST_TOGETHER: f64 = TAU - std::f64::consts::FRAC_PI_6;
-/// How far the total angle of a hole's vertex may be from a multiple of 2π, in turns.
-const WHOLE: f64 = 1e-6;
 /// Triangles that a walk crosses at most: steps are shorter than a triangle.
 const MOST_TRIANGLES: usize = 16;
 /// Two developments of a triangle are the same where a corner of unit triangles is less far apart.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 
 /// A triangulated flat surface with coordinates in each triangle: corner 0 is at 0, corner 1 on the positive axis, and the longest side has
 /// the length 1.
 #[derive(Debug, Clone)]
 pub struct SurfaceDomain {
-    coarse: Coarse,
-    corners: PerFace<[Complex; 3]>,
+    pub(super) coarse: Coarse,
+    pub(super) corners: PerFace<[Complex; 3]>,
     /// Per face the length that is 1 in its chart.
-    unit: PerFace<f64>,
+    pub(super) unit: PerFace<f64>,
     /// Per half-edge of a face its angle with the first one of its vertex, counterclockwise.
-    angle: PerHalfedge<f64>,
+    pub(super) angle: PerHalfedge<f64>,
     /// Per vertex whether the surface is flat around it; on the boundary, whether that is straight there.
-    is_flat: PerVertex<bool>,
+    pub(super) is_flat: PerVertex<bool>,
 }
 
 impl SurfaceDomain {
@@ -117,111 +114,6 @@ impl SurfaceDomain {
             Some(self.unit[f] * distance(a, nearest_on_side(a, b, c)))
         };
         self.coarse.mesh.fan(v).into_iter().filter_map(distance_to_side).fold(f64::INFINITY, f64::min)
-    }
-
-    /// The hole around a singular vertex whose total angle is a multiple of 2π, with nothing in it yet, inside the triangles at the vertex.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] for another vertex.
-    pub fn hole(&self, v: VertexId) -> Result<Hole> {
-        let radius = HOLE * self.clearance(v);
-        Hole::new(self.around(v, radius).sectors, self.turns(v)?, radius)
-    }
-
-    /// A hole of this radius, or the widest that meets neither itself, another singular vertex nor the boundary; at least that of [`SurfaceDomain::hole`].
-    ///
-    /// # Errors
-    /// Those of [`SurfaceDomain::hole`].
-    pub fn wide_hole(&self, v: VertexId, radius: f64) -> Result<Hole> {
-        let turns = self.turns(v)?;
-        // The hole meets itself beyond half of the way from the vertex to itself.
-        let free = self.around(v, 2.0 * radius).free;
-        let radius = radius.min(HOLE * free).max(HOLE * self.clearance(v));
-        Hole::new(self.around(v, radius).sectors, turns, radius)
-    }
-
-    /// The total angle of a singular vertex in turns.
-    fn turns(&self, v: VertexId) -> Result<u32> {
-        let turns = self.total_angle(v) / TAU;
-        let is_whole = (turns - turns.round()).abs() < WHOLE && turns > 0.5;
-        if self.coarse.mesh.is_boundary_vertex(v) || !is_whole {
-            let need = "a multiple of one turn, at a vertex inside the surface";
-            return Err(Error::argument("total angle in turns", turns, need));
-        }
-        Ok(turns.round() as u32)
-    }
-
-    /// The triangles that a disk around a vertex meets, developed from it.
-    fn around(&self, v: VertexId, radius: f64) -> Surroundings {
-        let mesh = &self.coarse.mesh;
-        let whole = self.total_angle(v);
-        let mut found: Vec<Sector> = Vec::new();
-        let mut known: HashMap<u32, Vec<Sector>> = HashMap::new();
-        let mut free = f64::INFINITY;
-        // How far a singular vertex of a triangle is; half as far, where that is the vertex itself.
-        let room = |sector: &Sector| {
-            let f = FaceId(sector.patch);
-            let far = |(k, &u): (usize, &VertexId)| {
-                let far = norm(sector.local(self.corners[f][k]));
-                let counts = !self.is_flat[u] && far > SAME * self.unit[f];
-                counts.then_some(if u == v { 0.5 * far } else { far })
-            };
-            mesh.face_vertices(f).iter().enumerate().filter_map(far).fold(f64::INFINITY, f64::min)
-        };
-        for h in mesh.fan(v) {
-            let Some((f, k)) = mesh.corner(h) else { continue };
-            let [a, b] = [k, (k + 1) % 3].map(|k| self.corners[f][k]);
-            let turn = scale(self.unit[f], conj(unit(sub(b, a))));
-            let to = Similarity { turn, shift: sub([0.0; 2], mul(turn, a)) };
-            let sector = self.sector(f, to, self.angle[h]);
-            free = free.min(room(&sector));
-            known.entry(f.0).or_default().push(sector);
-            found.push(sector);
-        }
-        let mut next = 0;
-        while let Some(&Sector { patch, angle, to }) = found.get(next) {
-            next += 1;
-            let (f, to) = (FaceId(patch), Similarity::of_rows(to));
-            for h in mesh.face_halfedges(f) {
-                let Some((_, k)) = mesh.corner(h) else { continue };
-                let ends = [k, (k + 1) % 3].map(|k| to.of(self.corners[f][k]));
-                // Sides at the vertex lead to triangles that are known.
-                if ends.iter().any(|&p| norm(p) < SAME * self.unit[f]) {
-                    continue;
-                }
-                let far = distance([0.0; 2], nearest_on_side([0.0; 2], ends[0], ends[1]));
-                // Beyond, no disk that is free comes closer to itself.
-                if far >= radius.min(2.0 * free) {
-                    continue;
-                }
-                let Some((g, across)) = self.across(h) else {
-                    free = free.min(far);
-                    continue;
-                };
-                let there = self.sector(g, to.after(&across), angle);
-                free = free.min(room(&there));
-                let is_there = |other: &Sector| {
-                    let apart = (other.angle - there.angle) / whole;
-                    let places = self.corners[g].map(|p| distance(other.local(p), there.local(p)));
-                    (apart - apart.round()).abs() * whole < SAME
-                        && places.iter().all(|&d| d < SAME * self.unit[g])
-                };
-                let of_patch = known.entry(g.0).or_default();
-                if !of_patch.iter().any(is_there) {
-                    of_patch.push(there);
-                    found.push(there);
-                }
-            }
-        }
-        Surroundings { sectors: found, free }
-    }
-
-    /// A triangle developed around a vertex, its middle turned to the x axis; the map is given up to a rotation by `angle`.
-    fn sector(&self, f: FaceId, to: Similarity, angle: f64) -> Sector {
-        let middle = self.corners[f].iter().fold([0.0; 2], |sum, &p| add(sum, scale(1.0 / 3.0, p)));
-        let at = to.of(middle);
-        let back = Similarity { turn: conj(unit(at)), shift: [0.0; 2] };
-        Sector { patch: f.0, angle: angle + at[1].atan2(at[0]), to: back.after(&to).rows() }
     }
 
     fn is_cone(&self, v: VertexId) -> bool {
@@ -375,7 +267,7 @@ impl SurfaceDomain {
     }
 
     /// The face on the other side of a half-edge, and the map of its chart to the chart on this side; none on the boundary.
-    fn across(&self, h: HalfedgeId) -> Option<(FaceId, Similarity)> {
+    pub(super) fn across(&self, h: HalfedgeId) -> Option<(FaceId, Similarity)> {
         let corner = |h: HalfedgeId| self.coarse.mesh.corner(h);
         let ends = |(f, k): (FaceId, usize)| (self.corners[f][k], self.corners[f][(k + 1) % 3]);
         let ((a, b), there) = (ends(corner(h)?), corner(h.twin())?);
@@ -383,40 +275,6 @@ impl SurfaceDomain {
         // c goes to b and d to a.
         let turn = scale(1.0 / norm2(sub(d, c)), mul(sub(a, b), conj(sub(d, c))));
         Some((there.0, Similarity { turn, shift: sub(b, mul(turn, c)) }))
-    }
-}
-
-/// An orientation-preserving similarity of the plane: z ↦ turn z + shift.
-#[derive(Debug, Clone, Copy)]
-struct Similarity {
-    turn: Complex,
-    shift: Complex,
-}
-
-impl Similarity {
-    const IDENTITY: Similarity = Similarity { turn: [1.0, 0.0], shift: [0.0, 0.0] };
-
-    fn of(&self, p: Complex) -> Complex {
-        add(mul(self.turn, p), self.shift)
-    }
-
-    /// First `other`, then this.
-    fn after(&self, other: &Similarity) -> Similarity {
-        Similarity { turn: mul(self.turn, other.turn), shift: self.of(other.shift) }
-    }
-
-    fn inverse(&self) -> Similarity {
-        let turn = scale(1.0 / norm2(self.turn), conj(self.turn));
-        Similarity { turn, shift: mul(turn, sub([0.0; 2], self.shift)) }
-    }
-
-    fn of_rows([[a, _, x], [b, _, y]]: [[f64; 3]; 2]) -> Similarity {
-        Similarity { turn: [a, b], shift: [x, y] }
-    }
-
-    fn rows(&self) -> [[f64; 3]; 2] {
-        let ([a, b], [x, y]) = (self.turn, self.shift);
-        [[a, -b, x], [b, a, y]]
     }
 }
 
@@ -428,7 +286,7 @@ fn nearest(p: Complex, corners: [Complex; 3]) -> Complex {
 }
 
 /// The point between a and b that is nearest to p.
-fn nearest_on_side(p: Complex, a: Complex, b: Complex) -> Complex {
+pub(super) fn nearest_on_side(p: Complex, a: Complex, b: Complex) -> Complex {
     let along = sub(b, a);
     add(a, scale((dot(sub(p, a), along) / norm2(along)).clamp(0.0, 1.0), along))
 }
@@ -440,13 +298,6 @@ struct Fan {
     /// Angle there of the first one, and the sum of those of the others.
     first: f64,
     turned: f64,
-}
-
-/// The triangles around a vertex.
-struct Surroundings {
-    sectors: Vec<Sector>,
-    /// Radius of the widest disk around the vertex that the triangles show to be free of singular vertices, the boundary and itself.
-    free: f64,
 }
 
 /// A triangle as it is seen from another one.

@@ -11,13 +11,15 @@ use crate::geometry::complex::Complex;
 use crate::geometry::vector::{Vector, distance, dot, sub};
 use crate::mesh::{PerVertex, VertexId};
 use crate::metric::Surface;
-use crate::spline::{FitOptions, Hole, Parameter, SPREAD, Spline, SplineSpace, fit};
+use crate::spline::{FitOptions, Hole, Parameter, Spline, SplineSpace, fit};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Least number of vertices in a hole, and largest share of all vertices.
 const LEAST_INSIDE: usize = 60;
 const MOST_INSIDE: f64 = 0.3;
+/// Where knots are far apart, a spline bends less sharply between its triangles.
+const WIDE: f64 = 0.9;
 /// The root of the mean squared distance that is asked for, over the largest distance.
 const RMS: f64 = 0.1;
 /// Growth of the hole's radius in the coordinate in which its vertex is a point as any other.
@@ -40,7 +42,7 @@ pub struct SurfaceFitOptions {
     pub corrections: usize,
     /// [`FitOptions::fairness`]. Default 1e-10.
     pub fairness: f64,
-    /// [`crate::spline::KnotOptions::spread`].
+    /// [`crate::spline::KnotOptions::spread`]. Default 0.9.
     pub spread: f64,
     /// Area of a hole over m² mean triangles, for a vertex with a total angle of m turns. Default 1.
     pub hole: f64,
@@ -57,7 +59,7 @@ impl Default for SurfaceFitOptions {
             rounds: 6,
             corrections: 2,
             fairness: 1e-10,
-            spread: SPREAD,
+            spread: WIDE,
             hole: 1.0,
             threads: 0,
         }

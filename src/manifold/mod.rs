@@ -5,7 +5,9 @@ mod domain;
 mod fit;
 mod flat;
 mod grade;
+mod holes;
 mod sample;
+mod similarity;
 
 pub use coarse::{Coarse, Place};
 pub use domain::SurfaceDomain;

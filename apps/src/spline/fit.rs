@@ -1,6 +1,7 @@
 //! `ricci spline fit`.
 
 use super::args::FitArgs;
+use super::found::Found;
 use super::planar::fit_planar;
 use super::whole::fit_whole;
 use crate::failure::Failure;
@@ -11,7 +12,7 @@ use crate::progress::Progress;
 use crate::report::{Checks, Figures, InputSummary, Report, Seconds, timed};
 use crate::say::{self, count};
 use ricci::Control;
-use ricci::spline::{Identities, Spline};
+use ricci::spline::Identities;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::io::Write;
@@ -29,18 +30,6 @@ struct Asked<'a> {
     args: &'a FitArgs,
     #[serde(flatten)]
     defaults: &'a Map<String, Value>,
-}
-
-/// A spline near a mesh.
-pub struct Found {
-    pub spline: Spline,
-    /// Root of the mean of the squared distances, and the largest distance, over the diagonal of the bounding box.
-    pub rms: f64,
-    pub max: f64,
-    /// The options that were left open.
-    pub defaults: Map<String, Value>,
-    pub figures: Figures,
-    pub checks: Checks,
 }
 
 /// Fit a spline to a mesh. The exit code is 1 if a check fails.
@@ -77,15 +66,6 @@ pub fn fit(args: &FitArgs, control: &Control) -> Result<u8, Failure> {
         say::lines(&text, &files)?;
     }
     Ok(found.checks.exit_code())
-}
-
-/// The diagonal of the bounding box of points.
-pub fn diagonal(points: &[[f64; 3]]) -> f64 {
-    let extent = |x: usize| {
-        let all = points.iter().map(|p| p[x]);
-        all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
-    };
-    [0, 1, 2].map(extent).iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn figures(found: &Found, identities: &Identities) -> Figures {

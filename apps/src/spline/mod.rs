@@ -4,6 +4,7 @@ mod args;
 mod eval;
 mod export;
 mod fit;
+mod found;
 mod height_field;
 mod picture;
 mod planar;

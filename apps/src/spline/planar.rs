@@ -1,7 +1,7 @@
 //! Splines over the plane.
 
 use super::args::FitArgs;
-use super::fit::{Found, diagonal};
+use super::found::{Found, diagonal};
 use super::height_field::{HeightField, height_field};
 use crate::failure::Failure;
 use crate::input::Input;

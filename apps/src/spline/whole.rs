@@ -1,7 +1,7 @@
 //! Splines over whole surfaces.
 
 use super::args::{AtlasChoice, FitArgs};
-use super::fit::Found;
+use super::found::Found;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::progress::doing;
