@@ -62,7 +62,7 @@ fn a_filled_hole_is_smooth_and_near_the_surface() {
             compared += 1;
         }
     }
-    assert!(compared > 150 && worst[0] < 1e-6 && worst[1] < 1e-5, "{compared} {worst:?}");
+    assert!(compared > 150 && worst[0] < 1e-5 && worst[1] < 1e-4, "{compared} {worst:?}");
     // Outside the hole the surface is the spline.
     let outside = hole.place(space, 1.001 * hole.radius, 1.0).unwrap();
     assert!(at(outside).is_none());
