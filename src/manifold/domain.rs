@@ -47,7 +47,7 @@ impl SurfaceDomain {
     /// The charts of a triangulation.
     ///
     /// # Errors
-    /// Those of [`crate::metric::curvature`].
+    /// Those of [`crate::metric::curvature()`].
     pub fn new(coarse: Coarse) -> Result<SurfaceDomain> {
         let Coarse { mesh, lengths, .. } = &coarse;
         let curvature = crate::metric::curvature(mesh, Space::E2, lengths)?.at;
@@ -127,7 +127,7 @@ impl SurfaceDomain {
         Parameter { patch: place.face.0, x, y }
     }
 
-    /// The place at the end of a straight line from another one, in its chart; on the boundary and after [`MOST_TRIANGLES`] the nearest one in the last triangle.
+    /// The place at the end of a straight line from another one, in its chart; on the boundary and after 16 triangles the nearest one in the last triangle.
     pub fn walk(&self, from: Parameter, by: Complex) -> Parameter {
         let mesh = &self.coarse.mesh;
         let (mut f, mut at) = (FaceId(from.patch), add([from.x, from.y], by));

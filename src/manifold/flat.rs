@@ -49,8 +49,8 @@ impl Flat {
     /// |ω|, on the intrinsic Delaunay triangulation, and the vertices at zeros of order k have the curvature −2πk.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a closed surface of genus 0, a singular vertex where there is none, or on the boundary; [`Error::Layout`] for a form that turns triangles over;
-    /// [`Error::NotConverged`]; those of [`flow()`] and [`HarmonicForms::new`]; [`Error::Cancelled`].
+    /// [`Error::Argument`] for a closed surface of genus 0, a singular vertex where there is none, or on the boundary; [`Error::Layout`] for a form that turns triangles over,
+    /// or a flow that does not converge; those of [`flow()`] and [`HarmonicForms::new`]; [`Error::Cancelled`].
     pub fn new(surface: &Surface, options: &FlatOptions, control: &Control) -> Result<Flat> {
         let mesh = surface.mesh();
         if mesh.is_closed() && mesh.euler() > 0 {
