@@ -67,14 +67,12 @@ pub fn trajectories(
 ) -> Result<Vec<Vec<OnHalfedge>>> {
     let mesh = layout.mesh();
     check_size("areas of faces", areas.len(), mesh.n_faces())?;
-    let need = "positive and finite";
-    for (what, x) in [("spacing of trajectories", options.spacing), ("longest trajectory", options.longest)] {
-        if !(x > 0.0 && x.is_finite()) {
-            return Err(Error::argument(what, x, need));
-        }
+    let TrajectoryOptions { spacing, longest, .. } = *options;
+    if !(spacing >= LEAST_SPACING && spacing.is_finite()) {
+        return Err(Error::argument("spacing of trajectories", spacing, "finite, and 1e-4 or more"));
     }
-    if options.spacing < LEAST_SPACING {
-        return Err(Error::argument("spacing of trajectories", options.spacing, "1e-4 or more"));
+    if !(longest > 0.0 && longest.is_finite()) {
+        return Err(Error::argument("longest trajectory", longest, "positive and finite"));
     }
     let unit = areas.iter().sum::<f64>().sqrt();
     let turned = |z: Complex| if options.vertical { [z[1], -z[0]] } else { z };

@@ -104,7 +104,7 @@ impl SplineSpace {
         let height = |patch: &Patch| {
             let [a, b, c] = [0, 1, 2].map(|k| patch.knots[k][0]);
             let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
-            doubled_area([a, b, c]).abs() / longest
+            doubled_area([a, b, c]) / longest
         };
         self.patches().iter().map(height).fold(f64::INFINITY, f64::min)
     }
