@@ -3,7 +3,7 @@
 use super::coarse::{Coarse, Place};
 use super::similarity::Similarity;
 use crate::embed::triangle::Triangle;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::complex::{
     Complex, add, conj, cross, distance, dot, doubled_area, mul, norm2, scale, sub, unit,
@@ -24,6 +24,8 @@ const APART: f64 = std::f64::consts::FRAC_PI_2;
 /// Largest angle, in radians, that two triangles at a singular vertex and those between them may have together: others overlap each other in the plane without
 /// doing so on the surface.
 const MOST_TOGETHER: f64 = TAU - std::f64::consts::FRAC_PI_6;
+/// Ways in which triangles may reach into one: usual are 13, up to 100 near singular vertices.
+const MOST_WAYS: usize = 1000;
 /// Triangles that a walk crosses at most: steps are shorter than a triangle.
 const MOST_TRIANGLES: usize = 16;
 /// Two developments of a triangle are the same where a corner of unit triangles is less far apart.
@@ -182,7 +184,7 @@ impl SurfaceDomain {
                 Patch { chart: f.0, control: control.collect(), knots }
             })
             .collect();
-        let supports = mesh.faces().map(|f| self.supports(f, &patches)).collect();
+        let supports = mesh.faces().map(|f| self.supports(f, &patches)).collect::<Result<_>>()?;
         SplineSpace::new(degree, patches, supports)
     }
 
@@ -212,12 +214,18 @@ impl SurfaceDomain {
     }
 
     /// The patches that reach into triangle f, with the maps of their charts to its own.
-    fn supports(&self, f: FaceId, patches: &[Patch]) -> Vec<Support> {
+    fn supports(&self, f: FaceId, patches: &[Patch]) -> Result<Vec<Support>> {
         let mesh = &self.coarse.mesh;
         let mut found = vec![Way { face: f, to: Similarity::IDENTITY, around: None }];
         let mut next = 0;
         while let Some(&way) = found.get(next) {
             next += 1;
+            if next > MOST_WAYS {
+                let message = format!(
+                    "its basis functions are reached in more than {MOST_WAYS} ways: triangles are too large for a thin part of the surface; take more of them"
+                );
+                return Err(Error::Spline { what: "patch", index: f.index(), message });
+            }
             for h in mesh.face_halfedges(way.face) {
                 let Some((g, across)) = self.across(h) else { continue };
                 // Of the cones at this edge, the triangle that it leads to.
@@ -263,7 +271,7 @@ impl SurfaceDomain {
             overlaps(&knots, self.corners[f], REACH)
         });
         found.sort_by_key(|way| way.face);
-        found.into_iter().map(|way| Support { patch: way.face.0, to: way.to.rows() }).collect()
+        Ok(found.into_iter().map(|way| Support { patch: way.face.0, to: way.to.rows() }).collect())
     }
 
     /// The face on the other side of a half-edge, and the map of its chart to the chart on this side; none on the boundary.
