@@ -20,6 +20,8 @@ const SMOOTHINGS: usize = 5;
 const LEAST_POINTS: f64 = 8.0;
 /// The part of a hole's radius, in the coordinate in which its vertex is a point as any other, where no other vertex lies: there the hole is filled.
 const BARE: f64 = 0.6;
+/// In each round sizes may grow by so much more per length: fat triangles around a vertex of many turns, or on thin limbs, may be too many.
+const MORE_GROWTH: f64 = 1.15;
 
 /// Sizes of triangles, on the surface and relative to an even distribution.
 pub(super) struct Grade<'a> {
@@ -28,6 +30,7 @@ pub(super) struct Grade<'a> {
     least: PerVertex<f64>,
     /// How much longer the flat metric is than the surface's.
     stretch: PerVertex<f64>,
+    growth: f64,
     /// The vertices that are not flat.
     always: Vec<VertexId>,
     /// Vertices of the surface but those in the middle of holes.
@@ -75,7 +78,7 @@ impl<'a> Grade<'a> {
             mesh.vertices().filter(|&u| far[u] < bare).for_each(|u| allowed[u] = false);
         }
         let sizes = PerVertex::from_fn(n, |v| least[v].max(1.0));
-        Ok(Grade { flat, sizes, least, stretch, always, allowed, turns: all_turns })
+        Ok(Grade { flat, sizes, least, stretch, growth: 1.0, always, allowed, turns: all_turns })
     }
 
     /// Of the singular vertices inside the surface, their total angles in turns.
@@ -97,6 +100,7 @@ impl<'a> Grade<'a> {
             mesh,
             lengths,
             sizes: PerVertex::from_fn(mesh.n_vertices(), size),
+            growth: self.growth,
             always: &self.always,
             allowed: self.allowed.clone(),
         };
@@ -119,6 +123,7 @@ impl<'a> Grade<'a> {
             let change = (middle / error).powf(1.0 / (degree + 1) as f64).clamp(CHANGE[0], CHANGE[1]);
             self.sizes[v] *= change;
         }
+        self.growth *= MORE_GROWTH;
         smooth(mesh, &mut self.sizes);
         for v in mesh.vertices() {
             self.sizes[v] = self.sizes[v].max(self.least[v]).clamp(SIZES[0], SIZES[1]);

@@ -13,8 +13,6 @@ const SEED: u64 = 1;
 const HALVINGS: usize = 24;
 /// How much smaller than asked for the count may be.
 const NEAR: f64 = 0.02;
-/// How much the distance between neighbours grows per length: the triangles between them stay fat.
-const GROWTH: f64 = 1.0;
 
 /// Where vertices are taken, and how far apart.
 pub(super) struct Sampling<'a> {
@@ -22,6 +20,8 @@ pub(super) struct Sampling<'a> {
     pub lengths: &'a PerEdge<f64>,
     /// Distances from neighbours, relative to each other; infinite where only the growth limits them.
     pub sizes: PerVertex<f64>,
+    /// How much the distance between neighbours may grow per length: 1 keeps the triangles between them fat.
+    pub growth: f64,
     /// Vertices that are taken whatever their distance.
     pub always: &'a [VertexId],
     /// The others that may be taken.
@@ -81,7 +81,7 @@ impl Sampling<'_> {
                 continue;
             }
             for h in self.mesh.outgoing(v) {
-                let (w, most) = (self.mesh.tip(h), distance + GROWTH * self.lengths[h.edge()]);
+                let (w, most) = (self.mesh.tip(h), distance + self.growth * self.lengths[h.edge()]);
                 if most < distances[w] {
                     distances[w] = most;
                     heap.push(Reverse(At(most, w)));
