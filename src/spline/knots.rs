@@ -252,6 +252,18 @@ pub(super) fn omega(knots: &[Vec<[f64; 2]>; 3]) -> Vec<[f64; 2]> {
     polygon
 }
 
+/// The area of Ω over that of the patch; 0 where it is empty, or three knots are clockwise.
+pub(crate) fn share_of_omega(knots: &[Vec<[f64; 2]>; 3]) -> f64 {
+    if check_knots(0, knots).is_err() {
+        return 0.0;
+    }
+    let area = |polygon: &[[f64; 2]]| -> f64 {
+        (1..polygon.len() - 1).map(|i| doubled_area([polygon[0], polygon[i], polygon[i + 1]])).sum()
+    };
+    let [a, b, c] = [&knots[0], &knots[1], &knots[2]].map(|of| of[0]);
+    area(&omega(knots)) / doubled_area([a, b, c])
+}
+
 /// The part of a convex polygon to the left of the line from a to b.
 fn clipped(polygon: &[[f64; 2]], a: [f64; 2], b: [f64; 2]) -> Vec<[f64; 2]> {
     let along = sub(b, a);
