@@ -1,7 +1,7 @@
 //! The options of `ricci spline`.
 
 use crate::options::{Common, FileName, choices, number, positive};
-use crate::picture::SurfacePictureArgs;
+use crate::picture::PictureArgs;
 use crate::uniform::CornersChoice;
 use clap::{Args, Subcommand, ValueEnum};
 use ricci::structure::AffineSource;
@@ -21,10 +21,12 @@ Example: a smooth cubic surface through the heights of a mesh, some of its point
     ricci spline eval hill.json --tessellate 4 -o fine.obj
     ricci spline eval hill.json --closest scan.csv -o nearest.csv
     ricci spline eval hill.json --picture hill.png --wire --color curvature
+    ricci spline eval hill.json --picture lines.png --color reflection
     ricci spline export hill.json -o hill.step --tolerance 1e-3
 
 --picture draws --tessellate N x N triangles per patch, or 12 x 12; --wire draws the sides of the patches, and colours show the Gaussian
-curvature of the surface itself.
+curvature of the surface itself, or reflection lines: stripes by the angle between the reflected view and the horizontal of the picture.
+They have no gaps where normals are continuous, and no corners where curvatures are.
 
 places.csv has rows patch,x,y: a triangle of the spline, numbered from 0, and a place in it, in the coordinates of its chart. Its
 points are the sums of the basis functions. Around singular vertices, where a filling takes their place, a column `hole` says 1; with --filled
@@ -137,7 +139,11 @@ pub struct EvalArgs {
     pub out: Option<FileName>,
     #[command(flatten)]
     #[serde(flatten)]
-    pub picture: SurfacePictureArgs,
+    pub picture: PictureArgs,
+    /// Show a quantity in colours
+    #[arg(long, value_enum, value_name = "QUANTITY", requires = "picture")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<SurfaceColor>,
     /// Draw the control net over the surface
     #[arg(long, requires = "picture")]
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -145,6 +151,17 @@ pub struct EvalArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,
+}
+
+/// Quantities that a picture of a spline shows in colours.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+pub enum SurfaceColor {
+    /// Gaussian curvature
+    Curvature,
+    /// Reflections of light lines at infinity: as smooth as the normals
+    Reflection,
+    None,
 }
 
 #[derive(Args, Serialize, Debug)]

@@ -47,7 +47,7 @@ pub fn eval(args: &EvalArgs, control: &Control) -> Result<u8, Failure> {
     let wanted = Wanted::of(args)?;
     let known: &[&str] =
         if args.at.is_some() || args.closest.is_some() { &["csv"] } else { &["obj", "off", "ply", "glb"] };
-    let picture = args.picture.base.picture.as_deref();
+    let picture = args.picture.picture.as_deref();
     check_extension("-o", args.out.as_deref(), known)?;
     check_extension("--picture", picture, &["png"])?;
     check_outputs(

@@ -47,12 +47,13 @@ fn a_spline_is_fitted_written_evaluated_and_drawn_as_triangles() {
 }
 
 #[test]
-fn surfaces_are_drawn_with_their_patches_net_and_curvature() {
+fn surfaces_are_drawn_with_their_patches_net_curvature_and_reflections() {
     let place = Place::new();
     place.expect(0, "make disk --height 0.4 -n 8 -o hill.obj --quiet");
     place.expect(0, "spline fit hill.obj --planar --edge 0.6 -o s.json --quiet");
     let mut pictures = Vec::new();
-    for options in ["", "--wire", "--wire --net", "--color curvature", "--tessellate 1"] {
+    for options in ["", "--wire", "--wire --net", "--color curvature", "--color reflection", "--tessellate 1"]
+    {
         let line = format!("spline eval s.json {options} --picture p.png --size 96 --draft --quiet");
         place.expect(0, &line);
         let bytes = std::fs::read(place.path("p.png")).unwrap();
