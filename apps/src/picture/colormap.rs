@@ -27,8 +27,8 @@ const HUES: [u32; 4] = [0x66c2a5, 0xfc8d62, 0x8da0cb, 0xe78ac3];
 const SHADES: [f64; 4] = [0.0, 0.42, 0.64, 0.22];
 /// Hues, and shades of each, of [`Ramp::Pairs`].
 pub const CLASSES: usize = 4;
-/// Stripes of [`Ramp::Stripes`]: over half a turn each takes 7.5 degrees.
-pub const STRIPES: usize = 24;
+/// Stripes of [`Ramp::Stripes`]: over half a turn each takes 10 degrees.
+pub const STRIPES: usize = 18;
 const STRIPE_COLORS: [u32; 2] = [0xf7f7f2, 0x22303f];
 /// What has no value.
 pub const NO_VALUE: Rgb = [0.4; 3];

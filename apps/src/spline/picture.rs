@@ -76,7 +76,7 @@ fn reflection(corners: &[SurfacePoint], camera: &Camera) -> Field {
     let scale = Scale::of_stripes(
         "reflected view from the horizontal, degrees",
         [0.0, 180.0],
-        "stripes of 7.5 degrees",
+        "stripes of 10 degrees",
     );
     Field { corners: values.as_chunks().0.to_vec(), scale }
 }
