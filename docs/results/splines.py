@@ -253,7 +253,7 @@ def main():
     print(TEXT["head"].format(fitted=len(whole), near=len(near)))
     print(page.verdict(bad) + "\n")
     print(TEXT["fits"] + "\n" + fits(whole) + "\n")
-    print(TEXT["dense"] + "\n" + fits(dense) + "\n")
+    print(TEXT["dense"] + "\n" + fits(dense) + "\n\n" + TEXT["after"])
     print(TEXT["export"] + "\n" + exports([r for r in rows if r.get("export")]) + "\n")
     print(TEXT["form"] + "\n" + atlases(rows) + "\n")
     print(TEXT["pictures"], end="")
@@ -278,6 +278,8 @@ over the size of the surface, and its own partition of unity. *across sides*: la
 """,
     "dense": """The surfaces of genus 3 need more: their one singular vertex has all of −8π, a total angle of five turns, and five turns of triangles around it with the
 coefficients of its filling ask for more than a quarter of the vertices leaves. Fitted with half as many control points as vertices:
+""",
+    "after": """They come near the limits, and miss 1e-3 by a fifth at most. Still more control points do not help `genus3`, of 1,754 vertices: of degree 3 with 1,139 control points rms is 1.2e-3 and max 1.2e-2, with 1,706 they are 1.3e-3 and 1.4e-2.
 """,
     "export": """## Patches for CAD
 
