@@ -3,13 +3,13 @@
 use super::coarse::{Coarse, Place};
 use super::similarity::Similarity;
 use crate::embed::triangle::Triangle;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::complex::{
     Complex, add, conj, cross, distance, dot, doubled_area, mul, norm2, scale, sub, unit,
 };
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex, VertexId};
-use crate::spline::knots::Around;
+use crate::spline::knots::{Around, share_of_omega};
 use crate::spline::overlap::overlaps;
 use crate::spline::{Parameter, Patch, SplineSpace, Support, multi_indices};
 use std::collections::HashMap;
@@ -24,6 +24,12 @@ const APART: f64 = std::f64::consts::FRAC_PI_2;
 /// Largest angle, in radians, that two triangles at a singular vertex and those between them may have together: others overlap each other in the plane without
 /// doing so on the surface.
 const MOST_TOGETHER: f64 = TAU - std::f64::consts::FRAC_PI_6;
+/// Factors by which the knots of a vertex are moved away, the first that every triangle at it allows.
+const WIDER: [f64; 4] = [2.5, 2.0, 1.5, 1.2];
+/// Least area of Ω over that of its triangle, after knots were moved away.
+const LEAST_OMEGA: f64 = 0.02;
+/// Ways in which triangles may reach into one: usual are 13, up to 100 near singular vertices.
+const MOST_WAYS: usize = 1000;
 /// Triangles that a walk crosses at most: steps are shorter than a triangle.
 const MOST_TRIANGLES: usize = 16;
 /// Two developments of a triangle are the same where a corner of unit triangles is less far apart.
@@ -161,7 +167,7 @@ impl SurfaceDomain {
     /// Those of [`SplineSpace::new`].
     pub fn space(&self, degree: usize, spread: f64) -> Result<SplineSpace> {
         let mesh = &self.coarse.mesh;
-        let around = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
+        let mut around = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
             let around = self.surroundings(v);
             let spread = match (self.is_flat[v], self.hole(v)) {
                 (true, _) => spread,
@@ -170,6 +176,7 @@ impl SurfaceDomain {
             };
             around.knots([0.0; 2], degree, spread)
         });
+        self.widen(&mut around);
         let mut numbers = HashMap::new();
         let patches: Vec<Patch> = mesh
             .faces()
@@ -182,8 +189,28 @@ impl SurfaceDomain {
                 Patch { chart: f.0, control: control.collect(), knots }
             })
             .collect();
-        let supports = mesh.faces().map(|f| self.supports(f, &patches)).collect();
+        let supports = mesh.faces().map(|f| self.supports(f, &patches)).collect::<Result<_>>()?;
         SplineSpace::new(degree, patches, supports)
+    }
+
+    /// Move the knots of flat vertices farther away, as long as every triangle keeps a region Ω: not all vertices need be as near as the smallest triangle
+    /// asks all its corners to be.
+    fn widen(&self, around: &mut PerVertex<Vec<Complex>>) {
+        let mesh = &self.coarse.mesh;
+        for v in mesh.vertices().filter(|&v| self.is_flat[v]) {
+            let faces: Vec<FaceId> = mesh.fan(v).into_iter().filter_map(|h| mesh.face(h)).collect();
+            for factor in WIDER {
+                let before = around[v].clone();
+                around[v].iter_mut().for_each(|p| *p = scale(factor, *p));
+                let knots = |f: FaceId| {
+                    std::array::from_fn(|k| self.in_chart(f, k, &around[mesh.face_vertices(f)[k]]))
+                };
+                if faces.iter().all(|&f| share_of_omega(&knots(f)) >= LEAST_OMEGA) {
+                    break;
+                }
+                around[v] = before;
+            }
+        }
     }
 
     /// The surroundings of a vertex, in its own plane: the unit is that of the metric, the first half-edge points along the axis.
@@ -212,12 +239,18 @@ impl SurfaceDomain {
     }
 
     /// The patches that reach into triangle f, with the maps of their charts to its own.
-    fn supports(&self, f: FaceId, patches: &[Patch]) -> Vec<Support> {
+    fn supports(&self, f: FaceId, patches: &[Patch]) -> Result<Vec<Support>> {
         let mesh = &self.coarse.mesh;
         let mut found = vec![Way { face: f, to: Similarity::IDENTITY, around: None }];
         let mut next = 0;
         while let Some(&way) = found.get(next) {
             next += 1;
+            if next > MOST_WAYS {
+                let message = format!(
+                    "its basis functions are reached in more than {MOST_WAYS} ways: triangles are too large for a thin part of the surface; take more of them"
+                );
+                return Err(Error::Spline { what: "patch", index: f.index(), message });
+            }
             for h in mesh.face_halfedges(way.face) {
                 let Some((g, across)) = self.across(h) else { continue };
                 // Of the cones at this edge, the triangle that it leads to.
@@ -263,7 +296,7 @@ impl SurfaceDomain {
             overlaps(&knots, self.corners[f], REACH)
         });
         found.sort_by_key(|way| way.face);
-        found.into_iter().map(|way| Support { patch: way.face.0, to: way.to.rows() }).collect()
+        Ok(found.into_iter().map(|way| Support { patch: way.face.0, to: way.to.rows() }).collect())
     }
 
     /// The face on the other side of a half-edge, and the map of its chart to the chart on this side; none on the boundary.

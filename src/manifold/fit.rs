@@ -2,17 +2,15 @@
 
 use super::coarse::Coarse;
 use super::domain::SurfaceDomain;
-use super::flat::{FLAT, Flat};
+use super::flat::Flat;
 use super::grade::{Grade, Miss};
-use super::sample::spread_vertices;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::Complex;
 use crate::geometry::vector::{Vector, distance, dot, sub};
-use crate::mesh::{PerVertex, VertexId};
+use crate::mesh::{Mesh, VertexId};
 use crate::metric::Surface;
-use crate::spline::{FitOptions, Hole, Parameter, Spline, SplineSpace, fit};
-use std::f64::consts::TAU;
+use crate::spline::{Fill, FitOptions, Hole, Parameter, Spline, SplineSpace, fit};
 use std::sync::Arc;
 
 /// Least number of vertices in a hole, and largest share of all vertices.
@@ -22,6 +20,8 @@ const MOST_INSIDE: f64 = 0.3;
 const WIDE: f64 = 0.9;
 /// The root of the mean squared distance that is asked for, over the largest distance.
 const RMS: f64 = 0.1;
+/// Factor of the fairness after a round that misses the mean distance asked for.
+const LESS_FAIR: f64 = 0.6;
 /// Growth of the hole's radius in the coordinate in which its vertex is a point as any other.
 const GROWTH: f64 = 1.15;
 /// Longest step of a parameter in one correction, over the longest side of its triangle.
@@ -40,7 +40,7 @@ pub struct SurfaceFitOptions {
     pub rounds: usize,
     /// Times that the places of the vertices are moved to where the spline is nearest. Default 2.
     pub corrections: usize,
-    /// [`FitOptions::fairness`]. Default 1e-10.
+    /// [`FitOptions::fairness`] of the first round; less in later ones while the mean distance is missed. Default 1e-10.
     pub fairness: f64,
     /// [`crate::spline::KnotOptions::spread`]. Default 0.9.
     pub spread: f64,
@@ -103,44 +103,58 @@ pub fn fit_surface(
         let need = "at least those of the surface, which come first";
         return Err(Error::argument("vertices of the flat metric", flat.mesh.n_vertices(), need));
     }
-    let curvature = flat.curvature()?;
-    let always: Vec<VertexId> = mesh.vertices().filter(|&v| curvature[v].abs() > FLAT).collect();
-    let turns = |&v: &VertexId| (v, (1.0 - curvature[v] / TAU).round().max(1.0) as u32);
-    let singular = always.iter().filter(|&&v| !mesh.is_boundary_vertex(v)).map(turns).collect::<Vec<_>>();
     let diagonal = diagonal(points);
     let most = options.control_points.unwrap_or(mesh.n_vertices() / 4);
-    // Of a closed surface with many triangles there are n² control points per two of these, and so per vertex.
-    let count = most / (options.degree * options.degree).max(1);
-    let mut grade = Grade::new(surface, 2 * count, &singular, control)?;
+    // Of a closed surface with many triangles there are n² control points per two of these.
+    let triangles = 2 * most / (options.degree * options.degree).max(1);
+    let inside = |turns: u32| vertices_inside(options.hole, turns, (mesh.n_vertices(), triangles));
+    let mut grade = Grade::new(surface, flat, triangles, inside, control)?;
+    let fills: usize = grade.turns().map(|turns| Fill::coefficients_for(inside(turns))).sum();
+    let count = vertices_for(most.saturating_sub(fills), mesh, options.degree);
     let mut best: Option<SurfaceFit> = None;
+    let mut fairness = options.fairness;
     for round in 0..options.rounds.max(1) {
-        let chosen = spread_vertices((mesh, surface.lengths()), &grade.sizes, &always, count, control)?;
-        let keep = PerVertex::from_fn(flat.mesh.n_vertices(), |v: VertexId| {
-            v.index() < mesh.n_vertices() && chosen[v]
-        });
-        let mut found = Round::new(SurfaceDomain::new(Coarse::new(flat, &keep, control)?)?, points, options)?;
-        for correction in 0..=options.corrections {
-            if correction > 0 {
-                found.correct(control)?;
-            }
-            found.fit(control)?;
-        }
-        found.fill_holes(control)?;
+        let keep = grade.choose(count, control)?;
+        let domain = SurfaceDomain::new(Coarse::new(flat, &keep, control)?)?;
+        let found = Round::new(domain, points, options).and_then(|round| round.run(fairness, control));
+        let found = match found {
+            Ok(found) => found,
+            // Another round has given a spline: this one cannot do better.
+            Err(Error::Spline { .. } | Error::Factorisation { .. }) if best.is_some() => break,
+            Err(error) => return Err(error),
+        };
         let misses = found.measure(control)?;
         grade.adapt(mesh, &found.triangles(&misses), (found.space.patches().len(), options.degree));
         let Some(spline) = found.spline else { continue };
         let squares: f64 = misses.iter().map(|miss| miss * miss).sum();
         let rms = (squares / points.len().max(1) as f64).sqrt() / diagonal;
         let max = misses.iter().copied().fold(0.0, f64::max) / diagonal;
-        if best.as_ref().is_none_or(|best| max < best.max) {
+        let miss = |max: f64, rms: f64| f64::max(max, rms / RMS) / options.tolerance;
+        if best.as_ref().is_none_or(|best| miss(max, rms) < miss(best.max, best.rms)) {
             let rounds = round + 1;
             best = Some(SurfaceFit { spline, domain: found.domain, places: found.places, rms, max, rounds });
         }
-        if max <= options.tolerance && rms <= RMS * options.tolerance {
+        if miss(max, rms) <= 1.0 {
             break;
+        }
+        if rms > RMS * options.tolerance {
+            fairness *= LESS_FAIR;
         }
     }
     best.ok_or_else(|| Error::argument("rounds", options.rounds, "1 or more"))
+}
+
+/// Vertices of a triangulation of this surface that has at most so many control points: of V vertices at most n²V − (n² − 1)χ, less for each edge of the boundary.
+fn vertices_for(control_points: usize, mesh: &Mesh, degree: usize) -> usize {
+    let square = (degree * degree).max(1) as i64;
+    let vertices = (control_points as i64 + (square - 1) * mesh.euler()) / square;
+    vertices.max(1) as usize
+}
+
+/// Vertices of a surface that the hole of a singular vertex with this number of turns covers: `hole` times the area of turns² triangles.
+fn vertices_inside(hole: f64, turns: u32, (vertices, triangles): (usize, usize)) -> usize {
+    let wanted = hole * f64::from(turns * turns) * vertices as f64 / triangles.max(1) as f64;
+    (wanted as usize).clamp(LEAST_INSIDE, LEAST_INSIDE.max((MOST_INSIDE * vertices as f64) as usize))
 }
 
 fn diagonal(points: &[Vector]) -> f64 {
@@ -171,17 +185,28 @@ impl<'a> Round<'a> {
         Ok(round)
     }
 
-    /// The hole around a singular vertex, wide enough that triangles beyond it are small beside their distance from the vertex.
+    /// Fit, correct, and fill the holes.
+    fn run(mut self, fairness: f64, control: &Control) -> Result<Round<'a>> {
+        for correction in 0..=self.options.corrections {
+            if correction > 0 {
+                self.correct(control)?;
+            }
+            self.fit(fairness, control)?;
+        }
+        self.fill_holes(control)?;
+        Ok(self)
+    }
+
+    /// The hole around a singular vertex: the widest with no more vertices than wanted, so that triangles beyond it are small beside their distance from the vertex.
     fn hole(&self, v: VertexId) -> Result<Hole> {
         let mut hole = self.domain.hole(v)?;
-        let wanted = self.options.hole * f64::from(hole.turns * hole.turns) * self.points.len() as f64
-            / self.space.patches().len() as f64;
-        let wanted = (wanted as usize)
-            .clamp(LEAST_INSIDE, LEAST_INSIDE.max((MOST_INSIDE * self.points.len() as f64) as usize));
+        let wanted =
+            vertices_inside(self.options.hole, hole.turns, (self.points.len(), self.space.patches().len()));
         let growth = GROWTH.powi(hole.turns as i32);
-        while self.places.iter().filter(|&&at| hole.contains(at)).count() < wanted {
+        loop {
             let wider = self.domain.wide_hole(v, growth * hole.radius)?;
-            if wider.radius <= hole.radius {
+            let inside = self.places.iter().filter(|&&at| wider.contains(at)).count();
+            if wider.radius <= hole.radius || inside > wanted {
                 break;
             }
             hole = wider;
@@ -195,8 +220,8 @@ impl<'a> Round<'a> {
     }
 
     /// The spline nearest to the points, but for those where a hole takes its place.
-    fn fit(&mut self, control: &Control) -> Result<()> {
-        let SurfaceFitOptions { fairness, threads, .. } = *self.options;
+    fn fit(&mut self, fairness: f64, control: &Control) -> Result<()> {
+        let threads = self.options.threads;
         let all = self.places.iter().copied().zip(self.points.iter().copied());
         let (places, points): (Vec<_>, Vec<_>) = all.filter(|(at, _)| !self.is_covered(*at)).unzip();
         let fitted = fit(&self.space, &places, &points, &FitOptions { fairness, threads }, control)?;

@@ -13,4 +13,3 @@ pub use coarse::{Coarse, Place};
 pub use domain::SurfaceDomain;
 pub use fit::{SurfaceFit, SurfaceFitOptions, fit_surface};
 pub use flat::{Flat, FlatOptions};
-pub use sample::spread_vertices;

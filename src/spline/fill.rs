@@ -9,7 +9,7 @@ use crate::linalg::dense::solve_definite;
 /// Most cells along a side of the square: 361 coefficients, whose dense equations take milliseconds.
 const MOST_CELLS: usize = 16;
 /// Points per coefficient.
-const POINTS: usize = 2;
+const POINTS: usize = 3;
 /// Weight of the mean square of second differences of the coefficients beside the mean square of the distances: decides where there are no points.
 const FAIRNESS: f64 = 1e-6;
 
@@ -34,6 +34,12 @@ fn basis(x: f64, cells: usize) -> (usize, [[f64; 3]; 4]) {
         [s * s * s / 6.0, 0.5 * s * s, s],
     ];
     (first, values.map(|[value, d, dd]| [value, d * per_unit, dd * per_unit * per_unit]))
+}
+
+/// The number of coefficients along a side, for so many points.
+fn side_for(points: usize) -> usize {
+    let side = ((points / POINTS) as f64).sqrt() as usize;
+    side.clamp(4, MOST_CELLS + 3)
 }
 
 impl Fill {
@@ -62,10 +68,8 @@ impl Fill {
     /// # Errors
     /// [`Error::Factorisation`] without points.
     pub fn fitted(all: &[(f64, Complex, Vector)], given: usize) -> Result<Fill> {
-        let side = ((given / POINTS) as f64).sqrt() as usize;
-        let cells = side.saturating_sub(3).clamp(1, MOST_CELLS);
-        let side = cells + 3;
-        let n = side * side;
+        let side = side_for(given);
+        let (n, cells) = (side * side, side - 3);
         let (mut matrix, mut right) = (vec![vec![0.0; n]; n], vec![vec![0.0; 3]; n]);
         let mut add = |weight: f64, row: &[(usize, f64)], point: Vector| {
             for &(i, a) in row {
@@ -95,6 +99,11 @@ impl Fill {
         }
         let coefficients = solve_definite(&matrix, &right)?.iter().map(|c| [c[0], c[1], c[2]]).collect();
         Fill::new(coefficients)
+    }
+
+    /// How many coefficients a fill of so many points has.
+    pub(crate) fn coefficients_for(points: usize) -> usize {
+        side_for(points).pow(2)
     }
 
     /// The coefficients.

@@ -155,20 +155,28 @@ pub(crate) struct Around {
 }
 
 impl Around {
-    /// The knots of a vertex at `center`, the farthest of them `spread` times the radius away.
+    /// The knots of a vertex at `center`: that itself, and others `spread` times the radius away, on lines less.
     pub fn knots(&self, center: [f64; 2], degree: usize, spread: f64) -> Vec<[f64; 2]> {
         let reach = if self.radius.is_finite() { spread * self.radius } else { 0.0 };
         let first = self.first_turn(degree);
-        let direction = |j: usize| match self.lines.split_first() {
+        // Far from each other: where two knots are near, the spline bends sharply between them.
+        let offset = |j: usize| match self.lines.split_first() {
+            _ if j == 0 => [0.0; 2],
             None => knot_direction(first, j),
             Some((along, others)) if others.iter().all(|other| is_parallel(*along, *other)) => {
-                if j.is_multiple_of(2) { *along } else { along.map(|x| -x) }
+                let side = degree.div_ceil(2);
+                let far = if j <= side {
+                    j as f64 / side as f64
+                } else {
+                    -((j - side) as f64) / (degree - side) as f64
+                };
+                along.map(|x| far * x)
             }
             Some(_) => [0.0; 2],
         };
         let knot = |j: usize| {
-            let (far, [x, y]) = (reach * j as f64 / degree as f64, direction(j));
-            [center[0] + far * x, center[1] + far * y]
+            let [x, y] = offset(j);
+            [center[0] + reach * x, center[1] + reach * y]
         };
         (0..=degree).map(knot).collect()
     }
@@ -242,6 +250,18 @@ pub(super) fn omega(knots: &[Vec<[f64; 2]>; 3]) -> Vec<[f64; 2]> {
         }
     }
     polygon
+}
+
+/// The area of Ω over that of the patch; 0 where it is empty, or three knots are clockwise.
+pub(crate) fn share_of_omega(knots: &[Vec<[f64; 2]>; 3]) -> f64 {
+    if check_knots(0, knots).is_err() {
+        return 0.0;
+    }
+    let area = |polygon: &[[f64; 2]]| -> f64 {
+        (1..polygon.len() - 1).map(|i| doubled_area([polygon[0], polygon[i], polygon[i + 1]])).sum()
+    };
+    let [a, b, c] = [&knots[0], &knots[1], &knots[2]].map(|of| of[0]);
+    area(&omega(knots)) / doubled_area([a, b, c])
 }
 
 /// The part of a convex polygon to the left of the line from a to b.
