@@ -15,7 +15,7 @@ use std::f64::consts::SQRT_2;
 use std::sync::Arc;
 
 /// Points of a patch per side at which its second derivatives are measured: enough that some lie in the strips between the knots of two vertices.
-const GRID: usize = 6;
+const GRID: usize = 8;
 /// Weight of the bending beside that of its variation: it decides where there are fewer points than quadratic polynomials need.
 const BENDING: f64 = 0.1;
 

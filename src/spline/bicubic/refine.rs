@@ -19,7 +19,7 @@ use crate::spline::surface::Spline;
 /// Most spans along a side: a spline that needs more is rough or the tolerance is near its rounding errors.
 const MOST_SPANS: usize = 64;
 /// Spans that angles between normals ask for at most: finer, folds of the spline between near knots are followed.
-const MOST_FOR_ANGLES: usize = 8;
+const MOST_FOR_ANGLES: usize = 64;
 /// Share of the tolerance that is used up: between the places of measurement distances were up to 15 % larger.
 const SHARE: f64 = 0.8;
 /// Places that are evaluated at a time: 10 MB of points.
