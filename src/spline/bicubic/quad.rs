@@ -1,6 +1,6 @@
 //! The three quadrilaterals of a triangle, and their coordinates.
 //!
-//! What stands below as s and t is a function of the coordinates σ and τ of the quadrilateral: s = σ (1 + 3 σ)/4, and t likewise.
+//! What stands below as s and t is a function of the grid's coordinates σ and τ, s = σ (1 + 3 σ)/4 and t likewise, but along sides at a singular vertex.
 //!
 //! ```text
 //!              C₂                 Quadrilateral k has the corners C_k, the middle of side k, the centroid, and the
@@ -65,13 +65,23 @@ impl Quad {
 
     /// The place of (s, t).
     pub fn place(&self, at: [f64; 2]) -> Parameter {
-        let [s, t] = at.map(|x| x * (1.0 + DENSER * x) / (1.0 + DENSER));
+        let [s, t] = self.dense(at);
         let towards = |end: usize, x: f64| add(self.ends[end], scale(x, sub(self.centroid, self.ends[end])));
         let [a, b, d] = [towards(0, t), towards(1, s), self.centroid].map(|z| self.root(z));
         let u = sub(add(scale(s, a), scale(t, b)), scale(s * t, d));
         let z = (0..self.turns).fold(self.frame, |z, _| mul(z, u));
         let [x, y] = add(self.corner, z);
         Parameter { patch: self.patch, x, y }
+    }
+
+    /// The grid's coordinates in the quadrilateral. Sides at a singular vertex stay even: |w| grows along them, whose powers would be lost beside the
+    /// corner's coordinates.
+    fn dense(&self, [s, t]: [f64; 2]) -> [f64; 2] {
+        let dense = |x: f64| x * (1.0 + DENSER * x) / (1.0 + DENSER);
+        if self.turns == 1 {
+            return [dense(s), dense(t)];
+        }
+        [(1.0 - t) * s + t * dense(s), (1.0 - s) * t + s * dense(t)]
     }
 
     /// z^{1/m}.
