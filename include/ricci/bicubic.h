@@ -49,7 +49,8 @@ typedef struct ricci_bicubic_options {
     double tolerance;
     /**
      * Largest angle between the normals of neighbouring patches beyond that between the spline's own. Patches
-     * are refined for it, but never to more than 8 spans along a side: see normal_jump_max. 0: half a degree.
+     * are refined for it, but never to more than 64 spans along a side: see normal_jump_max. 0: half a
+     * degree.
      */
     double angle;
     /** Threads, 0 for one per core; results do not depend on it. */

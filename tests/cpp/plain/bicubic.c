@@ -11,12 +11,12 @@ static ricci_bicubic_summary figures_of(const ricci_bicubic *bicubic) {
     return s;
 }
 
-/* Patches that are refined for their distance alone. */
-static ricci_bicubic *patches_near(const ricci_spline *spline, double tolerance, size_t threads) {
+static ricci_bicubic *patches_near(const ricci_spline *spline, double tolerance, double angle,
+                                   size_t threads) {
     ricci_bicubic *bicubic = NULL;
     ricci_bicubic_options options;
     INIT(options);
-    options.tolerance = tolerance, options.angle = 3, options.threads = threads;
+    options.tolerance = tolerance, options.angle = angle, options.threads = threads;
     OK(ricci_bicubic_new(spline, &options, NULL, &bicubic));
     return bicubic;
 }
@@ -145,8 +145,8 @@ static void a_torus_is_a_solid(void) {
     ricci_spline *spline = torus();
     ricci_spline_summary of;
     OK(ricci_spline_summarise(spline, &of, sizeof of));
-    ricci_bicubic *bicubic = patches_near(spline, 1e-2, 1), *same = patches_near(spline, 1e-2, 2);
-    ricci_bicubic *finer = patches_near(spline, 3e-3, 0);
+    ricci_bicubic *bicubic = patches_near(spline, 1e-2, 3, 1), *same = patches_near(spline, 1e-2, 3, 2);
+    ricci_bicubic *finer = patches_near(spline, 3e-3, 0.5, 0);
     ricci_spline_free(spline);
     const ricci_bicubic_summary s = figures_of(bicubic), t = figures_of(same), u = figures_of(finer);
     CHECK(memcmp(&s, &t, sizeof s) == 0);
@@ -156,7 +156,9 @@ static void a_torus_is_a_solid(void) {
     CHECK(s.n_control_points >= 16 * s.n_patches);
     CHECK(s.distance > 0 && s.distance <= 1e-2 && u.distance <= 3e-3 && u.distance < s.distance);
     CHECK(u.n_control_points > s.n_control_points && u.n_patches == s.n_patches);
-    CHECK(0 < s.normal_jump_mean && s.normal_jump_mean <= s.normal_jump_max && s.normal_jump_max < 1);
+    CHECK(0 < s.normal_jump_mean && s.normal_jump_mean <= s.normal_jump_max && s.normal_jump_max < 3);
+    /* Half a radian is reached with spans to spare. */
+    CHECK(u.normal_jump_max < 0.5 && u.normal_jump_max < s.normal_jump_max && u.spans_max < 64);
     CHECK(s.normal_jump_of_spline >= 0 && s.normal_jump_of_spline < 1e-6);
     step_files(bicubic, &s);
     json_files(bicubic, &s, of.fit_max + 0.02);
@@ -219,7 +221,7 @@ static void what_cannot_be_is_refused(void) {
 
 static void files_that_cannot_be_are_refused(void) {
     ricci_spline *spline = waves(4, 3, 0);
-    ricci_bicubic *bicubic = patches_near(spline, 1e-2, 1);
+    ricci_bicubic *bicubic = patches_near(spline, 1e-2, 0, 1);
     ricci_bicubic_summary s;
     ricci_step_options options;
     char text[16];
