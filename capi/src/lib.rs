@@ -36,6 +36,7 @@ mod structs;
 mod texture;
 
 pub mod atlas;
+pub mod bicubic;
 pub mod circle_domain;
 pub mod control;
 pub mod deck;

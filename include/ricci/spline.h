@@ -104,8 +104,8 @@ typedef struct ricci_spline_fit_options {
     /** Where in the spline the points belong, one place each; NULL: over their own x and y. */
     const ricci_spline_places *places;
     /**
-     * Weight of the bending energy, times the area of the domain, beside the mean squared distance; 0: 1e-12,
-     * which decides where there are few points; below 0: none.
+     * Weight of the variation of bending, times the area of the domain, beside the mean squared distance; 0:
+     * 1e-12, which decides where there are few points; below 0: none.
      */
     double fairness;
     /** Threads, 0 for one per core; results do not depend on it. */
@@ -143,9 +143,9 @@ typedef struct ricci_spline_surface_options {
      * round is made; 0: 0.01.
      */
     double tolerance;
-    /** Weight of the bending energy, as in ricci_spline_fit_options; 0: 1e-10. */
+    /** Weight of the variation of bending, as in ricci_spline_fit_options, in the first round; 0: 1e-10. */
     double fairness;
-    /** Distance of the farthest knots from their vertex, as in ricci_spline_spec; 0: a half. */
+    /** Least distance of knots from their vertex, as in ricci_spline_spec; 0: 0.9. */
     double spread;
     /** Threads, 0 for one per core; results do not depend on it. */
     size_t threads;

@@ -158,7 +158,8 @@ impl SurfaceDomain {
     }
 
     /// The triangular B-splines of a degree on this domain: their knots are in general position around flat vertices, along straight boundaries, and
-    /// coincide at corners of the boundary. `spread` as in [`crate::spline::KnotOptions`].
+    /// coincide at corners of the boundary. `spread` as in [`crate::spline::KnotOptions`]; knots of flat vertices are farther away where every triangle there
+    /// keeps a region Ω.
     ///
     /// A singular vertex whose total angle is a multiple of 2π has directions as any other, and its knots lie in general position in the core of its
     /// hole: outside that core every flat region is as in the plane, and the splines are as smooth there. At another one knots coincide.

@@ -141,7 +141,7 @@ mod tests {
         let cubic = |p: f64, q: f64| [p, p * p * q - q * q * q, 1.0 + p * q];
         let places = (0..900).map(|k| [f64::from(k % 30) / 14.5 - 1.0, f64::from(k / 30) / 14.5 - 1.0]);
         let all: Vec<_> = places.map(|[p, q]| (1.0, [p, q], cubic(p, q))).collect();
-        let fill = Fill::fitted(&all, 128).unwrap();
+        let fill = Fill::fitted(&all, 192).unwrap();
         assert_eq!(fill.coefficients().len(), 64);
         let [p, q] = [0.31, -0.62];
         let variables = [Jet([p, 1.0, 0.0, 0.0, 0.0, 0.0]), Jet([q, 0.0, 1.0, 0.0, 0.0, 0.0])];

@@ -34,8 +34,8 @@ pub struct Domain {
 /// How knots are placed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnotOptions {
-    /// Distance of the farthest knots of a vertex over the radius of the smallest circle inscribed in a triangle there; between 0 and 1,
-    /// neither included. Default [`SPREAD`].
+    /// Distance of the knots of a vertex from it over the radius of the smallest circle inscribed in a triangle there; between 0 and 1,
+    /// neither included. On a straight boundary some are nearer. Default [`SPREAD`].
     pub spread: f64,
     /// Vertices whose knots coincide, as at a corner of the boundary: basis functions end there as Bézier triangles do.
     pub coincident: Vec<u32>,

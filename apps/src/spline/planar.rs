@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// Control points per vertex of the mesh where no edge is asked for.
 const CONTROL_SHARE: f64 = 0.25;
-/// Weight of the bending energy where none is asked for.
+/// Weight of the variation of bending where none is asked for.
 const FAIRNESS: f64 = 1e-12;
 
 /// A spline whose parameters are x and y of the mesh.

@@ -10,19 +10,6 @@ static ricci_spline_summary summary_of(const ricci_spline *spline) {
     return s;
 }
 
-/* The flat metric of a closed surface: everywhere flat, or up to vertex 0. */
-static ricci_metric *flat_of(const ricci_mesh *mesh, uint32_t kind) {
-    const uint32_t vertex = 0;
-    ricci_metric *metric = NULL, *flat = NULL;
-    ricci_target target;
-    OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
-    INIT(target);
-    target.kind = kind, target.n = kind == RICCI_TARGET_SINGLE, target.vertices = &vertex;
-    OK(ricci_flow(metric, &target, NULL, NULL, &flat));
-    ricci_metric_free(metric);
-    return flat;
-}
-
 /* Radii 2 and 0.8: how far a point is from the torus. */
 static double off(const double *p) { return fabs(hypot(hypot(p[0], p[1]) - 2, p[2]) - 0.8); }
 
