@@ -12,14 +12,19 @@
 //! ```
 //!
 //! [Coo67], and bilinear in the chart. Around a singular vertex with the total angle 2πm the surface is smooth in w = z^{1/m}: there
-//! u = w, so that the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments.
+//! u = w, so that the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments. Where that patch
+//! turns over or leaves the triangle, the place is the bilinear one times (s + t − s t)^{m−1}: the same on all four sides.
 
-use crate::geometry::complex::{Complex, add, conj, distance, mul, norm, norm2, scale, sub, unit};
+use crate::geometry::complex::{Complex, add, conj, cross, distance, mul, norm, norm2, scale, sub, unit};
 use crate::spline::hole::Sector;
 use crate::spline::patch::Parameter;
 use crate::spline::space::affine;
 use crate::spline::surface::Spline;
 
+/// Cells along a side of the grid on which a Coons patch is looked at.
+const CELLS: u8 = 16;
+/// Share of a triangle by which a place on its side may lie outside: rounding.
+const INSIDE: f64 = 1e-12;
 /// A corner is the vertex of a hole where it is nearer to it than this share of its side: rounding.
 const AT_VERTEX: f64 = 1e-6;
 
@@ -39,6 +44,8 @@ pub(super) struct Quad {
     /// From the corner to the middles of the side from it and of the side to it, and to the centroid, over `frame`.
     ends: [Complex; 2],
     centroid: Complex,
+    /// Whether the Coons patch in w is taken: it may turn over, or leave the triangle, where that has a wide angle at a singular vertex.
+    is_coons: bool,
 }
 
 impl Quad {
@@ -55,7 +62,10 @@ impl Quad {
         let (turns, frame) = hole.map_or((1, [1.0, 0.0]), |hole| (hole.turns as i32, unit(next)));
         let over = |z: Complex| scale(1.0 / norm2(frame), mul(z, conj(frame)));
         let centroid = over(scale(2.0 / 3.0, add(next, last)));
-        Quad { patch: patch as u32, corner: a, frame, turns, ends: [over(next), over(last)], centroid }
+        let ends = [over(next), over(last)];
+        let quad = Quad { patch: patch as u32, corner: a, frame, turns, ends, centroid, is_coons: true };
+        let is_coons = turns == 1 || quad.is_sound();
+        Quad { is_coons, ..quad }
     }
 
     /// The patch of the spline in which it lies.
@@ -65,13 +75,40 @@ impl Quad {
 
     /// The place of (s, t).
     pub fn place(&self, at: [f64; 2]) -> Parameter {
+        let [x, y] = add(self.corner, mul(self.frame, self.local(at)));
+        Parameter { patch: self.patch, x, y }
+    }
+
+    /// The place of (s, t) from the corner, over the frame.
+    fn local(&self, at: [f64; 2]) -> Complex {
         let [s, t] = self.dense(at);
+        if !self.is_coons {
+            let [a, b, d] = [
+                scale(s * (1.0 - t), self.ends[0]),
+                scale(t * (1.0 - s), self.ends[1]),
+                scale(s * t, self.centroid),
+            ];
+            return scale((s + t - s * t).powi(self.turns - 1), add(add(a, b), d));
+        }
         let towards = |end: usize, x: f64| add(self.ends[end], scale(x, sub(self.centroid, self.ends[end])));
         let [a, b, d] = [towards(0, t), towards(1, s), self.centroid].map(|z| self.root(z));
         let u = sub(add(scale(s, a), scale(t, b)), scale(s * t, d));
-        let z = (0..self.turns).fold(self.frame, |z, _| mul(z, u));
-        let [x, y] = add(self.corner, z);
-        Parameter { patch: self.patch, x, y }
+        (1..self.turns).fold(u, |z, _| mul(z, u))
+    }
+
+    /// Whether the cells of a grid are counterclockwise and in the triangle.
+    fn is_sound(&self) -> bool {
+        let at = |i: u8, j: u8| self.local([i, j].map(|k| f64::from(k) / f64::from(CELLS)));
+        let whole = cross(self.ends[0], self.ends[1]);
+        let is_inside = |z: Complex| {
+            let [p, q] = [cross(z, self.ends[1]), cross(self.ends[0], z)].map(|x| x / whole);
+            p.min(q).min(2.0 - p - q) > -INSIDE
+        };
+        let is_upright = |i: u8, j: u8| {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            cross(sub(b, a), sub(d, a)) > 0.0 && cross(sub(d, c), sub(b, c)) > 0.0
+        };
+        (0..CELLS).all(|i| (0..CELLS).all(|j| is_upright(i, j) && is_inside(at(i + 1, j + 1))))
     }
 
     /// The grid's coordinates in the quadrilateral. Sides at a singular vertex stay even: |w| grows along them, whose powers would be lost beside the
