@@ -22,8 +22,8 @@ const BENDING: f64 = 0.1;
 /// What a fit can be asked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitOptions {
-    /// Weight of the variation of bending ∫ |D³F|² + 0.1 |D²F|², times the area of the domain, beside the mean of the squared distances; of splines of
-    /// degree 1 ∫ |DF|² takes its place. Default 1e-12: it decides where there are few points, and hardly changes a fit to many.
+    /// Weight of the variation of bending ∫ h² |D³F|² + 0.1 |D²F|², where h is the mean side of a triangle, times the area of the domain, beside the mean of
+    /// the squared distances; of splines of degree 1 ∫ |DF|² takes its place. Default 1e-12: it decides where there are few points, and hardly changes a fit to many.
     pub fairness: f64,
     /// Threads; 0 (default) is one per core. The result does not depend on it.
     pub threads: usize,
@@ -135,6 +135,8 @@ impl Equations<'_> {
         let places = |(patch, grid): (usize, &Grid)| grid.places(patch as u32);
         let places: Vec<Parameter> = grids.iter().enumerate().flat_map(places).collect();
         let area: f64 = grids.iter().map(|grid| grid.area).sum();
+        // The side of an equilateral triangle of the mean area: in its units a larger domain is as fair.
+        let side = (4.0 / 3f64.sqrt() * area / grids.len().max(1) as f64).sqrt();
         let weight = |i: usize| (fairness * area * grids[i / each].area / each as f64).sqrt();
         if self.space.degree() == 1 {
             return self.add(&places, 1, |i, jet| vec![weight(i) * jet[1], weight(i) * jet[2]]);
@@ -149,7 +151,7 @@ impl Equations<'_> {
                     let row = |k: usize| &self.rows[bending + 3 * (patch * each + k) + second];
                     // Three directions of steps measure the gradient once and a half.
                     let scaled = |factor: f64| {
-                        let factor = factor / (length * 1.5f64.sqrt());
+                        let factor = factor * side / (length * 1.5f64.sqrt());
                         move |&(control, x): &(u32, f64)| (control, factor * x)
                     };
                     let change = row(i).iter().map(scaled(1.0)).chain(row(j).iter().map(scaled(-1.0)));

@@ -68,6 +68,9 @@ fn nearest_points_are_found_everywhere() {
             assert!(found.distance <= far + 1e-12, "{found:?}");
             // Where another part of the surface is not nearer.
             if bend * far < 0.5 && found.distance > far - 1e-12 {
+                if distance(found.point, from.point) > 1e-11 {
+                    eprintln!(distance(found.point, from.point));
+                }
                 worst = worst.max(distance(found.point, from.point));
                 back += 1;
             }
