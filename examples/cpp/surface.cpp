@@ -43,12 +43,13 @@ int main(int argc, char **argv) {
         surface.tessellated(4).write("torus.obj");
         surface.write("torus.json");
 
-        // Patches that differ from the surface by a thousandth of its size, as one solid in millimetres.
+        // Patches that differ from the surface by a thousandth of its size, with normals that turn by a
+        // degree at common sides, as one solid in millimetres.
         ricci_bicubic_options asked = ricci::init<ricci_bicubic_options>();
-        asked.tolerance = 1e-3;
+        const double degrees = 45 / std::atan(1.0);
+        asked.tolerance = 1e-3, asked.angle = 1 / degrees;
         const ricci::bicubic patches(surface, asked);
         const ricci_bicubic_summary report = patches.summary();
-        const double degrees = 45 / std::atan(1.0);
         std::printf(
             "%zu bicubic patches, %zu to %zu spans a side, %zu control points, %s: off by %.1e of the "
             "diagonal, normals turn by %.2f degrees at most, %.3f on average\n",
