@@ -54,7 +54,8 @@ def vertices(path):
 def sampled(shape, point):
     """Distance from a point to 101 x 101 places of each of the eight faces whose middles are nearest: OpenCASCADE's own search may end
     at a place that is not the nearest one."""
-    surfaces = [BRep_Tool.Surface_s(TopoDS.Face_s(face)) for face in parts(shape, Kind.TopAbs_FACE)]
+    as_face = getattr(TopoDS, "Face_s", None) or TopoDS.Face  # Versions differ in the name.
+    surfaces = [BRep_Tool.Surface_s(as_face(face)) for face in parts(shape, Kind.TopAbs_FACE)]
 
     def apart(surface, s, t):
         u0, u1, v0, v1 = surface.Bounds()
