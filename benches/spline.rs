@@ -1,13 +1,16 @@
-//! Evaluation of planar splines: points per second on one core, beside the bare recurrence.
+//! Evaluation of splines, over the plane and over surfaces: points per second on one core, beside the bare recurrence.
 //!
 //! `cargo bench --bench spline`; its table is in `docs/results/bench-spline.md`. The yardstick evaluates each basis function by itself, by the recurrence
 //! of its definition ([`ricci::spline::simplex_spline`]), for the patches in whose knots' hull the point lies; both evaluate the same
-//! points in the same round, and the medians of five rounds are given.
+//! points in the same round, and the medians of five rounds are given. *Nearest points* are those
+//! to vertices of the mesh.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ricci::Control;
-use ricci::mesh::shapes::SplitMix64;
+use ricci::manifold::{Flat, FlatOptions, SurfaceFitOptions, fit_surface};
+use ricci::mesh::io::Soup;
+use ricci::mesh::shapes::{self, SplitMix64};
 use ricci::spline::{Domain, KnotOptions, Parameter, Spline, SplineSpace, multi_indices, simplex_spline};
+use ricci::{Control, Surface};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -59,7 +62,57 @@ fn bare(surface: &Spline, at: Parameter) -> [f64; 3] {
     sum
 }
 
+/// A spline over a closed surface, each patch in a chart of its own.
+fn surface(soup: &Soup, degree: usize) -> Spline {
+    let (control, surface) = (Control::new(), Surface::from_soup(soup).unwrap());
+    let flat = Flat::new(&surface, &FlatOptions::default(), &control).unwrap();
+    let options = SurfaceFitOptions { degree, rounds: 2, ..SurfaceFitOptions::default() };
+    fit_surface(&surface, &flat, &options, &control).unwrap().spline
+}
+
+/// Rows of splines over surfaces: the median of the rounds per order of derivatives.
+fn surfaces() {
+    println!(
+        "\n| surface | degree | patches | points | with first derivatives | with second | nearest points |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    let torus = shapes::torus(2.0, 0.8, 96, 48).unwrap();
+    let pretzel = shapes::genus(2, 12).unwrap();
+    for (name, soup) in [("torus", &torus), ("genus 2", &pretzel)] {
+        for degree in [3, 4] {
+            let spline = surface(soup, degree);
+            let places = places(spline.space(), &mut SplitMix64::new(1));
+            let finder = spline.closest_points(1, &Control::new()).unwrap();
+            let near = &soup.positions[..2000];
+            let mut rounds: [Vec<f64>; 4] = Default::default();
+            for _ in 0..ROUNDS {
+                for order in 0..3 {
+                    let start = Instant::now();
+                    spline.evaluate(&places, order, 1, &Control::new()).unwrap();
+                    rounds[order].push(POINTS as f64 / start.elapsed().as_secs_f64());
+                }
+                let start = Instant::now();
+                finder.find(near, 1, &Control::new()).unwrap();
+                rounds[3].push(near.len() as f64 / start.elapsed().as_secs_f64());
+            }
+            let [value, first, second, nearest] = rounds.map(|mut all| {
+                all.sort_by(f64::total_cmp);
+                all[ROUNDS / 2]
+            });
+            println!(
+                "| {name} | {degree} | {} | {value:.0} | {first:.0} | {second:.0} | {nearest:.0} |",
+                spline.space().patches().len()
+            );
+        }
+    }
+}
+
 fn main() {
+    planar();
+    surfaces();
+}
+
+fn planar() {
     println!("| degree | spread | points | with first derivatives | with second | bare recurrence | ratio |");
     println!("|---|---|---|---|---|---|---|");
     for (degree, spread) in [(1, 0.5), (2, 0.5), (3, 0.25), (3, 0.5), (3, 0.75), (4, 0.5), (5, 0.5)] {

@@ -31,6 +31,7 @@ pub mod flow;
 pub mod geometry;
 pub mod harmonic;
 pub mod linalg;
+pub mod manifold;
 pub mod mesh;
 pub mod metric;
 pub mod parallel;

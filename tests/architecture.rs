@@ -21,6 +21,7 @@ const FLOORS: &[&[&str]] = &[
     &["matching"],
     &["structure"],
     &["spline"],
+    &["manifold"],
 ];
 /// The one arrow that points up: the error type carries a mesh's diagnosis.
 const EXCEPTION: (&str, &str) = ("error", "mesh::check::Diagnosis");

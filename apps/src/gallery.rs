@@ -20,7 +20,7 @@ const BESIDE: &str = include_str!("gallery_beside.md");
 struct Row {
     name: &'static str,
     source: Source,
-    /// `flow …`, `uniformize …`, `cover …`, `circles …`, `harmonic …`, `forms …`, `structure …` or `info …`, or such commands with ` && ` between them, of which the last one draws; for
+    /// `flow …`, `uniformize …`, `cover …`, `circles …`, `harmonic …`, `forms …`, `structure …`, `spline …` or `info …`, or such commands with ` && ` between them, of which the last one draws; for
     /// what `make` draws itself nothing.
     draw: &'static str,
     about: &'static str,

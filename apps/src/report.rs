@@ -22,6 +22,12 @@ impl Figures {
     }
 
     /// The same, where there is a value.
+    /// These figures, then others.
+    pub fn and(mut self, others: &Figures) -> Figures {
+        self.0.extend(others.0.iter().cloned());
+        self
+    }
+
     pub fn if_some(self, name: &'static str, value: Option<impl Into<Value>>) -> Figures {
         match value {
             Some(value) => self.with(name, value),

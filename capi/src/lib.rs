@@ -36,6 +36,7 @@ mod structs;
 mod texture;
 
 pub mod atlas;
+pub mod bicubic;
 pub mod circle_domain;
 pub mod control;
 pub mod deck;
@@ -59,6 +60,7 @@ pub mod spline;
 pub mod spline_file;
 pub mod spline_fit;
 pub mod spline_places;
+pub mod spline_surface;
 pub mod status;
 pub mod structure;
 pub mod structure_parts;

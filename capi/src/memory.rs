@@ -33,6 +33,10 @@ pub const FIT: usize = 1 << 12;
 pub const TEXT: usize = 1 << 5;
 /// That a patch takes while the text of its spline is made: 8,430 of degree 5.
 pub const SPLINE_TEXT: usize = 1 << 14;
+/// That a patch of a spline takes while bicubic patches are made, beside the points of a batch: 13,400 with 8 spans a side.
+pub const BICUBIC: usize = 1 << 14;
+/// That a control point of bicubic patches takes while their text is made: 520 as STEP.
+pub const BICUBIC_TEXT: usize = 1 << 10;
 
 /// That a patch of a spline takes: 4,700 bytes of degree 1 to 68,800 of degree 5.
 pub fn patch(degree: usize) -> usize {

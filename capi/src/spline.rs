@@ -31,12 +31,14 @@ enum Part {
     ControlPoints,
     Knots,
     Abscissas,
+    Holes,
 }
 
 choices!(PARTS: Part = "which", [
     RICCI_SPLINE_CONTROL_POINTS => Part::ControlPoints,
     RICCI_SPLINE_KNOTS => Part::Knots,
     RICCI_SPLINE_ABSCISSAS => Part::Abscissas,
+    RICCI_SPLINE_HOLES => Part::Holes,
 ]);
 
 #[repr(C)]
@@ -65,6 +67,7 @@ pub struct ricci_spline_summary {
     pub n_control_points: usize,
     pub fit_rms: f64,
     pub fit_max: f64,
+    pub n_holes: usize,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_spline_summary, "summary");
@@ -192,6 +195,7 @@ pub unsafe extern "C" fn ricci_spline_summarise(
             n_control_points: space.n_control_points(),
             fit_rms,
             fit_max,
+            n_holes: spline.holes().len(),
         };
         structs::write(figures, summary, size)
     })
@@ -209,6 +213,10 @@ pub unsafe extern "C" fn ricci_spline_values(
         match PARTS.choose(which)? {
             Part::ControlPoints => copy_out("control points", spline.control_points(), values, capacity),
             Part::Abscissas => copy_out("abscissas", &space.abscissas(), values, capacity),
+            Part::Holes => {
+                let holes = spline.holes().iter().map(|hole| [f64::from(hole.turns), hole.radius]);
+                copy_out("holes", &holes.collect::<Vec<_>>(), values, capacity)
+            }
             Part::Knots => {
                 let knots = space.patches().iter().flat_map(|patch| patch.knots.concat());
                 copy_out("knots", &knots.collect::<Vec<_>>(), values, capacity)

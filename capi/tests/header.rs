@@ -12,6 +12,7 @@ const HEADERS: &[(&str, usize)] = &[
     ("circles", 10),
     ("harmonic", 20),
     ("spline", 20),
+    ("bicubic", 10),
     ("structure", 20),
     ("repair", 20),
     ("shapes", 10),

@@ -50,12 +50,15 @@ def judged(call, *paths):
         return getattr(CHECK, call)(*paths)
 
 
-def run(folder, *arguments):
-    """The report of a command and its exit code, or None and what it says."""
+def run(folder, *arguments, seconds=None):
+    """The report of a command and its exit code, or None and what it says; it is stopped after so many seconds."""
     report = os.path.join(folder, "report.json")
     if os.path.exists(report):
         os.remove(report)
-    done = subprocess.run([ricci, *arguments, "--quiet", "--report", report], capture_output=True, text=True)
+    try:
+        done = subprocess.run([ricci, *arguments, "--quiet", "--report", report], capture_output=True, text=True, timeout=seconds)
+    except subprocess.TimeoutExpired:
+        return None, f"stopped after {seconds} s"
     return (json.load(open(report)), done.returncode) if os.path.exists(report) else (None, done.stderr.strip())
 
 

@@ -1,4 +1,4 @@
-/* ricci: triangular B-splines over the plane.
+/* ricci: triangular B-splines over the plane, and over whole surfaces.
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
  *
@@ -31,7 +31,12 @@ enum {
     /** n_patches x 3 x (degree + 1) x 2: for each corner of a patch its knots, the corner first. */
     RICCI_SPLINE_KNOTS = 1,
     /** n_control_points x 2: over which points of the plane the control points of a height field lie. */
-    RICCI_SPLINE_ABSCISSAS = 2
+    RICCI_SPLINE_ABSCISSAS = 2,
+    /**
+     * n_holes x 2: of each hole around a singular vertex, with a filling in place of the spline, the total
+     * angle there in turns, and the radius in the unit of the flat metric.
+     */
+    RICCI_SPLINE_HOLES = 3
 };
 
 /** What a spline has at a place. */
@@ -99,8 +104,8 @@ typedef struct ricci_spline_fit_options {
     /** Where in the spline the points belong, one place each; NULL: over their own x and y. */
     const ricci_spline_places *places;
     /**
-     * Weight of the bending energy, times the area of the domain, beside the mean squared distance; 0: 1e-12,
-     * which decides where there are few points; below 0: none.
+     * Weight of the variation of bending, times the area of the domain, beside the mean squared distance; 0:
+     * 1e-12, which decides where there are few points; below 0: none.
      */
     double fairness;
     /** Threads, 0 for one per core; results do not depend on it. */
@@ -123,7 +128,36 @@ typedef struct ricci_spline_summary {
     double fit_rms;
     /** The largest such distance. */
     double fit_max;
+    /** Number of holes around singular vertices. */
+    size_t n_holes;
 } ricci_spline_summary;
+
+/** What ricci_spline_fit_surface can be asked; zeros are the defaults. */
+typedef struct ricci_spline_surface_options {
+    /** sizeof(ricci_spline_surface_options), by ricci_init. */
+    size_t size;
+    /** Number of control points, at most; 0: a quarter of the vertices. */
+    size_t control_points;
+    /**
+     * Largest distance of a vertex from the spline over the diagonal of the bounding box at which no further
+     * round is made; 0: 0.01.
+     */
+    double tolerance;
+    /** Weight of the variation of bending, as in ricci_spline_fit_options, in the first round; 0: 1e-10. */
+    double fairness;
+    /** Least distance of knots from their vertex, as in ricci_spline_spec; 0: 0.9. */
+    double spread;
+    /** Threads, 0 for one per core; results do not depend on it. */
+    size_t threads;
+    /** 1 to 5; 0: 3. */
+    uint32_t degree;
+    /** Times that the sizes of the triangles are adapted to the errors; 0: 6. */
+    uint32_t rounds;
+    /** Times that vertices are moved to where the spline is nearest; 0: 2; below 0: none. */
+    int32_t corrections;
+    /** 0. */
+    uint32_t reserved;
+} ricci_spline_surface_options;
 
 /**
  * Triangles inside polygons, as the domain of a spline: a mesh in the plane z = 0.
@@ -209,6 +243,24 @@ RICCI_API ricci_status ricci_spline_fit(const ricci_spline *spline, const double
                                         ricci_spline **fitted);
 
 /**
+ * A spline over a whole surface, near its vertices. A patch is a triangle of the flat metric, in a chart of
+ * its own; around singular vertices, whose total angle is a multiple of a turn, a filling takes the place of
+ * the spline.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a metric that is not Euclidean, or
+ *         has curvatures that are no multiple of a turn, a surface without positions), RICCI_SPLINE,
+ *         RICCI_FACTORISATION, RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param flat     a metric of the plane that ricci_flow has made flat: up to a single vertex, or everywhere.
+ * @param options  degree and sizes; NULL for the defaults.
+ * @param control  progress and cancellation, or NULL.
+ * @param fitted   out: the new handle, to be released by ricci_spline_free.
+ */
+RICCI_API ricci_status ricci_spline_fit_surface(const ricci_metric *flat,
+                                                const ricci_spline_surface_options *options,
+                                                const ricci_control *control, ricci_spline **fitted);
+
+/**
  * Release a spline.
  *
  * @param spline  the handle, or NULL.
@@ -284,6 +336,24 @@ RICCI_API ricci_status ricci_spline_locate(const ricci_spline *spline, const dou
 RICCI_API ricci_status ricci_spline_evaluate(const ricci_spline *spline, const ricci_spline_places *places,
                                              uint32_t which, const ricci_control *control, double *values,
                                              size_t capacity);
+
+/**
+ * For points in space the nearest ones of the surface, many at a time, in parallel.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a point that is not finite:
+ * its number; a spline without patches), RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param spline    the spline.
+ * @param points    n x 3.
+ * @param n         number of points.
+ * @param control   progress and cancellation, or NULL.
+ * @param patches   out: for each point the patch of the nearest one, n of them.
+ * @param values    out: n x 6: x and y in the patch's chart, the nearest point, and how far it is.
+ * @param capacity  entries of `values`.
+ */
+RICCI_API ricci_status ricci_spline_closest(const ricci_spline *spline, const double *points, size_t n,
+                                            const ricci_control *control, uint32_t *patches, double *values,
+                                            size_t capacity);
 
 /**
  * The polar form, or blossom, of the polynomial that the surface is in the middle of a patch: symmetric,

@@ -29,6 +29,13 @@ inline mesh spline_domain(const lists<double> &corners, double edge) {
         make<ricci_mesh>(ricci_spline_domain, corners.entries.data(), starts.data(), corners.size(), edge));
 }
 
+// The nearest points of a spline to points in space.
+struct closest_points {
+    std::vector<std::uint32_t> patches;
+    // For each point x and y in the patch's chart, the nearest point, and how far it is.
+    std::vector<double> values;
+};
+
 using spline_handle = owned<ricci_spline, ricci_spline_free>;
 
 // A spline surface.
@@ -44,6 +51,13 @@ public:
     }
     static spline parse(const std::string &text) {
         return spline(make<ricci_spline>(ricci_spline_parse, text.c_str()));
+    }
+    // Near the vertices of a whole surface, on a flat metric of it.
+    static spline
+    of_surface(const metric &flat,
+               const ricci_spline_surface_options &options = init<ricci_spline_surface_options>(),
+               const control *watched = nullptr) {
+        return spline(make<ricci_spline>(ricci_spline_fit_surface, flat.get(), &options, of(watched)));
     }
     void write(const std::string &path) const { check(ricci_spline_write(handle_, path.c_str())); }
     std::string text() const {
@@ -97,6 +111,14 @@ public:
         places.patches = patches.data(), places.parameters = parameters.data();
         places.n = parameters.size() / 2;
         return ricci::values<double>(ricci_spline_evaluate, get(), &places, which, of(watched));
+    }
+    // The nearest points to these, 3 coordinates each.
+    closest_points closest(span<double> points, const control *watched = nullptr) const {
+        const std::size_t n = points.size() / 3;
+        closest_points found{std::vector<std::uint32_t>(n), std::vector<double>(6 * n)};
+        check(ricci_spline_closest(handle_, points.data(), n, of(watched), found.patches.data(),
+                                   found.values.data(), 6 * n));
+        return found;
     }
     std::array<double, 3> blossom(std::size_t patch, span<double> arguments) const {
         std::array<double, 3> point{};

@@ -25,7 +25,7 @@ pub mod quality;
 pub mod shape;
 pub mod sides;
 pub mod steps;
-mod triangle;
+pub(crate) mod triangle;
 pub mod unroll;
 mod walk;
 

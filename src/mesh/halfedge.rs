@@ -195,6 +195,13 @@ impl Mesh {
         std::iter::successors(Some(start), turn)
     }
 
+    /// The outgoing half-edges that have a face, counterclockwise; on the boundary from one boundary edge to the last before the other.
+    pub fn fan(&self, v: VertexId) -> Vec<HalfedgeId> {
+        let mut fan: Vec<HalfedgeId> = self.outgoing(v).filter(|&h| !self.is_outside(h)).collect();
+        fan.reverse();
+        fan
+    }
+
     /// Whether the half-edge lies outside the surface.
     #[inline]
     pub fn is_outside(&self, h: HalfedgeId) -> bool {
@@ -262,6 +269,11 @@ impl Mesh {
             self.face[sides[k].index()] = f.0;
         }
         self.first[f.index()] = sides[0].0;
+    }
+
+    /// Let a half-edge of a boundary loop be followed by another one.
+    pub(super) fn set_next(&mut self, h: HalfedgeId, next: HalfedgeId) {
+        self.next[h.index()] = next.0;
     }
 
     /// Let a half-edge start elsewhere.

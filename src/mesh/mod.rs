@@ -23,6 +23,7 @@ pub mod io;
 mod join;
 pub mod normal;
 pub mod normal_trace;
+pub mod remove;
 pub mod repair;
 pub mod shapes;
 pub(crate) mod union_find;
@@ -37,6 +38,7 @@ pub use halfedge::Mesh;
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use normal::NormalCoordinates;
 pub use normal_trace::Curves;
+pub use remove::{Thinned, Thinning};
 
 /// A point of space, `[x, y, z]`.
 pub type Point = [f64; 3];

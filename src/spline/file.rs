@@ -4,6 +4,8 @@
 //! `knots[k][j]` is t_{k,j} in the patch's chart, `control` is in the order of [`super::multi_indices`], and `supports[I]` has each patch
 //! that reaches into I with the affine map from its chart to I's.
 
+use super::fill::Fill;
+use super::hole::{Hole, Sector};
 use super::patch::{Patch, Support};
 use super::space::SplineSpace;
 use super::surface::Spline;
@@ -25,8 +27,8 @@ struct Document {
     patches: Vec<PatchEntry>,
     supports: Vec<Vec<SupportEntry>>,
     control_points: Vec<Vector>,
-    /// Null: planar splines have no hole.
-    hole: Option<serde_json::Value>,
+    /// Null where there is none, as in the plane.
+    hole: Option<Vec<HoleEntry>>,
 }
 
 #[derive(Deserialize)]
@@ -42,6 +44,21 @@ struct SupportEntry {
     to: [[f64; 3]; 2],
 }
 
+#[derive(Deserialize)]
+struct HoleEntry {
+    turns: u32,
+    radius: f64,
+    sectors: Vec<SectorEntry>,
+    coefficients: Vec<Vector>,
+}
+
+#[derive(Deserialize)]
+struct SectorEntry {
+    patch: u32,
+    angle: f64,
+    to: [[f64; 3]; 2],
+}
+
 impl Spline {
     /// The text of the spline's file. Numbers are read back as they were: a spline has finite ones alone, whose [`Debug`](std::fmt::Debug)
     /// text is JSON.
@@ -51,13 +68,24 @@ impl Spline {
             format!("{{\"chart\":{chart},\"knots\":{knots:?},\"control\":{control:?}}}")
         };
         let support = |Support { patch, to }: &Support| format!("{{\"patch\":{patch},\"to\":{to:?}}}");
+        let sector = |Sector { patch, angle, to }: &Sector| {
+            format!("{{\"patch\":{patch},\"angle\":{angle:?},\"to\":{to:?}}}")
+        };
+        let hole = |Hole { sectors, turns, radius, fill }: &Hole| {
+            let sectors = list(sectors.iter().map(sector));
+            let coefficients = fill.as_ref().map_or(&[][..], Fill::coefficients);
+            format!(
+                "{{\"turns\":{turns},\"radius\":{radius:?},\"sectors\":{sectors},\"coefficients\":{coefficients:?}}}"
+            )
+        };
         let supports = |of: &Vec<Support>| list(of.iter().map(support));
         format!(
-            "{{\"format\":{FORMAT:?},\"degree\":{},\"patches\":{},\"supports\":{},\"control_points\":{:?},\"hole\":null}}\n",
+            "{{\"format\":{FORMAT:?},\"degree\":{},\"patches\":{},\"supports\":{},\"control_points\":{:?},\"hole\":{}}}\n",
             space.degree(),
             list(space.patches().iter().map(patch)),
             list(space.supports().iter().map(supports)),
             self.control_points(),
+            if self.holes().is_empty() { "null".into() } else { list(self.holes().iter().map(hole)) },
         )
     }
 
@@ -74,16 +102,19 @@ impl Spline {
             let message = format!("format is {:?}, this version reads {FORMAT:?}", document.format);
             return Err(parse(At::Whole, message));
         }
-        if document.hole.is_some() {
-            return Err(parse(At::Whole, "a spline with a hole, which this version does not read".into()));
-        }
         let patch = |p: PatchEntry| Patch { chart: p.chart, knots: p.knots, control: p.control };
         let support = |s: SupportEntry| Support { patch: s.patch, to: s.to };
         let patches = document.patches.into_iter().map(patch).collect();
         let supports =
             document.supports.into_iter().map(|of| of.into_iter().map(support).collect()).collect();
         let space = SplineSpace::new(document.degree, patches, supports)?;
-        Spline::new(Arc::new(space), document.control_points)
+        let sector = |s: SectorEntry| Sector { patch: s.patch, angle: s.angle, to: s.to };
+        let hole = |h: HoleEntry| {
+            let sectors = h.sectors.into_iter().map(sector).collect();
+            Hole::new(sectors, h.turns, h.radius)?.filled_by(&space, Fill::new(h.coefficients)?)
+        };
+        let holes = document.hole.unwrap_or_default().into_iter().map(hole).collect::<Result<_>>()?;
+        Ok(Spline::new(Arc::new(space), document.control_points)?.with_holes(holes))
     }
 
     /// Read a spline file.

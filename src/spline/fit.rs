@@ -1,12 +1,12 @@
 //! Least-squares fits of splines to points with given parameters.
 
-use super::patch::Parameter;
+use super::patch::{Parameter, Patch};
 use super::recurrence::{Jet, Scratch};
 use super::space::SplineSpace;
 use super::surface::Spline;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result, check_size};
-use crate::geometry::complex::doubled_area;
+use crate::geometry::complex::{Complex, distance as between, doubled_area};
 use crate::geometry::vector::{Vector, distance};
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use crate::parallel::{self, Pool};
@@ -14,15 +14,16 @@ use sprs::{CsMat, TriMat};
 use std::f64::consts::SQRT_2;
 use std::sync::Arc;
 
-/// Points of a patch per side at which its bending is measured: second derivatives of quartic pieces vary little in between.
-const BENDING_POINTS: usize = 3;
+/// Points of a patch per side at which its second derivatives are measured: enough that some lie in the strips between the knots of two vertices.
+const GRID: usize = 8;
+/// Weight of the bending beside that of its variation: it decides where there are fewer points than quadratic polynomials need.
+const BENDING: f64 = 0.1;
 
 /// What a fit can be asked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitOptions {
-    /// Weight of the bending energy ∫ |D²F|², times the area of the domain, beside the mean of the squared distances; of splines of degree
-    /// 1 ∫ |DF|² takes its place. Default 1e-12: it decides where there are few points, and hardly
-    /// changes a fit to many.
+    /// Weight of the variation of bending ∫ h² |D³F|² + 0.1 |D²F|², where h is the mean side of a triangle, times the area of the domain, beside the mean of
+    /// the squared distances; of splines of degree 1 ∫ |DF|² takes its place. Default 1e-12: it decides where there are few points, and hardly changes a fit to many.
     pub fairness: f64,
     /// Threads; 0 (default) is one per core. The result does not depend on it.
     pub threads: usize,
@@ -73,7 +74,7 @@ pub fn fit(
         equations.add(places, 0, |_, jet| vec![share * jet[0]])?;
         if fairness > 0.0 {
             control.step(Stage::Flow, 0.3)?;
-            equations.bend(fairness)?;
+            equations.make_fair(fairness)?;
         }
         control.step(Stage::Flow, 0.6)?;
         let matrix = equations.matrix();
@@ -127,31 +128,42 @@ impl Equations<'_> {
         Ok(())
     }
 
-    /// The bending energy, times its weight and the area of the domain, as equations with the right-hand side 0.
-    fn bend(&mut self, fairness: f64) -> Result<()> {
-        let k = BENDING_POINTS;
-        let (mut places, mut shares) = (Vec::new(), Vec::new());
-        for (at, patch) in self.space.patches().iter().enumerate() {
-            let corners = [0, 1, 2].map(|k| patch.knots[k][0]);
-            let share = 0.5 * doubled_area([corners[0], corners[1], corners[2]]) / (k * k) as f64;
-            // Centres of the k² triangles into which the patch is divided.
-            for (i, j) in (0..k).flat_map(|i| (0..2 * (k - i) - 1).map(move |j| (i, j))) {
-                let third = (1 + j % 2) as f64 / 3.0;
-                let [s, t] = [i, j / 2].map(|cell| (cell as f64 + third) / k as f64);
-                let [x, y] =
-                    [0, 1].map(|x| (1.0 - s - t) * corners[0][x] + s * corners[1][x] + t * corners[2][x]);
-                places.push(Parameter { patch: at as u32, x, y });
-                shares.push(share);
+    /// The fairness energy, times its weight and the area of the domain, as equations with the right-hand side 0.
+    fn make_fair(&mut self, fairness: f64) -> Result<()> {
+        let grids: Vec<Grid> = self.space.patches().iter().map(Grid::new).collect();
+        let each = GRID * (GRID + 1) / 2;
+        let places = |(patch, grid): (usize, &Grid)| grid.places(patch as u32);
+        let places: Vec<Parameter> = grids.iter().enumerate().flat_map(places).collect();
+        let area: f64 = grids.iter().map(|grid| grid.area).sum();
+        // The side of an equilateral triangle of the mean area: in its units a larger domain is as fair.
+        let side = (4.0 / 3f64.sqrt() * area / grids.len().max(1) as f64).sqrt();
+        let weight = |i: usize| (fairness * area * grids[i / each].area / each as f64).sqrt();
+        if self.space.degree() == 1 {
+            return self.add(&places, 1, |i, jet| vec![weight(i) * jet[1], weight(i) * jet[2]]);
+        }
+        let bending = self.rows.len();
+        self.add(&places, 2, |i, jet| {
+            vec![weight(i) * jet[3], weight(i) * SQRT_2 * jet[4], weight(i) * jet[5]]
+        })?;
+        for (patch, grid) in grids.iter().enumerate() {
+            for ([i, j], length) in grid.steps() {
+                for second in 0..3 {
+                    let row = |k: usize| &self.rows[bending + 3 * (patch * each + k) + second];
+                    // Three directions of steps measure the gradient once and a half.
+                    let scaled = |factor: f64| {
+                        let factor = factor * side / (length * 1.5f64.sqrt());
+                        move |&(control, x): &(u32, f64)| (control, factor * x)
+                    };
+                    let change = row(i).iter().map(scaled(1.0)).chain(row(j).iter().map(scaled(-1.0)));
+                    let change = change.collect();
+                    self.rows.push(change);
+                }
             }
         }
-        let area: f64 = shares.iter().sum();
-        let weight = |i: usize| (fairness * area * shares[i]).sqrt();
-        match self.space.degree() {
-            1 => self.add(&places, 1, |i, jet| vec![weight(i) * jet[1], weight(i) * jet[2]]),
-            _ => self.add(&places, 2, |i, jet| {
-                vec![weight(i) * jet[3], weight(i) * SQRT_2 * jet[4], weight(i) * jet[5]]
-            }),
-        }
+        let share = BENDING.sqrt();
+        let bending = &mut self.rows[bending..][..3 * places.len()];
+        bending.iter_mut().flatten().for_each(|(_, x)| *x *= share);
+        Ok(())
     }
 
     /// Equations × control points; a control point that an equation names twice has the sum of its factors.
@@ -161,6 +173,49 @@ impl Equations<'_> {
             row.iter().for_each(|&(control, x)| triplets.add_triplet(i, control as usize, x));
         }
         triplets.to_csr()
+    }
+}
+
+/// Points of a patch at which its second derivatives are measured: the centres of those of its GRID² equal triangles that lie as the patch does.
+struct Grid {
+    corners: [Complex; 3],
+    area: f64,
+}
+
+impl Grid {
+    fn new(patch: &Patch) -> Grid {
+        let corners = [0, 1, 2].map(|k| patch.knots[k][0]);
+        Grid { corners, area: 0.5 * doubled_area(corners) }
+    }
+
+    /// Rows from the first side to the third corner, each from left to right.
+    fn places(&self, patch: u32) -> Vec<Parameter> {
+        let [a, b, c] = self.corners;
+        let cells = (0..GRID).flat_map(|row| (0..GRID - row).map(move |cell| (cell, row)));
+        let place = |(cell, row): (usize, usize)| {
+            let [s, t] = [cell, row].map(|at| (at as f64 + 1.0 / 3.0) / GRID as f64);
+            let [x, y] = [0, 1].map(|x| (1.0 - s - t) * a[x] + s * b[x] + t * c[x]);
+            Parameter { patch, x, y }
+        };
+        cells.map(place).collect()
+    }
+
+    /// The pairs of neighbours among these places, by their numbers, with their distances.
+    fn steps(&self) -> Vec<([usize; 2], f64)> {
+        let [a, b, c] = self.corners;
+        let [along, up, back] = [between(a, b), between(a, c), between(b, c)].map(|x| x / GRID as f64);
+        let mut steps = Vec::new();
+        let mut at = 0;
+        for row in 0..GRID {
+            let wide = GRID - row;
+            for _ in 1..wide {
+                let above = at + wide;
+                steps.extend([([at, at + 1], along), ([at, above], up), ([at + 1, above], back)]);
+                at += 1;
+            }
+            at += 1;
+        }
+        steps
     }
 }
 

@@ -1,12 +1,12 @@
 //! How well a spline space keeps the identities of triangular B-splines, measured.
 
-use super::patch::{Parameter, Patch};
+use super::patch::{Parameter, Patch, Support};
+use super::point::SurfacePoint;
 use super::space::SplineSpace;
 use super::surface::Spline;
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::complex::{distance, doubled_area};
-use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Points of a patch at which sums are taken, in barycentric coordinates: near corners, near sides and inside.
@@ -22,6 +22,8 @@ const PLACES: [[f64; 3]; 7] = [
 /// Height of a knot over the line of a side, over the patch's own height, below which the knot counts as lying on it: rounding.
 const ON_LINE: f64 = 1e-9;
 
+/// Places less far apart than this share of a side are the same: rounding of the maps between charts.
+const SAME_PLACE: f64 = 1e-9;
 /// Least size of derivatives of order k to which jumps are compared, as a share of the surface's extent over h^k, with the height h of the thinnest
 /// patch: rounding leaves jumps of up to 2e-12 of that, in a plane too.
 const FLAT: f64 = 1e-3;
@@ -34,15 +36,15 @@ pub struct Identities {
     /// Of the polynomial (x + y)^n, in coordinates from −1 to 1 over each chart, relative to the largest value; none where patches lie in
     /// several charts, which have no polynomials in common.
     pub polynomial_reproduction: Option<f64>,
-    /// Jump of the derivatives of order min(n − 1, 2) across sides of patches, of the control points' own surface, over the largest such
-    /// derivative there, or what counts as flat; across sides on whose line no more than two knots of the ends lie.
+    /// Jump of the derivatives of order min(n − 1, 2) across sides of patches, of the control points' own surface in one chart of both, over the largest
+    /// such derivative there, or what counts as flat; across sides on whose line no more than two knots of the ends lie.
     pub continuity: f64,
     /// How many sides between patches have more knots on their line: the spline is less smooth there.
     pub rough_sides: usize,
 }
 
 impl Spline {
-    /// The identities, measured at seven places of each patch and at the middle of each side between two patches of one chart.
+    /// The identities, measured at seven places of each patch, but for the cores of holes, and at the middle of each side between two patches.
     ///
     /// # Errors
     /// Those of [`Spline::evaluate`].
@@ -50,6 +52,7 @@ impl Spline {
         let space = self.space();
         let places: Vec<Parameter> = (0..space.patches().len())
             .flat_map(|patch| PLACES.map(|weights| place(space, patch, weights)))
+            .filter(|&at| !self.holes().iter().any(|hole| hole.is_core(at)))
             .collect();
         let ones = Spline::new(space.clone(), vec![[1.0, 0.0, 0.0]; space.n_control_points()])?;
         let sums = ones.evaluate(&places, 0, threads, control)?;
@@ -58,23 +61,27 @@ impl Spline {
         let polynomial_reproduction =
             one_chart.then(|| reproduction(space, &places, threads, control)).transpose()?;
         let Sides { beside, rough } = Sides::of(space);
+        let is_open = |side: &Side| !self.holes().iter().any(|hole| hole.is_core(side.places[0]));
+        let beside: Vec<Side> = beside.into_iter().filter(is_open).collect();
         let continuity = self.jump(&beside, threads, control)?;
         Ok(Identities { partition_of_unity, polynomial_reproduction, continuity, rough_sides: rough })
     }
 
-    /// Largest jump between the two places of each pair: each patch is evaluated at the limit from its inside.
-    fn jump(&self, beside: &[Parameter], threads: usize, control: &Control) -> Result<f64> {
+    /// Largest jump between the two places of each side: each patch is evaluated at the limit from its inside.
+    fn jump(&self, beside: &[Side], threads: usize, control: &Control) -> Result<f64> {
         let order = (self.space().degree() - 1).min(2);
-        let found = self.evaluate(beside, order, threads, control)?;
+        let bare = Spline::new(self.space().clone(), self.control_points().to_vec())?;
+        let places: Vec<Parameter> = beside.iter().flat_map(|side| side.places).collect();
+        let found = bare.evaluate(&places, order, threads, control)?;
         let (mut jump, mut largest) = (0.0f64, 0.0f64);
-        for pair in found.chunks_exact(2) {
-            let [a, b] = [&pair[0], &pair[1]].map(|at| match order {
+        for (side, pair) in beside.iter().zip(found.chunks_exact(2)) {
+            let [a, b] = [side.pulled_back(&pair[0]), pair[1]].map(|at| match order {
                 0 => at.point.to_vec(),
                 1 => at.first.concat(),
                 _ => at.second.concat(),
             });
             jump = a.iter().zip(&b).map(|(x, y)| (x - y).abs()).fold(jump, f64::max);
-            largest = a.iter().map(|x| x.abs()).fold(largest, f64::max);
+            largest = b.iter().map(|x| x.abs()).fold(largest, f64::max);
         }
         let flat = FLAT * self.extent() / self.space().least_height().powi(order as i32);
         let largest = largest.max(flat);
@@ -136,40 +143,84 @@ fn reproduction(
     Ok(worst / largest)
 }
 
-/// The sides between two patches of one chart.
+/// A side between two patches.
+struct Side {
+    /// Its middle, as a point of either patch.
+    places: [Parameter; 2],
+    /// The linear part of the map from the second patch's chart to that of the first.
+    linear: [[f64; 2]; 2],
+}
+
+impl Side {
+    /// Derivatives in the first patch's chart as they are in the second's.
+    fn pulled_back(&self, at: &SurfacePoint) -> SurfacePoint {
+        let [[a, b], [c, d]] = self.linear;
+        let [x, y] = at.first;
+        let [xx, xy, yy] = at.second;
+        let sum = |terms: &[(f64, [f64; 3])]| {
+            std::array::from_fn(|k| terms.iter().map(|(factor, v)| factor * v[k]).sum())
+        };
+        SurfacePoint {
+            point: at.point,
+            first: [sum(&[(a, x), (c, y)]), sum(&[(b, x), (d, y)])],
+            second: [
+                sum(&[(a * a, xx), (2.0 * a * c, xy), (c * c, yy)]),
+                sum(&[(a * b, xx), (a * d + b * c, xy), (c * d, yy)]),
+                sum(&[(b * b, xx), (2.0 * b * d, xy), (d * d, yy)]),
+            ],
+        }
+    }
+}
+
+/// The sides between two patches.
 struct Sides {
-    /// Two places each, the middle as a point of either patch, of those across which the spline is as smooth as its degree allows.
-    beside: Vec<Parameter>,
+    /// Those across which the spline is as smooth as its degree allows.
+    beside: Vec<Side>,
     /// How many others there are.
     rough: usize,
 }
 
 impl Sides {
     fn of(space: &SplineSpace) -> Sides {
-        let mut open: HashMap<(u32, [u64; 4]), Parameter> = HashMap::new();
         let mut sides = Sides { beside: Vec::new(), rough: 0 };
         for (at, patch) in space.patches().iter().enumerate() {
-            for k in 0..3 {
-                let [i, j, across] = [k, (k + 1) % 3, (k + 2) % 3];
-                let [a, b, c] = [i, j, across].map(|k| patch.knots[k][0]);
-                let mut weights = [0.5; 3];
-                weights[across] = 0.0;
-                let here = place(space, at, weights);
-                let bits = |a: [f64; 2], b: [f64; 2]| [a[0], a[1], b[0], b[1]].map(f64::to_bits);
-                let Some(there) = open.remove(&(patch.chart, bits(b, a))) else {
-                    open.insert((patch.chart, bits(a, b)), here);
-                    continue;
-                };
-                let knots = patch.knots[i].iter().chain(&patch.knots[j]);
-                let on_line =
-                    |&&p: &&[f64; 2]| doubled_area([p, a, b]).abs() < ON_LINE * doubled_area([a, b, c]);
-                if knots.filter(on_line).count() > 2 {
-                    sides.rough += 1;
-                } else {
-                    sides.beside.extend([here, there]);
+            let corners = [0, 1, 2].map(|k| patch.knots[k][0]);
+            for support in &space.supports()[at] {
+                let Support { patch: beyond, to: [[a, b, x], [c, d, y]] } = *support;
+                let over = |[u, v]: [f64; 2]| [a * u + b * v + x, c * u + d * v + y];
+                let there = [0, 1, 2].map(|k| over(space.patches()[beyond as usize].knots[k][0]));
+                for (k, j) in (0..9).map(|i| (i / 3, i % 3)) {
+                    let ends = [corners[k], corners[(k + 1) % 3]];
+                    let near = SAME_PLACE * distance(ends[0], ends[1]);
+                    let is_same = |p: [f64; 2], q: [f64; 2]| distance(p, q) < near;
+                    // Each side once, from the patch with the lower number, or the lower side of one patch.
+                    let is_first = (at, k) < (beyond as usize, j);
+                    if is_first && is_same(there[j], ends[1]) && is_same(there[(j + 1) % 3], ends[0]) {
+                        let middles = [place(space, at, middle(k)), place(space, beyond as usize, middle(j))];
+                        sides.add(space, k, Side { places: middles, linear: [[a, b], [c, d]] });
+                    }
                 }
             }
         }
         sides
     }
+
+    /// Side k of the first patch.
+    fn add(&mut self, space: &SplineSpace, k: usize, side: Side) {
+        let knots = &space.patches()[side.places[0].patch as usize].knots;
+        let [a, b, c] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| knots[k][0]);
+        let on_line = |&&p: &&[f64; 2]| doubled_area([p, a, b]).abs() < ON_LINE * doubled_area([a, b, c]);
+        if knots[k].iter().chain(&knots[(k + 1) % 3]).filter(on_line).count() > 2 {
+            self.rough += 1;
+        } else {
+            self.beside.push(side);
+        }
+    }
+}
+
+/// The middle of side k in barycentric coordinates.
+fn middle(k: usize) -> [f64; 3] {
+    let mut weights = [0.5; 3];
+    weights[(k + 2) % 3] = 0.0;
+    weights
 }

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::geometry::complex::{cross, distance, dot, doubled_area, sub};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
 /// Knots lie no farther from their vertex than this share of the smallest distance at which Ω of a triangle at the vertex could vanish:
 /// the radius of its inscribed circle. Far knots make a spline smoother to look at, near ones make more points need one patch alone.
@@ -14,6 +15,8 @@ const STRAIGHT: f64 = 1e-9;
 /// Part of the smallest side over which three knots of a patch must be apart from a line, so that barycentric coordinates in them keep
 /// ten digits.
 const LEAST_HEIGHT: f64 = 1e-5;
+/// Sizes that patches may have in their charts: products of doubled areas stay in the range of doubles.
+const SIZES: RangeInclusive<f64> = 1e-60..=1e60;
 /// Turn from one knot of a vertex to the next, in turns: the golden section, whose multiples are as far apart as can be.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 /// How many directions of a vertex's first knot are compared.
@@ -31,8 +34,8 @@ pub struct Domain {
 /// How knots are placed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnotOptions {
-    /// Distance of the farthest knots of a vertex over the radius of the smallest circle inscribed in a triangle there; between 0 and 1,
-    /// neither included. Default [`SPREAD`].
+    /// Distance of the knots of a vertex from it over the radius of the smallest circle inscribed in a triangle there; between 0 and 1,
+    /// neither included. On a straight boundary some are nearer. Default [`SPREAD`].
     pub spread: f64,
     /// Vertices whose knots coincide, as at a corner of the boundary: basis functions end there as Bézier triangles do.
     pub coincident: Vec<u32>,
@@ -142,30 +145,38 @@ impl Domain {
 
 /// What the knots of a vertex have to keep clear of, and to keep to.
 #[derive(Debug, Clone)]
-struct Around {
+pub(crate) struct Around {
     /// Of the smallest circle inscribed in a triangle at the vertex; infinite without triangles.
-    radius: f64,
+    pub radius: f64,
     /// Directions of its edges.
-    edges: Vec<[f64; 2]>,
+    pub edges: Vec<[f64; 2]>,
     /// Directions of the lines on which its knots have to lie.
-    lines: Vec<[f64; 2]>,
+    pub lines: Vec<[f64; 2]>,
 }
 
 impl Around {
-    /// The knots of a vertex at `center`, the farthest of them `spread` times the radius away.
-    fn knots(&self, center: [f64; 2], degree: usize, spread: f64) -> Vec<[f64; 2]> {
+    /// The knots of a vertex at `center`: that itself, and others `spread` times the radius away, on lines less.
+    pub fn knots(&self, center: [f64; 2], degree: usize, spread: f64) -> Vec<[f64; 2]> {
         let reach = if self.radius.is_finite() { spread * self.radius } else { 0.0 };
         let first = self.first_turn(degree);
-        let direction = |j: usize| match self.lines.split_first() {
+        // Far from each other: where two knots are near, the spline bends sharply between them.
+        let offset = |j: usize| match self.lines.split_first() {
+            _ if j == 0 => [0.0; 2],
             None => knot_direction(first, j),
             Some((along, others)) if others.iter().all(|other| is_parallel(*along, *other)) => {
-                if j.is_multiple_of(2) { *along } else { along.map(|x| -x) }
+                let side = degree.div_ceil(2);
+                let far = if j <= side {
+                    j as f64 / side as f64
+                } else {
+                    -((j - side) as f64) / (degree - side) as f64
+                };
+                along.map(|x| far * x)
             }
             Some(_) => [0.0; 2],
         };
         let knot = |j: usize| {
-            let (far, [x, y]) = (reach * j as f64 / degree as f64, direction(j));
-            [center[0] + far * x, center[1] + far * y]
+            let [x, y] = offset(j);
+            [center[0] + reach * x, center[1] + reach * y]
         };
         (0..=degree).map(knot).collect()
     }
@@ -210,9 +221,11 @@ pub(super) fn check_knots(patch: usize, knots: &[Vec<[f64; 2]>; 3]) -> Result<()
         for (b, &q) in knots[1].iter().enumerate() {
             for (c, &r) in knots[2].iter().enumerate() {
                 let longest = distance(p, q).max(distance(q, r)).max(distance(r, p));
-                if doubled_area([p, q, r]) < LEAST_HEIGHT * longest * longest {
+                let twice_area = doubled_area([p, q, r]);
+                if !(twice_area >= LEAST_HEIGHT * longest * longest && SIZES.contains(&longest)) {
                     return refuse(format!(
-                        "its knots t[0][{a}], t[1][{b}], t[2][{c}] are clockwise or on a line; move knots nearer to their vertices"
+                        "its knots t[0][{a}], t[1][{b}], t[2][{c}] are clockwise or on a line, or not between 1e-60 and 1e60 apart; move \
+                         knots nearer to their vertices, or scale the chart"
                     ));
                 }
             }
@@ -237,6 +250,18 @@ pub(super) fn omega(knots: &[Vec<[f64; 2]>; 3]) -> Vec<[f64; 2]> {
         }
     }
     polygon
+}
+
+/// The area of Ω over that of the patch; 0 where it is empty, or three knots are clockwise.
+pub(crate) fn share_of_omega(knots: &[Vec<[f64; 2]>; 3]) -> f64 {
+    if check_knots(0, knots).is_err() {
+        return 0.0;
+    }
+    let area = |polygon: &[[f64; 2]]| -> f64 {
+        (1..polygon.len() - 1).map(|i| doubled_area([polygon[0], polygon[i], polygon[i + 1]])).sum()
+    };
+    let [a, b, c] = [&knots[0], &knots[1], &knots[2]].map(|of| of[0]);
+    area(&omega(knots)) / doubled_area([a, b, c])
 }
 
 /// The part of a convex polygon to the left of the line from a to b.

@@ -41,13 +41,18 @@ pub(super) fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [[f64; 2
     })
 }
 
-/// Whether the convex hull of the knots of one patch touches the triangle of another: no side of either separates them.
+/// Whether the convex hull of the knots of one patch touches the triangle of another.
 fn touches(reaching: &Patch, of: &Patch) -> bool {
-    let knots = reaching.knots.concat();
-    let corners = [0, 1, 2].map(|k| of.knots[k][0]);
-    let is_beyond =
-        |a: [f64; 2], b: [f64; 2], points: &[[f64; 2]]| points.iter().all(|&p| doubled_area([p, a, b]) < 0.0);
-    let by_triangle = (0..3).any(|k| is_beyond(corners[k], corners[(k + 1) % 3], &knots));
+    overlaps(&reaching.knots.concat(), [0, 1, 2].map(|k| of.knots[k][0]), 0.0)
+}
+
+/// Whether the convex hull of some points overlaps a triangle: no side of either separates them. What counts as separated is outside by more than `slack`
+/// (a doubled area) inwards; with 0, what touches overlaps.
+pub(crate) fn overlaps(knots: &[[f64; 2]], corners: [[f64; 2]; 3], slack: f64) -> bool {
+    let is_beyond = |a: [f64; 2], b: [f64; 2], points: &[[f64; 2]]| {
+        points.iter().all(|&p| doubled_area([p, a, b]) < slack)
+    };
+    let by_triangle = (0..3).any(|k| is_beyond(corners[k], corners[(k + 1) % 3], knots));
     let by_hull = || {
         let pairs = knots.iter().flat_map(|&a| knots.iter().map(move |&b| [a, b]));
         let is_side =

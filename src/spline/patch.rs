@@ -5,6 +5,7 @@ pub(super) const IDENTITY: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 /// A point may be outside its patch by this share of it: rounding of coordinates that were computed elsewhere.
 pub(super) const OUTSIDE: f64 = 1e-9;
+
 /// One triangle of a spline.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Patch {
@@ -14,6 +15,13 @@ pub struct Patch {
     pub knots: [Vec<[f64; 2]>; 3],
     /// The control point of each basis function, in the order of [`super::multi_indices`].
     pub control: Vec<u32>,
+}
+
+impl Patch {
+    /// Its corners, counterclockwise in its chart.
+    pub fn corners(&self) -> [[f64; 2]; 3] {
+        [0, 1, 2].map(|k| self.knots[k][0])
+    }
 }
 
 /// A patch with a basis function that does not vanish inside another one, or that touches it.

@@ -256,6 +256,12 @@ fn backwards(of: usize, support: &Support, n_patches: usize) -> Result<Option<[[
         return refuse(format!("the map from patch {} turns the plane over, or is no map", support.patch));
     }
     let back = [[e, -b, b * f - e * c], [-d, a, d * c - a * f]].map(|row| row.map(|x| x / det));
+    if !back.iter().flatten().all(|x| x.is_finite()) {
+        return refuse(format!(
+            "the map from patch {} has no inverse in the range of doubles",
+            support.patch
+        ));
+    }
     Ok((support.to != IDENTITY).then_some(back))
 }
 

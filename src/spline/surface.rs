@@ -1,50 +1,60 @@
 //! Spline surfaces: points, derivatives, curvatures.
 
+use super::hole::Hole;
 use super::index::{multi_indices, position};
 use super::knots::omega;
 use super::patch::Parameter;
+use super::point::SurfacePoint;
 use super::recurrence::Scratch;
 use super::space::SplineSpace;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::doubled_area;
-use crate::geometry::vector::{self, Vector};
+use crate::geometry::vector::Vector;
 use crate::parallel::{self, Pool};
 use std::sync::Arc;
 
 /// Points that are evaluated between two looks at whether the caller has cancelled.
 const BATCH: usize = 1 << 16;
 
+/// Largest size of a coordinate: squares of distances stay finite.
+pub(super) const LARGEST: f64 = 1e150;
+
 /// A surface: a spline space with a control point in space for each basis function.
 #[derive(Debug, Clone)]
 pub struct Spline {
     space: Arc<SplineSpace>,
     control_points: Vec<Vector>,
-}
-
-/// A point of a surface with its derivatives by the coordinates (x, y) of the chart.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfacePoint {
-    /// The point.
-    pub point: Vector,
-    /// First derivatives: by x, by y.
-    pub first: [Vector; 2],
-    /// Second derivatives: xx, xy, yy.
-    pub second: [Vector; 3],
+    holes: Vec<Hole>,
 }
 
 impl Spline {
     /// A surface from its control points.
     ///
     /// # Errors
-    /// [`Error::Size`]; [`Error::Spline`] for a control point that is not finite.
+    /// [`Error::Size`]; [`Error::Spline`] for a control point that is not finite, or has a coordinate above 1e150 in size.
     pub fn new(space: Arc<SplineSpace>, control_points: Vec<Vector>) -> Result<Spline> {
         check_size("control points", control_points.len(), space.n_control_points())?;
-        if let Some(at) = control_points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-            let message = "a coordinate is no finite number".into();
+        if let Some(at) = control_points.iter().position(|p| !p.iter().all(|x| x.abs() <= LARGEST)) {
+            let message = "a coordinate is no finite number, or above 1e150".into();
             return Err(Error::Spline { what: "control point", index: at, message });
         }
-        Ok(Spline { space, control_points })
+        Ok(Spline { space, control_points, holes: Vec::new() })
+    }
+
+    /// The same surface with the surroundings of singular vertices replaced by what fills them.
+    pub fn with_holes(self, holes: Vec<Hole>) -> Spline {
+        Spline { holes, ..self }
+    }
+
+    /// The holes around singular vertices, with what fills them.
+    pub fn holes(&self) -> &[Hole] {
+        &self.holes
+    }
+
+    /// Whether a hole's filling has a part in the surface at a place.
+    pub fn is_in_hole(&self, at: Parameter) -> bool {
+        self.holes.iter().any(|hole| hole.fill.is_some() && hole.contains(at))
     }
 
     /// The basis.
@@ -87,21 +97,22 @@ impl Spline {
         if order > 2 {
             return Err(Error::argument("order of derivatives", order, "0, 1 or 2"));
         }
-        Pool::new(threads)?.run(|| {
-            let mut found = Vec::with_capacity(places.len());
-            for batch in places.chunks(BATCH) {
-                control.step(Stage::Layout, found.len() as f64 / places.len() as f64)?;
-                let mut points = vec![Ok(SurfacePoint::default()); batch.len()];
-                parallel::fill_with(&mut points, Scratch::default, |scratch, i| {
-                    self.at(batch[i], order, scratch)
-                });
-                found.extend(points.into_iter().collect::<Result<Vec<_>>>()?);
-            }
-            Ok(found)
-        })
+        in_batches((places, BATCH), threads, control, |scratch, &place| self.at(place, order, scratch))
     }
 
-    fn at(&self, at: Parameter, order: usize, scratch: &mut Scratch) -> Result<SurfacePoint> {
+    pub(super) fn at(&self, at: Parameter, order: usize, scratch: &mut Scratch) -> Result<SurfacePoint> {
+        let found = self.unfilled(at, order, scratch)?;
+        let filled = self.holes.iter().find_map(|hole| hole.surface(at, &found));
+        Ok(filled.map_or(found, |filled| filled.cut(order)))
+    }
+
+    /// The spline without what fills its holes.
+    pub(super) fn unfilled(
+        &self,
+        at: Parameter,
+        order: usize,
+        scratch: &mut Scratch,
+    ) -> Result<SurfacePoint> {
         let mut sums = [[0.0; 3]; 6];
         let terms = [1, 3, 6][order];
         self.space.each(at, order, scratch, |control, jet| {
@@ -153,31 +164,21 @@ impl Spline {
     }
 }
 
-impl Default for SurfacePoint {
-    fn default() -> Self {
-        SurfacePoint { point: [0.0; 3], first: [[0.0; 3]; 2], second: [[0.0; 3]; 3] }
-    }
-}
-
-impl SurfacePoint {
-    /// The unit normal, to the side from which the chart is seen counterclockwise; none where the first derivatives are parallel.
-    pub fn normal(&self) -> Option<Vector> {
-        let across = vector::cross(self.first[0], self.first[1]);
-        let length = vector::norm(across);
-        (length > 0.0).then(|| across.map(|x| x / length))
-    }
-
-    /// The principal curvatures, the larger one first, positive where the surface bends towards its normal; none without a normal.
-    pub fn principal_curvatures(&self) -> Option<[f64; 2]> {
-        let normal = self.normal()?;
-        let [x, y] = self.first;
-        let [e, f, g] = [vector::dot(x, x), vector::dot(x, y), vector::dot(y, y)];
-        let [l, m, n] = self.second.map(|d| vector::dot(d, normal));
-        let det = e * g - f * f;
-        let mean = 0.5 * (e * n - 2.0 * f * m + g * l) / det;
-        let gauss = (l * n - m * m) / det;
-        let half = (mean * mean - gauss).max(0.0).sqrt();
-        let curvatures = [mean + half, mean - half];
-        curvatures.iter().all(|k| k.is_finite()).then_some(curvatures)
-    }
+/// `work(memory, &all[i])` for every i, in parallel, with a look at the control after every `size` of them.
+pub(super) fn in_batches<A: Sync, T: Send>(
+    (all, size): (&[A], usize),
+    threads: usize,
+    control: &Control,
+    work: impl Fn(&mut Scratch, &A) -> Result<T> + Sync,
+) -> Result<Vec<T>> {
+    Pool::new(threads)?.run(|| {
+        let mut done = Vec::with_capacity(all.len());
+        for batch in all.chunks(size) {
+            control.step(Stage::Layout, done.len() as f64 / all.len() as f64)?;
+            let mut found: Vec<Option<Result<T>>> = batch.iter().map(|_| None).collect();
+            parallel::fill_with(&mut found, Scratch::default, |scratch, i| Some(work(scratch, &batch[i])));
+            done.extend(found.into_iter().flatten().collect::<Result<Vec<_>>>()?);
+        }
+        Ok(done)
+    })
 }

@@ -91,7 +91,7 @@ impl Spline {
 }
 
 /// The triangles of n² equal parts of a triangle, by the numbers of their corners in [`multi_indices`] of n.
-fn triangles(n: usize) -> Vec<[usize; 3]> {
+pub(super) fn triangles(n: usize) -> Vec<[usize; 3]> {
     let at = |row: usize, k: usize| row * (row + 1) / 2 + k;
     let mut all = Vec::with_capacity(n * n);
     for row in 0..n {

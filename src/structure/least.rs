@@ -13,7 +13,7 @@ const FIRST: usize = 48;
 /// Most steps to neighbours after that.
 const STEPS: usize = 32;
 
-/// The vertex at which the whole curvature 2πχ of a closed surface distorts areas least by the linearised flow.
+/// The vertex inside a surface at which its whole curvature 2πχ, its boundary straight, distorts areas least by the linearised flow.
 ///
 /// The conformal factor that the flow would find solves, to first order, `L u = K̄ − K` with the cotangent Laplacian of the surface, and
 /// its area-weighted variance measures the distortion: 0 if all areas change alike. One factorisation serves all vertices. The best of 48
@@ -49,7 +49,7 @@ pub fn least_distorting_vertex(domain: &Domain, control: &Control) -> Result<Ver
     let mut seen = PerVertex::filled(mesh.n_vertices(), false);
     let (mut best, mut least) = (VertexId(0), f64::INFINITY);
     for _ in 0..STEPS {
-        tried.retain(|&v| !std::mem::replace(&mut seen[v], true));
+        tried.retain(|&v| !mesh.is_boundary_vertex(v) && !std::mem::replace(&mut seen[v], true));
         let before = least;
         for (&v, variance) in tried.iter().zip(variances(&tried)?) {
             if variance < least {

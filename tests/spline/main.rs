@@ -2,9 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
+mod bicubic;
+mod closed;
+mod closest;
 #[path = "../common/mod.rs"]
 mod common;
 mod exact;
+#[cfg(feature = "json")]
+mod files;
 mod fit;
 mod knots;
 mod smooth;

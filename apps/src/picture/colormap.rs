@@ -12,6 +12,8 @@ pub enum Ramp {
     BlueRed,
     /// For pairs of classes, k for hue k/4 and shade k mod 4: ColorBrewer's Set2 \[HB03\], four of its colours.
     Pairs,
+    /// Light and dark stripes in turn, [`STRIPES`] of them.
+    Stripes,
 }
 
 const VIRIDIS: [u32; 10] =
@@ -25,6 +27,9 @@ const HUES: [u32; 4] = [0x66c2a5, 0xfc8d62, 0x8da0cb, 0xe78ac3];
 const SHADES: [f64; 4] = [0.0, 0.42, 0.64, 0.22];
 /// Hues, and shades of each, of [`Ramp::Pairs`].
 pub const CLASSES: usize = 4;
+/// Stripes of [`Ramp::Stripes`]: over half a turn each takes 10 degrees.
+pub const STRIPES: usize = 18;
+const STRIPE_COLORS: [u32; 2] = [0xf7f7f2, 0x22303f];
 /// What has no value.
 pub const NO_VALUE: Rgb = [0.4; 3];
 /// The ends of a range are these percentiles of the data: a few extreme values do not take all the colours.
@@ -44,6 +49,10 @@ impl Ramp {
             Ramp::Pairs => {
                 let k = (t.clamp(0.0, 1.0) * (CLASSES * CLASSES - 1) as f64).round() as usize;
                 return mix(from_hex(HUES[k / CLASSES]), [1.0; 3], SHADES[k % CLASSES]);
+            }
+            Ramp::Stripes => {
+                let k = ((t.clamp(0.0, 1.0) * STRIPES as f64) as usize).min(STRIPES - 1);
+                return from_hex(STRIPE_COLORS[k % 2]);
             }
         };
         let x = t.clamp(0.0, 1.0) * (table.len() - 1) as f64;
@@ -85,6 +94,11 @@ impl Scale {
     pub fn of_pairs(title: &str, ends: &str) -> Scale {
         let range = [0.0, (CLASSES * CLASSES - 1) as f64];
         Scale { title: title.into(), ramp: Ramp::Pairs, range, ends: ends.into() }
+    }
+
+    /// For stripes of equal width over a range.
+    pub fn of_stripes(title: &str, range: [f64; 2], ends: &str) -> Scale {
+        Scale { title: title.into(), ramp: Ramp::Stripes, range, ends: ends.into() }
     }
 
     /// Where a value lies on the map, in [0, 1]; what is no number lies nowhere (NaN).
@@ -204,6 +218,19 @@ mod tests {
             let table = scale.table(40);
             assert_eq!(table[(scale.place(k as f64) * 39.0 + 0.5) as usize], of(k));
         }
+    }
+
+    #[test]
+    fn stripes_alternate_and_are_equally_wide() {
+        let scale = Scale::of_stripes("", [0.0, 180.0], "");
+        let of = |x: f64| scale.ramp.color(scale.place(x));
+        let wide = 180.0 / STRIPES as f64;
+        for k in 1..STRIPES {
+            let edge = k as f64 * wide;
+            assert_eq!(of(edge + 0.01), of(edge + wide - 0.01), "{k}");
+            assert!((of(edge - 0.01)[0] - of(edge + 0.01)[0]).abs() > 0.5, "{k}");
+        }
+        assert_eq!(of(180.0), of(179.9));
     }
 
     #[test]

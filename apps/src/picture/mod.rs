@@ -30,7 +30,7 @@ mod upright;
 mod vector;
 
 pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom, zoom};
-pub use camera::View;
+pub use camera::{Camera, View};
 pub use colormap::{CLASSES, Scale};
 pub use drawing::{Area, Drawing, Frame, Label, Line, PALE, Pattern, TINTS, tint_color};
 pub use region::{FINEST, cells, in_pieces, outline};

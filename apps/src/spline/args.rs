@@ -1,23 +1,42 @@
 //! The options of `ricci spline`.
 
-use crate::options::{Common, FileName, number, positive};
-use crate::picture::SurfacePictureArgs;
-use clap::{Args, Subcommand};
+use crate::options::{Common, FileName, choices, number, positive};
+use crate::picture::PictureArgs;
+use crate::uniform::CornersChoice;
+use clap::{Args, Subcommand, ValueEnum};
+use ricci::structure::AffineSource;
 use serde::Serialize;
 use std::path::PathBuf;
 
 pub const HELP: &str = "\
+Example: a smooth cubic surface of genus 2 with one singular vertex, and a picture of it with its control net
+    ricci make genus -o two.obj
+    ricci spline fit two.obj --degree 3 -o two.json --report two_fit.json
+    ricci spline eval two.json --picture two.png --wire --net
+
 Example: a smooth cubic surface through the heights of a mesh, some of its points with derivatives, and a fine mesh of it
     ricci make disk --height 0.3 -o hill.obj
     ricci spline fit hill.obj --planar --degree 3 -o hill.json --report fit.json
     ricci spline eval hill.json --at places.csv --derivatives -o points.csv
     ricci spline eval hill.json --tessellate 4 -o fine.obj
+    ricci spline eval hill.json --closest scan.csv -o nearest.csv
     ricci spline eval hill.json --picture hill.png --wire --color curvature
+    ricci spline eval hill.json --picture lines.png --color reflection
+    ricci spline export hill.json -o hill.step --tolerance 1e-3
 
 --picture draws --tessellate N x N triangles per patch, or 12 x 12; --wire draws the sides of the patches, and colours show the Gaussian
-curvature of the surface itself.
+curvature of the surface itself, or reflection lines: stripes by the angle between the reflected view and the horizontal of the picture.
+They have no gaps where normals are continuous, and no corners where curvatures are.
 
-places.csv has rows patch,x,y: a triangle of the spline, numbered from 0, and a place in it, in the coordinates of its chart.
+places.csv has rows patch,x,y: a triangle of the spline, numbered from 0, and a place in it, in the coordinates of its chart. Its
+points are the sums of the basis functions. Around singular vertices, where a filling takes their place, a column `hole` says 1; with --filled
+rows have the points of the surface with its fillings, as everything else has.
+
+scan.csv has rows x,y,z. For each of these points the nearest one of the surface is written: x,y,z,patch,u,v,X,Y,Z,distance, where u,v is
+its place in the chart of the patch.
+
+export writes bicubic B-spline patches, three to a triangle, that share their edges: a solid where the surface is closed, else a shell.
+--tolerance is over the diagonal of the bounding box; patches that must turn sharply to keep it fail the check `normal_jump`.
 
 The spline file says all that is needed to evaluate it (`ricci-spline 1`): knots and control points of each triangle, and which others
 reach into it.";
@@ -34,6 +53,8 @@ pub enum SplineCommand {
     Fit(FitArgs),
     /// Points, derivatives and triangles of a spline
     Eval(EvalArgs),
+    /// Bicubic patches near a spline, for CAD
+    Export(ExportArgs),
 }
 
 #[derive(Args, Serialize, Debug)]
@@ -44,23 +65,53 @@ pub struct FitArgs {
     /// Write the spline
     #[arg(short = 'o', long = "out", value_name = "S.json")]
     pub out: FileName,
-    /// Take x and y of the mesh as parameters: it must lie over the plane z = 0 without folds
-    #[arg(long, required = true)]
-    pub planar: bool,
     /// Degree of the spline, 1 to 5
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=5))]
     pub degree: u8,
-    /// Edge of the domain's triangles, in units of the mesh [default: so that there are about a quarter as many control points as vertices]
-    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    /// Weight of the variation of bending beside the mean squared distance [default: 1e-10, 1e-12 with --planar]
+    #[arg(long, value_name = "W", value_parser = not_negative)]
+    #[serde(skip)]
+    pub fairness: Option<f64>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub whole: WholeArgs,
+    /// Take x and y of the mesh as parameters: it must lie over the plane z = 0 without folds
+    #[arg(long, conflicts_with_all = ["tolerance", "control_points", "atlas", "singular", "corners"])]
+    pub planar: bool,
+    /// With --planar, edge of the domain's triangles, in units of the mesh [default: so that there are about a quarter as many control
+    /// points as vertices]
+    #[arg(long, value_name = "LENGTH", value_parser = positive, requires = "planar")]
     #[serde(skip)]
     pub edge: Option<f64>,
-    /// Weight of the bending energy beside the mean squared distance
-    #[arg(long, value_name = "W", default_value_t = 1e-12, value_parser = not_negative)]
-    pub fairness: f64,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,
 }
+
+/// A spline over a whole surface.
+#[derive(Args, Serialize, Debug)]
+pub struct WholeArgs {
+    /// Largest distance of a vertex from the spline, in diagonals of the bounding box; where it is missed the exit code is 1
+    #[arg(long, value_name = "T", default_value_t = 0.01, value_parser = positive)]
+    pub tolerance: f64,
+    /// Most control points [default: a quarter as many as vertices]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control_points: Option<u32>,
+    /// Where the affine structure comes from: the flow to one singular vertex, or a holomorphic 1-form with 2g − 2
+    #[arg(long, value_enum, default_value_t = AtlasChoice::Flow)]
+    pub atlas: AtlasChoice,
+    /// The singular vertex (numbered from 0) [default: where areas are distorted least]
+    #[arg(long, value_name = "VERTEX")]
+    #[serde(skip)]
+    pub singular: Option<u32>,
+    /// Corners of the boundary of a disk, V,V,…, with right angles or V:ANGLE in degrees [default: four]
+    #[arg(long, value_name = "V,V,…")]
+    #[serde(skip)]
+    pub corners: Option<CornersChoice>,
+}
+
+choices!(AtlasChoice = AffineSource { Flow, Form });
 
 #[derive(Args, Serialize, Debug)]
 pub struct EvalArgs {
@@ -70,6 +121,13 @@ pub struct EvalArgs {
     /// Points at these places: rows patch,x,y in the chart of the patch
     #[arg(long, value_name = "Q.csv", conflicts_with = "tessellate", requires = "out")]
     pub at: Option<FileName>,
+    /// Rows of --at are those of the surface with the fillings of its holes
+    #[arg(long, requires = "at")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub filled: bool,
+    /// The nearest points of the surface to these: rows x,y,z
+    #[arg(long, value_name = "P.csv", conflicts_with_all = ["at", "tessellate"], requires = "out")]
+    pub closest: Option<FileName>,
     /// Add first and second derivatives, normal and principal curvatures to the rows
     #[arg(long, requires = "at")]
     pub derivatives: bool,
@@ -81,7 +139,11 @@ pub struct EvalArgs {
     pub out: Option<FileName>,
     #[command(flatten)]
     #[serde(flatten)]
-    pub picture: SurfacePictureArgs,
+    pub picture: PictureArgs,
+    /// Show a quantity in colours
+    #[arg(long, value_enum, value_name = "QUANTITY", requires = "picture")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<SurfaceColor>,
     /// Draw the control net over the surface
     #[arg(long, requires = "picture")]
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -89,6 +151,45 @@ pub struct EvalArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,
+}
+
+/// Quantities that a picture of a spline shows in colours.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+pub enum SurfaceColor {
+    /// Gaussian curvature
+    Curvature,
+    /// Reflections of light lines at infinity: as smooth as the normals
+    Reflection,
+    None,
+}
+
+#[derive(Args, Serialize, Debug)]
+pub struct ExportArgs {
+    /// Spline file
+    #[serde(skip)]
+    pub spline: PathBuf,
+    /// Write the patches: STEP AP242 (.step, .stp), or plain JSON (.json)
+    #[arg(short = 'o', long = "out", value_name = "OUT")]
+    pub out: FileName,
+    /// Largest distance from the spline, over the diagonal of its bounding box
+    #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = positive)]
+    pub tolerance: f64,
+    /// The unit of the coordinates, which STEP files say
+    #[arg(long, value_enum, value_name = "UNIT", default_value = "mm")]
+    pub unit: Unit,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+pub enum Unit {
+    /// Millimetres
+    Mm,
+    /// Metres
+    M,
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {

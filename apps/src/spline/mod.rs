@@ -1,10 +1,14 @@
-//! `ricci spline`: triangular B-splines fitted, evaluated, drawn as triangles.
+//! `ricci spline`: triangular B-splines fitted, evaluated, drawn as triangles, handed to CAD.
 
 mod args;
 mod eval;
+mod export;
 mod fit;
+mod found;
 mod height_field;
 mod picture;
+mod planar;
+mod whole;
 
 pub use args::{HELP, SplineArgs};
 
@@ -17,5 +21,6 @@ pub fn run(args: &SplineArgs, control: &Control) -> Result<u8, Failure> {
     match &args.command {
         SplineCommand::Fit(args) => fit::fit(args, control),
         SplineCommand::Eval(args) => eval::eval(args, control),
+        SplineCommand::Export(args) => export::export(args, control),
     }
 }

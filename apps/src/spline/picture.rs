@@ -1,8 +1,8 @@
 //! Pictures of spline surfaces.
 
-use super::args::EvalArgs;
+use super::args::{EvalArgs, SurfaceColor};
 use crate::failure::Failure;
-use crate::picture::{Field, Picture, Scale, Style, Surface, png};
+use crate::picture::{Camera, Field, Picture, Scale, Style, Surface, Texture, png};
 use ricci::Control;
 use ricci::mesh::io::Soup;
 use ricci::spline::{Parameter, Spline, SurfacePoint, multi_indices};
@@ -14,14 +14,13 @@ const SIDES: usize = 12;
 const SIDE: usize = 0;
 const NET: usize = 2;
 
-/// The surface with what was asked for: sides of patches, control net, Gaussian curvature.
+/// The surface with what was asked for: sides of patches, control net, a quantity.
 pub fn draw(spline: &Spline, args: &EvalArgs, control: &Control) -> Result<Vec<u8>, Failure> {
     let sides = args.tessellate.map_or(SIDES, usize::from);
     let threads = args.common.threads;
     let soup = spline.tessellate(sides, threads, control)?;
-    let field = if args.picture.curvature() { Some(curvature(spline, &soup, args, control)?) } else { None };
-    let mut lines = if args.picture.base.wire { outlines(&soup, sides) } else { Vec::new() };
-    let mut positions = soup.positions;
+    let mut lines = if args.picture.wire { outlines(&soup, sides) } else { Vec::new() };
+    let mut positions = soup.positions.clone();
     if args.net {
         let first = positions.len() as u32;
         lines.extend(net(spline).into_iter().map(|[a, b]| (first + a, first + b, NET)));
@@ -35,22 +34,58 @@ pub fn draw(spline: &Spline, args: &EvalArgs, control: &Control) -> Result<Vec<u
         cones: &[],
         is_closed: false,
     };
-    let style = Style { wire: false, ..args.picture.style(threads) };
+    let style = Style { wire: false, ..args.picture.style(Texture::None, threads) };
+    let field = match args.color {
+        Some(SurfaceColor::Curvature) => Some(curvature(&corners(spline, &soup, (2, threads), control)?)),
+        Some(SurfaceColor::Reflection) => {
+            let camera = Camera::choose(&positions, &soup.faces, &style.view);
+            Some(reflection(&corners(spline, &soup, (1, threads), control)?, &camera))
+        }
+        Some(SurfaceColor::None) | None => None,
+    };
     png(&Picture { surface: Some(surface), field: field.as_ref(), ..Picture::default() }, &style)
 }
 
-/// The Gaussian curvature of the surface at the corners of its triangles.
-fn curvature(spline: &Spline, soup: &Soup, args: &EvalArgs, control: &Control) -> Result<Field, Failure> {
+/// The surface itself at the corners of its triangles, with derivatives up to an order.
+fn corners(
+    spline: &Spline,
+    soup: &Soup,
+    (order, threads): (usize, usize),
+    control: &Control,
+) -> Result<Vec<SurfacePoint>, Failure> {
     let per_patch = soup.faces.len() / spline.space().patches().len().max(1);
     let corners = soup.attributes.uv.iter().flatten().enumerate();
     let places: Vec<Parameter> = corners
         .flat_map(|(f, uv)| uv.map(|[x, y]| Parameter { patch: (f / per_patch) as u32, x, y }))
         .collect();
-    let found = spline.evaluate(&places, 2, args.common.threads, control)?;
+    Ok(spline.evaluate(&places, order, threads, control)?)
+}
+
+/// The Gaussian curvature.
+fn curvature(corners: &[SurfacePoint]) -> Field {
     let gauss = |at: &SurfacePoint| at.principal_curvatures().map_or(f64::NAN, |[a, b]| a * b);
-    let values: Vec<f64> = found.iter().map(gauss).collect();
+    let values: Vec<f64> = corners.iter().map(gauss).collect();
     let scale = Scale::of_signed("Gaussian curvature", &values);
-    Ok(Field { corners: values.as_chunks().0.to_vec(), scale })
+    Field { corners: values.as_chunks().0.to_vec(), scale }
+}
+
+/// Reflection lines of light lines at infinity, circles around the horizontal axis of the picture.
+fn reflection(corners: &[SurfacePoint], camera: &Camera) -> Field {
+    let angle = |at: &SurfacePoint| at.normal().map_or(f64::NAN, |normal| reflected(camera.apply(normal)));
+    let values: Vec<f64> = corners.iter().map(angle).collect();
+    let scale = Scale::of_stripes(
+        "reflected view from the horizontal, degrees",
+        [0.0, 180.0],
+        "stripes of 10 degrees",
+    );
+    Field { corners: values.as_chunks().0.to_vec(), scale }
+}
+
+/// The angle in degrees between the horizontal axis and the view reflected at a surface with this unit normal, in the axes of the
+/// camera (right, up, towards the viewer). Both unit normals of a surface have the same.
+fn reflected(normal: [f64; 3]) -> f64 {
+    let [right, _, towards] = normal;
+    (2.0 * towards * right).clamp(-1.0, 1.0).acos().to_degrees()
 }
 
 /// The edges along the sides of patches, each once.
@@ -77,4 +112,25 @@ fn net(spline: &Spline) -> Vec<[u32; 2]> {
     let patches = spline.space().patches().iter();
     let all = patches.flat_map(|patch| pairs.iter().map(|pair| pair.map(|i| patch.control[i])));
     all.filter(|&[a, b]| known.insert([a.min(b), a.max(b)])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_view_is_reflected_by_either_normal() {
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        for (normal, angle) in [
+            ([0.0, 0.0, 1.0], 90.0),
+            ([half, 0.0, half], 0.0),
+            ([-half, 0.0, half], 180.0),
+            ([0.0, half, half], 90.0),
+            ([0.5, half, 0.5], 60.0),
+        ] {
+            let opposite = normal.map(|x| -x);
+            assert!((reflected(normal) - angle).abs() < 1e-5, "{normal:?}");
+            assert_eq!(reflected(normal), reflected(opposite));
+        }
+    }
 }

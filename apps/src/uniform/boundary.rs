@@ -74,6 +74,20 @@ impl FromStr for CornersChoice {
     }
 }
 
+impl CornersChoice {
+    /// The library's option for it.
+    pub fn to_library(&self) -> Corners {
+        let corner = |&(v, angle): &(u32, Option<f64>)| Corner {
+            vertex: VertexId(v),
+            angle: angle.map(f64::to_radians),
+        };
+        match self {
+            CornersChoice::Count(n) => Corners::Count(*n),
+            CornersChoice::At(all) => Corners::At(all.iter().map(corner).collect()),
+        }
+    }
+}
+
 impl BoundaryArgs {
     /// What the boundary is to become.
     pub fn choice(&self) -> BoundaryChoice {
@@ -83,17 +97,10 @@ impl BoundaryArgs {
 
     /// The library's option for it.
     pub fn to_library(&self) -> Boundary {
-        let corner = |&(v, angle): &(u32, Option<f64>)| Corner {
-            vertex: VertexId(v),
-            angle: angle.map(f64::to_radians),
-        };
         match (self.choice(), &self.corners) {
             (BoundaryChoice::Geodesic, _) => Boundary::Geodesic,
             (_, None) => Boundary::Straight(Corners::Default),
-            (_, Some(CornersChoice::Count(n))) => Boundary::Straight(Corners::Count(*n)),
-            (_, Some(CornersChoice::At(all))) => {
-                Boundary::Straight(Corners::At(all.iter().map(corner).collect()))
-            }
+            (_, Some(corners)) => Boundary::Straight(corners.to_library()),
         }
     }
 

@@ -24,4 +24,5 @@ mod summary;
 mod tiling;
 
 pub use args::{COVER_HELP, CoverArgs, UNIFORMIZE_HELP, UniformizeArgs};
+pub use boundary::CornersChoice;
 pub use commands::{cover, execute_cover, execute_uniformize, uniformize};

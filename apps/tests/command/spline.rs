@@ -1,6 +1,10 @@
 //! `ricci spline`.
 
 use crate::run::Place;
+use ricci::manifold::{Flat, FlatOptions, SurfaceFitOptions, fit_surface};
+use ricci::mesh::shapes;
+use ricci::spline::Parameter;
+use ricci::{Control, Surface};
 use serde_json::Value;
 
 #[test]
@@ -43,12 +47,13 @@ fn a_spline_is_fitted_written_evaluated_and_drawn_as_triangles() {
 }
 
 #[test]
-fn surfaces_are_drawn_with_their_patches_net_and_curvature() {
+fn surfaces_are_drawn_with_their_patches_net_curvature_and_reflections() {
     let place = Place::new();
     place.expect(0, "make disk --height 0.4 -n 8 -o hill.obj --quiet");
     place.expect(0, "spline fit hill.obj --planar --edge 0.6 -o s.json --quiet");
     let mut pictures = Vec::new();
-    for options in ["", "--wire", "--wire --net", "--color curvature", "--tessellate 1"] {
+    for options in ["", "--wire", "--wire --net", "--color curvature", "--color reflection", "--tessellate 1"]
+    {
         let line = format!("spline eval s.json {options} --picture p.png --size 96 --draft --quiet");
         place.expect(0, &line);
         let bytes = std::fs::read(place.path("p.png")).unwrap();
@@ -85,4 +90,96 @@ fn what_no_spline_can_be_made_of_is_refused() {
     assert!(broken.err.contains("s.json:1"), "{}", broken.err);
     place.expect(2, "spline eval s.json -o t.obj");
     assert!(!place.exists("t.obj"));
+}
+
+#[test]
+fn nearest_points_are_rows() {
+    let place = Place::new();
+    place.expect(0, "make disk -n 8 --height 0.3 -o hill.obj --quiet");
+    place.expect(0, "spline fit hill.obj --planar --edge 0.6 -o s.json --quiet");
+    place.put("p.csv", "x,y,z\n0.1,0.2,5\n-3,0,0\n");
+    place.expect(0, "spline eval s.json --closest p.csv -o n.csv --quiet");
+    let text = place.text("n.csv");
+    let rows: Vec<&str> = text.lines().collect();
+    assert_eq!((rows[0], rows.len()), ("x,y,z,patch,u,v,X,Y,Z,distance", 3));
+    for row in &rows[1..] {
+        let numbers: Vec<f64> = row.split(',').map(|x| x.parse().unwrap()).collect();
+        let far = (0..3).map(|k| (numbers[k] - numbers[6 + k]).powi(2)).sum::<f64>().sqrt();
+        assert!((far - numbers[9]).abs() < 1e-14, "{row}");
+        // Over the plane, places are x and y.
+        assert!((numbers[4] - numbers[6]).hypot(numbers[5] - numbers[7]) < 1e-6, "{row}");
+    }
+    place.put("p.csv", "x,y,z\n0.1,nan,5\n");
+    let refused = place.expect(2, "spline eval s.json --closest p.csv -o n.csv");
+    assert!(refused.err.contains("point is 0"), "{}", refused.err);
+    place.expect(2, "spline eval s.json --closest p.csv --at p.csv -o n.csv");
+    place.expect(2, "spline eval s.json --closest p.csv");
+}
+
+#[test]
+fn rows_say_where_a_hole_is_filled() {
+    let place = Place::new();
+    let control = Control::new();
+    let surface = Surface::from_soup(&shapes::genus(2, 6).unwrap()).unwrap();
+    let flat = Flat::new(&surface, &FlatOptions::default(), &control).unwrap();
+    let options = SurfaceFitOptions { rounds: 1, ..SurfaceFitOptions::default() };
+    let spline = fit_surface(&surface, &flat, &options, &control).unwrap().spline;
+    spline.write(&place.path("s.json")).unwrap();
+    let (hole, space) = (&spline.holes()[0], spline.space());
+    let inside = hole.place(space, 0.3 * hole.radius, 0.5).unwrap();
+    let outside = (0..space.patches().len() as u32)
+        .map(|patch| {
+            let corners = space.patches()[patch as usize].corners();
+            let [x, y] = [0, 1].map(|x| (corners[0][x] + corners[1][x] + corners[2][x]) / 3.0);
+            Parameter { patch, x, y }
+        })
+        .find(|&at| !spline.is_in_hole(at))
+        .unwrap();
+    let row = |at: Parameter| format!("{},{},{}\n", at.patch, at.x, at.y);
+    place.put("q.csv", &format!("patch,x,y\n{}{}", row(inside), row(outside)));
+    let points = |options: &str| -> Vec<Vec<f64>> {
+        place.expect(0, &format!("spline eval s.json --at q.csv {options} -o v.csv --quiet"));
+        let text = place.text("v.csv");
+        assert!(text.starts_with("patch,x,y,X,Y,Z,hole\n"), "{text}");
+        text.lines().skip(1).map(|row| row.split(',').map(|x| x.parse().unwrap()).collect()).collect()
+    };
+    let (sums, filled) = (points(""), points("--filled"));
+    assert_eq!((sums[0][6], sums[1][6]), (1.0, 0.0));
+    assert_eq!(filled[0][3..6], spline.point(inside).unwrap());
+    assert!(sums[1] == filled[1] && sums[0] != filled[0]);
+}
+
+#[test]
+fn patches_for_cad_are_written_with_their_checks() {
+    let place = Place::new();
+    let vertex = |i: u32| (f64::from(i % 4) / 3.0, f64::from(i / 4) / 3.0);
+    let mut mesh: String = (0..16).map(vertex).map(|(x, y)| format!("v {x} {y} {}\n", 0.1 * x * y)).collect();
+    for i in [1, 2, 3, 5, 6, 7, 9, 10, 11] {
+        mesh += &format!("f {i} {} {}\nf {i} {} {}\n", i + 1, i + 5, i + 5, i + 4);
+    }
+    place.put("square.obj", &mesh);
+    place.expect(0, "spline fit square.obj --planar --edge 1 -o s.json --quiet");
+    place.expect(0, "spline export s.json -o s.step --report r.json");
+    let report = place.json("r.json");
+    assert_eq!(report["result"]["closed"], false);
+    for check in ["distance", "normal_jump", "open_sides"] {
+        assert_eq!(report["checks"][check]["holds"], true, "{check}");
+    }
+    let first = place.text("s.step");
+    assert!(
+        first.starts_with("ISO-10303-21;")
+            && first.contains("OPEN_SHELL")
+            && first.contains(".MILLI.,.METRE.")
+    );
+    place.expect(0, "spline export s.json -o s.step --quiet");
+    assert_eq!(first, place.text("s.step"));
+    place.expect(0, "spline export s.json -o metres.stp --unit m --quiet");
+    assert!(!place.text("metres.stp").contains(".MILLI."));
+    place.expect(0, "spline export s.json -o s_patches.json --quiet");
+    assert!(place.text("s_patches.json").starts_with("{\"format\":\"ricci-patches 1\""));
+    // Not reached, not known, not a spline.
+    let far = place.expect(3, "spline export s.json -o far.step --tolerance 1e-10");
+    assert!(far.err.contains("spans per side") && !place.exists("far.step"), "{}", far.err);
+    place.expect(2, "spline export s.json -o s.iges");
+    place.expect(3, "spline export square.obj -o t.step");
 }

@@ -1,5 +1,6 @@
 // The headers are clean C++; handles free themselves, failures throw with status, element, amount and
 // message.
+#include <ricci/bicubic.hpp>
 #include <ricci/circles.hpp>
 #include <ricci/harmonic.hpp>
 #include <ricci/repair.hpp>
@@ -169,6 +170,30 @@ int splines() {
     }
 }
 
+// Its patches for CAD.
+int bicubic_patches() {
+    const std::vector<double> outer = {0, 0, 2, 0, 2, 2, 0, 2};
+    const ricci::spline flat(ricci::spline_domain(outer, 1.5), 3);
+    const ricci::bicubic patches(flat);
+    const ricci_bicubic_summary figures = patches.summary();
+    if (figures.n_patches != 3 * flat.summary().n_patches || figures.closed || figures.n_open_sides)
+        return 61;
+    ricci_step_options options = ricci::init<ricci_step_options>();
+    options.name = "square", options.unit = RICCI_UNIT_METRE;
+    const std::string text = patches.text(RICCI_BICUBIC_STEP, options);
+    if (text.find("ISO-10303-21;") != 0 || text.find("'square'") == std::string::npos) return 62;
+    if (text == patches.text() || patches.text(RICCI_BICUBIC_JSON)[0] != '{') return 63;
+    patches.write("square.step", options);
+    try {
+        ricci_bicubic_options wrong = ricci::init<ricci_bicubic_options>();
+        wrong.tolerance = -1;
+        const ricci::bicubic none(flat, wrong);
+        return 64;
+    } catch (const ricci::error &error) {
+        return error.status() == RICCI_ARGUMENT && std::strstr(error.what(), "tolerance") ? 0 : 65;
+    }
+}
+
 int failures() {
     try {
         ricci::mesh::read("no such file.obj");
@@ -192,7 +217,8 @@ int failures() {
 } // namespace
 
 int main() {
-    for (int failed : {whole_job(), uniformization(), forms_and_maps(), structures(), splines(), failures()})
+    for (int failed : {whole_job(), uniformization(), forms_and_maps(), structures(), splines(),
+                       bicubic_patches(), failures()})
         if (failed) return failed;
     return 0;
 }

@@ -1,12 +1,12 @@
 /* Memory that the system refuses is RICCI_NO_MEMORY, and nothing is changed: every allocation of one job is
- * made to fail in turn, and all that follow until a large block is given back, of splines every seventh; then
- * jobs run under limits of the address space. Usage: test_memory [STRIDE]: every STRIDE-th allocation only.
+ * made to fail in turn, and all that follow until a large block is given back; then jobs run under limits of
+ * the address space. Usage: test_memory [STRIDE]: every STRIDE-th allocation only.
  */
 #define _GNU_SOURCE
 #include "torus.h"
 #include <errno.h>
 #include <malloc.h>
-#include <ricci/spline.h>
+#include <ricci/bicubic.h>
 #include <stdatomic.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -140,6 +140,31 @@ static void spline_job(const torus *t, double *values) {
     ricci_mesh_free(domain);
 }
 
+/* From a polygon to the end of a STEP file. */
+static void patches_job(const torus *t, double *values) {
+    const double corners[6] = {0, 0, 1, 0, 0, 1};
+    const size_t starts[2] = {0, 3};
+    ricci_mesh *domain = NULL;
+    ricci_spline *flat = NULL;
+    ricci_bicubic *patches = NULL;
+    ricci_spline_spec spec;
+    ricci_bicubic_options options;
+    size_t n = 0;
+    (void)t;
+    INIT(spec), INIT(options);
+    spec.degree = 1, options.threads = 1, options.tolerance = 0.1;
+    MUST(ricci_spline_domain(corners, starts, 1, 2, &domain));
+    MUST(ricci_spline_new(domain, &spec, &flat));
+    MUST(ricci_bicubic_new(flat, &options, NULL, &patches));
+    MUST(ricci_bicubic_text(patches, RICCI_BICUBIC_STEP, NULL, NULL, 0, &n));
+    char *text = (char *)__libc_malloc(n);
+    MUST(ricci_bicubic_text(patches, RICCI_BICUBIC_STEP, NULL, text, n, &n));
+    const size_t compared = 3 * SPLINE_PLACES * sizeof *values;
+    memcpy(values, text + n - compared, compared);
+    __libc_free(text);
+    ricci_bicubic_free(patches), ricci_spline_free(flat), ricci_mesh_free(domain);
+}
+
 static void every_allocation_fails_in_turn(void (*run)(const torus *, double *), const char *name,
                                            long stride) {
     torus t = torus_new(7, 5);
@@ -216,6 +241,7 @@ int main(int argc, char **argv) {
     const long stride = argc > 1 ? strtol(argv[1], NULL, 10) : 1;
     every_allocation_fails_in_turn(job, "flow and layout", stride);
     every_allocation_fails_in_turn(spline_job, "spline", stride);
+    every_allocation_fails_in_turn(patches_job, "patches", stride);
     limits_are_answered();
     return 0;
 }

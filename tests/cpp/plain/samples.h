@@ -1,4 +1,4 @@
-/* Sample surfaces of ricci/shapes.h in one line each. */
+/* Sample surfaces of ricci/shapes.h in one line each, and flat metrics of them. */
 #ifndef SAMPLES_H
 #define SAMPLES_H
 
@@ -53,6 +53,19 @@ static inline ricci_status invert(const ricci_mesh *mesh, const double *centre, 
     spec.change = RICCI_CHANGE_INVERT, spec.amount = radius;
     memcpy(spec.centre, centre, sizeof spec.centre);
     return ricci_change(mesh, &spec, result);
+}
+
+/* The flat metric of a closed surface: everywhere flat, or up to vertex 0. */
+static inline ricci_metric *flat_of(const ricci_mesh *mesh, uint32_t kind) {
+    const uint32_t vertex = 0;
+    ricci_metric *metric = NULL, *flat = NULL;
+    ricci_target target;
+    OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
+    INIT(target);
+    target.kind = kind, target.n = kind == RICCI_TARGET_SINGLE, target.vertices = &vertex;
+    OK(ricci_flow(metric, &target, NULL, NULL, &flat));
+    ricci_metric_free(metric);
+    return flat;
 }
 
 #endif

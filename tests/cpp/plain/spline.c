@@ -127,7 +127,7 @@ static void fits_come_near_their_points(const ricci_mesh *domain) {
     for (int i = 0; i < N * N; i++) points[3 * i] += 7;
     FAILS(ricci_spline_fit(flat, points, N * N, NULL, NULL, &fitted), RICCI_SPLINE, "point 0");
     OK(ricci_spline_fit(flat, points, N * N, &options, NULL, &fitted));
-    CHECK(fabs(summary_of(fitted).fit_max - s.fit_max) < 1e-6);
+    CHECK(fabs(summary_of(fitted).fit_max - s.fit_max) < 1e-2 * s.fit_max);
     ricci_spline_free(fitted);
     /* Too few points leave the spline open without a bending energy, and are enough with one. */
     enum { FEW = 20 };

@@ -1,0 +1,83 @@
+//! Splines over whole surfaces.
+
+use super::args::{AtlasChoice, FitArgs};
+use super::found::Found;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::progress::doing;
+use crate::report::{Checks, Figures};
+use ricci::Control;
+use ricci::flow;
+use ricci::manifold::{Flat, FlatOptions, SurfaceFit, SurfaceFitOptions, fit_surface};
+use ricci::mesh::VertexId;
+use serde_json::{Map, Value};
+
+/// A spline over the flat metric of a surface.
+pub fn fit_whole(args: &FitArgs, input: &Input, control: &Control) -> Result<Found, Failure> {
+    let whole = &args.whole;
+    let n = input.mesh().n_vertices();
+    if let Some(v) = whole.singular.filter(|&v| v as usize >= n) {
+        return Err(Failure::Usage(format!(
+            "--singular {v}: there is no such vertex, they are 0 to {}",
+            n - 1
+        )));
+    }
+    if input.positions().is_none() {
+        let path = input.path.display();
+        return Err(Failure::Input(format!(
+            "{path}: an intrinsic metric has no points in space to be fitted"
+        )));
+    }
+    let threads = args.common.threads;
+    let options = FlatOptions {
+        source: whole.atlas.into(),
+        singular: whole.singular.map(VertexId),
+        corners: whole.corners.as_ref().map_or_else(Default::default, |corners| corners.to_library()),
+        flow: flow::Options { threads, ..flow::Options::default() },
+    };
+    let flat = doing("flat metric", || Flat::new(&input.surface, &options, control))?;
+    let usual = SurfaceFitOptions::default();
+    let options = SurfaceFitOptions {
+        degree: args.degree.into(),
+        control_points: whole.control_points.map(|n| n as usize),
+        tolerance: whole.tolerance,
+        fairness: args.fairness.unwrap_or(usual.fairness),
+        threads,
+        ..usual
+    };
+    let fitted = doing("fit", || fit_surface(&input.surface, &flat, &options, control))?;
+    let mut checks = Checks::default();
+    checks.add("max", fitted.max, whole.tolerance);
+    let singular = singular_vertices(&fitted);
+    let mut defaults = Map::new();
+    defaults.insert("fairness".into(), options.fairness.into());
+    if let (AtlasChoice::Flow, [v]) = (whole.atlas, &singular[..]) {
+        defaults.insert("singular".into(), Value::from(*v));
+    }
+    let radii: Vec<f64> = fitted.spline.holes().iter().map(|hole| hole.radius).collect();
+    let figures = Figures::default()
+        .with("singular_vertices", &singular[..])
+        // In the unit of the flat metric, and the share of the vertices that lie in them.
+        .with("hole_radii", radii)
+        .with("hole_share", share_in_holes(&fitted))
+        .with("hole_coefficients", coefficients(&fitted))
+        .with("rounds", fitted.rounds);
+    Ok(Found { rms: fitted.rms, max: fitted.max, defaults, figures, checks, spline: fitted.spline })
+}
+
+/// The vertices of the mesh at which the metric is not flat, inside the surface.
+fn singular_vertices(fitted: &SurfaceFit) -> Vec<u32> {
+    let vertices = &fitted.domain.coarse().vertices;
+    fitted.domain.singular().iter().map(|v| vertices[v.index()].0).collect()
+}
+
+fn share_in_holes(fitted: &SurfaceFit) -> f64 {
+    let holes = fitted.spline.holes();
+    let inside = fitted.places.iter().filter(|&&at| holes.iter().any(|hole| hole.contains(at))).count();
+    inside as f64 / fitted.places.len().max(1) as f64
+}
+
+fn coefficients(fitted: &SurfaceFit) -> usize {
+    let fills = fitted.spline.holes().iter().filter_map(|hole| hole.fill.as_ref());
+    fills.map(|fill| fill.coefficients().len()).sum()
+}

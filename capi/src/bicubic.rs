@@ -1,0 +1,210 @@
+//! Bicubic patches near splines, and their files for CAD.
+
+use crate::arrays::{self, copy_counted};
+use crate::choice::choices;
+use crate::control::{self, ricci_control};
+use crate::failure::{Failure, Outcome};
+use crate::guard::{self, handle, shared};
+use crate::memory;
+use crate::spline::ricci_spline;
+use crate::status::*;
+use crate::structs::{self, sized};
+use ricci::mesh::io::write_atomically;
+use ricci::spline::{Bicubic, BicubicOptions, BicubicSurface, LengthUnit, StepOptions};
+use std::ffi::c_char;
+use std::io::Write;
+use std::path::Path;
+
+pub struct ricci_bicubic(Bicubic);
+handle!(ricci_bicubic, "bicubic patches");
+
+/// Places of a spline that are evaluated at a time while patches are made.
+const BATCH: usize = 1 << 16;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Format {
+    Step,
+    Json,
+}
+
+choices!(FORMATS: Format = "format", [
+    RICCI_BICUBIC_STEP => Format::Step,
+    RICCI_BICUBIC_JSON => Format::Json,
+]);
+
+choices!(UNITS: LengthUnit = "unit", [
+    RICCI_UNIT_MILLIMETRE => LengthUnit::Millimetre,
+    RICCI_UNIT_METRE => LengthUnit::Metre,
+]);
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_bicubic_options {
+    pub size: usize,
+    pub tolerance: f64,
+    pub angle: f64,
+    pub threads: usize,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_bicubic_options, "options");
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_step_options {
+    pub size: usize,
+    pub name: *const c_char,
+    pub unit: u32,
+    pub reserved: u32,
+}
+// SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
+sized!(ricci_step_options, "options");
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_bicubic_summary {
+    pub size: usize,
+    pub n_patches: usize,
+    pub n_curves: usize,
+    pub n_control_points: usize,
+    pub spans_min: usize,
+    pub spans_max: usize,
+    pub rounds: usize,
+    pub n_open_sides: usize,
+    pub closed: u32,
+    pub reserved: u32,
+    pub diagonal: f64,
+    pub distance: f64,
+    pub normal_jump_max: f64,
+    pub normal_jump_mean: f64,
+    pub normal_jump_of_spline: f64,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_bicubic_summary, "summary");
+
+impl ricci_bicubic_options {
+    fn read(&self) -> BicubicOptions {
+        let usual = BicubicOptions::default();
+        let real = |given: f64, usual: f64| if given == 0.0 { usual } else { given };
+        BicubicOptions {
+            tolerance: real(self.tolerance, usual.tolerance),
+            angle: real(self.angle, usual.angle),
+            threads: self.threads,
+        }
+    }
+}
+
+impl ricci_step_options {
+    fn read(&self) -> Outcome<StepOptions> {
+        let name = if self.name.is_null() { "" } else { arrays::text("name", self.name)? };
+        Ok(StepOptions { name: name.into(), unit: UNITS.choose(self.unit)? })
+    }
+}
+
+fn n_control_points(surface: &BicubicSurface) -> usize {
+    surface.patches.iter().map(|patch| patch.control.iter().map(Vec::len).sum::<usize>()).sum()
+}
+
+/// The format that a file's name asks for.
+fn format_of(path: &Path) -> Outcome<Format> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    match extension.as_deref() {
+        Some("step" | "stp") => Ok(Format::Step),
+        Some("json") => Ok(Format::Json),
+        _ => {
+            let message = format!("{}: unknown format; known are .step, .stp, .json", path.display());
+            Err(Failure::new(RICCI_UNKNOWN_FORMAT, message))
+        }
+    }
+}
+
+/// The bytes of a file of patches.
+fn bytes(surface: &BicubicSurface, format: Format, options: *const ricci_step_options) -> Outcome<Vec<u8>> {
+    let options = structs::read(options)?.read()?;
+    let _reserve = memory::work(n_control_points(surface), memory::BICUBIC_TEXT)?;
+    let mut bytes = Vec::new();
+    match format {
+        Format::Step => surface.write_step(&options, &mut bytes)?,
+        Format::Json => {
+            surface.write_json(&mut bytes).map_err(|why| Failure::new(RICCI_IO, why.to_string()))?;
+        }
+    }
+    Ok(bytes)
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_bicubic_new(
+    spline: *const ricci_spline,
+    options: *const ricci_bicubic_options,
+    control: *const ricci_control,
+    bicubic: *mut *mut ricci_bicubic,
+) -> ricci_status {
+    guard::make(bicubic, || {
+        let (spline, options) = (&shared(spline)?.spline, structs::read(options)?.read());
+        let _batch = memory::work(BATCH, memory::POINT)?;
+        let _reserve = memory::work(spline.space().patches().len(), memory::BICUBIC)?;
+        Ok(ricci_bicubic(spline.to_bicubic(&options, &control::of(control))?))
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_bicubic_free(bicubic: *mut ricci_bicubic) {
+    guard::free(bicubic);
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_bicubic_summarise(
+    bicubic: *const ricci_bicubic,
+    summary: *mut ricci_bicubic_summary,
+    size: usize,
+) -> ricci_status {
+    guard::with(bicubic, |ricci_bicubic(found)| {
+        let surface = &found.surface;
+        let figures = ricci_bicubic_summary {
+            size,
+            n_patches: surface.patches.len(),
+            n_curves: surface.curves.len(),
+            n_control_points: n_control_points(surface),
+            spans_min: found.spans[0],
+            spans_max: found.spans[1],
+            rounds: found.rounds,
+            n_open_sides: surface.open_sides(),
+            closed: surface.is_closed().into(),
+            reserved: 0,
+            diagonal: found.diagonal,
+            distance: found.distance,
+            normal_jump_max: found.angles.largest,
+            normal_jump_mean: found.angles.mean,
+            normal_jump_of_spline: found.angles.of_spline,
+        };
+        structs::write(figures, summary, size)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_bicubic_write(
+    bicubic: *const ricci_bicubic,
+    options: *const ricci_step_options,
+    path: *const c_char,
+) -> ricci_status {
+    guard::with(bicubic, |ricci_bicubic(found)| {
+        let path = arrays::path(path)?;
+        let bytes = bytes(&found.surface, format_of(&path)?, options)?;
+        Ok(write_atomically(&path, |out| out.write_all(&bytes))?)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_bicubic_text(
+    bicubic: *const ricci_bicubic,
+    format: u32,
+    options: *const ricci_step_options,
+    text: *mut c_char,
+    capacity: usize,
+    n_bytes: *mut usize,
+) -> ricci_status {
+    guard::with(bicubic, |ricci_bicubic(found)| {
+        let mut bytes = bytes(&found.surface, FORMATS.choose(format)?, options)?;
+        bytes.push(0);
+        copy_counted("text", &bytes, text.cast(), capacity, n_bytes)
+    })
+}

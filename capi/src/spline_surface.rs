@@ -1,0 +1,105 @@
+//! Splines over whole surfaces: fits on flat metrics, and nearest points.
+
+use crate::arrays::{array, check_buffer, copy_out};
+use crate::control::{self, ricci_control};
+use crate::guard::{self, shared};
+use crate::memory;
+use crate::metric::ricci_metric;
+use crate::spline::ricci_spline;
+use crate::status::ricci_status;
+use crate::structs::{self, sized};
+use ricci::geometry::vector::{Vector, distance};
+use ricci::manifold::{Flat, SurfaceFitOptions, fit_surface};
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_spline_surface_options {
+    pub size: usize,
+    pub control_points: usize,
+    pub tolerance: f64,
+    pub fairness: f64,
+    pub spread: f64,
+    pub threads: usize,
+    pub degree: u32,
+    pub rounds: u32,
+    pub corrections: i32,
+    pub reserved: u32,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_spline_surface_options, "options");
+
+impl ricci_spline_surface_options {
+    /// What C has no field for keeps its default.
+    #[allow(clippy::needless_update)]
+    fn read(&self) -> SurfaceFitOptions {
+        let usual = SurfaceFitOptions::default();
+        let real = |given: f64, usual: f64| if given == 0.0 { usual } else { given };
+        let count = |given: u32, usual: usize| if given == 0 { usual } else { given as usize };
+        SurfaceFitOptions {
+            degree: count(self.degree, usual.degree),
+            control_points: (self.control_points > 0).then_some(self.control_points),
+            tolerance: real(self.tolerance, usual.tolerance),
+            rounds: count(self.rounds, usual.rounds),
+            corrections: match self.corrections {
+                0 => usual.corrections,
+                given => usize::try_from(given).unwrap_or(0),
+            },
+            fairness: real(self.fairness, usual.fairness),
+            spread: real(self.spread, usual.spread),
+            threads: self.threads,
+            ..usual
+        }
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_fit_surface(
+    flat: *const ricci_metric,
+    options: *const ricci_spline_surface_options,
+    control: *const ricci_control,
+    fitted: *mut *mut ricci_spline,
+) -> ricci_status {
+    guard::make(fitted, || {
+        let (solution, control) = (&shared(flat)?.0.solution, control::of(control));
+        let options = structs::read(options)?.read();
+        let surface = solution.surface();
+        let _reserve = memory::work(surface.mesh().n_vertices(), memory::FIT)?;
+        let found = fit_surface(surface, &Flat::of(solution, &control)?, &options, &control)?;
+        let size = surface.positions().map_or(0.0, |points| diagonal(points));
+        Ok(ricci_spline { spline: found.spline, fitted: Some([found.rms * size, found.max * size]) })
+    })
+}
+
+/// The diagonal of the bounding box of points.
+fn diagonal(points: &[Vector]) -> f64 {
+    let corner = |pick: fn(f64, f64) -> f64| {
+        points.iter().copied().reduce(|a, b| [0, 1, 2].map(|k| pick(a[k], b[k]))).unwrap_or_default()
+    };
+    distance(corner(f64::min), corner(f64::max))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_closest(
+    spline: *const ricci_spline,
+    points: *const f64,
+    n: usize,
+    control: *const ricci_control,
+    patches: *mut u32,
+    values: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(spline, |ricci_spline { spline, .. }| {
+        check_buffer("values", n.saturating_mul(6), values, capacity)?;
+        check_buffer("patches", n, patches, if patches.is_null() { 0 } else { n })?;
+        let _reserve = memory::work(n.saturating_add(spline.space().patches().len()), memory::FIT)?;
+        let (points, control): (Vec<Vector>, _) = (array("points", points.cast(), n)?, control::of(control));
+        let found = spline.closest_points(0, &control)?.find(&points, 0, &control)?;
+        let row = |at: &ricci::spline::ClosestPoint| {
+            let [x, y, z] = at.point;
+            [at.place.x, at.place.y, x, y, z, at.distance]
+        };
+        let numbers: Vec<u32> = found.iter().map(|at| at.place.patch).collect();
+        copy_out("patches", &numbers, patches, n)?;
+        copy_out("values", &found.iter().map(row).collect::<Vec<_>>(), values, capacity)
+    })
+}

@@ -1,0 +1,310 @@
+//! A flat surface triangulated by few of its vertices, with the places of the others in its triangles.
+//!
+//! A vertex around which the angles add up to 2π (on the boundary to π) is no corner of the metric: it can be removed, and the
+//! triangles around it replaced by fewer that cover the same flat region. The metric stays as it is.
+
+use super::flat::{FLAT, Flat};
+use crate::control::{Control, Stage};
+use crate::embed::triangle::Triangle;
+use crate::error::{Result, check_size};
+use crate::geometry::complex::{Complex, add, cross, distance, doubled_area, mul, scale, sub};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, Thinning, VertexId};
+
+/// A diagonal is taken where both of its triangles have at least this share of the quadrilateral's area.
+const LEAST_SHARE: f64 = 1e-9;
+/// Share of the sum of terms by which an edge must fail the Delaunay condition to be flipped: rounding.
+const DELAUNAY: f64 = 1e-12;
+/// Least share of the quadrilateral's area that the triangle at a corner of the boundary gets, and what is left beside it.
+const EAR: f64 = 0.1;
+/// Removals between two looks at the control.
+const STEPS: usize = 256;
+
+/// A place in a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// The triangle.
+    pub face: FaceId,
+    /// Barycentric weights of its corners, at least 0, of sum 1.
+    pub weights: [f64; 3],
+}
+
+/// A flat surface on few of its vertices: an intrinsic Delaunay triangulation.
+#[derive(Debug, Clone)]
+pub struct Coarse {
+    /// The triangulation, maybe a Δ-complex.
+    pub mesh: Mesh,
+    /// Lengths of its edges.
+    pub lengths: PerEdge<f64>,
+    /// Of its vertices the numbers that they had.
+    pub vertices: Vec<VertexId>,
+    /// Per vertex of the fine triangulation its place.
+    pub places: PerVertex<Place>,
+}
+
+impl Coarse {
+    /// The triangulation of a flat metric by the vertices that `keep` names, and those that are not flat: its cones, and corners of its boundary.
+    ///
+    /// # Errors
+    /// [`crate::Error::Size`]; [`crate::Error::Cancelled`].
+    pub fn new(flat: &Flat, keep: &PerVertex<bool>, control: &Control) -> Result<Coarse> {
+        let mesh = &flat.mesh;
+        check_size("vertices to keep", keep.len(), mesh.n_vertices())?;
+        let curvature = flat.curvature()?;
+        let mut work = Work {
+            n_vertices: mesh.n_vertices(),
+            points: vec![Vec::new(); mesh.n_faces()],
+            queue: Vec::new(),
+            is_queued: vec![false; mesh.n_edges()],
+            thinning: Thinning::new(Mesh::clone(mesh)),
+            lengths: flat.lengths.clone(),
+        };
+        let mut steps = 0;
+        for v in mesh.vertices() {
+            if steps % STEPS == 0 {
+                control.step(Stage::Layout, v.index() as f64 / mesh.n_vertices() as f64)?;
+            }
+            if !keep[v] && curvature[v].abs() <= FLAT {
+                work.remove(v);
+                steps += 1;
+            }
+        }
+        for v in mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v) && curvature[v] > FLAT) {
+            work.cut_ear(v);
+        }
+        work.finish()
+    }
+}
+
+/// A triangulation from which vertices are being removed.
+struct Work {
+    /// Of the fine triangulation.
+    n_vertices: usize,
+    thinning: Thinning,
+    lengths: PerEdge<f64>,
+    /// Per face the vertices that have gone and lie in it, with their weights in the order of its corners.
+    points: Vec<Vec<(VertexId, [f64; 3])>>,
+    /// Edges that may not be Delaunay.
+    queue: Vec<EdgeId>,
+    is_queued: Vec<bool>,
+}
+
+/// The two triangles at a half-edge in the plane: a, its origin, at 0, b on the positive axis, c on the left, d on the right.
+struct Quad {
+    corners: [Complex; 4],
+}
+
+impl Quad {
+    /// Shares of the area that the triangles at the other diagonal would have, a's first; one is not positive where the quadrilateral
+    /// is not convex.
+    fn shares(&self) -> [f64; 2] {
+        let [a, b, c, d] = self.corners;
+        let parts = [doubled_area([d, c, a]), doubled_area([c, d, b])];
+        parts.map(|x| x / (parts[0] + parts[1]))
+    }
+
+    /// The height over the longest side that the triangle of b at the other diagonal would have.
+    fn quality(&self) -> f64 {
+        let [_, b, c, d] = self.corners;
+        let longest = distance(b, c).max(distance(c, d)).max(distance(d, b));
+        doubled_area([c, d, b]) / (longest * longest)
+    }
+
+    /// How far the edge is from being Delaunay, relative to its terms: sin(γ + δ) for the angles opposite it.
+    fn excess(&self) -> f64 {
+        let [a, b, c, d] = self.corners;
+        let direction = |p: Complex| {
+            let (u, v) = (sub(a, p), sub(b, p));
+            let (x, y) = (u[0] * v[0] + u[1] * v[1], cross(u, v).abs());
+            let size = x.hypot(y);
+            [x / size, y / size]
+        };
+        mul(direction(c), direction(d))[1]
+    }
+}
+
+impl Work {
+    fn mesh(&self) -> &Mesh {
+        self.thinning.mesh()
+    }
+
+    /// The third corner of the triangle to the left of a half-edge that runs from 0 along the positive axis.
+    fn apex(&self, h: HalfedgeId) -> Complex {
+        let mesh = self.mesh();
+        let [ab, bc, ca] = [h, mesh.next(h), mesh.prev(h)].map(|h| self.lengths[h.edge()]);
+        scale(ca, Triangle::from_sides([bc, ca, ab]).direction[0])
+    }
+
+    /// None for an edge on the boundary, or with one face on both sides.
+    fn quad(&self, h: HalfedgeId) -> Option<Quad> {
+        let mesh = self.mesh();
+        let [f, g] = [mesh.face(h)?, mesh.face(h.twin())?];
+        let (l, c, over) = (self.lengths[h.edge()], self.apex(h), self.apex(h.twin()));
+        let d = [l - over[0], -over[1]];
+        (f != g).then_some(Quad { corners: [[0.0; 2], [l, 0.0], c, d] })
+    }
+
+    fn flip(&mut self, h: HalfedgeId, quad: &Quad) {
+        let mesh = self.thinning.mesh();
+        let (Some(f), Some(g)) = (mesh.face(h), mesh.face(h.twin())) else { return };
+        let [a, b, c, d] = quad.corners;
+        let points = [(h, f, [a, b, c]), (h.twin(), g, [b, a, d])].map(|(h, f, corners)| {
+            let first = mesh.corner(h).map_or(0, |(_, k)| k);
+            let of = std::mem::take(&mut self.points[f.index()]);
+            of.into_iter().map(move |(v, w)| {
+                let w = [0, 1, 2].map(|k| w[(first + k) % 3]);
+                (v, (0..3).fold([0.0; 2], |sum, k| add(sum, scale(w[k], corners[k]))))
+            })
+        });
+        let points: Vec<(VertexId, Complex)> = points.into_iter().flatten().collect();
+        self.thinning.flip(h.edge());
+        self.lengths[h.edge()] = distance(c, d);
+        // Whichever of its half-edges h is, Mesh::flip leaves the triangle of a in the face of h.
+        for (v, p) in points {
+            let is_near = quad.shares()[0] > LEAST_SHARE && doubled_area([d, c, p]) > 0.0;
+            let (face, corners) = if is_near { (f, [d, c, a]) } else { (g, [c, d, b]) };
+            self.points[face.index()].push((v, weights(p, corners)));
+        }
+        let around = [f, g].map(|f| self.mesh().face_halfedges(f));
+        around.as_flattened().iter().for_each(|h| self.enqueue(h.edge()));
+    }
+
+    /// Remove a vertex, after flips of its edges that leave it as few as a removal needs, and make the triangulation Delaunay again. A vertex stays where there is
+    /// no triangulation without it, such as the last one of a torus.
+    fn remove(&mut self, v: VertexId) {
+        let few = if self.mesh().is_boundary_vertex(v) { 2 } else { 3 };
+        loop {
+            let fan = self.mesh().fan(v);
+            if fan.len() <= few {
+                self.take_out(v, &fan);
+                break;
+            }
+            let leaves = |h: &HalfedgeId| {
+                let mesh = self.mesh();
+                [*h, h.twin()].iter().all(|&h| mesh.origin(mesh.prev(h)) != v) && mesh.tip(*h) != v
+            };
+            let inner = fan.iter().filter(|h| !self.mesh().is_boundary_edge(h.edge()) && leaves(h));
+            let quads: Vec<(HalfedgeId, Quad)> = inner
+                .filter_map(|&h| Some((h, self.quad(h)?)))
+                .filter(|(_, quad)| quad.shares()[1] > LEAST_SHARE)
+                .collect();
+            // Where the vertex lies on a line of two neighbours, a triangle at it has no area before it goes.
+            let best = |least: f64| {
+                let convex = quads.iter().filter(|(_, quad)| quad.shares()[0] > least);
+                convex.max_by(|(e, x), (f, y)| x.quality().total_cmp(&y.quality()).then(f.cmp(e)))
+            };
+            let best = best(LEAST_SHARE).or_else(|| best(-LEAST_SHARE));
+            let Some(&(h, ref quad)) = best else { break };
+            self.flip(h, quad);
+        }
+        self.make_delaunay();
+    }
+
+    /// Flip the edges at a corner of the boundary, as far as triangles stay fat, so that one triangle alone has it: a spline is less smooth across edges
+    /// that end at a corner.
+    fn cut_ear(&mut self, v: VertexId) {
+        loop {
+            let fan = self.mesh().fan(v);
+            let inner = fan.iter().filter(|h| !self.mesh().is_boundary_edge(h.edge()));
+            let quads = inner.filter_map(|&h| Some((h, self.quad(h)?)));
+            let fat = quads.filter(|(_, quad)| quad.shares().iter().all(|&share| share > EAR));
+            let best = fat.max_by(|(e, x), (f, y)| x.quality().total_cmp(&y.quality()).then(f.cmp(e)));
+            let Some((h, quad)) = best else { break };
+            self.flip(h, &quad);
+        }
+    }
+
+    /// Take out a vertex whose degree allows it; it and the points of its triangles go to the one that is left.
+    fn take_out(&mut self, v: VertexId, fan: &[HalfedgeId]) {
+        let mesh = self.thinning.mesh();
+        let is_boundary = mesh.is_boundary_vertex(v);
+        let faces: Vec<(FaceId, usize)> = fan.iter().filter_map(|&h| mesh.corner(h)).collect();
+        let ends = [fan.first(), fan.last()].map(|h| {
+            h.map_or(0.0, |&h| {
+                let along = if Some(&h) == fan.first() { h } else { mesh.prev(h) };
+                self.lengths[along.edge()]
+            })
+        });
+        let areas: Vec<f64> = faces.iter().map(|&(f, _)| self.area(f)).collect();
+        let Some(left) = self.thinning.remove(v) else { return };
+        // Of the corners p_i that the neighbours of v are, the weights that v has, and the corner that p_i is.
+        let (shares, corner) = if is_boundary {
+            let sum = ends[0] + ends[1];
+            self.lengths[fan[0].edge()] = sum;
+            ([ends[1] / sum, 0.0, ends[0] / sum], [1, 2, 0])
+        } else {
+            let sum = areas[0] + areas[1] + areas[2];
+            ([areas[1] / sum, areas[2] / sum, areas[0] / sum], [0, 1, 2])
+        };
+        let mut points = Vec::new();
+        let place = |w: [f64; 3]| {
+            let mut weights = [0.0; 3];
+            (0..3).for_each(|i| weights[corner[i]] = w[i]);
+            weights
+        };
+        points.push((v, place(shares)));
+        for (i, &(f, first)) in faces.iter().enumerate() {
+            for (u, w) in std::mem::take(&mut self.points[f.index()]) {
+                let mut p = shares.map(|share| share * w[first]);
+                p[i] += w[(first + 1) % 3];
+                p[(i + 1) % 3] += w[(first + 2) % 3];
+                points.push((u, place(p)));
+            }
+        }
+        self.points[left.index()] = points;
+        let sides = self.mesh().face_halfedges(left);
+        sides.iter().for_each(|h| self.enqueue(h.edge()));
+    }
+
+    fn area(&self, f: FaceId) -> f64 {
+        Triangle::from_sides(self.mesh().opposite_edges(f).map(|e| self.lengths[e])).area
+    }
+
+    fn enqueue(&mut self, e: EdgeId) {
+        if !std::mem::replace(&mut self.is_queued[e.index()], true) {
+            self.queue.push(e);
+        }
+    }
+
+    fn make_delaunay(&mut self) {
+        while let Some(e) = self.queue.pop() {
+            self.is_queued[e.index()] = false;
+            if !self.thinning.has_edge(e) {
+                continue;
+            }
+            if let Some(quad) = self.quad(e.halfedge())
+                && quad.excess() < -DELAUNAY
+                && quad.shares().iter().all(|&share| share > 0.0)
+            {
+                self.flip(e.halfedge(), &quad);
+            }
+        }
+    }
+
+    fn finish(mut self) -> Result<Coarse> {
+        let left = self.thinning.finish()?;
+        let unset = Place { face: FaceId(0), weights: [0.0; 3] };
+        let mut places = PerVertex::filled(self.n_vertices, unset);
+        for v in left.mesh.vertices() {
+            let inside = left.mesh.outgoing(v).find_map(|h| left.mesh.corner(h));
+            if let Some((face, corner)) = inside {
+                let weights = [0, 1, 2].map(|k| if k == corner { 1.0 } else { 0.0 });
+                places[left.vertices[v.index()]] = Place { face, weights };
+            }
+        }
+        for (face, old) in left.mesh.faces().zip(&left.faces) {
+            for (v, weights) in std::mem::take(&mut self.points[old.index()]) {
+                places[v] = Place { face, weights };
+            }
+        }
+        let lengths = PerEdge::from_fn(left.edges.len(), |e: EdgeId| self.lengths[left.edges[e.index()]]);
+        Ok(Coarse { mesh: left.mesh, lengths, vertices: left.vertices, places })
+    }
+}
+
+/// Barycentric weights of a point in a triangle.
+fn weights(p: Complex, [a, b, c]: [Complex; 3]) -> [f64; 3] {
+    let parts =
+        [doubled_area([p, b, c]), doubled_area([a, p, c]), doubled_area([a, b, p])].map(|x| x.max(0.0));
+    let sum = parts[0] + parts[1] + parts[2];
+    parts.map(|x| x / sum)
+}

@@ -1,0 +1,280 @@
+//! Splines over a whole surface, fitted to its vertices.
+
+use super::coarse::Coarse;
+use super::domain::SurfaceDomain;
+use super::flat::Flat;
+use super::grade::{Grade, Miss};
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::geometry::complex::Complex;
+use crate::geometry::vector::{Vector, distance, dot, sub};
+use crate::mesh::{Mesh, VertexId};
+use crate::metric::Surface;
+use crate::spline::{Fill, FitOptions, Hole, Parameter, Spline, SplineSpace, fit};
+use std::sync::Arc;
+
+/// Least number of vertices in a hole, and largest share of all vertices.
+const LEAST_INSIDE: usize = 60;
+const MOST_INSIDE: f64 = 0.3;
+/// Where knots are far apart, a spline bends less sharply between its triangles.
+const WIDE: f64 = 0.9;
+/// The root of the mean squared distance that is asked for, over the largest distance.
+const RMS: f64 = 0.1;
+/// Factor of the fairness after a round that misses the mean distance asked for.
+const LESS_FAIR: f64 = 0.6;
+/// Growth of the hole's radius in the coordinate in which its vertex is a point as any other.
+const GROWTH: f64 = 1.15;
+/// Longest step of a parameter in one correction, over the longest side of its triangle.
+const LONGEST_STEP: f64 = 0.25;
+
+/// What [`fit_surface`] can be asked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceFitOptions {
+    /// 1 to 5. Default 3.
+    pub degree: usize,
+    /// Number of control points at most; default a quarter of the vertices.
+    pub control_points: Option<usize>,
+    /// Largest distance of a vertex from the spline that is asked for, over the diagonal of the bounding box; that of the root of the mean square is a tenth of it. Default 0.01.
+    pub tolerance: f64,
+    /// Times that the triangles' sizes are adapted to the errors. Default 6.
+    pub rounds: usize,
+    /// Times that the places of the vertices are moved to where the spline is nearest. Default 2.
+    pub corrections: usize,
+    /// [`FitOptions::fairness`] of the first round; less in later ones while the mean distance is missed. Default 1e-10.
+    pub fairness: f64,
+    /// [`crate::spline::KnotOptions::spread`]. Default 0.9.
+    pub spread: f64,
+    /// Area of a hole over m² mean triangles, for a vertex with a total angle of m turns. Default 1.
+    pub hole: f64,
+    /// Threads; 0 (default) is one per core. The result does not depend on it.
+    pub threads: usize,
+}
+
+impl Default for SurfaceFitOptions {
+    fn default() -> Self {
+        SurfaceFitOptions {
+            degree: 3,
+            control_points: None,
+            tolerance: 0.01,
+            rounds: 6,
+            corrections: 2,
+            fairness: 1e-10,
+            spread: WIDE,
+            hole: 1.0,
+            threads: 0,
+        }
+    }
+}
+
+/// A spline over a whole surface.
+#[derive(Debug, Clone)]
+pub struct SurfaceFit {
+    /// The spline.
+    pub spline: Spline,
+    /// Its domain.
+    pub domain: SurfaceDomain,
+    /// Per vertex of the surface its place.
+    pub places: Vec<Parameter>,
+    /// Root of the mean of the squared distances of the vertices from their places on the spline, over the diagonal of the bounding box.
+    pub rms: f64,
+    /// The largest such distance, over the same.
+    pub max: f64,
+    /// Rounds that were made.
+    pub rounds: usize,
+}
+
+/// A spline fitted to the vertices of a surface in space, on a flat metric of it: triangles of the domain about as long on the surface, and smaller where
+/// the fit is worse. The best of all rounds; they end early where the tolerance is met.
+///
+/// # Errors
+/// [`Error::Argument`] for a surface without positions, a metric that is not flat or lives on a double; [`Error::Spline`]; [`Error::Factorisation`];
+/// [`Error::Cancelled`].
+pub fn fit_surface(
+    surface: &Surface,
+    flat: &Flat,
+    options: &SurfaceFitOptions,
+    control: &Control,
+) -> Result<SurfaceFit> {
+    let Some(points) = surface.positions() else {
+        return Err(Error::argument("surface", "without positions", "in space, to be fitted"));
+    };
+    let mesh = surface.mesh();
+    if flat.mesh.n_vertices() < mesh.n_vertices() {
+        let need = "at least those of the surface, which come first";
+        return Err(Error::argument("vertices of the flat metric", flat.mesh.n_vertices(), need));
+    }
+    let diagonal = diagonal(points);
+    let most = options.control_points.unwrap_or(mesh.n_vertices() / 4);
+    // Of a closed surface with many triangles there are n² control points per two of these.
+    let triangles = 2 * most / (options.degree * options.degree).max(1);
+    let inside = |turns: u32| vertices_inside(options.hole, turns, (mesh.n_vertices(), triangles));
+    let mut grade = Grade::new(surface, flat, triangles, inside, control)?;
+    let fills: usize = grade.turns().map(|turns| Fill::coefficients_for(inside(turns))).sum();
+    let count = vertices_for(most.saturating_sub(fills), mesh, options.degree);
+    let mut best: Option<SurfaceFit> = None;
+    let mut fairness = options.fairness;
+    for round in 0..options.rounds.max(1) {
+        let keep = grade.choose(count, control)?;
+        let domain = SurfaceDomain::new(Coarse::new(flat, &keep, control)?)?;
+        let found = Round::new(domain, points, options).and_then(|round| round.run(fairness, control));
+        let found = match found {
+            Ok(found) => found,
+            // Another round has given a spline: this one cannot do better.
+            Err(Error::Spline { .. } | Error::Factorisation { .. }) if best.is_some() => break,
+            Err(error) => return Err(error),
+        };
+        let misses = found.measure(control)?;
+        grade.adapt(mesh, &found.triangles(&misses), (found.space.patches().len(), options.degree));
+        let Some(spline) = found.spline else { continue };
+        let squares: f64 = misses.iter().map(|miss| miss * miss).sum();
+        let rms = (squares / points.len().max(1) as f64).sqrt() / diagonal;
+        let max = misses.iter().copied().fold(0.0, f64::max) / diagonal;
+        let miss = |max: f64, rms: f64| f64::max(max, rms / RMS) / options.tolerance;
+        if best.as_ref().is_none_or(|best| miss(max, rms) < miss(best.max, best.rms)) {
+            let rounds = round + 1;
+            best = Some(SurfaceFit { spline, domain: found.domain, places: found.places, rms, max, rounds });
+        }
+        if miss(max, rms) <= 1.0 {
+            break;
+        }
+        if rms > RMS * options.tolerance {
+            fairness *= LESS_FAIR;
+        }
+    }
+    best.ok_or_else(|| Error::argument("rounds", options.rounds, "1 or more"))
+}
+
+/// Vertices of a triangulation of this surface that has at most so many control points: of V vertices at most n²V − (n² − 1)χ, less for each edge of the boundary.
+fn vertices_for(control_points: usize, mesh: &Mesh, degree: usize) -> usize {
+    let square = (degree * degree).max(1) as i64;
+    let vertices = (control_points as i64 + (square - 1) * mesh.euler()) / square;
+    vertices.max(1) as usize
+}
+
+/// Vertices of a surface that the hole of a singular vertex with this number of turns covers: `hole` times the area of turns² triangles.
+fn vertices_inside(hole: f64, turns: u32, (vertices, triangles): (usize, usize)) -> usize {
+    let wanted = hole * f64::from(turns * turns) * vertices as f64 / triangles.max(1) as f64;
+    (wanted as usize).clamp(LEAST_INSIDE, LEAST_INSIDE.max((MOST_INSIDE * vertices as f64) as usize))
+}
+
+fn diagonal(points: &[Vector]) -> f64 {
+    let bound = |pick: fn(f64, f64) -> f64| {
+        points.iter().copied().reduce(|a, b| [0, 1, 2].map(|k| pick(a[k], b[k]))).unwrap_or_default()
+    };
+    distance(bound(f64::min), bound(f64::max))
+}
+
+/// One domain, and what is fitted on it.
+struct Round<'a> {
+    domain: SurfaceDomain,
+    space: Arc<SplineSpace>,
+    points: &'a [Vector],
+    places: Vec<Parameter>,
+    /// Those around the singular vertices, not filled yet.
+    holes: Vec<Hole>,
+    spline: Option<Spline>,
+    options: &'a SurfaceFitOptions,
+}
+
+impl<'a> Round<'a> {
+    fn new(domain: SurfaceDomain, points: &'a [Vector], options: &'a SurfaceFitOptions) -> Result<Round<'a>> {
+        let space = Arc::new(domain.space(options.degree, options.spread)?);
+        let places = domain.coarse().places.iter().take(points.len()).map(|&p| domain.parameter(p)).collect();
+        let mut round = Round { domain, space, points, places, holes: Vec::new(), spline: None, options };
+        round.holes = round.domain.singular().into_iter().map(|v| round.hole(v)).collect::<Result<_>>()?;
+        Ok(round)
+    }
+
+    /// Fit, correct, and fill the holes.
+    fn run(mut self, fairness: f64, control: &Control) -> Result<Round<'a>> {
+        for correction in 0..=self.options.corrections {
+            if correction > 0 {
+                self.correct(control)?;
+            }
+            self.fit(fairness, control)?;
+        }
+        self.fill_holes(control)?;
+        Ok(self)
+    }
+
+    /// The hole around a singular vertex: the widest with no more vertices than wanted, so that triangles beyond it are small beside their distance from the vertex.
+    fn hole(&self, v: VertexId) -> Result<Hole> {
+        let mut hole = self.domain.hole(v)?;
+        let wanted =
+            vertices_inside(self.options.hole, hole.turns, (self.points.len(), self.space.patches().len()));
+        let growth = GROWTH.powi(hole.turns as i32);
+        loop {
+            let wider = self.domain.wide_hole(v, growth * hole.radius)?;
+            let inside = self.places.iter().filter(|&&at| wider.contains(at)).count();
+            if wider.radius <= hole.radius || inside > wanted {
+                break;
+            }
+            hole = wider;
+        }
+        Ok(hole)
+    }
+
+    /// Whether the spline has no weight at a place.
+    fn is_covered(&self, at: Parameter) -> bool {
+        self.holes.iter().any(|hole| hole.is_core(at))
+    }
+
+    /// The spline nearest to the points, but for those where a hole takes its place.
+    fn fit(&mut self, fairness: f64, control: &Control) -> Result<()> {
+        let threads = self.options.threads;
+        let all = self.places.iter().copied().zip(self.points.iter().copied());
+        let (places, points): (Vec<_>, Vec<_>) = all.filter(|(at, _)| !self.is_covered(*at)).unzip();
+        let fitted = fit(&self.space, &places, &points, &FitOptions { fairness, threads }, control)?;
+        self.spline = Some(fitted.spline);
+        Ok(())
+    }
+
+    /// Move every place to where the spline is nearest to its vertex, by one step of Gauss and Newton.
+    fn correct(&mut self, control: &Control) -> Result<()> {
+        let Some(spline) = &self.spline else { return Ok(()) };
+        let found = spline.evaluate(&self.places, 1, self.options.threads, control)?;
+        for k in 0..self.places.len() {
+            let (place, at) = (self.places[k], &found[k]);
+            if self.is_covered(place) {
+                continue;
+            }
+            let [x, y] = at.first;
+            let miss = sub(self.points[k], at.point);
+            let (a, b, c) = (dot(x, x), dot(x, y), dot(y, y));
+            let (p, q) = (dot(x, miss), dot(y, miss));
+            let det = a * c - b * b;
+            let step: Complex = [(c * p - b * q) / det, (a * q - b * p) / det];
+            let length = f64::hypot(step[0], step[1]);
+            if length.is_finite() && length > 0.0 {
+                let shorter = f64::min(1.0, LONGEST_STEP / length);
+                self.places[k] = self.domain.walk(place, step.map(|x| shorter * x));
+            }
+        }
+        Ok(())
+    }
+
+    /// Fill the surroundings of the singular vertices, from the spline around them and the vertices in them.
+    fn fill_holes(&mut self, control: &Control) -> Result<()> {
+        let Some(spline) = self.spline.take() else { return Ok(()) };
+        for hole in &mut self.holes {
+            let rings = spline.evaluate(&hole.rings(&self.space), 0, self.options.threads, control)?;
+            let rings: Vec<Vector> = rings.iter().map(|at| at.point).collect();
+            hole.fill(&self.space, (&self.places, self.points), &rings)?;
+        }
+        self.spline = Some(spline.with_holes(self.holes.clone()));
+        Ok(())
+    }
+
+    /// Per vertex its distance from its place.
+    fn measure(&self, control: &Control) -> Result<Vec<f64>> {
+        let Some(spline) = &self.spline else { return Ok(Vec::new()) };
+        let found = spline.evaluate(&self.places, 0, self.options.threads, control)?;
+        Ok(found.iter().zip(self.points).map(|(at, point)| distance(at.point, *point)).collect())
+    }
+
+    /// Per vertex its triangle and its distance, outside what holes take the place of.
+    fn triangles(&self, misses: &[f64]) -> Vec<Miss> {
+        let all = self.places.iter().zip(misses);
+        all.map(|(&at, &miss)| (!self.is_covered(at)).then_some((at.patch as usize, miss))).collect()
+    }
+}

@@ -1,0 +1,183 @@
+//! Flat metrics of surfaces, on which splines live.
+
+use crate::canonical::{Boundary, Corners};
+use crate::control::Control;
+use crate::embed::steps;
+use crate::error::{Error, Result};
+use crate::flow::{self, Solution, flow};
+use crate::geometry::Space;
+use crate::geometry::complex::{cross, distance, norm};
+use crate::harmonic::{ComplexForm, Domain, FormsOptions, HarmonicForms, even_combination, with_conjugate};
+use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use crate::metric::curvature::curvature;
+use crate::metric::{Class, Surface, Target};
+use crate::parallel::Pool;
+use crate::structure::{AffineSource, least_distorting_vertex};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+/// Largest curvature, in radians, of a vertex that counts as flat: what a converged flow leaves, and its rounding.
+pub(super) const FLAT: f64 = 1e-7;
+
+/// Which flat metric of a surface is asked for.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FlatOptions {
+    /// The flow, to curvature at one vertex alone, or a holomorphic 1-form with its 2g − 2 zeros. Default the flow.
+    pub source: AffineSource,
+    /// The vertex with the curvature. Default: where areas are distorted least.
+    pub singular: Option<VertexId>,
+    /// Corners of the boundary of a disk. Default four right angles.
+    pub corners: Corners,
+    /// Tolerance, threads and more of the flow.
+    pub flow: flow::Options,
+}
+
+/// A flat surface: a triangulation with lengths.
+#[derive(Debug, Clone)]
+pub struct Flat {
+    /// The triangulation. Its first vertices are those of the surface, in order; others lie on edges of the surface.
+    pub mesh: Arc<Mesh>,
+    /// Lengths of its edges.
+    pub lengths: PerEdge<f64>,
+}
+
+impl Flat {
+    /// A flat metric in the conformal class of a surface.
+    ///
+    /// By the flow, a closed surface of genus 1 is flat everywhere; others have their whole curvature 2πχ at one vertex. A boundary is straight, but for
+    /// the corners of a disk, which has no singular vertex. By a holomorphic 1-form ω, for closed surfaces of genus 1 and more, lengths are
+    /// |ω|, on the intrinsic Delaunay triangulation, and the vertices at zeros of order k have the curvature −2πk.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a closed surface of genus 0, a singular vertex where there is none, or on the boundary; [`Error::Layout`] for a form that turns triangles over,
+    /// or a flow that does not converge; those of [`flow()`] and [`HarmonicForms::new`]; [`Error::Cancelled`].
+    pub fn new(surface: &Surface, options: &FlatOptions, control: &Control) -> Result<Flat> {
+        let mesh = surface.mesh();
+        if mesh.is_closed() && mesh.euler() > 0 {
+            return Err(Error::argument(
+                "surface",
+                "closed, of genus 0",
+                "of genus 1 or more, or with boundary",
+            ));
+        }
+        if options.source == AffineSource::Form {
+            return Flat::by_form(surface, options, control);
+        }
+        let target = target(surface, options, control)?;
+        let flat = flow(surface.clone(), Class::yamabe(Space::E2), &target, &options.flow, control)?;
+        if !flat.converged() {
+            let error = flat.report().map_or(f64::NAN, |report| report.max_curvature_error);
+            return Err(Error::Layout(format!(
+                "the flow to the flat metric did not converge: curvatures miss by {error:e}, asked for {:e}",
+                options.flow.tolerance
+            )));
+        }
+        Flat::of(&flat, control)
+    }
+
+    /// The flat metric of a flow, of a double the half that was given.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a metric that is not Euclidean; those of [`Solution::refinement`].
+    pub fn of(flat: &Solution, control: &Control) -> Result<Flat> {
+        if flat.metric().space != Space::E2 {
+            return Err(Error::argument("metric", flat.metric().space, "flat, of the Euclidean plane"));
+        }
+        if flat.double().is_none() {
+            return Ok(Flat { mesh: flat.mesh().clone(), lengths: flat.metric().lengths(flat.mesh())? });
+        }
+        let refinement = Arc::new(flat.refinement(control)?);
+        let steps = steps(flat, Some(&refinement))?;
+        let mut lengths = PerEdge::filled(steps.mesh.n_edges(), 0.0);
+        for f in steps.mesh.faces() {
+            let at = steps.corners[f].map(|[x, y, _]| [x, y]);
+            for (k, h) in steps.mesh.face_halfedges(f).into_iter().enumerate() {
+                lengths[h.edge()] = distance(at[k], at[(k + 1) % 3]);
+            }
+        }
+        Ok(Flat { mesh: steps.mesh, lengths })
+    }
+
+    fn by_form(surface: &Surface, options: &FlatOptions, control: &Control) -> Result<Flat> {
+        if !surface.mesh().is_closed() {
+            return Err(Error::argument(
+                "surface",
+                "with boundary",
+                "closed, for a metric by a holomorphic form",
+            ));
+        }
+        if let Some(v) = options.singular {
+            return Err(Error::argument(
+                "singular vertex",
+                v,
+                "left out: a form has its zeros where they are",
+            ));
+        }
+        let domain = Domain::new(surface, control)?;
+        let form = Pool::new(options.flow.threads)?.run(|| {
+            let forms = HarmonicForms::new(&domain, &FormsOptions::default(), control)?;
+            with_conjugate(&forms, &forms, &even_combination(&forms, control)?)
+        })?;
+        Flat::of_form(domain.mesh(), &form)
+    }
+
+    /// The metric |ω|.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] for triangles that ω turns over.
+    pub fn of_form(mesh: &Arc<Mesh>, form: &ComplexForm) -> Result<Flat> {
+        let is_upright = |f: &crate::mesh::FaceId| {
+            let [p, q, _] = mesh.face_halfedges(*f).map(|h| form.along(h));
+            cross(p, q) > 0.0
+        };
+        let wrong = mesh.faces().filter(|f| !is_upright(f)).count();
+        if let Some(f) = mesh.faces().find(|f| !is_upright(f)) {
+            return Err(Error::Layout(format!(
+                "the holomorphic form turns {wrong} triangles over, triangle {f} among them, so that |ω| is no metric there: refine the surface, or take the flow"
+            )));
+        }
+        let lengths =
+            PerEdge::from_fn(mesh.n_edges(), |e: crate::mesh::EdgeId| norm(form.along(e.halfedge())));
+        Ok(Flat { mesh: mesh.clone(), lengths })
+    }
+
+    /// The curvature of every vertex.
+    ///
+    /// # Errors
+    /// Those of [`curvature()`].
+    pub fn curvature(&self) -> Result<PerVertex<f64>> {
+        Ok(curvature(&self.mesh, Space::E2, &self.lengths)?.at)
+    }
+}
+
+/// The curvatures that the flow is to reach.
+fn target(surface: &Surface, options: &FlatOptions, control: &Control) -> Result<Target> {
+    let mesh = surface.mesh();
+    let is_disk = mesh.euler() > 0;
+    if let Some(v) = options.singular {
+        let why = match () {
+            _ if mesh.euler() == 0 || is_disk => "left out: this surface has none",
+            _ if v.index() >= mesh.n_vertices() => "a vertex of the surface, numbered from 0",
+            _ if mesh.is_boundary_vertex(v) => "inside the surface",
+            _ => "",
+        };
+        if !why.is_empty() {
+            return Err(Error::argument("singular vertex", v, why));
+        }
+    }
+    let mut curvatures = PerVertex::filled(mesh.n_vertices(), 0.0);
+    if is_disk {
+        let boundary = Boundary::Straight(options.corners.clone());
+        boundary.corners(surface)?.into_iter().for_each(|(v, angle)| curvatures[v] = PI - angle);
+    } else if mesh.euler() < 0 {
+        let v = match options.singular {
+            Some(v) => v,
+            None => {
+                let domain = Domain::new(surface, control)?;
+                Pool::new(options.flow.threads)?.run(|| least_distorting_vertex(&domain, control))?
+            }
+        };
+        curvatures[v] = TAU * mesh.euler() as f64;
+    }
+    Ok(Target::All(curvatures))
+}

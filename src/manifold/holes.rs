@@ -1,0 +1,129 @@
+//! Holes around the singular vertices of a domain.
+
+use super::domain::{SAME, SurfaceDomain, nearest_on_side};
+use super::similarity::Similarity;
+use crate::error::{Error, Result};
+use crate::geometry::complex::{add, conj, distance, mul, norm, scale, sub, unit};
+use crate::mesh::{FaceId, VertexId};
+use crate::spline::{Hole, Sector};
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+/// Radius of a hole over the distance of its vertex from the sides opposite it.
+const HOLE: f64 = 0.9;
+/// How far the total angle of a hole's vertex may be from a multiple of 2π, in turns.
+const WHOLE: f64 = 1e-6;
+
+impl SurfaceDomain {
+    /// The hole around a singular vertex whose total angle is a multiple of 2π, with nothing in it yet, inside the triangles at the vertex.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for another vertex.
+    pub fn hole(&self, v: VertexId) -> Result<Hole> {
+        let radius = HOLE * self.clearance(v);
+        Hole::new(self.around(v, radius).sectors, self.turns(v)?, radius)
+    }
+
+    /// A hole of this radius, or the widest that meets neither itself, another singular vertex nor the boundary; at least that of [`SurfaceDomain::hole`].
+    ///
+    /// # Errors
+    /// Those of [`SurfaceDomain::hole`].
+    pub fn wide_hole(&self, v: VertexId, radius: f64) -> Result<Hole> {
+        let turns = self.turns(v)?;
+        // The hole meets itself beyond half of the way from the vertex to itself.
+        let free = self.around(v, 2.0 * radius).free;
+        let radius = radius.min(HOLE * free).max(HOLE * self.clearance(v));
+        Hole::new(self.around(v, radius).sectors, turns, radius)
+    }
+
+    /// The total angle of a singular vertex in turns.
+    fn turns(&self, v: VertexId) -> Result<u32> {
+        let turns = self.total_angle(v) / TAU;
+        let is_whole = (turns - turns.round()).abs() < WHOLE && turns > 0.5;
+        if self.coarse.mesh.is_boundary_vertex(v) || !is_whole {
+            let need = "a multiple of one turn, at a vertex inside the surface";
+            return Err(Error::argument("total angle in turns", turns, need));
+        }
+        Ok(turns.round() as u32)
+    }
+
+    /// The triangles that a disk around a vertex meets, developed from it.
+    fn around(&self, v: VertexId, radius: f64) -> Surroundings {
+        let mesh = &self.coarse.mesh;
+        let whole = self.total_angle(v);
+        let mut found: Vec<Sector> = Vec::new();
+        let mut known: HashMap<u32, Vec<Sector>> = HashMap::new();
+        let mut free = f64::INFINITY;
+        // How far a singular vertex of a triangle is; half as far, where that is the vertex itself.
+        let room = |sector: &Sector| {
+            let f = FaceId(sector.patch);
+            let far = |(k, &u): (usize, &VertexId)| {
+                let far = norm(sector.local(self.corners[f][k]));
+                let counts = !self.is_flat[u] && far > SAME * self.unit[f];
+                counts.then_some(if u == v { 0.5 * far } else { far })
+            };
+            mesh.face_vertices(f).iter().enumerate().filter_map(far).fold(f64::INFINITY, f64::min)
+        };
+        for h in mesh.fan(v) {
+            let Some((f, k)) = mesh.corner(h) else { continue };
+            let [a, b] = [k, (k + 1) % 3].map(|k| self.corners[f][k]);
+            let turn = scale(self.unit[f], conj(unit(sub(b, a))));
+            let to = Similarity { turn, shift: sub([0.0; 2], mul(turn, a)) };
+            let sector = self.sector(f, to, self.angle[h]);
+            free = free.min(room(&sector));
+            known.entry(f.0).or_default().push(sector);
+            found.push(sector);
+        }
+        let mut next = 0;
+        while let Some(&Sector { patch, angle, to }) = found.get(next) {
+            next += 1;
+            let (f, to) = (FaceId(patch), Similarity::of_rows(to));
+            for h in mesh.face_halfedges(f) {
+                let Some((_, k)) = mesh.corner(h) else { continue };
+                let ends = [k, (k + 1) % 3].map(|k| to.of(self.corners[f][k]));
+                // Sides at the vertex lead to triangles that are known.
+                if ends.iter().any(|&p| norm(p) < SAME * self.unit[f]) {
+                    continue;
+                }
+                let far = distance([0.0; 2], nearest_on_side([0.0; 2], ends[0], ends[1]));
+                // Beyond, no disk that is free comes closer to itself.
+                if far >= radius.min(2.0 * free) {
+                    continue;
+                }
+                let Some((g, across)) = self.across(h) else {
+                    free = free.min(far);
+                    continue;
+                };
+                let there = self.sector(g, to.after(&across), angle);
+                free = free.min(room(&there));
+                let is_there = |other: &Sector| {
+                    let apart = (other.angle - there.angle) / whole;
+                    let places = self.corners[g].map(|p| distance(other.local(p), there.local(p)));
+                    (apart - apart.round()).abs() * whole < SAME
+                        && places.iter().all(|&d| d < SAME * self.unit[g])
+                };
+                let of_patch = known.entry(g.0).or_default();
+                if !of_patch.iter().any(is_there) {
+                    of_patch.push(there);
+                    found.push(there);
+                }
+            }
+        }
+        Surroundings { sectors: found, free }
+    }
+
+    /// A triangle developed around a vertex, its middle turned to the x axis; the map is given up to a rotation by `angle`.
+    fn sector(&self, f: FaceId, to: Similarity, angle: f64) -> Sector {
+        let middle = self.corners[f].iter().fold([0.0; 2], |sum, &p| add(sum, scale(1.0 / 3.0, p)));
+        let at = to.of(middle);
+        let back = Similarity { turn: conj(unit(at)), shift: [0.0; 2] };
+        Sector { patch: f.0, angle: angle + at[1].atan2(at[0]), to: back.after(&to).rows() }
+    }
+}
+
+/// The triangles around a vertex.
+struct Surroundings {
+    sectors: Vec<Sector>,
+    /// Radius of the widest disk around the vertex that the triangles show to be free of singular vertices, the boundary and itself.
+    free: f64,
+}

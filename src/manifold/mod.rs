@@ -1,0 +1,15 @@
+//! Splines over whole surfaces: their domains on flat metrics, fits, and what is made of them.
+
+mod coarse;
+mod domain;
+mod fit;
+mod flat;
+mod grade;
+mod holes;
+mod sample;
+mod similarity;
+
+pub use coarse::{Coarse, Place};
+pub use domain::SurfaceDomain;
+pub use fit::{SurfaceFit, SurfaceFitOptions, fit_surface};
+pub use flat::{Flat, FlatOptions};

@@ -1,0 +1,98 @@
+//! Which sides and corners the triangles of a spline have in common.
+
+use crate::error::{Error, Result};
+use crate::mesh::union_find::UnionFind;
+use crate::spline::index::{multi_indices, position};
+use crate::spline::patch::Patch;
+use crate::spline::space::SplineSpace;
+use std::collections::HashMap;
+
+/// A side of a triangle, which another one may have too.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Side {
+    /// Its number.
+    pub edge: u32,
+    /// Whether it runs against the direction in which the first triangle has it.
+    pub reversed: bool,
+}
+
+/// Triangles with numbered corners and sides.
+#[derive(Debug, Clone)]
+pub(super) struct Net {
+    /// Per triangle the vertices at its corners.
+    pub vertices: Vec<[u32; 3]>,
+    /// Per triangle its sides: side k from corner k to the next.
+    pub sides: Vec<[Side; 3]>,
+    /// Per side the first triangle that has it, and which side of this triangle it is.
+    pub owners: Vec<(u32, usize)>,
+    /// Per vertex the first triangle that has it, and which corner of this triangle it is.
+    pub corners: Vec<(u32, usize)>,
+}
+
+impl Net {
+    /// Two triangles have a side in common if they have its control points in common, in opposite directions.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] for a side of three triangles, or one that two triangles have in the same direction.
+    pub fn new(space: &SplineSpace) -> Result<Net> {
+        let patches = space.patches();
+        let mut net =
+            Net { vertices: Vec::new(), sides: Vec::new(), owners: Vec::new(), corners: Vec::new() };
+        let mut known: HashMap<Vec<u32>, (u32, bool)> = HashMap::new();
+        let mut sets = UnionFind::new(3 * patches.len());
+        let corner = |patch: usize, k: usize| (3 * patch + k % 3) as u32;
+        for (at, patch) in patches.iter().enumerate() {
+            let mut sides = [Side { edge: 0, reversed: false }; 3];
+            for (k, side) in sides.iter_mut().enumerate() {
+                let along = along(space.degree(), patch, k);
+                let against: Vec<u32> = along.iter().rev().copied().collect();
+                if let Some((edge, is_shared)) = known.get_mut(&against) {
+                    let (other, j) = net.owners[*edge as usize];
+                    if *is_shared {
+                        return Err(refuse(at, k, "two other patches have it too"));
+                    }
+                    *is_shared = true;
+                    *side = Side { edge: *edge, reversed: true };
+                    sets.join(corner(at, k), corner(other as usize, j + 1));
+                    sets.join(corner(at, k + 1), corner(other as usize, j));
+                } else {
+                    side.edge = net.owners.len() as u32;
+                    if known.insert(along, (side.edge, false)).is_some() {
+                        return Err(refuse(at, k, "another patch has it in the same direction"));
+                    }
+                    net.owners.push((at as u32, k));
+                }
+            }
+            net.sides.push(sides);
+        }
+        let mut numbers: HashMap<u32, u32> = HashMap::new();
+        for at in 0..patches.len() {
+            let vertices = [0, 1, 2].map(|k| {
+                *numbers.entry(sets.root(corner(at, k))).or_insert_with(|| {
+                    net.corners.push((at as u32, k));
+                    net.corners.len() as u32 - 1
+                })
+            });
+            net.vertices.push(vertices);
+        }
+        Ok(net)
+    }
+}
+
+/// The control points along side k of a patch, from corner k to the next.
+fn along(degree: usize, patch: &Patch, k: usize) -> Vec<u32> {
+    let control = |i: usize| {
+        let mut beta = [0; 3];
+        (beta[k], beta[(k + 1) % 3]) = (degree - i, i);
+        patch.control[position(beta)]
+    };
+    debug_assert_eq!(multi_indices(degree).count(), patch.control.len());
+    (0..=degree).map(control).collect()
+}
+
+fn refuse(patch: usize, k: usize, why: &str) -> Error {
+    let message = format!(
+        "{why}: the side from corner {k} to the next; patches join two at a side, with control points of its own"
+    );
+    Error::Spline { what: "side of patch", index: patch, message }
+}

@@ -1,0 +1,40 @@
+//! What is asked of bicubic patches near a spline, and what comes out.
+
+use super::angles::NormalAngles;
+use super::surface::BicubicSurface;
+
+/// What [`to_bicubic`](crate::spline::Spline::to_bicubic) can be asked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BicubicOptions {
+    /// Largest distance of the patches from the spline, over the diagonal of its bounding box: 1e-10 to 1. Default 1e-4.
+    pub tolerance: f64,
+    /// Largest angle, in radians, between the normals of neighbouring patches beyond what the spline's own normals differ by there.
+    /// Default half a degree.
+    pub angle: f64,
+    /// Threads; 0 (default) is one per core. The result does not depend on it.
+    pub threads: usize,
+}
+
+impl Default for BicubicOptions {
+    fn default() -> Self {
+        BicubicOptions { tolerance: 1e-4, angle: 0.5f64.to_radians(), threads: 0 }
+    }
+}
+
+/// Bicubic patches near a spline, with what they miss.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bicubic {
+    /// The patches.
+    pub surface: BicubicSurface,
+    /// The diagonal of the bounding box of the corners, middles of sides and centroids of the spline's patches.
+    pub diagonal: f64,
+    /// Largest distance of a patch from the spline's point with the same parameters, over the diagonal: at nine places of each cell between
+    /// knots, none of which is interpolated.
+    pub distance: f64,
+    /// Angles between the normals of neighbouring patches, at three places of each span of their common curves.
+    pub angles: NormalAngles,
+    /// The least and the largest number of spans along a side.
+    pub spans: [usize; 2],
+    /// How often patches were refined.
+    pub rounds: usize,
+}

@@ -1,0 +1,133 @@
+//! The three quadrilaterals of a triangle, and their coordinates.
+//!
+//! What stands below as s and t is a function of the grid's coordinates σ and τ, s = σ (1 + 3 σ)/4 and t likewise, but along sides at a singular vertex.
+//!
+//! ```text
+//!              C₂                 Quadrilateral k has the corners C_k, the middle of side k, the centroid, and the
+//!             /  \                middle of the side before; (s, t) is (0, 0), (1, 0), (1, 1), (0, 1) there.
+//!            / 2  \
+//!          M₂--G--M₁              In u, which is the chart's coordinate from C_k on, it is the Coons patch of its sides
+//!          / 0 | 1 \
+//!        C₀----M₀---C₁                u = s a(t) + t b(s) − s t D,   a(t) from M_k to G, b(s) from M_{k−1} to G, D = u(G)
+//! ```
+//!
+//! [Coo67], and bilinear in the chart. Around a singular vertex with the total angle 2πm the surface is smooth in w = z^{1/m}: there
+//! u = w, so that the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments. Where that patch
+//! turns over or leaves the triangle, the place is the bilinear one times (s + t − s t)^{m−1}: the same on all four sides.
+
+use crate::geometry::complex::{Complex, add, conj, cross, distance, mul, norm, norm2, scale, sub, unit};
+use crate::spline::hole::Sector;
+use crate::spline::patch::Parameter;
+use crate::spline::space::affine;
+use crate::spline::surface::Spline;
+
+/// Cells along a side of the grid on which a Coons patch is looked at.
+const CELLS: u8 = 16;
+/// Share of a triangle by which a place on its side may lie outside: rounding.
+const INSIDE: f64 = 1e-12;
+/// A corner is the vertex of a hole where it is nearer to it than this share of its side: rounding.
+const AT_VERTEX: f64 = 1e-6;
+
+/// The grid is 1 + DENSER times denser at a corner than it would be evenly: there, between the knots of a vertex, a spline bends most.
+const DENSER: f64 = 3.0;
+
+/// A quadrilateral of a triangle.
+#[derive(Debug, Clone)]
+pub(super) struct Quad {
+    patch: u32,
+    /// Where u = 0 lies in the chart.
+    corner: Complex,
+    /// What u = 1 is in the chart: a length and a direction.
+    frame: Complex,
+    /// m.
+    turns: i32,
+    /// From the corner to the middles of the side from it and of the side to it, and to the centroid, over `frame`.
+    ends: [Complex; 2],
+    centroid: Complex,
+    /// Whether the Coons patch in w is taken: it may turn over, or leave the triangle, where that has a wide angle at a singular vertex.
+    is_coons: bool,
+}
+
+impl Quad {
+    /// The quadrilateral at corner k of a patch.
+    pub fn new(spline: &Spline, patch: usize, k: usize) -> Quad {
+        let knots = &spline.space().patches()[patch].knots;
+        let [a, b, c] = [0, 1, 2].map(|j| knots[(k + j) % 3][0]);
+        let (next, last) = (scale(0.5, sub(b, a)), scale(0.5, sub(c, a)));
+        let is_here = |s: &Sector| {
+            let [corner, other] = [a, b].map(|p| affine(&s.to, p));
+            s.patch as usize == patch && norm(corner) < AT_VERTEX * distance(corner, other)
+        };
+        let hole = spline.holes().iter().find(|hole| hole.sectors.iter().any(is_here));
+        let (turns, frame) = hole.map_or((1, [1.0, 0.0]), |hole| (hole.turns as i32, unit(next)));
+        let over = |z: Complex| scale(1.0 / norm2(frame), mul(z, conj(frame)));
+        let centroid = over(scale(2.0 / 3.0, add(next, last)));
+        let ends = [over(next), over(last)];
+        let quad = Quad { patch: patch as u32, corner: a, frame, turns, ends, centroid, is_coons: true };
+        let is_coons = turns == 1 || quad.is_sound();
+        Quad { is_coons, ..quad }
+    }
+
+    /// The patch of the spline in which it lies.
+    pub fn patch(&self) -> usize {
+        self.patch as usize
+    }
+
+    /// The place of (s, t).
+    pub fn place(&self, at: [f64; 2]) -> Parameter {
+        let [x, y] = add(self.corner, mul(self.frame, self.local(at)));
+        Parameter { patch: self.patch, x, y }
+    }
+
+    /// The place of (s, t) from the corner, over the frame.
+    fn local(&self, at: [f64; 2]) -> Complex {
+        let [s, t] = self.dense(at);
+        if !self.is_coons {
+            let [a, b, d] = [
+                scale(s * (1.0 - t), self.ends[0]),
+                scale(t * (1.0 - s), self.ends[1]),
+                scale(s * t, self.centroid),
+            ];
+            return scale((s + t - s * t).powi(self.turns - 1), add(add(a, b), d));
+        }
+        let towards = |end: usize, x: f64| add(self.ends[end], scale(x, sub(self.centroid, self.ends[end])));
+        let [a, b, d] = [towards(0, t), towards(1, s), self.centroid].map(|z| self.root(z));
+        let u = sub(add(scale(s, a), scale(t, b)), scale(s * t, d));
+        (1..self.turns).fold(u, |z, _| mul(z, u))
+    }
+
+    /// Whether the cells of a grid are counterclockwise and in the triangle.
+    fn is_sound(&self) -> bool {
+        let at = |i: u8, j: u8| self.local([i, j].map(|k| f64::from(k) / f64::from(CELLS)));
+        let whole = cross(self.ends[0], self.ends[1]);
+        let is_inside = |z: Complex| {
+            let [p, q] = [cross(z, self.ends[1]), cross(self.ends[0], z)].map(|x| x / whole);
+            p.min(q).min(2.0 - p - q) > -INSIDE
+        };
+        let is_upright = |i: u8, j: u8| {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            cross(sub(b, a), sub(d, a)) > 0.0 && cross(sub(d, c), sub(b, c)) > 0.0
+        };
+        (0..CELLS).all(|i| (0..CELLS).all(|j| is_upright(i, j) && is_inside(at(i + 1, j + 1))))
+    }
+
+    /// The grid's coordinates in the quadrilateral. Sides at a singular vertex stay even: |w| grows along them, whose powers would be lost beside the
+    /// corner's coordinates.
+    fn dense(&self, [s, t]: [f64; 2]) -> [f64; 2] {
+        let dense = |x: f64| x * (1.0 + DENSER * x) / (1.0 + DENSER);
+        if self.turns == 1 {
+            return [dense(s), dense(t)];
+        }
+        [(1.0 - t) * s + t * dense(s), (1.0 - s) * t + s * dense(t)]
+    }
+
+    /// z^{1/m}.
+    fn root(&self, z: Complex) -> Complex {
+        if self.turns == 1 {
+            return z;
+        }
+        let share = 1.0 / f64::from(self.turns);
+        let (size, angle) = (norm(z).powf(share), share * z[1].atan2(z[0]));
+        [size * angle.cos(), size * angle.sin()]
+    }
+}

@@ -1,0 +1,283 @@
+//! Patches that are made, measured, and made again with more spans where they miss the spline.
+
+use super::angles::{self, CurveFigures, NormalAngles};
+use super::cubic::{interpolate, uniform};
+
+use super::net::Net;
+use super::outcome::{Bicubic, BicubicOptions};
+use super::quad::Quad;
+use super::sample::{At, PARTS, Sample, WITHIN, grid, within};
+use super::surface::{BicubicPatch, BicubicSurface, PatchCurve, PatchSide};
+use super::tangents::with_common_planes;
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::geometry::vector::{Vector, distance};
+use crate::spline::patch::Parameter;
+use crate::spline::point::SurfacePoint;
+use crate::spline::surface::Spline;
+
+/// Most spans along a side: a spline that needs more is rough or the tolerance is near its rounding errors.
+const MOST_SPANS: usize = 64;
+/// Spans that angles between normals ask for at most: finer, folds of the spline between near knots are followed.
+const MOST_FOR_ANGLES: usize = 64;
+/// Share of the tolerance that is used up: between the places of measurement distances were up to 15 % larger.
+const SHARE: f64 = 0.8;
+/// Places that are evaluated at a time: 10 MB of points.
+const BATCH: usize = 1 << 16;
+
+/// What is known on the way.
+pub(super) struct Work<'a> {
+    spline: &'a Spline,
+    options: BicubicOptions,
+    control: &'a Control,
+    net: Net,
+    /// Number 3 f + k is at corner k of patch f.
+    quads: Vec<Quad>,
+    /// Per vertex the spans of all halves of sides that lie across from it.
+    spans: Vec<usize>,
+    samples: Vec<Sample>,
+    surface: BicubicSurface,
+    diagonal: f64,
+    /// Per quadrilateral its largest distance from the spline.
+    misses: Vec<f64>,
+    /// Per curve what is measured on it.
+    figures: Vec<CurveFigures>,
+    rounds: usize,
+}
+
+impl<'a> Work<'a> {
+    /// Everything but control points.
+    pub fn new(spline: &'a Spline, options: BicubicOptions, control: &'a Control) -> Result<Work<'a>> {
+        let n = spline.space().patches().len();
+        if n == 0 {
+            return Err(Error::argument("patches of the spline", 0, "1 or more"));
+        }
+        let net = Net::new(spline.space())?;
+        let quads: Vec<Quad> = (0..3 * n).map(|q| Quad::new(spline, q / 3, q % 3)).collect();
+        let place = |&(f, k): &(u32, usize), at: [f64; 2]| quads[3 * f as usize + k].place(at);
+        let places: Vec<Parameter> = (net.corners.iter().map(|at| place(at, [0.0, 0.0])))
+            .chain(net.owners.iter().map(|at| place(at, [1.0, 0.0])))
+            .chain((0..n as u32).map(|f| place(&(f, 0), [1.0, 1.0])))
+            .collect();
+        let found = spline.evaluate(&places, 0, options.threads, control)?;
+        let points: Vec<Vector> = found.iter().map(|at| at.point).collect();
+        let surface = skeleton(&net, points);
+        let (spans, misses) = (vec![1; net.corners.len()], vec![0.0; quads.len()]);
+        let figures = vec![CurveFigures::default(); surface.curves.len()];
+        let samples = vec![Sample::default(); quads.len()];
+        let (diagonal, rounds) = (surface.diagonal(), 0);
+        Ok(Work {
+            spline,
+            options,
+            control,
+            net,
+            quads,
+            spans,
+            samples,
+            surface,
+            diagonal,
+            misses,
+            figures,
+            rounds,
+        })
+    }
+
+    /// Make the patches, and those again that miss the spline or fold against their neighbours, with twice the spans.
+    ///
+    /// # Errors
+    /// Those of [`Spline::to_bicubic`].
+    pub fn refine(&mut self) -> Result<()> {
+        let mut stale: Vec<usize> = (0..self.quads.len()).collect();
+        while !stale.is_empty() {
+            self.rounds += 1;
+            self.sample(&stale)?;
+            let changed = self.set_patches();
+            self.measure(&changed)?;
+            let failing = self.failing();
+            let mut grown = vec![false; self.spans.len()];
+            for &q in &failing {
+                self.across(q).iter().for_each(|&v| grown[v] = true);
+            }
+            for (spans, _) in self.spans.iter_mut().zip(&grown).filter(|(_, grown)| **grown) {
+                *spans *= 2;
+            }
+            if let Some(&q) = failing.iter().find(|&&q| self.spans_of(q).iter().any(|&k| k > MOST_SPANS)) {
+                return Err(self.not_reached(q));
+            }
+            stale = (0..self.quads.len()).filter(|&q| self.across(q).iter().any(|&v| grown[v])).collect();
+        }
+        Ok(())
+    }
+
+    /// The patches with their figures.
+    pub fn finish(self) -> Result<Bicubic> {
+        self.surface.check()?;
+        let least = self.spans.iter().copied().min().unwrap_or(0);
+        let most = self.spans.iter().copied().max().unwrap_or(0);
+        Ok(Bicubic {
+            distance: self.misses.iter().copied().fold(0.0, f64::max) / self.diagonal,
+            angles: NormalAngles::of(&self.figures),
+            surface: self.surface,
+            diagonal: self.diagonal,
+            spans: [least, most],
+            rounds: self.rounds,
+        })
+    }
+
+    /// The vertices that say how many spans a quadrilateral has along s and along t.
+    fn across(&self, q: usize) -> [usize; 2] {
+        [1, 2].map(|k| self.net.vertices[q / 3][(q + k) % 3] as usize)
+    }
+
+    fn spans_of(&self, q: usize) -> [usize; 2] {
+        self.across(q).map(|v| self.spans[v])
+    }
+
+    /// The quadrilaterals that must be finer.
+    fn failing(&self) -> Vec<usize> {
+        // A distance that is no number fails too.
+        let is_near = |&miss: &f64| miss <= SHARE * self.options.tolerance * self.diagonal;
+        let mut fails: Vec<bool> = self.misses.iter().map(|miss| !is_near(miss)).collect();
+        for (of, figures) in self.surface.uses().iter().zip(&self.figures) {
+            let is_coarse = |q: usize| self.spans_of(q).iter().all(|&k| k < MOST_FOR_ANGLES);
+            if figures.excess > self.options.angle {
+                of.iter().filter(|&&(q, _)| is_coarse(q)).for_each(|&(q, _)| fails[q] = true);
+            }
+        }
+        (0..fails.len()).filter(|&q| fails[q]).collect()
+    }
+
+    fn not_reached(&self, q: usize) -> Error {
+        let message = format!(
+            "with {MOST_SPANS} spans per side it is {:.1e} of the diagonal from the spline, {:.1e} were asked for: ask for less, or fit a \
+             smoother spline",
+            self.misses[q] / self.diagonal,
+            self.options.tolerance,
+        );
+        Error::Spline { what: "patch", index: self.quads[q].patch(), message }
+    }
+
+    /// The spline at places of quadrilaterals, with derivatives up to `order`.
+    fn evaluate(&self, at: &[At], order: usize) -> Result<Vec<SurfacePoint>> {
+        let places: Vec<Parameter> = at.iter().map(|&(q, place)| self.quads[q].place(place)).collect();
+        self.spline.evaluate(&places, order, self.options.threads, self.control)
+    }
+
+    fn sample(&mut self, quads: &[usize]) -> Result<()> {
+        for batch in self.batches(quads) {
+            let places = |&q: &usize| grid(self.spans_of(q)).map(move |place| (q, place));
+            let at: Vec<At> = batch.iter().flat_map(places).collect();
+            let points: Vec<Vector> = self.evaluate(&at, 0)?.iter().map(|found| found.point).collect();
+            let mut rest = &points[..];
+            for &q in batch {
+                let [m, n] = self.spans_of(q);
+                let (here, later) = rest.split_at((PARTS * m + 1) * (PARTS * n + 1));
+                rest = later;
+                self.samples[q] = Sample::new(here, [m, n]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Curves and patches from the samples; which patches have changed.
+    fn set_patches(&mut self) -> Vec<usize> {
+        let across = with_common_planes(&mut self.surface, &self.samples);
+        let mut changed = Vec::new();
+        for (q, (sample, across)) in self.samples.iter().zip(&across).enumerate() {
+            let patch = &mut self.surface.patches[q];
+            patch.knots = [uniform(sample.points[0].len() - 1), uniform(sample.points.len() - 1)];
+            let before = std::mem::replace(&mut patch.control, tensor(sample, across));
+            for k in 0..4 {
+                patch.set_side(k, &self.surface.curves[patch.sides[k].curve as usize]);
+            }
+            if patch.control != before {
+                changed.push(q);
+            }
+        }
+        changed
+    }
+
+    /// Distances between the interpolated points, and what curves have there.
+    fn measure(&mut self, quads: &[usize]) -> Result<()> {
+        for batch in self.batches(quads) {
+            let cells = |&q: &usize| {
+                let [m, n] = self.spans_of(q);
+                within(n).flat_map(move |t| within(m).map(move |s| (q, [s, t]))).collect::<Vec<At>>()
+            };
+            let at: Vec<At> = batch.iter().flat_map(cells).collect();
+            let found = self.evaluate(&at, 0)?;
+            batch.iter().for_each(|&q| self.misses[q] = 0.0);
+            for ((q, place), found) in at.into_iter().zip(&found) {
+                let miss = distance(self.surface.patches[q].evaluate(place).point, found.point);
+                // NaN stays, and fails.
+                self.misses[q] = if miss > self.misses[q] || miss.is_nan() { miss } else { self.misses[q] };
+            }
+        }
+        let mut curves: Vec<usize> = quads
+            .iter()
+            .flat_map(|&q| self.surface.patches[q].sides.map(|side| side.curve as usize))
+            .collect();
+        curves.sort_unstable();
+        curves.dedup();
+        let uses = self.surface.uses();
+        for batch in curves.chunks(BATCH / (2 * WITHIN.len() * MOST_SPANS)) {
+            for (&curve, figures) in
+                batch.iter().zip(angles::measure(&self.surface, (batch, &uses), |at| self.evaluate(at, 1))?)
+            {
+                uses[curve].iter().for_each(|&(q, _)| self.misses[q] = self.misses[q].max(figures.miss));
+                self.figures[curve] = figures;
+            }
+        }
+        Ok(())
+    }
+
+    /// Quadrilaterals in groups with about [`BATCH`] places.
+    fn batches<'q>(&self, quads: &'q [usize]) -> std::slice::Chunks<'q, usize> {
+        let largest = quads.iter().flat_map(|&q| self.spans_of(q)).max().unwrap_or(1);
+        quads.chunks((BATCH / (PARTS * largest + 1).pow(2)).max(1))
+    }
+}
+
+/// The points, curves and patches of a net, with no control points yet. Points: corners, middles of sides, centroids. Curves: the halves
+/// 2 e and 2 e + 1 of side e, from its begin and its end to its middle; then three per triangle, from the middles to the centroid.
+fn skeleton(net: &Net, points: Vec<Vector>) -> BicubicSurface {
+    let [corners, edges] = [net.corners.len() as u32, net.owners.len() as u32];
+    let halves = net.owners.iter().enumerate().flat_map(|(e, &(f, k))| {
+        let of = net.vertices[f as usize];
+        [of[k], of[(k + 1) % 3]].map(|corner| [corner, corners + e as u32])
+    });
+    let spokes = net
+        .sides
+        .iter()
+        .enumerate()
+        .flat_map(|(f, sides)| sides.map(|side| [corners + side.edge, corners + edges + f as u32]));
+    let curve = |ends| PatchCurve { ends, knots: Vec::new(), control: Vec::new() };
+    let curves = halves.chain(spokes).map(curve).collect();
+    let patch = |q: usize| {
+        let (f, k) = (q / 3, q % 3);
+        let [here, before] = [k, (k + 2) % 3].map(|k| net.sides[f][k]);
+        let spoke = |k: usize| 2 * edges + (3 * f + k) as u32;
+        let sides = [
+            (2 * here.edge + u32::from(here.reversed), false),
+            (spoke(k), false),
+            (spoke((k + 2) % 3), true),
+            (2 * before.edge + u32::from(!before.reversed), true),
+        ];
+        let sides = sides.map(|(curve, reversed)| PatchSide { curve, reversed });
+        BicubicPatch { source: (f as u32, k), knots: [Vec::new(), Vec::new()], control: Vec::new(), sides }
+    };
+    BicubicSurface { points, curves, patches: (0..3 * net.sides.len()).map(patch).collect() }
+}
+
+/// The control points of the bicubic that interpolates points and derivatives: first along s, then along t.
+fn tensor(Sample { points, twists, .. }: &Sample, across: &[Vec<Vector>; 4]) -> Vec<Vec<Vector>> {
+    let row = |j: usize| interpolate(&points[j], [across[3][j], across[1][j]]);
+    let rows: Vec<Vec<Vector>> = (0..points.len()).map(row).collect();
+    let ends =
+        [interpolate(&across[0], [twists[0], twists[1]]), interpolate(&across[2], [twists[2], twists[3]])];
+    let column = |i: usize| {
+        let values: Vec<Vector> = rows.iter().map(|row| row[i]).collect();
+        interpolate(&values, [ends[0][i], ends[1][i]])
+    };
+    (0..rows[0].len()).map(column).collect()
+}

@@ -1,0 +1,154 @@
+//! What fills a hole: a uniform bicubic B-spline over the square −1 ≤ p, q ≤ 1.
+
+use super::jet::Jet;
+use crate::error::{Error, Result};
+use crate::geometry::complex::Complex;
+use crate::geometry::vector::Vector;
+use crate::linalg::dense::solve_definite;
+
+/// Most cells along a side of the square: 361 coefficients, whose dense equations take milliseconds.
+const MOST_CELLS: usize = 16;
+/// Points per coefficient.
+const POINTS: usize = 3;
+/// Weight of the mean square of second differences of the coefficients beside the mean square of the distances: decides where there are no points.
+const FAIRNESS: f64 = 1e-6;
+
+/// The coefficients of a fill: (k + 3)² for k × k cells, rows of q after each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fill {
+    cells: usize,
+    coefficients: Vec<Vector>,
+}
+
+/// The four B-splines that are not 0 at a coordinate: the first of their numbers, and value, first and second derivative of each.
+fn basis(x: f64, cells: usize) -> (usize, [[f64; 3]; 4]) {
+    let per_unit = 0.5 * cells as f64;
+    let u = (x + 1.0) * per_unit;
+    let first = (u.max(0.0) as usize).min(cells - 1);
+    let s = u - first as f64;
+    let r = 1.0 - s;
+    let values = [
+        [r * r * r / 6.0, -0.5 * r * r, r],
+        [(s * s * (3.0 * s - 6.0) + 4.0) / 6.0, s * (1.5 * s - 2.0), 3.0 * s - 2.0],
+        [(r * r * (3.0 * r - 6.0) + 4.0) / 6.0, -r * (1.5 * r - 2.0), 3.0 * r - 2.0],
+        [s * s * s / 6.0, 0.5 * s * s, s],
+    ];
+    (first, values.map(|[value, d, dd]| [value, d * per_unit, dd * per_unit * per_unit]))
+}
+
+/// The number of coefficients along a side, for so many points.
+fn side_for(points: usize) -> usize {
+    let side = ((points / POINTS) as f64).sqrt() as usize;
+    side.clamp(4, MOST_CELLS + 3)
+}
+
+impl Fill {
+    /// A fill with these coefficients.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for another number than (k + 3)², k = 1 … 16; [`Error::Spline`] for one that is not finite.
+    pub fn new(coefficients: Vec<Vector>) -> Result<Fill> {
+        let Some(cells) = (1..=MOST_CELLS).find(|k| (k + 3) * (k + 3) == coefficients.len()) else {
+            return Err(Error::argument(
+                "coefficients of a hole",
+                coefficients.len(),
+                "(k + 3)² for a k from 1 to 16",
+            ));
+        };
+        if let Some(at) = coefficients.iter().position(|c| !c.iter().all(|x| x.is_finite())) {
+            let message = "it is no finite number".into();
+            return Err(Error::Spline { what: "coefficient of a hole", index: at, message });
+        }
+        Ok(Fill { cells, coefficients })
+    }
+
+    /// The fill that is nearest to weighted points at places p + iq of the unit disk, in the sense of least squares. The count `given` of points of the surface among
+    /// them decides how many cells it has.
+    ///
+    /// # Errors
+    /// [`Error::Factorisation`] without points.
+    pub fn fitted(all: &[(f64, Complex, Vector)], given: usize) -> Result<Fill> {
+        let side = side_for(given);
+        let (n, cells) = (side * side, side - 3);
+        let (mut matrix, mut right) = (vec![vec![0.0; n]; n], vec![vec![0.0; 3]; n]);
+        let mut add = |weight: f64, row: &[(usize, f64)], point: Vector| {
+            for &(i, a) in row {
+                row.iter().for_each(|&(j, b)| matrix[i][j] += weight * a * b);
+                (0..3).for_each(|x| right[i][x] += weight * a * point[x]);
+            }
+        };
+        for &(weight, [p, q], point) in all {
+            let ((i, along), (j, across)) = (basis(p, cells), basis(q, cells));
+            let row: Vec<(usize, f64)> = (0..16)
+                .map(|k| ((j + k / 4) * side + i + k % 4, across[k / 4][0] * along[k % 4][0]))
+                .collect();
+            add(weight, &row, point);
+        }
+        let whole: f64 = all.iter().map(|(weight, ..)| weight).sum();
+        let fair = FAIRNESS * whole / n as f64;
+        for at in 0..n {
+            for (room, step) in [(at % side, 1), (at / side, side)] {
+                if room + 2 < side {
+                    add(fair, &[(at, 1.0), (at + step, -2.0), (at + 2 * step, 1.0)], [0.0; 3]);
+                }
+            }
+            if at % side + 1 < side && at / side + 1 < side {
+                let twist = [(at, 1.0), (at + 1, -1.0), (at + side, -1.0), (at + side + 1, 1.0)];
+                add(2.0 * fair, &twist, [0.0; 3]);
+            }
+        }
+        let coefficients = solve_definite(&matrix, &right)?.iter().map(|c| [c[0], c[1], c[2]]).collect();
+        Fill::new(coefficients)
+    }
+
+    /// How many coefficients a fill of so many points has.
+    pub(crate) fn coefficients_for(points: usize) -> usize {
+        side_for(points).pow(2)
+    }
+
+    /// The coefficients.
+    pub fn coefficients(&self) -> &[Vector] {
+        &self.coefficients
+    }
+
+    /// The three coordinates as functions of what p and q are functions of.
+    pub(super) fn at(&self, [p, q]: [Jet; 2]) -> [Jet; 3] {
+        let side = self.cells + 3;
+        let ((i, along), (j, across)) = (basis(p.0[0], self.cells), basis(q.0[0], self.cells));
+        std::array::from_fn(|x| {
+            // f, f_p, f_q, f_pp, f_pq, f_qq.
+            let mut partial = [0.0; 6];
+            for (k, b) in across.iter().enumerate() {
+                for (l, a) in along.iter().enumerate() {
+                    let c = self.coefficients[(j + k) * side + i + l][x];
+                    let terms =
+                        [a[0] * b[0], a[1] * b[0], a[0] * b[1], a[2] * b[0], a[1] * b[1], a[0] * b[2]];
+                    partial.iter_mut().zip(terms).for_each(|(sum, term)| *sum += c * term);
+                }
+            }
+            Jet::of_two(partial, [p, q])
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cubic polynomials are reproduced, with their derivatives.
+    #[test]
+    fn cubics_are_reproduced() {
+        let cubic = |p: f64, q: f64| [p, p * p * q - q * q * q, 1.0 + p * q];
+        let places = (0..900).map(|k| [f64::from(k % 30) / 14.5 - 1.0, f64::from(k / 30) / 14.5 - 1.0]);
+        let all: Vec<_> = places.map(|[p, q]| (1.0, [p, q], cubic(p, q))).collect();
+        let fill = Fill::fitted(&all, 192).unwrap();
+        assert_eq!(fill.coefficients().len(), 64);
+        let [p, q] = [0.31, -0.62];
+        let variables = [Jet([p, 1.0, 0.0, 0.0, 0.0, 0.0]), Jet([q, 0.0, 1.0, 0.0, 0.0, 0.0])];
+        let found = fill.at(variables)[1].0;
+        let exact = [p * p * q - q * q * q, 2.0 * p * q, p * p - 3.0 * q * q, 2.0 * q, 2.0 * p, -6.0 * q];
+        for (a, b) in found.iter().zip(exact) {
+            assert!((a - b).abs() < 1e-3, "{found:?} {exact:?}");
+        }
+    }
+}

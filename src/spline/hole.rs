@@ -1,0 +1,270 @@
+//! The surface around a singular vertex.
+//!
+//! Around a vertex with a total angle of 2πm the sum of the basis functions of a spline over the flat metric is not 1: in the core of the hole, the disk
+//! of its knots. There the surface is a function G of the coordinate w = z^{1/m}, in which the vertex is a point as any other, and goes over
+//! into the spline by a weight that is 1 for |w| ≤ τρ, 0 for |w| ≥ ρ, and has two continuous derivatives:
+//!
+//! ```text
+//!     F̃ = F + φ(|w|/ρ) (G(w) − F),        φ = 1 for t ≤ τ,  1 − (10 s³ − 15 s⁴ + 6 s⁵), s = (t − τ)/(1 − τ), for τ ≤ t ≤ 1.
+//! ```
+//!
+//! τ is 0.7, or where the core is wider in w, its rim. G is a bicubic B-spline, [`Fill`].
+//!
+//! So F̃ has as many continuous derivatives as F, up to two, on all of the hole.
+
+use super::fill::Fill;
+use super::jet::Jet;
+use super::patch::Parameter;
+use super::point::SurfacePoint;
+use super::space::SplineSpace;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::complex::{Complex, add, conj, doubled_area, mul, norm, norm2, scale, sub};
+use crate::geometry::vector::Vector;
+use std::f64::consts::{PI, TAU};
+
+/// Radius of the core over that of the smallest hole, the one inside the triangles at the vertex: large enough that the spline does not bend sharply along the sides at the vertex, small enough that the core is a
+/// small part of the triangles there.
+const CORE: f64 = 0.05;
+/// How much wider than the core the disk is in which the spline has no weight.
+const CLEAR: f64 = 1.1;
+/// Least τ.
+const LEAST_INNER: f64 = 0.7;
+/// Circles around the vertex, and places on each, at which the polynomial is fitted to the spline: where the weight goes from 1 to 0.
+const RINGS: [usize; 2] = [6, 48];
+/// Nearer to the vertex, in the unit of the metric, a place is the vertex: derivatives by the chart's coordinates would overflow.
+const VERTEX: f64 = 1e-50;
+/// Most turns of a hole: surfaces of any genus that can be triangulated here have fewer.
+const MOST_TURNS: u32 = 1 << 16;
+/// Share of a triangle's area by which a place may lie outside it: rounding.
+const OUTSIDE: f64 = 1e-9;
+
+/// Where a patch lies around a singular vertex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sector {
+    /// The patch.
+    pub patch: u32,
+    /// The direction of its middle: an angle around the vertex, from a fixed direction, counterclockwise.
+    pub angle: f64,
+    /// The map of its chart to the plane in which the vertex is 0, the direction of the patch's middle that of the x axis, and the unit that of the
+    /// flat metric: a motion and a change of scale, as the rows `[a, −b, x]`, `[b, a, y]`.
+    pub to: [[f64; 3]; 2],
+}
+
+/// The hole around a singular vertex, and what fills it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hole {
+    /// The patches that the hole meets, in the order of their numbers. A patch that meets it in several ways is there as often.
+    pub sectors: Vec<Sector>,
+    /// m: the total angle in turns.
+    pub turns: u32,
+    /// Radius of the hole in the unit of the flat metric.
+    pub radius: f64,
+    /// G of p + iq = w/ρ. None before the hole is filled.
+    pub fill: Option<Fill>,
+}
+
+impl Hole {
+    /// A hole that nothing fills yet.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for no sectors, no turns, or a radius that is not positive.
+    pub fn new(mut sectors: Vec<Sector>, turns: u32, radius: f64) -> Result<Hole> {
+        if sectors.is_empty() || !(1..=MOST_TURNS).contains(&turns) {
+            return Err(Error::argument(
+                "turns of a hole",
+                turns,
+                "1 to 65536, with patches around the vertex",
+            ));
+        }
+        if !(radius > 0.0 && radius.is_finite()) {
+            return Err(Error::argument("radius of a hole", radius, "positive"));
+        }
+        sectors.sort_by_key(|sector| sector.patch);
+        Ok(Hole { sectors, turns, radius, fill: None })
+    }
+
+    /// Radius of the core where this is the smallest hole, in the unit of the metric: knots of the vertex lie in it.
+    pub fn core(&self) -> f64 {
+        CORE * self.radius
+    }
+
+    /// τ: the share of |w| up to which the surface is the polynomial alone.
+    pub(super) fn inner(&self) -> f64 {
+        (CLEAR * CORE).powf(1.0 / f64::from(self.turns)).max(LEAST_INNER)
+    }
+
+    /// Whether a place is in the hole.
+    pub fn contains(&self, at: Parameter) -> bool {
+        self.coordinate(at).is_some_and(|[w, ..]| norm(w) < 1.0)
+    }
+
+    /// Whether the spline has no weight at a place: there its basis functions need not add up to 1.
+    pub(crate) fn is_core(&self, at: Parameter) -> bool {
+        self.coordinate(at).is_some_and(|[w, ..]| norm(w) <= self.inner())
+    }
+
+    /// This hole, filled, around a vertex of this domain.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] for a sector that is no patch.
+    pub fn filled_by(self, space: &SplineSpace, fill: Fill) -> Result<Hole> {
+        let patches = space.patches().len();
+        let is_sound = |s: &Sector| {
+            let [[a, b, x], [c, d, y]] = s.to;
+            let is_finite = [s.angle, a, b, x, y].iter().all(|x| x.is_finite());
+            (s.patch as usize) < patches && is_finite && a * a + b * b > 0.0 && a == d && b == -c
+        };
+        if let Some(at) = self.sectors.iter().position(|sector| !is_sound(sector)) {
+            let message = "it is no patch with an angle and a map that turns and scales".into();
+            return Err(Error::Spline { what: "sector of a hole", index: at, message });
+        }
+        Ok(Hole { fill: Some(fill), ..self })
+    }
+
+    /// Fill the hole: the function that is nearest, in the sense of least squares, to points at places, and to the spline's points at those of
+    /// [`Hole::rings`], which together weigh as much as the others; places outside the hole do not count.
+    ///
+    /// # Errors
+    /// [`Error::Size`]; [`Error::Factorisation`] without points.
+    pub fn fill(
+        &mut self,
+        space: &SplineSpace,
+        (places, points): (&[Parameter], &[Vector]),
+        rings: &[Vector],
+    ) -> Result<()> {
+        check_size("points of a hole", points.len(), places.len())?;
+        let inside = |(place, point): (&Parameter, &Vector)| {
+            let [w, ..] = self.coordinate(*place).filter(|w| norm(w[0]) <= 1.0)?;
+            Some((w, *point))
+        };
+        let given: Vec<(Complex, Vector)> = places.iter().zip(points).filter_map(inside).collect();
+        let around = self.rings(space);
+        check_size("points on the rings of a hole", rings.len(), around.len())?;
+        let around: Vec<(Complex, Vector)> = around.iter().zip(rings).filter_map(inside).collect();
+        let weight = given.len().max(1) as f64 / around.len().max(1) as f64;
+        let points = given.iter().map(|&(w, point)| (1.0, w, point));
+        let all: Vec<_> = points.chain(around.into_iter().map(|(w, point)| (weight, w, point))).collect();
+        self.fill = Some(Fill::fitted(&all, given.len())?);
+        Ok(())
+    }
+
+    /// Places on circles around the vertex, where the weight goes from 1 to 0.
+    pub fn rings(&self, space: &SplineSpace) -> Vec<Parameter> {
+        let [circles, each] = RINGS;
+        let each = each * self.turns as usize;
+        let inner = self.inner();
+        let ring = |k: usize| inner + (1.0 - inner) * (k as f64 + 0.5) / circles as f64;
+        let angle = |j: usize| TAU * f64::from(self.turns) * (j as f64 + 0.5) / each as f64;
+        let place =
+            |k: usize, j: usize| self.place(space, self.radius * ring(k).powi(self.turns as i32), angle(j));
+        (0..circles).flat_map(|k| (0..each).filter_map(move |j| place(k, j))).collect()
+    }
+
+    /// The place at a distance from the vertex, in the unit of the metric, in a direction: an angle as those of the sectors. None beyond the patches.
+    pub fn place(&self, space: &SplineSpace, far: f64, angle: f64) -> Option<Parameter> {
+        let whole = TAU * f64::from(self.turns);
+        let inside = |sector: &Sector| {
+            let turn = angle - sector.angle;
+            let turn = turn - whole * (turn / whole).round();
+            let at = sector.chart(scale(far, [turn.cos(), turn.sin()]));
+            let [a, b, c] = [0, 1, 2].map(|k| space.patches()[sector.patch as usize].knots[k][0]);
+            let sides = [doubled_area([at, a, b]), doubled_area([at, b, c]), doubled_area([at, c, a])];
+            let least = sides.into_iter().fold(f64::INFINITY, f64::min) / doubled_area([a, b, c]);
+            let found = Parameter { patch: sector.patch, x: at[0], y: at[1] };
+            (turn.abs() < PI && least > -OUTSIDE).then_some((least, found))
+        };
+        let all = self.sectors.iter().filter(|s| (s.patch as usize) < space.patches().len());
+        all.filter_map(inside).max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, found)| found)
+    }
+
+    /// w/ρ of a place in the chart of its patch, with first and second derivative there; at the vertex, where w has none, those of w/ρ itself.
+    /// None in patches that the hole does not meet.
+    fn coordinate(&self, at: Parameter) -> Option<[Complex; 3]> {
+        let first = self.sectors.partition_point(|sector| sector.patch < at.patch);
+        // A patch may lie around the vertex in several ways: the one nearest to it counts.
+        let here = self.sectors[first..].iter().take_while(|sector| sector.patch == at.patch);
+        let places = here.map(|sector| (sector, sector.local([at.x, at.y])));
+        let (sector, z) = places.min_by(|(_, a), (_, b)| norm2(*a).total_cmp(&norm2(*b)))?;
+        let share = 1.0 / f64::from(self.turns);
+        let angle = share * (sector.angle + z[1].atan2(z[0]));
+        let w = scale((norm(z) / self.radius).powf(share), [angle.cos(), angle.sin()]);
+        if norm(z) <= VERTEX {
+            return Some([[0.0; 2], [1.0, 0.0], [0.0; 2]]);
+        }
+        // w = c z^(1/m) and dz = turn dp for places p in the chart: w' = turn w/(m z), w'' = (1/m − 1) w' turn/z.
+        let over_z = scale(1.0 / norm2(z), mul(sector.turn(), conj(z)));
+        let first = scale(share, mul(w, over_z));
+        Some([w, first, scale(share - 1.0, mul(first, over_z))])
+    }
+
+    /// The surface at a place where the spline has this point; none outside the hole. At the vertex itself, where the chart is none of the
+    /// surface, the derivatives are those by real and imaginary part of w/ρ: normal and curvatures do not depend on coordinates.
+    pub fn surface(&self, at: Parameter, spline: &SurfacePoint) -> Option<SurfacePoint> {
+        let w = self.coordinate(at).filter(|w| norm(w[0]) < 1.0)?;
+        let w = Jet::of_holomorphic(w);
+        let square = w[0].times(w[0]).plus(w[1].times(w[1]));
+        let weight = square.through(fade(square.0[0], self.inner()));
+        let rest = Jet::constant(1.0).plus(weight.times(Jet::constant(-1.0)));
+        let inside = self.fill.as_ref()?.at(w);
+        let blended = |x: usize| {
+            let [a, b] = spline.first.map(|d| d[x]);
+            let [aa, ab, bb] = spline.second.map(|d| d[x]);
+            let outside = Jet([spline.point[x], a, b, aa, ab, bb]);
+            weight.times(inside[x]).plus(rest.times(outside))
+        };
+        Some(surface_point([blended(0), blended(1), blended(2)]))
+    }
+
+    /// G without the spline around it, with derivatives by p and q where p + iq = w/ρ. For |w| ≤ τρ that is the surface. None before the hole
+    /// is filled.
+    pub(super) fn filling(&self, w: Complex) -> Option<SurfacePoint> {
+        let w = Jet::of_holomorphic([w, [1.0, 0.0], [0.0; 2]]);
+        Some(surface_point(self.fill.as_ref()?.at(w)))
+    }
+
+    /// The place whose w/ρ is a number, or where that is larger than 1, the one on the rim in its direction. None beyond the patches.
+    pub(super) fn place_of(&self, space: &SplineSpace, w: Complex) -> Option<Parameter> {
+        let angle = f64::from(self.turns) * w[1].atan2(w[0]);
+        self.place(space, self.radius * norm(w).min(1.0).powi(self.turns as i32), angle)
+    }
+}
+
+/// The point and derivatives of three coordinates.
+fn surface_point(coordinates: [Jet; 3]) -> SurfacePoint {
+    let at = |k: usize| coordinates.map(|Jet(all)| all[k]);
+    SurfacePoint { point: at(0), first: [at(1), at(2)], second: [at(3), at(4), at(5)] }
+}
+
+impl Sector {
+    /// The factor of its map.
+    fn turn(&self) -> Complex {
+        [self.to[0][0], self.to[1][0]]
+    }
+
+    /// Where a point of the chart lies beside the vertex.
+    pub fn local(&self, at: Complex) -> Complex {
+        let [[.., x], [.., y]] = self.to;
+        add(mul(self.turn(), at), [x, y])
+    }
+
+    /// The point of the chart at a place beside the vertex.
+    pub fn chart(&self, z: Complex) -> Complex {
+        let ([[.., x], [.., y]], turn) = (self.to, self.turn());
+        scale(1.0 / norm2(turn), mul(conj(turn), sub(z, [x, y])))
+    }
+}
+
+/// φ(√x) with its first and second derivative by x, for this τ.
+fn fade(x: f64, inner: f64) -> [f64; 3] {
+    let t = x.sqrt();
+    if t <= inner {
+        return [1.0, 0.0, 0.0];
+    }
+    let scale = 1.0 / (1.0 - inner);
+    let s = (scale * (t - inner)).min(1.0);
+    let value = 1.0 - s * s * s * (10.0 + s * (6.0 * s - 15.0));
+    // By t: ds/dt = 1/(1 − τ); by x: dt/dx = 1/(2t).
+    let first = -scale * 30.0 * s * s * (1.0 - s) * (1.0 - s);
+    let second = -scale * scale * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
+    [value, first / (2.0 * t), (second - first / t) / (4.0 * t * t)]
+}

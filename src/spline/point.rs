@@ -1,0 +1,50 @@
+//! Points of surfaces with what derivatives say of the surface there.
+
+use crate::geometry::vector::{self, Vector};
+
+/// A point of a surface with its derivatives by the coordinates (x, y) of the chart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// The point.
+    pub point: Vector,
+    /// First derivatives: by x, by y.
+    pub first: [Vector; 2],
+    /// Second derivatives: xx, xy, yy.
+    pub second: [Vector; 3],
+}
+
+impl Default for SurfacePoint {
+    fn default() -> Self {
+        SurfacePoint { point: [0.0; 3], first: [[0.0; 3]; 2], second: [[0.0; 3]; 3] }
+    }
+}
+
+impl SurfacePoint {
+    /// Derivatives beyond this order set to 0.
+    pub(super) fn cut(self, order: usize) -> SurfacePoint {
+        let zero = SurfacePoint::default();
+        let first = if order < 1 { zero.first } else { self.first };
+        SurfacePoint { first, second: if order < 2 { zero.second } else { self.second }, ..self }
+    }
+
+    /// The unit normal, to the side from which the chart is seen counterclockwise; none where the first derivatives are parallel.
+    pub fn normal(&self) -> Option<Vector> {
+        let across = vector::cross(self.first[0], self.first[1]);
+        let length = vector::norm(across);
+        (length > 0.0).then(|| across.map(|x| x / length))
+    }
+
+    /// The principal curvatures, the larger one first, positive where the surface bends towards its normal; none without a normal.
+    pub fn principal_curvatures(&self) -> Option<[f64; 2]> {
+        let normal = self.normal()?;
+        let [x, y] = self.first;
+        let [e, f, g] = [vector::dot(x, x), vector::dot(x, y), vector::dot(y, y)];
+        let [l, m, n] = self.second.map(|d| vector::dot(d, normal));
+        let det = e * g - f * f;
+        let mean = 0.5 * (e * n - 2.0 * f * m + g * l) / det;
+        let gauss = (l * n - m * m) / det;
+        let half = (mean * mean - gauss).max(0.0).sqrt();
+        let curvatures = [mean + half, mean - half];
+        curvatures.iter().all(|k| k.is_finite()).then_some(curvatures)
+    }
+}

@@ -1,0 +1,23 @@
+//! Splines over whole surfaces.
+
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
+
+mod closest;
+mod coarse;
+mod hole;
+mod space;
+
+use ricci::manifold::{Flat, FlatOptions, SurfaceFit, SurfaceFitOptions, fit_surface};
+use ricci::mesh::shapes;
+use ricci::{Control, Surface};
+use std::sync::OnceLock;
+
+/// A cubic spline over a surface of genus 2 with one singular vertex, which is made once.
+fn sample() -> &'static SurfaceFit {
+    static SAMPLE: OnceLock<SurfaceFit> = OnceLock::new();
+    SAMPLE.get_or_init(|| {
+        let surface = Surface::from_soup(&shapes::genus(2, 8).unwrap()).unwrap();
+        let flat = Flat::new(&surface, &FlatOptions::default(), &Control::new()).unwrap();
+        fit_surface(&surface, &flat, &SurfaceFitOptions::default(), &Control::new()).unwrap()
+    })
+}
