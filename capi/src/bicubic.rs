@@ -100,10 +100,6 @@ impl ricci_step_options {
     }
 }
 
-fn n_control_points(surface: &BicubicSurface) -> usize {
-    surface.patches.iter().map(|patch| patch.control.iter().map(Vec::len).sum::<usize>()).sum()
-}
-
 /// The format that a file's name asks for.
 fn format_of(path: &Path) -> Outcome<Format> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
@@ -120,7 +116,7 @@ fn format_of(path: &Path) -> Outcome<Format> {
 /// The bytes of a file of patches.
 fn bytes(surface: &BicubicSurface, format: Format, options: *const ricci_step_options) -> Outcome<Vec<u8>> {
     let options = structs::read(options)?.read()?;
-    let _reserve = memory::work(n_control_points(surface), memory::BICUBIC_TEXT)?;
+    let _reserve = memory::work(surface.n_control_points(), memory::BICUBIC_TEXT)?;
     let mut bytes = Vec::new();
     match format {
         Format::Step => surface.write_step(&options, &mut bytes)?,
@@ -163,7 +159,7 @@ pub unsafe extern "C" fn ricci_bicubic_summarise(
             size,
             n_patches: surface.patches.len(),
             n_curves: surface.curves.len(),
-            n_control_points: n_control_points(surface),
+            n_control_points: surface.n_control_points(),
             spans_min: found.spans[0],
             spans_max: found.spans[1],
             rounds: found.rounds,

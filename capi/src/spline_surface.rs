@@ -8,7 +8,7 @@ use crate::metric::ricci_metric;
 use crate::spline::ricci_spline;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
-use ricci::geometry::vector::{Vector, distance};
+use ricci::geometry::vector::{Vector, diagonal};
 use ricci::manifold::{Flat, SurfaceFitOptions, fit_surface};
 
 #[repr(C)]
@@ -68,14 +68,6 @@ pub unsafe extern "C" fn ricci_spline_fit_surface(
         let size = surface.positions().map_or(0.0, |points| diagonal(points));
         Ok(ricci_spline { spline: found.spline, fitted: Some([found.rms * size, found.max * size]) })
     })
-}
-
-/// The diagonal of the bounding box of points.
-fn diagonal(points: &[Vector]) -> f64 {
-    let corner = |pick: fn(f64, f64) -> f64| {
-        points.iter().copied().reduce(|a, b| [0, 1, 2].map(|k| pick(a[k], b[k]))).unwrap_or_default()
-    };
-    distance(corner(f64::min), corner(f64::max))
 }
 
 #[unsafe(no_mangle)]

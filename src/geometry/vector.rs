@@ -48,6 +48,14 @@ pub fn distance(a: Vector, b: Vector) -> f64 {
     norm(sub(a, b))
 }
 
+/// The diagonal of the bounding box of points; 0 without points.
+pub fn diagonal(points: &[Vector]) -> f64 {
+    let bound = |pick: fn(f64, f64) -> f64| {
+        points.iter().copied().reduce(|a, b| [0, 1, 2].map(|k| pick(a[k], b[k]))).unwrap_or_default()
+    };
+    distance(bound(f64::min), bound(f64::max))
+}
+
 /// The vector of length 1 in the same direction; a zero vector stays zero.
 pub fn normalised(a: Vector) -> Vector {
     let length = norm(a);

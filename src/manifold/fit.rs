@@ -7,7 +7,7 @@ use super::grade::{Grade, Miss};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::Complex;
-use crate::geometry::vector::{Vector, distance, dot, sub};
+use crate::geometry::vector::{Vector, diagonal, distance, dot, sub};
 use crate::mesh::{Mesh, VertexId};
 use crate::metric::Surface;
 use crate::spline::{Fill, FitOptions, Hole, Parameter, Spline, SplineSpace, fit};
@@ -155,13 +155,6 @@ fn vertices_for(control_points: usize, mesh: &Mesh, degree: usize) -> usize {
 fn vertices_inside(hole: f64, turns: u32, (vertices, triangles): (usize, usize)) -> usize {
     let wanted = hole * f64::from(turns * turns) * vertices as f64 / triangles.max(1) as f64;
     (wanted as usize).clamp(LEAST_INSIDE, LEAST_INSIDE.max((MOST_INSIDE * vertices as f64) as usize))
-}
-
-fn diagonal(points: &[Vector]) -> f64 {
-    let bound = |pick: fn(f64, f64) -> f64| {
-        points.iter().copied().reduce(|a, b| [0, 1, 2].map(|k| pick(a[k], b[k]))).unwrap_or_default()
-    };
-    distance(bound(f64::min), bound(f64::max))
 }
 
 /// One domain, and what is fitted on it.

@@ -209,6 +209,16 @@ fn knot_direction(first: f64, j: usize) -> [f64; 2] {
 /// # Errors
 /// [`Error::Spline`] names the patch and the knots.
 pub(super) fn check_knots(patch: usize, knots: &[Vec<[f64; 2]>; 3]) -> Result<()> {
+    check_triangles(patch, knots)?;
+    if omega(knots).is_empty() {
+        let message = "no point is inside all triangles of its knots; move knots nearer to their vertices";
+        return Err(Error::Spline { what: "patch", index: patch, message: message.into() });
+    }
+    Ok(())
+}
+
+/// Whether all triangles (t_{0,a}, t_{1,b}, t_{2,c}) of knots are counterclockwise.
+fn check_triangles(patch: usize, knots: &[Vec<[f64; 2]>; 3]) -> Result<()> {
     let refuse = |message: String| Err(Error::Spline { what: "patch", index: patch, message });
     let n = knots[0].len();
     if let Some(k) = (0..3).find(|&k| knots[k].len() != n) {
@@ -231,11 +241,6 @@ pub(super) fn check_knots(patch: usize, knots: &[Vec<[f64; 2]>; 3]) -> Result<()
             }
         }
     }
-    if omega(knots).is_empty() {
-        return refuse(
-            "no point is inside all triangles of its knots; move knots nearer to their vertices".into(),
-        );
-    }
     Ok(())
 }
 
@@ -254,14 +259,16 @@ pub(super) fn omega(knots: &[Vec<[f64; 2]>; 3]) -> Vec<[f64; 2]> {
 
 /// The area of Ω over that of the patch; 0 where it is empty, or three knots are clockwise.
 pub(crate) fn share_of_omega(knots: &[Vec<[f64; 2]>; 3]) -> f64 {
-    if check_knots(0, knots).is_err() {
+    if check_triangles(0, knots).is_err() {
         return 0.0;
     }
-    let area = |polygon: &[[f64; 2]]| -> f64 {
-        (1..polygon.len() - 1).map(|i| doubled_area([polygon[0], polygon[i], polygon[i + 1]])).sum()
-    };
     let [a, b, c] = [&knots[0], &knots[1], &knots[2]].map(|of| of[0]);
-    area(&omega(knots)) / doubled_area([a, b, c])
+    doubled_area_of(&omega(knots)) / doubled_area([a, b, c])
+}
+
+/// Twice the area of a convex polygon; 0 without corners.
+fn doubled_area_of(polygon: &[[f64; 2]]) -> f64 {
+    (1..polygon.len().max(2) - 1).map(|i| doubled_area([polygon[0], polygon[i], polygon[i + 1]])).sum()
 }
 
 /// The part of a convex polygon to the left of the line from a to b.
@@ -282,8 +289,7 @@ fn clipped(polygon: &[[f64; 2]], a: [f64; 2], b: [f64; 2]) -> Vec<[f64; 2]> {
             left.push([p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])]);
         }
     }
-    let area: f64 = (1..left.len().max(2) - 1).map(|i| doubled_area([left[0], left[i], left[i + 1]])).sum();
-    if area > zero { left } else { Vec::new() }
+    if doubled_area_of(&left) > zero { left } else { Vec::new() }
 }
 
 /// Whether two directions are the same or opposite.

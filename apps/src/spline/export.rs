@@ -71,13 +71,12 @@ fn checks(args: &ExportArgs, found: &Bicubic) -> Checks {
 
 fn figures(spline: &Spline, found: &Bicubic) -> Figures {
     let surface = &found.surface;
-    let points = surface.patches.iter().map(|patch| patch.control.len() * patch.control[0].len());
     Figures::default()
         .with("degree", spline.space().degree())
         .with("patches", spline.space().patches().len())
         .with("bicubic_patches", surface.patches.len())
         .with("curves", surface.curves.len())
-        .with("control_points", points.sum::<usize>())
+        .with("control_points", surface.n_control_points())
         .with("spans_min", found.spans[0])
         .with("spans_max", found.spans[1])
         .with("rounds", found.rounds)

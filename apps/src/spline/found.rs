@@ -1,4 +1,4 @@
-//! What fits of splines have in common.
+//! What fits of splines come to.
 
 use crate::report::{Checks, Figures};
 use ricci::spline::Spline;
@@ -14,13 +14,4 @@ pub struct Found {
     pub defaults: Map<String, Value>,
     pub figures: Figures,
     pub checks: Checks,
-}
-
-/// The diagonal of the bounding box of points.
-pub fn diagonal(points: &[[f64; 3]]) -> f64 {
-    let extent = |x: usize| {
-        let all = points.iter().map(|p| p[x]);
-        all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
-    };
-    [0, 1, 2].map(extent).iter().map(|x| x * x).sum::<f64>().sqrt()
 }

@@ -1,12 +1,13 @@
 //! Splines over the plane.
 
 use super::args::FitArgs;
-use super::found::{Found, diagonal};
+use super::found::Found;
 use super::height_field::{HeightField, height_field};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::report::{Checks, Figures};
 use ricci::Control;
+use ricci::geometry::vector::diagonal;
 use ricci::spline::{
     FitOptions, Fitted, KnotOptions, Locator, Parameter, SplineSpace, fit as fit_points, triangulate,
 };

@@ -16,10 +16,9 @@ use crate::spline::patch::Parameter;
 use crate::spline::point::SurfacePoint;
 use crate::spline::surface::Spline;
 
-/// Most spans along a side: a spline that needs more is rough or the tolerance is near its rounding errors.
+/// Most spans along a side: a spline that needs more is rough or the tolerance is near its rounding errors. A distance that needs more is an error, an angle is
+/// reported.
 const MOST_SPANS: usize = 64;
-/// Spans that angles between normals ask for at most: finer, folds of the spline between near knots are followed.
-const MOST_FOR_ANGLES: usize = 64;
 /// Share of the tolerance that is used up: between the places of measurement distances were up to 15 % larger.
 const SHARE: f64 = 0.8;
 /// Places that are evaluated at a time: 10 MB of points.
@@ -139,7 +138,7 @@ impl<'a> Work<'a> {
         let is_near = |&miss: &f64| miss <= SHARE * self.options.tolerance * self.diagonal;
         let mut fails: Vec<bool> = self.misses.iter().map(|miss| !is_near(miss)).collect();
         for (of, figures) in self.surface.uses().iter().zip(&self.figures) {
-            let is_coarse = |q: usize| self.spans_of(q).iter().all(|&k| k < MOST_FOR_ANGLES);
+            let is_coarse = |q: usize| self.spans_of(q).iter().all(|&k| k < MOST_SPANS);
             if figures.excess > self.options.angle {
                 of.iter().filter(|&&(q, _)| is_coarse(q)).for_each(|&(q, _)| fails[q] = true);
             }

@@ -2,7 +2,7 @@
 
 use super::cubic::{DEGREE, LOCAL, basis, combined, curve_at};
 use crate::error::{Error, Result};
-use crate::geometry::vector::{Vector, cross, distance, dot};
+use crate::geometry::vector::{Vector, cross, diagonal, dot};
 use crate::mesh::union_find::UnionFind;
 use crate::spline::point::SurfacePoint;
 
@@ -150,10 +150,12 @@ impl BicubicSurface {
 
     /// The diagonal of the bounding box of the points at which curves end.
     pub fn diagonal(&self) -> f64 {
-        let bound = |pick: fn(f64, f64) -> f64| {
-            self.points.iter().copied().reduce(|a, b| [0, 1, 2].map(|k| pick(a[k], b[k]))).unwrap_or_default()
-        };
-        distance(bound(f64::min), bound(f64::max))
+        diagonal(&self.points)
+    }
+
+    /// The number of control points of all patches, those of common sides once for each.
+    pub fn n_control_points(&self) -> usize {
+        self.patches.iter().flat_map(|patch| &patch.control).map(Vec::len).sum()
     }
 
     /// How many sides of patches differ from their curve by a bit of a knot or a control point: watertight is 0.
