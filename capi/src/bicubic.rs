@@ -8,7 +8,7 @@ use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::spline::ricci_spline;
 use crate::status::*;
-use crate::structs::{self, sized};
+use crate::structs::{self, or, sized};
 use ricci::mesh::io::write_atomically;
 use ricci::spline::{Bicubic, BicubicOptions, BicubicSurface, LengthUnit, StepOptions};
 use std::ffi::c_char;
@@ -84,10 +84,9 @@ sized!(ricci_bicubic_summary, "summary");
 impl ricci_bicubic_options {
     fn read(&self) -> BicubicOptions {
         let usual = BicubicOptions::default();
-        let real = |given: f64, usual: f64| if given == 0.0 { usual } else { given };
         BicubicOptions {
-            tolerance: real(self.tolerance, usual.tolerance),
-            angle: real(self.angle, usual.angle),
+            tolerance: or(self.tolerance, usual.tolerance),
+            angle: or(self.angle, usual.angle),
             threads: self.threads,
         }
     }

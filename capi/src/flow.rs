@@ -8,7 +8,7 @@ use crate::guard::{self, Mutable, handle, shared};
 use crate::memory;
 use crate::metric::ricci_metric;
 use crate::status::ricci_status;
-use crate::structs::{self, sized};
+use crate::structs::{self, or, sized};
 use crate::target::{ricci_target, target_of, vertices};
 use ricci::flow::{Flips, Gradient, Method, Options, StepRule};
 use ricci::mesh::EdgeId;
@@ -48,11 +48,6 @@ pub struct ricci_flow_options {
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_flow_options, "options");
-
-/// A number whose zero stands for the default.
-fn or(value: f64, default: f64) -> f64 {
-    if value == 0.0 { default } else { value }
-}
 
 /// The library's options; NULL gives the defaults.
 pub(crate) fn read_options(options: *const ricci_flow_options) -> Outcome<Options> {

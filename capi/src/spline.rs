@@ -8,7 +8,7 @@ use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::ricci_mesh;
 use crate::status::*;
-use crate::structs::{self, sized};
+use crate::structs::{self, or, sized};
 use ricci::mesh::io::Soup;
 use ricci::spline::{Domain, KnotOptions, Polynomial, Spline, SplineSpace, basis_size, triangulate};
 use std::sync::Arc;
@@ -89,7 +89,7 @@ impl ricci_spline_spec {
         }
         let usual = KnotOptions::default();
         let options = KnotOptions {
-            spread: if self.spread == 0.0 { usual.spread } else { self.spread },
+            spread: or(self.spread, usual.spread),
             coincident: array("coincident", self.coincident, self.n_coincident)?,
             creases: array("creases", self.creases.cast(), self.n_creases)?,
         };

@@ -7,7 +7,7 @@ use crate::memory;
 use crate::spline::ricci_spline;
 use crate::spline_places::{located, ricci_spline_places};
 use crate::status::ricci_status;
-use crate::structs::{self, sized};
+use crate::structs::{self, or, sized};
 use ricci::spline::{FitOptions, fit};
 
 #[repr(C)]
@@ -42,7 +42,7 @@ pub unsafe extern "C" fn ricci_spline_fit(
             structs::read(given.places)?.read(space)?
         };
         let usual = FitOptions::default();
-        let fairness = if given.fairness == 0.0 { usual.fairness } else { given.fairness };
+        let fairness = or(given.fairness, usual.fairness);
         // Below 0 stands for none; NaN is no weight, which the library says.
         let fairness = if fairness < 0.0 { 0.0 } else { fairness };
         let options = FitOptions { fairness, threads: given.threads };

@@ -7,7 +7,7 @@ use crate::memory;
 use crate::metric::ricci_metric;
 use crate::spline::ricci_spline;
 use crate::status::ricci_status;
-use crate::structs::{self, sized};
+use crate::structs::{self, or, sized};
 use ricci::geometry::vector::{Vector, diagonal};
 use ricci::manifold::{Flat, SurfaceFitOptions, fit_surface};
 
@@ -33,19 +33,18 @@ impl ricci_spline_surface_options {
     #[allow(clippy::needless_update)]
     fn read(&self) -> SurfaceFitOptions {
         let usual = SurfaceFitOptions::default();
-        let real = |given: f64, usual: f64| if given == 0.0 { usual } else { given };
         let count = |given: u32, usual: usize| if given == 0 { usual } else { given as usize };
         SurfaceFitOptions {
             degree: count(self.degree, usual.degree),
             control_points: (self.control_points > 0).then_some(self.control_points),
-            tolerance: real(self.tolerance, usual.tolerance),
+            tolerance: or(self.tolerance, usual.tolerance),
             rounds: count(self.rounds, usual.rounds),
             corrections: match self.corrections {
                 0 => usual.corrections,
                 given => usize::try_from(given).unwrap_or(0),
             },
-            fairness: real(self.fairness, usual.fairness),
-            spread: real(self.spread, usual.spread),
+            fairness: or(self.fairness, usual.fairness),
+            spread: or(self.spread, usual.spread),
             threads: self.threads,
             ..usual
         }

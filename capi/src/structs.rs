@@ -62,6 +62,11 @@ pub fn write<S: Sized64>(value: S, place: *mut S, size: usize) -> Outcome {
     Ok(())
 }
 
+/// A number whose zero stands for the default.
+pub fn or<T: Default + PartialEq>(given: T, usual: T) -> T {
+    if given == T::default() { usual } else { given }
+}
+
 /// Read a caller's struct: fields it does not have are zero, and for NULL all are.
 pub fn read<S: Sized64>(place: *const S) -> Outcome<S> {
     // SAFETY: zeros are valid (`Sized64`).

@@ -29,11 +29,7 @@ public:
     }
     std::string text(std::uint32_t format = RICCI_BICUBIC_STEP,
                      const ricci_step_options &options = init<ricci_step_options>()) const {
-        std::size_t n = 0;
-        check(ricci_bicubic_text(handle_, format, &options, nullptr, 0, &n));
-        std::vector<char> bytes(n);
-        check(ricci_bicubic_text(handle_, format, &options, bytes.data(), n, &n));
-        return std::string(bytes.data());
+        return text_of(ricci_bicubic_text, get(), format, &options);
     }
 };
 

@@ -133,6 +133,16 @@ std::vector<Value> values(Function function, Arguments... arguments) {
     return filled;
 }
 
+// The text that a function copies out through its last three parameters: bytes with a zero at the end, their
+// capacity, and how many there are.
+template <class Function, class... Arguments> std::string text_of(Function function, Arguments... arguments) {
+    std::size_t n = 0;
+    check(function(arguments..., static_cast<char *>(nullptr), std::size_t(0), &n));
+    std::vector<char> bytes(n);
+    check(function(arguments..., bytes.data(), n, &n));
+    return std::string(bytes.data());
+}
+
 // Lists of different lengths, such as loops, sides and words: list i is entries[starts[i] .. starts[i + 1]).
 template <class Value> struct lists {
     std::vector<Value> entries;

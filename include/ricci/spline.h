@@ -34,7 +34,8 @@ enum {
     RICCI_SPLINE_ABSCISSAS = 2,
     /**
      * n_holes x 2: of each hole around a singular vertex, with a filling in place of the spline, the total
-     * angle there in turns, and the radius in the unit of the flat metric.
+     * angle there in turns, and the radius in the unit of the flat metric. Of a sphere the turns are -1: its
+     * vertex is at infinity of a plane, and the hole lies outside a disk of the radius.
      */
     RICCI_SPLINE_HOLES = 3
 };

@@ -60,13 +60,7 @@ public:
         return spline(make<ricci_spline>(ricci_spline_fit_surface, flat.get(), &options, of(watched)));
     }
     void write(const std::string &path) const { check(ricci_spline_write(handle_, path.c_str())); }
-    std::string text() const {
-        std::size_t n = 0;
-        check(ricci_spline_text(handle_, nullptr, 0, &n));
-        std::vector<char> bytes(n);
-        check(ricci_spline_text(handle_, bytes.data(), n, &n));
-        return std::string(bytes.data());
-    }
+    std::string text() const { return text_of(ricci_spline_text, get()); }
     // With other control points, 3 coordinates each.
     spline with_points(span<double> points) const {
         return spline(make<ricci_spline>(ricci_spline_with_points, get(), points.data(), points.size() / 3));

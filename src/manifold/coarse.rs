@@ -35,10 +35,10 @@ pub struct Coarse {
     pub mesh: Mesh,
     /// Lengths of its edges.
     pub lengths: PerEdge<f64>,
-    /// Of its vertices the numbers that they had.
+    /// Of its vertices the numbers that they had; of those that are added around a vertex at infinity the next ones.
     pub vertices: Vec<VertexId>,
-    /// Per vertex of the fine triangulation its place.
-    pub places: PerVertex<Place>,
+    /// Per vertex of the fine triangulation its place; none at infinity and near it, beyond the triangles.
+    pub places: PerVertex<Option<Place>>,
 }
 
 impl Coarse {
@@ -282,18 +282,17 @@ impl Work {
 
     fn finish(mut self) -> Result<Coarse> {
         let left = self.thinning.finish()?;
-        let unset = Place { face: FaceId(0), weights: [0.0; 3] };
-        let mut places = PerVertex::filled(self.n_vertices, unset);
+        let mut places = PerVertex::filled(self.n_vertices, None);
         for v in left.mesh.vertices() {
             let inside = left.mesh.outgoing(v).find_map(|h| left.mesh.corner(h));
             if let Some((face, corner)) = inside {
                 let weights = [0, 1, 2].map(|k| if k == corner { 1.0 } else { 0.0 });
-                places[left.vertices[v.index()]] = Place { face, weights };
+                places[left.vertices[v.index()]] = Some(Place { face, weights });
             }
         }
         for (face, old) in left.mesh.faces().zip(&left.faces) {
             for (v, weights) in std::mem::take(&mut self.points[old.index()]) {
-                places[v] = Place { face, weights };
+                places[v] = Some(Place { face, weights });
             }
         }
         let lengths = PerEdge::from_fn(left.edges.len(), |e: EdgeId| self.lengths[left.edges[e.index()]]);
@@ -302,7 +301,7 @@ impl Work {
 }
 
 /// Barycentric weights of a point in a triangle.
-fn weights(p: Complex, [a, b, c]: [Complex; 3]) -> [f64; 3] {
+pub(super) fn weights(p: Complex, [a, b, c]: [Complex; 3]) -> [f64; 3] {
     let parts =
         [doubled_area([p, b, c]), doubled_area([a, p, c]), doubled_area([a, b, p])].map(|x| x.max(0.0));
     let sum = parts[0] + parts[1] + parts[2];

@@ -1,6 +1,7 @@
 //! Domains of splines on surfaces: a coarse flat triangulation with a chart for each of its triangles.
 
 use super::coarse::{Coarse, Place};
+use super::plane::Infinity;
 use super::similarity::Similarity;
 use crate::embed::triangle::Triangle;
 use crate::error::{Error, Result};
@@ -47,6 +48,8 @@ pub struct SurfaceDomain {
     pub(super) angle: PerHalfedge<f64>,
     /// Per vertex whether the surface is flat around it; on the boundary, whether that is straight there.
     pub(super) is_flat: PerVertex<bool>,
+    /// Of a plane with a vertex at infinity what is around this.
+    pub(super) infinity: Option<Infinity>,
 }
 
 impl SurfaceDomain {
@@ -80,7 +83,7 @@ impl SurfaceDomain {
                 }
             }
         }
-        Ok(SurfaceDomain { corners, unit, angle, is_flat, coarse })
+        Ok(SurfaceDomain { corners, unit, angle, is_flat, coarse, infinity: None })
     }
 
     /// The triangulation.
@@ -122,7 +125,7 @@ impl SurfaceDomain {
         self.coarse.mesh.fan(v).into_iter().filter_map(distance_to_side).fold(f64::INFINITY, f64::min)
     }
 
-    fn is_cone(&self, v: VertexId) -> bool {
+    pub(super) fn is_cone(&self, v: VertexId) -> bool {
         !self.is_flat[v] && !self.coarse.mesh.is_boundary_vertex(v)
     }
 
@@ -131,6 +134,21 @@ impl SurfaceDomain {
         let corners = self.corners[place.face];
         let [x, y] = (0..3).fold([0.0; 2], |sum, k| add(sum, scale(place.weights[k], corners[k])));
         Parameter { patch: place.face.0, x, y }
+    }
+
+    /// The places of the first vertices of the fine triangulation, those beyond the triangles in the chart of the hole at infinity.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] for a vertex that has none.
+    pub fn places(&self, count: usize) -> Result<Vec<Parameter>> {
+        let place = |v: VertexId| {
+            let beyond = || self.infinity.as_ref()?.place(v);
+            let place = self.coarse.places[v].map(|place| self.parameter(place)).or_else(beyond);
+            place.ok_or_else(|| {
+                Error::Layout(format!("vertex {v} has no place in the triangles of the domain"))
+            })
+        };
+        (0..count as u32).map(|v| place(VertexId(v))).collect()
     }
 
     /// The place at the end of a straight line from another one, in its chart; on the boundary and after 16 triangles the nearest one in the last triangle.
@@ -161,7 +179,7 @@ impl SurfaceDomain {
     /// coincide at corners of the boundary. `spread` as in [`crate::spline::KnotOptions`]; knots of flat vertices are farther away where every triangle there
     /// keeps a region Ω.
     ///
-    /// A singular vertex whose total angle is a multiple of 2π has directions as any other, and its knots lie in general position in the core of its
+    /// Around infinity knots of the boundary lie as others do: the spline ends in the middle of the hole. A singular vertex whose total angle is a multiple of 2π has directions as any other, and its knots lie in general position in the core of its
     /// hole: outside that core every flat region is as in the plane, and the splines are as smooth there. At another one knots coincide.
     ///
     /// # Errors
@@ -172,6 +190,8 @@ impl SurfaceDomain {
             let around = self.surroundings(v);
             let spread = match (self.is_flat[v], self.hole(v)) {
                 (true, _) => spread,
+                // The spline ends there, and something else is the surface.
+                _ if self.infinity.is_some() => spread,
                 (false, Ok(hole)) => spread.min(hole.core() / around.radius),
                 _ => 0.0,
             };
@@ -226,7 +246,8 @@ impl SurfaceDomain {
         let radius = spokes.iter().filter_map(inscribed).fold(f64::INFINITY, f64::min);
         let direction = |angle: f64| [angle.cos(), angle.sin()];
         let edges = spokes.iter().map(|&h| direction(self.angle[h])).collect();
-        let lines = if mesh.is_boundary_vertex(v) { vec![[1.0, 0.0]] } else { Vec::new() };
+        let lines =
+            if mesh.is_boundary_vertex(v) && self.infinity.is_none() { vec![[1.0, 0.0]] } else { Vec::new() };
         Around { radius, edges, lines }
     }
 

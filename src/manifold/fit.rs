@@ -1,6 +1,5 @@
 //! Splines over a whole surface, fitted to its vertices.
 
-use super::coarse::Coarse;
 use super::domain::SurfaceDomain;
 use super::flat::Flat;
 use super::grade::{Grade, Miss};
@@ -8,7 +7,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::Complex;
 use crate::geometry::vector::{Vector, diagonal, distance, dot, sub};
-use crate::mesh::{Mesh, VertexId};
+use crate::mesh::VertexId;
 use crate::metric::Surface;
 use crate::spline::{Fill, FitOptions, Hole, Parameter, Spline, SplineSpace, fit};
 use std::sync::Arc;
@@ -75,6 +74,8 @@ pub struct SurfaceFit {
     pub domain: SurfaceDomain,
     /// Per vertex of the surface its place.
     pub places: Vec<Parameter>,
+    /// The singular vertices inside the surface, around which the spline has its holes, in their order.
+    pub singular: Vec<VertexId>,
     /// Root of the mean of the squared distances of the vertices from their places on the spline, over the diagonal of the bounding box.
     pub rms: f64,
     /// The largest such distance, over the same.
@@ -110,12 +111,12 @@ pub fn fit_surface(
     let inside = |turns: u32| vertices_inside(options.hole, turns, (mesh.n_vertices(), triangles));
     let mut grade = Grade::new(surface, flat, triangles, inside, control)?;
     let fills: usize = grade.turns().map(|turns| Fill::coefficients_for(inside(turns))).sum();
-    let count = vertices_for(most.saturating_sub(fills), mesh, options.degree);
+    let count = vertices_for(most.saturating_sub(fills), flat, options.degree).saturating_sub(grade.added());
+    let singular = flat.singular()?;
     let mut best: Option<SurfaceFit> = None;
     let mut fairness = options.fairness;
     for round in 0..options.rounds.max(1) {
-        let keep = grade.choose(count, control)?;
-        let domain = SurfaceDomain::new(Coarse::new(flat, &keep, control)?)?;
+        let domain = grade.domain(count, control)?;
         let found = Round::new(domain, points, options).and_then(|round| round.run(fairness, control));
         let found = match found {
             Ok(found) => found,
@@ -132,7 +133,8 @@ pub fn fit_surface(
         let miss = |max: f64, rms: f64| f64::max(max, rms / RMS) / options.tolerance;
         if best.as_ref().is_none_or(|best| miss(max, rms) < miss(best.max, best.rms)) {
             let rounds = round + 1;
-            best = Some(SurfaceFit { spline, domain: found.domain, places: found.places, rms, max, rounds });
+            let (domain, places, singular) = (found.domain, found.places, singular.clone());
+            best = Some(SurfaceFit { spline, domain, places, singular, rms, max, rounds });
         }
         if miss(max, rms) <= 1.0 {
             break;
@@ -144,10 +146,11 @@ pub fn fit_surface(
     best.ok_or_else(|| Error::argument("rounds", options.rounds, "1 or more"))
 }
 
-/// Vertices of a triangulation of this surface that has at most so many control points: of V vertices at most n²V − (n² − 1)χ, less for each edge of the boundary.
-fn vertices_for(control_points: usize, mesh: &Mesh, degree: usize) -> usize {
+/// Vertices of a triangulation of this surface, or plane, that has at most so many control points: of V vertices at most n²V − (n² − 1)χ, less for each edge of the boundary.
+fn vertices_for(control_points: usize, flat: &Flat, degree: usize) -> usize {
     let square = (degree * degree).max(1) as i64;
-    let vertices = (control_points as i64 + (square - 1) * mesh.euler()) / square;
+    let euler = if flat.plane.is_some() { 1 } else { flat.mesh.euler() };
+    let vertices = (control_points as i64 + (square - 1) * euler) / square;
     vertices.max(1) as usize
 }
 
@@ -172,9 +175,12 @@ struct Round<'a> {
 impl<'a> Round<'a> {
     fn new(domain: SurfaceDomain, points: &'a [Vector], options: &'a SurfaceFitOptions) -> Result<Round<'a>> {
         let space = Arc::new(domain.space(options.degree, options.spread)?);
-        let places = domain.coarse().places.iter().take(points.len()).map(|&p| domain.parameter(p)).collect();
+        let places = domain.places(points.len())?;
         let mut round = Round { domain, space, points, places, holes: Vec::new(), spline: None, options };
-        round.holes = round.domain.singular().into_iter().map(|v| round.hole(v)).collect::<Result<_>>()?;
+        round.holes = match &round.domain.infinity {
+            Some(infinity) => vec![infinity.hole.clone()],
+            None => round.domain.singular().into_iter().map(|v| round.hole(v)).collect::<Result<_>>()?,
+        };
         Ok(round)
     }
 
@@ -193,9 +199,12 @@ impl<'a> Round<'a> {
     /// The hole around a singular vertex: the widest with no more vertices than wanted, so that triangles beyond it are small beside their distance from the vertex.
     fn hole(&self, v: VertexId) -> Result<Hole> {
         let mut hole = self.domain.hole(v)?;
-        let wanted =
-            vertices_inside(self.options.hole, hole.turns, (self.points.len(), self.space.patches().len()));
-        let growth = GROWTH.powi(hole.turns as i32);
+        let wanted = vertices_inside(
+            self.options.hole,
+            hole.turns.unsigned_abs(),
+            (self.points.len(), self.space.patches().len()),
+        );
+        let growth = GROWTH.powi(hole.turns);
         loop {
             let wider = self.domain.wide_hole(v, growth * hole.radius)?;
             let inside = self.places.iter().filter(|&&at| wider.contains(at)).count();
@@ -225,12 +234,10 @@ impl<'a> Round<'a> {
     /// Move every place to where the spline is nearest to its vertex, by one step of Gauss and Newton.
     fn correct(&mut self, control: &Control) -> Result<()> {
         let Some(spline) = &self.spline else { return Ok(()) };
-        let found = spline.evaluate(&self.places, 1, self.options.threads, control)?;
-        for k in 0..self.places.len() {
-            let (place, at) = (self.places[k], &found[k]);
-            if self.is_covered(place) {
-                continue;
-            }
+        let open: Vec<usize> = (0..self.places.len()).filter(|&k| !self.is_covered(self.places[k])).collect();
+        let places: Vec<Parameter> = open.iter().map(|&k| self.places[k]).collect();
+        let found = spline.evaluate(&places, 1, self.options.threads, control)?;
+        for ((k, place), at) in open.into_iter().zip(places).zip(&found) {
             let [x, y] = at.first;
             let miss = sub(self.points[k], at.point);
             let (a, b, c) = (dot(x, x), dot(x, y), dot(y, y));

@@ -1,12 +1,13 @@
 //! Flat metrics of surfaces, on which splines live.
 
-use crate::canonical::{Boundary, Corners};
+use super::pole::{evenest_vertex, from_pole};
+use crate::canonical::{Boundary, Corners, SphereOptions, uniformize_sphere};
 use crate::control::Control;
 use crate::embed::steps;
 use crate::error::{Error, Result};
 use crate::flow::{self, Solution, flow};
 use crate::geometry::Space;
-use crate::geometry::complex::{cross, distance, norm};
+use crate::geometry::complex::{Complex, cross, distance, norm, norm2};
 use crate::harmonic::{ComplexForm, Domain, FormsOptions, HarmonicForms, even_combination, with_conjugate};
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::curvature::curvature;
@@ -24,7 +25,7 @@ pub(super) const FLAT: f64 = 1e-7;
 pub struct FlatOptions {
     /// The flow, to curvature at one vertex alone, or a holomorphic 1-form with its 2g − 2 zeros. Default the flow.
     pub source: AffineSource,
-    /// The vertex with the curvature. Default: where areas are distorted least.
+    /// The vertex with the curvature. Default: where areas are distorted least; of a sphere, where the factor between it and its conformal image varies least.
     pub singular: Option<VertexId>,
     /// Corners of the boundary of a disk. Default four right angles.
     pub corners: Corners,
@@ -37,28 +38,26 @@ pub struct FlatOptions {
 pub struct Flat {
     /// The triangulation. Its first vertices are those of the surface, in order; others lie on edges of the surface.
     pub mesh: Arc<Mesh>,
-    /// Lengths of its edges.
+    /// Lengths of its edges; infinite at a vertex at infinity.
     pub lengths: PerEdge<f64>,
+    /// Of a sphere the places of its vertices in the plane, one of them at infinity.
+    pub plane: Option<PerVertex<Complex>>,
 }
 
 impl Flat {
     /// A flat metric in the conformal class of a surface.
     ///
-    /// By the flow, a closed surface of genus 1 is flat everywhere; others have their whole curvature 2πχ at one vertex. A boundary is straight, but for
+    /// A sphere has 4π at one vertex, which lies at infinity of a plane. By the flow, a closed surface of genus 1 is flat everywhere; others have their whole curvature 2πχ at one vertex. A boundary is straight, but for
     /// the corners of a disk, which has no singular vertex. By a holomorphic 1-form ω, for closed surfaces of genus 1 and more, lengths are
     /// |ω|, on the intrinsic Delaunay triangulation, and the vertices at zeros of order k have the curvature −2πk.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a closed surface of genus 0, a singular vertex where there is none, or on the boundary; [`Error::Layout`] for a form that turns triangles over,
-    /// or a flow that does not converge; those of [`flow()`] and [`HarmonicForms::new`]; [`Error::Cancelled`].
+    /// [`Error::Argument`] for a form on a closed surface of genus 0, a singular vertex where there is none, or on the boundary; [`Error::Layout`] for a form that turns triangles over,
+    /// or a flow that does not converge; those of [`flow()`], [`uniformize_sphere`] and [`HarmonicForms::new`]; [`Error::Cancelled`].
     pub fn new(surface: &Surface, options: &FlatOptions, control: &Control) -> Result<Flat> {
         let mesh = surface.mesh();
         if mesh.is_closed() && mesh.euler() > 0 {
-            return Err(Error::argument(
-                "surface",
-                "closed, of genus 0",
-                "of genus 1 or more, or with boundary",
-            ));
+            return Flat::of_sphere(surface, options, control);
         }
         if options.source == AffineSource::Form {
             return Flat::by_form(surface, options, control);
@@ -67,10 +66,7 @@ impl Flat {
         let flat = flow(surface.clone(), Class::yamabe(Space::E2), &target, &options.flow, control)?;
         if !flat.converged() {
             let error = flat.report().map_or(f64::NAN, |report| report.max_curvature_error);
-            return Err(Error::Layout(format!(
-                "the flow to the flat metric did not converge: curvatures miss by {error:e}, asked for {:e}",
-                options.flow.tolerance
-            )));
+            return Err(not_converged(error, options.flow.tolerance));
         }
         Flat::of(&flat, control)
     }
@@ -84,7 +80,11 @@ impl Flat {
             return Err(Error::argument("metric", flat.metric().space, "flat, of the Euclidean plane"));
         }
         if flat.double().is_none() {
-            return Ok(Flat { mesh: flat.mesh().clone(), lengths: flat.metric().lengths(flat.mesh())? });
+            return Ok(Flat {
+                mesh: flat.mesh().clone(),
+                lengths: flat.metric().lengths(flat.mesh())?,
+                plane: None,
+            });
         }
         let refinement = Arc::new(flat.refinement(control)?);
         let steps = steps(flat, Some(&refinement))?;
@@ -95,7 +95,56 @@ impl Flat {
                 lengths[h.edge()] = distance(at[k], at[(k + 1) % 3]);
             }
         }
-        Ok(Flat { mesh: steps.mesh, lengths })
+        Ok(Flat { mesh: steps.mesh, lengths, plane: None })
+    }
+
+    /// The plane with a vertex at infinity, by the sphere.
+    fn of_sphere(surface: &Surface, options: &FlatOptions, control: &Control) -> Result<Flat> {
+        if options.source == AffineSource::Form {
+            let need = "of genus 1 or more, for a metric by a holomorphic form: a sphere has none";
+            return Err(Error::argument("surface", "closed, of genus 0", need));
+        }
+        let flow::Options { tolerance, max_iterations, threads, .. } = options.flow;
+        let options = SphereOptions { tolerance, max_iterations, puncture: options.singular, threads };
+        let sphere = uniformize_sphere(surface, &options, control)?;
+        if !sphere.report.converged {
+            return Err(not_converged(sphere.report.max_curvature_error, tolerance));
+        }
+        let mesh = sphere.metric.mesh().clone();
+        let plane = match options.puncture {
+            Some(_) => sphere.plane,
+            None => from_pole(&sphere.positions, evenest_vertex(surface, &mesh, &sphere.positions)),
+        };
+        let lengths = PerEdge::from_fn(mesh.n_edges(), |e| {
+            let ends = mesh.ends(e).map(|v| plane[v]);
+            if ends.as_flattened().iter().all(|x| x.is_finite()) {
+                distance(ends[0], ends[1])
+            } else {
+                f64::INFINITY
+            }
+        });
+        Ok(Flat { mesh, lengths, plane: Some(plane) })
+    }
+
+    /// Lengths of the edges that are comparable everywhere: the flat ones, of a plane with a vertex at infinity those of the chords of the unit sphere over it.
+    pub(super) fn finite_lengths(&self) -> PerEdge<f64> {
+        let Some(plane) = &self.plane else { return self.lengths.clone() };
+        let shrink = |z: Complex| 2.0 / (1.0 + norm2(z)).sqrt();
+        PerEdge::from_fn(self.mesh.n_edges(), |e| match self.mesh.ends(e).map(|v| plane[v]) {
+            [z, w] if !z[0].is_finite() => shrink(w),
+            [z, w] if !w[0].is_finite() => shrink(z),
+            [z, w] => 0.5 * distance(z, w) * shrink(z) * shrink(w),
+        })
+    }
+
+    /// The singular vertices inside the surface, ascending.
+    ///
+    /// # Errors
+    /// Those of [`Flat::curvature`].
+    pub fn singular(&self) -> Result<Vec<VertexId>> {
+        let curvature = self.curvature()?;
+        let is_cone = |v: &VertexId| !self.mesh.is_boundary_vertex(*v) && curvature[*v].abs() > FLAT;
+        Ok(self.mesh.vertices().filter(is_cone).collect())
     }
 
     fn by_form(surface: &Surface, options: &FlatOptions, control: &Control) -> Result<Flat> {
@@ -138,16 +187,26 @@ impl Flat {
         }
         let lengths =
             PerEdge::from_fn(mesh.n_edges(), |e: crate::mesh::EdgeId| norm(form.along(e.halfedge())));
-        Ok(Flat { mesh: mesh.clone(), lengths })
+        Ok(Flat { mesh: mesh.clone(), lengths, plane: None })
     }
 
-    /// The curvature of every vertex.
+    /// The curvature of every vertex; in a plane 4π at infinity and 0 elsewhere.
     ///
     /// # Errors
     /// Those of [`curvature()`].
     pub fn curvature(&self) -> Result<PerVertex<f64>> {
+        if let Some(plane) = &self.plane {
+            let at = |v: VertexId| if plane[v][0].is_finite() { 0.0 } else { 2.0 * TAU };
+            return Ok(PerVertex::from_fn(plane.len(), at));
+        }
         Ok(curvature(&self.mesh, Space::E2, &self.lengths)?.at)
     }
+}
+
+fn not_converged(error: f64, tolerance: f64) -> Error {
+    Error::Layout(format!(
+        "the flow to the flat metric did not converge: curvatures miss by {error:e}, asked for {tolerance:e}"
+    ))
 }
 
 /// The curvatures that the flow is to reach.

@@ -1,9 +1,12 @@
 //! How large the triangles of a domain are to be.
 
+use super::areas::{smooth, vertex_areas};
+use super::coarse::Coarse;
+use super::domain::SurfaceDomain;
 use super::flat::{FLAT, Flat};
+use super::plane::{Plane, RING};
 use super::sample::Sampling;
 use crate::control::Control;
-use crate::embed::triangle::Triangle;
 use crate::error::Result;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::Surface;
@@ -14,8 +17,6 @@ use std::f64::consts::TAU;
 const CHANGE: [f64; 2] = [0.6, 1.4];
 /// Least and largest size of a triangle over the one of an even distribution.
 const SIZES: [f64; 2] = [0.1, 3.0];
-/// Rounds in which a size becomes the mean of itself and its neighbours'.
-const SMOOTHINGS: usize = 5;
 /// Vertices of the surface that a triangle has at least: fewer do not tell a cubic polynomial from one that folds.
 const LEAST_POINTS: f64 = 8.0;
 /// The part of a hole's radius, in the coordinate in which its vertex is a point as any other, where no other vertex lies: there the hole is filled.
@@ -26,6 +27,8 @@ const MORE_GROWTH: f64 = 1.15;
 /// Sizes of triangles, on the surface and relative to an even distribution.
 pub(super) struct Grade<'a> {
     flat: &'a Flat,
+    /// Its lengths, or of a sphere those of its chords.
+    lengths: PerEdge<f64>,
     sizes: PerVertex<f64>,
     least: PerVertex<f64>,
     /// How much longer the flat metric is than the surface's.
@@ -35,8 +38,10 @@ pub(super) struct Grade<'a> {
     always: Vec<VertexId>,
     /// Vertices of the surface but those in the middle of holes.
     allowed: PerVertex<bool>,
-    /// Of the singular vertices inside their numbers of turns.
+    /// Of the singular vertices inside the numbers of turns that say how large their holes are.
     turns: Vec<u32>,
+    /// Of a sphere.
+    plane: Option<Plane<'a>>,
 }
 
 /// The error of a vertex that is to be spread evenly; none where a hole is filled by something else than the triangles.
@@ -53,32 +58,30 @@ impl<'a> Grade<'a> {
     ) -> Result<Grade<'a>> {
         let mesh = surface.mesh();
         let n = mesh.n_vertices();
-        let areas = [vertex_areas(mesh, surface.lengths()), vertex_areas(&flat.mesh, &flat.lengths)];
+        let lengths = flat.finite_lengths();
+        let areas = [vertex_areas(mesh, surface.lengths()), vertex_areas(&flat.mesh, &lengths)];
         let even = 4.0 / 3f64.sqrt() * surface.area()? / triangles.max(1) as f64;
         let least = |v: VertexId| (LEAST_POINTS * 4.0 / 3f64.sqrt() * areas[0][v] / even).sqrt();
         let mut least = PerVertex::from_fn(n, least);
         smooth(mesh, &mut least);
         let stretch = PerVertex::from_fn(n, |v: VertexId| (areas[1][v] / areas[0][v]).sqrt());
         let curvature = flat.curvature()?;
-        let always: Vec<VertexId> = mesh.vertices().filter(|&v| curvature[v].abs() > FLAT).collect();
-        let mut allowed = PerVertex::from_fn(flat.mesh.n_vertices(), |v: VertexId| v.index() < n);
-        let mut all_turns = Vec::new();
-        for &v in always.iter().filter(|&&v| !mesh.is_boundary_vertex(v)) {
-            let turns = (1.0 - curvature[v] / TAU).round().max(1.0) as u32;
-            all_turns.push(turns);
-            let far = shortest_paths(&flat.mesh, &flat.lengths, [v], control)?.distance;
-            let mut sorted: Vec<f64> = far.iter().copied().take(n).collect();
-            sorted.sort_by(f64::total_cmp);
-            // The hole ends before the boundary and before other singular vertices.
-            let others = always.iter().filter(|&&u| u != v).map(|&u| far[u]);
-            let boundary = mesh.vertices().filter(|&u| mesh.is_boundary_vertex(u)).map(|u| far[u]);
-            let free = others.chain(boundary).fold(f64::INFINITY, f64::min);
-            let radius = sorted[inside(turns).min(n - 1)].min(free);
-            let bare = BARE.powi(turns as i32) * radius;
-            mesh.vertices().filter(|&u| far[u] < bare).for_each(|u| allowed[u] = false);
+        let mut around = Around {
+            always: mesh.vertices().filter(|&v| curvature[v].abs() > FLAT).collect(),
+            allowed: PerVertex::from_fn(flat.mesh.n_vertices(), |v: VertexId| v.index() < n),
+            turns: Vec::new(),
+        };
+        let plane = Plane::new(flat, inside(1));
+        match &plane {
+            Some(plane) => {
+                let allowed = PerVertex::from_fn(n, |v| plane.is_free(v));
+                around = Around { always: Vec::new(), allowed, turns: vec![1] };
+            }
+            None => around.keep_clear(mesh, flat, (&curvature, &inside), control)?,
         }
+        let Around { always, allowed, turns } = around;
         let sizes = PerVertex::from_fn(n, |v| least[v].max(1.0));
-        Ok(Grade { flat, sizes, least, stretch, growth: 1.0, always, allowed, turns: all_turns })
+        Ok(Grade { flat, lengths, sizes, least, stretch, growth: 1.0, always, allowed, turns, plane })
     }
 
     /// Of the singular vertices inside the surface, their total angles in turns.
@@ -86,21 +89,35 @@ impl<'a> Grade<'a> {
         self.turns.iter().copied()
     }
 
-    /// Up to `count` vertices at these distances, those that are not flat among them.
+    /// How many vertices a domain has beside those that are chosen.
+    pub fn added(&self) -> usize {
+        if self.plane.is_some() { RING } else { 0 }
+    }
+
+    /// The domain on up to `count` vertices at these distances, those that are not flat among them.
     ///
     /// # Errors
-    /// [`crate::Error::Cancelled`].
-    pub fn choose(&self, count: usize, control: &Control) -> Result<PerVertex<bool>> {
+    /// Those of [`Coarse::new`] and [`SurfaceDomain::new`]; [`crate::Error::Layout`] for a plane that cannot be triangulated.
+    pub fn domain(&self, count: usize, control: &Control) -> Result<SurfaceDomain> {
+        let keep = self.choose(count, control)?;
+        match &self.plane {
+            Some(plane) => plane.domain(&keep),
+            None => SurfaceDomain::new(Coarse::new(self.flat, &keep, control)?),
+        }
+    }
+
+    fn choose(&self, count: usize, control: &Control) -> Result<PerVertex<bool>> {
         let size = |v: VertexId| match self.sizes.get(v.index()) {
             Some(size) if self.stretch[v] > 0.0 => size * self.stretch[v],
             _ => f64::INFINITY,
         };
-        let Flat { mesh, lengths } = self.flat;
+        let mesh = &self.flat.mesh;
         let sampling = Sampling {
             mesh,
-            lengths,
+            lengths: &self.lengths,
             sizes: PerVertex::from_fn(mesh.n_vertices(), size),
             growth: self.growth,
+            reach: self.plane.as_ref().map(Plane::reach),
             always: &self.always,
             allowed: self.allowed.clone(),
         };
@@ -131,24 +148,37 @@ impl<'a> Grade<'a> {
     }
 }
 
-/// A third of the area of the triangles at each vertex.
-fn vertex_areas(mesh: &Mesh, lengths: &PerEdge<f64>) -> PerVertex<f64> {
-    let mut areas = PerVertex::filled(mesh.n_vertices(), 0.0);
-    for f in mesh.faces() {
-        let third = Triangle::from_sides(mesh.opposite_edges(f).map(|e| lengths[e])).area / 3.0;
-        mesh.face_vertices(f).into_iter().for_each(|v| areas[v] += third);
-    }
-    areas
+/// Which vertices of a surface are taken.
+struct Around {
+    always: Vec<VertexId>,
+    allowed: PerVertex<bool>,
+    turns: Vec<u32>,
 }
 
-/// Make every size more like those of its neighbours.
-fn smooth(mesh: &Mesh, sizes: &mut PerVertex<f64>) {
-    for _ in 0..SMOOTHINGS {
-        let before = sizes.clone();
-        for v in mesh.vertices() {
-            let around = mesh.outgoing(v).map(|h| before[mesh.tip(h)]);
-            let (sum, n) = around.fold((0.0, 0.0), |(sum, n), size| (sum + size, n + 1.0));
-            sizes[v] = 0.5 * (before[v] + sum / n);
+impl Around {
+    /// Allow no vertices in the middle of the holes around cones.
+    fn keep_clear(
+        &mut self,
+        mesh: &Mesh,
+        flat: &Flat,
+        (curvature, inside): (&PerVertex<f64>, &impl Fn(u32) -> usize),
+        control: &Control,
+    ) -> Result<()> {
+        let n = mesh.n_vertices();
+        for &v in self.always.iter().filter(|&&v| !mesh.is_boundary_vertex(v)) {
+            let turns = (1.0 - curvature[v] / TAU).round().max(1.0) as u32;
+            self.turns.push(turns);
+            let far = shortest_paths(&flat.mesh, &flat.lengths, [v], control)?.distance;
+            let mut sorted: Vec<f64> = far.iter().copied().take(n).collect();
+            sorted.sort_by(f64::total_cmp);
+            // The hole ends before the boundary and before other singular vertices.
+            let others = self.always.iter().filter(|&&u| u != v).map(|&u| far[u]);
+            let boundary = mesh.vertices().filter(|&u| mesh.is_boundary_vertex(u)).map(|u| far[u]);
+            let free = others.chain(boundary).fold(f64::INFINITY, f64::min);
+            let radius = sorted[inside(turns).min(n - 1)].min(free);
+            let bare = BARE.powi(turns as i32) * radius;
+            mesh.vertices().filter(|&u| far[u] < bare).for_each(|u| self.allowed[u] = false);
         }
+        Ok(())
     }
 }

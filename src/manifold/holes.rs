@@ -21,7 +21,7 @@ impl SurfaceDomain {
     /// [`Error::Argument`] for another vertex.
     pub fn hole(&self, v: VertexId) -> Result<Hole> {
         let radius = HOLE * self.clearance(v);
-        Hole::new(self.around(v, radius).sectors, self.turns(v)?, radius)
+        Hole::new(self.chart(v), self.around(v, radius).sectors, self.turns(v)?, radius)
     }
 
     /// A hole of this radius, or the widest that meets neither itself, another singular vertex nor the boundary; at least that of [`SurfaceDomain::hole`].
@@ -33,18 +33,24 @@ impl SurfaceDomain {
         // The hole meets itself beyond half of the way from the vertex to itself.
         let free = self.around(v, 2.0 * radius).free;
         let radius = radius.min(HOLE * free).max(HOLE * self.clearance(v));
-        Hole::new(self.around(v, radius).sectors, turns, radius)
+        Hole::new(self.chart(v), self.around(v, radius).sectors, turns, radius)
+    }
+
+    /// The number of the chart of a singular vertex's hole.
+    fn chart(&self, v: VertexId) -> u32 {
+        let before = self.coarse.mesh.vertices().take(v.index()).filter(|&u| self.is_cone(u)).count();
+        (self.coarse.mesh.n_faces() + before) as u32
     }
 
     /// The total angle of a singular vertex in turns.
-    fn turns(&self, v: VertexId) -> Result<u32> {
+    fn turns(&self, v: VertexId) -> Result<i32> {
         let turns = self.total_angle(v) / TAU;
         let is_whole = (turns - turns.round()).abs() < WHOLE && turns > 0.5;
         if self.coarse.mesh.is_boundary_vertex(v) || !is_whole {
             let need = "a multiple of one turn, at a vertex inside the surface";
             return Err(Error::argument("total angle in turns", turns, need));
         }
-        Ok(turns.round() as u32)
+        Ok(turns.round() as i32)
     }
 
     /// The triangles that a disk around a vertex meets, developed from it.
@@ -113,7 +119,7 @@ impl SurfaceDomain {
     }
 
     /// A triangle developed around a vertex, its middle turned to the x axis; the map is given up to a rotation by `angle`.
-    fn sector(&self, f: FaceId, to: Similarity, angle: f64) -> Sector {
+    pub(super) fn sector(&self, f: FaceId, to: Similarity, angle: f64) -> Sector {
         let middle = self.corners[f].iter().fold([0.0; 2], |sum, &p| add(sum, scale(1.0 / 3.0, p)));
         let at = to.of(middle);
         let back = Similarity { turn: conj(unit(at)), shift: [0.0; 2] };

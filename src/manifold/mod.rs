@@ -1,11 +1,14 @@
 //! Splines over whole surfaces: their domains on flat metrics, fits, and what is made of them.
 
+mod areas;
 mod coarse;
 mod domain;
 mod fit;
 mod flat;
 mod grade;
 mod holes;
+mod plane;
+mod pole;
 mod sample;
 mod similarity;
 

@@ -2,7 +2,8 @@
 //!
 //! `{format, degree, patches: [{chart, knots, control}…], supports: [[{patch, to}…]…], control_points: [[X, Y, Z]…], hole}`, where
 //! `knots[k][j]` is t_{k,j} in the patch's chart, `control` is in the order of [`super::multi_indices`], and `supports[I]` has each patch
-//! that reaches into I with the affine map from its chart to I's.
+//! that reaches into I with the affine map from its chart to I's. `hole` is null, or has what fills the surroundings of singular vertices:
+//! `[{turns, radius, sectors: [{patch, angle, to}…], coefficients}…]`, see [`Hole`].
 
 use super::fill::Fill;
 use super::hole::{Hole, Sector};
@@ -46,7 +47,7 @@ struct SupportEntry {
 
 #[derive(Deserialize)]
 struct HoleEntry {
-    turns: u32,
+    turns: i32,
     radius: f64,
     sectors: Vec<SectorEntry>,
     coefficients: Vec<Vector>,
@@ -71,7 +72,7 @@ impl Spline {
         let sector = |Sector { patch, angle, to }: &Sector| {
             format!("{{\"patch\":{patch},\"angle\":{angle:?},\"to\":{to:?}}}")
         };
-        let hole = |Hole { sectors, turns, radius, fill }: &Hole| {
+        let hole = |Hole { sectors, turns, radius, fill, .. }: &Hole| {
             let sectors = list(sectors.iter().map(sector));
             let coefficients = fill.as_ref().map_or(&[][..], Fill::coefficients);
             format!(
@@ -109,11 +110,14 @@ impl Spline {
             document.supports.into_iter().map(|of| of.into_iter().map(support).collect()).collect();
         let space = SplineSpace::new(document.degree, patches, supports)?;
         let sector = |s: SectorEntry| Sector { patch: s.patch, angle: s.angle, to: s.to };
-        let hole = |h: HoleEntry| {
+        let first_chart = space.patches().len();
+        let hole = |(k, h): (usize, HoleEntry)| {
             let sectors = h.sectors.into_iter().map(sector).collect();
-            Hole::new(sectors, h.turns, h.radius)?.filled_by(&space, Fill::new(h.coefficients)?)
+            let hole = Hole::new((first_chart + k) as u32, sectors, h.turns, h.radius)?;
+            hole.filled_by(&space, Fill::new(h.coefficients)?)
         };
-        let holes = document.hole.unwrap_or_default().into_iter().map(hole).collect::<Result<_>>()?;
+        let holes = document.hole.unwrap_or_default().into_iter().enumerate().map(hole);
+        let holes = holes.collect::<Result<_>>()?;
         Ok(Spline::new(Arc::new(space), document.control_points)?.with_holes(holes))
     }
 

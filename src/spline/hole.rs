@@ -11,6 +11,10 @@
 //! τ is 0.7, or where the core is wider in w, its rim. G is a bicubic B-spline, [`Fill`].
 //!
 //! So F̃ has as many continuous derivatives as F, up to two, on all of the hole.
+//!
+//! A sphere is a plane with a vertex at infinity, where the same holds of w = 1/z: m = −1. There |w| ≤ τρ⁻¹ and the hole is what lies outside a
+//! disk of radius ρ. Patches cover the plane as far as the filling alone is the surface; the rest, and the vertex itself, have places only
+//! in the chart of the hole, whose coordinates are those of w over its value at the rim.
 
 use super::fill::Fill;
 use super::jet::Jet;
@@ -34,7 +38,9 @@ const RINGS: [usize; 2] = [6, 48];
 /// Nearer to the vertex, in the unit of the metric, a place is the vertex: derivatives by the chart's coordinates would overflow.
 const VERTEX: f64 = 1e-50;
 /// Most turns of a hole: surfaces of any genus that can be triangulated here have fewer.
-const MOST_TURNS: u32 = 1 << 16;
+const MOST_TURNS: i32 = 1 << 16;
+/// Turns of a vertex at infinity: its total angle is 2π − 4π.
+pub(crate) const INFINITE: i32 = -1;
 /// Share of a triangle's area by which a place may lie outside it: rounding.
 const OUTSIDE: f64 = 1e-9;
 
@@ -53,11 +59,14 @@ pub struct Sector {
 /// The hole around a singular vertex, and what fills it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hole {
+    /// The number that its own chart has as the patch of a [`Parameter`]: the count of patches for the first hole, and so on. Coordinates x + iy of
+    /// places there are w over its size at the rim, |x + iy| ≤ τ.
+    pub chart: u32,
     /// The patches that the hole meets, in the order of their numbers. A patch that meets it in several ways is there as often.
     pub sectors: Vec<Sector>,
-    /// m: the total angle in turns.
-    pub turns: u32,
-    /// Radius of the hole in the unit of the flat metric.
+    /// m: the total angle in turns; −1 for a vertex at infinity of a plane.
+    pub turns: i32,
+    /// Radius of the hole in the unit of the flat metric; around infinity that of the disk which it leaves.
     pub radius: f64,
     /// G of p + iq = w/ρ. None before the hole is filled.
     pub fill: Option<Fill>,
@@ -67,20 +76,17 @@ impl Hole {
     /// A hole that nothing fills yet.
     ///
     /// # Errors
-    /// [`Error::Argument`] for no sectors, no turns, or a radius that is not positive.
-    pub fn new(mut sectors: Vec<Sector>, turns: u32, radius: f64) -> Result<Hole> {
-        if sectors.is_empty() || !(1..=MOST_TURNS).contains(&turns) {
-            return Err(Error::argument(
-                "turns of a hole",
-                turns,
-                "1 to 65536, with patches around the vertex",
-            ));
+    /// [`Error::Argument`] for no sectors, another number of turns, or a radius that is not positive.
+    pub fn new(chart: u32, mut sectors: Vec<Sector>, turns: i32, radius: f64) -> Result<Hole> {
+        if sectors.is_empty() || !(turns == INFINITE || (1..=MOST_TURNS).contains(&turns)) {
+            let need = "1 to 65536, or -1 at infinity, with patches around the vertex";
+            return Err(Error::argument("turns of a hole", turns, need));
         }
         if !(radius > 0.0 && radius.is_finite()) {
             return Err(Error::argument("radius of a hole", radius, "positive"));
         }
         sectors.sort_by_key(|sector| sector.patch);
-        Ok(Hole { sectors, turns, radius, fill: None })
+        Ok(Hole { chart, sectors, turns, radius, fill: None })
     }
 
     /// Radius of the core where this is the smallest hole, in the unit of the metric: knots of the vertex lie in it.
@@ -90,7 +96,15 @@ impl Hole {
 
     /// τ: the share of |w| up to which the surface is the polynomial alone.
     pub(super) fn inner(&self) -> f64 {
+        if self.is_at_infinity() {
+            return LEAST_INNER;
+        }
         (CLEAR * CORE).powf(1.0 / f64::from(self.turns)).max(LEAST_INNER)
+    }
+
+    /// Whether its vertex is that at infinity of a plane.
+    pub fn is_at_infinity(&self) -> bool {
+        self.turns == INFINITE
     }
 
     /// Whether a place is in the hole.
@@ -109,6 +123,9 @@ impl Hole {
     /// [`Error::Spline`] for a sector that is no patch.
     pub fn filled_by(self, space: &SplineSpace, fill: Fill) -> Result<Hole> {
         let patches = space.patches().len();
+        if (self.chart as usize) < patches {
+            return Err(Error::argument("chart of a hole", self.chart, "the count of patches, or more"));
+        }
         let is_sound = |s: &Sector| {
             let [[a, b, x], [c, d, y]] = s.to;
             let is_finite = [s.angle, a, b, x, y].iter().all(|x| x.is_finite());
@@ -151,18 +168,17 @@ impl Hole {
     /// Places on circles around the vertex, where the weight goes from 1 to 0.
     pub fn rings(&self, space: &SplineSpace) -> Vec<Parameter> {
         let [circles, each] = RINGS;
-        let each = each * self.turns as usize;
+        let each = each * self.turns.unsigned_abs() as usize;
         let inner = self.inner();
         let ring = |k: usize| inner + (1.0 - inner) * (k as f64 + 0.5) / circles as f64;
         let angle = |j: usize| TAU * f64::from(self.turns) * (j as f64 + 0.5) / each as f64;
-        let place =
-            |k: usize, j: usize| self.place(space, self.radius * ring(k).powi(self.turns as i32), angle(j));
+        let place = |k: usize, j: usize| self.place(space, self.radius * ring(k).powi(self.turns), angle(j));
         (0..circles).flat_map(|k| (0..each).filter_map(move |j| place(k, j))).collect()
     }
 
     /// The place at a distance from the vertex, in the unit of the metric, in a direction: an angle as those of the sectors. None beyond the patches.
     pub fn place(&self, space: &SplineSpace, far: f64, angle: f64) -> Option<Parameter> {
-        let whole = TAU * f64::from(self.turns);
+        let whole = TAU * f64::from(self.turns.abs());
         let inside = |sector: &Sector| {
             let turn = angle - sector.angle;
             let turn = turn - whole * (turn / whole).round();
@@ -178,8 +194,11 @@ impl Hole {
     }
 
     /// w/ρ of a place in the chart of its patch, with first and second derivative there; at the vertex, where w has none, those of w/ρ itself.
-    /// None in patches that the hole does not meet.
+    /// None in patches that the hole does not meet, and in charts of others.
     fn coordinate(&self, at: Parameter) -> Option<[Complex; 3]> {
+        if at.patch == self.chart {
+            return Some([[at.x, at.y], [1.0, 0.0], [0.0; 2]]);
+        }
         let first = self.sectors.partition_point(|sector| sector.patch < at.patch);
         // A patch may lie around the vertex in several ways: the one nearest to it counts.
         let here = self.sectors[first..].iter().take_while(|sector| sector.patch == at.patch);
@@ -188,7 +207,7 @@ impl Hole {
         let share = 1.0 / f64::from(self.turns);
         let angle = share * (sector.angle + z[1].atan2(z[0]));
         let w = scale((norm(z) / self.radius).powf(share), [angle.cos(), angle.sin()]);
-        if norm(z) <= VERTEX {
+        if norm(z) <= VERTEX && !self.is_at_infinity() {
             return Some([[0.0; 2], [1.0, 0.0], [0.0; 2]]);
         }
         // w = c z^(1/m) and dz = turn dp for places p in the chart: w' = turn w/(m z), w'' = (1/m − 1) w' turn/z.
@@ -215,6 +234,23 @@ impl Hole {
         Some(surface_point([blended(0), blended(1), blended(2)]))
     }
 
+    /// The surface at a place in the hole's own chart: there its filling alone is the surface.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] for a place beyond the middle of the hole, or a hole without filling.
+    pub(super) fn in_chart(&self, at: Parameter) -> Result<SurfacePoint> {
+        let refuse = |message: String| Error::Spline { what: "patch", index: at.patch as usize, message };
+        let (size, most) = (norm([at.x, at.y]), self.inner());
+        if size.is_nan() || size > most * (1.0 + OUTSIDE) {
+            return Err(refuse(format!(
+                "({}, {}) is outside it: it is the chart of a hole, whose places are at most {most} from its vertex",
+                at.x, at.y
+            )));
+        }
+        self.filling([at.x, at.y])
+            .ok_or_else(|| refuse("it is the chart of a hole that nothing fills".into()))
+    }
+
     /// G without the spline around it, with derivatives by p and q where p + iq = w/ρ. For |w| ≤ τρ that is the surface. None before the hole
     /// is filled.
     pub(super) fn filling(&self, w: Complex) -> Option<SurfacePoint> {
@@ -222,10 +258,14 @@ impl Hole {
         Some(surface_point(self.fill.as_ref()?.at(w)))
     }
 
-    /// The place whose w/ρ is a number, or where that is larger than 1, the one on the rim in its direction. None beyond the patches.
+    /// The place whose w/ρ is a number, or where that is larger than 1, the one on the rim in its direction; at infinity in the hole's own
+    /// chart where it has such a place. None beyond the patches.
     pub(super) fn place_of(&self, space: &SplineSpace, w: Complex) -> Option<Parameter> {
+        if self.is_at_infinity() && norm(w) <= self.inner() {
+            return Some(Parameter { patch: self.chart, x: w[0], y: w[1] });
+        }
         let angle = f64::from(self.turns) * w[1].atan2(w[0]);
-        self.place(space, self.radius * norm(w).min(1.0).powi(self.turns as i32), angle)
+        self.place(space, self.radius * norm(w).min(1.0).powi(self.turns), angle)
     }
 }
 
@@ -236,6 +276,11 @@ fn surface_point(coordinates: [Jet; 3]) -> SurfacePoint {
 }
 
 impl Sector {
+    /// Where a point of the chart lies beside the vertex, in the directions that all sectors have in common.
+    pub(super) fn in_common(&self, at: Complex) -> Complex {
+        mul([self.angle.cos(), self.angle.sin()], self.local(at))
+    }
+
     /// The factor of its map.
     fn turn(&self) -> Complex {
         [self.to[0][0], self.to[1][0]]

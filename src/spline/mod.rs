@@ -3,6 +3,7 @@
 
 mod bicubic;
 mod bounds;
+mod cap;
 mod closest;
 mod descent;
 mod ears;
@@ -36,6 +37,7 @@ pub use bicubic::{LengthUnit, StepOptions};
 pub use closest::{ClosestPoint, ClosestPoints};
 pub use fill::Fill;
 pub use fit::{FitOptions, Fitted, fit};
+pub(crate) use hole::INFINITE;
 pub use hole::{Hole, Sector};
 pub use identities::Identities;
 pub use index::{MAX_DEGREE, basis_size, multi_indices};

@@ -1,5 +1,7 @@
 //! The triangles of a spline, and places in them.
 
+use super::index::position;
+
 /// The identity as an affine map.
 pub(super) const IDENTITY: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
@@ -22,6 +24,17 @@ impl Patch {
     pub fn corners(&self) -> [[f64; 2]; 3] {
         [0, 1, 2].map(|k| self.knots[k][0])
     }
+
+    /// The control points along side k, from corner k to the next.
+    pub(super) fn along(&self, k: usize) -> Vec<u32> {
+        let degree = self.knots[k].len() - 1;
+        let control = |i: usize| {
+            let mut beta = [0; 3];
+            (beta[k], beta[(k + 1) % 3]) = (degree - i, i);
+            self.control[position(beta)]
+        };
+        (0..=degree).map(control).collect()
+    }
 }
 
 /// A patch with a basis function that does not vanish inside another one, or that touches it.
@@ -36,7 +49,7 @@ pub struct Support {
 /// A place in a patch, in the coordinates of its chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameter {
-    /// The patch.
+    /// The patch; numbers after those of the patches are the charts of holes, see [`super::Hole::chart`].
     pub patch: u32,
     /// Abscissa.
     pub x: f64,

@@ -101,6 +101,9 @@ impl Spline {
     }
 
     pub(super) fn at(&self, at: Parameter, order: usize, scratch: &mut Scratch) -> Result<SurfacePoint> {
+        if let Some(hole) = self.holes.iter().find(|hole| hole.chart == at.patch) {
+            return Ok(hole.in_chart(at)?.cut(order));
+        }
         let found = self.unfilled(at, order, scratch)?;
         let filled = self.holes.iter().find_map(|hole| hole.surface(at, &found));
         Ok(filled.map_or(found, |filled| filled.cut(order)))

@@ -1,11 +1,13 @@
 //! Triangle meshes of spline surfaces.
 
+use super::cap::Triangle;
 use super::index::multi_indices;
 use super::patch::Parameter;
 use super::surface::Spline;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::io::{Attributes, Soup};
+use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -13,9 +15,9 @@ use std::collections::hash_map::Entry;
 const MOST_VERTICES: usize = 100_000_000;
 
 impl Spline {
-    /// n² triangles per patch, counterclockwise as the charts are; with normals per vertex (0 where there is none), and the coordinates of
-    /// each corner in its patch's chart as texture coordinates. Patches with a common side, which have its control points in common, share
-    /// its vertices.
+    /// n² triangles per patch, and per triangle at a vertex at infinity after these, counterclockwise as the charts are; with normals per vertex (0 where there is none), and the
+    /// coordinates of each corner in its patch's chart, or the hole's, as texture coordinates. Patches with a common side, which have its control points in
+    /// common, share its vertices.
     ///
     /// # Errors
     /// [`Error::Argument`] for n = 0; [`Error::TooLarge`] for more than a hundred million vertices; [`Error::Cancelled`].
@@ -23,31 +25,29 @@ impl Spline {
         if n == 0 {
             return Err(Error::argument("triangles per side", n, "1 or more"));
         }
-        let patches = self.space().patches();
-        let count = patches.len().saturating_mul((n + 1).saturating_mul(n + 2) / 2);
+        let all = self.triangles();
+        let count = all.len().saturating_mul((n + 1).saturating_mul(n + 2) / 2);
         if count > MOST_VERTICES {
             return Err(Error::TooLarge { what: "vertices of the tessellation", count });
         }
-        let mut known: HashMap<Vec<(u32, usize)>, u32> = HashMap::new();
+        let mut known: HashMap<(Vec<u32>, [usize; 2]), u32> = HashMap::new();
         let (mut places, mut faces, mut uv) = (Vec::new(), Vec::new(), Vec::new());
-        for (at, patch) in patches.iter().enumerate() {
-            let corners = [0, 1, 2].map(|k| patch.knots[k][0]);
+        for (at, triangle) in all.iter().enumerate() {
             let mut numbers = Vec::new();
             let mut coordinates = Vec::new();
             for weights in multi_indices(n) {
-                let [x, y] =
-                    [0, 1].map(|x| (0..3).map(|k| weights[k] as f64 / n as f64 * corners[k][x]).sum());
+                let place = place(at, triangle, weights.map(|w| w as f64 / n as f64));
                 let mut add = || {
-                    places.push(Parameter { patch: at as u32, x, y });
+                    places.push(place);
                     places.len() as u32 - 1
                 };
-                let number = match self.shared(at, weights).map(|key| known.entry(key)) {
+                let number = match self.shared(triangle, weights).map(|key| known.entry(key)) {
                     Some(Entry::Occupied(vertex)) => *vertex.get(),
                     Some(Entry::Vacant(free)) => *free.insert(add()),
                     None => add(),
                 };
                 numbers.push(number);
-                coordinates.push([x, y]);
+                coordinates.push([place.x, place.y]);
             }
             for triangle in triangles(n) {
                 faces.push(triangle.map(|i| numbers[i]));
@@ -60,33 +60,40 @@ impl Spline {
         Ok(Soup { positions: found.iter().map(|at| at.point).collect(), faces, attributes })
     }
 
-    /// What a point on a side has in common with the same point of the patch beyond: the control points of the ends and next to them along
-    /// the side, each with the point's weight; of a corner its own. None inside.
-    fn shared(&self, patch: usize, weights: [usize; 3]) -> Option<Vec<(u32, usize)>> {
-        let degree = self.space().degree();
-        let control = |beta: [usize; 3]| self.space().patches()[patch].control[super::index::position(beta)];
-        let ends: Vec<usize> = (0..3).filter(|&k| weights[k] > 0).collect();
-        let at = |k: usize, towards: usize, steps: usize| {
-            let mut beta = [0; 3];
-            beta[k] += degree - steps;
-            beta[towards] += steps;
-            control(beta)
-        };
-        let mut key = match ends[..] {
-            [k] => vec![(at(k, k, 0), 0)],
-            [a, b] => {
-                let next = usize::from(degree > 1);
-                vec![
-                    (at(a, b, 0), weights[a]),
-                    (at(b, a, 0), weights[b]),
-                    (at(a, b, next), weights[a]),
-                    (at(b, a, next), weights[b]),
-                ]
+    /// What a point on a side has in common with the same point of the triangle beyond: what the side has, in an order that does not depend on its direction, with the weights of
+    /// its ends; of a corner its own. None inside.
+    fn shared(&self, triangle: &Triangle<'_>, weights: [usize; 3]) -> Option<(Vec<u32>, [usize; 2])> {
+        let k = (0..3).find(|&k| weights[(k + 2) % 3] == 0)?;
+        let mut along = triangle.along(k, self);
+        let mut ends = [weights[k], weights[(k + 1) % 3]];
+        if ends[1] == 0 {
+            return Some((vec![along[0]], [0; 2]));
+        }
+        if ends[0] == 0 {
+            return Some((vec![along[along.len() - 1]], [0; 2]));
+        }
+        match along.iter().rev().cmp(along.iter()) {
+            Ordering::Less => {
+                along.reverse();
+                ends.reverse();
             }
-            _ => return None,
-        };
-        key.sort_unstable();
-        Some(key)
+            // A side from a vertex to itself, whose few control points do not tell its direction.
+            Ordering::Equal => return None,
+            Ordering::Greater => {}
+        }
+        Some((along, ends))
+    }
+}
+
+/// The place in a triangle with this number, of these barycentric weights.
+fn place(at: usize, triangle: &Triangle<'_>, weights: [f64; 3]) -> Parameter {
+    match triangle {
+        Triangle::Patch(patch) => {
+            let corners = patch.corners();
+            let [x, y] = [0, 1].map(|x| (0..3).map(|k| weights[k] * corners[k][x]).sum());
+            Parameter { patch: at as u32, x, y }
+        }
+        Triangle::Cap(cap) => cap.place(weights),
     }
 }
 

@@ -4,8 +4,10 @@
 
 mod closest;
 mod coarse;
+mod files;
 mod hole;
 mod space;
+mod sphere;
 
 use ricci::manifold::{Flat, FlatOptions, SurfaceFit, SurfaceFitOptions, fit_surface};
 use ricci::mesh::shapes;

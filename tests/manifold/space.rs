@@ -58,7 +58,7 @@ fn a_fit_comes_near_the_surface() {
         let points = surface.positions().unwrap().to_vec();
         let (_, domain) = domain(surface, step);
         let space: Arc<SplineSpace> = Arc::new(domain.space(3, 0.5).unwrap());
-        let places: Vec<Parameter> = domain.coarse().places.iter().map(|&p| domain.parameter(p)).collect();
+        let places = domain.places(points.len()).unwrap();
         let fitted = fit(&space, &places, &points, &FitOptions::default(), &Control::new()).unwrap();
         eprintln!(
             "{} vertices, {} patches, {} control points: rms {:e} max {:e}",

@@ -36,10 +36,12 @@ pub fn draw(spline: &Spline, args: &EvalArgs, control: &Control) -> Result<Vec<u
     };
     let style = Style { wire: false, ..args.picture.style(Texture::None, threads) };
     let field = match args.color {
-        Some(SurfaceColor::Curvature) => Some(curvature(&corners(spline, &soup, (2, threads), control)?)),
+        Some(SurfaceColor::Curvature) => {
+            Some(curvature(&corners(spline, (&soup, sides), (2, threads), control)?))
+        }
         Some(SurfaceColor::Reflection) => {
             let camera = Camera::choose(&positions, &soup.faces, &style.view);
-            Some(reflection(&corners(spline, &soup, (1, threads), control)?, &camera))
+            Some(reflection(&corners(spline, (&soup, sides), (1, threads), control)?, &camera))
         }
         Some(SurfaceColor::None) | None => None,
     };
@@ -49,15 +51,17 @@ pub fn draw(spline: &Spline, args: &EvalArgs, control: &Control) -> Result<Vec<u
 /// The surface itself at the corners of its triangles, with derivatives up to an order.
 fn corners(
     spline: &Spline,
-    soup: &Soup,
+    (soup, sides): (&Soup, usize),
     (order, threads): (usize, usize),
     control: &Control,
 ) -> Result<Vec<SurfacePoint>, Failure> {
-    let per_patch = soup.faces.len() / spline.space().patches().len().max(1);
+    let patches = spline.space().patches().len();
+    // The triangles after those of the patches lie in the chart of the hole at infinity.
+    let cap = spline.holes().iter().find(|hole| hole.is_at_infinity()).map(|hole| hole.chart);
+    let patch = |f: usize| cap.filter(|_| f / sides.pow(2) >= patches).unwrap_or((f / sides.pow(2)) as u32);
     let corners = soup.attributes.uv.iter().flatten().enumerate();
-    let places: Vec<Parameter> = corners
-        .flat_map(|(f, uv)| uv.map(|[x, y]| Parameter { patch: (f / per_patch) as u32, x, y }))
-        .collect();
+    let places: Vec<Parameter> =
+        corners.flat_map(|(f, uv)| uv.map(|[x, y]| Parameter { patch: patch(f), x, y })).collect();
     Ok(spline.evaluate(&places, order, threads, control)?)
 }
 

@@ -48,7 +48,7 @@ pub fn fit_whole(args: &FitArgs, input: &Input, control: &Control) -> Result<Fou
     let fitted = doing("fit", || fit_surface(&input.surface, &flat, &options, control))?;
     let mut checks = Checks::default();
     checks.add("max", fitted.max, whole.tolerance);
-    let singular = singular_vertices(&fitted);
+    let singular: Vec<u32> = fitted.singular.iter().map(|v| v.0).collect();
     let mut defaults = Map::new();
     defaults.insert("fairness".into(), options.fairness.into());
     if let (AtlasChoice::Flow, [v]) = (whole.atlas, &singular[..]) {
@@ -63,12 +63,6 @@ pub fn fit_whole(args: &FitArgs, input: &Input, control: &Control) -> Result<Fou
         .with("hole_coefficients", coefficients(&fitted))
         .with("rounds", fitted.rounds);
     Ok(Found { rms: fitted.rms, max: fitted.max, defaults, figures, checks, spline: fitted.spline })
-}
-
-/// The vertices of the mesh at which the metric is not flat, inside the surface.
-fn singular_vertices(fitted: &SurfaceFit) -> Vec<u32> {
-    let vertices = &fitted.domain.coarse().vertices;
-    fitted.domain.singular().iter().map(|v| vertices[v.index()].0).collect()
 }
 
 fn share_in_holes(fitted: &SurfaceFit) -> f64 {

@@ -2,9 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
-use crate::spline::index::{multi_indices, position};
-use crate::spline::patch::Patch;
-use crate::spline::space::SplineSpace;
+use crate::spline::surface::Spline;
 use std::collections::HashMap;
 
 /// A side of a triangle, which another one may have too.
@@ -34,17 +32,17 @@ impl Net {
     ///
     /// # Errors
     /// [`Error::Spline`] for a side of three triangles, or one that two triangles have in the same direction.
-    pub fn new(space: &SplineSpace) -> Result<Net> {
-        let patches = space.patches();
+    pub fn new(spline: &Spline) -> Result<Net> {
+        let triangles = spline.triangles();
         let mut net =
             Net { vertices: Vec::new(), sides: Vec::new(), owners: Vec::new(), corners: Vec::new() };
         let mut known: HashMap<Vec<u32>, (u32, bool)> = HashMap::new();
-        let mut sets = UnionFind::new(3 * patches.len());
-        let corner = |patch: usize, k: usize| (3 * patch + k % 3) as u32;
-        for (at, patch) in patches.iter().enumerate() {
+        let mut sets = UnionFind::new(3 * triangles.len());
+        let corner = |triangle: usize, k: usize| (3 * triangle + k % 3) as u32;
+        for (at, triangle) in triangles.iter().enumerate() {
             let mut sides = [Side { edge: 0, reversed: false }; 3];
             for (k, side) in sides.iter_mut().enumerate() {
-                let along = along(space.degree(), patch, k);
+                let along = triangle.along(k, spline);
                 let against: Vec<u32> = along.iter().rev().copied().collect();
                 if let Some((edge, is_shared)) = known.get_mut(&against) {
                     let (other, j) = net.owners[*edge as usize];
@@ -66,7 +64,7 @@ impl Net {
             net.sides.push(sides);
         }
         let mut numbers: HashMap<u32, u32> = HashMap::new();
-        for at in 0..patches.len() {
+        for at in 0..triangles.len() {
             let vertices = [0, 1, 2].map(|k| {
                 *numbers.entry(sets.root(corner(at, k))).or_insert_with(|| {
                     net.corners.push((at as u32, k));
@@ -77,17 +75,6 @@ impl Net {
         }
         Ok(net)
     }
-}
-
-/// The control points along side k of a patch, from corner k to the next.
-fn along(degree: usize, patch: &Patch, k: usize) -> Vec<u32> {
-    let control = |i: usize| {
-        let mut beta = [0; 3];
-        (beta[k], beta[(k + 1) % 3]) = (degree - i, i);
-        patch.control[position(beta)]
-    };
-    debug_assert_eq!(multi_indices(degree).count(), patch.control.len());
-    (0..=degree).map(control).collect()
 }
 
 fn refuse(patch: usize, k: usize, why: &str) -> Error {

@@ -16,6 +16,7 @@
 //! turns over or leaves the triangle, the place is the bilinear one times (s + t − s t)^{m−1}: the same on all four sides.
 
 use crate::geometry::complex::{Complex, add, conj, cross, distance, mul, norm, norm2, scale, sub, unit};
+use crate::spline::cap::{CapTriangle, Triangle};
 use crate::spline::hole::Sector;
 use crate::spline::patch::Parameter;
 use crate::spline::space::affine;
@@ -31,9 +32,49 @@ const AT_VERTEX: f64 = 1e-6;
 /// The grid is 1 + DENSER times denser at a corner than it would be evenly: there, between the knots of a vertex, a spline bends most.
 const DENSER: f64 = 3.0;
 
-/// A quadrilateral of a triangle.
+/// A quadrilateral of a triangle of the surface.
 #[derive(Debug, Clone)]
-pub(super) struct Quad {
+pub(super) enum Quad {
+    Patch(PatchQuad),
+    /// In a triangle at infinity, at this corner: bilinear in its barycentric weights.
+    Cap(CapTriangle, usize),
+}
+
+impl Quad {
+    /// The quadrilateral at corner k of a triangle, which has this number.
+    pub fn new(spline: &Spline, (at, triangle): (usize, &Triangle<'_>), k: usize) -> Quad {
+        match triangle {
+            Triangle::Patch(_) => Quad::Patch(PatchQuad::new(spline, at, k)),
+            Triangle::Cap(cap) => Quad::Cap(*cap, k),
+        }
+    }
+
+    /// The patch of the spline in which it lies, or the chart of a hole.
+    pub fn patch(&self) -> usize {
+        match self {
+            Quad::Patch(quad) => quad.patch as usize,
+            Quad::Cap(cap, _) => cap.chart as usize,
+        }
+    }
+
+    /// The place of (s, t).
+    pub fn place(&self, at: [f64; 2]) -> Parameter {
+        let (cap, k) = match self {
+            Quad::Patch(quad) => return quad.place(at),
+            Quad::Cap(cap, k) => (cap, *k),
+        };
+        let [s, t] = at.map(dense);
+        let mut weights = [s * t / 3.0; 3];
+        weights[k] += (1.0 - s) * (1.0 - t) + 0.5 * (s * (1.0 - t) + t * (1.0 - s));
+        weights[(k + 1) % 3] += 0.5 * s * (1.0 - t);
+        weights[(k + 2) % 3] += 0.5 * t * (1.0 - s);
+        cap.place(weights)
+    }
+}
+
+/// A quadrilateral of a patch.
+#[derive(Debug, Clone)]
+pub(super) struct PatchQuad {
     patch: u32,
     /// Where u = 0 lies in the chart.
     corner: Complex,
@@ -48,9 +89,9 @@ pub(super) struct Quad {
     is_coons: bool,
 }
 
-impl Quad {
+impl PatchQuad {
     /// The quadrilateral at corner k of a patch.
-    pub fn new(spline: &Spline, patch: usize, k: usize) -> Quad {
+    fn new(spline: &Spline, patch: usize, k: usize) -> PatchQuad {
         let knots = &spline.space().patches()[patch].knots;
         let [a, b, c] = [0, 1, 2].map(|j| knots[(k + j) % 3][0]);
         let (next, last) = (scale(0.5, sub(b, a)), scale(0.5, sub(c, a)));
@@ -58,23 +99,19 @@ impl Quad {
             let [corner, other] = [a, b].map(|p| affine(&s.to, p));
             s.patch as usize == patch && norm(corner) < AT_VERTEX * distance(corner, other)
         };
-        let hole = spline.holes().iter().find(|hole| hole.sectors.iter().any(is_here));
-        let (turns, frame) = hole.map_or((1, [1.0, 0.0]), |hole| (hole.turns as i32, unit(next)));
+        let hole =
+            spline.holes().iter().find(|hole| !hole.is_at_infinity() && hole.sectors.iter().any(is_here));
+        let (turns, frame) = hole.map_or((1, [1.0, 0.0]), |hole| (hole.turns, unit(next)));
         let over = |z: Complex| scale(1.0 / norm2(frame), mul(z, conj(frame)));
         let centroid = over(scale(2.0 / 3.0, add(next, last)));
         let ends = [over(next), over(last)];
-        let quad = Quad { patch: patch as u32, corner: a, frame, turns, ends, centroid, is_coons: true };
+        let quad = PatchQuad { patch: patch as u32, corner: a, frame, turns, ends, centroid, is_coons: true };
         let is_coons = turns == 1 || quad.is_sound();
-        Quad { is_coons, ..quad }
-    }
-
-    /// The patch of the spline in which it lies.
-    pub fn patch(&self) -> usize {
-        self.patch as usize
+        PatchQuad { is_coons, ..quad }
     }
 
     /// The place of (s, t).
-    pub fn place(&self, at: [f64; 2]) -> Parameter {
+    fn place(&self, at: [f64; 2]) -> Parameter {
         let [x, y] = add(self.corner, mul(self.frame, self.local(at)));
         Parameter { patch: self.patch, x, y }
     }
@@ -114,7 +151,6 @@ impl Quad {
     /// The grid's coordinates in the quadrilateral. Sides at a singular vertex stay even: |w| grows along them, whose powers would be lost beside the
     /// corner's coordinates.
     fn dense(&self, [s, t]: [f64; 2]) -> [f64; 2] {
-        let dense = |x: f64| x * (1.0 + DENSER * x) / (1.0 + DENSER);
         if self.turns == 1 {
             return [dense(s), dense(t)];
         }
@@ -130,4 +166,9 @@ impl Quad {
         let (size, angle) = (norm(z).powf(share), share * z[1].atan2(z[0]));
         [size * angle.cos(), size * angle.sin()]
     }
+}
+
+/// A coordinate of the grid in the quadrilateral.
+fn dense(x: f64) -> f64 {
+    x * (1.0 + DENSER * x) / (1.0 + DENSER)
 }

@@ -30,7 +30,7 @@ pub(super) struct Work<'a> {
     options: BicubicOptions,
     control: &'a Control,
     net: Net,
-    /// Number 3 f + k is at corner k of patch f.
+    /// Number 3 f + k is at corner k of triangle f.
     quads: Vec<Quad>,
     /// Per vertex the spans of all halves of sides that lie across from it.
     spans: Vec<usize>,
@@ -47,12 +47,14 @@ pub(super) struct Work<'a> {
 impl<'a> Work<'a> {
     /// Everything but control points.
     pub fn new(spline: &'a Spline, options: BicubicOptions, control: &'a Control) -> Result<Work<'a>> {
-        let n = spline.space().patches().len();
+        let triangles = spline.triangles();
+        let n = triangles.len();
         if n == 0 {
             return Err(Error::argument("patches of the spline", 0, "1 or more"));
         }
-        let net = Net::new(spline.space())?;
-        let quads: Vec<Quad> = (0..3 * n).map(|q| Quad::new(spline, q / 3, q % 3)).collect();
+        let net = Net::new(spline)?;
+        let quads: Vec<Quad> =
+            (0..3 * n).map(|q| Quad::new(spline, (q / 3, &triangles[q / 3]), q % 3)).collect();
         let place = |&(f, k): &(u32, usize), at: [f64; 2]| quads[3 * f as usize + k].place(at);
         let places: Vec<Parameter> = (net.corners.iter().map(|at| place(at, [0.0, 0.0])))
             .chain(net.owners.iter().map(|at| place(at, [1.0, 0.0])))

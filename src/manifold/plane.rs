@@ -1,0 +1,164 @@
+//! Spheres as the plane with a vertex at infinity.
+//!
+//! Around infinity the surface is a function of w = ρ/z, which fills the hole |w| < 1. Triangles of the plane end where the filling alone is the
+//! surface, at a ring of vertices that no vertices of the surface are. The spline near the hole is a polynomial of z where the surface is one of w, so that
+//! triangles there are to be small beside their distance from infinity.
+
+use super::coarse::{Coarse, Place, weights};
+use super::domain::SurfaceDomain;
+use super::flat::Flat;
+use super::similarity::Similarity;
+use crate::error::{Error, Result};
+use crate::geometry::complex::{Complex, conj, distance, mul, norm, norm2, scale, sub};
+use crate::mesh::{FaceId, Mesh, PerEdge, PerVertex, VertexId};
+use crate::spline::{Hole, INFINITE, Parameter};
+use spade::handles::FaceHandle;
+use spade::{DelaunayTriangulation, HierarchyHintGenerator, Point2, PositionInTriangulation, Triangulation};
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+/// Vertices of the ring.
+pub(super) const RING: usize = 8;
+/// |w| of the ring. Its edges, and the knots of its vertices, have |w| < 0.7.
+const RIM: f64 = 0.55;
+/// Largest |w| in which no vertex of the surface is one of the triangulation.
+const BARE: f64 = 0.85;
+/// Largest distance of neighbours over that from infinity, both on the sphere.
+const SLOPE: f64 = 0.7;
+
+/// The plane, and the disk outside of which the hole lies.
+pub(super) struct Plane<'a> {
+    places: &'a PerVertex<Complex>,
+    radius: f64,
+}
+
+/// The hole around infinity, and the vertices of the surface that lie beyond the triangles.
+#[derive(Debug, Clone)]
+pub(super) struct Infinity {
+    pub hole: Hole,
+    /// Their places in the chart of the hole.
+    beyond: HashMap<VertexId, Complex>,
+}
+
+type Delaunay = DelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
+
+impl<'a> Plane<'a> {
+    /// With so many vertices in the hole; none for surfaces that are no spheres.
+    pub fn new(flat: &'a Flat, inside: usize) -> Option<Plane<'a>> {
+        let places = flat.plane.as_ref()?;
+        let mut far: Vec<f64> = places.iter().map(|&z| norm(z)).filter(|far| far.is_finite()).collect();
+        far.sort_by(|a, b| b.total_cmp(a));
+        let radius = *far.get(inside.min(far.len().max(1) - 1))?;
+        Some(Plane { places, radius })
+    }
+
+    /// Whether a vertex may be one of the triangulation.
+    pub fn is_free(&self, v: VertexId) -> bool {
+        norm(self.places[v]) * BARE <= self.radius
+    }
+
+    /// Per vertex the largest distance from its neighbours, in the chords of the unit sphere over the plane.
+    pub fn reach(&self) -> PerVertex<f64> {
+        let far = |v: VertexId| SLOPE * 2.0 / (1.0 + norm2(self.places[v])).sqrt();
+        PerVertex::from_fn(self.places.len(), far)
+    }
+
+    /// The domain with the vertices that `keep` names, Delaunay in the plane.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] for places that cannot be triangulated.
+    pub fn domain(&self, keep: &PerVertex<bool>) -> Result<SurfaceDomain> {
+        let n = self.places.len();
+        let kept = (0..n as u32).map(VertexId).filter(|&v| keep[v] && self.is_free(v));
+        let ring = (0..RING).map(|k| {
+            let (far, angle) = (self.radius / RIM, TAU * k as f64 / RING as f64);
+            (VertexId((n + k) as u32), [far * angle.cos(), far * angle.sin()])
+        });
+        let mut delaunay = Delaunay::new();
+        let (mut vertices, mut places): (Vec<VertexId>, Vec<Complex>) = (Vec::new(), Vec::new());
+        for (v, z) in ring.chain(kept.map(|v| (v, self.places[v]))) {
+            let refuse = |why| Error::Layout(format!("place of vertex {v} in the plane: {why}"));
+            let at = delaunay.insert(Point2::new(z[0], z[1])).map_err(refuse)?;
+            // Of vertices with one place the first stands for all.
+            if at.index() == places.len() {
+                vertices.push(v);
+                places.push(z);
+            }
+        }
+        let corners = |f: FaceHandle<'_, _, _, _, _, _>| f.vertices().map(|v| v.index() as u32);
+        let faces: Vec<[u32; 3]> = delaunay.inner_faces().map(corners).collect();
+        let mesh = Mesh::from_faces(places.len(), &faces)?;
+        let lengths = PerEdge::from_fn(mesh.n_edges(), |e| {
+            let [a, b] = mesh.ends(e).map(|v| places[v.index()]);
+            distance(a, b)
+        });
+        let found = self.locate(&delaunay, &faces, &places);
+        let mut domain = SurfaceDomain::new(Coarse { mesh, lengths, vertices, places: found })?;
+        domain.infinity = Some(self.infinity(&domain, &places)?);
+        Ok(domain)
+    }
+
+    /// The place of each vertex of the surface; none beyond the triangles.
+    fn locate(
+        &self,
+        delaunay: &Delaunay,
+        faces: &[[u32; 3]],
+        places: &[Complex],
+    ) -> PerVertex<Option<Place>> {
+        let numbers: HashMap<usize, usize> =
+            delaunay.inner_faces().enumerate().map(|(i, f)| (f.index(), i)).collect();
+        let inner = |f: Option<FaceHandle<'_, spade::handles::InnerTag, _, _, _, _>>| f.map(|f| f.index());
+        PerVertex::from_fn(self.places.len(), |v: VertexId| {
+            let z = self.places[v];
+            if !z[0].is_finite() {
+                return None;
+            }
+            let face = match delaunay.locate(Point2::new(z[0], z[1])) {
+                PositionInTriangulation::OnFace(f) => Some(f.index()),
+                PositionInTriangulation::OnEdge(e) => {
+                    let e = delaunay.directed_edge(e);
+                    inner(e.face().as_inner()).or(inner(e.rev().face().as_inner()))
+                }
+                PositionInTriangulation::OnVertex(u) => {
+                    delaunay.vertex(u).out_edges().find_map(|e| inner(e.face().as_inner()))
+                }
+                _ => None,
+            };
+            let face = *numbers.get(&face?)?;
+            let corners = faces[face].map(|v| places[v as usize]);
+            Some(Place { face: FaceId(face as u32), weights: weights(z, corners) })
+        })
+    }
+
+    fn infinity(&self, domain: &SurfaceDomain, places: &[Complex]) -> Result<Infinity> {
+        let mesh = &domain.coarse().mesh;
+        let sector = |f: FaceId| {
+            let z = mesh.face_vertices(f).map(|v| places[v.index()]);
+            let corners = domain.corners(f);
+            let along = sub(corners[1], corners[0]);
+            let turn = scale(1.0 / norm2(along), mul(sub(z[1], z[0]), conj(along)));
+            let to = Similarity { turn, shift: sub(z[0], mul(turn, corners[0])) };
+            let is_far = z.iter().any(|&z| norm(z) > self.radius);
+            is_far.then(|| domain.sector(f, to, 0.0))
+        };
+        let sectors = mesh.faces().filter_map(sector).collect();
+        let hole = Hole::new(mesh.n_faces() as u32, sectors, INFINITE, self.radius)?;
+        let all = (0..self.places.len() as u32).map(VertexId);
+        let beyond = all.filter(|&v| domain.coarse().places[v].is_none()).map(|v| (v, self.in_hole(v)));
+        Ok(Infinity { hole, beyond: beyond.collect() })
+    }
+
+    /// w of a vertex.
+    fn in_hole(&self, v: VertexId) -> Complex {
+        let z = self.places[v];
+        if z[0].is_finite() { scale(self.radius / norm2(z), conj(z)) } else { [0.0; 2] }
+    }
+}
+
+impl Infinity {
+    /// The place of a vertex beyond the triangles.
+    pub fn place(&self, v: VertexId) -> Option<Parameter> {
+        let &[x, y] = self.beyond.get(&v)?;
+        Some(Parameter { patch: self.hole.chart, x, y })
+    }
+}
