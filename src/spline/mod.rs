@@ -35,7 +35,7 @@ pub use bicubic::{
 pub use bicubic::{LengthUnit, StepOptions};
 pub use closest::{ClosestPoint, ClosestPoints};
 pub use fill::Fill;
-pub use fit::{FitOptions, Fitted, fit};
+pub use fit::{FitOptions, Fitted, fit, fit_filled};
 pub use hole::{Hole, Sector};
 pub use identities::Identities;
 pub use index::{MAX_DEGREE, basis_size, multi_indices};

@@ -4,6 +4,9 @@
 
 mod closest;
 mod coarse;
+#[path = "../common/mod.rs"]
+mod common;
+mod fit;
 mod hole;
 mod space;
 
