@@ -49,7 +49,7 @@ def fit(mesh, degree, kind, folder):
     if report is None:
         return row | {"refused": str(code).splitlines()[0].removeprefix("ricci: ")}
     figures = report["result"]
-    names = ["patches", "control_points", "hole_coefficients", "singular_vertices", "rms", "max", "continuity", "rough_sides", "partition_of_unity", "rounds"]
+    names = ["patches", "control_points", "hole_coefficients", "singular_vertices", "rms", "max", "continuity", "rough_sides", "partition_of_unity", "folded_patches", "rounds"]
     row |= {name: figures[name] for name in names} | {"seconds": report["seconds"]["total"]}
     row["bad"] += [f"{name} is {page.small(c['value'])}, over {page.small(c['limit'])}" for name, c in report["checks"].items() if not c["holds"]]
     row["bad"] += [f"rms is {page.small(row['rms'])}, over {page.small(RMS)}"] if row["rms"] > RMS else []
@@ -203,13 +203,13 @@ def rows_of(meshes, folder):
 
 def fits(rows):
     head = ["mesh", "genus", "loops", "V", "degree", "control points + coefficients", "share", "patches", "singular", "rms", "max", "normals, median / 99 %",
-            "continuity", "unity", "rounds", "s", "outside: values, unity", "across sides"]
+            "continuity", "unity", "folded", "rounds", "s", "outside: values, unity", "across sides"]
     lines = []
     for r in rows:
         values, unity, apart = r["outside"]
         lines.append([r["mesh"], r["genus"], r["loops"], r["V"], r["degree"], f"{r['control_points']} + {r['hole_coefficients']}",
                       f"{(r['control_points'] + r['hole_coefficients']) / r['V']:.3f}", r["patches"], len(r["singular_vertices"]), page.small(r["rms"]), page.small(r["max"]),
-                      "{:.1f}° / {:.0f}°".format(*r["angles"]), page.small(r["continuity"]), page.small(r["partition_of_unity"]), r["rounds"], f"{r['seconds']:.1f}",
+                      "{:.1f}° / {:.0f}°".format(*r["angles"]), page.small(r["continuity"]), page.small(r["partition_of_unity"]), len(r["folded_patches"]), r["rounds"], f"{r['seconds']:.1f}",
                       f"{page.small(values)}, {page.small(unity)}", page.small(apart)])
     return page.table(head, lines)
 
@@ -272,7 +272,7 @@ the coefficients of fillings included. Wanted: root mean square 1e-3 and largest
 
 *control points + coefficients*: the second number is of the fillings around singular vertices; *share*: of both, in the vertices of the mesh. *rms*, *max*: distances
 of the vertices, over the diagonal. *normals*: angle between the mesh's normal at a vertex and the spline's at the nearest point, median and 99th percentile; scans are rougher than
-their splines. *continuity*: largest jump of derivatives up to order n − 1 across sides outside the fillings, relative. *unity*: partition of unity, of the report.
+their splines. *continuity*: largest jump of derivatives up to order n − 1 across sides outside the fillings, relative. *unity*: partition of unity, of the report. *folded*: patches in which normals turn by more than 60° over a twelfth of a side.
 *outside*: `check.py spline` at 30 places of the file, of which ten lie near sides, all summed over the charts that reach there: largest difference from `spline eval --at`
 over the size of the surface, and its own partition of unity. *across sides*: largest difference of the values at 30 places on sides, evaluated in the charts of both patches.
 """,

@@ -16,6 +16,8 @@ const LEAST_SHARE: f64 = 1e-9;
 const DELAUNAY: f64 = 1e-12;
 /// Least share of the quadrilateral's area that the triangle at a corner of the boundary gets, and what is left beside it.
 const EAR: f64 = 0.1;
+/// Vertices that are removed at most, in the mean over the corners of the boundary, so that one triangle alone has each.
+const REMOVALS: usize = 4;
 /// Removals between two looks at the control.
 const STEPS: usize = 256;
 
@@ -42,7 +44,8 @@ pub struct Coarse {
 }
 
 impl Coarse {
-    /// The triangulation of a flat metric by the vertices that `keep` names, and those that are not flat: its cones, and corners of its boundary.
+    /// The triangulation of a flat metric by the vertices that `keep` names, and those that are not flat: its cones, and corners of its boundary. Inner vertices
+    /// next to a corner go even so, where it had several triangles with them.
     ///
     /// # Errors
     /// [`crate::Error::Size`]; [`crate::Error::Cancelled`].
@@ -68,8 +71,16 @@ impl Coarse {
                 steps += 1;
             }
         }
-        for v in mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v) && curvature[v] > FLAT) {
-            work.cut_ear(v);
+        let is_corner = |v: &VertexId| mesh.is_boundary_vertex(*v) && curvature[*v] > FLAT;
+        let corners: Vec<VertexId> = mesh.vertices().filter(is_corner).collect();
+        let is_free = |v: VertexId| !mesh.is_boundary_vertex(v) && curvature[v].abs() <= FLAT;
+        // The removal of a vertex may undo the flips at other corners.
+        for _ in 0..REMOVALS * corners.len() {
+            let Some(v) = corners.iter().find_map(|&v| work.cut_ear(v, is_free)) else { break };
+            work.remove(v);
+        }
+        for &v in &corners {
+            work.cut_ear(v, is_free);
         }
         work.finish()
     }
@@ -200,8 +211,8 @@ impl Work {
     }
 
     /// Flip the edges at a corner of the boundary, as far as triangles stay fat, so that one triangle alone has it: a spline is less smooth across edges
-    /// that end at a corner.
-    fn cut_ear(&mut self, v: VertexId) {
+    /// that end at a corner. Where one is left, the vertex at its other end that would have to go, if `is_free` allows it.
+    fn cut_ear(&mut self, v: VertexId, is_free: impl Fn(VertexId) -> bool) -> Option<VertexId> {
         loop {
             let fan = self.mesh().fan(v);
             let inner = fan.iter().filter(|h| !self.mesh().is_boundary_edge(h.edge()));
@@ -211,6 +222,10 @@ impl Work {
             let Some((h, quad)) = best else { break };
             self.flip(h, &quad);
         }
+        let mesh = self.mesh();
+        let inner = mesh.fan(v).into_iter().filter(|h| !mesh.is_boundary_edge(h.edge()));
+        let left = inner.filter(|&h| is_free(mesh.tip(h)));
+        left.min_by(|a, b| self.lengths[a.edge()].total_cmp(&self.lengths[b.edge()])).map(|h| mesh.tip(h))
     }
 
     /// Take out a vertex whose degree allows it; it and the points of its triangles go to the one that is left.

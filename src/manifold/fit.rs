@@ -3,13 +3,13 @@
 use super::domain::SurfaceDomain;
 use super::flat::Flat;
 use super::grade::{Grade, Miss};
+use super::plane::TURNS;
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::geometry::complex::Complex;
-use crate::geometry::vector::{Vector, diagonal, distance, dot, sub};
+use crate::geometry::vector::{Vector, diagonal, distance};
 use crate::mesh::VertexId;
 use crate::metric::Surface;
-use crate::spline::{Fill, FitOptions, Hole, Parameter, Spline, SplineSpace, fit};
+use crate::spline::{Fill, FitOptions, Hole, Parameter, Spline, SplineSpace, fit_filled};
 use std::sync::Arc;
 
 /// Least number of vertices in a hole, and largest share of all vertices.
@@ -17,6 +17,8 @@ const LEAST_INSIDE: usize = 60;
 const MOST_INSIDE: f64 = 0.3;
 /// Where knots are far apart, a spline bends less sharply between its triangles.
 const WIDE: f64 = 0.9;
+/// Vertices in a hole per coefficient of its filling.
+const POINTS: f64 = 6.0;
 /// The root of the mean squared distance that is asked for, over the largest distance.
 const RMS: f64 = 0.1;
 /// Factor of the fairness after a round that misses the mean distance asked for.
@@ -37,7 +39,7 @@ pub struct SurfaceFitOptions {
     pub tolerance: f64,
     /// Times that the triangles' sizes are adapted to the errors. Default 6.
     pub rounds: usize,
-    /// Times that the places of the vertices are moved to where the spline is nearest. Default 2.
+    /// Times that the places of the vertices are moved to where the spline is nearest. Default 5.
     pub corrections: usize,
     /// [`FitOptions::fairness`] of the first round; less in later ones while the mean distance is missed. Default 1e-10.
     pub fairness: f64,
@@ -56,7 +58,7 @@ impl Default for SurfaceFitOptions {
             control_points: None,
             tolerance: 0.01,
             rounds: 6,
-            corrections: 2,
+            corrections: 5,
             fairness: 1e-10,
             spread: WIDE,
             hole: 1.0,
@@ -80,12 +82,15 @@ pub struct SurfaceFit {
     pub rms: f64,
     /// The largest such distance, over the same.
     pub max: f64,
+    /// Patches in which the spline folds, [`SurfaceDomain::folds`].
+    pub folds: Vec<usize>,
     /// Rounds that were made.
     pub rounds: usize,
 }
 
 /// A spline fitted to the vertices of a surface in space, on a flat metric of it: triangles of the domain about as long on the surface, and smaller where
-/// the fit is worse. The best of all rounds; they end early where the tolerance is met.
+/// the fit is worse. The best of all rounds; they end early where the tolerance is met and
+/// the spline does not fold.
 ///
 /// # Errors
 /// [`Error::Argument`] for a surface without positions, a metric that is not flat or lives on a double; [`Error::Spline`]; [`Error::Factorisation`];
@@ -110,14 +115,17 @@ pub fn fit_surface(
     let triangles = 2 * most / (options.degree * options.degree).max(1);
     let inside = |turns: u32| vertices_inside(options.hole, turns, (mesh.n_vertices(), triangles));
     let mut grade = Grade::new(surface, flat, triangles, inside, control)?;
-    let fills: usize = grade.turns().map(|turns| Fill::coefficients_for(inside(turns))).sum();
+    let coefficients =
+        |turns: u32| Fill::blank((inside(turns) as f64 / POINTS) as usize).coefficients().len();
+    let fills: usize = grade.turns().map(coefficients).sum();
+    let plan = Plan { points, options, inside: &inside, coefficients: &coefficients };
     let count = vertices_for(most.saturating_sub(fills), flat, options.degree).saturating_sub(grade.added());
     let singular = flat.singular()?;
     let mut best: Option<SurfaceFit> = None;
     let mut fairness = options.fairness;
     for round in 0..options.rounds.max(1) {
         let domain = grade.domain(count, control)?;
-        let found = Round::new(domain, points, options).and_then(|round| round.run(fairness, control));
+        let found = Round::new(domain, &plan).and_then(|round| round.run(fairness, control));
         let found = match found {
             Ok(found) => found,
             // Another round has given a spline: this one cannot do better.
@@ -130,13 +138,14 @@ pub fn fit_surface(
         let squares: f64 = misses.iter().map(|miss| miss * miss).sum();
         let rms = (squares / points.len().max(1) as f64).sqrt() / diagonal;
         let max = misses.iter().copied().fold(0.0, f64::max) / diagonal;
-        let miss = |max: f64, rms: f64| f64::max(max, rms / RMS) / options.tolerance;
-        if best.as_ref().is_none_or(|best| miss(max, rms) < miss(best.max, best.rms)) {
-            let rounds = round + 1;
-            let (domain, places, singular) = (found.domain, found.places, singular.clone());
-            best = Some(SurfaceFit { spline, domain, places, singular, rms, max, rounds });
+        let rounds = round + 1;
+        let Round { domain, places, folds, .. } = found;
+        let next = SurfaceFit { spline, domain, places, singular: singular.clone(), rms, max, folds, rounds };
+        let is_done = next.miss(options.tolerance) <= 1.0 && next.folds.is_empty();
+        if best.as_ref().is_none_or(|best| next.cost(options.tolerance) < best.cost(options.tolerance)) {
+            best = Some(next);
         }
-        if miss(max, rms) <= 1.0 {
+        if is_done {
             break;
         }
         if rms > RMS * options.tolerance {
@@ -144,6 +153,19 @@ pub fn fit_surface(
         }
     }
     best.ok_or_else(|| Error::argument("rounds", options.rounds, "1 or more"))
+}
+
+impl SurfaceFit {
+    /// How far it misses what is asked for, 1 where it just does not.
+    fn miss(&self, tolerance: f64) -> f64 {
+        f64::max(self.max, self.rms / RMS) / tolerance
+    }
+
+    /// What is less for a better fit: first to be near, then not to fold, then to be nearer.
+    fn cost(&self, tolerance: f64) -> (f64, usize, f64) {
+        let miss = self.miss(tolerance);
+        (if miss <= 1.0 { 0.0 } else { miss }, self.folds.len(), miss)
+    }
 }
 
 /// Vertices of a triangulation of this surface, or plane, that has at most so many control points: of V vertices at most n²V − (n² − 1)χ, less for each edge of the boundary.
@@ -160,50 +182,64 @@ fn vertices_inside(hole: f64, turns: u32, (vertices, triangles): (usize, usize))
     (wanted as usize).clamp(LEAST_INSIDE, LEAST_INSIDE.max((MOST_INSIDE * vertices as f64) as usize))
 }
 
+/// What all rounds have in common.
+struct Plan<'a> {
+    points: &'a [Vector],
+    options: &'a SurfaceFitOptions,
+    /// By the number of turns of a singular vertex, the vertices of the surface that its hole covers, and the coefficients of its filling.
+    inside: &'a dyn Fn(u32) -> usize,
+    coefficients: &'a dyn Fn(u32) -> usize,
+}
+
 /// One domain, and what is fitted on it.
 struct Round<'a> {
     domain: SurfaceDomain,
     space: Arc<SplineSpace>,
-    points: &'a [Vector],
+    plan: &'a Plan<'a>,
     places: Vec<Parameter>,
-    /// Those around the singular vertices, not filled yet.
+    /// Those around the singular vertices.
     holes: Vec<Hole>,
     spline: Option<Spline>,
-    options: &'a SurfaceFitOptions,
+    /// Patches in which the spline folds.
+    folds: Vec<usize>,
 }
 
 impl<'a> Round<'a> {
-    fn new(domain: SurfaceDomain, points: &'a [Vector], options: &'a SurfaceFitOptions) -> Result<Round<'a>> {
+    fn new(domain: SurfaceDomain, plan: &'a Plan<'a>) -> Result<Round<'a>> {
+        let Plan { points, options, .. } = plan;
         let space = Arc::new(domain.space(options.degree, options.spread)?);
         let places = domain.places(points.len())?;
-        let mut round = Round { domain, space, points, places, holes: Vec::new(), spline: None, options };
+        let (holes, folds) = (Vec::new(), Vec::new());
+        let mut round = Round { domain, space, plan, places, holes, spline: None, folds };
         round.holes = match &round.domain.infinity {
-            Some(infinity) => vec![infinity.hole.clone()],
+            Some(infinity) => vec![infinity.hole.clone().blank((plan.coefficients)(TURNS))],
             None => round.domain.singular().into_iter().map(|v| round.hole(v)).collect::<Result<_>>()?,
         };
         Ok(round)
     }
 
-    /// Fit, correct, and fill the holes.
+    /// Fit, correct, and look for folds.
     fn run(mut self, fairness: f64, control: &Control) -> Result<Round<'a>> {
-        for correction in 0..=self.options.corrections {
+        for correction in 0..=self.plan.options.corrections {
             if correction > 0 {
                 self.correct(control)?;
             }
             self.fit(fairness, control)?;
         }
-        self.fill_holes(control)?;
+        self.find_folds(control)?;
         Ok(self)
+    }
+
+    fn find_folds(&mut self, control: &Control) -> Result<()> {
+        let Some(spline) = &self.spline else { return Ok(()) };
+        self.folds = self.domain.folds(spline, self.plan.options.threads, control)?;
+        Ok(())
     }
 
     /// The hole around a singular vertex: the widest with no more vertices than wanted, so that triangles beyond it are small beside their distance from the vertex.
     fn hole(&self, v: VertexId) -> Result<Hole> {
         let mut hole = self.domain.hole(v)?;
-        let wanted = vertices_inside(
-            self.options.hole,
-            hole.turns.unsigned_abs(),
-            (self.points.len(), self.space.patches().len()),
-        );
+        let wanted = (self.plan.inside)(hole.turns.unsigned_abs());
         let growth = GROWTH.powi(hole.turns);
         loop {
             let wider = self.domain.wide_hole(v, growth * hole.radius)?;
@@ -213,7 +249,8 @@ impl<'a> Round<'a> {
             }
             hole = wider;
         }
-        Ok(hole)
+        let coefficients = (self.plan.coefficients)(hole.turns.unsigned_abs());
+        Ok(hole.blank(coefficients))
     }
 
     /// Whether the spline has no weight at a place.
@@ -221,12 +258,11 @@ impl<'a> Round<'a> {
         self.holes.iter().any(|hole| hole.is_core(at))
     }
 
-    /// The spline nearest to the points, but for those where a hole takes its place.
+    /// The filled spline nearest to the points.
     fn fit(&mut self, fairness: f64, control: &Control) -> Result<()> {
-        let threads = self.options.threads;
-        let all = self.places.iter().copied().zip(self.points.iter().copied());
-        let (places, points): (Vec<_>, Vec<_>) = all.filter(|(at, _)| !self.is_covered(*at)).unzip();
-        let fitted = fit(&self.space, &places, &points, &FitOptions { fairness, threads }, control)?;
+        let options = FitOptions { fairness, threads: self.plan.options.threads };
+        let fitted =
+            fit_filled((&self.space, &self.holes), (&self.places, self.plan.points), &options, control)?;
         self.spline = Some(fitted.spline);
         Ok(())
     }
@@ -234,18 +270,19 @@ impl<'a> Round<'a> {
     /// Move every place to where the spline is nearest to its vertex, by one step of Gauss and Newton.
     fn correct(&mut self, control: &Control) -> Result<()> {
         let Some(spline) = &self.spline else { return Ok(()) };
-        let open: Vec<usize> = (0..self.places.len()).filter(|&k| !self.is_covered(self.places[k])).collect();
-        let places: Vec<Parameter> = open.iter().map(|&k| self.places[k]).collect();
-        let found = spline.evaluate(&places, 1, self.options.threads, control)?;
-        for ((k, place), at) in open.into_iter().zip(places).zip(&found) {
-            let [x, y] = at.first;
-            let miss = sub(self.points[k], at.point);
-            let (a, b, c) = (dot(x, x), dot(x, y), dot(y, y));
-            let (p, q) = (dot(x, miss), dot(y, miss));
-            let det = a * c - b * b;
-            let step: Complex = [(c * p - b * q) / det, (a * q - b * p) / det];
+        let found = spline.evaluate(&self.places, 1, self.plan.options.threads, control)?;
+        for (k, &point) in self.plan.points.iter().enumerate() {
+            let (place, at) = (self.places[k], &found[k]);
+            if let Some(inside) =
+                spline.holes().iter().find_map(|hole| hole.nearer(&self.space, place, point))
+            {
+                self.places[k] = inside;
+                continue;
+            }
+            let is_in_patch = (place.patch as usize) < self.space.patches().len();
+            let Some(step) = at.step_towards(point).filter(|_| is_in_patch) else { continue };
             let length = f64::hypot(step[0], step[1]);
-            if length.is_finite() && length > 0.0 {
+            if length > 0.0 {
                 let shorter = f64::min(1.0, LONGEST_STEP / length);
                 self.places[k] = self.domain.walk(place, step.map(|x| shorter * x));
             }
@@ -253,23 +290,11 @@ impl<'a> Round<'a> {
         Ok(())
     }
 
-    /// Fill the surroundings of the singular vertices, from the spline around them and the vertices in them.
-    fn fill_holes(&mut self, control: &Control) -> Result<()> {
-        let Some(spline) = self.spline.take() else { return Ok(()) };
-        for hole in &mut self.holes {
-            let rings = spline.evaluate(&hole.rings(&self.space), 0, self.options.threads, control)?;
-            let rings: Vec<Vector> = rings.iter().map(|at| at.point).collect();
-            hole.fill(&self.space, (&self.places, self.points), &rings)?;
-        }
-        self.spline = Some(spline.with_holes(self.holes.clone()));
-        Ok(())
-    }
-
     /// Per vertex its distance from its place.
     fn measure(&self, control: &Control) -> Result<Vec<f64>> {
         let Some(spline) = &self.spline else { return Ok(Vec::new()) };
-        let found = spline.evaluate(&self.places, 0, self.options.threads, control)?;
-        Ok(found.iter().zip(self.points).map(|(at, point)| distance(at.point, *point)).collect())
+        let found = spline.evaluate(&self.places, 0, self.plan.options.threads, control)?;
+        Ok(found.iter().zip(self.plan.points).map(|(at, point)| distance(at.point, *point)).collect())
     }
 
     /// Per vertex its triangle and its distance, outside what holes take the place of.

@@ -4,7 +4,7 @@ use super::areas::{smooth, vertex_areas};
 use super::coarse::Coarse;
 use super::domain::SurfaceDomain;
 use super::flat::{FLAT, Flat};
-use super::plane::{Plane, RING};
+use super::plane::{Plane, RING, TURNS};
 use super::sample::Sampling;
 use crate::control::Control;
 use crate::error::Result;
@@ -71,11 +71,11 @@ impl<'a> Grade<'a> {
             allowed: PerVertex::from_fn(flat.mesh.n_vertices(), |v: VertexId| v.index() < n),
             turns: Vec::new(),
         };
-        let plane = Plane::new(flat, inside(1));
+        let plane = Plane::new(flat, inside(TURNS));
         match &plane {
             Some(plane) => {
                 let allowed = PerVertex::from_fn(n, |v| plane.is_free(v));
-                around = Around { always: Vec::new(), allowed, turns: vec![1] };
+                around = Around { always: Vec::new(), allowed, turns: vec![TURNS] };
             }
             None => around.keep_clear(mesh, flat, (&curvature, &inside), control)?,
         }
@@ -117,7 +117,6 @@ impl<'a> Grade<'a> {
             lengths: &self.lengths,
             sizes: PerVertex::from_fn(mesh.n_vertices(), size),
             growth: self.growth,
-            reach: self.plane.as_ref().map(Plane::reach),
             always: &self.always,
             allowed: self.allowed.clone(),
         };

@@ -5,6 +5,7 @@ mod coarse;
 mod domain;
 mod fit;
 mod flat;
+mod folds;
 mod grade;
 mod holes;
 mod plane;

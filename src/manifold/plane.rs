@@ -23,8 +23,8 @@ pub(super) const RING: usize = 8;
 const RIM: f64 = 0.55;
 /// Largest |w| in which no vertex of the surface is one of the triangulation.
 const BARE: f64 = 0.85;
-/// Largest distance of neighbours over that from infinity, both on the sphere.
-const SLOPE: f64 = 0.7;
+/// The hole is as large as that of a vertex with so many turns: of a smaller one the triangles around it would be large beside their distance from infinity.
+pub(super) const TURNS: u32 = 4;
 
 /// The plane, and the disk outside of which the hole lies.
 pub(super) struct Plane<'a> {
@@ -55,12 +55,6 @@ impl<'a> Plane<'a> {
     /// Whether a vertex may be one of the triangulation.
     pub fn is_free(&self, v: VertexId) -> bool {
         norm(self.places[v]) * BARE <= self.radius
-    }
-
-    /// Per vertex the largest distance from its neighbours, in the chords of the unit sphere over the plane.
-    pub fn reach(&self) -> PerVertex<f64> {
-        let far = |v: VertexId| SLOPE * 2.0 / (1.0 + norm2(self.places[v])).sqrt();
-        PerVertex::from_fn(self.places.len(), far)
     }
 
     /// The domain with the vertices that `keep` names, Delaunay in the plane.

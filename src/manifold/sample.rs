@@ -22,8 +22,6 @@ pub(super) struct Sampling<'a> {
     pub sizes: PerVertex<f64>,
     /// How much the distance between neighbours may grow per length: 1 keeps the triangles between them fat.
     pub growth: f64,
-    /// Largest distances of neighbours, of the same unit as the lengths.
-    pub reach: Option<PerVertex<f64>>,
     /// Vertices that are taken whatever their distance.
     pub always: &'a [VertexId],
     /// The others that may be taken.
@@ -75,9 +73,7 @@ impl Sampling<'_> {
 
     /// The sizes times a factor, as far as they grow no faster than they may.
     fn distances(&self, factor: f64) -> PerVertex<f64> {
-        let reach = |v: VertexId| self.reach.as_ref().map_or(f64::INFINITY, |reach| reach[v]);
-        let mut distances =
-            PerVertex::from_fn(self.mesh.n_vertices(), |v| reach(v).min(factor * self.sizes[v]));
+        let mut distances = PerVertex::from_fn(self.mesh.n_vertices(), |v| factor * self.sizes[v]);
         let finite = self.mesh.vertices().filter(|&v| distances[v].is_finite());
         let mut heap: BinaryHeap<_> = finite.map(|v| Reverse(At(distances[v], v))).collect();
         while let Some(Reverse(At(distance, v))) = heap.pop() {

@@ -4,14 +4,10 @@ use super::jet::Jet;
 use crate::error::{Error, Result};
 use crate::geometry::complex::Complex;
 use crate::geometry::vector::Vector;
-use crate::linalg::dense::solve_definite;
+use std::f64::consts::SQRT_2;
 
 /// Most cells along a side of the square: 361 coefficients, whose dense equations take milliseconds.
 const MOST_CELLS: usize = 16;
-/// Points per coefficient.
-const POINTS: usize = 3;
-/// Weight of the mean square of second differences of the coefficients beside the mean square of the distances: decides where there are no points.
-const FAIRNESS: f64 = 1e-6;
 
 /// The coefficients of a fill: (k + 3)² for k × k cells, rows of q after each other.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,12 +32,6 @@ fn basis(x: f64, cells: usize) -> (usize, [[f64; 3]; 4]) {
     (first, values.map(|[value, d, dd]| [value, d * per_unit, dd * per_unit * per_unit]))
 }
 
-/// The number of coefficients along a side, for so many points.
-fn side_for(points: usize) -> usize {
-    let side = ((points / POINTS) as f64).sqrt() as usize;
-    side.clamp(4, MOST_CELLS + 3)
-}
-
 impl Fill {
     /// A fill with these coefficients.
     ///
@@ -62,48 +52,35 @@ impl Fill {
         Ok(Fill { cells, coefficients })
     }
 
-    /// The fill that is nearest to weighted points at places p + iq of the unit disk, in the sense of least squares. The count `given` of points of the surface among
-    /// them decides how many cells it has.
-    ///
-    /// # Errors
-    /// [`Error::Factorisation`] without points.
-    pub fn fitted(all: &[(f64, Complex, Vector)], given: usize) -> Result<Fill> {
-        let side = side_for(given);
-        let (n, cells) = (side * side, side - 3);
-        let (mut matrix, mut right) = (vec![vec![0.0; n]; n], vec![vec![0.0; 3]; n]);
-        let mut add = |weight: f64, row: &[(usize, f64)], point: Vector| {
-            for &(i, a) in row {
-                row.iter().for_each(|&(j, b)| matrix[i][j] += weight * a * b);
-                (0..3).for_each(|x| right[i][x] += weight * a * point[x]);
-            }
-        };
-        for &(weight, [p, q], point) in all {
-            let ((i, along), (j, across)) = (basis(p, cells), basis(q, cells));
-            let row: Vec<(usize, f64)> = (0..16)
-                .map(|k| ((j + k / 4) * side + i + k % 4, across[k / 4][0] * along[k % 4][0]))
-                .collect();
-            add(weight, &row, point);
-        }
-        let whole: f64 = all.iter().map(|(weight, ..)| weight).sum();
-        let fair = FAIRNESS * whole / n as f64;
-        for at in 0..n {
+    /// A fill of zeros, with at most so many coefficients, but 16 at least.
+    pub fn blank(coefficients: usize) -> Fill {
+        let side = coefficients.isqrt().clamp(4, MOST_CELLS + 3);
+        Fill { cells: side - 3, coefficients: vec![[0.0; 3]; side * side] }
+    }
+
+    /// The factors of the coefficients in the value at a place p + iq.
+    pub(super) fn factors(&self, [p, q]: Complex) -> impl Iterator<Item = (usize, f64)> {
+        let side = self.cells + 3;
+        let ((i, along), (j, across)) = (basis(p, self.cells), basis(q, self.cells));
+        (0..16).map(move |k| ((j + k / 4) * side + i + k % 4, across[k / 4][0] * along[k % 4][0]))
+    }
+
+    /// The second differences of the coefficients, as their factors; those in mixed directions count twice.
+    pub(super) fn differences(&self) -> Vec<Vec<(usize, f64)>> {
+        let side = self.cells + 3;
+        let mut all = Vec::new();
+        for at in 0..side * side {
             for (room, step) in [(at % side, 1), (at / side, side)] {
                 if room + 2 < side {
-                    add(fair, &[(at, 1.0), (at + step, -2.0), (at + 2 * step, 1.0)], [0.0; 3]);
+                    all.push(vec![(at, 1.0), (at + step, -2.0), (at + 2 * step, 1.0)]);
                 }
             }
             if at % side + 1 < side && at / side + 1 < side {
-                let twist = [(at, 1.0), (at + 1, -1.0), (at + side, -1.0), (at + side + 1, 1.0)];
-                add(2.0 * fair, &twist, [0.0; 3]);
+                let factors = [(at, 1.0), (at + 1, -1.0), (at + side, -1.0), (at + side + 1, 1.0)];
+                all.push(factors.map(|(k, x)| (k, x * SQRT_2)).to_vec());
             }
         }
-        let coefficients = solve_definite(&matrix, &right)?.iter().map(|c| [c[0], c[1], c[2]]).collect();
-        Fill::new(coefficients)
-    }
-
-    /// How many coefficients a fill of so many points has.
-    pub(crate) fn coefficients_for(points: usize) -> usize {
-        side_for(points).pow(2)
+        all
     }
 
     /// The coefficients.

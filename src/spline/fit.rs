@@ -1,5 +1,7 @@
 //! Least-squares fits of splines to points with given parameters.
 
+use super::fill::Fill;
+use super::hole::Hole;
 use super::patch::{Parameter, Patch};
 use super::recurrence::{Jet, Scratch};
 use super::space::SplineSpace;
@@ -18,6 +20,11 @@ use std::sync::Arc;
 const GRID: usize = 8;
 /// Weight of the bending beside that of its variation: it decides where there are fewer points than quadratic polynomials need.
 const BENDING: f64 = 0.1;
+
+/// Weight of the mean square of the distances between filling and spline on the rings of a hole beside that of its points.
+const RINGS: f64 = 0.01;
+/// Weight of the mean square of second differences of a filling's coefficients beside the mean square of the distances: decides where there are no points.
+const FILL_FAIRNESS: f64 = 1e-6;
 
 /// What a fit can be asked.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,6 +66,20 @@ pub fn fit(
     options: &FitOptions,
     control: &Control,
 ) -> Result<Fitted> {
+    fit_filled((space, &[]), (places, points), options, control)
+}
+
+/// The spline with holes whose filled surface is nearest to points at given places: control points and the coefficients of fillings together. Holes come with
+/// fillings of the sizes wanted, as [`Hole::blank`] gives them; others stay empty.
+///
+/// # Errors
+/// Those of [`fit`].
+pub fn fit_filled(
+    (space, holes): (&Arc<SplineSpace>, &[Hole]),
+    (places, points): (&[Parameter], &[Vector]),
+    options: &FitOptions,
+    control: &Control,
+) -> Result<Fitted> {
     check_size("points", points.len(), places.len())?;
     let FitOptions { fairness, threads } = *options;
     if !(fairness >= 0.0 && fairness.is_finite()) {
@@ -67,18 +88,20 @@ pub fn fit(
     if let Some(at) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
         return Err(Error::argument("point", at, "one with finite coordinates"));
     }
-    let control_points = Pool::new(threads)?.run(|| {
+    let unknown = Pool::new(threads)?.run(|| {
         control.step(Stage::Flow, 0.0)?;
-        let mut equations = Equations { space, rows: Vec::new() };
+        let mut equations =
+            Equations { space, fills: numbered(holes, space.n_control_points()), rows: Vec::new() };
         let share = (1.0 / places.len().max(1) as f64).sqrt();
-        equations.add(places, 0, |_, jet| vec![share * jet[0]])?;
+        equations.add_points(places, share)?;
+        equations.add_holes(places, share)?;
         if fairness > 0.0 {
             control.step(Stage::Flow, 0.3)?;
             equations.make_fair(fairness)?;
         }
         control.step(Stage::Flow, 0.6)?;
         let matrix = equations.matrix();
-        let mut right = vec![[0.0; 3]; space.n_control_points()];
+        let mut right = vec![[0.0; 3]; matrix.cols()];
         for (row, point) in matrix.outer_iterator().zip(points) {
             for (column, weight) in row.iter() {
                 (0..3).for_each(|x| right[column][x] += share * weight * point[x]);
@@ -86,7 +109,13 @@ pub fn fit(
         }
         solve(&(&matrix.transpose_view() * &matrix), right)
     })?;
-    let spline = Spline::new(space.clone(), control_points)?;
+    let (control_points, mut rest) = unknown.split_at(space.n_control_points());
+    let mut filled = holes.to_vec();
+    for fill in filled.iter_mut().filter_map(|hole| hole.fill.as_mut()) {
+        let (coefficients, later) = rest.split_at(fill.coefficients().len());
+        (*fill, rest) = (Fill::new(coefficients.to_vec())?, later);
+    }
+    let spline = Spline::new(space.clone(), control_points.to_vec())?.with_holes(filled);
     let found = spline.evaluate(places, 0, threads, control)?;
     let (mut sum, mut max) = (0.0, 0.0f64);
     for (found, point) in found.iter().zip(points) {
@@ -96,14 +125,76 @@ pub fn fit(
     Ok(Fitted { spline, rms: (sum / points.len().max(1) as f64).sqrt(), max })
 }
 
-/// Linear equations for control points, whose squares are summed.
+/// The fillings of holes, with the number of the first coefficient of each.
+fn numbered(holes: &[Hole], mut next: usize) -> Vec<(usize, &Hole, &Fill)> {
+    let mut fills = Vec::new();
+    for (hole, fill) in holes.iter().filter_map(|hole| Some((hole, hole.fill.as_ref()?))) {
+        fills.push((next, hole, fill));
+        next += fill.coefficients().len();
+    }
+    fills
+}
+
+/// Linear equations for control points and then the coefficients of fillings, whose squares are summed.
 struct Equations<'a> {
     space: &'a SplineSpace,
+    /// Per filling the number of its first coefficient.
+    fills: Vec<(usize, &'a Hole, &'a Fill)>,
     /// Per equation the control points and their factors.
     rows: Vec<Vec<(u32, f64)>>,
 }
 
-impl Equations<'_> {
+impl<'a> Equations<'a> {
+    /// The terms of a filling at a place, times a factor.
+    fn terms((first, fill): (usize, &Fill), w: Complex, factor: f64) -> impl Iterator<Item = (u32, f64)> {
+        fill.factors(w).map(move |(k, x)| ((first + k) as u32, factor * x))
+    }
+
+    /// The filling that has a part in the surface at a place, with the number of its first coefficient, the parts of the spline and its own, and its coordinate.
+    fn filling(&self, at: Parameter) -> Option<(usize, &'a Fill, [f64; 2], Complex)> {
+        self.fills.iter().find_map(|&(first, hole, fill)| {
+            let (parts, w) = hole.parts(at)?;
+            Some((first, fill, parts, w))
+        })
+    }
+
+    /// The surface at places, times a factor.
+    fn add_points(&mut self, places: &[Parameter], share: f64) -> Result<()> {
+        let fillings: Vec<_> = places.iter().map(|&at| self.filling(at)).collect();
+        let row = self.rows.len();
+        self.add(places, 0, |i, jet| {
+            vec![share * jet[0] * fillings[i].map_or(1.0, |(_, _, [spline, _], _)| spline)]
+        })?;
+        for (i, filling) in fillings.into_iter().enumerate() {
+            if let Some((first, fill, [_, part], w)) = filling {
+                self.rows[row + i].extend(Self::terms((first, fill), w, share * part));
+            }
+        }
+        Ok(())
+    }
+
+    /// That fillings are near the spline on their rings, and fair.
+    fn add_holes(&mut self, places: &[Parameter], share: f64) -> Result<()> {
+        for (first, hole, fill) in self.fills.clone() {
+            let inside = places.iter().filter(|&&at| hole.contains(at)).count().max(1) as f64;
+            let rings = hole.rings(self.space);
+            let weight = share * (RINGS * inside / rings.len().max(1) as f64).sqrt();
+            let row = self.rows.len();
+            self.add(&rings, 0, |_, jet| vec![weight * jet[0]])?;
+            for (k, &at) in rings.iter().enumerate() {
+                if let Some((_, w)) = hole.parts(at) {
+                    self.rows[row + k].extend(Self::terms((first, fill), w, -weight));
+                }
+            }
+            let weight = share * (FILL_FAIRNESS * inside / fill.coefficients().len() as f64).sqrt();
+            let row = |terms: Vec<(usize, f64)>| {
+                terms.into_iter().map(|(k, x)| ((first + k) as u32, weight * x)).collect()
+            };
+            self.rows.extend(fill.differences().into_iter().map(row));
+        }
+        Ok(())
+    }
+
     /// Equations at places from the derivatives, up to `order`, of the basis functions there: `of` gives a factor for each equation.
     fn add(
         &mut self,
@@ -113,7 +204,11 @@ impl Equations<'_> {
     ) -> Result<()> {
         let mut found = vec![Ok(Vec::new()); places.len()];
         parallel::fill_with(&mut found, Scratch::default, |scratch, i| {
-            let mut rows: Vec<Vec<(u32, f64)>> = Vec::new();
+            let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new()];
+            // In the chart of a hole its filling alone is the surface.
+            if self.fills.iter().any(|(_, hole, _)| hole.chart == places[i].patch) {
+                return Ok(rows);
+            }
             self.space.each(places[i], order, scratch, |control, jet| {
                 let factors = of(i, jet);
                 rows.resize(factors.len(), Vec::new());
@@ -166,9 +261,14 @@ impl Equations<'_> {
         Ok(())
     }
 
-    /// Equations × control points; a control point that an equation names twice has the sum of its factors.
+    fn columns(&self) -> usize {
+        let last = self.fills.last();
+        last.map_or(self.space.n_control_points(), |(first, _, fill)| first + fill.coefficients().len())
+    }
+
+    /// Equations × unknowns; a control point that an equation names twice has the sum of its factors.
     fn matrix(&self) -> CsMat<f64> {
-        let mut triplets = TriMat::new((self.rows.len(), self.space.n_control_points()));
+        let mut triplets = TriMat::new((self.rows.len(), self.columns()));
         for (i, row) in self.rows.iter().enumerate() {
             row.iter().for_each(|&(control, x)| triplets.add_triplet(i, control as usize, x));
         }

@@ -8,7 +8,7 @@
 //!     F̃ = F + φ(|w|/ρ) (G(w) − F),        φ = 1 for t ≤ τ,  1 − (10 s³ − 15 s⁴ + 6 s⁵), s = (t − τ)/(1 − τ), for τ ≤ t ≤ 1.
 //! ```
 //!
-//! τ is 0.7, or where the core is wider in w, its rim. G is a bicubic B-spline, [`Fill`].
+//! τ is 0.8, or where the core is wider in w, its rim. G is a bicubic B-spline, [`Fill`].
 //!
 //! So F̃ has as many continuous derivatives as F, up to two, on all of the hole.
 //!
@@ -21,7 +21,7 @@ use super::jet::Jet;
 use super::patch::Parameter;
 use super::point::SurfacePoint;
 use super::space::SplineSpace;
-use crate::error::{Error, Result, check_size};
+use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, add, conj, doubled_area, mul, norm, norm2, scale, sub};
 use crate::geometry::vector::Vector;
 use std::f64::consts::{PI, TAU};
@@ -32,8 +32,8 @@ const CORE: f64 = 0.05;
 /// How much wider than the core the disk is in which the spline has no weight.
 const CLEAR: f64 = 1.1;
 /// Least τ.
-const LEAST_INNER: f64 = 0.7;
-/// Circles around the vertex, and places on each, at which the polynomial is fitted to the spline: where the weight goes from 1 to 0.
+const LEAST_INNER: f64 = 0.8;
+/// Circles around the vertex, and places on each per turn, at which filling and spline are to be near each other: where the weight goes from 1 to 0.
 const RINGS: [usize; 2] = [6, 48];
 /// Nearer to the vertex, in the unit of the metric, a place is the vertex: derivatives by the chart's coordinates would overflow.
 const VERTEX: f64 = 1e-50;
@@ -41,6 +41,8 @@ const VERTEX: f64 = 1e-50;
 const MOST_TURNS: i32 = 1 << 16;
 /// Turns of a vertex at infinity: its total angle is 2π − 4π.
 pub(crate) const INFINITE: i32 = -1;
+/// Longest step of a place in w/ρ.
+const LONGEST_STEP: f64 = 0.1;
 /// Share of a triangle's area by which a place may lie outside it: rounding.
 const OUTSIDE: f64 = 1e-9;
 
@@ -87,6 +89,11 @@ impl Hole {
         }
         sectors.sort_by_key(|sector| sector.patch);
         Ok(Hole { chart, sectors, turns, radius, fill: None })
+    }
+
+    /// This hole with a filling of zeros, of at most so many coefficients, which a fit replaces.
+    pub fn blank(self, coefficients: usize) -> Hole {
+        Hole { fill: Some(Fill::blank(coefficients)), ..self }
     }
 
     /// Radius of the core where this is the smallest hole, in the unit of the metric: knots of the vertex lie in it.
@@ -138,35 +145,15 @@ impl Hole {
         Ok(Hole { fill: Some(fill), ..self })
     }
 
-    /// Fill the hole: the function that is nearest, in the sense of least squares, to points at places, and to the spline's points at those of
-    /// [`Hole::rings`], which together weigh as much as the others; places outside the hole do not count.
-    ///
-    /// # Errors
-    /// [`Error::Size`]; [`Error::Factorisation`] without points.
-    pub fn fill(
-        &mut self,
-        space: &SplineSpace,
-        (places, points): (&[Parameter], &[Vector]),
-        rings: &[Vector],
-    ) -> Result<()> {
-        check_size("points of a hole", points.len(), places.len())?;
-        let inside = |(place, point): (&Parameter, &Vector)| {
-            let [w, ..] = self.coordinate(*place).filter(|w| norm(w[0]) <= 1.0)?;
-            Some((w, *point))
-        };
-        let given: Vec<(Complex, Vector)> = places.iter().zip(points).filter_map(inside).collect();
-        let around = self.rings(space);
-        check_size("points on the rings of a hole", rings.len(), around.len())?;
-        let around: Vec<(Complex, Vector)> = around.iter().zip(rings).filter_map(inside).collect();
-        let weight = given.len().max(1) as f64 / around.len().max(1) as f64;
-        let points = given.iter().map(|&(w, point)| (1.0, w, point));
-        let all: Vec<_> = points.chain(around.into_iter().map(|(w, point)| (weight, w, point))).collect();
-        self.fill = Some(Fill::fitted(&all, given.len())?);
-        Ok(())
+    /// The parts of spline and filling in the surface at a place, and its w/ρ; none outside the hole.
+    pub(super) fn parts(&self, at: Parameter) -> Option<([f64; 2], Complex)> {
+        let [w, ..] = self.coordinate(at).filter(|w| norm(w[0]) < 1.0)?;
+        let [part, ..] = fade(norm2(w), self.inner());
+        Some(([1.0 - part, part], w))
     }
 
     /// Places on circles around the vertex, where the weight goes from 1 to 0.
-    pub fn rings(&self, space: &SplineSpace) -> Vec<Parameter> {
+    pub(super) fn rings(&self, space: &SplineSpace) -> Vec<Parameter> {
         let [circles, each] = RINGS;
         let each = each * self.turns.unsigned_abs() as usize;
         let inner = self.inner();
@@ -256,6 +243,18 @@ impl Hole {
     pub(super) fn filling(&self, w: Complex) -> Option<SurfacePoint> {
         let w = Jet::of_holomorphic([w, [1.0, 0.0], [0.0; 2]]);
         Some(surface_point(self.fill.as_ref()?.at(w)))
+    }
+
+    /// The place in the hole at which G is nearest to a point, by one step of Gauss and Newton from another place there; none outside the disk in which
+    /// the surface is G.
+    pub(crate) fn nearer(&self, space: &SplineSpace, from: Parameter, point: Vector) -> Option<Parameter> {
+        let w = self.coordinate(from)?[0];
+        if norm(w) > self.inner() {
+            return None;
+        }
+        let step = self.filling(w)?.step_towards(point)?;
+        let shorter = f64::min(1.0, LONGEST_STEP / norm(step).max(f64::MIN_POSITIVE));
+        self.place_of(space, add(w, scale(shorter, step)))
     }
 
     /// The place whose w/ρ is a number, or where that is larger than 1, the one on the rim in its direction; at infinity in the hole's own

@@ -36,7 +36,7 @@ pub use bicubic::{
 pub use bicubic::{LengthUnit, StepOptions};
 pub use closest::{ClosestPoint, ClosestPoints};
 pub use fill::Fill;
-pub use fit::{FitOptions, Fitted, fit};
+pub use fit::{FitOptions, Fitted, fit, fit_filled};
 pub(crate) use hole::INFINITE;
 pub use hole::{Hole, Sector};
 pub use identities::Identities;

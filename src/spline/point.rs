@@ -34,6 +34,17 @@ impl SurfacePoint {
         (length > 0.0).then(|| across.map(|x| x / length))
     }
 
+    /// The change of the coordinates to where the tangent plane is nearest to a point: one step of Gauss and Newton. None where the first derivatives are parallel.
+    pub fn step_towards(&self, point: Vector) -> Option<[f64; 2]> {
+        let [x, y] = self.first;
+        let miss = vector::sub(point, self.point);
+        let (a, b, c) = (vector::dot(x, x), vector::dot(x, y), vector::dot(y, y));
+        let (p, q) = (vector::dot(x, miss), vector::dot(y, miss));
+        let det = a * c - b * b;
+        let step = [(c * p - b * q) / det, (a * q - b * p) / det];
+        step.iter().all(|x| x.is_finite()).then_some(step)
+    }
+
     /// The principal curvatures, the larger one first, positive where the surface bends towards its normal; none without a normal.
     pub fn principal_curvatures(&self) -> Option<[f64; 2]> {
         let normal = self.normal()?;

@@ -4,7 +4,10 @@
 
 mod closest;
 mod coarse;
+#[path = "../common/mod.rs"]
+mod common;
 mod files;
+mod fit;
 mod hole;
 mod space;
 mod sphere;

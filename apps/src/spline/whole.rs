@@ -48,6 +48,7 @@ pub fn fit_whole(args: &FitArgs, input: &Input, control: &Control) -> Result<Fou
     let fitted = doing("fit", || fit_surface(&input.surface, &flat, &options, control))?;
     let mut checks = Checks::default();
     checks.add("max", fitted.max, whole.tolerance);
+    checks.add("folded_patches", fitted.folds.len() as f64, 0.0);
     let singular: Vec<u32> = fitted.singular.iter().map(|v| v.0).collect();
     let mut defaults = Map::new();
     defaults.insert("fairness".into(), options.fairness.into());
@@ -61,6 +62,8 @@ pub fn fit_whole(args: &FitArgs, input: &Input, control: &Control) -> Result<Fou
         .with("hole_radii", radii)
         .with("hole_share", share_in_holes(&fitted))
         .with("hole_coefficients", coefficients(&fitted))
+        // Patches in which normals turn by more than 60 degrees over a twelfth of a side.
+        .with("folded_patches", &fitted.folds[..])
         .with("rounds", fitted.rounds);
     Ok(Found { rms: fitted.rms, max: fitted.max, defaults, figures, checks, spline: fitted.spline })
 }
