@@ -276,11 +276,9 @@ their splines. *continuity*: largest jump of derivatives up to order n − 1 acr
 *outside*: `check.py spline` at 30 places of the file, of which ten lie near sides, all summed over the charts that reach there: largest difference from `spline eval --at`
 over the size of the surface, and its own partition of unity. *across sides*: largest difference of the values at 30 places on sides, evaluated in the charts of both patches.
 """,
-    "dense": """Surfaces of genus 3 miss limits: their one singular vertex has all of −8π, a total angle of five turns, and five turns of triangles around it with the
-coefficients of its filling take much of a quarter of the vertices. Fitted with half as many control points as vertices:
+    "dense": """Surfaces of genus 3 have all of −8π at their one singular vertex, a total angle of five turns. Fitted with half as many control points as vertices:
 """,
-    "after": """`chair_10k` so comes from 6.4e-2 to 9.9e-3 at most, but none of these keeps every limit. Still more control points do not help `genus3`, of 1,754 vertices: of degree 3 with 1,139 control points rms is 1.2e-3 and max 1.2e-2, with 1,706 they are 1.3e-3 and 1.4e-2.
-""",
+    "after": "",
     "export": """## Patches for CAD
 
 Three to a triangle of the domain, as `docs/results/splines-step.md` tells, at T = 1e-3: the distance is to be below T, the normals of neighbours are to turn by one degree

@@ -22,7 +22,7 @@ const GRID: usize = 8;
 const BENDING: f64 = 0.1;
 
 /// Weight of the mean square of the distances between filling and spline on the rings of a hole beside that of its points.
-const RINGS: f64 = 0.01;
+const RINGS: f64 = 0.03;
 /// Weight of the mean square of second differences of a filling's coefficients beside the mean square of the distances: decides where there are no points.
 const FILL_FAIRNESS: f64 = 1e-6;
 
