@@ -1,6 +1,8 @@
 //! One call for two surfaces.
 
 use super::balance::BalanceReport;
+use super::disk;
+use super::handles::with_handles;
 use super::options::MatchOptions;
 use super::orbifold::{Pair, in_orbifold, shape};
 use super::place::SurfaceMap;
@@ -67,16 +69,28 @@ fn in_one_domain(
     options: &MatchOptions,
     control: &Control,
 ) -> Result<Pair> {
-    let (genus, loops, landmarks) = (surfaces[0].mesh().genus(), marks[0].loops.len(), marks[0].landmarks.len());
-    if genus == 0 && shape(loops, landmarks, marks[0].corners.len()).is_some() {
+    let genus = surfaces[0].mesh().genus();
+    let of = |marks: &Marks| (marks.loops.len(), marks.landmarks.len(), marks.corners.len());
+    let (loops, landmarks, corners) = of(marks[0]);
+    if genus > 0 {
+        return with_handles(surfaces, marks, options, control);
+    }
+    if shape(loops, landmarks, corners).is_some() {
         return in_orbifold(surfaces, marks, options, control);
     }
-    if (genus, loops, landmarks) == (0, 0, 0) {
-        return on_sphere(surfaces, options, control);
+    match (loops, landmarks, corners) {
+        (0, 0, 0) => on_sphere(surfaces, options, control),
+        (1, 0 | 1, 0) => {
+            let [first, second] = disk::corners(surfaces, &options.flow, control)?;
+            let with = |s: usize, corners| Marks { corners, ..marks[s].clone() };
+            let marks = [with(0, first), with(1, second)];
+            in_orbifold(surfaces, [&marks[0], &marks[1]], options, control)
+        }
+        _ => Err(Error::Matching(format!(
+            "{landmarks} landmarks inside and {corners} on the boundary leave the map open on a surface of genus 0 with {loops} boundary loops: \
+             name none or at least three"
+        ))),
     }
-    Err(Error::Matching(format!(
-        "surfaces of genus {genus} with {loops} boundary loops and {landmarks} landmarks are not matched yet"
-    )))
 }
 
 /// The maps both ways of two triangulations in one domain.
@@ -121,33 +135,17 @@ fn check_topology(source: &Surface, target: &Surface) -> Result<()> {
     Ok(())
 }
 
-/// Landmarks and loops of both surfaces, in the same order.
+/// Landmarks, corners and loops of both surfaces, in the same order.
 fn marks(surfaces: [&Surface; 2], options: &MatchOptions) -> Result<[Marks; 2]> {
-    for (s, name) in ["source", "target"].into_iter().enumerate() {
-        let mesh = surfaces[s].mesh();
-        for (k, pair) in options.landmarks.iter().enumerate() {
-            let v = pair[s];
-            check_vertex(mesh, v)?;
-            if mesh.is_boundary_vertex(v) {
-                return Err(Error::Matching(format!(
-                    "landmark {k} is vertex {v} on the boundary of the {name}: landmarks have to lie inside"
-                )));
-            }
-            if let Some(j) = options.landmarks[..k].iter().position(|other| other[s] == v) {
-                return Err(Error::Matching(format!(
-                    "landmarks {j} and {k} conflict: both are vertex {v} of the {name}"
-                )));
-            }
-        }
-    }
+    check_landmarks(surfaces, &options.landmarks)?;
     let loops = [0, 1].map(|s| loops(surfaces[s]));
-    let n = loops[0].len();
     let order = match &options.loops {
         None => by_length(&loops),
         Some(order) => {
+            let n = loops[0].len();
             let mut seen = vec![false; n];
-            let is_permutation = order.len() == n
-                && order.iter().all(|&k| k < n && !std::mem::replace(&mut seen[k], true));
+            let is_permutation =
+                order.len() == n && order.iter().all(|&k| k < n && !std::mem::replace(&mut seen[k], true));
             if !is_permutation {
                 return Err(Error::Matching(format!(
                     "loops {order:?} do not name each of the {n} boundary loops of the target once"
@@ -158,13 +156,64 @@ fn marks(surfaces: [&Surface; 2], options: &MatchOptions) -> Result<[Marks; 2]> 
     };
     let [source, target] = loops.map(|all| all.into_iter().map(|(around, _)| around).collect::<Vec<_>>());
     let target = order.into_iter().map(|k| target[k].clone()).collect();
-    let landmarks = [0, 1].map(|s| options.landmarks.iter().map(|pair| pair[s]).collect::<Vec<VertexId>>());
-    let [first, second] = landmarks;
-    let none = Vec::new;
-    Ok([
-        Marks { landmarks: first, loops: source, corners: none() },
-        Marks { landmarks: second, loops: target, corners: none() },
-    ])
+    let on_boundary = |s: usize, pair: &[VertexId; 2]| surfaces[s].mesh().is_boundary_vertex(pair[s]);
+    let of = |s: usize, outside: bool| -> Vec<VertexId> {
+        options.landmarks.iter().filter(|pair| on_boundary(s, pair) == outside).map(|pair| pair[s]).collect()
+    };
+    let marks = |s: usize, loops| Marks { landmarks: of(s, false), loops, corners: of(s, true) };
+    let marks = [marks(0, source), marks(1, target)];
+    check_corners(surfaces, &marks)?;
+    Ok(marks)
+}
+
+fn check_landmarks(surfaces: [&Surface; 2], landmarks: &[[VertexId; 2]]) -> Result<()> {
+    for (k, pair) in landmarks.iter().enumerate() {
+        for (s, name) in ["source", "target"].into_iter().enumerate() {
+            let v = pair[s];
+            check_vertex(surfaces[s].mesh(), v)?;
+            if let Some(j) = landmarks[..k].iter().position(|other| other[s] == v) {
+                return Err(Error::Matching(format!(
+                    "landmarks {j} and {k} conflict: both are vertex {v} of the {name}"
+                )));
+            }
+        }
+        let outside = [0, 1].map(|s| surfaces[s].mesh().is_boundary_vertex(pair[s]));
+        if outside[0] != outside[1] {
+            let [on, inside] = if outside[0] { ["source", "target"] } else { ["target", "source"] };
+            return Err(Error::Matching(format!(
+                "landmark {k} lies on the boundary of the {on} and inside the {inside}"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Corners lie on corresponding loops, in the same order around them.
+fn check_corners(surfaces: [&Surface; 2], marks: &[Marks; 2]) -> Result<()> {
+    for k in 0..marks[0].loops.len() {
+        let along = |s: usize| -> Vec<usize> {
+            let mesh = surfaces[s].mesh();
+            let number = |h: &HalfedgeId| marks[s].corners.iter().position(|&v| v == mesh.origin(*h));
+            let mut found: Vec<usize> = marks[s].loops[k].iter().filter_map(number).collect();
+            if let Some(least) = (0..found.len()).min_by_key(|&i| found[i]) {
+                found.rotate_left(least);
+            }
+            found
+        };
+        let [first, second] = [along(0), along(1)];
+        if first != second {
+            let name = |numbers: &[usize]| {
+                numbers.iter().map(|&n| marks[0].corners[n].to_string()).collect::<Vec<_>>().join(", ")
+            };
+            return Err(Error::Matching(format!(
+                "landmarks on boundary loop {k} of the source conflict: around it come those at vertices {} of the source, around the loop of the \
+                 target that it goes to their partners come in the order of {}",
+                name(&first),
+                name(&second)
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// The boundary loops with the surface on their left, and their lengths.

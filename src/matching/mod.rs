@@ -3,7 +3,10 @@
 
 mod balance;
 mod cover;
+mod disk;
 mod find;
+mod generators;
+mod handles;
 mod measure;
 mod options;
 mod orbifold;

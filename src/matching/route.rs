@@ -75,9 +75,19 @@ impl<'a> Router<'a> {
                 .filter(|h| !mesh.is_boundary_edge(h.edge()))
                 .collect(),
         });
-        let exits = exits.collect();
-        let is_taken = PerVertex::filled(n, false);
-        Router { mesh, lengths, marks, exits, mark_of, is_taken, ends: vec![Vec::new(); marks.n()], paths: Vec::new() }
+        let exits: Vec<Exits> = exits.collect();
+        let mut is_taken = PerVertex::filled(n, false);
+        // A corner has its place in the order around its loop, as the end of a path has, and no path ends there.
+        let mut ends = vec![Vec::new(); marks.n()];
+        for (number, &v) in marks.corners.iter().enumerate() {
+            is_taken[v] = true;
+            let Some(mark) = mark_of[v].map(|k| k as usize) else { continue };
+            let around = marks.vertices(mesh, mark);
+            let before = around.iter().take_while(|&&u| u != v).flat_map(|&u| mesh.fan(u));
+            let place = before.filter(|h| !mesh.is_boundary_edge(h.edge())).count();
+            ends[mark].push((place, usize::MAX - number));
+        }
+        Router { mesh, lengths, marks, exits, mark_of, is_taken, ends, paths: Vec::new() }
     }
 
     /// The numbers of the paths that end at a mark, in cyclic order.
@@ -128,13 +138,16 @@ impl<'a> Router<'a> {
         let mut used = self.ends[mark].clone();
         used.sort_unstable();
         let mut allowed = vec![true; n];
-        used.iter().for_each(|&(place, _)| allowed[place] = false);
+        used.iter().filter(|end| end.0 < n).for_each(|&(place, _)| allowed[place] = false);
         let Some(at) = order.iter().position(|&k| k == number).filter(|_| used.len() > 1) else { return allowed };
         // The next path in use before this one in the order, and the exits up to the one in use after that.
         let m = order.len();
         let before = (1..m).map(|k| order[(at + m - k) % m]).find_map(|k| used.iter().position(|end| end.1 == k));
         let Some(before) = before else { return allowed };
         let (from, to) = (used[before].0, used[(before + 1) % used.len()].0);
+        if n == 0 || from == to {
+            return allowed;
+        }
         let is_between = |place: usize| (place + n - from) % n < (to + n - from) % n;
         (0..n).for_each(|place| allowed[place] &= is_between(place));
         allowed
