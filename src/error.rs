@@ -244,7 +244,7 @@ impl Error {
     }
 
     /// Stable number of the variant: 1–99 calls, 100s files, 200s meshes, 300s metrics, 400s targets, 500s
-    /// solvers, 600s layouts, 700s splines.
+    /// solvers, 600s layouts and matchings, 700s splines.
     pub fn code(&self) -> u32 {
         match self {
             Error::Size { .. } => 1,

@@ -3,8 +3,8 @@
 use super::cover::{Placed, moved};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
-use crate::geometry::complex::{Complex, dot, scale};
 use crate::geometry::Space;
+use crate::geometry::complex::{Complex, dot, scale};
 use crate::linalg::{Cholesky, Pattern, Symmetric, lu};
 use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -81,7 +81,7 @@ pub(super) fn relax(
 }
 
 /// From near the balance to it by the weights themselves. With positive weights, in the class of a homeomorphism, the result is an embedding
-/// \[LWZ21\].
+/// \[LWZ23\].
 ///
 /// # Errors
 /// [`Error::Matching`] where no balance is found; [`Error::Factorisation`]; [`Error::Cancelled`].
@@ -136,7 +136,12 @@ impl<'a> System<'a> {
     }
 
     /// The forces and their derivative by the unknowns, rows as `weights` say.
-    fn linearise(&self, placed: &Placed, logs: &PerHalfedge<Complex>, weights: &PerHalfedge<f64>) -> Linearised {
+    fn linearise(
+        &self,
+        placed: &Placed,
+        logs: &PerHalfedge<Complex>,
+        weights: &PerHalfedge<f64>,
+    ) -> Linearised {
         let mesh = &placed.cover.mesh;
         let mut force = vec![0.0; self.n];
         let mut entries = Vec::with_capacity(14 * mesh.n_halfedges());
@@ -246,7 +251,9 @@ impl<'a> System<'a> {
 
     /// `½ Σ w r²` over the edges.
     fn energy(&self, logs: &PerHalfedge<Complex>) -> f64 {
-        let of = |h: usize| self.even[HalfedgeId::from(h)] * dot(logs[HalfedgeId::from(h)], logs[HalfedgeId::from(h)]);
+        let of = |h: usize| {
+            self.even[HalfedgeId::from(h)] * dot(logs[HalfedgeId::from(h)], logs[HalfedgeId::from(h)])
+        };
         0.5 * (0..logs.len()).step_by(2).map(of).sum::<f64>()
     }
 
@@ -315,14 +322,22 @@ fn unit(v: Complex) -> Complex {
 }
 
 /// Solves `−A x = b` for the symmetric matrix with these entries, in place.
-fn solve_negative(pattern: &Pattern, cholesky: &mut Cholesky, entries: &[(u32, u32, f64)], x: &mut [f64]) -> Result<()> {
+fn solve_negative(
+    pattern: &Pattern,
+    cholesky: &mut Cholesky,
+    entries: &[(u32, u32, f64)],
+    x: &mut [f64],
+) -> Result<()> {
     let mut values = vec![0.0; pattern.entries()];
     for &(i, j, value) in entries.iter().filter(|(i, j, _)| i >= j) {
         if let Some(k) = pattern.position(i as usize, j as usize) {
             values[k] -= value;
         }
     }
-    let failed = |_| Error::Factorisation { size: pattern.size(), message: "not positive definite: an edge holds nothing".into() };
+    let failed = |_| Error::Factorisation {
+        size: pattern.size(),
+        message: "not positive definite: an edge holds nothing".into(),
+    };
     cholesky.factor(Symmetric { pattern, values: &values }).map_err(failed)?;
     cholesky.solve(x);
     Ok(())

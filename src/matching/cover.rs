@@ -205,8 +205,9 @@ mod tests {
         for space in [Space::E2, Space::H2, Space::S2] {
             let from = moved(&Motion::identity(space), [0.7, -0.4]);
             let to = moved(&from, [0.3, 0.2]);
-            let [ahead, back] = [(from, to), (to, from)]
-                .map(|(a, b): (Motion<Twofold>, Motion<Twofold>)| logarithm(space, a.inverse().apply(b.origin())));
+            let [ahead, back] = [(from, to), (to, from)].map(|(a, b): (Motion<Twofold>, Motion<Twofold>)| {
+                logarithm(space, a.inverse().apply(b.origin()))
+            });
             assert!((0..2).all(|k| (ahead[k] + back[k]).abs() < 1e-15), "{space:?}: {ahead:?} {back:?}");
             assert!((ahead[0] - 0.3).abs() < 1e-15 && (ahead[1] - 0.2).abs() < 1e-15);
         }

@@ -33,7 +33,11 @@ struct Disk {
 ///
 /// # Errors
 /// [`Error::Matching`] for a boundary of fewer than four vertices; those of [`circle_domain`].
-pub(super) fn corners(surfaces: [&Surface; 2], flow: &Options, control: &Control) -> Result<[Vec<VertexId>; 2]> {
+pub(super) fn corners(
+    surfaces: [&Surface; 2],
+    flow: &Options,
+    control: &Control,
+) -> Result<[Vec<VertexId>; 2]> {
     let disks = [disk(surfaces[0], flow, control)?, disk(surfaces[1], flow, control)?];
     let moment = |disk: &Disk| {
         let square = |(z, w): (&Complex, &f64)| mul(*z, *z).map(|x| w * x);
@@ -74,7 +78,8 @@ fn disk(surface: &Surface, flow: &Options, control: &Control) -> Result<Disk> {
     for f in mesh.faces() {
         let vertices = mesh.face_vertices(f);
         let flat = 0.5 * doubled_area(vertices.map(|v| points[v.index()])).abs();
-        let own = crate::geometry::triangle::area(surface.geometry(), face_lengths(mesh, surface.lengths(), f));
+        let own =
+            crate::geometry::triangle::area(surface.geometry(), face_lengths(mesh, surface.lengths(), f));
         for v in vertices {
             let area = &mut areas[v.index()];
             (area[0], area[1]) = (area[0] + own / 3.0, area[1] + flat / 3.0);
@@ -106,7 +111,8 @@ fn difference(from: &Disk, to: &Disk, turn: f64) -> f64 {
     for (k, entry) in from.raster.iter().enumerate() {
         let Some((value, w)) = entry else { continue };
         let (ring, sector) = (k / SECTORS, k % SECTORS);
-        let (r, angle) = (((ring as f64 + 0.5) / RINGS as f64).sqrt(), TAU * (sector as f64 + 0.5) / SECTORS as f64);
+        let (r, angle) =
+            (((ring as f64 + 0.5) / RINGS as f64).sqrt(), TAU * (sector as f64 + 0.5) / SECTORS as f64);
         if let Some((other, _)) = to.raster[cell([r * angle.cos(), r * angle.sin()], turn)] {
             (sum, total) = (sum + w * (value - other) * (value - other), total + w);
         }

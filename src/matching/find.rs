@@ -5,15 +5,15 @@ use super::disk;
 use super::handles::with_handles;
 use super::options::MatchOptions;
 use super::orbifold::{Pair, in_orbifold, shape};
-use super::place::SurfaceMap;
+use super::place::{Place, SurfaceMap};
 use super::route::Marks;
 use super::sphere::on_sphere;
 use super::walk::locate;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
-use crate::metric::Surface;
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, VertexId};
+use crate::metric::{Split, Surface};
 use crate::parallel::Pool;
 use crate::topology::check_vertex;
 
@@ -56,11 +56,37 @@ pub fn match_surfaces(
 ) -> Result<Matching> {
     control.check()?;
     check_topology(source, target)?;
-    let marks = marks([source, target], options)?;
+    let splits = [without_chords(source)?, without_chords(target)?];
+    let surfaces = [splits[0].surface()?, splits[1].surface()?];
+    let surfaces = [&surfaces[0], &surfaces[1]];
+    let marks = marks(surfaces, options)?;
     Pool::new(options.flow.threads)?.run(|| {
-        let pair = in_one_domain([source, target], [&marks[0], &marks[1]], options, control)?;
-        matching(&pair, control)
+        let pair = in_one_domain(surfaces, [&marks[0], &marks[1]], options, control)?;
+        matching(&pair, [&splits[0], &splits[1]], control)
     })
+}
+
+/// A surface with a vertex added on every inner edge that joins two vertices of the boundary: where that is straight, such an edge would lie on it.
+fn without_chords(surface: &Surface) -> Result<Split> {
+    let mesh = surface.mesh();
+    let mut split = Split::new(surface);
+    let is_chord =
+        |e: &EdgeId| !mesh.is_boundary_edge(*e) && mesh.ends(*e).iter().all(|&v| mesh.is_boundary_vertex(v));
+    for e in mesh.edges().filter(is_chord) {
+        split.halve(e)?;
+    }
+    Ok(split)
+}
+
+/// Places in the faces of a finer triangulation, of the first vertices, in the faces of the given one.
+fn on_given(places: Vec<Place>, from: &Split, to: &Split) -> SurfaceMap {
+    let n = from.given().mesh().n_vertices();
+    let back = |place: Place| {
+        let (face, corners) = to.place(place.face);
+        let weights = std::array::from_fn(|c| (0..3).map(|k| place.weights[k] * corners[k][c]).sum());
+        Place { face, weights }
+    };
+    SurfaceMap { places: places.into_iter().take(n).map(back).collect() }
 }
 
 fn in_one_domain(
@@ -94,7 +120,7 @@ fn in_one_domain(
 }
 
 /// The maps both ways of two triangulations in one domain.
-fn matching(pair: &Pair, control: &Control) -> Result<Matching> {
+fn matching(pair: &Pair, splits: [&Split; 2], control: &Control) -> Result<Matching> {
     let (flipped, target_flipped) = (pair.source.flipped(), pair.target.flipped());
     if !(flipped.is_empty() && target_flipped.is_empty()) {
         return Err(Error::Matching(format!(
@@ -107,8 +133,8 @@ fn matching(pair: &Pair, control: &Control) -> Result<Matching> {
     let (forward, ahead) = locate(&pair.source, &pair.target, pair.seeds[0], control)?;
     let (backward, back) = locate(&pair.target, &pair.source, pair.seeds[1], control)?;
     Ok(Matching {
-        forward: SurfaceMap { places: forward },
-        backward: SurfaceMap { places: backward },
+        forward: on_given(forward, splits[0], splits[1]),
+        backward: on_given(backward, splits[1], splits[0]),
         space: pair.source.cover.space,
         flipped,
         target_flipped,

@@ -57,7 +57,8 @@ pub(super) fn with_handles(
         )));
     }
     let space = if flat { Space::E2 } else { Space::H2 };
-    let own = |s: usize| in_own_metric(surfaces[s], marks[s].landmarks.first().copied(), space, options, control);
+    let own =
+        |s: usize| in_own_metric(surfaces[s], marks[s].landmarks.first().copied(), space, options, control);
     let [source, target] = [own(0)?, own(1)?];
     let generators = generators(&target, surfaces[1])?;
     let generators = generators.reordered(&loop_order(surfaces, marks, [&source, &target]));
@@ -77,7 +78,8 @@ pub(super) fn with_handles(
         let settled = settle(placed, weights[s], &freedom[s], control)?;
         (reports[s].balance_steps, reports[s].residual) = (settled.balance_steps, settled.residual);
     }
-    let seed = |from: &Own, to: &Own| Seed { vertex: from.basis.base, near: to.placed.cover.own(to.basis.base) };
+    let seed =
+        |from: &Own, to: &Own| Seed { vertex: from.basis.base, near: to.placed.cover.own(to.basis.base) };
     let seeds = [seed(&source, &target), seed(&target, &source)];
     let flow_iterations = [source.iterations, target.iterations];
     Ok(Pair { source: image, target: domain, seeds, reports, flow_iterations, markings: tried })
@@ -99,7 +101,9 @@ fn in_own_metric(
     let iterations = metric.report().map_or(0, |report| report.iterations);
     if !metric.converged() {
         let reason = metric.report().map(|report| report.stop_reason.to_string()).unwrap_or_default();
-        return Err(Error::Matching(format!("the canonical metric was not found after {iterations} steps: {reason}")));
+        return Err(Error::Matching(format!(
+            "the canonical metric was not found after {iterations} steps: {reason}"
+        )));
     }
     let unrolling = UnrollOptions {
         cones: Some(Vec::new()),
@@ -251,7 +255,8 @@ impl Search<'_> {
         }
         let cover = Cover::new(mesh, space, |h| words[h.index()], &[self.source.domain.base_corner])?;
         // Positions of the source's own metric, its base where the target's is: a place to start from.
-        let home = self.target.placed.at[self.target.basis.base].compose(&self.source.placed.at[basis.base].inverse());
+        let home = self.target.placed.at[self.target.basis.base]
+            .compose(&self.source.placed.at[basis.base].inverse());
         let at = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
             home.compose(&self.source.placed.at[v]).normalised()
         });

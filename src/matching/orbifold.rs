@@ -110,7 +110,8 @@ pub(super) fn in_orbifold(
     options: &MatchOptions,
     control: &Control,
 ) -> Result<Pair> {
-    let (loops, landmarks, corners) = (marks[0].loops.len(), marks[0].landmarks.len(), marks[0].corners.len());
+    let (loops, landmarks, corners) =
+        (marks[0].loops.len(), marks[0].landmarks.len(), marks[0].corners.len());
     let Some(shape) = shape(loops, landmarks, corners) else {
         return Err(Error::Matching(format!(
             "{loops} loops, {landmarks} landmarks and {corners} corners admit no flat or hyperbolic metric"
@@ -183,11 +184,17 @@ fn best_marking(problem: Problem, metrics: &[Canonical; 2], control: &Control) -
 }
 
 /// The target in its domain and the source in it, both at the minimum of the energy.
-fn marking(problem: Problem, metrics: &[Canonical; 2], trees: [Tree; 2], control: &Control) -> Result<Marked> {
+fn marking(
+    problem: Problem,
+    metrics: &[Canonical; 2],
+    trees: [Tree; 2],
+    control: &Control,
+) -> Result<Marked> {
     let Problem { surfaces, marks, shape, .. } = problem;
     let own = |s: usize| opened(problem, s, &trees[s], &metrics[s], control);
     let [source, target] = [own(0)?, own(1)?];
-    let weights = [mean_value_weights(&source.placed, surfaces[0]), mean_value_weights(&target.placed, surfaces[1])];
+    let weights =
+        [mean_value_weights(&source.placed, surfaces[0]), mean_value_weights(&target.placed, surfaces[1])];
     let lines = lines(&target.placed, &trees[1]);
     let freedom = [0, 1].map(|s| freedom(surfaces[s], marks[s], &trees[s], shape));
     let mut domain = target.placed.clone();
@@ -221,7 +228,9 @@ fn canonical(
     let iterations = metric.report().map_or(0, |report| report.iterations);
     if !metric.converged() {
         let reason = metric.report().map(|report| report.stop_reason.to_string()).unwrap_or_default();
-        return Err(Error::Matching(format!("the canonical metric was not found after {iterations} steps: {reason}")));
+        return Err(Error::Matching(format!(
+            "the canonical metric was not found after {iterations} steps: {reason}"
+        )));
     }
     let refinement = match metric.is_unflipped() {
         true => None,
@@ -278,7 +287,8 @@ fn brought(surface: &Surface, source: &Placed, target: &Own, trees: [&Tree; 2]) 
     let space = source.cover.space;
     let along = |placed: &Placed, tree: &Tree| {
         let path = tree.cut.segments.first().or(tree.arcs.first())?;
-        let (from, to) = (placed.corner(*path.first()?), placed.corner(placed.cover.mesh.next(*path.last()?)));
+        let (from, to) =
+            (placed.corner(*path.first()?), placed.corner(placed.cover.mesh.next(*path.last()?)));
         let frame = Motion::to_origin(space, from).inverse();
         let [x, y] = logarithm(space, frame.inverse().apply(to));
         let half = 0.5 * y.atan2(x);
@@ -297,9 +307,10 @@ fn brought(surface: &Surface, source: &Placed, target: &Own, trees: [&Tree; 2]) 
 fn lines(target: &Placed, tree: &Tree) -> Vec<(Motion<Twofold>, f64)> {
     let space = target.cover.space;
     let line = |arc: &Vec<HalfedgeId>| {
-        let ends = arc.first().zip(arc.last()).map(|(&h, &last)| {
-            (target.corner(h), target.corner(target.cover.mesh.next(last)))
-        });
+        let ends = arc
+            .first()
+            .zip(arc.last())
+            .map(|(&h, &last)| (target.corner(h), target.corner(target.cover.mesh.next(last))));
         let (from, to) = ends.unwrap_or_else(|| {
             let origin = Motion::<Twofold>::identity(space).origin();
             (origin, origin)

@@ -44,7 +44,11 @@ impl SurfaceMap {
     ///
     /// # Errors
     /// As [`SurfaceMap::carry`].
-    pub fn carry_corners<const N: usize>(&self, target: &Mesh, values: &[[[f64; N]; 3]]) -> Result<Vec<[f64; N]>> {
+    pub fn carry_corners<const N: usize>(
+        &self,
+        target: &Mesh,
+        values: &[[[f64; N]; 3]],
+    ) -> Result<Vec<[f64; N]>> {
         check_size("corner values", values.len(), target.n_faces())?;
         let of = |place: &Place| {
             corners(target, place)?;

@@ -118,7 +118,8 @@ impl<'a> Router<'a> {
         };
         for &h in &path {
             let v = self.mesh.origin(h);
-            self.is_taken[v] = self.is_taken[v] || self.mesh.is_boundary_vertex(v) || self.mark_of[v].is_none();
+            self.is_taken[v] =
+                self.is_taken[v] || self.mesh.is_boundary_vertex(v) || self.mark_of[v].is_none();
         }
         if let (Some(&first), Some(&last)) = (path.first(), path.last()) {
             let tip = self.mesh.tip(last);
@@ -139,10 +140,13 @@ impl<'a> Router<'a> {
         used.sort_unstable();
         let mut allowed = vec![true; n];
         used.iter().filter(|end| end.0 < n).for_each(|&(place, _)| allowed[place] = false);
-        let Some(at) = order.iter().position(|&k| k == number).filter(|_| used.len() > 1) else { return allowed };
+        let Some(at) = order.iter().position(|&k| k == number).filter(|_| used.len() > 1) else {
+            return allowed;
+        };
         // The next path in use before this one in the order, and the exits up to the one in use after that.
         let m = order.len();
-        let before = (1..m).map(|k| order[(at + m - k) % m]).find_map(|k| used.iter().position(|end| end.1 == k));
+        let before =
+            (1..m).map(|k| order[(at + m - k) % m]).find_map(|k| used.iter().position(|end| end.1 == k));
         let Some(before) = before else { return allowed };
         let (from, to) = (used[before].0, used[(before + 1) % used.len()].0);
         if n == 0 || from == to {

@@ -11,8 +11,8 @@ use super::weights::mean_value_weights;
 use crate::canonical::{SphereOptions, uniformize_sphere};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::geometry::vector::{Vector, cross, dot, norm, normalised, sub};
 use crate::geometry::Space;
+use crate::geometry::vector::{Vector, cross, dot, norm, normalised, sub};
 use crate::mesh::{HalfedgeId, PerVertex, VertexId};
 use crate::metric::Surface;
 
@@ -31,7 +31,9 @@ pub(super) fn on_sphere(surfaces: [&Surface; 2], options: &MatchOptions, control
         control.check()?;
         let mut turned = source.clone();
         let rotate = |p: Vector| turn.map(|row| dot(row, p));
-        turned.at = PerVertex::from_fn(points[0].len(), |v: VertexId| Placed::frame(Space::S2, rotate(points[0][v.index()])));
+        turned.at = PerVertex::from_fn(points[0].len(), |v: VertexId| {
+            Placed::frame(Space::S2, rotate(points[0][v.index()]))
+        });
         let seed = seed(&turned, &points[1], &target);
         let (places, _) = locate(&turned, &target, seed, control)?;
         let carried = places.iter().map(|place| {
@@ -71,7 +73,9 @@ fn in_own_sphere(surface: &Surface, options: &MatchOptions, control: &Control) -
         )));
     }
     let cover = Cover::new(surface.mesh(), Space::S2, |_| None, &[])?;
-    let at = PerVertex::from_fn(sphere.positions.len(), |v: VertexId| Placed::frame(Space::S2, sphere.positions[v]));
+    let at = PerVertex::from_fn(sphere.positions.len(), |v: VertexId| {
+        Placed::frame(Space::S2, sphere.positions[v])
+    });
     let mut placed = Placed { cover, at };
     let weights = mean_value_weights(&placed, surface);
     unfold(&mut placed, &weights, control)?;
@@ -100,7 +104,8 @@ fn density(surface: &Surface, points: &[Vector]) -> Density {
     let totals = [0, 1].map(|k| areas.iter().map(|a| a[k]).sum::<f64>().max(f64::MIN_POSITIVE));
     let weights: Vec<f64> = areas.iter().map(|a| a[0] / totals[0]).collect();
     let least = f64::MIN_POSITIVE;
-    let factor = |a: &[f64; 2]| 0.5 * ((a[0] / totals[0]).max(least).ln() - (a[1] / totals[1]).max(least).ln());
+    let factor =
+        |a: &[f64; 2]| 0.5 * ((a[0] / totals[0]).max(least).ln() - (a[1] / totals[1]).max(least).ln());
     Density { values: areas.iter().map(factor).collect(), points: points.to_vec(), weights }
 }
 

@@ -1,7 +1,7 @@
 //! Rotations of the sphere that bring one conformal factor near another.
 
-use crate::geometry::vector::{Vector, cross, dot, normalised};
 use crate::error::Result;
+use crate::geometry::vector::{Vector, cross, dot, normalised};
 use crate::linalg::dense::symmetric_eigenvectors;
 
 /// A function on the sphere, given at points, with a measure: positive weights with the sum 1.
@@ -166,14 +166,21 @@ mod tests {
 
     #[test]
     fn a_turned_copy_is_found_by_its_axes() {
-        let points: Vec<Vector> = grid().iter().map(|turn| normalised([turn[0][0], turn[1][0], turn[2][0] + 0.3])).collect();
+        let points: Vec<Vector> =
+            grid().iter().map(|turn| normalised([turn[0][0], turn[1][0], turn[2][0] + 0.3])).collect();
         let n = points.len() as f64;
-        let weights: Vec<f64> = (0..points.len()).map(|k| (1.0 + (points[k][0] - 0.4 * points[k][1]).sin()) / n).collect();
+        let weights: Vec<f64> =
+            (0..points.len()).map(|k| (1.0 + (points[k][0] - 0.4 * points[k][1]).sin()) / n).collect();
         let values: Vec<f64> = points.iter().map(|p| (3.0 * p[0]).sin() + p[1] * p[2]).collect();
         let by = grid()[701];
         let turned: Vec<Vector> = points.iter().map(|p| by.map(|row| dot(row, *p))).collect();
-        let [from, to] = [points, turned].map(|points| Density { points, values: values.clone(), weights: weights.clone() });
-        let off = |turn: &Rotation| (0..3).map(|i| dot(sub(turn[i], by[i]), sub(turn[i], by[i]))).sum::<f64>();
+        let [from, to] = [points, turned].map(|points| Density {
+            points,
+            values: values.clone(),
+            weights: weights.clone(),
+        });
+        let off =
+            |turn: &Rotation| (0..3).map(|i| dot(sub(turn[i], by[i]), sub(turn[i], by[i]))).sum::<f64>();
         assert!(turnings([&from, &to]).unwrap()[..4].iter().any(|turn| off(turn) < 1e-20));
     }
 }

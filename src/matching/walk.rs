@@ -25,7 +25,12 @@ pub(super) struct Seed {
 ///
 /// # Errors
 /// [`Error::Matching`] for a walk that does not end; [`Error::Cancelled`].
-pub(super) fn locate(points: &Placed, domain: &Placed, seed: Seed, control: &Control) -> Result<(Vec<Place>, f64)> {
+pub(super) fn locate(
+    points: &Placed,
+    domain: &Placed,
+    seed: Seed,
+    control: &Control,
+) -> Result<(Vec<Place>, f64)> {
     let mesh = &points.cover.mesh;
     let walker = Walker { domain, most: 16 * domain.cover.mesh.n_faces() + 64 };
     let mut found: Vec<Option<Found>> = vec![None; mesh.n_vertices()];
@@ -44,7 +49,8 @@ pub(super) fn locate(points: &Placed, domain: &Placed, seed: Seed, control: &Con
         for h in mesh.outgoing(v) {
             let to = mesh.tip(h);
             if found[to.index()].is_none() {
-                let copy = points.cover.along(h).map_or(from.copy, |along| from.copy.compose(&along).normalised());
+                let copy =
+                    points.cover.along(h).map_or(from.copy, |along| from.copy.compose(&along).normalised());
                 let point = copy.apply(points.at[to].origin());
                 found[to.index()] = Some(walker.walk(from.near, copy, point)?);
                 waiting.push_back(to);
@@ -82,7 +88,8 @@ impl Walker<'_> {
         for step in 0..self.most {
             let Some(f) = face else { break };
             let (sides, corners) = (mesh.face_halfedges(f), self.domain.face(f));
-            let opposite = |k: usize| f64::from(determinant([point, corners[(k + 1) % 3], corners[(k + 2) % 3]]));
+            let opposite =
+                |k: usize| f64::from(determinant([point, corners[(k + 1) % 3], corners[(k + 2) % 3]]));
             let parts = [0, 1, 2].map(opposite);
             let size = parts.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
             let total = parts.iter().sum::<f64>();
@@ -108,6 +115,8 @@ impl Walker<'_> {
             }
             face = mesh.face(h.twin());
         }
-        Err(Error::Matching(format!("no triangle of the target holds a point: the walk from half-edge {near} does not end")))
+        Err(Error::Matching(format!(
+            "no triangle of the target holds a point: the walk from half-edge {near} does not end"
+        )))
     }
 }
