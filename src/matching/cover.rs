@@ -49,10 +49,9 @@ impl Cover {
         let (mut corner, mut own) = (PerHalfedge::filled(n, 0u32), Vec::with_capacity(mesh.n_vertices()));
         for v in mesh.vertices() {
             let mut fan = mesh.fan(v);
-            if let Some(first) = wished[v].and_then(|h| fan.iter().position(|&g| g == h)) {
-                if !mesh.is_boundary_vertex(v) {
-                    fan.rotate_left(first);
-                }
+            let wish = wished[v].filter(|_| !mesh.is_boundary_vertex(v));
+            if let Some(first) = wish.and_then(|h| fan.iter().position(|&g| g == h)) {
+                fan.rotate_left(first);
             }
             let Some(&first) = fan.first() else {
                 return Err(Error::connectivity("vertex", v.index(), "has no face"));

@@ -24,7 +24,7 @@ use crate::metric::Surface;
 pub(super) fn on_sphere(surfaces: [&Surface; 2], options: &MatchOptions, control: &Control) -> Result<Pair> {
     let own = |s: usize| in_own_sphere(surfaces[s], options, control);
     let [(mut source, first), (target, second)] = [own(0)?, own(1)?];
-    let points = [&source, &target].map(|placed| positions(placed));
+    let points = [&source, &target].map(positions);
     let densities = [0, 1].map(|s| density(surfaces[s], &points[s]));
     let mut best: Option<(f64, Placed, Seed)> = None;
     for turn in turnings([&densities[0], &densities[1]])? {

@@ -8,8 +8,8 @@ use std::path::PathBuf;
 
 pub const HELP: &str = "\
 Example: a torus onto a thicker one, and the first in the shape of the second
-    ricci make torus --minor 0.4 -o thin.obj
-    ricci make torus --minor 0.7 -o thick.obj
+    ricci make torus --small 0.4 -o thin.obj
+    ricci make torus --small 0.7 -o thick.obj
     ricci match thin.obj thick.obj --map M.csv -o shaped.obj --picture both.png --report R.json
 
 The two surfaces have the same genus and the same number of boundary loops. The target gets its metric of constant curvature, with cones at the
