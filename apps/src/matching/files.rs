@@ -5,12 +5,15 @@ use super::found::Found;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{Outputs, extension};
-use crate::picture::{self, Picture, Surface, Texture};
+use crate::picture::{self, Picture, Surface, Texture, Tiles};
 use ricci::matching::SurfaceMap;
 use ricci::mesh::Point;
 use ricci::mesh::io::{self, Textured};
 use std::fmt::Write;
 use std::path::Path;
+
+/// Checks of the texture along the target's longest direction.
+const CHECKS: f64 = 24.0;
 
 /// A map as rows `source_vertex,target_face,b0,b1,b2`.
 pub fn write_map(outputs: &mut Outputs, path: &Path, map: &SurfaceMap) -> Result<(), Failure> {
@@ -83,7 +86,9 @@ pub fn draw(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, F
         is_closed,
     };
     let style = args.picture.style(Texture::Checker, args.common.threads);
+    let pattern = Tiles::even(1.0 / CHECKS, faces[0].len().max(faces[1].len()));
     let both = Picture {
+        pattern: Some(&pattern),
         surface: Some(surface(0, from, input.mesh().is_closed())),
         beside: Some(surface(1, to, found.target.mesh().is_closed())),
         ..Picture::default()
