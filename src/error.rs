@@ -216,6 +216,10 @@ pub enum Error {
     #[error("layout: {0}")]
     Layout(String),
 
+    /// There is no map between two surfaces as it was asked for.
+    #[error("matching: {0}")]
+    Matching(String),
+
     /// A spline, or what one is to be made from, is not what it must be.
     #[error("{what} {index}: {message}")]
     Spline {
@@ -240,7 +244,7 @@ impl Error {
     }
 
     /// Stable number of the variant: 1–99 calls, 100s files, 200s meshes, 300s metrics, 400s targets, 500s
-    /// solvers, 600s layouts, 700s splines.
+    /// solvers, 600s layouts and matchings, 700s splines.
     pub fn code(&self) -> u32 {
         match self {
             Error::Size { .. } => 1,
@@ -263,6 +267,7 @@ impl Error {
             Error::TargetBelow { .. } => 403,
             Error::Factorisation { .. } => 500,
             Error::Layout(_) => 600,
+            Error::Matching(_) => 650,
             Error::Spline { .. } => 700,
         }
     }

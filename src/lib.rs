@@ -14,6 +14,7 @@
 //! | [`flow`] | Newton and gradient flow, cones |
 //! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |
 //! | [`canonical`] | closed surfaces in their canonical shape |
+//! | [`matching`] | maps between two surfaces |
 //! | [`structure`] | atlases: conformal, spherical, affine, hyperbolic, projective |
 //! | [`spline`] | triangular B-splines |
 //!
@@ -32,6 +33,7 @@ pub mod geometry;
 pub mod harmonic;
 pub mod linalg;
 pub mod manifold;
+pub mod matching;
 pub mod mesh;
 pub mod metric;
 pub mod parallel;

@@ -6,6 +6,7 @@ use crate::flow_args::FlowArgs;
 use crate::forms::FormsArgs;
 use crate::harmonic::HarmonicArgs;
 use crate::info::{DefectFigures, InfoArgs};
+use crate::matching::MatchArgs;
 use crate::options::Common;
 use crate::output::{self, Outputs};
 use crate::repair::RepairArgs;
@@ -60,6 +61,9 @@ pub enum Command {
     /// A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface
     #[command(after_help = crate::domain::HELP)]
     Circles(CirclesArgs),
+    /// A map between two surfaces of the same topology, landmarks to landmarks
+    #[command(after_help = crate::matching::HELP)]
+    Match(MatchArgs),
     /// An atlas of a conformal, spherical, affine, hyperbolic or projective structure, with its transitions and holonomy
     #[command(after_help = crate::structure::HELP)]
     Structure(StructureArgs),
@@ -107,6 +111,7 @@ impl Command {
             Command::Circles(args) => {
                 report_failure("circles", &args.surface.file.mesh, &args.common, args, failure)
             }
+            Command::Match(args) => report_failure("match", &args.source.mesh, &args.common, args, failure),
             Command::Structure(args) => {
                 report_failure("structure", &args.surface.file.mesh, &args.common, args, failure)
             }

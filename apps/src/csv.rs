@@ -63,6 +63,17 @@ pub fn read_places(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, [f64
     Ok(rows)
 }
 
+/// Read `source_vertex,target_vertex` rows: landmarks of two surfaces with so many vertices. Lines as in [`read_curvatures`], but for the names of a
+/// header.
+pub fn read_landmarks(path: &Path, n_vertices: [usize; 2]) -> Result<Vec<[VertexId; 2]>, Failure> {
+    let mut rows = Vec::new();
+    for (i, ends) in pairs(path, ["source_vertex", "target_vertex"])? {
+        let [a, b] = [0, 1].map(|k| vertex_of(path, i, &ends[k], n_vertices[k]));
+        rows.push([a?, b?]);
+    }
+    Ok(rows)
+}
+
 /// Read `vertex,vertex` rows: the edges of `mesh` between these pairs, each once, ascending. Lines as in [`read_curvatures`].
 pub fn read_edges(path: &Path, mesh: &Mesh) -> Result<Vec<EdgeId>, Failure> {
     let mut edges = Vec::new();

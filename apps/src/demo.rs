@@ -4,7 +4,7 @@ use crate::cli::{Cli, Command, DemoArgs};
 use crate::failure::Failure;
 use crate::output::{Outputs, check_outputs};
 use crate::report::{Checks, Done, InputSummary, Report, Seconds, path_text};
-use crate::{domain, flow, forms, harmonic, make, say, structure, uniform};
+use crate::{domain, flow, forms, harmonic, make, matching, say, structure, uniform};
 use clap::Parser;
 use ricci::Control;
 use serde_json::{Value, json};
@@ -125,6 +125,7 @@ pub fn execute(command: Command, control: &Control) -> Result<Done<()>, Failure>
         Command::Cover(args) => uniform::execute_cover(&args, control)?.drop_result(),
         Command::Circles(args) => domain::execute(&args, control)?.drop_result(),
         Command::Harmonic(args) => harmonic::execute(&args, control)?.drop_result(),
+        Command::Match(args) => matching::execute(&args, control)?.drop_result(),
         Command::Forms(args) => forms::execute(&args, control)?.drop_result(),
         Command::Structure(args) => structure::execute(&args, control)?.drop_result(),
         other => return Err(Failure::Failed(format!("{other:?} has nothing to draw"))),

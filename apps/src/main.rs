@@ -24,6 +24,7 @@ mod input;
 mod job;
 mod laid;
 mod make;
+mod matching;
 mod metric_file;
 mod options;
 mod output;
@@ -73,6 +74,7 @@ fn run(command: &Command) -> Result<u8, Failure> {
         Command::Harmonic(args) => harmonic::run(args, &control),
         Command::Forms(args) => forms::run(args, &control),
         Command::Circles(args) => domain::run(args, &control),
+        Command::Match(args) => matching::run(args, &control),
         Command::Structure(args) => structure::run(args, &control),
         Command::Info(args) => info::run(args, &control),
         Command::Repair(args) => repair::run(args, &control),

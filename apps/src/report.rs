@@ -126,15 +126,23 @@ pub struct InputSummary {
     pub path: String,
     #[serde(flatten)]
     pub counts: Counts,
+    /// The second surface of a command that takes two.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<Box<InputSummary>>,
 }
 
 impl InputSummary {
     pub fn new(path: &Path, counts: impl Into<Counts>) -> InputSummary {
-        InputSummary { path: path_text(path), counts: counts.into() }
+        InputSummary { path: path_text(path), counts: counts.into(), target: None }
     }
 
     pub fn of(input: &Input) -> InputSummary {
         InputSummary::new(&input.path, input.mesh())
+    }
+
+    /// Both surfaces of a command that takes two.
+    pub fn with_target(self, target: InputSummary) -> InputSummary {
+        InputSummary { target: Some(Box::new(target)), ..self }
     }
 }
 

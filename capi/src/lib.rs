@@ -51,6 +51,7 @@ pub mod last_error;
 pub mod layout;
 pub mod log;
 pub mod map;
+pub mod matching;
 pub mod mesh;
 pub mod metric;
 pub mod report;

@@ -40,6 +40,7 @@ statuses! {
     RICCI_TARGET_BELOW = 403 => c"a target curvature is too small at a vertex",
     RICCI_FACTORISATION = 500 => c"a linear system could not be factorised",
     RICCI_LAYOUT = 600 => c"the metric has no layout in this space",
+    RICCI_MATCHING = 650 => c"there is no map between two surfaces as it was asked for",
     RICCI_SPLINE = 700 => c"a spline, or what one is made from, is not what it must be",
 }
 

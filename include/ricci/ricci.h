@@ -98,7 +98,7 @@ extern "C" {
 
 /**
  * What a call returns. 1-9 are errors of the call, 10-99 of the C face, 100s of files, 200s of meshes, 300s
- * of metrics, 400s of targets, 500s of solvers, 600s of layouts, 700s of splines. A number is never given out
+ * of metrics, 400s of targets, 500s of solvers, 600s of layouts and matchings, 700s of splines. A number is never given out
  * again.
  */
 typedef uint32_t ricci_status;
@@ -163,6 +163,8 @@ enum {
     RICCI_FACTORISATION = 500,
     /** The metric has no layout in this space. */
     RICCI_LAYOUT = 600,
+    /** There is no map between two surfaces as it was asked for. */
+    RICCI_MATCHING = 650,
     /** A spline, or what one is made from, is not what it must be. */
     RICCI_SPLINE = 700
 };

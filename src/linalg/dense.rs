@@ -41,6 +41,22 @@ pub fn symmetric_eigenvalues(a: &[Vec<f64>]) -> Result<Vec<f64>> {
         .map_err(|_| Error::Factorisation { size: a.len(), message })
 }
 
+/// The eigenvectors of a symmetric matrix (n×n), whose lower triangle is read, orthonormal, by ascending eigenvalue.
+///
+/// # Errors
+/// As [`symmetric_eigenvalues`].
+///
+/// # Panics
+/// If rows have different lengths.
+pub fn symmetric_eigenvectors(a: &[Vec<f64>]) -> Result<Vec<Vec<f64>>> {
+    let message = "the eigenvectors of the dense matrix were not found".to_string();
+    let eigen = matrix(a)
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|_| Error::Factorisation { size: a.len(), message })?;
+    let vectors = eigen.U();
+    Ok((0..vectors.ncols()).map(|j| (0..vectors.nrows()).map(|i| vectors[(i, j)]).collect()).collect())
+}
+
 fn matrix(rows: &[Vec<f64>]) -> Mat<f64> {
     Mat::from_fn(rows.len(), rows.first().map_or(0, Vec::len), |i, j| rows[i][j])
 }

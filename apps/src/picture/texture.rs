@@ -158,6 +158,11 @@ impl Tiles {
         Tiles { size, level: faces.iter().map(|f| f.map(level)).collect() }
     }
 
+    /// Checks of one size on as many faces.
+    pub fn even(size: f64, n_faces: usize) -> Tiles {
+        Tiles { size, level: vec![[0.0; 3]; n_faces] }
+    }
+
     /// The triangles with each rounded level.
     pub fn levels(&self, uv: &[[[f64; 2]; 3]]) -> Vec<(i32, Vec<[[f64; 2]; 3]>)> {
         let mut levels: BTreeMap<i32, Vec<_>> = BTreeMap::new();

@@ -16,6 +16,7 @@ mod forms;
 mod harmonic;
 mod info;
 mod make;
+mod matching;
 mod on_input;
 mod outputs;
 mod picture;

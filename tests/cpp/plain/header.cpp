@@ -3,6 +3,7 @@
 #include <ricci/bicubic.hpp>
 #include <ricci/circles.hpp>
 #include <ricci/harmonic.hpp>
+#include <ricci/match.hpp>
 #include <ricci/repair.hpp>
 #include <ricci/spline.hpp>
 #include <ricci/structure.hpp>
@@ -88,6 +89,10 @@ int forms_and_maps() {
     for (std::size_t v = 0; v + 2 < round.size(); v += 3)
         farthest = std::max(farthest, std::hypot(round[v], round[v + 1]));
     if (round.size() != 3 * disk.summary().n_vertices || std::abs(farthest - 1) > 1e-12) return 31;
+    const ricci::matching matching(disk, disk);
+    if (matching.faces().size() != disk.summary().n_vertices || matching.summary().n_flipped != 0 ||
+        matching.weights(RICCI_MATCH_BACKWARD).size() != round.size())
+        return 34;
     const std::vector<std::uint32_t> at = {0, 1};
     const std::vector<double> places = {0, 0, 2, 0, 0, 2};
     for (std::size_t v = 0; v < round.size() / 3; v++)

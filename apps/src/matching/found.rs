@@ -1,0 +1,124 @@
+//! A matching with what is said of it.
+
+use crate::input::Input;
+use crate::report::{Attempts, Checks, Done, Figures, Seconds};
+use crate::say;
+use ricci::geometry::vector::{diagonal, distance};
+use ricci::matching::{MapQuality, Matching, cycle_error, map_quality};
+use ricci::mesh::VertexId;
+
+/// Distance of a landmark's image from its partner that passes, as a share of the diagonal of the target's bounding box.
+const LANDMARK: f64 = 1e-8;
+/// Sum of the weights of a place that passes, as its difference from 1.
+const WEIGHTS: f64 = 1e-12;
+
+pub struct Found {
+    pub target: Input,
+    pub matching: Matching,
+    pub landmarks: Vec<[VertexId; 2]>,
+    pub quality: MapQuality,
+    /// Mean and largest distance of a vertex from where the map and its inverse bring it.
+    pub cycle: [f64; 2],
+    /// Mean and largest distance of a vertex's image from the target's vertex of the same number.
+    pub partners: Option<[f64; 2]>,
+    pub failed: Attempts,
+    pub seconds: Seconds,
+}
+
+impl Found {
+    pub fn new(
+        [source, target]: [&Input; 2],
+        matching: Matching,
+        landmarks: Vec<[VertexId; 2]>,
+        same_numbering: bool,
+    ) -> ricci::Result<Found> {
+        let surfaces = [&source.surface, &target.surface];
+        let quality = map_quality(surfaces, &matching.forward, &landmarks)?;
+        let cycle = cycle_error(surfaces, [&matching.forward, &matching.backward])?;
+        let positions = target.positions().unwrap_or_default();
+        let partners = match same_numbering {
+            false => None,
+            true => {
+                let size = diagonal(positions).max(f64::MIN_POSITIVE);
+                let images = matching.forward.carry(target.mesh(), positions)?;
+                let off: Vec<f64> =
+                    images.iter().zip(positions).map(|(&p, &q)| distance(p, q) / size).collect();
+                let mean = off.iter().sum::<f64>() / off.len().max(1) as f64;
+                Some([mean, off.into_iter().fold(0.0, f64::max)])
+            }
+        };
+        let target = Input {
+            path: target.path.clone(),
+            surface: target.surface.clone(),
+            attributes: target.attributes.clone(),
+            split: None,
+            seconds: target.seconds,
+        };
+        let (failed, seconds) = (Attempts::default(), source.seconds);
+        Ok(Found { target, matching, landmarks, quality, cycle, partners, failed, seconds })
+    }
+
+    pub fn checks(&self) -> Checks {
+        let mut checks = Checks::default();
+        let flipped = self.matching.flipped.len() + self.matching.target_flipped.len();
+        checks.add("flipped_triangles", flipped as f64, 0.0);
+        checks.add("landmark_error", self.quality.landmark_error, LANDMARK);
+        let places = [&self.matching.forward, &self.matching.backward];
+        let off = places.iter().flat_map(|map| &map.places).map(|place| {
+            let least = place.weights.iter().copied().fold(0.0, f64::min);
+            (place.weights.iter().sum::<f64>() - 1.0).abs().max(-least)
+        });
+        checks.add("weights", off.fold(0.0, f64::max), WEIGHTS);
+        checks
+    }
+
+    pub fn figures(&self) -> Figures {
+        let (m, q) = (&self.matching, &self.quality);
+        let [first, second] = m.balance;
+        Figures::default()
+            .with("space", m.space.name())
+            .with("landmarks", self.landmarks.len())
+            .with("flipped_triangles", m.flipped.len() + m.target_flipped.len())
+            .with("landmark_error", q.landmark_error)
+            .with("qc_mean", q.qc_mean)
+            .with("qc_max", q.qc_max)
+            .with("area_ratio_min", q.area_ratio_min)
+            .with("area_ratio_max", q.area_ratio_max)
+            .with("distance_mean", q.distance_mean)
+            .with("distance_max", q.distance_max)
+            .with("cycle_mean", self.cycle[0])
+            .with("cycle_max", self.cycle[1])
+            .if_some("partner_mean", self.partners.map(|p| p[0]))
+            .if_some("partner_max", self.partners.map(|p| p[1]))
+            .with("outside", m.outside)
+            .with("markings", m.markings)
+            .with("energy", first.energy)
+            .with("target_energy", second.energy)
+            .with("balance_residual", first.residual.max(second.residual))
+            .with("iterations", m.flow_iterations.to_vec())
+    }
+
+    pub fn text(&self) -> String {
+        let (m, q) = (&self.matching, &self.quality);
+        let partners = self.partners.map_or(String::new(), |[mean, most]| {
+            format!("partners vertices of the same number are {mean:.2e} of the diagonal apart, at most {most:.2e}\n")
+        });
+        format!(
+            "target   {}map      in {}, {}, {} compared; no face folds\n\
+             quality  dilatation {:.2} on average, at most {:.1e}; there and back {:.1e} of the diagonal, at most {:.1e}\n{partners}",
+            say::surface(&self.target).trim_start_matches("surface").trim_start(),
+            m.space,
+            say::count(self.landmarks.len(), "landmark", "landmarks"),
+            say::count(m.markings, "class", "classes"),
+            q.qc_mean,
+            q.qc_max,
+            self.cycle[0],
+            self.cycle[1],
+        )
+    }
+}
+
+/// What is printed.
+pub fn say(done: &Done<Found>) -> String {
+    say::surface(&done.input) + &done.result.text() + &say::finish(done, &done.result.failed)
+}

@@ -1,0 +1,9 @@
+//! `ricci match`: maps between two surfaces.
+
+mod args;
+mod command;
+mod files;
+mod found;
+
+pub use args::{HELP, MatchArgs};
+pub use command::{execute, run};

@@ -1,0 +1,78 @@
+//! `ricci match`: the file of a map read with formulas of its own, the report, refusals.
+
+use crate::run::Place;
+
+/// Rows of a map: the number of a vertex, a face and three weights.
+fn rows(text: &str) -> Vec<(usize, usize, [f64; 3])> {
+    let row = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        let number = |k: usize| fields[k].parse::<f64>().unwrap();
+        (number(0) as usize, number(1) as usize, [number(2), number(3), number(4)])
+    };
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("source_vertex,target_face,b0,b1,b2"));
+    lines.map(row).collect()
+}
+
+/// Vertices and faces of an OBJ file.
+fn obj(text: &str) -> (Vec<[f64; 3]>, Vec<[usize; 3]>) {
+    let (mut points, mut faces) = (Vec::new(), Vec::new());
+    for line in text.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            ["v", x, y, z, ..] => points.push([x, y, z].map(|c| c.parse().unwrap())),
+            ["f", a, b, c] => {
+                faces.push([a, b, c].map(|w| w.split('/').next().unwrap().parse::<usize>().unwrap() - 1));
+            }
+            _ => {}
+        }
+    }
+    (points, faces)
+}
+
+#[test]
+fn the_files_of_a_map_say_where_vertices_go_and_landmarks_are_met() {
+    let place = Place::new();
+    place.expect(0, "make sphere -n 5 -o ball.obj");
+    place.expect(0, "make sphere -n 7 --noise 0.02 -o other.obj");
+    // The corners of the icosahedron come first.
+    place.put("L.csv", "source_vertex,target_vertex\n0,1\n3,4\n5,0\n8,11\n11,8\n");
+    place.expect(
+        0,
+        "match ball.obj other.obj --landmarks L.csv --map M.csv --back B.csv -o shaped.obj --picture p.png --report R.json",
+    );
+    let report = place.json("R.json");
+    assert_eq!(report["result"]["flipped_triangles"], 0);
+    assert_eq!(report["input"]["target"]["genus"], 0);
+    assert!(report["result"]["landmark_error"].as_f64().unwrap() < 1e-8);
+    let [(_, _), (points, faces)] = ["ball.obj", "other.obj"].map(|name| obj(&place.text(name)));
+    let (shaped, _) = obj(&place.text("shaped.obj"));
+    let map = rows(&place.text("M.csv"));
+    assert!(map.len() == shaped.len() && rows(&place.text("B.csv")).len() == points.len());
+    for (v, (row, face, weights)) in map.into_iter().enumerate() {
+        assert!(row == v && weights.iter().all(|w| *w >= 0.0));
+        assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        for i in 0..3 {
+            let x: f64 = (0..3).map(|k| weights[k] * points[faces[face][k]][i]).sum();
+            assert!((x - shaped[v][i]).abs() < 1e-9);
+        }
+    }
+    for (from, to) in [(0, 1), (3, 4), (5, 0), (8, 11), (11, 8)] {
+        assert!((0..3).all(|i| (shaped[from][i] - points[to][i]).abs() < 1e-8));
+    }
+}
+
+#[test]
+fn what_cannot_be_matched_is_refused_by_name() {
+    let place = Place::new();
+    place.expect(0, "make sphere -n 3 -o ball.obj");
+    place.expect(0, "make torus --big 2 --small 1 -o torus.obj");
+    let said = place.expect(3, "match ball.obj torus.obj");
+    assert!(said.err.contains("genus 0"), "{}", said.err);
+    place.put("L.csv", "0,1\n3,1\n5,2\n");
+    let said = place.expect(3, "match ball.obj ball.obj --landmarks L.csv");
+    assert!(said.err.contains("landmarks 0 and 1 conflict"), "{}", said.err);
+    place.put("F.csv", "0,1\n3,100000\n");
+    place.expect(3, "match ball.obj ball.obj --landmarks F.csv");
+    place.expect(2, "match ball.obj torus.obj --same-numbering");
+}

@@ -1,0 +1,157 @@
+/* ricci: maps between two surfaces of the same topology.
+ *
+ * SPDX-License-Identifier: MIT OR Apache-2.0
+ *
+ *     ricci_match(source, target, NULL, NULL, &matching);
+ *     ricci_matching_faces(matching, RICCI_MATCH_FORWARD, faces, n_vertices);
+ *     ricci_matching_weights(matching, RICCI_MATCH_FORWARD, weights, 3 * n_vertices);
+ *
+ * The conventions are those of ricci/ricci.h.
+ */
+
+#ifndef RICCI_MATCH_H
+#define RICCI_MATCH_H
+
+#include <ricci/ricci.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A map between two surfaces and its inverse. It never changes. */
+typedef struct ricci_matching ricci_matching;
+
+/** Which of the two maps. */
+enum {
+    /** From the vertices of the source to the target. */
+    RICCI_MATCH_FORWARD = 0,
+    /** From the vertices of the target to the source. */
+    RICCI_MATCH_BACKWARD = 1
+};
+
+/** What ricci_match can be asked; zeros are the defaults. */
+typedef struct ricci_match_options {
+    /** sizeof(ricci_match_options), by ricci_init. */
+    size_t size;
+    /**
+     * n_landmarks x 2 vertices, of the source and of the target, that correspond: both inside, or both on
+     * boundaries. A sphere takes none or at least three, a torus one, surfaces with more handles none.
+     */
+    const uint32_t *landmarks;
+    /** Number of pairs. */
+    size_t n_landmarks;
+    /** For each boundary loop of the source that of the target; NULL: by descending length. */
+    const uint32_t *loops;
+    /** Number of loops. */
+    size_t n_loops;
+    /** Threads; 0 for one per core. The result does not depend on it. */
+    size_t threads;
+} ricci_match_options;
+
+/** Figures of a matching. */
+typedef struct ricci_matching_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Vertices of the source. */
+    size_t n_source_vertices;
+    /** Vertices of the target. */
+    size_t n_target_vertices;
+    /** Faces that fold in the domain: 0, which makes the map a homeomorphism. */
+    size_t n_flipped;
+    /** Isotopy classes of maps whose energies were compared. */
+    size_t n_markings;
+    /** Largest distance of a vertex from the other surface's domain, as a share of the nearest triangle. */
+    double outside;
+    /** Energy of the source in the domain of the target; 0 where spheres are turned. */
+    double energy;
+    /** Energy of the target in its own domain. */
+    double target_energy;
+    /** Largest distance of a vertex from the mean of its neighbours, over their mean distance. */
+    double residual;
+} ricci_matching_summary;
+
+/**
+ * The map from one surface to another one of the same topology, landmarks to landmarks: a harmonic map into the
+ * target's metric of constant curvature, which folds no face.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex), RICCI_MATCHING (surfaces of different
+ *         topology, landmarks in conflict, no map found), RICCI_LAYOUT, RICCI_TRIANGLE_INEQUALITY,
+ *         RICCI_FACTORISATION, RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param source    the surface whose vertices are mapped.
+ * @param target    the surface that they are mapped to.
+ * @param options   landmarks and loops, or NULL.
+ * @param control   progress and cancellation, or NULL.
+ * @param matching  out: the map; free it with ricci_matching_free.
+ */
+RICCI_API ricci_status ricci_match(const ricci_mesh *source, const ricci_mesh *target,
+                                   const ricci_match_options *options, const ricci_control *control,
+                                   ricci_matching **matching);
+
+/**
+ * Release a matching.
+ *
+ * @param matching  the matching, or NULL.
+ */
+RICCI_API_VOID void ricci_matching_free(ricci_matching *matching);
+
+/**
+ * Figures of a matching.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such size).
+ *
+ * @param matching  the matching.
+ * @param summary   out: the figures.
+ * @param size      sizeof *summary.
+ */
+RICCI_API ricci_status ricci_matching_summarise(const ricci_matching *matching,
+                                                ricci_matching_summary *summary, size_t size);
+
+/**
+ * The faces that the vertices go to.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such direction).
+ *
+ * @param matching   the matching.
+ * @param direction  RICCI_MATCH_...
+ * @param faces      out: a face of the other surface for every vertex.
+ * @param capacity   entries of `faces`.
+ */
+RICCI_API ricci_status ricci_matching_faces(const ricci_matching *matching, uint32_t direction,
+                                            uint32_t *faces, size_t capacity);
+
+/**
+ * The barycentric coordinates of the vertices' images in their faces.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such direction).
+ *
+ * @param matching   the matching.
+ * @param direction  RICCI_MATCH_...
+ * @param weights    out: n x 3, not negative, with the sum 1.
+ * @param capacity   entries of `weights`.
+ */
+RICCI_API ricci_status ricci_matching_weights(const ricci_matching *matching, uint32_t direction,
+                                              double *weights, size_t capacity);
+
+/**
+ * Values at the vertices of the surface that a map leads to, brought to those of the surface it comes from.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_WRONG_SIZE, RICCI_ARGUMENT (no such
+ *         direction).
+ *
+ * @param matching   the matching.
+ * @param direction  RICCI_MATCH_...
+ * @param values     the same number of values for every vertex.
+ * @param n_values   entries of `values`.
+ * @param carried    out: as many values for every vertex of the surface that the map comes from.
+ * @param capacity   entries of `carried`.
+ */
+RICCI_API ricci_status ricci_matching_carry(const ricci_matching *matching, uint32_t direction,
+                                            const double *values, size_t n_values, double *carried,
+                                            size_t capacity);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

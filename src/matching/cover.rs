@@ -1,0 +1,214 @@
+//! A triangulation in the universal cover of a surface of constant curvature: one lift of every vertex, and the deck transformations from
+//! face to face.
+
+use crate::error::{Error, Result};
+use crate::geometry::motion::precise_point;
+use crate::geometry::{Motion, Space, Twofold};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
+use crate::parallel;
+use std::sync::Arc;
+
+/// A surface that is opened along a cut, and the deck transformations across the cut.
+///
+/// Every vertex has an *own corner*: the corner of the opened surface whose position is that of the vertex. Its other corners lie at the images
+/// of this position under deck transformations.
+#[derive(Debug, Clone)]
+pub(super) struct Cover {
+    pub mesh: Arc<Mesh>,
+    pub space: Space,
+    /// The deck transformations that are in use; number 0 is the identity.
+    motions: Vec<Motion<Twofold>>,
+    /// Per half-edge of a face: the transformation that carries the opened surface onto its neighbour across it.
+    across: PerHalfedge<u32>,
+    /// Per half-edge of a face: the transformation that carries the vertex to this corner of it.
+    corner: PerHalfedge<u32>,
+    /// Per vertex, the half-edge of its own corner.
+    own: PerVertex<HalfedgeId>,
+}
+
+impl Cover {
+    /// A cover whose transformations across half-edges are given, the identity where `None`. `own`: own corners that are not free to choose;
+    /// a vertex on the boundary has the corner at the boundary edge that leaves it, with the surface on its left.
+    pub fn new(
+        mesh: &Arc<Mesh>,
+        space: Space,
+        across: impl Fn(HalfedgeId) -> Option<Motion<Twofold>>,
+        own: &[HalfedgeId],
+    ) -> Result<Cover> {
+        let n = mesh.n_halfedges();
+        let mut motions = vec![Motion::identity(space)];
+        let mut across_number = PerHalfedge::filled(n, 0u32);
+        for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
+            if let Some(motion) = across(h) {
+                across_number[h] = motions.len() as u32;
+                motions.push(motion);
+            }
+        }
+        let mut wished = PerVertex::filled(mesh.n_vertices(), None);
+        own.iter().for_each(|&h| wished[mesh.origin(h)] = Some(h));
+        let (mut corner, mut own) = (PerHalfedge::filled(n, 0u32), Vec::with_capacity(mesh.n_vertices()));
+        for v in mesh.vertices() {
+            let mut fan = mesh.fan(v);
+            let wish = wished[v].filter(|_| !mesh.is_boundary_vertex(v));
+            if let Some(first) = wish.and_then(|h| fan.iter().position(|&g| g == h)) {
+                fan.rotate_left(first);
+            }
+            let Some(&first) = fan.first() else {
+                return Err(Error::connectivity("vertex", v.index(), "has no face"));
+            };
+            own.push(first);
+            let mut at = 0u32;
+            for pair in fan.windows(2) {
+                // From face to face counterclockwise: the corner in the next face, as that is laid out.
+                let step = across_number[mesh.prev(pair[0])];
+                if step != 0 {
+                    let motion = motions[step as usize].inverse().compose(&motions[at as usize]);
+                    at = motions.len() as u32;
+                    motions.push(motion.normalised());
+                }
+                corner[pair[1]] = at;
+            }
+        }
+        Ok(Cover { mesh: mesh.clone(), space, motions, across: across_number, corner, own: own.into() })
+    }
+
+    /// The half-edge of a vertex's own corner.
+    pub fn own(&self, v: VertexId) -> HalfedgeId {
+        self.own[v]
+    }
+
+    /// The transformation that carries the opened surface onto its neighbour across a half-edge of a face; `None` for the identity.
+    pub fn across(&self, h: HalfedgeId) -> Option<&Motion<Twofold>> {
+        Some(self.across[h]).filter(|&k| k != 0).map(|k| &self.motions[k as usize])
+    }
+
+    /// The transformation from a vertex to its corner at a half-edge of a face; `None` for the identity.
+    pub fn corner(&self, h: HalfedgeId) -> Option<&Motion<Twofold>> {
+        Some(self.corner[h]).filter(|&k| k != 0).map(|k| &self.motions[k as usize])
+    }
+
+    /// The transformation that carries the vertex at a half-edge's tip to the end of the lift of the half-edge that starts at the vertex at its
+    /// origin; `None` for the identity.
+    pub fn along(&self, h: HalfedgeId) -> Option<Motion<Twofold>> {
+        let (inside, is_turned) = if self.mesh.is_outside(h) { (h.twin(), true) } else { (h, false) };
+        let [from, to] = [inside, self.mesh.next(inside)].map(|h| self.corner[h]);
+        if from == to {
+            return None;
+        }
+        let motion = self.motions[from as usize].inverse().compose(&self.motions[to as usize]);
+        Some(if is_turned { motion.inverse() } else { motion })
+    }
+}
+
+/// A cover with a place for every vertex: the frame at its position, which carries the origin there.
+#[derive(Debug, Clone)]
+pub(super) struct Placed {
+    pub cover: Cover,
+    pub at: PerVertex<Motion<Twofold>>,
+}
+
+/// Position with twice the digits.
+pub(super) type Precise = [Twofold; 3];
+
+impl Placed {
+    /// The frame of a point, turned as the space's frame at the origin.
+    pub fn frame(space: Space, point: [f64; 3]) -> Motion<Twofold> {
+        let [x, y, w] = point;
+        if space == Space::S2 && w < 0.0 {
+            // Half a turn of the sphere, after which the point is nearer to the origin than to its antipode, where frames are not determined.
+            let (zero, one) = (Twofold::from(0.0), Twofold::from(1.0));
+            let half_turn = Motion { space, a: [zero; 2], b: [one, zero] };
+            return half_turn.compose(&Placed::frame(space, [-x, y, -w]));
+        }
+        Motion::to_origin(space, precise_point(space, point)).inverse()
+    }
+
+    /// Where the corner of a half-edge of a face lies in the opened surface.
+    pub fn corner(&self, h: HalfedgeId) -> Precise {
+        let point = self.at[self.cover.mesh.origin(h)].origin();
+        self.cover.corner(h).map_or(point, |motion| motion.apply(point))
+    }
+
+    /// The corners of a face in the opened surface.
+    pub fn face(&self, f: FaceId) -> [Precise; 3] {
+        self.cover.mesh.face_halfedges(f).map(|h| self.corner(h))
+    }
+
+    /// Per half-edge: the vector, in the frame at its origin, of the geodesic to its tip.
+    pub fn logarithms(&self) -> PerHalfedge<[f64; 2]> {
+        let mesh = &self.cover.mesh;
+        let mut all = vec![[0.0; 2]; mesh.n_halfedges()];
+        parallel::fill(&mut all, |h| {
+            let h = HalfedgeId::from(h);
+            let tip = self.at[mesh.tip(h)].origin();
+            let tip = self.cover.along(h).map_or(tip, |motion| motion.apply(tip));
+            logarithm(self.cover.space, self.at[mesh.origin(h)].inverse().apply(tip))
+        });
+        all.into()
+    }
+
+    /// Faces whose corners are not counterclockwise, from positions with twice the digits of doubles.
+    pub fn flipped(&self) -> Vec<FaceId> {
+        let mesh = &self.cover.mesh;
+        let mut kept = vec![false; mesh.n_faces()];
+        parallel::fill(&mut kept, |f| f64::from(determinant(self.face(FaceId::from(f)))) > 0.0);
+        mesh.faces().filter(|f| !kept[f.index()]).collect()
+    }
+}
+
+/// `det(p, q, r)`: positive for a counterclockwise triangle.
+pub(super) fn determinant([p, q, r]: [Precise; 3]) -> Twofold {
+    let minor = |i: usize, j: usize| q[i] * r[j] - q[j] * r[i];
+    p[0] * minor(1, 2) + p[1] * minor(2, 0) + p[2] * minor(0, 1)
+}
+
+/// The vector at the origin of the geodesic to a point.
+pub(super) fn logarithm(space: Space, [x, y, w]: Precise) -> [f64; 2] {
+    let (x, y, w) = (f64::from(x), f64::from(y), f64::from(w));
+    let far = x.hypot(y);
+    let length = match space {
+        Space::E2 => far,
+        Space::H2 => far.asinh(),
+        Space::S2 => far.atan2(w),
+    };
+    if far > 0.0 { [x, y].map(|c| c * (length / far)) } else { [0.0; 2] }
+}
+
+/// A frame moved along a vector in it, and carried along parallel.
+pub(super) fn moved(frame: &Motion<Twofold>, [x, y]: [f64; 2]) -> Motion<Twofold> {
+    let length = x.hypot(y);
+    if length == 0.0 {
+        return *frame;
+    }
+    let half = 0.5 * y.atan2(x);
+    let turn = Motion::rotation([half.cos(), half.sin()], frame.space).precise();
+    let step = Motion::translation(length, frame.space).precise();
+    frame.compose(&turn).compose(&step).compose(&turn.inverse()).normalised()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_carry_the_origin_to_their_points() {
+        let far = [[0.6, 0.0, 0.8], [0.0, 0.6, -0.8], [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]];
+        for p in far {
+            let q = Placed::frame(Space::S2, p).origin().map(f64::from);
+            assert!((0..3).all(|k| (p[k] - q[k]).abs() < 1e-15), "{p:?} {q:?}");
+        }
+    }
+
+    #[test]
+    fn a_frame_moves_along_a_vector_and_sees_where_it_came_from_behind_it() {
+        for space in [Space::E2, Space::H2, Space::S2] {
+            let from = moved(&Motion::identity(space), [0.7, -0.4]);
+            let to = moved(&from, [0.3, 0.2]);
+            let [ahead, back] = [(from, to), (to, from)].map(|(a, b): (Motion<Twofold>, Motion<Twofold>)| {
+                logarithm(space, a.inverse().apply(b.origin()))
+            });
+            assert!((0..2).all(|k| (ahead[k] + back[k]).abs() < 1e-15), "{space:?}: {ahead:?} {back:?}");
+            assert!((ahead[0] - 0.3).abs() < 1e-15 && (ahead[1] - 0.2).abs() < 1e-15);
+        }
+    }
+}

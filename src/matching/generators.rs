@@ -1,0 +1,145 @@
+//! Images of the generators of a fundamental group, and the moves from one choice of them to others.
+
+use crate::error::{Error, Result};
+use crate::geometry::{Motion, Space, Twofold};
+use crate::topology::Word;
+
+/// Where the letters a1, b1, …, ag, bg, c1, …, cb go: motions that fulfil the relator `[a1, b1] … [ag, bg] c1 … cb = 1`.
+#[derive(Debug, Clone)]
+pub(super) struct Generators {
+    pub space: Space,
+    pub genus: usize,
+    pub motions: Vec<Motion<Twofold>>,
+    /// Per c_j the line along which it moves: the frame at a point of it, with the x axis along it.
+    pub lines: Vec<Motion<Twofold>>,
+}
+
+/// A change of the images of one or two handles that keeps the product of their commutators.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Move {
+    /// `a → a b^{±1}` of this handle.
+    TwistA(usize, bool),
+    /// `b → b a^{±1}`.
+    TwistB(usize, bool),
+    /// `(a, b) → (a b a⁻¹, a⁻¹)`: a quarter of a turn of the handle.
+    Quarter(usize),
+    /// This handle and the next one change places: `(h, k) → (k, k⁻¹ h k)` with their commutators.
+    Swap(usize),
+}
+
+impl Generators {
+    /// The motion of a word.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a letter beyond the generators.
+    pub fn motion(&self, word: &Word) -> Result<Motion<Twofold>> {
+        let mut product = Motion::identity(self.space);
+        for letter in word.letters() {
+            let Some(motion) = self.motions.get(letter.index()) else {
+                return Err(Error::argument("letter", letter.index(), "one of the group's generators"));
+            };
+            product = if letter.is_inverse() {
+                product.compose(&motion.inverse())
+            } else {
+                product.compose(motion)
+            };
+        }
+        Ok(product.normalised())
+    }
+
+    /// All moves.
+    pub fn moves(&self) -> Vec<Move> {
+        let handles = 0..self.genus;
+        let of = |k: usize| {
+            [
+                Move::Quarter(k),
+                Move::TwistA(k, true),
+                Move::TwistA(k, false),
+                Move::TwistB(k, true),
+                Move::TwistB(k, false),
+            ]
+        };
+        let swaps = (1..self.genus).map(|k| Move::Swap(k - 1));
+        handles.flat_map(of).chain(swaps).collect()
+    }
+
+    /// The images after a move.
+    pub fn moved(&self, by: Move) -> Generators {
+        let mut next = self.clone();
+        let m = &mut next.motions;
+        let power = |x: Motion<Twofold>, is_positive: bool| if is_positive { x } else { x.inverse() };
+        match by {
+            Move::TwistA(k, sign) => m[2 * k] = m[2 * k].compose(&power(m[2 * k + 1], sign)),
+            Move::TwistB(k, sign) => m[2 * k + 1] = m[2 * k + 1].compose(&power(m[2 * k], sign)),
+            Move::Quarter(k) => {
+                let (a, b) = (m[2 * k], m[2 * k + 1]);
+                (m[2 * k], m[2 * k + 1]) = (b.conjugated_by(&a), a.inverse());
+            }
+            Move::Swap(k) => {
+                let [a, b, c, d] = [0, 1, 2, 3].map(|j| m[2 * k + j]);
+                let commutator = c.compose(&d).compose(&c.inverse()).compose(&d.inverse());
+                let back = commutator.inverse();
+                (m[2 * k], m[2 * k + 1]) = (c, d);
+                (m[2 * k + 2], m[2 * k + 3]) = (a.conjugated_by(&back), b.conjugated_by(&back));
+            }
+        }
+        next.motions.iter_mut().for_each(|motion| *motion = motion.normalised());
+        next
+    }
+
+    /// The images of c_1 … c_b in another order, the product as before: in `order` stand the numbers of those that are to be first, second, ….
+    pub fn reordered(mut self, order: &[usize]) -> Generators {
+        let first = 2 * self.genus;
+        let mut now: Vec<usize> = (0..order.len()).collect();
+        for (place, wanted) in order.iter().enumerate() {
+            let Some(mut at) = now.iter().position(|k| k == wanted) else { continue };
+            while at > place {
+                // (x, y) → (y, y⁻¹ x y)
+                let (x, y) = (self.motions[first + at - 1], self.motions[first + at]);
+                let back = y.inverse();
+                self.motions[first + at - 1] = y;
+                self.motions[first + at] = x.conjugated_by(&back).normalised();
+                let line = back.compose(&self.lines[at - 1]).normalised();
+                self.lines[at - 1] = self.lines[at];
+                self.lines[at] = line;
+                now.swap(at - 1, at);
+                at -= 1;
+            }
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cover::moved;
+    use super::*;
+
+    fn relator(of: &Generators) -> Motion<Twofold> {
+        let mut product = Motion::identity(of.space);
+        for k in 0..of.genus {
+            let (a, b) = (of.motions[2 * k], of.motions[2 * k + 1]);
+            product = product.compose(&a).compose(&b).compose(&a.inverse()).compose(&b.inverse());
+        }
+        of.motions[2 * of.genus..].iter().fold(product, |all, c| all.compose(c))
+    }
+
+    #[test]
+    fn moves_and_other_orders_keep_the_relator() {
+        let space = Space::H2;
+        let motion = |k: usize| {
+            let x = k as f64;
+            let turn = Motion::rotation([(0.3 * x).cos(), (0.3 * x).sin()], space).precise();
+            moved(&Motion::identity(space), [0.4 + 0.1 * x, (0.7 * x).sin()]).compose(&turn)
+        };
+        let lines = (0..3).map(|k| motion(20 + k)).collect();
+        let all = Generators { space, genus: 2, motions: (0..7).map(motion).collect(), lines };
+        let before = relator(&all);
+        let off = |after: &Generators| relator(after).compose(&before.inverse()).distance_from_identity();
+        for by in all.moves() {
+            assert!(off(&all.moved(by)) < 1e-14, "{by:?}");
+        }
+        let other = all.clone().reordered(&[2, 0, 1]);
+        assert!(off(&other) < 1e-14 && other.motions[4] == all.motions[6]);
+    }
+}

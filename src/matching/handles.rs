@@ -1,0 +1,305 @@
+//! Surfaces with handles: both in the flat or hyperbolic metric of the target, the homotopy class of the map given by bases of the fundamental groups.
+//!
+//! A homotopy basis of each surface has the same relator, and the map brings letter to letter. Which bases correspond is not canonical: from the two that
+//! are found, twists and turns of the handles are tried as long as they lower the energy of the harmonic map.
+
+use super::balance::{BalanceReport, Freedom, relax, settle};
+use super::cover::{Cover, Placed, logarithm, moved};
+use super::generators::Generators;
+use super::options::MatchOptions;
+use super::orbifold::Pair;
+use super::route::Marks;
+use super::walk::Seed;
+use super::weights::mean_value_weights;
+use crate::control::Control;
+use crate::embed::{Layout, UnrollOptions, unroll};
+use crate::error::{Error, Result};
+use crate::flow::Flow;
+use crate::geometry::{Motion, Space, Twofold};
+use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex, VertexId};
+use crate::metric::{Class, Surface, Target};
+use crate::topology::{CutGraph, FundamentalDomain, HomotopyBasis, crossed_halfedges, homotopy_basis};
+
+/// Most maps whose energies are compared.
+const MOST_TRIED: usize = 60;
+/// Share of the energy by which a move has to lower it.
+const LOWER: f64 = 1e-3;
+/// Energy of the source in the target's domain over that of the target itself, below which no other class is looked for.
+const UNTWISTED: f64 = 1.05;
+
+/// A surface in its own metric, opened along the cut of its homotopy basis.
+struct Own {
+    basis: HomotopyBasis,
+    placed: Placed,
+    layout: Layout,
+    domain: FundamentalDomain,
+    weights: PerHalfedge<f64>,
+    iterations: usize,
+}
+
+/// Both surfaces in the target's metric.
+///
+/// # Errors
+/// [`Error::Matching`] for landmarks other than one on a torus, where a flow does not come to its target, and where no harmonic map is found; those of
+/// [`homotopy_basis`], [`Flow::new`] and [`unroll`]; [`Error::Cancelled`].
+pub(super) fn with_handles(
+    surfaces: [&Surface; 2],
+    marks: [&Marks; 2],
+    options: &MatchOptions,
+    control: &Control,
+) -> Result<Pair> {
+    let flat = surfaces[0].mesh().euler() == 0;
+    let landmarks = marks[0].landmarks.len();
+    if landmarks > usize::from(flat) || !marks[0].corners.is_empty() {
+        return Err(Error::Matching(format!(
+            "{landmarks} landmarks inside and {} on the boundary: on surfaces with handles only one, on a torus, is possible",
+            marks[0].corners.len()
+        )));
+    }
+    let space = if flat { Space::E2 } else { Space::H2 };
+    let own =
+        |s: usize| in_own_metric(surfaces[s], marks[s].landmarks.first().copied(), space, options, control);
+    let [source, target] = [own(0)?, own(1)?];
+    let generators = generators(&target, surfaces[1])?;
+    let generators = generators.reordered(&loop_order(surfaces, marks, [&source, &target]));
+    let search = Search { surfaces, source: &source, target: &target };
+    let freedom = [0, 1].map(|s| search.freedom(s, space));
+    let mut domain = target.placed.clone();
+    search.straighten(&mut domain, &generators)?;
+    let second = relax(&mut domain, &target.weights, &freedom[1], control)?;
+    let (mut image, first, tried) = search.least(generators, (&freedom[0], second.1), control)?;
+    let mut reports = [first, second].map(|(energy_steps, energy)| BalanceReport {
+        energy_steps,
+        energy,
+        ..BalanceReport::default()
+    });
+    let weights = [&source.weights, &target.weights];
+    for (s, placed) in [&mut image, &mut domain].into_iter().enumerate() {
+        let settled = settle(placed, weights[s], &freedom[s], control)?;
+        (reports[s].balance_steps, reports[s].residual) = (settled.balance_steps, settled.residual);
+    }
+    let seed =
+        |from: &Own, to: &Own| Seed { vertex: from.basis.base, near: to.placed.cover.own(to.basis.base) };
+    let seeds = [seed(&source, &target), seed(&target, &source)];
+    let flow_iterations = [source.iterations, target.iterations];
+    Ok(Pair { source: image, target: domain, seeds, reports, flow_iterations, markings: tried })
+}
+
+fn in_own_metric(
+    surface: &Surface,
+    base: Option<VertexId>,
+    space: Space,
+    options: &MatchOptions,
+    control: &Control,
+) -> Result<Own> {
+    let mesh = surface.mesh();
+    let basis = homotopy_basis(mesh, surface.lengths(), base, control)?;
+    let cut = CutGraph::around(mesh, basis.cut(mesh));
+    let domain = FundamentalDomain::new(mesh, &cut.is_cut, &basis)?;
+    let mut flow = Flow::new(surface.clone(), Class::yamabe(space), &options.flow, control)?;
+    let metric = flow.solve(&Target::All(PerVertex::filled(mesh.n_vertices(), 0.0)), control)?;
+    let iterations = metric.report().map_or(0, |report| report.iterations);
+    if !metric.converged() {
+        let reason = metric.report().map(|report| report.stop_reason.to_string()).unwrap_or_default();
+        return Err(Error::Matching(format!(
+            "the canonical metric was not found after {iterations} steps: {reason}"
+        )));
+    }
+    let unrolling = UnrollOptions {
+        cones: Some(Vec::new()),
+        root: Some(basis.base),
+        cut: Some(cut.clone()),
+        threads: options.flow.threads,
+        ..UnrollOptions::default()
+    };
+    let layout = unroll(&metric, &unrolling, control)?;
+    let Some(on_input) = layout.on_input() else {
+        return Err(Error::Matching("the layout is not opened along the cut".into()));
+    };
+    let pairings: Vec<_> = layout.seams.iter().map(|seam| seam.pairing).collect();
+    let side = sides(mesh.n_halfedges(), &cut);
+    let across = |h: HalfedgeId| {
+        let pairing = pairings.get((side[h].unsigned_abs() as usize).wrapping_sub(1))?;
+        Some(if side[h] > 0 { *pairing } else { pairing.inverse() })
+    };
+    let cover = Cover::new(mesh, space, across, &[domain.base_corner])?;
+    let point = |v: VertexId| {
+        let corner = on_input.corner_index[cover.own(v)] as usize;
+        Placed::frame(space, layout.points[on_input.points[corner] as usize])
+    };
+    let at = PerVertex::from_fn(mesh.n_vertices(), point);
+    let placed = Placed { cover, at };
+    let weights = mean_value_weights(&placed, surface);
+    Ok(Own { basis, placed, layout, domain, weights, iterations })
+}
+
+/// Per half-edge the segment of the cut that it lies on: positive on its left side.
+fn sides(n: usize, cut: &CutGraph) -> PerHalfedge<i32> {
+    let mut side = PerHalfedge::filled(n, 0i32);
+    for (k, segment) in cut.segments.iter().enumerate() {
+        for &h in segment {
+            (side[h], side[h.twin()]) = (k as i32 + 1, -(k as i32) - 1);
+        }
+    }
+    side
+}
+
+/// The target's own generators as motions, and the lines of its boundary.
+fn generators(target: &Own, surface: &Surface) -> Result<Generators> {
+    let (mesh, space) = (surface.mesh(), target.layout.space);
+    let cover = &target.placed.cover;
+    let motion = |path: &Vec<HalfedgeId>| {
+        let crossed = crossed_halfedges(mesh, target.domain.base_corner, path)?;
+        let through = crossed.into_iter().filter_map(|h| cover.across(h));
+        Ok(through.fold(Motion::identity(space), |all, step| all.compose(step)).normalised())
+    };
+    let motions: Vec<Motion<Twofold>> = target.basis.loops.iter().map(motion).collect::<Result<_>>()?;
+    let mut all = Generators { space, genus: target.basis.group.genus, motions, lines: Vec::new() };
+    for (j, &rim) in target.basis.rims.iter().enumerate() {
+        let start = mesh.tip(rim);
+        let word = target.basis.corner_word(cover.own(start));
+        let tree = all.motion(&word)?.inverse();
+        let from = tree.apply(target.placed.at[start].origin());
+        let to = all.motions[2 * all.genus + j].apply(from);
+        let frame = Motion::to_origin(space, from).inverse();
+        let [x, y] = logarithm(space, frame.inverse().apply(to));
+        let half = 0.5 * y.atan2(x);
+        all.lines.push(frame.compose(&Motion::rotation([half.cos(), half.sin()], space).precise()));
+    }
+    Ok(all)
+}
+
+/// For each letter of the source's boundary the number of the target's letter whose loop it goes to.
+fn loop_order(surfaces: [&Surface; 2], marks: [&Marks; 2], own: [&Own; 2]) -> Vec<usize> {
+    let of = |s: usize, rim: &HalfedgeId| {
+        let v = surfaces[s].mesh().tip(*rim);
+        marks[s].loops.iter().position(|around| around.iter().any(|&h| surfaces[s].mesh().origin(h) == v))
+    };
+    let second: Vec<_> = own[1].basis.rims.iter().map(|rim| of(1, rim)).collect();
+    own[0].basis.rims.iter().filter_map(|rim| second.iter().position(|k| *k == of(0, rim))).collect()
+}
+
+struct Search<'a> {
+    surfaces: [&'a Surface; 2],
+    source: &'a Own,
+    target: &'a Own,
+}
+
+impl Search<'_> {
+    fn own(&self, s: usize) -> &Own {
+        if s == 0 { self.source } else { self.target }
+    }
+
+    fn freedom(&self, s: usize, space: Space) -> PerVertex<Freedom> {
+        let mesh = self.surfaces[s].mesh();
+        let mut freedom = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
+            if mesh.is_boundary_vertex(v) { Freedom::Slides } else { Freedom::Free }
+        });
+        // A flat torus can be shifted: the base is held.
+        if space == Space::E2 {
+            freedom[self.own(s).basis.base] = Freedom::Held;
+        }
+        freedom
+    }
+
+    /// The boundary loops of a surface as they are run through from the tips of their rims, each vertex with the share of the length before it.
+    fn loops(&self, s: usize) -> Vec<Vec<(VertexId, f64)>> {
+        let (mesh, lengths) = (self.surfaces[s].mesh(), self.surfaces[s].lengths());
+        let around = |&rim: &HalfedgeId| {
+            let mut path = mesh.boundary_from(rim);
+            if !path.is_empty() {
+                path.rotate_left(1);
+            }
+            let total: f64 = path.iter().map(|h| lengths[h.edge()]).sum();
+            let mut before = 0.0;
+            let place = |h: HalfedgeId| {
+                let share = before / total;
+                before += lengths[h.edge()];
+                (mesh.origin(h), share)
+            };
+            path.into_iter().map(place).collect()
+        };
+        self.own(s).basis.rims.iter().map(around).collect()
+    }
+
+    /// Puts the target's boundary exactly on its lines, with frames along them.
+    fn straighten(&self, placed: &mut Placed, generators: &Generators) -> Result<()> {
+        let (basis, space) = (&self.target.basis, generators.space);
+        // Lines of the target's own letters, before they took the source's order.
+        let own = self::generators(self.target, self.surfaces[1])?;
+        for (j, around) in self.loops(1).into_iter().enumerate() {
+            for (v, _) in around {
+                let corner = own.motion(&basis.corner_word(placed.cover.own(v)))?;
+                let line = corner.compose(&own.lines[j]);
+                let [x, _] = logarithm(space, line.inverse().apply(placed.at[v].origin()));
+                placed.at[v] = moved(&line, [x, 0.0]);
+            }
+        }
+        Ok(())
+    }
+
+    /// The source in the target's domain in the class of these generators, at the minimum of its energy.
+    fn image(
+        &self,
+        generators: &Generators,
+        freedom: &PerVertex<Freedom>,
+        control: &Control,
+    ) -> Result<(Placed, (usize, f64))> {
+        let (mesh, basis, space) = (self.surfaces[0].mesh(), &self.source.basis, generators.space);
+        let mut words: Vec<Option<Motion<Twofold>>> = vec![None; mesh.n_halfedges()];
+        for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
+            let word = basis.transition(mesh, h);
+            if !word.is_empty() {
+                words[h.index()] = Some(generators.motion(&word)?);
+            }
+        }
+        let cover = Cover::new(mesh, space, |h| words[h.index()], &[self.source.domain.base_corner])?;
+        // Positions of the source's own metric, its base where the target's is: a place to start from.
+        let home = self.target.placed.at[self.target.basis.base]
+            .compose(&self.source.placed.at[basis.base].inverse());
+        let at = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
+            home.compose(&self.source.placed.at[v]).normalised()
+        });
+        let mut placed = Placed { cover, at };
+        for (j, around) in self.loops(0).into_iter().enumerate() {
+            let length = generators.motions[2 * generators.genus + j].translation_length();
+            for (v, share) in around {
+                let corner = generators.motion(&basis.corner_word(placed.cover.own(v)))?;
+                placed.at[v] = moved(&corner.compose(&generators.lines[j]), [share * length, 0.0]);
+            }
+        }
+        if space == Space::E2 {
+            placed.at[basis.base] = self.target.placed.at[self.target.basis.base];
+        }
+        let energy = relax(&mut placed, &self.source.weights, freedom, control)?;
+        Ok((placed, energy))
+    }
+
+    /// From class to class as long as the energy falls; the map, its steps and energy, and the number of classes that were tried.
+    fn least(
+        &self,
+        mut generators: Generators,
+        (freedom, least): (&PerVertex<Freedom>, f64),
+        control: &Control,
+    ) -> Result<(Placed, (usize, f64), usize)> {
+        let (mut best, mut energy) = self.image(&generators, freedom, control)?;
+        let mut tried = 1;
+        'search: while energy.1 > UNTWISTED * least {
+            for by in generators.moves() {
+                if tried >= MOST_TRIED {
+                    break 'search;
+                }
+                let next = generators.moved(by);
+                tried += 1;
+                let (image, after) = self.image(&next, freedom, control)?;
+                log::debug!("{by:?}: energy {} after {}", after.1, energy.1);
+                if after.1 < (1.0 - LOWER) * energy.1 {
+                    (best, energy, generators) = (image, after, next);
+                    continue 'search;
+                }
+            }
+            break;
+        }
+        Ok((best, energy, tried))
+    }
+}

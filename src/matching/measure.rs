@@ -1,0 +1,132 @@
+//! How a map between two surfaces in space distorts, and how well it can be undone.
+
+use super::place::SurfaceMap;
+use crate::embed::quality::DILATATION_CAP;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::vector::{cross, diagonal, distance, dot, norm, sub};
+use crate::mesh::{Point, VertexId};
+use crate::metric::Surface;
+
+/// Figures of a map, of its linear extension from the source's faces to space. Every number is finite; distances are shares of the diagonal of
+/// the target's bounding box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MapQuality {
+    /// Quasi-conformal dilatation of the faces, largest over smallest singular value: the mean by area, and the largest.
+    pub qc_mean: f64,
+    /// The largest dilatation; [`DILATATION_CAP`] at most.
+    pub qc_max: f64,
+    /// Area of a face's image over its own, both as shares of the totals: the smallest.
+    pub area_ratio_min: f64,
+    /// The largest.
+    pub area_ratio_max: f64,
+    /// Distance in space between a vertex and its image: the mean over the vertices by area.
+    pub distance_mean: f64,
+    /// The largest.
+    pub distance_max: f64,
+    /// Largest distance between the image of a landmark and the landmark that it is to go to.
+    pub landmark_error: f64,
+}
+
+/// The figures of a map. `landmarks`: pairs of vertices that it should bring to each other.
+///
+/// # Errors
+/// [`Error::Size`]; [`Error::Argument`] for a surface without positions.
+pub fn map_quality(
+    [source, target]: [&Surface; 2],
+    map: &SurfaceMap,
+    landmarks: &[[VertexId; 2]],
+) -> Result<MapQuality> {
+    let (from, to) = (positions(source)?, positions(target)?);
+    check_size("places of the map", map.places.len(), from.len())?;
+    let images = map.carry(target.mesh(), to)?;
+    let size = diagonal(to).max(f64::MIN_POSITIVE);
+    let mesh = source.mesh();
+    let face = |points: &[Point], f| mesh.face_vertices(f).map(|v| points[v.index()]);
+    let area = |[a, b, c]: [Point; 3]| 0.5 * norm(cross(sub(b, a), sub(c, a)));
+    let totals = [from, &images].map(|points| mesh.faces().map(|f| area(face(points, f))).sum::<f64>());
+    let (mut qc, mut qc_max): (f64, f64) = (0.0, 1.0);
+    let mut range = [f64::INFINITY, 0.0f64];
+    let mut shares = vec![0.0; from.len()];
+    for f in mesh.faces() {
+        let (own, image) = (face(from, f), face(&images, f));
+        let weight = area(own);
+        let k = dilatation(own, image);
+        qc += weight * k;
+        qc_max = qc_max.max(k);
+        mesh.face_vertices(f).into_iter().for_each(|v| shares[v.index()] += weight / 3.0);
+        if weight > 0.0 {
+            let ratio = (area(image) / totals[1].max(f64::MIN_POSITIVE)) / (weight / totals[0]);
+            range = [range[0].min(ratio), range[1].max(ratio)];
+        }
+    }
+    let moved: Vec<f64> = from.iter().zip(&images).map(|(&p, &q)| distance(p, q) / size).collect();
+    let total = totals[0].max(f64::MIN_POSITIVE);
+    let error = |pair: &[VertexId; 2]| {
+        let [p, q] = [images.get(pair[0].index()), to.get(pair[1].index())];
+        p.zip(q).map_or(0.0, |(&p, &q)| distance(p, q) / size)
+    };
+    Ok(MapQuality {
+        qc_mean: (qc / total).min(DILATATION_CAP),
+        qc_max,
+        area_ratio_min: if range[0].is_finite() { range[0] } else { 0.0 },
+        area_ratio_max: range[1].min(f64::MAX),
+        distance_mean: moved.iter().zip(&shares).map(|(d, share)| d * share).sum::<f64>() / total,
+        distance_max: moved.iter().copied().fold(0.0, f64::max),
+        landmark_error: landmarks.iter().map(error).fold(0.0, f64::max),
+    })
+}
+
+/// Largest over smallest singular value of the linear map from one triangle to another, [`DILATATION_CAP`] at most.
+fn dilatation(from: [Point; 3], to: [Point; 3]) -> f64 {
+    // In an orthonormal basis of the first triangle's plane the edges are (l, 0) and (x, y).
+    let [a, b] = [sub(from[1], from[0]), sub(from[2], from[0])];
+    let length = norm(a);
+    let (x, y) = (dot(a, b) / length, norm(cross(a, b)) / length);
+    let [p, q] = [sub(to[1], to[0]), sub(to[2], to[0])];
+    let first = p.map(|c| c / length);
+    let second: Point = std::array::from_fn(|k| (q[k] - x * first[k]) / y);
+    let (e, f, g) = (dot(first, first), dot(first, second), dot(second, second));
+    let spread = (0.25 * (e - g) * (e - g) + f * f).sqrt();
+    let (largest, area) = (0.5 * (e + g) + spread, norm(cross(first, second)));
+    let ratio = largest / area;
+    if ratio.is_finite() { ratio.clamp(1.0, DILATATION_CAP) } else { DILATATION_CAP }
+}
+
+/// The mean and the largest distance of the vertices of a surface from where a map and one back bring them, as shares of the diagonal of its
+/// bounding box.
+///
+/// # Errors
+/// As [`map_quality`].
+pub fn cycle_error(
+    [source, target]: [&Surface; 2],
+    [forward, backward]: [&SurfaceMap; 2],
+) -> Result<[f64; 2]> {
+    let from = positions(source)?;
+    check_size("places of the map", forward.places.len(), from.len())?;
+    check_size("places of the map back", backward.places.len(), target.mesh().n_vertices())?;
+    let returned = forward.carry(target.mesh(), &backward.carry(source.mesh(), from)?)?;
+    let size = diagonal(from).max(f64::MIN_POSITIVE);
+    let off: Vec<f64> = from.iter().zip(&returned).map(|(&p, &q)| distance(p, q) / size).collect();
+    Ok([off.iter().sum::<f64>() / off.len().max(1) as f64, off.iter().copied().fold(0.0, f64::max)])
+}
+
+fn positions(surface: &Surface) -> Result<&[Point]> {
+    let Some(positions) = surface.positions() else {
+        return Err(Error::argument("surface", "intrinsic", "one with positions in space"));
+    };
+    Ok(positions)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dilatation_is_the_quotient_of_singular_values() {
+        let triangle = [[0.0, 0.0, 0.0], [2.0, 0.5, 0.1], [0.3, 1.0, -0.4]];
+        assert!((dilatation(triangle, triangle.map(|p| p.map(|x| 3.0 * x))) - 1.0).abs() < 1e-12);
+        let flat = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.2, 1.0, 0.0]];
+        assert!((dilatation(flat, flat.map(|[x, y, z]| [4.0 * x, y, z])) - 4.0).abs() < 1e-12);
+        assert_eq!(dilatation(flat, [[0.0; 3]; 3]), DILATATION_CAP);
+    }
+}

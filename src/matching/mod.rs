@@ -1,0 +1,50 @@
+//! Maps between two surfaces of the same topology: both go to one canonical domain, the source by a harmonic map, and the one map is followed by the
+//! inverse of the other \[JKLLG08, Eqn 18\].
+//!
+//! The domain is the target in its metric of constant curvature. Landmarks become cones of angle 2π/n in it, boundary loops become geodesics or, between
+//! corners, straight sides. So wherever the Euler characteristic of this orbifold is not positive the domain is covered by the plane or the hyperbolic
+//! plane without cones, and a map that puts every vertex at the mean of its neighbours, with positive weights, is an embedding \[LWZ23\], \[AL16\]: landmarks
+//! are met exactly and no face folds. The weights are those with which the source is harmonic in its own canonical metric, so that an isometry or a discretely conformal
+//! map is found as it is. A sphere with fewer than three landmarks has no such metric: two of them without landmarks are turned until their conformal factors
+//! fit.
+//!
+//! Which homotopy class is meant is said by a tree of paths between the landmarks and loops of both surfaces, or by bases of their fundamental groups.
+//! Several are compared, and the one whose harmonic map has the least energy is taken.
+//!
+//! ```
+//! use ricci::matching::{MatchOptions, map_quality, match_surfaces};
+//! use ricci::mesh::{VertexId, shapes};
+//! use ricci::{Control, Surface};
+//! let [ball, egg] = [[1.0, 1.0, 1.0], [1.0, 1.3, 0.8]].map(|axes| shapes::ellipsoid(axes, 6));
+//! let [ball, egg] = [Surface::from_soup(&ball?)?, Surface::from_soup(&egg?)?];
+//! let landmarks = [0, 3, 5, 8, 11].map(|v| [VertexId(v), VertexId(v)]).to_vec();
+//! let options = MatchOptions { landmarks, ..MatchOptions::default() };
+//! let matching = match_surfaces(&ball, &egg, &options, &Control::new())?;
+//! let quality = map_quality([&ball, &egg], &matching.forward, &options.landmarks)?;
+//! assert!(matching.flipped.is_empty() && quality.landmark_error < 1e-12 && quality.qc_mean < 1.5);
+//! # Ok::<(), ricci::Error>(())
+//! ```
+
+mod balance;
+mod cover;
+mod disk;
+mod find;
+mod generators;
+mod handles;
+mod measure;
+mod options;
+mod orbifold;
+pub mod place;
+mod repair;
+mod route;
+mod sphere;
+mod tree;
+mod turn;
+mod walk;
+mod weights;
+
+pub use balance::BalanceReport;
+pub use find::{Matching, match_surfaces};
+pub use measure::{MapQuality, cycle_error, map_quality};
+pub use options::MatchOptions;
+pub use place::{Place, SurfaceMap};

@@ -1,0 +1,351 @@
+//! Surfaces of genus 0 with landmarks and boundary loops, as hyperbolic or flat surfaces with cones at the landmarks and straight boundaries.
+//!
+//! The target gets the metric of constant curvature in its conformal class that has cones of angle 2π/n at the landmarks and a geodesic boundary: an
+//! orbifold, covered by a surface without cones. Both triangulations are put into it by a harmonic map with positive weights, which is an
+//! embedding [`super::balance`], and the map from one surface to the other is the one after the inverse of the other.
+
+use super::balance::{BalanceReport, Freedom, relax, settle};
+use super::cover::{Cover, Placed, logarithm, moved};
+use super::options::MatchOptions;
+use super::route::Marks;
+use super::tree::{Tree, distances, trees};
+use super::walk::Seed;
+use super::weights::mean_value_weights;
+use crate::control::Control;
+use crate::embed::{UnrollOptions, unroll};
+use crate::error::{Error, Result};
+use crate::flow::{Flow, Solution};
+use crate::geometry::{Motion, Space, Twofold};
+use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex, VertexId};
+use crate::metric::{Class, Refinement, Surface, Target};
+use crate::topology::central_vertex;
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
+
+/// Orders of cones that are tried, the angle being 2π over the order: the least with which the Euler characteristic is negative.
+const ORDERS: [usize; 6] = [2, 3, 4, 5, 6, 7];
+
+/// What the canonical metric of a surface of genus 0 looks like.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Shape {
+    pub space: Space,
+    /// Order of the cones at landmarks.
+    order: usize,
+    /// Curvature of the boundary at its corners, radians.
+    corner: f64,
+}
+
+/// Of a surface of genus 0 with so many loops, landmarks and corners of the boundary; `None` where its metric would be that of a sphere.
+pub(super) fn shape(loops: usize, landmarks: usize, corners: usize) -> Option<Shape> {
+    match (loops, landmarks, corners) {
+        (2, 0, 0) => return Some(Shape { space: Space::E2, order: 1, corner: 0.0 }),
+        (1, 0, 3..) => return Some(Shape { space: Space::E2, order: 1, corner: TAU / corners as f64 }),
+        _ => {}
+    }
+    let turned = 0.25 * corners as f64;
+    let euler = |n: usize| 2.0 - loops as f64 - turned - landmarks as f64 * (1.0 - 1.0 / n as f64);
+    let order = ORDERS.into_iter().find(|&n| euler(n) < -1e-9)?;
+    Some(Shape { space: Space::H2, order, corner: FRAC_PI_2 })
+}
+
+/// Two triangulations in the universal cover of one surface.
+pub(super) struct Pair {
+    pub source: Placed,
+    pub target: Placed,
+    /// Where the source's vertices are searched for in the target, and the other way round.
+    pub seeds: [Seed; 2],
+    pub reports: [BalanceReport; 2],
+    /// Steps of the flows to the two canonical metrics.
+    pub flow_iterations: [usize; 2],
+    /// Ways to mark the map that were compared.
+    pub markings: usize,
+}
+
+/// Both surfaces with their landmarks, loops and corners.
+#[derive(Clone, Copy)]
+struct Problem<'a> {
+    surfaces: [&'a Surface; 2],
+    marks: [&'a Marks; 2],
+    shape: Shape,
+    threads: usize,
+}
+
+/// A surface's canonical metric.
+struct Canonical {
+    metric: Solution,
+    refinement: Option<Arc<Refinement>>,
+    root: VertexId,
+    iterations: usize,
+}
+
+/// A surface in its own metric, opened along its tree.
+struct Own {
+    placed: Placed,
+    pairings: Vec<Motion<Twofold>>,
+}
+
+/// One way to mark the map: the trees, the target's domain and the source in it.
+struct Marked {
+    trees: [Tree; 2],
+    domain: Placed,
+    image: Placed,
+    weights: [PerHalfedge<f64>; 2],
+    freedom: [PerVertex<Freedom>; 2],
+    /// Energy of the source in the target's domain over that of the target.
+    ratio: f64,
+    steps: [usize; 2],
+    energies: [f64; 2],
+}
+
+/// Both surfaces in the target's canonical metric.
+///
+/// Of several ways to mark the map the one with the least energy is taken.
+///
+/// # Errors
+/// [`Error::Matching`] where a flow does not come to its target, paths have no room or no harmonic map is found; those of [`Flow::new`] and
+/// [`unroll`]; [`Error::Cancelled`].
+pub(super) fn in_orbifold(
+    surfaces: [&Surface; 2],
+    marks: [&Marks; 2],
+    options: &MatchOptions,
+    control: &Control,
+) -> Result<Pair> {
+    let (loops, landmarks, corners) =
+        (marks[0].loops.len(), marks[0].landmarks.len(), marks[0].corners.len());
+    let Some(shape) = shape(loops, landmarks, corners) else {
+        return Err(Error::Matching(format!(
+            "{loops} loops, {landmarks} landmarks and {corners} corners admit no flat or hyperbolic metric"
+        )));
+    };
+    let problem = Problem { surfaces, marks, shape, threads: options.flow.threads };
+    let canonical = |s: usize| canonical(surfaces[s], marks[s], shape, options, control);
+    let metrics = [canonical(0)?, canonical(1)?];
+    let (mut marked, markings) = best_marking(problem, &metrics, control)?;
+    let mut reports = [0, 1].map(|s| BalanceReport {
+        energy_steps: marked.steps[s],
+        energy: marked.energies[s],
+        ..BalanceReport::default()
+    });
+    let [first, second] = &marked.weights;
+    let settled = settle(&mut marked.image, first, &marked.freedom[0], control)?;
+    (reports[0].balance_steps, reports[0].residual) = (settled.balance_steps, settled.residual);
+    let settled = settle(&mut marked.domain, second, &marked.freedom[1], control)?;
+    (reports[1].balance_steps, reports[1].residual) = (settled.balance_steps, settled.residual);
+    let start = |s: usize| -> Option<(VertexId, HalfedgeId)> {
+        let tree = &marked.trees[s];
+        let h = *tree.landmark_corners.first().or_else(|| tree.arcs.first()?.first())?;
+        Some((surfaces[s].mesh().origin(h), h))
+    };
+    let (Some(from), Some(to)) = (start(0), start(1)) else {
+        return Err(Error::Matching("no landmark and no loop to start from".into()));
+    };
+    let seeds = [Seed { vertex: from.0, near: to.1 }, Seed { vertex: to.0, near: from.1 }];
+    let flow_iterations = [metrics[0].iterations, metrics[1].iterations];
+    Ok(Pair { source: marked.image, target: marked.domain, seeds, reports, flow_iterations, markings })
+}
+
+/// Marks with which there is one way to mark the map up to isotopy: three.
+const RIGID: usize = 3;
+/// Most ways to mark a map that are compared.
+const MOST_MARKINGS: u64 = 10;
+/// Energy of the source in the target's domain over that of the target itself, below which no other way to mark the map is looked for: without a twist it
+/// is near 1 for surfaces of similar shape.
+const UNTWISTED: f64 = 1.1;
+
+fn best_marking(problem: Problem, metrics: &[Canonical; 2], control: &Control) -> Result<(Marked, usize)> {
+    let Problem { surfaces, marks, .. } = problem;
+    let of = |s: usize| distances(surfaces[s], marks[s], control);
+    let distances = [of(0)?, of(1)?];
+    let most = if marks[0].n() <= RIGID { 1 } else { MOST_MARKINGS };
+    let (mut best, mut failure, mut count) = (None::<Marked>, None, 0);
+    for variant in 0..most {
+        let marked = trees(surfaces, marks, (&distances, variant), control)
+            .and_then(|trees| marking(problem, metrics, trees, control));
+        match marked {
+            Ok(marked) => {
+                count += 1;
+                log::debug!("marking {variant}: energy {} of the target's", marked.ratio);
+                if best.as_ref().is_none_or(|least| marked.ratio < least.ratio) {
+                    best = Some(marked);
+                }
+            }
+            Err(Error::Cancelled) => return Err(Error::Cancelled),
+            Err(why) => failure = failure.or(Some(why)),
+        }
+        if best.as_ref().is_some_and(|best| best.ratio < UNTWISTED) {
+            break;
+        }
+    }
+    match (best, failure) {
+        (Some(best), _) => Ok((best, count)),
+        (None, Some(why)) => Err(why),
+        (None, None) => Err(Error::Matching("no way to mark the map".into())),
+    }
+}
+
+/// The target in its domain and the source in it, both at the minimum of the energy.
+fn marking(
+    problem: Problem,
+    metrics: &[Canonical; 2],
+    trees: [Tree; 2],
+    control: &Control,
+) -> Result<Marked> {
+    let Problem { surfaces, marks, shape, .. } = problem;
+    let own = |s: usize| opened(problem, s, &trees[s], &metrics[s], control);
+    let [source, target] = [own(0)?, own(1)?];
+    let weights =
+        [mean_value_weights(&source.placed, surfaces[0]), mean_value_weights(&target.placed, surfaces[1])];
+    let lines = lines(&target.placed, &trees[1]);
+    let freedom = [0, 1].map(|s| freedom(surfaces[s], marks[s], &trees[s], shape));
+    let mut domain = target.placed.clone();
+    slide(&mut domain, surfaces[1], &trees[1], &lines);
+    let second = relax(&mut domain, &weights[1], &freedom[1], control)?;
+    let mut image = brought(surfaces[0], &source.placed, &target, [&trees[0], &trees[1]])?;
+    for (&from, &to) in marks[0].landmarks.iter().zip(&marks[1].landmarks) {
+        image.at[from] = target.placed.at[to];
+    }
+    slide(&mut image, surfaces[0], &trees[0], &lines);
+    let first = relax(&mut image, &weights[0], &freedom[0], control)?;
+    let ratio = first.1 / second.1;
+    let (steps, energies) = ([first.0, second.0], [first.1, second.1]);
+    Ok(Marked { trees, domain, image, weights, freedom, ratio, steps, energies })
+}
+
+/// The metric with cones at the landmarks and straight boundaries between corners.
+fn canonical(
+    surface: &Surface,
+    marks: &Marks,
+    shape: Shape,
+    options: &MatchOptions,
+    control: &Control,
+) -> Result<Canonical> {
+    let mesh = surface.mesh();
+    let mut curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
+    marks.landmarks.iter().for_each(|&v| curvature[v] = TAU * (1.0 - 1.0 / shape.order as f64));
+    marks.corners.iter().for_each(|&v| curvature[v] = shape.corner);
+    let mut flow = Flow::new(surface.clone(), Class::yamabe(shape.space), &options.flow, control)?;
+    let metric = flow.solve(&Target::All(curvature), control)?;
+    let iterations = metric.report().map_or(0, |report| report.iterations);
+    if !metric.converged() {
+        let reason = metric.report().map(|report| report.stop_reason.to_string()).unwrap_or_default();
+        return Err(Error::Matching(format!(
+            "the canonical metric was not found after {iterations} steps: {reason}"
+        )));
+    }
+    let refinement = match metric.is_unflipped() {
+        true => None,
+        false => Some(Arc::new(metric.refinement(control)?)),
+    };
+    let root = central_vertex(mesh, surface.lengths(), control)?;
+    Ok(Canonical { metric, refinement, root, iterations })
+}
+
+/// One of the surfaces in its canonical metric, laid out along its tree.
+fn opened(problem: Problem, s: usize, tree: &Tree, canonical: &Canonical, control: &Control) -> Result<Own> {
+    let (surface, space) = (problem.surfaces[s], problem.shape.space);
+    let unrolling = UnrollOptions {
+        cones: Some(problem.marks[s].landmarks.clone()),
+        root: Some(canonical.root),
+        cut: Some(tree.cut.clone()),
+        refinement: canonical.refinement.clone(),
+        threads: problem.threads,
+        ..UnrollOptions::default()
+    };
+    let layout = unroll(&canonical.metric, &unrolling, control)?;
+    let Some(on_input) = layout.on_input() else {
+        return Err(Error::Matching("the layout is not opened along the paths between landmarks".into()));
+    };
+    let pairings: Vec<_> = layout.seams.iter().map(|seam| seam.pairing).collect();
+    let cover = tree_cover(surface, space, tree, &pairings)?;
+    let point = |v: VertexId| {
+        let corner = on_input.corner_index[cover.own(v)] as usize;
+        Placed::frame(space, layout.points[on_input.points[corner] as usize])
+    };
+    let at = PerVertex::from_fn(surface.mesh().n_vertices(), point);
+    Ok(Own { placed: Placed { cover, at }, pairings })
+}
+
+/// The cover of a surface that is opened along its tree, with these transformations across the paths.
+fn tree_cover(surface: &Surface, space: Space, tree: &Tree, pairings: &[Motion<Twofold>]) -> Result<Cover> {
+    let mesh = surface.mesh();
+    let mut side = PerHalfedge::filled(mesh.n_halfedges(), 0i32);
+    for (k, path) in tree.cut.segments.iter().enumerate() {
+        for &h in path {
+            (side[h], side[h.twin()]) = (k as i32 + 1, -(k as i32) - 1);
+        }
+    }
+    let across = |h: HalfedgeId| {
+        let pairing = pairings.get((side[h].unsigned_abs() as usize).wrapping_sub(1))?;
+        Some(if side[h] > 0 { *pairing } else { pairing.inverse() })
+    };
+    Cover::new(mesh, space, across, &tree.landmark_corners)
+}
+
+/// The source's positions in its own metric, moved so that the first path starts where the target's does, in its direction, with the deck
+/// transformations of the target: from there the harmonic map is sought.
+fn brought(surface: &Surface, source: &Placed, target: &Own, trees: [&Tree; 2]) -> Result<Placed> {
+    let space = source.cover.space;
+    let along = |placed: &Placed, tree: &Tree| {
+        let path = tree.cut.segments.first().or(tree.arcs.first())?;
+        let (from, to) =
+            (placed.corner(*path.first()?), placed.corner(placed.cover.mesh.next(*path.last()?)));
+        let frame = Motion::to_origin(space, from).inverse();
+        let [x, y] = logarithm(space, frame.inverse().apply(to));
+        let half = 0.5 * y.atan2(x);
+        Some(frame.compose(&Motion::rotation([half.cos(), half.sin()], space).precise()))
+    };
+    let (Some(from), Some(to)) = (along(source, trees[0]), along(&target.placed, trees[1])) else {
+        return Err(Error::Matching("no path between landmarks".into()));
+    };
+    let by = to.compose(&from.inverse());
+    let cover = tree_cover(surface, space, trees[0], &target.pairings)?;
+    let at = PerVertex::from_fn(source.at.len(), |v: VertexId| by.compose(&source.at[v]).normalised());
+    Ok(Placed { cover, at })
+}
+
+/// The straight line of each arc of the boundary: the frame at its start, with the x axis along it, and its length.
+fn lines(target: &Placed, tree: &Tree) -> Vec<(Motion<Twofold>, f64)> {
+    let space = target.cover.space;
+    let line = |arc: &Vec<HalfedgeId>| {
+        let ends = arc
+            .first()
+            .zip(arc.last())
+            .map(|(&h, &last)| (target.corner(h), target.corner(target.cover.mesh.next(last))));
+        let (from, to) = ends.unwrap_or_else(|| {
+            let origin = Motion::<Twofold>::identity(space).origin();
+            (origin, origin)
+        });
+        let frame = Motion::to_origin(space, from).inverse();
+        let [x, y] = logarithm(space, frame.inverse().apply(to));
+        let half = 0.5 * y.atan2(x);
+        (frame.compose(&Motion::rotation([half.cos(), half.sin()], space).precise()), x.hypot(y))
+    };
+    tree.arcs.iter().map(line).collect()
+}
+
+/// Puts the vertices of the boundary on the lines of their arcs, by their share of the arc's length in the surface as it came.
+fn slide(placed: &mut Placed, surface: &Surface, tree: &Tree, lines: &[(Motion<Twofold>, f64)]) {
+    let (mesh, lengths) = (surface.mesh(), surface.lengths());
+    for (arc, (frame, length)) in tree.arcs.iter().zip(lines) {
+        let total: f64 = arc.iter().map(|h| lengths[h.edge()]).sum();
+        let mut before = 0.0;
+        for &h in arc {
+            placed.at[mesh.origin(h)] = moved(frame, [length * (before / total), 0.0]);
+            before += lengths[h.edge()];
+        }
+    }
+}
+
+fn freedom(surface: &Surface, marks: &Marks, tree: &Tree, shape: Shape) -> PerVertex<Freedom> {
+    let mesh = surface.mesh();
+    let mut freedom = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
+        if mesh.is_boundary_vertex(v) { Freedom::Slides } else { Freedom::Free }
+    });
+    marks.landmarks.iter().for_each(|&v| freedom[v] = Freedom::Held);
+    marks.corners.iter().for_each(|&v| freedom[v] = Freedom::Held);
+    // A flat annulus can turn: the end of its path is held.
+    if let (Space::E2, Some(&h)) = (shape.space, tree.arcs.first().and_then(|arc| arc.first())) {
+        freedom[mesh.origin(h)] = Freedom::Held;
+    }
+    freedom
+}

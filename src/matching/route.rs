@@ -1,0 +1,213 @@
+//! Edge paths between landmarks and boundary loops of one surface that do not meet each other.
+
+use crate::error::{Error, Result};
+use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
+use crate::topology::spanning::Key;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Landmarks and boundary loops of a surface, numbered: first the landmarks, then the loops.
+#[derive(Debug, Clone)]
+pub(super) struct Marks {
+    pub landmarks: Vec<VertexId>,
+    /// The loops as half-edges of faces, the surface on the left.
+    pub loops: Vec<Vec<HalfedgeId>>,
+    /// Corners of the boundary: vertices of loops.
+    pub corners: Vec<VertexId>,
+}
+
+impl Marks {
+    pub fn n(&self) -> usize {
+        self.landmarks.len() + self.loops.len()
+    }
+
+    /// The vertices of a mark: one, or those of a loop.
+    pub fn vertices(&self, mesh: &Mesh, k: usize) -> Vec<VertexId> {
+        match self.landmarks.get(k) {
+            Some(&v) => vec![v],
+            None => self.loops[k - self.landmarks.len()].iter().map(|&h| mesh.origin(h)).collect(),
+        }
+    }
+
+    /// What a message calls it.
+    pub fn name(&self, k: usize) -> String {
+        match self.landmarks.get(k) {
+            Some(v) => format!("landmark {k} (vertex {v})"),
+            None => format!("boundary loop {}", k - self.landmarks.len()),
+        }
+    }
+}
+
+/// Half-edges that leave a mark, in their cyclic order: counterclockwise around a landmark, along a loop with the surface on the left.
+#[derive(Debug, Clone)]
+struct Exits {
+    halfedges: Vec<HalfedgeId>,
+}
+
+/// Paths that have been found, and what they leave free.
+pub(super) struct Router<'a> {
+    mesh: &'a Mesh,
+    lengths: &'a PerEdge<f64>,
+    marks: &'a Marks,
+    exits: Vec<Exits>,
+    /// Per half-edge that leaves a mark: its mark and its place among the exits.
+    mark_of: PerVertex<Option<u32>>,
+    /// Vertices that no other path may pass or, on loops, end at.
+    is_taken: PerVertex<bool>,
+    /// Per mark, the exits in use: place among its exits and number of the path.
+    ends: Vec<Vec<(usize, usize)>>,
+    /// The paths, each from its first to its second mark.
+    pub paths: Vec<Vec<HalfedgeId>>,
+}
+
+impl<'a> Router<'a> {
+    pub fn new(mesh: &'a Mesh, lengths: &'a PerEdge<f64>, marks: &'a Marks) -> Router<'a> {
+        let n = mesh.n_vertices();
+        let mut mark_of = PerVertex::filled(n, None);
+        for k in 0..marks.n() {
+            marks.vertices(mesh, k).into_iter().for_each(|v| mark_of[v] = Some(k as u32));
+        }
+        let exits = (0..marks.n()).map(|k| Exits {
+            halfedges: marks
+                .vertices(mesh, k)
+                .into_iter()
+                .flat_map(|v| mesh.fan(v))
+                .filter(|h| !mesh.is_boundary_edge(h.edge()))
+                .collect(),
+        });
+        let exits: Vec<Exits> = exits.collect();
+        let mut is_taken = PerVertex::filled(n, false);
+        // A corner has its place in the order around its loop, as the end of a path has, and no path ends there.
+        let mut ends = vec![Vec::new(); marks.n()];
+        for (number, &v) in marks.corners.iter().enumerate() {
+            is_taken[v] = true;
+            let Some(mark) = mark_of[v].map(|k| k as usize) else { continue };
+            let around = marks.vertices(mesh, mark);
+            let before = around.iter().take_while(|&&u| u != v).flat_map(|&u| mesh.fan(u));
+            let place = before.filter(|h| !mesh.is_boundary_edge(h.edge())).count();
+            ends[mark].push((place, usize::MAX - number));
+        }
+        Router { mesh, lengths, marks, exits, mark_of, is_taken, ends, paths: Vec::new() }
+    }
+
+    /// The numbers of the paths that end at a mark, in cyclic order.
+    pub fn order(&self, mark: usize) -> Vec<usize> {
+        let mut ends = self.ends[mark].clone();
+        ends.sort_unstable();
+        ends.into_iter().map(|end| end.1).collect()
+    }
+
+    /// The next path, the shortest from mark to mark that meets no other. `orders`: for each of the two marks the cyclic order in which the paths
+    /// have to end there in the end, numbered as they are found; without them any.
+    ///
+    /// # Errors
+    /// [`Error::Matching`] where there is none, naming the marks.
+    pub fn join(&mut self, [a, b]: [usize; 2], orders: Option<[&[usize]; 2]>) -> Result<()> {
+        let number = self.paths.len();
+        let allowed = |k: usize, mark: usize| match orders {
+            Some(orders) => self.sector(mark, number, orders[k]),
+            None => self.sector(mark, number, &[]),
+        };
+        let (starts, ends) = (allowed(0, a), allowed(1, b));
+        let Some(path) = self.shortest(a, &starts, b, &ends) else {
+            return Err(Error::Matching(format!(
+                "no edge path is left between {} and {} beside those between other marks: refine the surface there, or leave one of them out",
+                self.marks.name(a),
+                self.marks.name(b)
+            )));
+        };
+        for &h in &path {
+            let v = self.mesh.origin(h);
+            self.is_taken[v] =
+                self.is_taken[v] || self.mesh.is_boundary_vertex(v) || self.mark_of[v].is_none();
+        }
+        if let (Some(&first), Some(&last)) = (path.first(), path.last()) {
+            let tip = self.mesh.tip(last);
+            self.is_taken[tip] = self.is_taken[tip] || self.mesh.is_boundary_vertex(tip);
+            for (mark, h) in [(a, first), (b, last.twin())] {
+                let place = self.exits[mark].halfedges.iter().position(|&exit| exit == h);
+                self.ends[mark].push((place.unwrap_or(0), number));
+            }
+        }
+        self.paths.push(path);
+        Ok(())
+    }
+
+    /// Which exits of a mark a path may use so that its place among those in use is the one in the order.
+    fn sector(&self, mark: usize, number: usize, order: &[usize]) -> Vec<bool> {
+        let n = self.exits[mark].halfedges.len();
+        let mut used = self.ends[mark].clone();
+        used.sort_unstable();
+        let mut allowed = vec![true; n];
+        used.iter().filter(|end| end.0 < n).for_each(|&(place, _)| allowed[place] = false);
+        let Some(at) = order.iter().position(|&k| k == number).filter(|_| used.len() > 1) else {
+            return allowed;
+        };
+        // The next path in use before this one in the order, and the exits up to the one in use after that.
+        let m = order.len();
+        let before =
+            (1..m).map(|k| order[(at + m - k) % m]).find_map(|k| used.iter().position(|end| end.1 == k));
+        let Some(before) = before else { return allowed };
+        let (from, to) = (used[before].0, used[(before + 1) % used.len()].0);
+        if n == 0 || from == to {
+            return allowed;
+        }
+        let is_between = |place: usize| (place + n - from) % n < (to + n - from) % n;
+        (0..n).for_each(|place| allowed[place] &= is_between(place));
+        allowed
+    }
+
+    fn shortest(&self, a: usize, starts: &[bool], b: usize, ends: &[bool]) -> Option<Vec<HalfedgeId>> {
+        let (mesh, n) = (self.mesh, self.mesh.n_vertices());
+        let mut distance = PerVertex::filled(n, f64::INFINITY);
+        let mut parent: PerVertex<Option<HalfedgeId>> = PerVertex::filled(n, None);
+        let mut is_end = std::collections::HashSet::new();
+        for (h, _) in self.exits[b].halfedges.iter().zip(ends).filter(|(_, allowed)| **allowed) {
+            is_end.insert(h.twin());
+        }
+        let mut best: (f64, Option<HalfedgeId>) = (f64::INFINITY, None);
+        let mut heap = BinaryHeap::new();
+        let is_open = |v: VertexId| self.mark_of[v].is_none() && !self.is_taken[v];
+        let is_free_end = |v: VertexId| !self.is_taken[v];
+        for (&h, _) in self.exits[a].halfedges.iter().zip(starts).filter(|(_, allowed)| **allowed) {
+            let (tip, length) = (mesh.tip(h), self.lengths[h.edge()]);
+            if !is_free_end(mesh.origin(h)) {
+                continue;
+            }
+            if is_end.contains(&h) && is_free_end(tip) && length < best.0 {
+                best = (length, Some(h));
+            } else if is_open(tip) && length < distance[tip] {
+                (distance[tip], parent[tip]) = (length, Some(h));
+                heap.push(Reverse((Key(length), tip)));
+            }
+        }
+        while let Some(Reverse((Key(far), v))) = heap.pop() {
+            if far > distance[v] {
+                continue;
+            }
+            if far >= best.0 {
+                break;
+            }
+            for h in mesh.outgoing(v) {
+                let (tip, length) = (mesh.tip(h), far + self.lengths[h.edge()]);
+                if is_end.contains(&h) && is_free_end(tip) {
+                    if length < best.0 {
+                        best = (length, Some(h));
+                    }
+                } else if is_open(tip) && length < distance[tip] {
+                    (distance[tip], parent[tip]) = (length, Some(h));
+                    heap.push(Reverse((Key(length), tip)));
+                }
+            }
+        }
+        let last = best.1?;
+        let back = |h: &HalfedgeId| {
+            let v = mesh.origin(*h);
+            // A path starts at its mark: vertices of marks have no parents.
+            parent[v]
+        };
+        let mut path: Vec<HalfedgeId> = std::iter::successors(Some(last), back).collect();
+        path.reverse();
+        Some(path)
+    }
+}

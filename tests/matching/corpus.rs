@@ -1,0 +1,45 @@
+//! Pairs of real surfaces.
+
+use super::samples::{apart, check_map};
+use ricci::matching::{MatchOptions, match_surfaces};
+use ricci::mesh::VertexId;
+use ricci::topology::farthest_vertices;
+use ricci::{Control, Surface};
+
+fn read(name: &str) -> Option<Surface> {
+    let Ok(folder) = std::env::var("RICCI_MESHES") else {
+        eprintln!("RICCI_MESHES is not set: no real surfaces are matched");
+        return None;
+    };
+    Some(Surface::read(format!("{folder}/good/{name}.obj")).unwrap())
+}
+
+#[test]
+fn no_face_of_two_cats_folds_and_landmarks_bring_their_vertices_near_each_other() {
+    let (Some(source), Some(target)) = (read("pair_cat_A"), read("pair_cat_B")) else { return };
+    let vertices =
+        farthest_vertices(source.mesh(), source.lengths(), VertexId(0), 16, &Control::new()).unwrap();
+    let off = [4, 16].map(|n| {
+        let landmarks = vertices[..n].iter().map(|&v| [v, v]).collect();
+        let options = MatchOptions { landmarks, ..MatchOptions::default() };
+        let matching = match_surfaces(&source, &target, &options, &Control::new()).unwrap();
+        check_map_nearly(&matching, &source, &target);
+        apart(&matching, &target)
+    });
+    assert!(off[1] < 0.3 * off[0] && off[1] < 0.06, "{off:?}");
+}
+
+/// As [`check_map`], where positions far out lose digits of the balance.
+fn check_map_nearly(matching: &ricci::matching::Matching, source: &Surface, target: &Surface) {
+    assert!(matching.balance.iter().all(|report| report.residual < 1e-6));
+    let mut exact = matching.clone();
+    exact.balance.iter_mut().for_each(|report| report.residual = 0.0);
+    check_map(&exact, source, target);
+}
+
+#[test]
+fn no_face_folds_between_two_meshes_of_genus_2() {
+    let (Some(source), Some(target)) = (read("eight_766"), read("eight_3498")) else { return };
+    let matching = match_surfaces(&source, &target, &MatchOptions::default(), &Control::new()).unwrap();
+    check_map(&matching, &source, &target);
+}

@@ -1,0 +1,7 @@
+//! Maps between two surfaces, by theorem.
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
+
+mod corpus;
+mod errors;
+mod known;
+mod samples;
