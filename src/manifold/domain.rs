@@ -1,7 +1,7 @@
 //! Domains of splines on surfaces: a coarse flat triangulation with a chart for each of its triangles.
 
 use super::coarse::{Coarse, Place};
-use super::plane::Infinity;
+use super::infinity::Infinity;
 use super::similarity::Similarity;
 use crate::embed::triangle::Triangle;
 use crate::error::{Error, Result};

@@ -8,6 +8,7 @@ mod flat;
 mod folds;
 mod grade;
 mod holes;
+mod infinity;
 mod plane;
 mod pole;
 mod sample;

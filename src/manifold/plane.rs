@@ -7,11 +7,12 @@
 use super::coarse::{Coarse, Place, weights};
 use super::domain::SurfaceDomain;
 use super::flat::Flat;
+use super::infinity::Infinity;
 use super::similarity::Similarity;
 use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, conj, distance, mul, norm, norm2, scale, sub};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerVertex, VertexId};
-use crate::spline::{Hole, INFINITE, Parameter};
+use crate::spline::{Hole, INFINITE};
 use spade::handles::FaceHandle;
 use spade::{DelaunayTriangulation, HierarchyHintGenerator, Point2, PositionInTriangulation, Triangulation};
 use std::collections::HashMap;
@@ -30,14 +31,6 @@ pub(super) const TURNS: u32 = 4;
 pub(super) struct Plane<'a> {
     places: &'a PerVertex<Complex>,
     radius: f64,
-}
-
-/// The hole around infinity, and the vertices of the surface that lie beyond the triangles.
-#[derive(Debug, Clone)]
-pub(super) struct Infinity {
-    pub hole: Hole,
-    /// Their places in the chart of the hole.
-    beyond: HashMap<VertexId, Complex>,
 }
 
 type Delaunay = DelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
@@ -146,13 +139,5 @@ impl<'a> Plane<'a> {
     fn in_hole(&self, v: VertexId) -> Complex {
         let z = self.places[v];
         if z[0].is_finite() { scale(self.radius / norm2(z), conj(z)) } else { [0.0; 2] }
-    }
-}
-
-impl Infinity {
-    /// The place of a vertex beyond the triangles.
-    pub fn place(&self, v: VertexId) -> Option<Parameter> {
-        let &[x, y] = self.beyond.get(&v)?;
-        Some(Parameter { patch: self.hole.chart, x, y })
     }
 }
