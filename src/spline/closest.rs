@@ -119,7 +119,7 @@ impl Spline {
             Piece::Patch(patch) => self.space().patches()[patch as usize].corners(),
             Piece::Middle { hole, side } => {
                 let turn = TAU / SIDES as f64;
-                let radius = self.holes()[hole].inner() / (0.5 * turn).cos();
+                let radius = self.holes()[hole].inner / (0.5 * turn).cos();
                 let corner = |k: usize| scale(radius, [(k as f64 * turn).cos(), (k as f64 * turn).sin()]);
                 [[0.0; 2], corner(side), corner(side + 1)]
             }

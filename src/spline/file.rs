@@ -3,7 +3,7 @@
 //! `{format, degree, patches: [{chart, knots, control}…], supports: [[{patch, to}…]…], control_points: [[X, Y, Z]…], hole}`, where
 //! `knots[k][j]` is t_{k,j} in the patch's chart, `control` is in the order of [`super::multi_indices`], and `supports[I]` has each patch
 //! that reaches into I with the affine map from its chart to I's. `hole` is null, or has what fills the surroundings of singular vertices:
-//! `[{turns, radius, sectors: [{patch, angle, to}…], coefficients}…]`, see [`Hole`].
+//! `[{turns, radius, inner, sectors: [{patch, angle, to}…], coefficients}…]`, see [`Hole`].
 
 use super::fill::Fill;
 use super::hole::{Hole, Sector};
@@ -49,6 +49,7 @@ struct SupportEntry {
 struct HoleEntry {
     turns: i32,
     radius: f64,
+    inner: f64,
     sectors: Vec<SectorEntry>,
     coefficients: Vec<Vector>,
 }
@@ -72,11 +73,11 @@ impl Spline {
         let sector = |Sector { patch, angle, to }: &Sector| {
             format!("{{\"patch\":{patch},\"angle\":{angle:?},\"to\":{to:?}}}")
         };
-        let hole = |Hole { sectors, turns, radius, fill, .. }: &Hole| {
+        let hole = |Hole { sectors, turns, radius, inner, fill, .. }: &Hole| {
             let sectors = list(sectors.iter().map(sector));
             let coefficients = fill.as_ref().map_or(&[][..], Fill::coefficients);
             format!(
-                "{{\"turns\":{turns},\"radius\":{radius:?},\"sectors\":{sectors},\"coefficients\":{coefficients:?}}}"
+                "{{\"turns\":{turns},\"radius\":{radius:?},\"inner\":{inner:?},\"sectors\":{sectors},\"coefficients\":{coefficients:?}}}"
             )
         };
         let supports = |of: &Vec<Support>| list(of.iter().map(support));
@@ -114,6 +115,7 @@ impl Spline {
         let hole = |(k, h): (usize, HoleEntry)| {
             let sectors = h.sectors.into_iter().map(sector).collect();
             let hole = Hole::new((first_chart + k) as u32, sectors, h.turns, h.radius)?;
+            let hole = Hole { inner: h.inner, ..hole };
             hole.filled_by(&space, Fill::new(h.coefficients)?)
         };
         let holes = document.hole.unwrap_or_default().into_iter().enumerate().map(hole);

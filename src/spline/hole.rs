@@ -70,6 +70,8 @@ pub struct Hole {
     pub turns: i32,
     /// Radius of the hole in the unit of the flat metric; around infinity that of the disk which it leaves.
     pub radius: f64,
+    /// τ: the share of |w| up to which the filling alone is the surface.
+    pub inner: f64,
     /// G of p + iq = w/ρ. None before the hole is filled.
     pub fill: Option<Fill>,
 }
@@ -88,7 +90,8 @@ impl Hole {
             return Err(Error::argument("radius of a hole", radius, "positive"));
         }
         sectors.sort_by_key(|sector| sector.patch);
-        Ok(Hole { chart, sectors, turns, radius, fill: None })
+        let core = if turns == INFINITE { 0.0 } else { (CLEAR * CORE).powf(1.0 / f64::from(turns)) };
+        Ok(Hole { chart, sectors, turns, radius, inner: core.max(LEAST_INNER), fill: None })
     }
 
     /// This hole with a filling of zeros, of at most so many coefficients, which a fit replaces.
@@ -99,14 +102,6 @@ impl Hole {
     /// Radius of the core where this is the smallest hole, in the unit of the metric: knots of the vertex lie in it.
     pub fn core(&self) -> f64 {
         CORE * self.radius
-    }
-
-    /// τ: the share of |w| up to which the surface is the polynomial alone.
-    pub(super) fn inner(&self) -> f64 {
-        if self.is_at_infinity() {
-            return LEAST_INNER;
-        }
-        (CLEAR * CORE).powf(1.0 / f64::from(self.turns)).max(LEAST_INNER)
     }
 
     /// Whether its vertex is that at infinity of a plane.
@@ -121,7 +116,7 @@ impl Hole {
 
     /// Whether the spline has no weight at a place: there its basis functions need not add up to 1.
     pub(crate) fn is_core(&self, at: Parameter) -> bool {
-        self.coordinate(at).is_some_and(|[w, ..]| norm(w) <= self.inner())
+        self.coordinate(at).is_some_and(|[w, ..]| norm(w) <= self.inner)
     }
 
     /// This hole, filled, around a vertex of this domain.
@@ -132,6 +127,9 @@ impl Hole {
         let patches = space.patches().len();
         if (self.chart as usize) < patches {
             return Err(Error::argument("chart of a hole", self.chart, "the count of patches, or more"));
+        }
+        if !(self.inner > 0.0 && self.inner < 1.0) {
+            return Err(Error::argument("inner part of a hole", self.inner, "above 0 and below 1"));
         }
         let is_sound = |s: &Sector| {
             let [[a, b, x], [c, d, y]] = s.to;
@@ -148,7 +146,7 @@ impl Hole {
     /// The parts of spline and filling in the surface at a place, and its w/ρ; none outside the hole.
     pub(super) fn parts(&self, at: Parameter) -> Option<([f64; 2], Complex)> {
         let [w, ..] = self.coordinate(at).filter(|w| norm(w[0]) < 1.0)?;
-        let [part, ..] = fade(norm2(w), self.inner());
+        let [part, ..] = fade(norm2(w), self.inner);
         Some(([1.0 - part, part], w))
     }
 
@@ -156,7 +154,7 @@ impl Hole {
     pub(super) fn rings(&self, space: &SplineSpace) -> Vec<Parameter> {
         let [circles, each] = RINGS;
         let each = each * self.turns.unsigned_abs() as usize;
-        let inner = self.inner();
+        let inner = self.inner;
         let ring = |k: usize| inner + (1.0 - inner) * (k as f64 + 0.5) / circles as f64;
         let angle = |j: usize| TAU * f64::from(self.turns) * (j as f64 + 0.5) / each as f64;
         let place = |k: usize, j: usize| self.place(space, self.radius * ring(k).powi(self.turns), angle(j));
@@ -209,7 +207,7 @@ impl Hole {
         let w = self.coordinate(at).filter(|w| norm(w[0]) < 1.0)?;
         let w = Jet::of_holomorphic(w);
         let square = w[0].times(w[0]).plus(w[1].times(w[1]));
-        let weight = square.through(fade(square.0[0], self.inner()));
+        let weight = square.through(fade(square.0[0], self.inner));
         let rest = Jet::constant(1.0).plus(weight.times(Jet::constant(-1.0)));
         let inside = self.fill.as_ref()?.at(w);
         let blended = |x: usize| {
@@ -227,7 +225,7 @@ impl Hole {
     /// [`Error::Spline`] for a place beyond the middle of the hole, or a hole without filling.
     pub(super) fn in_chart(&self, at: Parameter) -> Result<SurfacePoint> {
         let refuse = |message: String| Error::Spline { what: "patch", index: at.patch as usize, message };
-        let (size, most) = (norm([at.x, at.y]), self.inner());
+        let (size, most) = (norm([at.x, at.y]), self.inner);
         if size.is_nan() || size > most * (1.0 + OUTSIDE) {
             return Err(refuse(format!(
                 "({}, {}) is outside it: it is the chart of a hole, whose places are at most {most} from its vertex",
@@ -249,7 +247,7 @@ impl Hole {
     /// the surface is G.
     pub(crate) fn nearer(&self, space: &SplineSpace, from: Parameter, point: Vector) -> Option<Parameter> {
         let w = self.coordinate(from)?[0];
-        if norm(w) > self.inner() {
+        if norm(w) > self.inner {
             return None;
         }
         let step = self.filling(w)?.step_towards(point)?;
@@ -260,7 +258,7 @@ impl Hole {
     /// The place whose w/ρ is a number, or where that is larger than 1, the one on the rim in its direction; at infinity in the hole's own
     /// chart where it has such a place. None beyond the patches.
     pub(super) fn place_of(&self, space: &SplineSpace, w: Complex) -> Option<Parameter> {
-        if self.is_at_infinity() && norm(w) <= self.inner() {
+        if self.is_at_infinity() && norm(w) <= self.inner {
             return Some(Parameter { patch: self.chart, x: w[0], y: w[1] });
         }
         let angle = f64::from(self.turns) * w[1].atan2(w[0]);

@@ -33,6 +33,10 @@ fn tampered_holes_are_refused_by_name() {
     }
     assert!(matches!(with("\"radius\":", "\"radius\":1e999,\"was\":"), Error::Parse { .. }));
     assert!(matches!(with("\"radius\":", "\"width\":"), Error::Parse { .. }));
+    for inner in ["0.0", "1.0", "-0.5"] {
+        let error = with("\"inner\":", &format!("\"inner\":{inner},\"was\":"));
+        assert!(matches!(error, Error::Argument { what: "inner part of a hole", .. }), "{error}");
+    }
     let sector = |from: &str, to: &str| {
         let error = with(from, to);
         assert!(matches!(error, Error::Spline { what: "sector of a hole", index: _, .. }), "{error}");

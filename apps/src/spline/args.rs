@@ -30,7 +30,8 @@ They have no gaps where normals are continuous, and no corners where curvatures 
 
 places.csv has rows patch,x,y: a triangle of the spline, numbered from 0, and a place in it, in the coordinates of its chart. Its
 points are the sums of the basis functions. Around singular vertices, where a filling takes their place, a column `hole` says 1; with --filled
-rows have the points of the surface with its fillings, as everything else has.
+rows have the points of the surface with its fillings, as everything else has. Numbers after those of the patches are the charts of the holes, which have
+points with --filled alone: 0,0 is the singular vertex. Around that of a sphere, which lies at infinity of the plane, nothing else has places.
 
 scan.csv has rows x,y,z. For each of these points the nearest one of the surface is written: x,y,z,patch,u,v,X,Y,Z,distance, where u,v is
 its place in the chart of the patch.
