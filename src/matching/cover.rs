@@ -129,6 +129,12 @@ impl Placed {
         self.cover.corner(h).map_or(point, |motion| motion.apply(point))
     }
 
+    /// The frame at the corner of a half-edge of a face in the opened surface.
+    pub fn frame_at(&self, h: HalfedgeId) -> Motion<Twofold> {
+        let frame = self.at[self.cover.mesh.origin(h)];
+        self.cover.corner(h).map_or(frame, |motion| motion.compose(&frame))
+    }
+
     /// The corners of a face in the opened surface.
     pub fn face(&self, f: FaceId) -> [Precise; 3] {
         self.cover.mesh.face_halfedges(f).map(|h| self.corner(h))
@@ -151,7 +157,11 @@ impl Placed {
     pub fn flipped(&self) -> Vec<FaceId> {
         let mesh = &self.cover.mesh;
         let mut kept = vec![false; mesh.n_faces()];
-        parallel::fill(&mut kept, |f| f64::from(determinant(self.face(FaceId::from(f)))) > 0.0);
+        parallel::fill(&mut kept, |f| {
+            let f = FaceId::from(f);
+            let home = self.frame_at(mesh.face_halfedge(f)).inverse();
+            f64::from(determinant(self.face(f).map(|p| home.apply(p)))) > 0.0
+        });
         mesh.faces().filter(|f| !kept[f.index()]).collect()
     }
 }

@@ -5,7 +5,7 @@ use super::cover::{Cover, Placed};
 use super::options::MatchOptions;
 use super::orbifold::Pair;
 use super::repair::unfold;
-use super::turn::{Density, turnings};
+use super::turn::{Density, IDENTITY, turnings};
 use super::walk::{Seed, locate};
 use super::weights::mean_value_weights;
 use crate::canonical::{SphereOptions, uniformize_sphere};
@@ -31,11 +31,18 @@ pub(super) fn on_sphere(surfaces: [&Surface; 2], options: &MatchOptions, control
         control.check()?;
         let mut turned = source.clone();
         let rotate = |p: Vector| turn.map(|row| dot(row, p));
-        turned.at = PerVertex::from_fn(points[0].len(), |v: VertexId| {
-            Placed::frame(Space::S2, rotate(points[0][v.index()]))
-        });
+        if turn != IDENTITY {
+            turned.at = PerVertex::from_fn(points[0].len(), |v: VertexId| {
+                Placed::frame(Space::S2, rotate(points[0][v.index()]))
+            });
+        }
         let seed = seed(&turned, &points[1], &target);
-        let (places, _) = locate(&turned, &target, seed, control)?;
+        let places = match locate(&turned, &target, seed, control) {
+            Ok((places, _)) => places,
+            Err(Error::Cancelled) => return Err(Error::Cancelled),
+            // Another rotation may do.
+            Err(_) => continue,
+        };
         let carried = places.iter().map(|place| {
             let corners = target.cover.mesh.face_vertices(place.face);
             (0..3).map(|k| place.weights[k] * densities[1].values[corners[k].index()]).sum::<f64>()

@@ -13,6 +13,8 @@ pub(super) struct Density {
 
 /// A rotation, by rows.
 pub(super) type Rotation = [Vector; 3];
+/// The rotation that leaves all where it is.
+pub(super) const IDENTITY: Rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Cells of a raster of the sphere along a meridian; twice as many along the equator.
 const ROWS: usize = 24;
@@ -29,7 +31,7 @@ const HALVINGS: usize = 8;
 pub(super) fn turnings([from, to]: [&Density; 2]) -> Result<Vec<Rotation>> {
     let (own, other) = (axes(from)?, axes(to)?);
     // A surface and itself fit as they are, to the last digit.
-    let mut all = vec![[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]];
+    let mut all = vec![IDENTITY];
     for [a, b] in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
         let turned = [own[0].map(|x| a * x), own[1].map(|x| b * x)];
         all.push(bringing([turned[0], turned[1]], [other[0], other[1]]));

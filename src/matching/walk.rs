@@ -5,13 +5,17 @@ use super::place::Place;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::{Motion, Twofold};
-use crate::mesh::{HalfedgeId, VertexId};
-use std::collections::VecDeque;
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use std::collections::{HashSet, VecDeque};
 
 /// Share of a triangle by which a point may lie outside it and still be taken to lie in it: rounding of positions at its sides.
 const OUTSIDE: f64 = 1e-13;
 /// Vertices located between two looks at the control.
 const VERTICES_PER_LOOK: usize = 1024;
+/// Steps of a walk before all faces around are looked at; neighbours are seldom more than some dozens of faces apart.
+const MOST_STEPS: usize = 2000;
+/// Most faces that are looked at around a point.
+const MOST_AROUND: usize = 20_000;
 
 /// Where the search starts: a vertex of the points, and a half-edge of a face of the domain near which its own corner lies, in the opened domain.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +36,7 @@ pub(super) fn locate(
     control: &Control,
 ) -> Result<(Vec<Place>, f64)> {
     let mesh = &points.cover.mesh;
-    let walker = Walker { domain, most: 16 * domain.cover.mesh.n_faces() + 64 };
+    let walker = Walker { domain, most: MOST_STEPS };
     let mut found: Vec<Option<Found>> = vec![None; mesh.n_vertices()];
     let mut waiting = VecDeque::new();
     let identity = Motion::identity(points.cover.space);
@@ -81,42 +85,109 @@ struct Walker<'a> {
 
 impl Walker<'_> {
     /// From the face of a half-edge to the face that a point lies in; of a point beyond the boundary, to one at the boundary.
-    fn walk(&self, near: HalfedgeId, mut copy: Motion<Twofold>, mut point: Precise) -> Result<Found> {
-        let Placed { cover, .. } = self.domain;
-        let mesh = &cover.mesh;
-        let mut face = mesh.face(near);
+    fn walk(&self, near: HalfedgeId, copy: Motion<Twofold>, point: Precise) -> Result<Found> {
+        let mut at = Stand { near, copy, point };
         for step in 0..self.most {
-            let Some(f) = face else { break };
-            let (sides, corners) = (mesh.face_halfedges(f), self.domain.face(f));
-            let opposite =
-                |k: usize| f64::from(determinant([point, corners[(k + 1) % 3], corners[(k + 2) % 3]]));
-            let parts = [0, 1, 2].map(opposite);
-            let size = parts.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
-            let total = parts.iter().sum::<f64>();
-            let is_out = |k: &usize| parts[*k] < -OUTSIDE * size || total <= 0.0;
+            let parts = self.parts(&at);
+            let sides = self.sides(&at);
             // Turning the order of the sides keeps walks from going in circles.
             let order = [0, 1, 2].map(|k| (k + step) % 3);
-            let mut out: Vec<usize> = order.into_iter().filter(is_out).filter(|&k| parts[k] < 0.0).collect();
-            out.sort_by(|&i, &j| parts[i].total_cmp(&parts[j]));
-            if step % 7 == 6 {
-                out.reverse();
-            }
-            let leave = out.iter().map(|&k| sides[(k + 1) % 3]).find(|h| !mesh.is_outside(h.twin()));
-            let Some(h) = leave else {
-                let inside = parts.map(|x| x.max(0.0));
-                let sum: f64 = inside.iter().sum();
-                let weights = if sum > 0.0 { inside.map(|x| x / sum) } else { [1.0 / 3.0; 3] };
-                let outside = parts.iter().fold(0.0, |far: f64, &x| far.max(-x / size));
-                return Ok(Found { place: Place { face: f, weights }, near: sides[0], copy, outside });
-            };
-            if let Some(across) = cover.across(h) {
-                let back = across.inverse();
-                (copy, point) = (back.compose(&copy), back.apply(point));
-            }
-            face = mesh.face(h.twin());
+            let mut out: Vec<usize> = order.into_iter().filter(|&k| parts.is_out(k)).collect();
+            out.sort_by(|&i, &j| parts.of[i].total_cmp(&parts.of[j]));
+            let leave = out.iter().map(|&k| sides[(k + 1) % 3]).find(|&h| self.goes_on(h));
+            let Some(h) = leave else { return Ok(self.found(&at, &parts)) };
+            at = self.across(&at, h);
         }
-        Err(Error::Matching(format!(
-            "no triangle of the target holds a point: the walk from half-edge {near} does not end"
-        )))
+        self.around(Stand { near, copy, point }).or_else(|| self.around(at)).ok_or_else(|| {
+            let message = format!(
+                "no triangle of the target holds a point: the walk from half-edge {near} does not end"
+            );
+            Error::Matching(message)
+        })
+    }
+
+    /// The face that holds a point, looked for in all faces around, ring by ring: among thin triangles walks go in circles.
+    fn around(&self, from: Stand) -> Option<Found> {
+        let mesh = &self.domain.cover.mesh;
+        let mut seen = HashSet::from([mesh.face(from.near)?]);
+        let mut waiting = VecDeque::from([from]);
+        while let Some(at) = waiting.pop_front() {
+            let parts = self.parts(&at);
+            if (0..3).all(|k| !parts.is_out(k)) && parts.total > 0.0 {
+                return Some(self.found(&at, &parts));
+            }
+            for h in self.sides(&at).into_iter().filter(|&h| self.goes_on(h)) {
+                if mesh.face(h.twin()).is_some_and(|f| seen.len() < MOST_AROUND && seen.insert(f)) {
+                    waiting.push_back(self.across(&at, h));
+                }
+            }
+        }
+        None
+    }
+
+    fn goes_on(&self, h: HalfedgeId) -> bool {
+        !self.domain.cover.mesh.is_outside(h.twin())
+    }
+
+    /// The half-edges of the face, from the one where a walk stands.
+    fn sides(&self, at: &Stand) -> [HalfedgeId; 3] {
+        let mesh = &self.domain.cover.mesh;
+        [at.near, mesh.next(at.near), mesh.prev(at.near)]
+    }
+
+    fn parts(&self, at: &Stand) -> Parts {
+        // Seen from the first corner: coordinates of small triangles then differ in all their digits.
+        let home = self.domain.frame_at(at.near).inverse();
+        let corners = self.sides(at).map(|h| home.apply(self.domain.corner(h)));
+        let point = home.apply(at.point);
+        let opposite = |k: usize| f64::from(determinant([point, corners[(k + 1) % 3], corners[(k + 2) % 3]]));
+        let of = [0, 1, 2].map(opposite);
+        let size = of.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
+        Parts { of, size, total: of.iter().sum() }
+    }
+
+    /// In the face across a half-edge of this one.
+    fn across(&self, at: &Stand, h: HalfedgeId) -> Stand {
+        let near = h.twin();
+        match self.domain.cover.across(h) {
+            Some(across) => {
+                let back = across.inverse();
+                Stand { near, copy: back.compose(&at.copy), point: back.apply(at.point) }
+            }
+            None => Stand { near, ..*at },
+        }
+    }
+
+    fn found(&self, at: &Stand, parts: &Parts) -> Found {
+        let mesh = &self.domain.cover.mesh;
+        let inside = parts.of.map(|x| x.max(0.0));
+        let sum: f64 = inside.iter().sum();
+        let own = if sum > 0.0 { inside.map(|x| x / sum) } else { [1.0 / 3.0; 3] };
+        let (face, first) = mesh.corner(at.near).unwrap_or((FaceId(0), 0));
+        // Weights in the face's own order of corners.
+        let weights = std::array::from_fn(|k| own[(k + 3 - first) % 3]);
+        let outside = parts.of.iter().fold(0.0, |far: f64, &x| far.max(-x / parts.size));
+        Found { place: Place { face, weights }, near: at.near, copy: at.copy, outside }
+    }
+}
+
+/// A point seen from a face: a half-edge of that, the transformation that has brought the point's own position into the opened domain, and where it is there.
+#[derive(Clone, Copy)]
+struct Stand {
+    near: HalfedgeId,
+    copy: Motion<Twofold>,
+    point: Precise,
+}
+
+/// A point in a face: what is opposite each corner, positive inside.
+struct Parts {
+    of: [f64; 3],
+    size: f64,
+    total: f64,
+}
+
+impl Parts {
+    fn is_out(&self, k: usize) -> bool {
+        self.of[k] < -OUTSIDE * self.size || (self.total <= 0.0 && self.of[k] < 0.0)
     }
 }
