@@ -11,6 +11,7 @@ const HEADERS: &[(&str, usize)] = &[
     ("uniformize", 60),
     ("circles", 10),
     ("harmonic", 20),
+    ("match", 10),
     ("spline", 20),
     ("bicubic", 10),
     ("structure", 20),

@@ -71,11 +71,11 @@ typedef struct ricci_matching_summary {
 } ricci_matching_summary;
 
 /**
- * The map from one surface to another one of the same topology, landmarks to landmarks: a harmonic map into the
- * target's metric of constant curvature, which folds no face.
+ * The map from one surface to another one of the same topology, landmarks to landmarks: a harmonic map into
+ * the target's metric of constant curvature, which folds no face.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex), RICCI_MATCHING (surfaces of different
- *         topology, landmarks in conflict, no map found), RICCI_LAYOUT, RICCI_TRIANGLE_INEQUALITY,
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex), RICCI_MATCHING (surfaces of
+ * different topology, landmarks in conflict, no map found), RICCI_LAYOUT, RICCI_TRIANGLE_INEQUALITY,
  *         RICCI_FACTORISATION, RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param source    the surface whose vertices are mapped.

@@ -98,8 +98,8 @@ extern "C" {
 
 /**
  * What a call returns. 1-9 are errors of the call, 10-99 of the C face, 100s of files, 200s of meshes, 300s
- * of metrics, 400s of targets, 500s of solvers, 600s of layouts and matchings, 700s of splines. A number is never given out
- * again.
+ * of metrics, 400s of targets, 500s of solvers, 600s of layouts and matchings, 700s of splines. A number is
+ * never given out again.
  */
 typedef uint32_t ricci_status;
 enum {

@@ -26,7 +26,8 @@ static void check_identity(const ricci_mesh *mesh, const ricci_match_options *op
         OK(ricci_matching_carry(matching, direction, values, 2 * n, carried, 2 * n));
         for (size_t v = 0; v < n; v++) {
             CHECK(fabs(weights[3 * v] + weights[3 * v + 1] + weights[3 * v + 2] - 1) < 1e-12);
-            CHECK(fabs(carried[2 * v] - values[2 * v]) < 1e-7 && fabs(carried[2 * v + 1] - values[2 * v + 1]) < 1e-7);
+            CHECK(fabs(carried[2 * v] - values[2 * v]) < 1e-7 &&
+                  fabs(carried[2 * v + 1] - values[2 * v + 1]) < 1e-7);
         }
     }
     FAILS(ricci_matching_faces(matching, 2, faces, n), RICCI_ARGUMENT, "direction");
