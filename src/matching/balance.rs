@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::complex::{Complex, dot, scale};
 use crate::linalg::{Cholesky, Pattern, Symmetric, lu};
-use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex};
+use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Where a vertex may go.
@@ -36,6 +36,18 @@ const NEARLY_BALANCED: f64 = 1e-7;
 /// Longest step of a vertex, in units of the space's curvature radius (H²).
 const LONGEST_STEP: f64 = 2.0;
 
+impl Freedom {
+    /// Of a surface whose boundary slides along itself.
+    pub fn of(mesh: &Mesh) -> PerVertex<Freedom> {
+        PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
+            if mesh.is_boundary_vertex(v) { Freedom::Slides } else { Freedom::Free }
+        })
+    }
+}
+
+/// How many steps lowered the energy, and the energy.
+pub(super) type Relaxed = (usize, f64);
+
 /// How the balance was found.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct BalanceReport {
@@ -59,9 +71,8 @@ pub(super) fn balance(
     freedom: &PerVertex<Freedom>,
     control: &Control,
 ) -> Result<BalanceReport> {
-    let (energy_steps, energy) = relax(placed, weights, freedom, control)?;
-    let report = settle(placed, weights, freedom, control)?;
-    Ok(BalanceReport { energy_steps, energy, ..report })
+    let relaxed = relax(placed, weights, freedom, control)?;
+    settle(placed, weights, freedom, relaxed, control)
 }
 
 /// Brings the energy `½ Σ w r²` with the weights made symmetric to its minimum: on lifts into the plane or the hyperbolic plane it is convex
@@ -74,14 +85,14 @@ pub(super) fn relax(
     weights: &PerHalfedge<f64>,
     freedom: &PerVertex<Freedom>,
     control: &Control,
-) -> Result<(usize, f64)> {
+) -> Result<Relaxed> {
     let system = System::new(placed, weights, freedom);
     let steps = if system.n > 0 { system.minimise(placed, control)? } else { 0 };
     Ok((steps, system.energy(&placed.logarithms())))
 }
 
-/// From near the balance to it by the weights themselves. With positive weights, in the class of a homeomorphism, the result is an embedding
-/// \[LWZ23\].
+/// From near the balance, where [`relax`] left it, to it by the weights themselves. With positive weights, in the class of a homeomorphism, the
+/// result is an embedding \[LWZ23\].
 ///
 /// # Errors
 /// [`Error::Matching`] where no balance is found; [`Error::Factorisation`]; [`Error::Cancelled`].
@@ -89,10 +100,11 @@ pub(super) fn settle(
     placed: &mut Placed,
     weights: &PerHalfedge<f64>,
     freedom: &PerVertex<Freedom>,
+    (energy_steps, energy): Relaxed,
     control: &Control,
 ) -> Result<BalanceReport> {
     let system = System::new(placed, weights, freedom);
-    let mut report = BalanceReport::default();
+    let mut report = BalanceReport { energy_steps, energy, ..BalanceReport::default() };
     if system.n == 0 {
         return Ok(report);
     }
@@ -282,7 +294,7 @@ impl<'a> System<'a> {
         let longest = if placed.cover.space == Space::E2 { f64::INFINITY } else { LONGEST_STEP };
         for (v, frame) in next.at.iter_mut().enumerate() {
             let first = self.first[v] as usize;
-            let by = match dimension(self.freedom[crate::mesh::VertexId::from(v)]) {
+            let by = match dimension(self.freedom[VertexId::from(v)]) {
                 0 => continue,
                 1 => [direction[first], 0.0],
                 _ => [direction[first], direction[first + 1]],

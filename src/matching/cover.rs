@@ -1,11 +1,13 @@
 //! A triangulation in the universal cover of a surface of constant curvature: one lift of every vertex, and the deck transformations from
 //! face to face.
 
+use crate::embed::Layout;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use crate::parallel;
+use crate::topology::CutGraph;
 use std::sync::Arc;
 
 /// A surface that is opened along a cut, and the deck transformations across the cut.
@@ -72,6 +74,28 @@ impl Cover {
         Ok(Cover { mesh: mesh.clone(), space, motions, across: across_number, corner, own: own.into() })
     }
 
+    /// The cover of a surface that is opened along a cut: the transformation of each segment carries the opened surface onto its neighbour on the left of the
+    /// segment.
+    pub fn along_cut(
+        mesh: &Arc<Mesh>,
+        space: Space,
+        (cut, pairings): (&CutGraph, &[Motion<Twofold>]),
+        own: &[HalfedgeId],
+    ) -> Result<Cover> {
+        // Per half-edge the segment that it lies on: positive on its left side.
+        let mut side = PerHalfedge::filled(mesh.n_halfedges(), 0i32);
+        for (k, segment) in cut.segments.iter().enumerate() {
+            for &h in segment {
+                (side[h], side[h.twin()]) = (k as i32 + 1, -(k as i32) - 1);
+            }
+        }
+        let across = |h: HalfedgeId| {
+            let pairing = pairings.get((side[h].unsigned_abs() as usize).wrapping_sub(1))?;
+            Some(if side[h] > 0 { *pairing } else { pairing.inverse() })
+        };
+        Cover::new(mesh, space, across, own)
+    }
+
     /// The half-edge of a vertex's own corner.
     pub fn own(&self, v: VertexId) -> HalfedgeId {
         self.own[v]
@@ -111,6 +135,22 @@ pub(super) struct Placed {
 pub(super) type Precise = [Twofold; 3];
 
 impl Placed {
+    /// The vertices where a layout puts their own corners.
+    ///
+    /// # Errors
+    /// [`Error::Matching`] for a layout that is not opened along edges of the surface.
+    pub fn of_layout(cover: Cover, layout: &Layout) -> Result<Placed> {
+        let Some(on_input) = layout.on_input() else {
+            return Err(Error::Matching("the layout is not opened along the cut".into()));
+        };
+        let point = |v: VertexId| {
+            let corner = on_input.corner_index[cover.own(v)] as usize;
+            Placed::frame(cover.space, layout.points[on_input.points[corner] as usize])
+        };
+        let at = PerVertex::from_fn(cover.mesh.n_vertices(), point);
+        Ok(Placed { cover, at })
+    }
+
     /// The frame of a point, turned as the space's frame at the origin.
     pub fn frame(space: Space, point: [f64; 3]) -> Motion<Twofold> {
         let [x, y, w] = point;
@@ -184,14 +224,26 @@ pub(super) fn logarithm(space: Space, [x, y, w]: Precise) -> [f64; 2] {
     if far > 0.0 { [x, y].map(|c| c * (length / far)) } else { [0.0; 2] }
 }
 
+/// The rotation about the origin that brings the x axis to a direction.
+fn turn_to(space: Space, [x, y]: [f64; 2]) -> Motion<Twofold> {
+    let half = 0.5 * y.atan2(x);
+    Motion::rotation([half.cos(), half.sin()], space).precise()
+}
+
+/// The frame at a point whose x axis leads to another one, and how far that is.
+pub(super) fn aimed(space: Space, [from, to]: [Precise; 2]) -> (Motion<Twofold>, f64) {
+    let frame = Motion::to_origin(space, from).inverse();
+    let ahead = logarithm(space, frame.inverse().apply(to));
+    (frame.compose(&turn_to(space, ahead)), ahead[0].hypot(ahead[1]))
+}
+
 /// A frame moved along a vector in it, and carried along parallel.
 pub(super) fn moved(frame: &Motion<Twofold>, [x, y]: [f64; 2]) -> Motion<Twofold> {
     let length = x.hypot(y);
     if length == 0.0 {
         return *frame;
     }
-    let half = 0.5 * y.atan2(x);
-    let turn = Motion::rotation([half.cos(), half.sin()], frame.space).precise();
+    let turn = turn_to(frame.space, [x, y]);
     let step = Motion::translation(length, frame.space).precise();
     frame.compose(&turn).compose(&step).compose(&turn.inverse()).normalised()
 }

@@ -3,8 +3,9 @@
 //! A homotopy basis of each surface has the same relator, and the map brings letter to letter. Which bases correspond is not canonical: from the two that
 //! are found, twists and turns of the handles are tried as long as they lower the energy of the harmonic map.
 
-use super::balance::{BalanceReport, Freedom, relax, settle};
-use super::cover::{Cover, Placed, logarithm, moved};
+use super::balance::{Freedom, Relaxed, relax, settle};
+use super::canonical::canonical_metric;
+use super::cover::{Cover, Placed, aimed, logarithm, moved};
 use super::generators::Generators;
 use super::options::MatchOptions;
 use super::orbifold::Pair;
@@ -14,10 +15,9 @@ use super::weights::mean_value_weights;
 use crate::control::Control;
 use crate::embed::{Layout, UnrollOptions, unroll};
 use crate::error::{Error, Result};
-use crate::flow::Flow;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex, VertexId};
-use crate::metric::{Class, Surface, Target};
+use crate::metric::Surface;
 use crate::topology::{CutGraph, FundamentalDomain, HomotopyBasis, crossed_halfedges, homotopy_basis};
 
 /// Most maps whose energies are compared.
@@ -41,7 +41,7 @@ struct Own {
 ///
 /// # Errors
 /// [`Error::Matching`] for landmarks other than one on a torus, where a flow does not come to its target, and where no harmonic map is found; those of
-/// [`homotopy_basis`], [`Flow::new`] and [`unroll`]; [`Error::Cancelled`].
+/// [`homotopy_basis`], [`canonical_metric`] and [`unroll`]; [`Error::Cancelled`].
 pub(super) fn with_handles(
     surfaces: [&Surface; 2],
     marks: [&Marks; 2],
@@ -68,16 +68,10 @@ pub(super) fn with_handles(
     search.straighten(&mut domain, &generators)?;
     let second = relax(&mut domain, &target.weights, &freedom[1], control)?;
     let (mut image, first, tried) = search.least(generators, (&freedom[0], second.1), control)?;
-    let mut reports = [first, second].map(|(energy_steps, energy)| BalanceReport {
-        energy_steps,
-        energy,
-        ..BalanceReport::default()
-    });
-    let weights = [&source.weights, &target.weights];
-    for (s, placed) in [&mut image, &mut domain].into_iter().enumerate() {
-        let settled = settle(placed, weights[s], &freedom[s], control)?;
-        (reports[s].balance_steps, reports[s].residual) = (settled.balance_steps, settled.residual);
-    }
+    let reports = [
+        settle(&mut image, &source.weights, &freedom[0], first, control)?,
+        settle(&mut domain, &target.weights, &freedom[1], second, control)?,
+    ];
     let seed =
         |from: &Own, to: &Own| Seed { vertex: from.basis.base, near: to.placed.cover.own(to.basis.base) };
     let seeds = [seed(&source, &target), seed(&target, &source)];
@@ -96,15 +90,8 @@ fn in_own_metric(
     let basis = homotopy_basis(mesh, surface.lengths(), base, control)?;
     let cut = CutGraph::around(mesh, basis.cut(mesh));
     let domain = FundamentalDomain::new(mesh, &cut.is_cut, &basis)?;
-    let mut flow = Flow::new(surface.clone(), Class::yamabe(space), &options.flow, control)?;
-    let metric = flow.solve(&Target::All(PerVertex::filled(mesh.n_vertices(), 0.0)), control)?;
-    let iterations = metric.report().map_or(0, |report| report.iterations);
-    if !metric.converged() {
-        let reason = metric.report().map(|report| report.stop_reason.to_string()).unwrap_or_default();
-        return Err(Error::Matching(format!(
-            "the canonical metric was not found after {iterations} steps: {reason}"
-        )));
-    }
+    let curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
+    let (metric, iterations) = canonical_metric(surface, space, curvature, &options.flow, control)?;
     let unrolling = UnrollOptions {
         cones: Some(Vec::new()),
         root: Some(basis.base),
@@ -113,35 +100,11 @@ fn in_own_metric(
         ..UnrollOptions::default()
     };
     let layout = unroll(&metric, &unrolling, control)?;
-    let Some(on_input) = layout.on_input() else {
-        return Err(Error::Matching("the layout is not opened along the cut".into()));
-    };
     let pairings: Vec<_> = layout.seams.iter().map(|seam| seam.pairing).collect();
-    let side = sides(mesh.n_halfedges(), &cut);
-    let across = |h: HalfedgeId| {
-        let pairing = pairings.get((side[h].unsigned_abs() as usize).wrapping_sub(1))?;
-        Some(if side[h] > 0 { *pairing } else { pairing.inverse() })
-    };
-    let cover = Cover::new(mesh, space, across, &[domain.base_corner])?;
-    let point = |v: VertexId| {
-        let corner = on_input.corner_index[cover.own(v)] as usize;
-        Placed::frame(space, layout.points[on_input.points[corner] as usize])
-    };
-    let at = PerVertex::from_fn(mesh.n_vertices(), point);
-    let placed = Placed { cover, at };
+    let cover = Cover::along_cut(mesh, space, (&cut, &pairings), &[domain.base_corner])?;
+    let placed = Placed::of_layout(cover, &layout)?;
     let weights = mean_value_weights(&placed, surface);
     Ok(Own { basis, placed, layout, domain, weights, iterations })
-}
-
-/// Per half-edge the segment of the cut that it lies on: positive on its left side.
-fn sides(n: usize, cut: &CutGraph) -> PerHalfedge<i32> {
-    let mut side = PerHalfedge::filled(n, 0i32);
-    for (k, segment) in cut.segments.iter().enumerate() {
-        for &h in segment {
-            (side[h], side[h.twin()]) = (k as i32 + 1, -(k as i32) - 1);
-        }
-    }
-    side
 }
 
 /// The target's own generators as motions, and the lines of its boundary.
@@ -161,10 +124,7 @@ fn generators(target: &Own, surface: &Surface) -> Result<Generators> {
         let tree = all.motion(&word)?.inverse();
         let from = tree.apply(target.placed.at[start].origin());
         let to = all.motions[2 * all.genus + j].apply(from);
-        let frame = Motion::to_origin(space, from).inverse();
-        let [x, y] = logarithm(space, frame.inverse().apply(to));
-        let half = 0.5 * y.atan2(x);
-        all.lines.push(frame.compose(&Motion::rotation([half.cos(), half.sin()], space).precise()));
+        all.lines.push(aimed(space, [from, to]).0);
     }
     Ok(all)
 }
@@ -191,10 +151,7 @@ impl Search<'_> {
     }
 
     fn freedom(&self, s: usize, space: Space) -> PerVertex<Freedom> {
-        let mesh = self.surfaces[s].mesh();
-        let mut freedom = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
-            if mesh.is_boundary_vertex(v) { Freedom::Slides } else { Freedom::Free }
-        });
+        let mut freedom = Freedom::of(self.surfaces[s].mesh());
         // A flat torus can be shifted: the base is held.
         if space == Space::E2 {
             freedom[self.own(s).basis.base] = Freedom::Held;
@@ -244,7 +201,7 @@ impl Search<'_> {
         generators: &Generators,
         freedom: &PerVertex<Freedom>,
         control: &Control,
-    ) -> Result<(Placed, (usize, f64))> {
+    ) -> Result<(Placed, Relaxed)> {
         let (mesh, basis, space) = (self.surfaces[0].mesh(), &self.source.basis, generators.space);
         let mut words: Vec<Option<Motion<Twofold>>> = vec![None; mesh.n_halfedges()];
         for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
@@ -281,7 +238,7 @@ impl Search<'_> {
         mut generators: Generators,
         (freedom, least): (&PerVertex<Freedom>, f64),
         control: &Control,
-    ) -> Result<(Placed, (usize, f64), usize)> {
+    ) -> Result<(Placed, Relaxed, usize)> {
         let (mut best, mut energy) = self.image(&generators, freedom, control)?;
         let mut tried = 1;
         'search: while energy.1 > UNTWISTED * least {

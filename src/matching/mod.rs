@@ -26,6 +26,7 @@
 //! ```
 
 mod balance;
+mod canonical;
 mod cover;
 mod disk;
 mod find;

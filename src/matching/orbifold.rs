@@ -4,8 +4,9 @@
 //! orbifold, covered by a surface without cones. Both triangulations are put into it by a harmonic map with positive weights, which is an
 //! embedding [`super::balance`], and the map from one surface to the other is the one after the inverse of the other.
 
-use super::balance::{BalanceReport, Freedom, relax, settle};
-use super::cover::{Cover, Placed, logarithm, moved};
+use super::balance::{BalanceReport, Freedom, Relaxed, relax, settle};
+use super::canonical::canonical_metric;
+use super::cover::{Cover, Placed, aimed, moved};
 use super::options::MatchOptions;
 use super::route::Marks;
 use super::tree::{Tree, distances, trees};
@@ -14,10 +15,10 @@ use super::weights::mean_value_weights;
 use crate::control::Control;
 use crate::embed::{UnrollOptions, unroll};
 use crate::error::{Error, Result};
-use crate::flow::{Flow, Solution};
+use crate::flow::Solution;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex, VertexId};
-use crate::metric::{Class, Refinement, Surface, Target};
+use crate::metric::{Refinement, Surface};
 use crate::topology::central_vertex;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -91,10 +92,15 @@ struct Marked {
     image: Placed,
     weights: [PerHalfedge<f64>; 2],
     freedom: [PerVertex<Freedom>; 2],
+    /// Of the source in the target's domain, and of the target.
+    relaxed: [Relaxed; 2],
+}
+
+impl Marked {
     /// Energy of the source in the target's domain over that of the target.
-    ratio: f64,
-    steps: [usize; 2],
-    energies: [f64; 2],
+    fn ratio(&self) -> f64 {
+        self.relaxed[0].1 / self.relaxed[1].1
+    }
 }
 
 /// Both surfaces in the target's canonical metric.
@@ -102,8 +108,8 @@ struct Marked {
 /// Of several ways to mark the map the one with the least energy is taken.
 ///
 /// # Errors
-/// [`Error::Matching`] where a flow does not come to its target, paths have no room or no harmonic map is found; those of [`Flow::new`] and
-/// [`unroll`]; [`Error::Cancelled`].
+/// [`Error::Matching`] where a flow does not come to its target, paths have no room or no harmonic map is found; those of [`canonical_metric`]
+/// and [`unroll`]; [`Error::Cancelled`].
 pub(super) fn in_orbifold(
     surfaces: [&Surface; 2],
     marks: [&Marks; 2],
@@ -121,16 +127,11 @@ pub(super) fn in_orbifold(
     let canonical = |s: usize| canonical(surfaces[s], marks[s], shape, options, control);
     let metrics = [canonical(0)?, canonical(1)?];
     let (mut marked, markings) = best_marking(problem, &metrics, control)?;
-    let mut reports = [0, 1].map(|s| BalanceReport {
-        energy_steps: marked.steps[s],
-        energy: marked.energies[s],
-        ..BalanceReport::default()
-    });
-    let [first, second] = &marked.weights;
-    let settled = settle(&mut marked.image, first, &marked.freedom[0], control)?;
-    (reports[0].balance_steps, reports[0].residual) = (settled.balance_steps, settled.residual);
-    let settled = settle(&mut marked.domain, second, &marked.freedom[1], control)?;
-    (reports[1].balance_steps, reports[1].residual) = (settled.balance_steps, settled.residual);
+    let Marked { image, domain, weights, freedom, relaxed, .. } = &mut marked;
+    let reports = [
+        settle(image, &weights[0], &freedom[0], relaxed[0], control)?,
+        settle(domain, &weights[1], &freedom[1], relaxed[1], control)?,
+    ];
     let start = |s: usize| -> Option<(VertexId, HalfedgeId)> {
         let tree = &marked.trees[s];
         let h = *tree.landmark_corners.first().or_else(|| tree.arcs.first()?.first())?;
@@ -164,15 +165,15 @@ fn best_marking(problem: Problem, metrics: &[Canonical; 2], control: &Control) -
         match marked {
             Ok(marked) => {
                 count += 1;
-                log::debug!("marking {variant}: energy {} of the target's", marked.ratio);
-                if best.as_ref().is_none_or(|least| marked.ratio < least.ratio) {
+                log::debug!("marking {variant}: energy {} of the target's", marked.ratio());
+                if best.as_ref().is_none_or(|least| marked.ratio() < least.ratio()) {
                     best = Some(marked);
                 }
             }
             Err(Error::Cancelled) => return Err(Error::Cancelled),
             Err(why) => failure = failure.or(Some(why)),
         }
-        if best.as_ref().is_some_and(|best| best.ratio < UNTWISTED) {
+        if best.as_ref().is_some_and(|best| best.ratio() < UNTWISTED) {
             break;
         }
     }
@@ -206,9 +207,7 @@ fn marking(
     }
     slide(&mut image, surfaces[0], &trees[0], &lines);
     let first = relax(&mut image, &weights[0], &freedom[0], control)?;
-    let ratio = first.1 / second.1;
-    let (steps, energies) = ([first.0, second.0], [first.1, second.1]);
-    Ok(Marked { trees, domain, image, weights, freedom, ratio, steps, energies })
+    Ok(Marked { trees, domain, image, weights, freedom, relaxed: [first, second] })
 }
 
 /// The metric with cones at the landmarks and straight boundaries between corners.
@@ -223,15 +222,7 @@ fn canonical(
     let mut curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
     marks.landmarks.iter().for_each(|&v| curvature[v] = TAU * (1.0 - 1.0 / shape.order as f64));
     marks.corners.iter().for_each(|&v| curvature[v] = shape.corner);
-    let mut flow = Flow::new(surface.clone(), Class::yamabe(shape.space), &options.flow, control)?;
-    let metric = flow.solve(&Target::All(curvature), control)?;
-    let iterations = metric.report().map_or(0, |report| report.iterations);
-    if !metric.converged() {
-        let reason = metric.report().map(|report| report.stop_reason.to_string()).unwrap_or_default();
-        return Err(Error::Matching(format!(
-            "the canonical metric was not found after {iterations} steps: {reason}"
-        )));
-    }
+    let (metric, iterations) = canonical_metric(surface, shape.space, curvature, &options.flow, control)?;
     let refinement = match metric.is_unflipped() {
         true => None,
         false => Some(Arc::new(metric.refinement(control)?)),
@@ -252,33 +243,14 @@ fn opened(problem: Problem, s: usize, tree: &Tree, canonical: &Canonical, contro
         ..UnrollOptions::default()
     };
     let layout = unroll(&canonical.metric, &unrolling, control)?;
-    let Some(on_input) = layout.on_input() else {
-        return Err(Error::Matching("the layout is not opened along the paths between landmarks".into()));
-    };
     let pairings: Vec<_> = layout.seams.iter().map(|seam| seam.pairing).collect();
-    let cover = tree_cover(surface, space, tree, &pairings)?;
-    let point = |v: VertexId| {
-        let corner = on_input.corner_index[cover.own(v)] as usize;
-        Placed::frame(space, layout.points[on_input.points[corner] as usize])
-    };
-    let at = PerVertex::from_fn(surface.mesh().n_vertices(), point);
-    Ok(Own { placed: Placed { cover, at }, pairings })
+    let placed = Placed::of_layout(tree_cover(surface, space, tree, &pairings)?, &layout)?;
+    Ok(Own { placed, pairings })
 }
 
 /// The cover of a surface that is opened along its tree, with these transformations across the paths.
 fn tree_cover(surface: &Surface, space: Space, tree: &Tree, pairings: &[Motion<Twofold>]) -> Result<Cover> {
-    let mesh = surface.mesh();
-    let mut side = PerHalfedge::filled(mesh.n_halfedges(), 0i32);
-    for (k, path) in tree.cut.segments.iter().enumerate() {
-        for &h in path {
-            (side[h], side[h.twin()]) = (k as i32 + 1, -(k as i32) - 1);
-        }
-    }
-    let across = |h: HalfedgeId| {
-        let pairing = pairings.get((side[h].unsigned_abs() as usize).wrapping_sub(1))?;
-        Some(if side[h] > 0 { *pairing } else { pairing.inverse() })
-    };
-    Cover::new(mesh, space, across, &tree.landmark_corners)
+    Cover::along_cut(surface.mesh(), space, (&tree.cut, pairings), &tree.landmark_corners)
 }
 
 /// The source's positions in its own metric, moved so that the first path starts where the target's does, in its direction, with the deck
@@ -287,12 +259,8 @@ fn brought(surface: &Surface, source: &Placed, target: &Own, trees: [&Tree; 2]) 
     let space = source.cover.space;
     let along = |placed: &Placed, tree: &Tree| {
         let path = tree.cut.segments.first().or(tree.arcs.first())?;
-        let (from, to) =
-            (placed.corner(*path.first()?), placed.corner(placed.cover.mesh.next(*path.last()?)));
-        let frame = Motion::to_origin(space, from).inverse();
-        let [x, y] = logarithm(space, frame.inverse().apply(to));
-        let half = 0.5 * y.atan2(x);
-        Some(frame.compose(&Motion::rotation([half.cos(), half.sin()], space).precise()))
+        let ends = [placed.corner(*path.first()?), placed.corner(placed.cover.mesh.next(*path.last()?))];
+        Some(aimed(space, ends).0)
     };
     let (Some(from), Some(to)) = (along(source, trees[0]), along(&target.placed, trees[1])) else {
         return Err(Error::Matching("no path between landmarks".into()));
@@ -310,15 +278,8 @@ fn lines(target: &Placed, tree: &Tree) -> Vec<(Motion<Twofold>, f64)> {
         let ends = arc
             .first()
             .zip(arc.last())
-            .map(|(&h, &last)| (target.corner(h), target.corner(target.cover.mesh.next(last))));
-        let (from, to) = ends.unwrap_or_else(|| {
-            let origin = Motion::<Twofold>::identity(space).origin();
-            (origin, origin)
-        });
-        let frame = Motion::to_origin(space, from).inverse();
-        let [x, y] = logarithm(space, frame.inverse().apply(to));
-        let half = 0.5 * y.atan2(x);
-        (frame.compose(&Motion::rotation([half.cos(), half.sin()], space).precise()), x.hypot(y))
+            .map(|(&h, &last)| [target.corner(h), target.corner(target.cover.mesh.next(last))]);
+        aimed(space, ends.unwrap_or_else(|| [Motion::<Twofold>::identity(space).origin(); 2]))
     };
     tree.arcs.iter().map(line).collect()
 }
@@ -338,9 +299,7 @@ fn slide(placed: &mut Placed, surface: &Surface, tree: &Tree, lines: &[(Motion<T
 
 fn freedom(surface: &Surface, marks: &Marks, tree: &Tree, shape: Shape) -> PerVertex<Freedom> {
     let mesh = surface.mesh();
-    let mut freedom = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
-        if mesh.is_boundary_vertex(v) { Freedom::Slides } else { Freedom::Free }
-    });
+    let mut freedom = Freedom::of(mesh);
     marks.landmarks.iter().for_each(|&v| freedom[v] = Freedom::Held);
     marks.corners.iter().for_each(|&v| freedom[v] = Freedom::Held);
     // A flat annulus can turn: the end of its path is held.

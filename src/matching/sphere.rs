@@ -1,6 +1,7 @@
 //! Spheres without landmarks: both go to the unit sphere, and one is turned until its conformal factor fits the other's best.
 
 use super::balance::BalanceReport;
+use super::canonical::not_found;
 use super::cover::{Cover, Placed};
 use super::options::MatchOptions;
 use super::orbifold::Pair;
@@ -74,10 +75,7 @@ fn in_own_sphere(surface: &Surface, options: &MatchOptions, control: &Control) -
     };
     let sphere = uniformize_sphere(surface, &wanted, control)?;
     if !sphere.report.converged {
-        return Err(Error::Matching(format!(
-            "the canonical metric was not found after {} steps: {}",
-            sphere.report.iterations, sphere.report.stop_reason
-        )));
+        return Err(not_found(sphere.report.iterations, sphere.report.stop_reason));
     }
     let cover = Cover::new(surface.mesh(), Space::S2, |_| None, &[])?;
     let at = PerVertex::from_fn(sphere.positions.len(), |v: VertexId| {
