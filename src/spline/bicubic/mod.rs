@@ -21,6 +21,7 @@ mod outcome;
 mod quad;
 mod refine;
 mod sample;
+mod split;
 #[cfg(feature = "step")]
 mod step;
 mod surface;

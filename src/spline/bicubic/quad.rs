@@ -13,22 +13,19 @@
 //!
 //! [Coo67], and bilinear in the chart. Around a singular vertex with the total angle 2πm the surface is smooth in w = z^{1/m}: there
 //! u = w, so that the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments. Where that patch
-//! turns over or leaves the triangle, the place is the bilinear one times (s + t − s t)^{m−1}: the same on all four sides.
+//! turns over or leaves the triangle, M and G are chosen nearer to the vertex ([`super::split`]); where no choice helps, the place is the bilinear one
+//! times (s + t − s t)^{m−1}: the same on all four sides.
 
-use crate::geometry::complex::{Complex, add, conj, cross, distance, mul, norm, norm2, scale, sub, unit};
+use super::split::{Division, divisions, root};
+use crate::geometry::complex::{Complex, add, conj, cross, mul, norm2, scale, sub, unit};
 use crate::spline::cap::{CapTriangle, Triangle};
-use crate::spline::hole::Sector;
 use crate::spline::patch::Parameter;
-use crate::spline::space::affine;
 use crate::spline::surface::Spline;
 
 /// Cells along a side of the grid on which a Coons patch is looked at.
 const CELLS: u8 = 16;
 /// Share of a triangle by which a place on its side may lie outside: rounding.
 const INSIDE: f64 = 1e-12;
-/// A corner is the vertex of a hole where it is nearer to it than this share of its side: rounding.
-const AT_VERTEX: f64 = 1e-6;
-
 /// The grid is 1 + DENSER times denser at a corner than it would be evenly: there, between the knots of a vertex, a spline bends most.
 const DENSER: f64 = 3.0;
 
@@ -41,12 +38,16 @@ pub(super) enum Quad {
 }
 
 impl Quad {
-    /// The quadrilateral at corner k of a triangle, which has this number.
-    pub fn new(spline: &Spline, (at, triangle): (usize, &Triangle<'_>), k: usize) -> Quad {
-        match triangle {
-            Triangle::Patch(_) => Quad::Patch(PatchQuad::new(spline, at, k)),
-            Triangle::Cap(cap) => Quad::Cap(*cap, k),
-        }
+    /// The three quadrilaterals of each triangle.
+    pub fn all(spline: &Spline, triangles: &[Triangle<'_>]) -> Vec<Quad> {
+        let divisions = divisions(spline);
+        let of = |(at, triangle): (usize, &Triangle<'_>)| {
+            [0, 1, 2].map(|k| match triangle {
+                Triangle::Patch(_) => Quad::Patch(PatchQuad::new(spline, (at, k), &divisions[at])),
+                Triangle::Cap(cap) => Quad::Cap(*cap, k),
+            })
+        };
+        triangles.iter().enumerate().flat_map(of).collect()
     }
 
     /// The patch of the spline in which it lies, or the chart of a hole.
@@ -91,23 +92,25 @@ pub(super) struct PatchQuad {
 
 impl PatchQuad {
     /// The quadrilateral at corner k of a patch.
-    fn new(spline: &Spline, patch: usize, k: usize) -> PatchQuad {
+    pub fn new(spline: &Spline, (patch, k): (usize, usize), division: &Division) -> PatchQuad {
         let knots = &spline.space().patches()[patch].knots;
         let [a, b, c] = [0, 1, 2].map(|j| knots[(k + j) % 3][0]);
-        let (next, last) = (scale(0.5, sub(b, a)), scale(0.5, sub(c, a)));
-        let is_here = |s: &Sector| {
-            let [corner, other] = [a, b].map(|p| affine(&s.to, p));
-            s.patch as usize == patch && norm(corner) < AT_VERTEX * distance(corner, other)
-        };
-        let hole =
-            spline.holes().iter().find(|hole| !hole.is_at_infinity() && hole.sectors.iter().any(is_here));
-        let (turns, frame) = hole.map_or((1, [1.0, 0.0]), |hole| (hole.turns, unit(next)));
+        let (next, last) = (sub(b, a), sub(c, a));
+        let turns = division.turns[k];
+        let frame = if turns == 1 { [1.0, 0.0] } else { unit(next) };
         let over = |z: Complex| scale(1.0 / norm2(frame), mul(z, conj(frame)));
-        let centroid = over(scale(2.0 / 3.0, add(next, last)));
-        let ends = [over(next), over(last)];
+        let [second, third] = [1, 2].map(|j| division.centre[(k + j) % 3]);
+        let centroid = over(add(scale(second, next), scale(third, last)));
+        let (from, to) = (division.middles[k], 1.0 - division.middles[(k + 2) % 3]);
+        let ends = [over(scale(from, next)), over(scale(to, last))];
         let quad = PatchQuad { patch: patch as u32, corner: a, frame, turns, ends, centroid, is_coons: true };
-        let is_coons = turns == 1 || quad.is_sound();
+        let is_coons = turns == 1 || quad.is_sound(from, to);
         PatchQuad { is_coons, ..quad }
+    }
+
+    /// Whether it is the Coons patch.
+    pub fn is_coons(&self) -> bool {
+        self.is_coons
     }
 
     /// The place of (s, t).
@@ -128,18 +131,19 @@ impl PatchQuad {
             return scale((s + t - s * t).powi(self.turns - 1), add(add(a, b), d));
         }
         let towards = |end: usize, x: f64| add(self.ends[end], scale(x, sub(self.centroid, self.ends[end])));
-        let [a, b, d] = [towards(0, t), towards(1, s), self.centroid].map(|z| self.root(z));
+        let [a, b, d] = [towards(0, t), towards(1, s), self.centroid].map(|z| root(z, self.turns));
         let u = sub(add(scale(s, a), scale(t, b)), scale(s * t, d));
         (1..self.turns).fold(u, |z, _| mul(z, u))
     }
 
-    /// Whether the cells of a grid are counterclockwise and in the triangle.
-    fn is_sound(&self) -> bool {
+    /// Whether the cells of a grid are counterclockwise and in the triangle, of whose sides the quadrilateral has these shares.
+    fn is_sound(&self, from: f64, to: f64) -> bool {
         let at = |i: u8, j: u8| self.local([i, j].map(|k| f64::from(k) / f64::from(CELLS)));
-        let whole = cross(self.ends[0], self.ends[1]);
+        let [next, last] = [scale(1.0 / from, self.ends[0]), scale(1.0 / to, self.ends[1])];
+        let whole = cross(next, last);
         let is_inside = |z: Complex| {
-            let [p, q] = [cross(z, self.ends[1]), cross(self.ends[0], z)].map(|x| x / whole);
-            p.min(q).min(2.0 - p - q) > -INSIDE
+            let [p, q] = [cross(z, last), cross(next, z)].map(|x| x / whole);
+            p.min(q).min(1.0 - p - q) > -INSIDE
         };
         let is_upright = |i: u8, j: u8| {
             let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
@@ -155,16 +159,6 @@ impl PatchQuad {
             return [dense(s), dense(t)];
         }
         [(1.0 - t) * s + t * dense(s), (1.0 - s) * t + s * dense(t)]
-    }
-
-    /// z^{1/m}.
-    fn root(&self, z: Complex) -> Complex {
-        if self.turns == 1 {
-            return z;
-        }
-        let share = 1.0 / f64::from(self.turns);
-        let (size, angle) = (norm(z).powf(share), share * z[1].atan2(z[0]));
-        [size * angle.cos(), size * angle.sin()]
     }
 }
 

@@ -53,8 +53,7 @@ impl<'a> Work<'a> {
             return Err(Error::argument("patches of the spline", 0, "1 or more"));
         }
         let net = Net::new(spline)?;
-        let quads: Vec<Quad> =
-            (0..3 * n).map(|q| Quad::new(spline, (q / 3, &triangles[q / 3]), q % 3)).collect();
+        let quads = Quad::all(spline, &triangles);
         let place = |&(f, k): &(u32, usize), at: [f64; 2]| quads[3 * f as usize + k].place(at);
         let places: Vec<Parameter> = (net.corners.iter().map(|at| place(at, [0.0, 0.0])))
             .chain(net.owners.iter().map(|at| place(at, [1.0, 0.0])))
