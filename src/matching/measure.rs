@@ -3,7 +3,7 @@
 use super::place::SurfaceMap;
 use crate::embed::quality::DILATATION_CAP;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::vector::{cross, diagonal, distance, dot, norm, sub};
+use crate::geometry::vector::{cross, diagonal, distance, dot, norm, sub, triangle_normal};
 use crate::mesh::{Point, VertexId};
 use crate::metric::Surface;
 
@@ -17,8 +17,12 @@ pub struct MapQuality {
     pub qc_max: f64,
     /// Area of a face's image over its own, both as shares of the totals: the smallest.
     pub area_ratio_min: f64,
+    /// The mean over the faces.
+    pub area_ratio_mean: f64,
     /// The largest.
     pub area_ratio_max: f64,
+    /// Mean by area of |ln ratio|: 0 where the map keeps areas up to one factor.
+    pub area_log: f64,
     /// Distance in space between a vertex and its image: the mean over the vertices by area.
     pub distance_mean: f64,
     /// The largest.
@@ -42,10 +46,11 @@ pub fn map_quality(
     let size = diagonal(to).max(f64::MIN_POSITIVE);
     let mesh = source.mesh();
     let face = |points: &[Point], f| mesh.face_vertices(f).map(|v| points[v.index()]);
-    let area = |[a, b, c]: [Point; 3]| 0.5 * norm(cross(sub(b, a), sub(c, a)));
+    let area = |corners: [Point; 3]| 0.5 * norm(triangle_normal(corners));
     let totals = [from, &images].map(|points| mesh.faces().map(|f| area(face(points, f))).sum::<f64>());
     let (mut qc, mut qc_max): (f64, f64) = (0.0, 1.0);
     let mut range = [f64::INFINITY, 0.0f64];
+    let (mut ratios, mut logs, mut count) = (0.0, 0.0, 0usize);
     let mut shares = vec![0.0; from.len()];
     for f in mesh.faces() {
         let (own, image) = (face(from, f), face(&images, f));
@@ -57,6 +62,8 @@ pub fn map_quality(
         if weight > 0.0 {
             let ratio = (area(image) / totals[1].max(f64::MIN_POSITIVE)) / (weight / totals[0]);
             range = [range[0].min(ratio), range[1].max(ratio)];
+            (ratios, count) = (ratios + ratio, count + 1);
+            logs += weight * ratio.max(f64::MIN_POSITIVE).ln().abs();
         }
     }
     let moved: Vec<f64> = from.iter().zip(&images).map(|(&p, &q)| distance(p, q) / size).collect();
@@ -69,7 +76,9 @@ pub fn map_quality(
         qc_mean: (qc / total).min(DILATATION_CAP),
         qc_max,
         area_ratio_min: if range[0].is_finite() { range[0] } else { 0.0 },
+        area_ratio_mean: (ratios / count.max(1) as f64).min(f64::MAX),
         area_ratio_max: range[1].min(f64::MAX),
+        area_log: logs / total,
         distance_mean: moved.iter().zip(&shares).map(|(d, share)| d * share).sum::<f64>() / total,
         distance_max: moved.iter().copied().fold(0.0, f64::max),
         landmark_error: landmarks.iter().map(error).fold(0.0, f64::max),

@@ -28,6 +28,7 @@
 mod balance;
 mod canonical;
 mod cover;
+mod density;
 mod disk;
 mod find;
 mod generators;
@@ -44,8 +45,9 @@ mod turn;
 mod walk;
 mod weights;
 
+pub use crate::mesh::Place;
 pub use balance::BalanceReport;
 pub use find::{Matching, match_surfaces};
 pub use measure::{MapQuality, cycle_error, map_quality};
 pub use options::MatchOptions;
-pub use place::{Place, SurfaceMap};
+pub use place::SurfaceMap;

@@ -1,11 +1,10 @@
 //! In which triangle of a placed surface the vertices of another one lie: by walks from neighbour to neighbour in the universal cover.
 
 use super::cover::{Placed, Precise, determinant};
-use super::place::Place;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::{Motion, Twofold};
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, Place, VertexId};
 use std::collections::{HashSet, VecDeque};
 
 /// Share of a triangle by which a point may lie outside it and still be taken to lie in it: rounding of positions at its sides.

@@ -45,7 +45,7 @@ pub fn execute(args: &MatchArgs, control: &Control) -> Result<Done<Found>, Failu
     let matching = timed(&mut seconds.solve, || {
         doing("matching", || match_surfaces(&input.surface, &target.surface, &options, control))
     })?;
-    let mut found = Found::new([&input, &target], matching, landmarks, args.same_numbering)?;
+    let mut found = Found::new(&input, target, matching, (landmarks, args.same_numbering))?;
     found.seconds = seconds;
     let (files, figures) = write(args, &input, &mut found, Delivery::new(control, start)?)?;
     drop(progress);

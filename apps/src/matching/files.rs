@@ -4,11 +4,11 @@ use super::args::MatchArgs;
 use super::found::Found;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::output::{Outputs, extension};
+use crate::output::{Outputs, write_textured};
 use crate::picture::{self, Picture, Surface, Texture, Tiles};
 use ricci::matching::SurfaceMap;
 use ricci::mesh::Point;
-use ricci::mesh::io::{self, Textured};
+use ricci::mesh::io::Textured;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -56,13 +56,6 @@ pub fn write_carried(
         ..Textured::default()
     };
     write_textured(outputs, path, &data)
-}
-
-fn write_textured(outputs: &mut Outputs, path: &Path, data: &Textured) -> Result<(), Failure> {
-    match extension(path).as_str() {
-        "glb" => outputs.add_named(path, |path| io::write_glb(path, data, None).map(drop)),
-        _ => outputs.add_named(path, |path| io::write_obj(path, data)),
-    }
 }
 
 /// Both surfaces with one texture: on the target by its two longest directions, on the source carried over.

@@ -19,18 +19,18 @@ pub struct Found {
     pub quality: MapQuality,
     /// Mean and largest distance of a vertex from where the map and its inverse bring it.
     pub cycle: [f64; 2],
-    /// Mean and largest distance of a vertex's image from the target's vertex of the same number.
-    pub partners: Option<[f64; 2]>,
+    /// Per vertex the distance of its image from the target's vertex of the same number.
+    pub partners: Option<Vec<f64>>,
     pub failed: Attempts,
     pub seconds: Seconds,
 }
 
 impl Found {
     pub fn new(
-        [source, target]: [&Input; 2],
+        source: &Input,
+        target: Input,
         matching: Matching,
-        landmarks: Vec<[VertexId; 2]>,
-        same_numbering: bool,
+        (landmarks, same_numbering): (Vec<[VertexId; 2]>, bool),
     ) -> ricci::Result<Found> {
         let surfaces = [&source.surface, &target.surface];
         let quality = map_quality(surfaces, &matching.forward, &landmarks)?;
@@ -41,21 +41,18 @@ impl Found {
             true => {
                 let size = diagonal(positions).max(f64::MIN_POSITIVE);
                 let images = matching.forward.carry(target.mesh(), positions)?;
-                let off: Vec<f64> =
-                    images.iter().zip(positions).map(|(&p, &q)| distance(p, q) / size).collect();
-                let mean = off.iter().sum::<f64>() / off.len().max(1) as f64;
-                Some([mean, off.into_iter().fold(0.0, f64::max)])
+                Some(images.iter().zip(positions).map(|(&p, &q)| distance(p, q) / size).collect())
             }
-        };
-        let target = Input {
-            path: target.path.clone(),
-            surface: target.surface.clone(),
-            attributes: target.attributes.clone(),
-            split: None,
-            seconds: target.seconds,
         };
         let (failed, seconds) = (Attempts::default(), source.seconds);
         Ok(Found { target, matching, landmarks, quality, cycle, partners, failed, seconds })
+    }
+
+    /// Mean and largest distance of a vertex's image from the target's vertex of the same number.
+    fn partners(&self) -> Option<[f64; 2]> {
+        let off = self.partners.as_ref()?;
+        let mean = off.iter().sum::<f64>() / off.len().max(1) as f64;
+        Some([mean, off.iter().copied().fold(0.0, f64::max)])
     }
 
     pub fn checks(&self) -> Checks {
@@ -75,6 +72,7 @@ impl Found {
     pub fn figures(&self) -> Figures {
         let (m, q) = (&self.matching, &self.quality);
         let [first, second] = m.balance;
+        let partners = self.partners();
         Figures::default()
             .with("space", m.space.name())
             .with("landmarks", self.landmarks.len())
@@ -83,13 +81,15 @@ impl Found {
             .with("qc_mean", q.qc_mean)
             .with("qc_max", q.qc_max)
             .with("area_ratio_min", q.area_ratio_min)
+            .with("area_ratio_mean", q.area_ratio_mean)
             .with("area_ratio_max", q.area_ratio_max)
+            .with("area_log", q.area_log)
             .with("distance_mean", q.distance_mean)
             .with("distance_max", q.distance_max)
             .with("cycle_mean", self.cycle[0])
             .with("cycle_max", self.cycle[1])
-            .if_some("partner_mean", self.partners.map(|p| p[0]))
-            .if_some("partner_max", self.partners.map(|p| p[1]))
+            .if_some("partner_mean", partners.map(|p| p[0]))
+            .if_some("partner_max", partners.map(|p| p[1]))
             .with("outside", m.outside)
             .with("markings", m.markings)
             .with("energy", first.energy)
@@ -100,7 +100,7 @@ impl Found {
 
     pub fn text(&self) -> String {
         let (m, q) = (&self.matching, &self.quality);
-        let partners = self.partners.map_or(String::new(), |[mean, most]| {
+        let partners = self.partners().map_or(String::new(), |[mean, most]| {
             format!("partners vertices of the same number are {mean:.2e} of the diagonal apart, at most {most:.2e}\n")
         });
         format!(
