@@ -1,0 +1,79 @@
+//! The common refinement of source and target in the domain where they were matched.
+//!
+//! Edges of both are straight in the domain, so a face of the source and one of the target have convex pieces in common. The edges of the source are
+//! traced through the target, the vertices of both, the crossings and the parts of edges make a planar graph, and the faces of this graph are the
+//! pieces. All decisions are signs of determinants with twice the digits of doubles; vertices of the source are first moved aside by 1e-12 of the height
+//! of their triangles, so that none of these is 0, and boundaries, which lie on each other, and common vertices are treated as such.
+
+mod arcs;
+mod pieces;
+mod stand;
+mod trace;
+
+use super::cover::Placed;
+use super::walk::Seed;
+use crate::control::Control;
+use crate::error::Result;
+use crate::geometry::Space;
+use crate::mesh::{FaceId, Mesh};
+use crate::metric::{Overlay, Split};
+use crate::parallel::within;
+use arcs::Arcs;
+use stand::Settled;
+use std::sync::Arc;
+
+/// Both triangulations of a matching in the domain of the target.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommonDomain {
+    /// The source's, and the target's. An edge that joined two vertices of the boundary is halved.
+    placed: [Placed; 2],
+    seeds: [Seed; 2],
+    given: [Given; 2],
+}
+
+/// A surface as it was given.
+#[derive(Debug, Clone, PartialEq)]
+struct Given {
+    mesh: Arc<Mesh>,
+    /// Per face in the domain: the face that it is a part of, and the weights of its corners there.
+    parts: Vec<(FaceId, [[f64; 3]; 3])>,
+}
+
+impl CommonDomain {
+    pub(super) fn new(placed: [Placed; 2], seeds: [Seed; 2], splits: [&Split; 2]) -> CommonDomain {
+        let given = [0, 1].map(|s| Given {
+            mesh: splits[s].given().mesh().clone(),
+            parts: placed[s].cover.mesh.faces().map(|f| splits[s].place(f)).collect(),
+        });
+        CommonDomain { placed, seeds, given }
+    }
+
+    /// Where it lies.
+    pub fn space(&self) -> Space {
+        self.placed[1].cover.space
+    }
+
+    /// The faces of one of the two (0 the source, 1 the target) as they lie in the domain, opened along that one's cut: per face its corners in the plane
+    /// (x, y, 1), on the hyperboloid or on the sphere, and the face of the surface that it is a part of.
+    pub fn triangles(&self, side: usize) -> Vec<([[f64; 3]; 3], FaceId)> {
+        let placed = &self.placed[side];
+        let of = |f: FaceId| (placed.face(f).map(|p| p.map(f64::from)), self.given[side].parts[f.index()].0);
+        placed.cover.mesh.faces().map(of).collect()
+    }
+
+    /// The triangulations laid over each other: the map is projective on every triangle of it. The source's vertices come to lie where the matching has
+    /// them, but for 1e-11 of the height of the triangles there. `threads`: 0 for one per core; the result does not depend on it.
+    ///
+    /// # Errors
+    /// [`crate::Error::Matching`] where triangles are so thin that what lies on which side of what cannot be told; [`crate::Error::TooLarge`];
+    /// [`crate::Error::Cancelled`].
+    pub fn overlay(&self, threads: usize, control: &Control) -> Result<Overlay> {
+        control.check()?;
+        within(threads, || {
+            let [source, target] = &self.placed;
+            let settled = Settled::new([source, target], self.seeds, control)?;
+            let arcs = Arcs::new(&settled, target, control)?;
+            pieces::overlay(&arcs, &settled, target, [&self.given[0], &self.given[1]])
+        })
+    }
+}
