@@ -2,8 +2,9 @@
 //!
 //! Edges of both are straight in the domain, so a face of the source and one of the target have convex pieces in common. The edges of the source are
 //! traced through the target, the vertices of both, the crossings and the parts of edges make a planar graph, and the faces of this graph are the
-//! pieces. All decisions are signs of determinants with twice the digits of doubles; vertices of the source are first moved aside by 1e-12 of the height
-//! of their triangles, so that none of these is 0, and boundaries, which lie on each other, and common vertices are treated as such.
+//! pieces. All decisions are signs of determinants with twice the digits of doubles. So that none of these is 0, or smaller than the gaps that rounding leaves
+//! between copies of the domain, vertices of the source are first moved aside by next to nothing; boundaries, which lie on each other, and common vertices
+//! are treated as such.
 
 mod arcs;
 mod pieces;
@@ -62,7 +63,7 @@ impl CommonDomain {
     }
 
     /// The triangulations laid over each other: the map is projective on every triangle of it. The source's vertices come to lie where the matching has
-    /// them, but for 1e-11 of the height of the triangles there. `threads`: 0 for one per core; the result does not depend on it.
+    /// them, but for less than 1e-5, mostly 1e-11, of the height of the triangles there. `threads`: 0 for one per core; the result does not depend on it.
     ///
     /// # Errors
     /// [`crate::Error::Matching`] where triangles are so thin that what lies on which side of what cannot be told; [`crate::Error::TooLarge`];

@@ -8,10 +8,14 @@ use crate::error::{Error, Result};
 use crate::geometry::{Motion, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, PerVertex, Place, VertexId};
 
-/// A vertex is taken for one of the other triangulation that is nearer than this share of the least height of a triangle at either.
-const SAME: f64 = 1e-11;
-/// Share of the least height of its triangles by which a vertex is moved aside, so that no three points that are told apart lie on one line.
+/// Share of the least height of its triangles by which a vertex is moved aside at least, so that no three points that are told apart lie on one line.
 const ASIDE: f64 = 1e-12;
+/// The same as a multiple of the largest gap between copies of the domain: what is told by one copy then holds for the others.
+const GAPS: f64 = 1e3;
+/// The share by which it is moved aside at most.
+const MOST_ASIDE: f64 = 1e-6;
+/// A vertex is taken for one of the other triangulation that is nearer than this multiple of the distance by which it is moved aside.
+const SAME: f64 = 10.0;
 /// Sides that are crossed at most from the face that a search has found to the one that holds a point.
 const MOST_STEPS: usize = 64;
 /// The golden angle: the directions in which vertices are moved aside are all different.
@@ -106,6 +110,19 @@ fn heights(placed: &Placed) -> PerVertex<f64> {
     heights
 }
 
+/// The largest distance between a corner as a face and as its neighbour have it: deck transformations are rounded.
+fn gap(placed: &Placed) -> f64 {
+    let mesh = &placed.cover.mesh;
+    let of = |h: HalfedgeId| {
+        let across = placed.cover.across(h)?;
+        let there = across.apply(placed.corner(mesh.next(h.twin())));
+        let [x, y, _] = placed.frame_at(h).inverse().apply(there);
+        Some(f64::from(x).hypot(f64::from(y)))
+    };
+    let inner = mesh.halfedges().filter(|&h| !mesh.is_outside(h) && !mesh.is_outside(h.twin()));
+    inner.filter_map(of).fold(0.0, f64::max)
+}
+
 /// Both triangulations with their vertices in each other. The source's vertices are moved aside by next to nothing, or to vertices of the target
 /// that they are next to nothing away from; those of the target that have one there have no standing.
 pub(super) struct Settled {
@@ -121,10 +138,12 @@ impl Settled {
     /// [`Error::Matching`] where the places of vertices cannot be told; [`Error::Cancelled`].
     pub fn new([source, target]: [&Placed; 2], seeds: [Seed; 2], control: &Control) -> Result<Settled> {
         let high = [heights(source), heights(target)];
+        let gap = gap(source).max(gap(target));
+        let aside = |v: VertexId| (ASIDE * high[0][v]).max(GAPS * gap).min(MOST_ASIDE * high[0][v]);
         let mut source = source.clone();
         let mesh = source.cover.mesh.clone();
         for v in mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)) {
-            let (angle, by) = (GOLDEN * v.index() as f64, ASIDE * high[0][v]);
+            let (angle, by) = (GOLDEN * v.index() as f64, aside(v));
             source.at[v] = moved(&source.at[v], [by * angle.cos(), by * angle.sin()]);
         }
         let (found, _) = located(&source, target, seeds[0], control)?;
@@ -132,7 +151,7 @@ impl Settled {
         let mut forward = Vec::with_capacity(found.len());
         for (v, found) in mesh.vertices().zip(&found) {
             let mut standing = stand(&source, target, v, found)?;
-            let same = |b: VertexId| SAME * high[0][v].min(high[1][b]);
+            let same = |b: VertexId| (SAME * aside(v)).min(SAME * MOST_ASIDE * high[1][b]);
             if let Some((h, b)) = next_to(&source, target, (v, &standing), same)
                 && taken[b].is_none()
             {
