@@ -4,8 +4,8 @@ use super::place::SurfaceMap;
 use crate::embed::quality::DILATATION_CAP;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::vector::{cross, diagonal, distance, dot, norm, sub, triangle_normal};
-use crate::mesh::{Point, VertexId};
-use crate::metric::Surface;
+use crate::mesh::{PerFace, Point, VertexId};
+use crate::metric::{Overlay, Surface};
 
 /// Figures of a map, of its linear extension from the source's faces to space. Every number is finite; distances are shares of the diagonal of
 /// the target's bounding box.
@@ -46,7 +46,6 @@ pub fn map_quality(
     let size = diagonal(to).max(f64::MIN_POSITIVE);
     let mesh = source.mesh();
     let face = |points: &[Point], f| mesh.face_vertices(f).map(|v| points[v.index()]);
-    let area = |corners: [Point; 3]| 0.5 * norm(triangle_normal(corners));
     let totals = [from, &images].map(|points| mesh.faces().map(|f| area(face(points, f))).sum::<f64>());
     let (mut qc, mut qc_max): (f64, f64) = (0.0, 1.0);
     let mut range = [f64::INFINITY, 0.0f64];
@@ -83,6 +82,39 @@ pub fn map_quality(
         distance_max: moved.iter().copied().fold(0.0, f64::max),
         landmark_error: landmarks.iter().map(error).fold(0.0, f64::max),
     })
+}
+
+/// Per face of the source the dilatation of the map, [`DILATATION_CAP`] at most.
+///
+/// # Errors
+/// As [`map_quality`].
+pub fn dilatations([source, target]: [&Surface; 2], map: &SurfaceMap) -> Result<PerFace<f64>> {
+    let (from, to) = (positions(source)?, positions(target)?);
+    check_size("places of the map", map.places.len(), from.len())?;
+    let images = map.carry(target.mesh(), to)?;
+    let mesh = source.mesh();
+    let at = |points: &[Point], f| mesh.face_vertices(f).map(|v| points[v.index()]);
+    Ok(mesh.faces().map(|f| dilatation(at(from, f), at(&images, f))).collect::<Vec<_>>().into())
+}
+
+/// The shares of the areas of source and target by which an overlay of the two misses them.
+///
+/// # Errors
+/// [`Error::Size`]; [`Error::Argument`] for a surface without positions.
+pub fn uncovered(surfaces: [&Surface; 2], overlay: &Overlay) -> Result<[f64; 2]> {
+    let share = |side: usize| {
+        let (mesh, points) = (surfaces[side].mesh(), positions(surfaces[side])?);
+        let own: f64 = mesh.faces().map(|f| area(mesh.face_vertices(f).map(|v| points[v.index()]))).sum();
+        let at: Vec<[Point; 3]> =
+            mesh.faces().map(|f| mesh.face_vertices(f).map(|v| points[v.index()])).collect();
+        let covered: f64 = overlay.from_corners(side, &at)?.into_iter().map(area).sum();
+        Ok((covered / own.max(f64::MIN_POSITIVE) - 1.0).abs())
+    };
+    Ok([share(0)?, share(1)?])
+}
+
+fn area(corners: [Point; 3]) -> f64 {
+    0.5 * norm(triangle_normal(corners))
 }
 
 /// Largest over smallest singular value of the linear map from one triangle to another, [`DILATATION_CAP`] at most.

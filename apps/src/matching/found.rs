@@ -4,11 +4,14 @@ use crate::input::Input;
 use crate::report::{Attempts, Checks, Done, Figures, Seconds};
 use crate::say;
 use ricci::geometry::vector::{diagonal, distance};
-use ricci::matching::{MapQuality, Matching, cycle_error, map_quality};
+use ricci::matching::{MapQuality, Matching, cycle_error, map_quality, uncovered};
 use ricci::mesh::VertexId;
+use ricci::metric::Overlay;
 
 /// Distance of a landmark's image from its partner that passes, as a share of the diagonal of the target's bounding box.
 const LANDMARK: f64 = 1e-8;
+/// Share of the area of a surface by which an overlay may miss it.
+const AREA: f64 = 1e-10;
 /// Sum of the weights of a place that passes, as its difference from 1.
 const WEIGHTS: f64 = 1e-12;
 
@@ -21,6 +24,9 @@ pub struct Found {
     pub cycle: [f64; 2],
     /// Per vertex the distance of its image from the target's vertex of the same number.
     pub partners: Option<Vec<f64>>,
+    /// With the shares of the areas of source and target by which it misses them.
+    pub overlay: Option<Overlay>,
+    pub uncovered: [f64; 2],
     pub failed: Attempts,
     pub seconds: Seconds,
 }
@@ -45,7 +51,25 @@ impl Found {
             }
         };
         let (failed, seconds) = (Attempts::default(), source.seconds);
-        Ok(Found { target, matching, landmarks, quality, cycle, partners, failed, seconds })
+        let (overlay, uncovered) = (None, [0.0; 2]);
+        Ok(Found {
+            target,
+            matching,
+            landmarks,
+            quality,
+            cycle,
+            partners,
+            overlay,
+            uncovered,
+            failed,
+            seconds,
+        })
+    }
+
+    pub fn lay_over(&mut self, source: &Input, overlay: Overlay) -> ricci::Result<()> {
+        self.uncovered = uncovered([&source.surface, &self.target.surface], &overlay)?;
+        self.overlay = Some(overlay);
+        Ok(())
     }
 
     /// Mean and largest distance of a vertex's image from the target's vertex of the same number.
@@ -65,6 +89,9 @@ impl Found {
             let least = place.weights.iter().copied().fold(0.0, f64::min);
             (place.weights.iter().sum::<f64>() - 1.0).abs().max(-least)
         });
+        if self.overlay.is_some() {
+            checks.add("overlay_area", self.uncovered[0].max(self.uncovered[1]), AREA);
+        }
         checks.add("weights", off.fold(0.0, f64::max), WEIGHTS);
         checks
     }
@@ -90,6 +117,9 @@ impl Found {
             .with("cycle_max", self.cycle[1])
             .if_some("partner_mean", partners.map(|p| p[0]))
             .if_some("partner_max", partners.map(|p| p[1]))
+            .if_some("overlay_faces", self.overlay.as_ref().map(|o| o.mesh.n_faces()))
+            .if_some("overlay_crossings", self.overlay.as_ref().map(|o| o.crossings.len()))
+            .if_some("overlay_uncovered", self.overlay.as_ref().map(|_| self.uncovered.to_vec()))
             .with("outside", m.outside)
             .with("markings", m.markings)
             .with("energy", first.energy)

@@ -16,7 +16,7 @@ use super::walk::Seed;
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::Space;
-use crate::mesh::{FaceId, Mesh};
+use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::metric::{Overlay, Split};
 use crate::parallel::within;
 use arcs::Arcs;
@@ -30,6 +30,17 @@ pub struct CommonDomain {
     placed: [Placed; 2],
     seeds: [Seed; 2],
     given: [Given; 2],
+}
+
+/// A face in the domain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DomainTriangle {
+    /// In the plane as (x, y, 1), on the hyperboloid or on the sphere.
+    pub corners: [[f64; 3]; 3],
+    /// Numbers beyond those of the surface are of vertices on edges that were halved.
+    pub vertices: [VertexId; 3],
+    /// The face of the surface that it is a part of.
+    pub face: FaceId,
 }
 
 /// A surface as it was given.
@@ -54,11 +65,14 @@ impl CommonDomain {
         self.placed[1].cover.space
     }
 
-    /// The faces of one of the two (0 the source, 1 the target) as they lie in the domain, opened along that one's cut: per face its corners in the plane
-    /// (x, y, 1), on the hyperboloid or on the sphere, and the face of the surface that it is a part of.
-    pub fn triangles(&self, side: usize) -> Vec<([[f64; 3]; 3], FaceId)> {
+    /// The faces of one of the two (0 the source, 1 the target) as they lie in the domain, opened along that one's cut.
+    pub fn triangles(&self, side: usize) -> Vec<DomainTriangle> {
         let placed = &self.placed[side];
-        let of = |f: FaceId| (placed.face(f).map(|p| p.map(f64::from)), self.given[side].parts[f.index()].0);
+        let of = |f: FaceId| DomainTriangle {
+            corners: placed.face(f).map(|p| p.map(f64::from)),
+            vertices: placed.cover.mesh.face_vertices(f),
+            face: self.given[side].parts[f.index()].0,
+        };
         placed.cover.mesh.faces().map(of).collect()
     }
 
