@@ -8,7 +8,7 @@ use crate::input::Input;
 use crate::picture::{self, Circle, Field, Flat, Picture, Scale, Style, Surface, Texture, Tiles};
 use ricci::geometry::motion::precise_point;
 use ricci::geometry::{Motion, Space, model};
-use ricci::matching::dilatations;
+use ricci::matching::{DomainTriangle, dilatations};
 use ricci::mesh::{Point, VertexId};
 
 /// Checks of the texture along the target's longest direction.
@@ -93,20 +93,7 @@ fn domains(found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
         let both = Picture { surface: Some(sphere(0)), beside: Some(sphere(1)), ..Picture::default() };
         return picture::png(&both, &style);
     }
-    let all = triangles[1].iter().flat_map(|t| t.corners);
-    let sum = all.fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k]));
-    let home = match domain.space() {
-        Space::H2 => {
-            let size = (sum[2] * sum[2] - sum[0] * sum[0] - sum[1] * sum[1]).max(f64::MIN_POSITIVE).sqrt();
-            Motion::to_origin(Space::H2, precise_point(Space::H2, sum.map(|x| x / size))).rounded()
-        }
-        space => Motion::identity(space),
-    };
-    let plane = |p: Point| match domain.space() {
-        Space::H2 => model::poincare(home.apply(p)),
-        _ => [p[0], p[1]],
-    };
-    let uv = triangles.each_ref().map(|all| all.iter().map(|t| t.corners.map(plane)).collect::<Vec<_>>());
+    let uv = triangles.each_ref().map(|all| in_plane(domain.space(), all));
     let dots = [0, 1].map(|s| {
         let corners = triangles[s].iter().zip(&uv[s]).flat_map(|(t, uv)| t.vertices.into_iter().zip(*uv));
         let marked = corners.filter(|(v, _): &(VertexId, _)| marks[s].contains(v));
@@ -115,8 +102,39 @@ fn domains(found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
     let rim = [Circle { center: [0.0; 2], radius: 1.0 }];
     let rims: &[Circle] = if domain.space() == Space::H2 { &rim } else { &[] };
     let flat = |s: usize| Flat { corner_uv: &uv[s], cones: &dots[s], rims, ..Flat::default() };
-    let both = Picture { flat: Some(flat(0)), flat_beside: Some(flat(1)), ..Picture::default() };
+    // No pattern is drawn; without one of so many faces the second panel would take that of the first.
+    let pattern = Tiles::even(1.0, uv[0].len().max(uv[1].len()));
+    let both = Picture {
+        pattern: Some(&pattern),
+        flat: Some(flat(0)),
+        flat_beside: Some(flat(1)),
+        ..Picture::default()
+    };
     picture::png(&both, &style)
+}
+
+/// Triangles in the plane; of the hyperbolic plane in the Poincaré disk with their mean at its centre.
+fn in_plane(space: Space, triangles: &[DomainTriangle]) -> Vec<[[f64; 2]; 3]> {
+    let home = match space {
+        Space::H2 => {
+            // By area about equal weights: what is far out has most of the triangles, and they are small there.
+            let middle = triangles.iter().map(|t| {
+                let [a, b, c] = t.corners.map(model::poincare);
+                let area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs();
+                let p = [0, 1, 2].map(|k| t.corners[0][k] + t.corners[1][k] + t.corners[2][k]);
+                p.map(|x| x * area)
+            });
+            let sum = middle.fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k]));
+            let size = (sum[2] * sum[2] - sum[0] * sum[0] - sum[1] * sum[1]).max(f64::MIN_POSITIVE).sqrt();
+            Motion::to_origin(Space::H2, precise_point(Space::H2, sum.map(|x| x / size))).rounded()
+        }
+        space => Motion::identity(space),
+    };
+    let plane = |p: Point| match space {
+        Space::H2 => model::poincare(home.apply(p)),
+        _ => [p[0], p[1]],
+    };
+    triangles.iter().map(|t| t.corners.map(plane)).collect()
 }
 
 /// The source in colours: the distance of every vertex's image from the vertex of the same number where numbers correspond, else how much the

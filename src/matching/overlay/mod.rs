@@ -16,12 +16,13 @@ use super::walk::Seed;
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::Space;
-use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::mesh::union_find::UnionFind;
+use crate::mesh::{FaceId, HalfedgeId, Mesh, VertexId};
 use crate::metric::{Overlay, Split};
 use crate::parallel::within;
 use arcs::Arcs;
+use pieces::Given;
 use stand::Settled;
-use std::sync::Arc;
 
 /// Both triangulations of a matching in the domain of the target.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,14 +44,6 @@ pub struct DomainTriangle {
     pub face: FaceId,
 }
 
-/// A surface as it was given.
-#[derive(Debug, Clone, PartialEq)]
-struct Given {
-    mesh: Arc<Mesh>,
-    /// Per face in the domain: the face that it is a part of, and the weights of its corners there.
-    parts: Vec<(FaceId, [[f64; 3]; 3])>,
-}
-
 impl CommonDomain {
     pub(super) fn new(placed: [Placed; 2], seeds: [Seed; 2], splits: [&Split; 2]) -> CommonDomain {
         let given = [0, 1].map(|s| Given {
@@ -65,15 +58,29 @@ impl CommonDomain {
         self.placed[1].cover.space
     }
 
-    /// The faces of one of the two (0 the source, 1 the target) as they lie in the domain, opened along that one's cut.
+    /// The faces of one of the two (0 the source, 1 the target) as they lie in the domain, opened along that one's cut: corners that meet there have the
+    /// same coordinates.
     pub fn triangles(&self, side: usize) -> Vec<DomainTriangle> {
         let placed = &self.placed[side];
+        let mesh = &placed.cover.mesh;
+        let mut one = UnionFind::new(mesh.n_halfedges());
+        for h in mesh.halfedges() {
+            let is_inner = !mesh.is_outside(h) && !mesh.is_outside(h.twin());
+            if is_inner && placed.cover.across(h).is_none() {
+                one.join(h.0, mesh.next(h.twin()).0);
+            }
+        }
+        let mut at: Vec<Option<[f64; 3]>> = vec![None; mesh.n_halfedges()];
+        let mut corner = |h: HalfedgeId| {
+            let root = one.root(h.0) as usize;
+            *at[root].get_or_insert_with(|| placed.corner(h).map(f64::from))
+        };
         let of = |f: FaceId| DomainTriangle {
-            corners: placed.face(f).map(|p| p.map(f64::from)),
-            vertices: placed.cover.mesh.face_vertices(f),
+            corners: mesh.face_halfedges(f).map(&mut corner),
+            vertices: mesh.face_vertices(f),
             face: self.given[side].parts[f.index()].0,
         };
-        placed.cover.mesh.faces().map(of).collect()
+        mesh.faces().map(of).collect()
     }
 
     /// The triangulations laid over each other: the map is projective on every triangle of it. The source's vertices come to lie where the matching has

@@ -1,13 +1,21 @@
 //! The faces of the graph that two triangulations make, as triangles with their places in both.
 
 use super::super::cover::Placed;
-use super::Given;
 use super::arcs::{Arcs, NONE};
 use super::stand::{At, Settled, Spot};
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerFace};
 use crate::metric::Overlay;
 use crate::metric::overlay::Meeting;
+use std::sync::Arc;
+
+/// A surface as it was given.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Given {
+    pub mesh: Arc<Mesh>,
+    /// Per face in the domain: the face that it is a part of, and the weights of its corners there.
+    pub parts: Vec<(FaceId, [[f64; 3]; 3])>,
+}
 
 /// A place in a face: its face and its barycentric coordinates there.
 type Lies = (FaceId, [f64; 3]);
