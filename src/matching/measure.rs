@@ -161,6 +161,27 @@ fn positions(surface: &Surface) -> Result<&[Point]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::{FaceId, Mesh, Place};
+
+    #[test]
+    fn areas_change_by_the_shares_that_faces_have() {
+        let mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+        let square = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        // The same corners but one, farther out: areas 1.5 and 0.5.
+        let kite = vec![[0.0, 0.0, 0.0], [2.0, -1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let [source, target] = [square, kite].map(|points| Surface::in_space(mesh.clone(), points).unwrap());
+        let corner = |face, k: usize| Place {
+            face: FaceId(face),
+            weights: std::array::from_fn(|i| f64::from(u8::from(i == k))),
+        };
+        let map = SurfaceMap { places: vec![corner(0, 0), corner(0, 1), corner(0, 2), corner(1, 2)] };
+        let quality = map_quality([&source, &target], &map, &[]).unwrap();
+        assert!((quality.area_ratio_min - 0.5).abs() < 1e-12 && (quality.area_ratio_max - 1.5).abs() < 1e-12);
+        assert!((quality.area_ratio_mean - 1.0).abs() < 1e-12);
+        assert!((quality.area_log - 0.5 * (1.5f64.ln() + 2f64.ln())).abs() < 1e-12, "{quality:?}");
+        let all = dilatations([&source, &target], &map).unwrap();
+        assert!((all[FaceId(1)] - 1.0).abs() < 1e-12 && (all[FaceId(0)] - quality.qc_max).abs() < 1e-12);
+    }
 
     #[test]
     fn dilatation_is_the_quotient_of_singular_values() {

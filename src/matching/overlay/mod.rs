@@ -17,7 +17,7 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::Space;
 use crate::mesh::union_find::UnionFind;
-use crate::mesh::{FaceId, HalfedgeId, Mesh, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::metric::{Overlay, Split};
 use crate::parallel::within;
 use arcs::Arcs;
