@@ -25,7 +25,7 @@ OTHER = [("pair_cat_A", "pair_lion_A"), ("pair_faust_002", "pair_faust_085"), ("
 LANDMARKS = [0, 4, 8, 16]
 FIGURE_12 = """The case of [JKLLG08, Fig. 12]. There every surface goes to a flat torus with round holes (`ricci circles` makes it), and these are matched: a hole
 bends away from the surface around it, so that a harmonic map may fold beside it. Here the loops become geodesics of a hyperbolic metric, which do not
-bend, and no map onto them folds; circles they are not: the lifts of each loop are lines across the Poincaré disk (picture `match-holes` of the gallery).
+bend, and no map onto them folds; circles they are not: the lifts of each loop are lines across the Poincaré disk (`ricci match --domains`).
 """
 # Largest mesh that is matched to itself, and the seconds that one run may take: of a pair, of a mesh and itself.
 LARGEST = 30000
