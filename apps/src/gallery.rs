@@ -16,11 +16,12 @@ const PICTURES: &str = include_str!("gallery.txt");
 /// What other programs' pictures of the same layouts look like; it ends the page where the corpus is at hand.
 const BESIDE: &str = include_str!("gallery_beside.md");
 
-/// One picture. In the command lines `{}` stands for the surface's file, `{spline}` for a spline's.
+/// One picture. In the command lines `{}` stands for the surface's file, `{spline}` for a spline's, `{other}` for a second surface's and `{=NAME}` for that of a
+/// mesh of the corpus.
 struct Row {
     name: &'static str,
     source: Source,
-    /// `flow …`, `uniformize …`, `cover …`, `circles …`, `harmonic …`, `forms …`, `structure …`, `spline …` or `info …`, or such commands with ` && ` between them, of which the last one draws; for
+    /// `flow …`, `uniformize …`, `cover …`, `circles …`, `harmonic …`, `forms …`, `structure …`, `match …`, `spline …` or `info …`, or such commands with ` && ` between them, of which the last one draws; for
     /// what `make` draws itself nothing.
     draw: &'static str,
     about: &'static str,
@@ -149,6 +150,8 @@ impl Row {
             Corpus(_) => None,
         };
         let draw = self.draw.replace("{}", &file).replace("{spline}", &format!("{}.json", self.name));
+        let draw = draw.replace("{other}", &format!("{}-other.obj", self.name));
+        let draw = draw.replace("{=", "").replace('}', ".obj");
         let draw =
             (!draw.is_empty()).then(|| format!("`ricci {}{picture}`", draw.replace(" && ", "`<br>`ricci ")));
         make.into_iter().chain(draw).collect::<Vec<_>>().join("<br>")
@@ -175,8 +178,14 @@ impl Studio<'_> {
             let to = |word: &str| match word {
                 "{}" => path_text(&surface),
                 "{spline}" => path_text(&self.scratch.join(format!("{}.json", row.name))),
+                "{other}" => path_text(&self.scratch.join(format!("{}-other.obj", row.name))),
                 "PICTURE" => path_text(&out.join(format!("{}.png", row.name))),
-                word => word.into(),
+                word => match (word.strip_prefix("{="), meshes) {
+                    (Some(name), Some(folder)) => {
+                        path_text(&folder.join("good").join(name.replace('}', ".obj")))
+                    }
+                    _ => word.into(),
+                },
             };
             line.split_whitespace().map(to).collect()
         };
@@ -203,6 +212,7 @@ impl Studio<'_> {
     fn run(&self, command: Command) -> Result<(), Failure> {
         let failed = |checks: String| Err(Failure::Failed(format!("these checks fail: {checks}")));
         match command {
+            Command::Make(args) => make::run(&args).map(|_| ()),
             Command::Info(args) => info::run(&args, self.control).map(|_| ()),
             Command::Spline(args) => match spline::run(&args, self.control)? {
                 0 => Ok(()),

@@ -2,7 +2,7 @@
 //! written in place.
 
 use crate::failure::Failure;
-use ricci::mesh::io::{Format, destination};
+use ricci::mesh::io::{Format, Textured, destination};
 use serde::Serialize;
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Write};
@@ -272,6 +272,14 @@ pub fn format_of(path: &Path) -> Result<Format, Failure> {
     match Place::of(path) {
         Place::Regular(..) => Ok(Format::of(path)?),
         Place::Stdout | Place::Open => Ok(Format::of(path).unwrap_or(Format::Obj)),
+    }
+}
+
+/// Add a triangle list with texture coordinates: binary glTF for .glb, else OBJ.
+pub fn write_textured(outputs: &mut Outputs, path: &Path, data: &Textured) -> Result<(), Failure> {
+    match extension(path).as_str() {
+        "glb" => outputs.add_named(path, |path| ricci::mesh::io::write_glb(path, data, None).map(drop)),
+        _ => outputs.add_named(path, |path| ricci::mesh::io::write_obj(path, data)),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The common refinement of a mesh and the metric's triangulation: a map between the two, and what is carried over it.
+//! The common refinement of a mesh and the metric's triangulation, or of two surfaces: a map between the two, and what is carried over it.
 
 use crate::arrays::{array, check_buffer, copy_each, copy_out};
 use crate::choice::choices;
@@ -10,10 +10,10 @@ use crate::mesh::ricci_mesh;
 use crate::metric::{ON, On, State, ricci_metric};
 use crate::status::*;
 use crate::structs::{self, sized};
-use ricci::Control;
 use ricci::mesh::{FaceId, Mesh, PerVertex};
-use ricci::metric::Refinement;
 use ricci::metric::refinement::Crossing;
+use ricci::metric::{Overlay, Refinement};
+use ricci::{Control, Surface};
 use std::sync::Arc;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,10 +27,14 @@ choices!(AT: At = "at", [
     RICCI_AT_CORNERS => At::Corners,
 ]);
 
-pub struct ricci_map {
-    state: Arc<State>,
-    /// None where both triangulations are one.
-    refinement: Option<Arc<Refinement>>,
+pub struct ricci_map(Kind);
+
+/// Which two triangulations a map is between.
+enum Kind {
+    /// Of a metric: no refinement where both are one.
+    Flow(Arc<State>, Option<Arc<Refinement>>),
+    /// Of two surfaces.
+    Matching(Box<([Surface; 2], Overlay)>),
 }
 handle!(ricci_map, "map");
 
@@ -79,13 +83,67 @@ fn side(on: u32) -> Outcome<On> {
 }
 
 impl ricci_map {
-    fn mesh(&self) -> &Mesh {
-        self.refinement.as_ref().map_or(self.state.solution.mesh(), |r| &r.mesh)
+    /// The map of two surfaces that are laid over each other.
+    pub(crate) fn of_overlay(surfaces: [Surface; 2], overlay: Overlay) -> ricci_map {
+        ricci_map(Kind::Matching(Box::new((surfaces, overlay))))
     }
 
-    fn crossings(&self) -> &[Crossing] {
-        self.refinement.as_ref().map_or(&[], |r| &r.crossings)
+    fn mesh(&self) -> &Mesh {
+        match &self.0 {
+            Kind::Flow(state, refinement) => refinement.as_ref().map_or(state.solution.mesh(), |r| &r.mesh),
+            Kind::Matching(both) => &both.1.mesh,
+        }
     }
+
+    /// Per crossing, its edge on a side and the weight of that edge's second end.
+    fn crossings(&self, on: On) -> Vec<(u32, f64)> {
+        let of = |c: &Crossing| match on {
+            On::Input => (c.input_edge.0, c.input_weights[1]),
+            _ => (c.final_edge.0, c.final_weights[1]),
+        };
+        match &self.0 {
+            Kind::Flow(_, refinement) => {
+                refinement.as_ref().map_or(Vec::new(), |r| r.crossings.iter().map(of).collect())
+            }
+            Kind::Matching(both) => {
+                both.1.crossings.iter().map(|c| (c[number(on)].0.0, c[number(on)].1)).collect()
+            }
+        }
+    }
+
+    /// Triangulations as they were given on a side.
+    fn given(&self, on: On) -> &Mesh {
+        match (&self.0, on) {
+            (Kind::Flow(state, _), On::Input) => state.solution.given(),
+            (Kind::Flow(state, _), _) => state.solution.mesh(),
+            (Kind::Matching(both), on) => both.0[number(on)].mesh(),
+        }
+    }
+
+    /// Values at the vertices of a side, at those of the refinement.
+    fn at_vertices(&self, on: On, column: &[[f64; 1]]) -> ricci::Result<Vec<[f64; 1]>> {
+        match &self.0 {
+            Kind::Flow(_, None) => Ok(column.to_vec()),
+            Kind::Flow(_, Some(r)) if on == On::Input => r.from_input_vertices(column),
+            Kind::Flow(_, Some(r)) => r.from_final_vertices(column),
+            Kind::Matching(both) => both.1.from_vertices(number(on), self.given(on), column),
+        }
+    }
+
+    /// Values at the corners of a side's faces, at those of the refinement.
+    fn at_corners(&self, on: On, column: &[[[f64; 1]; 3]]) -> ricci::Result<Vec<[[f64; 1]; 3]>> {
+        match &self.0 {
+            Kind::Flow(_, None) => Ok(column.to_vec()),
+            Kind::Flow(_, Some(r)) if on == On::Input => r.from_input_corners(column),
+            Kind::Flow(_, Some(r)) => r.from_final_corners(column),
+            Kind::Matching(both) => both.1.from_corners(number(on), column),
+        }
+    }
+}
+
+/// The number of a side of an overlay: the source, or the target.
+fn number(on: On) -> usize {
+    usize::from(on != On::Input)
 }
 
 #[unsafe(no_mangle)]
@@ -98,7 +156,7 @@ pub unsafe extern "C" fn ricci_map_new(
         let state = shared(metric)?.0.clone();
         let _reserve = memory::work(state.solution.mesh().n_vertices(), memory::LAYOUT)?;
         let refinement = state.refinement(&control::of(control))?.cloned();
-        Ok(ricci_map { state, refinement })
+        Ok(ricci_map(Kind::Flow(state, refinement)))
     })
 }
 
@@ -114,13 +172,17 @@ pub unsafe extern "C" fn ricci_map_summarise(
     size: usize,
 ) -> ricci_status {
     guard::with(map, |map| {
-        let (mesh, pieces) = (map.mesh(), map.refinement.as_ref().map(|r| r.piece.last()));
+        let mesh = map.mesh();
+        let pieces = match &map.0 {
+            Kind::Flow(_, refinement) => refinement.as_ref().map(|r| r.piece.last()),
+            Kind::Matching(both) => Some(both.1.piece.last()),
+        };
         let figures = ricci_map_summary {
             size,
             n_vertices: mesh.n_vertices(),
             n_edges: mesh.n_edges(),
             n_faces: mesh.n_faces(),
-            n_crossings: map.crossings().len(),
+            n_crossings: map.crossings(On::Input).len(),
             n_pieces: pieces.map_or(mesh.n_faces(), |last| last.map_or(0, |&last| last as usize + 1)),
         };
         structs::write(figures, summary, size)
@@ -131,18 +193,24 @@ pub unsafe extern "C" fn ricci_map_summarise(
 pub unsafe extern "C" fn ricci_map_mesh(map: *const ricci_map, mesh: *mut *mut ricci_mesh) -> ricci_status {
     guard::make(mesh, || {
         let map = shared(map)?;
-        let positions = map.state.solution.surface().positions();
-        let positions = positions.ok_or_else(|| {
+        let surface = match &map.0 {
+            Kind::Flow(state, _) => state.solution.surface(),
+            Kind::Matching(both) => &both.0[0],
+        };
+        let positions = surface.positions().ok_or_else(|| {
             Failure::argument(
                 "the given mesh is intrinsic: ricci_layout_mesh has the refinement with lengths",
             )
         })?;
-        Ok(match &map.refinement {
-            Some(r) => {
-                ricci_mesh::in_space(Arc::new(r.mesh.clone()), Arc::new(r.from_input_vertices(positions)?))
+        let (mesh, positions) = match &map.0 {
+            Kind::Flow(_, Some(r)) => (Arc::new(r.mesh.clone()), Arc::new(r.from_input_vertices(positions)?)),
+            Kind::Flow(state, None) => (state.solution.mesh().clone(), positions.clone()),
+            Kind::Matching(both) => {
+                let there = both.1.from_vertices(0, surface.mesh(), positions)?;
+                (Arc::new(both.1.mesh.clone()), Arc::new(there))
             }
-            None => ricci_mesh::in_space(map.state.solution.mesh().clone(), positions.clone()),
-        })
+        };
+        Ok(ricci_mesh::in_space(mesh, positions))
     })
 }
 
@@ -155,11 +223,13 @@ pub unsafe extern "C" fn ricci_map_faces(
 ) -> ricci_status {
     guard::with(map, |map| {
         let on = ON.choose(on)?;
-        let of = |f: FaceId| match (&map.refinement, on) {
-            (Some(refinement), On::Input) => refinement.input_face[f].0,
-            (Some(refinement), On::Metric) => refinement.final_face[f].0,
-            (Some(refinement), On::Refinement) => refinement.piece[f],
-            (None, _) => f.0,
+        let of = |f: FaceId| match (&map.0, on) {
+            (Kind::Flow(_, None), _) => f.0,
+            (Kind::Flow(_, Some(refinement)), On::Input) => refinement.input_face[f].0,
+            (Kind::Flow(_, Some(refinement)), On::Metric) => refinement.final_face[f].0,
+            (Kind::Flow(_, Some(refinement)), On::Refinement) => refinement.piece[f],
+            (Kind::Matching(both), On::Refinement) => both.1.piece[f],
+            (Kind::Matching(both), on) => both.1.faces[number(on)][f].0,
         };
         copy_each("faces", map.mesh().n_faces(), map.mesh().faces().map(of), faces, capacity)
     })
@@ -174,10 +244,11 @@ pub unsafe extern "C" fn ricci_map_barycentric(
 ) -> ricci_status {
     guard::with(map, |map| {
         let on = side(on)?;
-        let of = |f: FaceId| match (&map.refinement, on) {
-            (Some(refinement), On::Input) => refinement.input_barycentric(f),
-            (Some(refinement), _) => refinement.final_barycentric(f),
-            (None, _) => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        let of = |f: FaceId| match (&map.0, on) {
+            (Kind::Flow(_, Some(refinement)), On::Input) => refinement.input_barycentric(f),
+            (Kind::Flow(_, Some(refinement)), _) => refinement.final_barycentric(f),
+            (Kind::Flow(_, None), _) => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            (Kind::Matching(both), on) => both.1.barycentric[number(on)][f],
         };
         copy_each("weights", map.mesh().n_faces(), map.mesh().faces().map(of), weights, capacity)
     })
@@ -193,11 +264,7 @@ pub unsafe extern "C" fn ricci_map_crossings(
 ) -> ricci_status {
     guard::with(map, |map| {
         let on = side(on)?;
-        let of = |c: &Crossing| match on {
-            On::Input => (c.input_edge.0, c.input_weights[1]),
-            _ => (c.final_edge.0, c.final_weights[1]),
-        };
-        let (names, values): (Vec<u32>, Vec<f64>) = map.crossings().iter().map(of).unzip();
+        let (names, values): (Vec<u32>, Vec<f64>) = map.crossings(on).into_iter().unzip();
         check_buffer("fractions", values.len(), fractions, capacity)?;
         copy_out("edges", &names, edges, capacity)?;
         copy_out("fractions", &values, fractions, capacity)
@@ -212,7 +279,11 @@ pub unsafe extern "C" fn ricci_map_weights(
 ) -> ricci_status {
     guard::with(map, |map| {
         check_buffer("weights", map.mesh().n_vertices(), weights, capacity)?;
-        copy_out("weights", &self::weights(&map.state, map.refinement.as_ref())?, weights, capacity)
+        let all = match &map.0 {
+            Kind::Flow(state, refinement) => self::weights(state, refinement.as_ref())?,
+            Kind::Matching(both) => both.1.weight.clone(),
+        };
+        copy_out("weights", &all, weights, capacity)
     })
 }
 
@@ -228,26 +299,18 @@ pub unsafe extern "C" fn ricci_map_carry(
             return Err(Failure::null("values"));
         }
         let given = structs::read(values)?;
-        let (on, solution) = (side(given.on)?, &map.state.solution);
-        let mesh = if on == On::Input { solution.given() } else { solution.mesh() };
-        let refinement = map.refinement.as_ref();
+        let on = side(given.on)?;
+        let mesh = map.given(on);
         let all = match AT.choose(given.at)? {
             At::Vertices => {
                 let values = Values::<1>::read(&given, mesh.n_vertices())?;
-                values.carry(refinement, |r, column| match on {
-                    On::Input => r.from_input_vertices(column),
-                    _ => r.from_final_vertices(column),
-                })
+                values.carry(|column| map.at_vertices(on, column))
             }
             At::Corners => {
                 let values = Values::<3>::read(&given, mesh.n_faces())?;
-                values.carry(refinement, |r, column| {
+                values.carry(|column| {
                     let column: Vec<_> = column.iter().map(|face| face.map(|x| [x])).collect();
-                    let carried = match on {
-                        On::Input => r.from_input_corners(&column),
-                        _ => r.from_final_corners(&column),
-                    };
-                    Ok(carried?.iter().map(|face| face.map(|[x]| x)).collect())
+                    Ok(map.at_corners(on, &column)?.iter().map(|face| face.map(|[x]| x)).collect())
                 })
             }
         }?;
@@ -283,18 +346,13 @@ impl<const K: usize> Values<K> {
     }
 
     /// The values at the places of the refinement, component after component carried by `carry`.
-    fn carry(
-        self,
-        refinement: Option<&Arc<Refinement>>,
-        carry: impl Fn(&Refinement, &[[f64; K]]) -> ricci::Result<Vec<[f64; K]>>,
-    ) -> Outcome<Vec<f64>> {
+    fn carry(self, carry: impl Fn(&[[f64; K]]) -> ricci::Result<Vec<[f64; K]>>) -> Outcome<Vec<f64>> {
         let n = self.n_components;
-        let Some(refinement) = refinement.filter(|_| n > 0) else { return Ok(self.all) };
         let mut carried = Vec::new();
         for component in 0..n {
             let row = |row: &[f64]| std::array::from_fn(|k| row[k * n + component]);
             let column: Vec<[f64; K]> = self.all.chunks_exact(K * n).map(row).collect();
-            let result = carry(refinement, &column)?;
+            let result = carry(&column)?;
             carried.resize(result.len() * K * n, 0.0);
             for (place, value) in result.as_flattened().iter().enumerate() {
                 carried[place * n + component] = *value;

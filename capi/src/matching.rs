@@ -5,19 +5,24 @@ use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
+use crate::map::ricci_map;
 use crate::memory;
 use crate::mesh::ricci_mesh;
 use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::flow::Options;
-use ricci::matching::{MatchOptions, Matching, SurfaceMap, match_surfaces};
+use ricci::matching::{
+    MapQuality, MatchOptions, Matching, SurfaceMap, cycle_error, map_quality, match_surfaces,
+};
 use ricci::mesh::VertexId;
 
 pub struct ricci_matching {
     matching: Matching,
     source: Surface,
     target: Surface,
+    quality: Option<(MapQuality, [f64; 2])>,
+    threads: usize,
 }
 handle!(ricci_matching, "matching");
 
@@ -57,6 +62,17 @@ pub struct ricci_matching_summary {
     pub energy: f64,
     pub target_energy: f64,
     pub residual: f64,
+    pub qc_mean: f64,
+    pub qc_max: f64,
+    pub area_ratio_min: f64,
+    pub area_ratio_mean: f64,
+    pub area_ratio_max: f64,
+    pub area_log: f64,
+    pub distance_mean: f64,
+    pub distance_max: f64,
+    pub landmark_error: f64,
+    pub cycle_mean: f64,
+    pub cycle_max: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_matching_summary, "summary");
@@ -93,7 +109,16 @@ pub unsafe extern "C" fn ricci_match(
         };
         let (source, target) = (source.surface()?, target.surface()?);
         let matching = match_surfaces(source, target, &options, &control)?;
-        Ok(ricci_matching { matching, source: source.clone(), target: target.clone() })
+        // Of an intrinsic surface nothing is measured in space.
+        let both = [source, target];
+        let quality = if both.iter().all(|s| s.positions().is_some()) {
+            let cycle = cycle_error(both, [&matching.forward, &matching.backward])?;
+            Some((map_quality(both, &matching.forward, &options.landmarks)?, cycle))
+        } else {
+            None
+        };
+        let (source, target, threads) = (source.clone(), target.clone(), given.threads);
+        Ok(ricci_matching { matching, source, target, quality, threads })
     })
 }
 
@@ -108,8 +133,9 @@ pub unsafe extern "C" fn ricci_matching_summarise(
     summary: *mut ricci_matching_summary,
     size: usize,
 ) -> ricci_status {
-    guard::with(matching, |ricci_matching { matching, .. }| {
+    guard::with(matching, |ricci_matching { matching, quality, .. }| {
         let [first, second] = matching.balance;
+        let of = |pick: fn(&(MapQuality, [f64; 2])) -> f64| quality.as_ref().map_or(0.0, pick);
         let figures = ricci_matching_summary {
             size: 0,
             n_source_vertices: matching.forward.places.len(),
@@ -120,6 +146,17 @@ pub unsafe extern "C" fn ricci_matching_summarise(
             energy: first.energy,
             target_energy: second.energy,
             residual: first.residual.max(second.residual),
+            qc_mean: of(|(q, _)| q.qc_mean),
+            qc_max: of(|(q, _)| q.qc_max),
+            area_ratio_min: of(|(q, _)| q.area_ratio_min),
+            area_ratio_mean: of(|(q, _)| q.area_ratio_mean),
+            area_ratio_max: of(|(q, _)| q.area_ratio_max),
+            area_log: of(|(q, _)| q.area_log),
+            distance_mean: of(|(q, _)| q.distance_mean),
+            distance_max: of(|(q, _)| q.distance_max),
+            landmark_error: of(|(q, _)| q.landmark_error),
+            cycle_mean: of(|(_, cycle)| cycle[0]),
+            cycle_max: of(|(_, cycle)| cycle[1]),
         };
         structs::write(figures, summary, size)
     })
@@ -178,5 +215,20 @@ pub unsafe extern "C" fn ricci_matching_carry(
             images.into_iter().enumerate().for_each(|(v, [x])| all[columns * v + k] = x);
         }
         copy_out("carried", &all, carried, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_matching_map(
+    matching: *const ricci_matching,
+    control: *const ricci_control,
+    map: *mut *mut ricci_map,
+) -> ricci_status {
+    guard::make(map, || {
+        let ricci_matching { matching, source, target, threads, .. } = shared(matching)?;
+        let n = matching.forward.places.len().saturating_add(matching.backward.places.len());
+        let _reserve = memory::work(n, memory::LAYOUT)?;
+        let overlay = matching.domain.overlay(*threads, &control::of(control))?;
+        Ok(ricci_map::of_overlay([source.clone(), target.clone()], overlay))
     })
 }

@@ -3,9 +3,11 @@
 
 usage: docs/results/matching.py [CORPUS [NAME…]] > docs/results/matching.md     (after: cargo build --release -p ricci-apps)
 
-RICCI_CHECK names the program that judges the files from outside (by default ../shared/tools/check.py beside the repository).
+Of the names two are of sections: figure12, cortices. RICCI_ROWS names a file that keeps what is finished, a line per run of the command: an interrupted
+run goes on from there. RICCI_CHECK names the program that judges the files from outside (by default ../shared/tools/check.py beside the repository).
 """
 import heapq
+import json
 import math
 import os
 import statistics
@@ -21,6 +23,10 @@ OTHER = [("pair_cat_A", "pair_lion_A"), ("pair_faust_002", "pair_faust_085"), ("
          ("face_bff", "face_libigl"), ("pair_mac_smooth", "pair_mac_blocky"), ("eight_766", "eight_3498"), ("genus3", "pretzel"), ("bob", "kitten_10k"),
          ("spot_low", "cow_cgal"), ("homer", "human_man")]
 LANDMARKS = [0, 4, 8, 16]
+FIGURE_12 = """The case of [JKLLG08, Fig. 12]. There every surface goes to a flat torus with round holes (`ricci circles` makes it), and these are matched: a hole
+bends away from the surface around it, so that a harmonic map may fold beside it. Here the loops become geodesics of a hyperbolic metric, which do not
+bend, and no map onto them folds; circles they are not: the lifts of each loop are lines across the Poincaré disk (`ricci match --domains`).
+"""
 # Largest mesh that is matched to itself, and the seconds that one run may take: of a pair, of a mesh and itself.
 LARGEST = 30000
 PATIENCE = 300
@@ -83,8 +89,23 @@ def divided(path, folder, times):
     return out
 
 
-def matched(folder, paths, landmarks=(), same=False, seconds=None):
-    """Report, or none and why; and what the outside program says of the map."""
+KNOWN = {}
+
+
+def matched(folder, name, paths, landmarks=(), same=False, seconds=None, overlay=False):
+    """Report, or none and why; and what the outside program says of the map. `name` says of what: under it the answer is kept."""
+    kept = os.environ.get("RICCI_ROWS")
+    if kept and not KNOWN and os.path.exists(kept):
+        KNOWN.update((key, answer) for key, answer in map(json.loads, open(kept)))
+    if name not in KNOWN:
+        KNOWN[name] = answer(folder, paths, landmarks, same, seconds, overlay)
+        if kept:
+            with open(kept, "a") as file:
+                file.write(json.dumps([name, KNOWN[name]]) + "\n")
+    return KNOWN[name]
+
+
+def answer(folder, paths, landmarks, same, seconds, overlay):
     rows, places = os.path.join(folder, "map.csv"), os.path.join(folder, "landmarks.csv")
     asked = ["match", *paths, "--map", rows]
     if landmarks:
@@ -92,7 +113,9 @@ def matched(folder, paths, landmarks=(), same=False, seconds=None):
             file.write("source_vertex,target_vertex\n")
             file.writelines(f"{v},{v}\n" for v in landmarks)
         asked += ["--landmarks", places]
-    report, why = run(folder, *asked, *(["--same-numbering"] if same else []), seconds=seconds)
+    asked += ["--same-numbering"] if same else []
+    asked += ["--overlay", os.path.join(folder, "overlay.obj")] if overlay else []
+    report, why = run(folder, *asked, seconds=seconds)
     if report is None or "error" in report["result"]:
         return None, why if report is None else report["result"]["error"]["message"], None
     return report, why, judged("map_", rows, *paths)
@@ -102,10 +125,10 @@ def row(name, report, seen, *more):
     r = report["result"]
     outside = "–" if seen is None else f"{'all' if seen['covered'] else 'not all'}, {small(seen['weights_off'])}, {seen['faces_oriented']:.4f}"
     return [name, *more, r["space"], str(r["flipped_triangles"]), small(r["landmark_error"]), f"{r['qc_mean']:.3f}", small(r["qc_max"]),
-            small(r["cycle_mean"]), str(r["markings"]), outside, f"{report['seconds']['total']:.1f}"]
+            f"{r['area_log']:.3f}", small(r["cycle_mean"]), str(r["markings"]), outside, f"{report['seconds']['total']:.1f}"]
 
 
-HEAD = ["space", "flipped", "landmarks off", "K mean", "K max", "there and back", "classes", "outside: covered, weights, oriented", "s"]
+HEAD = ["space", "flipped", "landmarks off", "K mean", "K max", "area", "there and back", "classes", "outside: covered, weights, oriented", "s"]
 
 
 def pairs(folder):
@@ -118,7 +141,7 @@ def pairs(folder):
         vertices = farthest(paths[0], max(LANDMARKS)) if same else []
         for n in LANDMARKS if same else LANDMARKS[:1]:
             name = f"{first} → {second}"
-            report, why, seen = matched(folder, paths, vertices[:n], same, PATIENCE)
+            report, why, seen = matched(folder, f"{name}, {n}", paths, vertices[:n], same, PATIENCE)
             if report is None:
                 bad.append(f"{name}, {n} landmarks: {why}")
                 continue
@@ -138,7 +161,7 @@ def selves(folder):
     rows, bad = [], []
     for mesh in meshes(lambda m: int(m["V"]) <= LARGEST):
         path = file_of(mesh)
-        report, why, seen = matched(folder, [path, path], (), True, OWN_PATIENCE)
+        report, why, seen = matched(folder, f"{mesh['name']} to itself", [path, path], (), True, OWN_PATIENCE)
         if report is None:
             bad.append(f"{mesh['name']} to itself: {why}")
             continue
@@ -151,13 +174,35 @@ def selves(folder):
     return table(["mesh", "V", "genus", "loops", "space", "farthest from itself", "off the means", "flipped", "s"], rows), bad
 
 
+def overlays(folder):
+    """Source and target laid over each other."""
+    known = {mesh["name"]: mesh for mesh in meshes(lambda m: True)}
+    rows, bad = [], []
+    for first, second in SAME[:3] + OTHER:
+        if first not in known or second not in known:
+            continue
+        paths, name = [file_of(known[n]) for n in (first, second)], f"{first} over {second}"
+        report, why, _ = matched(folder, name, paths, (), False, PATIENCE, True)
+        if report is None:
+            bad.append(f"{name}: {why}")
+            continue
+        bad += failures(name, report)
+        r = report["result"]
+        if "overlay_faces" not in r:
+            bad.append(f"{name}: {r['failed']['overlay'] if 'failed' in r else 'no overlay'}")
+            continue
+        counts = [str(report["input"]["faces"]), str(report["input"]["target"]["faces"]), str(r["overlay_faces"]), str(r["overlay_crossings"])]
+        rows.append([f"{first}, {second}", *counts, *map(small, r["overlay_uncovered"]), f"{report['seconds']['total']:.1f}"])
+    return table(["source, target", "F", "F of the target", "F of the overlay", "crossings", "source missed", "target missed", "s"], rows), bad
+
+
 def figure_12(folder):
     """Two surfaces of genus 1 with three boundary loops."""
     rows, bad = [], []
-    shapes = [[make(folder, f"{name}.obj", "torus", "--big", big, "--small", low, "--holes", "3")] for name, big, low in
+    shapes = [make(folder, f"{name}.obj", "torus", "--big", big, "--small", low, "--holes", "3") for name, big, low in
               (("thin", "1", "0.3"), ("thick", "1", "0.6"))]
     for first, second in ((0, 1), (1, 0)):
-        report, why, seen = matched(folder, [shapes[first][0], shapes[second][0]])
+        report, why, seen = matched(folder, f"figure 12, {first}", [shapes[first], shapes[second]])
         if report is None:
             bad.append(f"tori with holes: {why}")
             continue
@@ -173,7 +218,7 @@ def speed(folder):
     for times in (0, 2):
         both = [divided(path, folder, times) for path in paths] if times else paths
         for n in (0, 8):
-            report, why, _ = matched(folder, both, farthest(paths[0], n), False, 1200)
+            report, why, _ = matched(folder, f"hemispheres, {times} divisions, {n}", both, farthest(paths[0], n), False, 1200)
             if report is None:
                 bad.append(f"hemispheres, {times} divisions, {n} landmarks: {why}")
                 continue
@@ -187,17 +232,18 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         all_pairs, medians, bad = pairs(folder)
         own, more = selves(folder)
-        holes, third = ([], []) if named else figure_12(folder)
-        times, fourth = ([], []) if named else speed(folder)
+        over, fifth = overlays(folder)
+        holes, third = figure_12(folder) if not named or "figure12" in named else ("", [])
+        times, fourth = speed(folder) if not named or "cortices" in named else ("", [])
     print("# Surface matching\n")
     print("Made by `docs/results/matching.py`: `ricci match` with default options. Times are those of one run on a shared machine and say little.\n")
-    print(verdict(bad + more + third + fourth) + "\n")
+    print(verdict(bad + more + third + fourth + fifth) + "\n")
     if WHY:
         print(f"No independent program has judged the files: {WHY}.\n")
     print("## Pairs\n")
     print("*landmarks*: vertices of the same number, each farthest along edges from those before it. *partners*: distance of a vertex's image from the vertex of the same "
           "number, over the diagonal of the target's box. *flipped*: faces of either surface that are not counterclockwise in the domain. *landmarks off*: "
-          "of a landmark's image from its partner, over that diagonal. *K*: quasi-conformal dilatation from face to image in space, by area. *there and back*: mean distance of a vertex from where the map and its inverse bring "
+          "of a landmark's image from its partner, over that diagonal. *K*: quasi-conformal dilatation from face to image in space, by area. *area*: mean by area of |ln| of a face's share of the area of the image over its share of its own surface. *there and back*: mean distance of a vertex from where the map and its inverse bring "
           "it. *classes*: ways to mark the map whose energies were compared. *outside*: check.py on the map: whether it covers the source, weights off, share of faces that keep "
           "their side in space.\n")
     print(all_pairs)
@@ -208,9 +254,15 @@ def main():
     print(f"Connected meshes of up to {LARGEST} vertices. *farthest from itself*: largest distance of a vertex from its image, over the diagonal. *off the means*: of a vertex from the "
           "mean of its neighbours, over their mean distance.\n")
     print(own)
-    if not named:
+    print("\n## Overlays\n")
+    print("Source and target laid over each other in the domain, without landmarks: every face of the overlay is a part of one face of either. *missed*: share of the area of a "
+          "surface that its parts miss.\n")
+    print(over)
+    if holes:
         print("\n## Genus 1 with three boundary loops\n")
+        print(FIGURE_12)
         print(holes)
+    if times:
         print("\n## Two hemispheres of the cortex\n")
         print("As they are, and with every triangle cut into four twice.\n")
         print(times)

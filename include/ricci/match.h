@@ -68,6 +68,37 @@ typedef struct ricci_matching_summary {
     double target_energy;
     /** Largest distance of a vertex from the mean of its neighbours, over their mean distance. */
     double residual;
+    /**
+     * What follows is measured in space, 0 where a surface has no positions. Quasi-conformal dilatation from
+     * face to image: the mean by area, and the largest.
+     */
+    double qc_mean;
+    /** The largest. */
+    double qc_max;
+    /** Area of a face's image over its own, both as shares of the totals: the smallest. */
+    double area_ratio_min;
+    /** The mean over the faces. */
+    double area_ratio_mean;
+    /** The largest. */
+    double area_ratio_max;
+    /** Mean by area of |ln ratio|. */
+    double area_log;
+    /**
+     * Distance between a vertex and its image, over the diagonal of the target's bounding box: the mean by
+     * area.
+     */
+    double distance_mean;
+    /** The largest. */
+    double distance_max;
+    /** The largest distance of a landmark's image from its partner, over that diagonal. */
+    double landmark_error;
+    /**
+     * Distance of a vertex from where the map and its inverse bring it, over the diagonal of the source's
+     * bounding box: the mean.
+     */
+    double cycle_mean;
+    /** The largest. */
+    double cycle_max;
 } ricci_matching_summary;
 
 /**
@@ -149,6 +180,23 @@ RICCI_API ricci_status ricci_matching_weights(const ricci_matching *matching, ui
 RICCI_API ricci_status ricci_matching_carry(const ricci_matching *matching, uint32_t direction,
                                             const double *values, size_t n_values, double *carried,
                                             size_t capacity);
+
+/**
+ * The two surfaces laid over each other in the domain where they were matched: their common refinement.
+ *
+ * In the functions of the map RICCI_ON_INPUT means the source and RICCI_ON_METRIC the target. Its vertices
+ * are those of the source, with their numbers, then the crossings, then the target's others, each with the
+ * place that ricci_map_barycentric tells. ricci_map_mesh has them on the source.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_MATCHING (triangles so thin that it cannot be told which line
+ * lies where), RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param matching  the matching.
+ * @param control   progress and cancellation, or NULL.
+ * @param map       out: the map, to be released by ricci_map_free.
+ */
+RICCI_API ricci_status ricci_matching_map(const ricci_matching *matching, const ricci_control *control,
+                                          ricci_map **map);
 
 #ifdef __cplusplus
 }

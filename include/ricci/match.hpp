@@ -36,6 +36,10 @@ public:
         check(ricci_matching_weights(get(), direction, all.data(), all.size()));
         return all;
     }
+    // The two surfaces laid over each other: RICCI_ON_INPUT is the source, RICCI_ON_METRIC the target.
+    ricci::map map(const control *watched = nullptr) const {
+        return ricci::map(make<ricci_map>(ricci_matching_map, get(), of(watched)));
+    }
 
 private:
     std::size_t size(std::uint32_t direction) const {

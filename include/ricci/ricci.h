@@ -1511,7 +1511,7 @@ RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t o
 
 /**
  * The way between the mesh that a metric was made from and the metric's triangulation, as their common
- * refinement.
+ * refinement; or between two surfaces that were matched (ricci_matching_map in ricci/match.h).
  *
  * Its faces are parts of faces of both; its vertices are those of the mesh, with their numbers, then the
  * crossings of edges. If no edge was flipped it is the mesh itself. Layouts of the metric have its vertices

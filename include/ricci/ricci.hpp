@@ -374,6 +374,7 @@ using map_handle = owned<ricci_map, ricci_map_free>;
 
 class map : public map_handle {
 public:
+    using map_handle::map_handle;
     explicit map(const metric &flat, const control *watched = nullptr)
         : map_handle(make<ricci_map>(ricci_map_new, flat.get(), of(watched))) {}
     ricci_map_summary summary() const { return ricci::summary(ricci_map_summarise, get()); }

@@ -8,7 +8,7 @@ use crate::control::{Control, Stage};
 use crate::embed::triangle::Triangle;
 use crate::error::{Result, check_size};
 use crate::geometry::complex::{Complex, add, cross, distance, doubled_area, mul, scale, sub};
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, Thinning, VertexId};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, Place, Thinning, VertexId};
 
 /// A diagonal is taken where both of its triangles have at least this share of the quadrilateral's area.
 const LEAST_SHARE: f64 = 1e-9;
@@ -20,15 +20,6 @@ const EAR: f64 = 0.1;
 const REMOVALS: usize = 4;
 /// Removals between two looks at the control.
 const STEPS: usize = 256;
-
-/// A place in a triangle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
-    /// The triangle.
-    pub face: FaceId,
-    /// Barycentric weights of its corners, at least 0, of sum 1.
-    pub weights: [f64; 3],
-}
 
 /// A flat surface on few of its vertices: an intrinsic Delaunay triangulation.
 #[derive(Debug, Clone)]

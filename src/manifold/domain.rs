@@ -1,6 +1,6 @@
 //! Domains of splines on surfaces: a coarse flat triangulation with a chart for each of its triangles.
 
-use super::coarse::{Coarse, Place};
+use super::coarse::Coarse;
 use super::infinity::Infinity;
 use super::similarity::Similarity;
 use crate::embed::triangle::Triangle;
@@ -9,7 +9,7 @@ use crate::geometry::Space;
 use crate::geometry::complex::{
     Complex, add, conj, cross, distance, dot, doubled_area, mul, norm2, scale, sub, unit,
 };
-use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex, Place, VertexId};
 use crate::spline::knots::{Around, share_of_omega};
 use crate::spline::overlap::overlaps;
 use crate::spline::{Parameter, Patch, SplineSpace, Support, multi_indices};

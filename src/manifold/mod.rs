@@ -14,7 +14,8 @@ mod pole;
 mod sample;
 mod similarity;
 
-pub use coarse::{Coarse, Place};
+pub use crate::mesh::Place;
+pub use coarse::Coarse;
 pub use domain::SurfaceDomain;
 pub use fit::{SurfaceFit, SurfaceFitOptions, fit_surface};
 pub use flat::{Flat, FlatOptions};

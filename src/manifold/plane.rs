@@ -4,14 +4,14 @@
 //! surface, at a ring of vertices that no vertices of the surface are. The spline near the hole is a polynomial of z where the surface is one of w, so that
 //! triangles there are to be small beside their distance from infinity.
 
-use super::coarse::{Coarse, Place, weights};
+use super::coarse::{Coarse, weights};
 use super::domain::SurfaceDomain;
 use super::flat::Flat;
 use super::infinity::Infinity;
 use super::similarity::Similarity;
 use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, conj, distance, mul, norm, norm2, scale, sub};
-use crate::mesh::{FaceId, Mesh, PerEdge, PerVertex, VertexId};
+use crate::mesh::{FaceId, Mesh, PerEdge, PerVertex, Place, VertexId};
 use crate::spline::{Hole, INFINITE};
 use spade::handles::FaceHandle;
 use spade::{DelaunayTriangulation, HierarchyHintGenerator, Point2, PositionInTriangulation, Triangulation};

@@ -14,7 +14,7 @@ use std::sync::Arc;
 ///
 /// Every vertex has an *own corner*: the corner of the opened surface whose position is that of the vertex. Its other corners lie at the images
 /// of this position under deck transformations.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Cover {
     pub mesh: Arc<Mesh>,
     pub space: Space,
@@ -125,7 +125,7 @@ impl Cover {
 }
 
 /// A cover with a place for every vertex: the frame at its position, which carries the origin there.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Placed {
     pub cover: Cover,
     pub at: PerVertex<Motion<Twofold>>,

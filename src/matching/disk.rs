@@ -1,5 +1,6 @@
 //! Corners for disks whose boundary nobody has marked: both go to the unit disk, and one is turned until the conformal factors fit best.
 
+use super::density::{Factors, factors};
 use crate::canonical::{CircleDomainOptions, circle_domain};
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -7,7 +8,6 @@ use crate::flow::Options;
 use crate::geometry::complex::{Complex, doubled_area, mul, norm2};
 use crate::mesh::VertexId;
 use crate::metric::Surface;
-use crate::metric::lengths::face_lengths;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Corners of a disk.
@@ -74,23 +74,10 @@ fn disk(surface: &Surface, flow: &Options, control: &Control) -> Result<Disk> {
             }
         }
     }
-    let mut areas = vec![[0.0f64; 2]; points.len()];
-    for f in mesh.faces() {
-        let vertices = mesh.face_vertices(f);
-        let flat = 0.5 * doubled_area(vertices.map(|v| points[v.index()])).abs();
-        let own =
-            crate::geometry::triangle::area(surface.geometry(), face_lengths(mesh, surface.lengths(), f));
-        for v in vertices {
-            let area = &mut areas[v.index()];
-            (area[0], area[1]) = (area[0] + own / 3.0, area[1] + flat / 3.0);
-        }
-    }
-    let totals = [0, 1].map(|k| areas.iter().map(|a| a[k]).sum::<f64>().max(f64::MIN_POSITIVE));
-    let weights: Vec<f64> = areas.iter().map(|a| a[0] / totals[0]).collect();
+    let flat = |f| 0.5 * doubled_area(mesh.face_vertices(f).map(|v| points[v.index()])).abs();
+    let Factors { values, weights } = factors(surface, flat);
     let mut sums = vec![[0.0; 2]; RINGS * SECTORS];
-    for ((z, w), a) in points.iter().zip(&weights).zip(&areas) {
-        let least = f64::MIN_POSITIVE;
-        let factor = 0.5 * ((a[0] / totals[0]).max(least).ln() - (a[1] / totals[1]).max(least).ln());
+    for ((z, w), factor) in points.iter().zip(&weights).zip(&values) {
         let sum = &mut sums[cell(*z, 0.0)];
         (sum[0], sum[1]) = (sum[0] + w * factor, sum[1] + w);
     }

@@ -5,14 +5,15 @@ use super::disk;
 use super::handles::with_handles;
 use super::options::MatchOptions;
 use super::orbifold::{Pair, in_orbifold, shape};
-use super::place::{Place, SurfaceMap};
+use super::overlay::CommonDomain;
+use super::place::SurfaceMap;
 use super::route::Marks;
 use super::sphere::on_sphere;
 use super::walk::locate;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, VertexId};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Place, VertexId};
 use crate::metric::{Split, Surface};
 use crate::parallel::Pool;
 use crate::topology::check_vertex;
@@ -39,6 +40,8 @@ pub struct Matching {
     pub flow_iterations: [usize; 2],
     /// Isotopy classes of maps, as paths between the marks name them, whose energies were compared.
     pub markings: usize,
+    /// Both triangulations in the domain: for their overlay, and for pictures.
+    pub domain: CommonDomain,
 }
 
 /// The map from one surface to another of the same topology, landmarks to landmarks.
@@ -62,7 +65,7 @@ pub fn match_surfaces(
     let marks = marks(surfaces, options)?;
     Pool::new(options.flow.threads)?.run(|| {
         let pair = in_one_domain(surfaces, [&marks[0], &marks[1]], options, control)?;
-        matching(&pair, [&splits[0], &splits[1]], control)
+        matching(pair, [&splits[0], &splits[1]], control)
     })
 }
 
@@ -120,7 +123,7 @@ fn in_one_domain(
 }
 
 /// The maps both ways of two triangulations in one domain.
-fn matching(pair: &Pair, splits: [&Split; 2], control: &Control) -> Result<Matching> {
+fn matching(pair: Pair, splits: [&Split; 2], control: &Control) -> Result<Matching> {
     let (flipped, target_flipped) = (pair.source.flipped(), pair.target.flipped());
     if !(flipped.is_empty() && target_flipped.is_empty()) {
         return Err(Error::Matching(format!(
@@ -142,6 +145,7 @@ fn matching(pair: &Pair, splits: [&Split; 2], control: &Control) -> Result<Match
         balance: pair.reports,
         flow_iterations: pair.flow_iterations,
         markings: pair.markings,
+        domain: CommonDomain::new([pair.source, pair.target], pair.seeds, splits),
     })
 }
 

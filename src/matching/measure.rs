@@ -3,9 +3,9 @@
 use super::place::SurfaceMap;
 use crate::embed::quality::DILATATION_CAP;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::vector::{cross, diagonal, distance, dot, norm, sub};
-use crate::mesh::{Point, VertexId};
-use crate::metric::Surface;
+use crate::geometry::vector::{cross, diagonal, distance, dot, norm, sub, triangle_normal};
+use crate::mesh::{PerFace, Point, VertexId};
+use crate::metric::{Overlay, Surface};
 
 /// Figures of a map, of its linear extension from the source's faces to space. Every number is finite; distances are shares of the diagonal of
 /// the target's bounding box.
@@ -17,8 +17,12 @@ pub struct MapQuality {
     pub qc_max: f64,
     /// Area of a face's image over its own, both as shares of the totals: the smallest.
     pub area_ratio_min: f64,
+    /// The mean over the faces.
+    pub area_ratio_mean: f64,
     /// The largest.
     pub area_ratio_max: f64,
+    /// Mean by area of |ln ratio|: 0 where the map keeps areas up to one factor.
+    pub area_log: f64,
     /// Distance in space between a vertex and its image: the mean over the vertices by area.
     pub distance_mean: f64,
     /// The largest.
@@ -42,10 +46,10 @@ pub fn map_quality(
     let size = diagonal(to).max(f64::MIN_POSITIVE);
     let mesh = source.mesh();
     let face = |points: &[Point], f| mesh.face_vertices(f).map(|v| points[v.index()]);
-    let area = |[a, b, c]: [Point; 3]| 0.5 * norm(cross(sub(b, a), sub(c, a)));
     let totals = [from, &images].map(|points| mesh.faces().map(|f| area(face(points, f))).sum::<f64>());
     let (mut qc, mut qc_max): (f64, f64) = (0.0, 1.0);
     let mut range = [f64::INFINITY, 0.0f64];
+    let (mut ratios, mut logs, mut count) = (0.0, 0.0, 0usize);
     let mut shares = vec![0.0; from.len()];
     for f in mesh.faces() {
         let (own, image) = (face(from, f), face(&images, f));
@@ -57,6 +61,8 @@ pub fn map_quality(
         if weight > 0.0 {
             let ratio = (area(image) / totals[1].max(f64::MIN_POSITIVE)) / (weight / totals[0]);
             range = [range[0].min(ratio), range[1].max(ratio)];
+            (ratios, count) = (ratios + ratio, count + 1);
+            logs += weight * ratio.max(f64::MIN_POSITIVE).ln().abs();
         }
     }
     let moved: Vec<f64> = from.iter().zip(&images).map(|(&p, &q)| distance(p, q) / size).collect();
@@ -69,11 +75,46 @@ pub fn map_quality(
         qc_mean: (qc / total).min(DILATATION_CAP),
         qc_max,
         area_ratio_min: if range[0].is_finite() { range[0] } else { 0.0 },
+        area_ratio_mean: (ratios / count.max(1) as f64).min(f64::MAX),
         area_ratio_max: range[1].min(f64::MAX),
+        area_log: logs / total,
         distance_mean: moved.iter().zip(&shares).map(|(d, share)| d * share).sum::<f64>() / total,
         distance_max: moved.iter().copied().fold(0.0, f64::max),
         landmark_error: landmarks.iter().map(error).fold(0.0, f64::max),
     })
+}
+
+/// Per face of the source the dilatation of the map, [`DILATATION_CAP`] at most.
+///
+/// # Errors
+/// As [`map_quality`].
+pub fn dilatations([source, target]: [&Surface; 2], map: &SurfaceMap) -> Result<PerFace<f64>> {
+    let (from, to) = (positions(source)?, positions(target)?);
+    check_size("places of the map", map.places.len(), from.len())?;
+    let images = map.carry(target.mesh(), to)?;
+    let mesh = source.mesh();
+    let at = |points: &[Point], f| mesh.face_vertices(f).map(|v| points[v.index()]);
+    Ok(mesh.faces().map(|f| dilatation(at(from, f), at(&images, f))).collect::<Vec<_>>().into())
+}
+
+/// The shares of the areas of source and target by which an overlay of the two misses them.
+///
+/// # Errors
+/// [`Error::Size`]; [`Error::Argument`] for a surface without positions.
+pub fn uncovered(surfaces: [&Surface; 2], overlay: &Overlay) -> Result<[f64; 2]> {
+    let share = |side: usize| {
+        let (mesh, points) = (surfaces[side].mesh(), positions(surfaces[side])?);
+        let own: f64 = mesh.faces().map(|f| area(mesh.face_vertices(f).map(|v| points[v.index()]))).sum();
+        let at: Vec<[Point; 3]> =
+            mesh.faces().map(|f| mesh.face_vertices(f).map(|v| points[v.index()])).collect();
+        let covered: f64 = overlay.from_corners(side, &at)?.into_iter().map(area).sum();
+        Ok((covered / own.max(f64::MIN_POSITIVE) - 1.0).abs())
+    };
+    Ok([share(0)?, share(1)?])
+}
+
+fn area(corners: [Point; 3]) -> f64 {
+    0.5 * norm(triangle_normal(corners))
 }
 
 /// Largest over smallest singular value of the linear map from one triangle to another, [`DILATATION_CAP`] at most.
@@ -120,6 +161,27 @@ fn positions(surface: &Surface) -> Result<&[Point]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::{FaceId, Mesh, Place};
+
+    #[test]
+    fn areas_change_by_the_shares_that_faces_have() {
+        let mesh = Mesh::from_faces(4, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+        let square = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        // The same corners but one, farther out: areas 1.5 and 0.5.
+        let kite = vec![[0.0, 0.0, 0.0], [2.0, -1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let [source, target] = [square, kite].map(|points| Surface::in_space(mesh.clone(), points).unwrap());
+        let corner = |face, k: usize| Place {
+            face: FaceId(face),
+            weights: std::array::from_fn(|i| f64::from(u8::from(i == k))),
+        };
+        let map = SurfaceMap { places: vec![corner(0, 0), corner(0, 1), corner(0, 2), corner(1, 2)] };
+        let quality = map_quality([&source, &target], &map, &[]).unwrap();
+        assert!((quality.area_ratio_min - 0.5).abs() < 1e-12 && (quality.area_ratio_max - 1.5).abs() < 1e-12);
+        assert!((quality.area_ratio_mean - 1.0).abs() < 1e-12);
+        assert!((quality.area_log - 0.5 * (1.5f64.ln() + 2f64.ln())).abs() < 1e-12, "{quality:?}");
+        let all = dilatations([&source, &target], &map).unwrap();
+        assert!((all[FaceId(1)] - 1.0).abs() < 1e-12 && (all[FaceId(0)] - quality.qc_max).abs() < 1e-12);
+    }
 
     #[test]
     fn dilatation_is_the_quotient_of_singular_values() {

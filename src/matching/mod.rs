@@ -28,6 +28,7 @@
 mod balance;
 mod canonical;
 mod cover;
+mod density;
 mod disk;
 mod find;
 mod generators;
@@ -35,6 +36,7 @@ mod handles;
 mod measure;
 mod options;
 mod orbifold;
+mod overlay;
 pub mod place;
 mod repair;
 mod route;
@@ -44,8 +46,10 @@ mod turn;
 mod walk;
 mod weights;
 
+pub use crate::mesh::Place;
 pub use balance::BalanceReport;
 pub use find::{Matching, match_surfaces};
-pub use measure::{MapQuality, cycle_error, map_quality};
+pub use measure::{MapQuality, cycle_error, dilatations, map_quality, uncovered};
 pub use options::MatchOptions;
-pub use place::{Place, SurfaceMap};
+pub use overlay::{CommonDomain, DomainTriangle};
+pub use place::SurfaceMap;

@@ -1,8 +1,8 @@
 //! Maps from the vertices of one surface to points of another one.
 //!
 //! ```
-//! use ricci::matching::{Place, SurfaceMap};
-//! use ricci::mesh::{FaceId, Mesh};
+//! use ricci::matching::SurfaceMap;
+//! use ricci::mesh::{FaceId, Mesh, Place};
 //! let target = Mesh::from_faces(3, &[[0, 1, 2]])?;
 //! let map = SurfaceMap { places: vec![Place { face: FaceId(0), weights: [0.5, 0.25, 0.25] }] };
 //! assert_eq!(map.carry(&target, &[[0.0], [4.0], [8.0]])?, [[3.0]]);
@@ -10,16 +10,7 @@
 //! ```
 
 use crate::error::{Error, Result, check_size};
-use crate::mesh::{FaceId, Mesh, VertexId};
-
-/// A point of a surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
-    /// Its face.
-    pub face: FaceId,
-    /// Its barycentric coordinates in the face: not negative, with the sum 1.
-    pub weights: [f64; 3],
-}
+use crate::mesh::{Mesh, Place, VertexId};
 
 /// A map from the vertices of a surface to points of another one.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,6 +3,7 @@
 use super::balance::BalanceReport;
 use super::canonical::not_found;
 use super::cover::{Cover, Placed};
+use super::density::{Factors, factors};
 use super::options::MatchOptions;
 use super::orbifold::Pair;
 use super::repair::unfold;
@@ -13,7 +14,7 @@ use crate::canonical::{SphereOptions, uniformize_sphere};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::geometry::vector::{Vector, cross, dot, norm, normalised, sub};
+use crate::geometry::vector::{Vector, dot, norm, normalised, sub, triangle_normal};
 use crate::mesh::{HalfedgeId, PerVertex, VertexId};
 use crate::metric::Surface;
 
@@ -91,27 +92,11 @@ fn positions(placed: &Placed) -> Vec<Vector> {
     placed.at.iter().map(|frame| normalised(frame.origin().map(f64::from))).collect()
 }
 
-/// The conformal factor at the vertices, `½ log` of the area around them on the surface over that on the sphere, both as shares of the totals.
+/// The conformal factor at the vertices of a surface on the sphere.
 fn density(surface: &Surface, points: &[Vector]) -> Density {
-    let mesh = surface.mesh();
-    let mut areas = vec![[0.0f64; 2]; points.len()];
-    for f in mesh.faces() {
-        let vertices = mesh.face_vertices(f);
-        let [a, b, c] = vertices.map(|v| points[v.index()]);
-        let round = 0.5 * norm(cross(sub(b, a), sub(c, a)));
-        let lengths = crate::metric::lengths::face_lengths(mesh, surface.lengths(), f);
-        let own = crate::geometry::triangle::area(surface.geometry(), lengths);
-        for v in vertices {
-            areas[v.index()][0] += own / 3.0;
-            areas[v.index()][1] += round / 3.0;
-        }
-    }
-    let totals = [0, 1].map(|k| areas.iter().map(|a| a[k]).sum::<f64>().max(f64::MIN_POSITIVE));
-    let weights: Vec<f64> = areas.iter().map(|a| a[0] / totals[0]).collect();
-    let least = f64::MIN_POSITIVE;
-    let factor =
-        |a: &[f64; 2]| 0.5 * ((a[0] / totals[0]).max(least).ln() - (a[1] / totals[1]).max(least).ln());
-    Density { values: areas.iter().map(factor).collect(), points: points.to_vec(), weights }
+    let round = |f| 0.5 * norm(triangle_normal(surface.mesh().face_vertices(f).map(|v| points[v.index()])));
+    let Factors { values, weights } = factors(surface, round);
+    Density { values, points: points.to_vec(), weights }
 }
 
 /// The first vertex of the points, and the target's vertex nearest to it.

@@ -1,11 +1,10 @@
 //! In which triangle of a placed surface the vertices of another one lie: by walks from neighbour to neighbour in the universal cover.
 
 use super::cover::{Placed, Precise, determinant};
-use super::place::Place;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::{Motion, Twofold};
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, Place, VertexId};
 use std::collections::{HashSet, VecDeque};
 
 /// Share of a triangle by which a point may lie outside it and still be taken to lie in it: rounding of positions at its sides.
@@ -18,7 +17,7 @@ const MOST_STEPS: usize = 2000;
 const MOST_AROUND: usize = 20_000;
 
 /// Where the search starts: a vertex of the points, and a half-edge of a face of the domain near which its own corner lies, in the opened domain.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Seed {
     pub vertex: VertexId,
     pub near: HalfedgeId,
@@ -35,6 +34,17 @@ pub(super) fn locate(
     seed: Seed,
     control: &Control,
 ) -> Result<(Vec<Place>, f64)> {
+    let (found, worst) = located(points, domain, seed, control)?;
+    Ok((found.into_iter().map(|found| found.place).collect(), worst))
+}
+
+/// As [`locate`], with the transformations that carry the vertices into the opened domain.
+pub(super) fn located(
+    points: &Placed,
+    domain: &Placed,
+    seed: Seed,
+    control: &Control,
+) -> Result<(Vec<Found>, f64)> {
     let mesh = &points.cover.mesh;
     let walker = Walker { domain, most: MOST_STEPS };
     let mut found: Vec<Option<Found>> = vec![None; mesh.n_vertices()];
@@ -61,19 +71,18 @@ pub(super) fn locate(
             }
         }
     }
-    let places = found.into_iter().map(|found| found.map(|found| found.place));
-    let places: Option<Vec<Place>> = places.collect();
-    let places = places.ok_or_else(|| Error::Matching("the surface has several components".into()))?;
-    Ok((places, worst))
+    let found: Option<Vec<Found>> = found.into_iter().collect();
+    let found = found.ok_or_else(|| Error::Matching("the surface has several components".into()))?;
+    Ok((found, worst))
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Found {
-    place: Place,
+pub(super) struct Found {
+    pub place: Place,
     /// A half-edge of the face.
-    near: HalfedgeId,
+    pub near: HalfedgeId,
     /// The transformation that carries the vertex's own position into the opened domain.
-    copy: Motion<Twofold>,
+    pub copy: Motion<Twofold>,
     outside: f64,
 }
 

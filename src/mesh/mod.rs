@@ -23,6 +23,7 @@ pub mod io;
 mod join;
 pub mod normal;
 pub mod normal_trace;
+pub mod place;
 pub mod remove;
 pub mod repair;
 pub mod shapes;
@@ -38,6 +39,7 @@ pub use halfedge::Mesh;
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use normal::NormalCoordinates;
 pub use normal_trace::Curves;
+pub use place::Place;
 pub use remove::{Thinned, Thinning};
 
 /// A point of space, `[x, y, z]`.

@@ -4,4 +4,5 @@
 mod corpus;
 mod errors;
 mod known;
+mod overlay;
 mod samples;

@@ -4,11 +4,11 @@ use super::args::HarmonicArgs;
 use super::found::{Found, Plane};
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::output::{Outputs, extension};
+use crate::output::{Outputs, write_textured};
 use crate::picture::{self, Flat, Picture, Surface, Texture};
 use crate::uv::Drawn;
 use ricci::harmonic::SphereMap;
-use ricci::mesh::io::{self, Textured};
+use ricci::mesh::io::Textured;
 use ricci::mesh::{Mesh, PerHalfedge, Point, VertexId};
 use std::path::Path;
 
@@ -74,10 +74,7 @@ pub fn write_sphere(
 ) -> Result<(), Failure> {
     let faces = found.domain.mesh().triangles();
     let data = Textured { positions: &map.points, faces: &faces, ..Textured::default() };
-    match extension(path).as_str() {
-        "glb" => outputs.add_named(path, |path| io::write_glb(path, &data, None).map(drop)),
-        _ => outputs.add_named(path, |path| io::write_obj(path, &data)),
-    }
+    write_textured(outputs, path, &data)
 }
 
 /// The sphere with the edges of the domain.

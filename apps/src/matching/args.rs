@@ -2,7 +2,7 @@
 
 use crate::options::{Common, FileName, MeshArgs};
 use crate::picture::PictureArgs;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -23,7 +23,26 @@ Files
     --map M.csv          rows source_vertex,target_face,b0,b1,b2: where each vertex of the source goes, in barycentric coordinates
     --back B.csv         the same from the target to the source
     -o OUT.obj           the source's faces with its vertices where they go, .obj or .glb
-    --carried C.obj      the source with the target's texture coordinates, .obj or .glb";
+    --carried C.obj      the source with the target's texture coordinates, .obj or .glb
+    --overlay O.obj      the source, its faces cut by the target's edges, with the target's texture coordinates where it has them: every face is a part of
+                         one face of either, on which the map is projective
+    --overlay-places O.csv  rows face,vertex,source_face,a0,a1,a2,target_face,b0,b1,b2,weight for its corners: where they lie in both, and the
+                         weight that barycentric coordinates in the source are multiplied by on the way
+    --domains D.png      both triangulations in the domain, landmarks as dots
+    --heat H.png         the source in colours: with --same-numbering how far each vertex comes to lie from its partner, else how much each
+                         face is distorted";
+
+/// What the picture of a matching shows.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum ShowChoice {
+    /// Both surfaces with one texture: the target's, carried over
+    Carried,
+    /// Both triangulations in the common domain
+    Domains,
+    /// The source, coloured by the distances from partners or by the dilatation
+    Heat,
+}
 
 #[derive(Args, Serialize, Debug)]
 pub struct MatchArgs {
@@ -54,6 +73,22 @@ pub struct MatchArgs {
     /// Write the source with the target's texture coordinates, .obj or .glb
     #[arg(long, value_name = "C.obj")]
     pub carried: Option<FileName>,
+    /// Write the source with its faces cut by the target's edges, .obj or .glb
+    #[arg(long, value_name = "O.obj")]
+    pub overlay: Option<FileName>,
+    /// Write where the corners of those parts lie in both surfaces
+    #[arg(long, value_name = "O.csv")]
+    pub overlay_places: Option<FileName>,
+    /// Write a picture of both triangulations in the domain (.png)
+    #[arg(long, value_name = "D.png")]
+    pub domains: Option<FileName>,
+    /// Write a picture of the distances from partners, or of the distortion (.png)
+    #[arg(long, value_name = "H.png")]
+    pub heat: Option<FileName>,
+    /// What the picture shows [default: carried]
+    #[arg(long, value_enum, requires = "picture")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub show: Option<ShowChoice>,
     #[command(flatten)]
     #[serde(flatten)]
     pub picture: PictureArgs,

@@ -1,8 +1,9 @@
 //! The command from beginning to end.
 
-use super::args::MatchArgs;
-use super::files::{draw, write_carried, write_map, write_moved};
+use super::args::{MatchArgs, ShowChoice};
+use super::files::{write_carried, write_map, write_moved, write_overlay, write_places};
 use super::found::{Found, say};
+use super::pictures::draw;
 use crate::csv;
 use crate::delivery::Delivery;
 use crate::failure::Failure;
@@ -45,7 +46,16 @@ pub fn execute(args: &MatchArgs, control: &Control) -> Result<Done<Found>, Failu
     let matching = timed(&mut seconds.solve, || {
         doing("matching", || match_surfaces(&input.surface, &target.surface, &options, control))
     })?;
-    let mut found = Found::new([&input, &target], matching, landmarks, args.same_numbering)?;
+    let mut found = Found::new(&input, target, matching, (landmarks, args.same_numbering))?;
+    if args.overlay.is_some() || args.overlay_places.is_some() {
+        let overlay = timed(&mut seconds.solve, || {
+            let threads = args.common.threads;
+            doing("overlay", || found.matching.domain.overlay(threads, control).map_err(Failure::from))
+        });
+        if let Some(overlay) = found.failed.attempt("overlay", overlay)? {
+            found.lay_over(&input, overlay)?;
+        }
+    }
     found.seconds = seconds;
     let (files, figures) = write(args, &input, &mut found, Delivery::new(control, start)?)?;
     drop(progress);
@@ -59,12 +69,19 @@ pub fn execute(args: &MatchArgs, control: &Control) -> Result<Done<Found>, Failu
 fn check_request(args: &MatchArgs) -> Result<(), Failure> {
     check_extension("--output", args.output.as_deref(), &["obj", "glb"])?;
     check_extension("--carried", args.carried.as_deref(), &["obj", "glb"])?;
+    check_extension("--overlay", args.overlay.as_deref(), &["obj", "glb"])?;
+    check_extension("--domains", args.domains.as_deref(), &["png"])?;
+    check_extension("--heat", args.heat.as_deref(), &["png"])?;
     check_extension("--picture", args.picture.picture.as_deref(), &["png"])?;
     let files = [
         args.map.as_deref(),
         args.back.as_deref(),
         args.output.as_deref(),
         args.carried.as_deref(),
+        args.overlay.as_deref(),
+        args.overlay_places.as_deref(),
+        args.domains.as_deref(),
+        args.heat.as_deref(),
         args.picture.picture.as_deref(),
         args.common.report.as_deref(),
     ];
@@ -111,8 +128,25 @@ fn write(
         let written = write_carried(outputs, path, input, found);
         found.failed.attempt("carried", written)?;
     }
-    let drawn = delivery.picture(args.picture.picture.as_deref(), || draw(input, found, args));
-    found.failed.attempt("picture", drawn)?;
+    if let Some(overlay) = &found.overlay {
+        if let Some(path) = &args.overlay {
+            let written = write_overlay(outputs, path, input, (found, overlay));
+            found.failed.attempt("overlay", written)?;
+        }
+        if let Some(path) = &args.overlay_places {
+            let written = write_places(outputs, path, overlay);
+            found.failed.attempt("overlay_places", written)?;
+        }
+    }
+    let pictures = [
+        ("picture", args.picture.picture.as_deref(), args.show.unwrap_or(ShowChoice::Carried)),
+        ("domains", args.domains.as_deref(), ShowChoice::Domains),
+        ("heat", args.heat.as_deref(), ShowChoice::Heat),
+    ];
+    for (name, path, show) in pictures {
+        let drawn = delivery.picture(path, || draw(show, input, found, args));
+        found.failed.attempt(name, drawn)?;
+    }
     delivery.close(&mut found.seconds);
     let figures = found.figures();
     let files = delivery.commit(args.common.report.as_deref(), || {

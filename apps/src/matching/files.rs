@@ -1,19 +1,15 @@
-//! Matchings as files and in pictures.
+//! Matchings as files.
 
-use super::args::MatchArgs;
 use super::found::Found;
+use super::no_positions;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::output::{Outputs, extension};
-use crate::picture::{self, Picture, Surface, Texture, Tiles};
+use crate::output::{Outputs, write_textured};
 use ricci::matching::SurfaceMap;
-use ricci::mesh::Point;
-use ricci::mesh::io::{self, Textured};
+use ricci::mesh::io::Textured;
+use ricci::metric::Overlay;
 use std::fmt::Write;
 use std::path::Path;
-
-/// Checks of the texture along the target's longest direction.
-const CHECKS: f64 = 24.0;
 
 /// A map as rows `source_vertex,target_face,b0,b1,b2`.
 pub fn write_map(outputs: &mut Outputs, path: &Path, map: &SurfaceMap) -> Result<(), Failure> {
@@ -58,57 +54,42 @@ pub fn write_carried(
     write_textured(outputs, path, &data)
 }
 
-fn write_textured(outputs: &mut Outputs, path: &Path, data: &Textured) -> Result<(), Failure> {
-    match extension(path).as_str() {
-        "glb" => outputs.add_named(path, |path| io::write_glb(path, data, None).map(drop)),
-        _ => outputs.add_named(path, |path| io::write_obj(path, data)),
+/// The overlay on the source, with the target's texture coordinates, seams and all, where it has them.
+pub fn write_overlay(
+    outputs: &mut Outputs,
+    path: &Path,
+    input: &Input,
+    (found, overlay): (&Found, &Overlay),
+) -> Result<(), Failure> {
+    let Some(positions) = input.positions() else { return Err(no_positions()) };
+    let positions = overlay.from_vertices(0, input.mesh(), positions)?;
+    let faces = overlay.mesh.triangles();
+    let carried = match &found.target.attributes.uv {
+        Some(uv) => overlay.from_corners(1, uv)?,
+        None => Vec::new(),
+    };
+    let apart: Vec<[u32; 3]> = (0..carried.len() as u32).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
+    let data = Textured {
+        positions: &positions,
+        faces: &faces,
+        texcoords: carried.as_flattened(),
+        face_texcoords: &apart,
+        ..Textured::default()
+    };
+    write_textured(outputs, path, &data)
+}
+
+/// A row for every corner of the overlay: its places in the source and in the target, and its weight.
+pub fn write_places(outputs: &mut Outputs, path: &Path, overlay: &Overlay) -> Result<(), Failure> {
+    let mut text = String::from("face,vertex,source_face,a0,a1,a2,target_face,b0,b1,b2,weight\n");
+    for f in overlay.mesh.faces() {
+        let [first, second] = overlay.faces.each_ref().map(|faces| faces[f]);
+        for (k, v) in overlay.mesh.face_vertices(f).into_iter().enumerate() {
+            let [[a, b, c], [p, q, r]] = overlay.barycentric.each_ref().map(|all| all[f][k]);
+            let weight = overlay.weight[v];
+            // Writing to a string does not fail.
+            let _ = writeln!(text, "{f},{v},{first},{a:?},{b:?},{c:?},{second},{p:?},{q:?},{r:?},{weight:?}");
+        }
     }
-}
-
-/// Both surfaces with one texture: on the target by its two longest directions, on the source carried over.
-pub fn draw(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
-    let (Some(from), Some(to)) = (input.positions(), found.target.positions()) else {
-        return Err(no_positions());
-    };
-    let uv = projected(to);
-    let carried = found.matching.forward.carry(found.target.mesh(), &uv)?;
-    let faces = [input.mesh().triangles(), found.target.mesh().triangles()];
-    let corners = |faces: &[[u32; 3]], uv: &[[f64; 2]]| -> Vec<[[f64; 2]; 3]> {
-        faces.iter().map(|f| f.map(|v| uv[v as usize])).collect()
-    };
-    let corner_uv = [corners(&faces[0], &carried), corners(&faces[1], &uv)];
-    let surface = |k: usize, positions, is_closed| Surface {
-        positions,
-        faces: &faces[k],
-        corner_uv: Some(&corner_uv[k]),
-        seams: &[],
-        cones: &[],
-        is_closed,
-    };
-    let style = args.picture.style(Texture::Checker, args.common.threads);
-    let pattern = Tiles::even(1.0 / CHECKS, faces[0].len().max(faces[1].len()));
-    let both = Picture {
-        pattern: Some(&pattern),
-        surface: Some(surface(0, from, input.mesh().is_closed())),
-        beside: Some(surface(1, to, found.target.mesh().is_closed())),
-        ..Picture::default()
-    };
-    picture::png(&both, &style)
-}
-
-/// The coordinates along which points spread farthest, the largest spread 1.
-fn projected(points: &[Point]) -> Vec<[f64; 2]> {
-    let spread = |k: usize| {
-        let ends =
-            points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p[k]), b.max(p[k])]);
-        ends[1] - ends[0]
-    };
-    let mut axes = [0, 1, 2];
-    axes.sort_by(|&i, &j| spread(j).total_cmp(&spread(i)));
-    let size = spread(axes[0]).max(f64::MIN_POSITIVE);
-    points.iter().map(|p| [p[axes[0]] / size, p[axes[1]] / size]).collect()
-}
-
-fn no_positions() -> Failure {
-    Failure::Failed("an intrinsic metric has no positions in space".into())
+    outputs.add_bytes(path, text.as_bytes())
 }

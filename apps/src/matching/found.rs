@@ -4,11 +4,14 @@ use crate::input::Input;
 use crate::report::{Attempts, Checks, Done, Figures, Seconds};
 use crate::say;
 use ricci::geometry::vector::{diagonal, distance};
-use ricci::matching::{MapQuality, Matching, cycle_error, map_quality};
+use ricci::matching::{MapQuality, Matching, cycle_error, map_quality, uncovered};
 use ricci::mesh::VertexId;
+use ricci::metric::Overlay;
 
 /// Distance of a landmark's image from its partner that passes, as a share of the diagonal of the target's bounding box.
 const LANDMARK: f64 = 1e-8;
+/// Share of the area of a surface by which an overlay may miss it.
+const AREA: f64 = 1e-10;
 /// Sum of the weights of a place that passes, as its difference from 1.
 const WEIGHTS: f64 = 1e-12;
 
@@ -19,18 +22,21 @@ pub struct Found {
     pub quality: MapQuality,
     /// Mean and largest distance of a vertex from where the map and its inverse bring it.
     pub cycle: [f64; 2],
-    /// Mean and largest distance of a vertex's image from the target's vertex of the same number.
-    pub partners: Option<[f64; 2]>,
+    /// Per vertex the distance of its image from the target's vertex of the same number.
+    pub partners: Option<Vec<f64>>,
+    /// With the shares of the areas of source and target by which it misses them.
+    pub overlay: Option<Overlay>,
+    pub uncovered: [f64; 2],
     pub failed: Attempts,
     pub seconds: Seconds,
 }
 
 impl Found {
     pub fn new(
-        [source, target]: [&Input; 2],
+        source: &Input,
+        target: Input,
         matching: Matching,
-        landmarks: Vec<[VertexId; 2]>,
-        same_numbering: bool,
+        (landmarks, same_numbering): (Vec<[VertexId; 2]>, bool),
     ) -> ricci::Result<Found> {
         let surfaces = [&source.surface, &target.surface];
         let quality = map_quality(surfaces, &matching.forward, &landmarks)?;
@@ -41,21 +47,36 @@ impl Found {
             true => {
                 let size = diagonal(positions).max(f64::MIN_POSITIVE);
                 let images = matching.forward.carry(target.mesh(), positions)?;
-                let off: Vec<f64> =
-                    images.iter().zip(positions).map(|(&p, &q)| distance(p, q) / size).collect();
-                let mean = off.iter().sum::<f64>() / off.len().max(1) as f64;
-                Some([mean, off.into_iter().fold(0.0, f64::max)])
+                Some(images.iter().zip(positions).map(|(&p, &q)| distance(p, q) / size).collect())
             }
         };
-        let target = Input {
-            path: target.path.clone(),
-            surface: target.surface.clone(),
-            attributes: target.attributes.clone(),
-            split: None,
-            seconds: target.seconds,
-        };
         let (failed, seconds) = (Attempts::default(), source.seconds);
-        Ok(Found { target, matching, landmarks, quality, cycle, partners, failed, seconds })
+        let (overlay, uncovered) = (None, [0.0; 2]);
+        Ok(Found {
+            target,
+            matching,
+            landmarks,
+            quality,
+            cycle,
+            partners,
+            overlay,
+            uncovered,
+            failed,
+            seconds,
+        })
+    }
+
+    pub fn lay_over(&mut self, source: &Input, overlay: Overlay) -> ricci::Result<()> {
+        self.uncovered = uncovered([&source.surface, &self.target.surface], &overlay)?;
+        self.overlay = Some(overlay);
+        Ok(())
+    }
+
+    /// Mean and largest distance of a vertex's image from the target's vertex of the same number.
+    fn partners(&self) -> Option<[f64; 2]> {
+        let off = self.partners.as_ref()?;
+        let mean = off.iter().sum::<f64>() / off.len().max(1) as f64;
+        Some([mean, off.iter().copied().fold(0.0, f64::max)])
     }
 
     pub fn checks(&self) -> Checks {
@@ -68,6 +89,9 @@ impl Found {
             let least = place.weights.iter().copied().fold(0.0, f64::min);
             (place.weights.iter().sum::<f64>() - 1.0).abs().max(-least)
         });
+        if self.overlay.is_some() {
+            checks.add("overlay_area", self.uncovered[0].max(self.uncovered[1]), AREA);
+        }
         checks.add("weights", off.fold(0.0, f64::max), WEIGHTS);
         checks
     }
@@ -75,6 +99,7 @@ impl Found {
     pub fn figures(&self) -> Figures {
         let (m, q) = (&self.matching, &self.quality);
         let [first, second] = m.balance;
+        let partners = self.partners();
         Figures::default()
             .with("space", m.space.name())
             .with("landmarks", self.landmarks.len())
@@ -83,13 +108,18 @@ impl Found {
             .with("qc_mean", q.qc_mean)
             .with("qc_max", q.qc_max)
             .with("area_ratio_min", q.area_ratio_min)
+            .with("area_ratio_mean", q.area_ratio_mean)
             .with("area_ratio_max", q.area_ratio_max)
+            .with("area_log", q.area_log)
             .with("distance_mean", q.distance_mean)
             .with("distance_max", q.distance_max)
             .with("cycle_mean", self.cycle[0])
             .with("cycle_max", self.cycle[1])
-            .if_some("partner_mean", self.partners.map(|p| p[0]))
-            .if_some("partner_max", self.partners.map(|p| p[1]))
+            .if_some("partner_mean", partners.map(|p| p[0]))
+            .if_some("partner_max", partners.map(|p| p[1]))
+            .if_some("overlay_faces", self.overlay.as_ref().map(|o| o.mesh.n_faces()))
+            .if_some("overlay_crossings", self.overlay.as_ref().map(|o| o.crossings.len()))
+            .if_some("overlay_uncovered", self.overlay.as_ref().map(|_| self.uncovered.to_vec()))
             .with("outside", m.outside)
             .with("markings", m.markings)
             .with("energy", first.energy)
@@ -100,7 +130,7 @@ impl Found {
 
     pub fn text(&self) -> String {
         let (m, q) = (&self.matching, &self.quality);
-        let partners = self.partners.map_or(String::new(), |[mean, most]| {
+        let partners = self.partners().map_or(String::new(), |[mean, most]| {
             format!("partners vertices of the same number are {mean:.2e} of the diagonal apart, at most {most:.2e}\n")
         });
         format!(

@@ -53,6 +53,8 @@ pub struct Picture<'a> {
     /// A second surface, on the right.
     pub beside: Option<Surface<'a>>,
     pub flat: Option<Flat<'a>>,
+    /// A second layout, on the right of the first.
+    pub flat_beside: Option<Flat<'a>>,
     /// A drawing in place of the layout, or beside it.
     pub drawing: Option<&'a Drawing<'a>>,
     /// The size of the pattern, where it is not to be found from the areas on both sides.
@@ -93,9 +95,11 @@ impl Picture<'_> {
         let wish = |corner_uv| Wish { tiles, corner_uv, field: self.field };
         let [surface, beside] = [self.surface, self.beside]
             .map(|surface| surface.map(|s| Sheet::of_image(solid::draw(&s, &wish(s.corner_uv), style))));
-        let flat = self.flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style));
+        let [flat, second] = [self.flat, self.flat_beside]
+            .map(|flat| flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style)));
         let drawing = self.drawing.map(|d| drawing::draw(d, style));
-        let panels = stack([surface, beside, flat, drawing], 0, (BETWEEN * style.size as f64) as usize);
+        let panels =
+            stack([surface, beside, flat, second, drawing], 0, (BETWEEN * style.size as f64) as usize);
         let key = self.flat.and_then(|f| legend::circles(&f, style));
         stack([Some(panels), key, self.field.map(|f| legend::bar(&f.scale, style))], 1, 0)
     }

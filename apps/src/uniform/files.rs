@@ -16,12 +16,12 @@ use super::sphere_picture;
 use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::output::{Outputs, extension};
+use crate::output::{Outputs, extension, write_textured};
 use crate::picture::{Style, Texture};
 use crate::report::{Figures, InputSummary, Report};
 use crate::uv;
 use ricci::control::Stage;
-use ricci::mesh::io::{self, Textured};
+use ricci::mesh::io::Textured;
 use std::io::Write;
 use std::path::Path;
 
@@ -158,8 +158,5 @@ fn write_on_sphere(outputs: &mut Outputs, path: &Path, input: &Input, s: &Round)
         faces: &faces,
         ..Textured::default()
     };
-    match extension(path).as_str() {
-        "glb" => outputs.add_named(path, |path| io::write_glb(path, &data, None).map(drop)),
-        _ => outputs.add_named(path, |path| io::write_obj(path, &data)),
-    }
+    write_textured(outputs, path, &data)
 }

@@ -63,6 +63,45 @@ fn the_files_of_a_map_say_where_vertices_go_and_landmarks_are_met() {
 }
 
 #[test]
+fn the_parts_of_an_overlay_lie_where_their_file_says() {
+    let place = Place::new();
+    place.expect(0, "make torus --big 1 --small 0.3 -o thin.obj");
+    place.expect(0, "make torus --big 1 --small 0.5 -o thick.obj");
+    place.expect(
+        0,
+        "match thin.obj thick.obj --overlay O.obj --overlay-places O.csv --domains D.png --heat H.png --picture P.png --show heat --size 100 --draft \
+         --report R.json",
+    );
+    let report = place.json("R.json");
+    assert!(report["checks"]["overlay_area"]["value"].as_f64().unwrap() < 1e-10);
+    assert_eq!(std::fs::read(place.path("H.png")).unwrap(), std::fs::read(place.path("P.png")).unwrap());
+    assert!(std::fs::read(place.path("D.png")).unwrap() != std::fs::read(place.path("P.png")).unwrap());
+    let [source, target, parts] = ["thin.obj", "thick.obj", "O.obj"].map(|name| obj(&place.text(name)));
+    assert_eq!(report["result"]["overlay_faces"], parts.1.len());
+    let text = place.text("O.csv");
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("face,vertex,source_face,a0,a1,a2,target_face,b0,b1,b2,weight"));
+    let at = |(points, faces): &(Vec<[f64; 3]>, Vec<[usize; 3]>), fields: &[f64]| -> [f64; 3] {
+        let corners = faces[fields[0] as usize];
+        std::array::from_fn(|i| (0..3).map(|k| fields[1 + k] * points[corners[k]][i]).sum())
+    };
+    // Where every vertex lies on the target, which all faces at it agree on.
+    let mut there = vec![None; parts.0.len()];
+    let mut count = 0;
+    for (row, line) in lines.enumerate() {
+        let fields: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
+        let vertex = fields[1] as usize;
+        assert!(fields[0] as usize == row / 3 && parts.1[row / 3][row % 3] == vertex);
+        let [here, image] = [at(&source, &fields[2..]), at(&target, &fields[6..])];
+        assert!((0..3).all(|i| (here[i] - parts.0[vertex][i]).abs() < 1e-9));
+        let first = *there[vertex].get_or_insert(image);
+        assert!((0..3).all(|i| (image[i] - first[i]).abs() < 1e-9));
+        count += 1;
+    }
+    assert!(count == 3 * parts.1.len() && there.iter().all(Option::is_some));
+}
+
+#[test]
 fn what_cannot_be_matched_is_refused_by_name() {
     let place = Place::new();
     place.expect(0, "make sphere -n 3 -o ball.obj");

@@ -1,9 +1,10 @@
 //! Values and points, carried between the input, the refinement and the final triangulation.
 
+use super::super::overlay::Overlay;
 use super::parts::{Refinement, Side};
 use crate::error::{Result, check_size};
 use crate::geometry::vector::{cross, dot};
-use crate::mesh::FaceId;
+use crate::mesh::{FaceId, Mesh, PerFace};
 
 /// Values at vertices with N components: positions, colours, normals.
 pub type Values<const N: usize> = Vec<[f64; N]>;
@@ -77,34 +78,48 @@ impl Refinement {
     }
 }
 
+impl Overlay {
+    /// The map of points from faces of the source to faces of the target.
+    pub fn forward(&self) -> PointMap<'_> {
+        PointMap::sorted(Pieces::Overlaid(self, [0, 1]))
+    }
+
+    /// The map of points from faces of the target to faces of the source.
+    pub fn backward(&self) -> PointMap<'_> {
+        PointMap::sorted(Pieces::Overlaid(self, [1, 0]))
+    }
+}
+
 /// A map of points between the two triangulations: projective in each piece.
 pub struct PointMap<'a> {
-    refinement: &'a Refinement,
-    /// From where, and to where.
-    sides: [Side; 2],
+    pieces: Pieces<'a>,
     /// The triangles, sorted by the face they are mapped from.
     order: Vec<FaceId>,
 }
 
 impl<'a> PointMap<'a> {
     fn new(refinement: &'a Refinement, sides: [Side; 2]) -> PointMap<'a> {
-        let mut order: Vec<_> = refinement.mesh.faces().collect();
-        let from = refinement.faces(sides[0]);
+        PointMap::sorted(Pieces::Flipped(refinement, sides))
+    }
+
+    fn sorted(pieces: Pieces<'a>) -> PointMap<'a> {
+        let mut order: Vec<_> = pieces.mesh().faces().collect();
+        let from = pieces.faces(0);
         order.sort_by_key(|&f| (from[f], f));
-        PointMap { refinement, sides, order }
+        PointMap { pieces, order }
     }
 
     /// The image of the point with these barycentric coordinates in a face: face and coordinates. `None` if the refinement has no
     /// piece of that face. Takes time linear in the number of pieces of the face, besides a search.
     pub fn image(&self, face: FaceId, barycentric: [f64; 3]) -> Option<(FaceId, [f64; 3])> {
-        let (r, [from, to]) = (self.refinement, self.sides);
-        let faces = r.faces(from);
+        let r = &self.pieces;
+        let faces = r.faces(0);
         let begin = self.order.partition_point(|&f| faces[f] < face);
         let pieces = self.order[begin..].iter().copied().take_while(|&f| faces[f] == face);
         // The triangle that contains the point, or the one that the point is nearest to being inside of.
         let mut best: Option<(f64, FaceId, [f64; 3])> = None;
         for f in pieces {
-            let corners = r.barycentric(f, from);
+            let corners = r.barycentric(0, f);
             let parts =
                 [0, 1, 2].map(|k| dot(barycentric, cross(corners[(k + 1) % 3], corners[(k + 2) % 3])));
             let total = parts[0] + parts[1] + parts[2];
@@ -118,13 +133,51 @@ impl<'a> PointMap<'a> {
         }
         let (_, f, local) = best?;
         // Relative to the largest weight, so that none overflows.
-        let q = r.weights(f).map(|q| if from == Side::Input { q } else { 1.0 / q });
+        let q = r.weights(f);
         let largest = q.into_iter().fold(0.0, f64::max);
         let weights = [0, 1, 2].map(|k| local[k].max(0.0) * (q[k] / largest));
-        let corners = r.barycentric(f, to);
+        let corners = r.barycentric(1, f);
         let image = combine(&corners, &weights);
         let total = image[0] + image[1] + image[2];
-        Some((r.faces(to)[f], if total > 0.0 { image.map(|x| x / total) } else { corners[0] }))
+        Some((r.faces(1)[f], if total > 0.0 { image.map(|x| x / total) } else { corners[0] }))
+    }
+}
+
+/// The triangles of a common refinement. Of what is there twice, number 0 is where points are mapped from.
+enum Pieces<'a> {
+    Flipped(&'a Refinement, [Side; 2]),
+    Overlaid(&'a Overlay, [usize; 2]),
+}
+
+impl Pieces<'_> {
+    fn mesh(&self) -> &Mesh {
+        match self {
+            Pieces::Flipped(refinement, _) => &refinement.mesh,
+            Pieces::Overlaid(overlay, _) => &overlay.mesh,
+        }
+    }
+
+    fn faces(&self, k: usize) -> &PerFace<FaceId> {
+        match self {
+            Pieces::Flipped(refinement, sides) => refinement.faces(sides[k]),
+            Pieces::Overlaid(overlay, sides) => &overlay.faces[sides[k]],
+        }
+    }
+
+    fn barycentric(&self, k: usize, f: FaceId) -> [[f64; 3]; 3] {
+        match self {
+            Pieces::Flipped(refinement, sides) => refinement.barycentric(f, sides[k]),
+            Pieces::Overlaid(overlay, sides) => overlay.barycentric[sides[k]][f],
+        }
+    }
+
+    /// What barycentric coordinates are multiplied by on the way.
+    fn weights(&self, f: FaceId) -> [f64; 3] {
+        let (weights, is_forward) = match self {
+            Pieces::Flipped(refinement, sides) => (refinement.weights(f), sides[0] == Side::Input),
+            Pieces::Overlaid(overlay, sides) => (overlay.weights(f), sides[0] == 0),
+        };
+        if is_forward { weights } else { weights.map(|q| 1.0 / q) }
     }
 }
 

@@ -1,0 +1,101 @@
+//! The common refinement of source and target in the domain where they were matched.
+//!
+//! Edges of both are straight in the domain, so a face of the source and one of the target have convex pieces in common. The edges of the source are
+//! traced through the target, the vertices of both, the crossings and the parts of edges make a planar graph, and the faces of this graph are the
+//! pieces. All decisions are signs of determinants with twice the digits of doubles. So that none of these is 0, or smaller than the gaps that rounding leaves
+//! between copies of the domain, vertices of the source are first moved aside by next to nothing; boundaries, which lie on each other, and common vertices
+//! are treated as such.
+
+mod arcs;
+mod pieces;
+mod stand;
+mod trace;
+
+use super::cover::Placed;
+use super::walk::Seed;
+use crate::control::Control;
+use crate::error::Result;
+use crate::geometry::Space;
+use crate::mesh::union_find::UnionFind;
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::metric::{Overlay, Split};
+use crate::parallel::within;
+use arcs::Arcs;
+use pieces::Given;
+use stand::Settled;
+
+/// Both triangulations of a matching in the domain of the target.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommonDomain {
+    /// The source's, and the target's. An edge that joined two vertices of the boundary is halved.
+    placed: [Placed; 2],
+    seeds: [Seed; 2],
+    given: [Given; 2],
+}
+
+/// A face in the domain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DomainTriangle {
+    /// In the plane as (x, y, 1), on the hyperboloid or on the sphere.
+    pub corners: [[f64; 3]; 3],
+    /// Numbers beyond those of the surface are of vertices on edges that were halved.
+    pub vertices: [VertexId; 3],
+    /// The face of the surface that it is a part of.
+    pub face: FaceId,
+}
+
+impl CommonDomain {
+    pub(super) fn new(placed: [Placed; 2], seeds: [Seed; 2], splits: [&Split; 2]) -> CommonDomain {
+        let given = [0, 1].map(|s| Given {
+            mesh: splits[s].given().mesh().clone(),
+            parts: placed[s].cover.mesh.faces().map(|f| splits[s].place(f)).collect(),
+        });
+        CommonDomain { placed, seeds, given }
+    }
+
+    /// Where it lies.
+    pub fn space(&self) -> Space {
+        self.placed[1].cover.space
+    }
+
+    /// The faces of one of the two (0 the source, 1 the target) as they lie in the domain, opened along that one's cut: corners that meet there have the
+    /// same coordinates.
+    pub fn triangles(&self, side: usize) -> Vec<DomainTriangle> {
+        let placed = &self.placed[side];
+        let mesh = &placed.cover.mesh;
+        let mut one = UnionFind::new(mesh.n_halfedges());
+        for h in mesh.halfedges() {
+            let is_inner = !mesh.is_outside(h) && !mesh.is_outside(h.twin());
+            if is_inner && placed.cover.across(h).is_none() {
+                one.join(h.0, mesh.next(h.twin()).0);
+            }
+        }
+        let mut at: Vec<Option<[f64; 3]>> = vec![None; mesh.n_halfedges()];
+        let mut corner = |h: HalfedgeId| {
+            let root = one.root(h.0) as usize;
+            *at[root].get_or_insert_with(|| placed.corner(h).map(f64::from))
+        };
+        let of = |f: FaceId| DomainTriangle {
+            corners: mesh.face_halfedges(f).map(&mut corner),
+            vertices: mesh.face_vertices(f),
+            face: self.given[side].parts[f.index()].0,
+        };
+        mesh.faces().map(of).collect()
+    }
+
+    /// The triangulations laid over each other: the map is projective on every triangle of it. The source's vertices come to lie where the matching has
+    /// them, but for less than 1e-5, mostly 1e-11, of the height of the triangles there. `threads`: 0 for one per core; the result does not depend on it.
+    ///
+    /// # Errors
+    /// [`crate::Error::Matching`] where triangles are so thin that what lies on which side of what cannot be told; [`crate::Error::TooLarge`];
+    /// [`crate::Error::Cancelled`].
+    pub fn overlay(&self, threads: usize, control: &Control) -> Result<Overlay> {
+        control.check()?;
+        within(threads, || {
+            let [source, target] = &self.placed;
+            let settled = Settled::new([source, target], self.seeds, control)?;
+            let arcs = Arcs::new(&settled, target, control)?;
+            pieces::overlay(&arcs, &settled, target, [&self.given[0], &self.given[1]])
+        })
+    }
+}

@@ -1,0 +1,281 @@
+//! Where the vertices of one triangulation stand in another one, exactly as far as digits go: inside a face, on a side at the boundary or at a vertex.
+
+use super::super::cover::{Placed, Precise, aimed, determinant, logarithm, moved};
+use super::super::walk::{Found, Seed, located};
+use crate::control::Control;
+use crate::embed::triangle::Triangle;
+use crate::error::{Error, Result};
+use crate::geometry::{Motion, Twofold};
+use crate::mesh::{FaceId, HalfedgeId, PerVertex, Place, VertexId};
+
+/// Share of the least height of its triangles by which a vertex is moved aside at least, so that no three points that are told apart lie on one line.
+const ASIDE: f64 = 1e-12;
+/// The same as a multiple of the largest gap between copies of the domain: what is told by one copy then holds for the others.
+const GAPS: f64 = 1e3;
+/// The share by which it is moved aside at most.
+const MOST_ASIDE: f64 = 1e-6;
+/// A vertex is taken for one of the other triangulation that is nearer than this multiple of the distance by which it is moved aside.
+const SAME: f64 = 10.0;
+/// Sides that are crossed at most from the face that a search has found to the one that holds a point.
+const MOST_STEPS: usize = 64;
+/// The golden angle: the directions in which vertices are moved aside are all different.
+const GOLDEN: f64 = 2.399_963_229_728_653;
+
+/// A vertex in the domain.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Standing {
+    /// A half-edge of the face that it is in; the side of the domain that it is on; one that leaves the vertex that it is at.
+    pub near: HalfedgeId,
+    /// The transformation that carries the vertex's own position into the opened domain.
+    pub copy: Motion<Twofold>,
+    pub at: At,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(super) enum At {
+    Inside(Spot),
+    /// On a side at the boundary, at this distance from its origin.
+    Side(Spot, f64),
+    Vertex(VertexId),
+}
+
+/// A place, and the sum of the weights with which the corners, as vectors, give the point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spot {
+    pub place: Place,
+    pub total: f64,
+}
+
+/// A face of a domain as it is seen from one of its corners: coordinates of small triangles then differ in all their digits.
+pub(super) struct View {
+    pub home: Motion<Twofold>,
+    /// From the half-edge from which it is seen.
+    pub sides: [HalfedgeId; 3],
+    pub corners: [Precise; 3],
+}
+
+impl View {
+    pub fn new(domain: &Placed, near: HalfedgeId) -> View {
+        let mesh = &domain.cover.mesh;
+        let home = domain.frame_at(near).inverse();
+        let sides = [near, mesh.next(near), mesh.prev(near)];
+        View { home, sides, corners: sides.map(|h| home.apply(domain.corner(h))) }
+    }
+
+    /// What is opposite each corner, positive inside.
+    fn parts(&self, p: Precise) -> [f64; 3] {
+        [0, 1, 2].map(|k| f64::from(determinant([p, self.corners[(k + 1) % 3], self.corners[(k + 2) % 3]])))
+    }
+
+    fn spot(&self, domain: &Placed, parts: [f64; 3]) -> Spot {
+        let inside = parts.map(|x| x.max(0.0));
+        let sum: f64 = inside.iter().sum();
+        let own = if sum > 0.0 { inside.map(|x| x / sum) } else { [1.0 / 3.0; 3] };
+        let (face, first) = domain.cover.mesh.corner(self.sides[0]).unwrap_or((FaceId(0), 0));
+        let weights = std::array::from_fn(|k| own[(k + 3 - first) % 3]);
+        let total = sum / f64::from(determinant(self.corners));
+        Spot { place: Place { face, weights }, total: if total > 0.0 { total } else { 1.0 } }
+    }
+}
+
+/// A point seen from a face of a domain: a half-edge of that, and the transformation that carries the point there.
+#[derive(Clone, Copy)]
+struct Seen {
+    near: HalfedgeId,
+    copy: Motion<Twofold>,
+}
+
+impl Seen {
+    /// Seen from the face across a side of this one.
+    fn across(&self, domain: &Placed, side: HalfedgeId) -> Seen {
+        let copy = domain
+            .cover
+            .across(side)
+            .map_or(self.copy, |across| across.inverse().compose(&self.copy).normalised());
+        Seen { near: side.twin(), copy }
+    }
+}
+
+/// Per vertex the least height of the triangles at it, in their domain.
+fn heights(placed: &Placed) -> PerVertex<f64> {
+    let mesh = &placed.cover.mesh;
+    let vectors = placed.logarithms();
+    let mut heights = PerVertex::filled(mesh.n_vertices(), f64::INFINITY);
+    for f in mesh.faces() {
+        let sides = mesh.face_halfedges(f).map(|h| vectors[h][0].hypot(vectors[h][1]));
+        let longest = sides.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+        let height = 2.0 * Triangle::from_sides(sides).area / longest;
+        mesh.face_vertices(f).into_iter().for_each(|v| heights[v] = heights[v].min(height));
+    }
+    heights
+}
+
+/// The largest distance between a corner as a face and as its neighbour have it: deck transformations are rounded.
+fn gap(placed: &Placed) -> f64 {
+    let mesh = &placed.cover.mesh;
+    let of = |h: HalfedgeId| {
+        let across = placed.cover.across(h)?;
+        let there = across.apply(placed.corner(mesh.next(h.twin())));
+        let [x, y, _] = placed.frame_at(h).inverse().apply(there);
+        Some(f64::from(x).hypot(f64::from(y)))
+    };
+    let inner = mesh.halfedges().filter(|&h| !mesh.is_outside(h) && !mesh.is_outside(h.twin()));
+    inner.filter_map(of).fold(0.0, f64::max)
+}
+
+/// Both triangulations with their vertices in each other. The source's vertices are moved aside by next to nothing, or to vertices of the target
+/// that they are next to nothing away from; those of the target that have one there have no standing.
+pub(super) struct Settled {
+    pub source: Placed,
+    pub forward: Vec<Standing>,
+    pub backward: Vec<Option<Standing>>,
+    /// Per vertex of the target the one of the source that is at it.
+    pub taken: PerVertex<Option<VertexId>>,
+}
+
+impl Settled {
+    /// # Errors
+    /// [`Error::Matching`] where the places of vertices cannot be told; [`Error::Cancelled`].
+    pub fn new([source, target]: [&Placed; 2], seeds: [Seed; 2], control: &Control) -> Result<Settled> {
+        let high = [heights(source), heights(target)];
+        let gap = gap(source).max(gap(target));
+        let aside = |v: VertexId| (ASIDE * high[0][v]).max(GAPS * gap).min(MOST_ASIDE * high[0][v]);
+        let mut source = source.clone();
+        let mesh = source.cover.mesh.clone();
+        for v in mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)) {
+            let (angle, by) = (GOLDEN * v.index() as f64, aside(v));
+            source.at[v] = moved(&source.at[v], [by * angle.cos(), by * angle.sin()]);
+        }
+        let (found, _) = located(&source, target, seeds[0], control)?;
+        let mut taken = PerVertex::filled(target.at.len(), None);
+        let mut forward = Vec::with_capacity(found.len());
+        for (v, found) in mesh.vertices().zip(&found) {
+            let mut standing = stand(&source, target, v, found)?;
+            let same = |b: VertexId| (SAME * aside(v)).min(SAME * MOST_ASIDE * high[1][b]);
+            if let Some((h, b)) = next_to(&source, target, (v, &standing), same)
+                && taken[b].is_none()
+            {
+                taken[b] = Some(v);
+                source.at[v] = standing.copy.inverse().compose(&target.frame_at(h)).normalised();
+                standing = Standing { near: h, at: At::Vertex(b), ..standing };
+            }
+            forward.push(standing);
+        }
+        if let Some(f) = source.flipped().first() {
+            return Err(Error::Matching(format!("face {f} of the source is too thin for an overlay")));
+        }
+        let (found, _) = located(target, &source, seeds[1], control)?;
+        let back = |(v, found): (VertexId, &Found)| match taken[v] {
+            Some(_) => Ok(None),
+            None => stand(target, &source, v, found).map(Some),
+        };
+        let backward = target.cover.mesh.vertices().zip(&found).map(back).collect::<Result<_>>()?;
+        Ok(Settled { source, forward, backward, taken })
+    }
+}
+
+/// The corner of the face where a vertex stands that it is next to, if both are inside the surface or both on the boundary.
+fn next_to(
+    points: &Placed,
+    domain: &Placed,
+    (v, standing): (VertexId, &Standing),
+    same: impl Fn(VertexId) -> f64,
+) -> Option<(HalfedgeId, VertexId)> {
+    let mesh = &domain.cover.mesh;
+    let point = standing.copy.apply(points.at[v].origin());
+    let outside = points.cover.mesh.is_boundary_vertex(v);
+    let near = |h: HalfedgeId| {
+        let [x, y] = logarithm(domain.cover.space, domain.frame_at(h).inverse().apply(point));
+        let b = mesh.origin(h);
+        (x.hypot(y) <= same(b) && mesh.is_boundary_vertex(b) == outside).then_some((h, b))
+    };
+    [standing.near, mesh.next(standing.near), mesh.prev(standing.near)].into_iter().find_map(near)
+}
+
+fn stand(points: &Placed, domain: &Placed, v: VertexId, found: &Found) -> Result<Standing> {
+    let seen = Seen { near: found.near, copy: found.copy };
+    let point = points.at[v].origin();
+    if points.cover.mesh.is_boundary_vertex(v) {
+        return on_side(domain, point, seen).ok_or_else(|| lost(v));
+    }
+    inside(domain, point, seen).ok_or_else(|| lost(v))
+}
+
+fn lost(v: VertexId) -> Error {
+    Error::Matching(format!(
+        "the place of vertex {v} in the other surface is not clear enough for an overlay"
+    ))
+}
+
+/// In the face that holds a point, from one that it lies outside of by rounding at most.
+fn inside(domain: &Placed, point: Precise, mut seen: Seen) -> Option<Standing> {
+    for _ in 0..MOST_STEPS {
+        let view = View::new(domain, seen.near);
+        let parts = view.parts(view.home.apply(seen.copy.apply(point)));
+        let Some(k) = (0..3).find(|&k| parts[k] < 0.0) else {
+            let at = At::Inside(view.spot(domain, parts));
+            return Some(Standing { near: seen.near, copy: seen.copy, at });
+        };
+        let side = view.sides[(k + 1) % 3];
+        if domain.cover.mesh.is_outside(side.twin()) {
+            return None;
+        }
+        seen = seen.across(domain, side);
+    }
+    None
+}
+
+/// On the side at the boundary that is nearest to a point, of those around the face.
+fn on_side(domain: &Placed, point: Precise, seen: Seen) -> Option<Standing> {
+    let (mesh, space) = (&domain.cover.mesh, domain.cover.space);
+    let mut best: Option<(f64, Seen, f64)> = None;
+    for seen in around(domain, seen) {
+        for side in [seen.near, mesh.next(seen.near), mesh.prev(seen.near)] {
+            if !mesh.is_outside(side.twin()) {
+                continue;
+            }
+            let ends = [side, mesh.next(side)].map(|h| domain.corner(h));
+            let (frame, length) = aimed(space, ends);
+            let [x, y] = logarithm(space, frame.inverse().apply(seen.copy.apply(point)));
+            let off = (-x).max(x - length).max(0.0) + y.abs();
+            if best.is_none_or(|(least, ..)| off < least) {
+                best = Some((off, Seen { near: side, ..seen }, x));
+            }
+        }
+    }
+    let (_, seen, x) = best?;
+    let view = View::new(domain, seen.near);
+    let [a, b, _] = view.parts(view.home.apply(seen.copy.apply(point)));
+    // The point is on the side: its part opposite the third corner is rounding.
+    let spot = view.spot(domain, [a, b, 0.0]);
+    Some(Standing { near: seen.near, copy: seen.copy, at: At::Side(spot, x) })
+}
+
+/// The faces around the corners of a face.
+fn around(domain: &Placed, seen: Seen) -> Vec<Seen> {
+    let mesh = &domain.cover.mesh;
+    let mut all = Vec::new();
+    for near in [seen.near, mesh.next(seen.near), mesh.prev(seen.near)] {
+        let most = mesh.fan(mesh.origin(near)).len();
+        let mut at = Seen { near, ..seen };
+        all.push(at);
+        for _ in 1..most {
+            let side = mesh.prev(at.near);
+            if mesh.is_outside(side.twin()) {
+                break;
+            }
+            at = at.across(domain, side);
+            all.push(at);
+        }
+        at = Seen { near, ..seen };
+        for _ in 1..most {
+            if mesh.is_outside(at.near.twin()) {
+                break;
+            }
+            at = at.across(domain, at.near);
+            at.near = mesh.next(at.near);
+            all.push(at);
+        }
+    }
+    all
+}
