@@ -6,6 +6,7 @@ use super::handles::with_handles;
 use super::options::MatchOptions;
 use super::orbifold::{Pair, in_orbifold, shape};
 use super::place::{Place, SurfaceMap};
+use super::pushed::pushed;
 use super::route::Marks;
 use super::sphere::on_sphere;
 use super::walk::locate;
@@ -16,6 +17,7 @@ use crate::mesh::{EdgeId, FaceId, HalfedgeId, VertexId};
 use crate::metric::{Split, Surface};
 use crate::parallel::Pool;
 use crate::topology::check_vertex;
+use std::collections::HashSet;
 
 /// A map between two surfaces, with what certifies it.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,7 +58,8 @@ pub fn match_surfaces(
 ) -> Result<Matching> {
     control.check()?;
     check_topology(source, target)?;
-    let splits = [without_chords(source)?, without_chords(target)?];
+    let landmarks = |s: usize| options.landmarks.iter().map(move |pair| pair[s]).collect::<HashSet<_>>();
+    let splits = [without_chords(source, &landmarks(0))?, without_chords(target, &landmarks(1))?];
     let surfaces = [splits[0].surface()?, splits[1].surface()?];
     let surfaces = [&surfaces[0], &surfaces[1]];
     let marks = marks(surfaces, options)?;
@@ -67,11 +70,17 @@ pub fn match_surfaces(
 }
 
 /// A surface with a vertex added on every inner edge that joins two vertices of the boundary: where that is straight, such an edge would lie on it.
-fn without_chords(surface: &Surface) -> Result<Split> {
+/// On surfaces with handles, also on every edge that joins two landmarks, which hold it.
+fn without_chords(surface: &Surface, landmarks: &HashSet<VertexId>) -> Result<Split> {
     let mesh = surface.mesh();
     let mut split = Split::new(surface);
-    let is_chord =
-        |e: &EdgeId| !mesh.is_boundary_edge(*e) && mesh.ends(*e).iter().all(|&v| mesh.is_boundary_vertex(v));
+    let has_handles = mesh.genus() > 0;
+    let is_chord = |e: &EdgeId| {
+        let ends = mesh.ends(*e);
+        !mesh.is_boundary_edge(*e)
+            && (ends.iter().all(|&v| mesh.is_boundary_vertex(v))
+                || (has_handles && ends.iter().all(|v| landmarks.contains(v))))
+    };
     for e in mesh.edges().filter(is_chord) {
         split.halve(e)?;
     }
@@ -99,7 +108,17 @@ fn in_one_domain(
     let of = |marks: &Marks| (marks.loops.len(), marks.landmarks.len(), marks.corners.len());
     let (loops, landmarks, corners) = of(marks[0]);
     if genus > 0 {
-        return with_handles(surfaces, marks, options, control);
+        // One landmark of a torus without boundary is met by a shift; all others are pushed to their goals.
+        let is_flat = surfaces[0].mesh().euler() == 0;
+        let few = |marks: &Marks| Marks {
+            landmarks: marks.landmarks.iter().take(usize::from(is_flat)).copied().collect(),
+            loops: marks.loops.clone(),
+            corners: Vec::new(),
+        };
+        let bare = [few(marks[0]), few(marks[1])];
+        let pair = with_handles(surfaces, [&bare[0], &bare[1]], options, control)?;
+        let rest = landmarks - bare[0].landmarks.len() + corners;
+        return if rest == 0 { Ok(pair) } else { pushed(&pair, surfaces, marks, options, control) };
     }
     if shape(loops, landmarks, corners).is_some() {
         return in_orbifold(surfaces, marks, options, control);

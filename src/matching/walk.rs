@@ -35,6 +35,20 @@ pub(super) fn locate(
     seed: Seed,
     control: &Control,
 ) -> Result<(Vec<Place>, f64)> {
+    let (found, worst) = find(points, domain, seed, control)?;
+    Ok((found.into_iter().map(|found| found.place).collect(), worst))
+}
+
+/// As [`locate`], with the transformations by which the vertices' own positions come into the opened domain.
+///
+/// # Errors
+/// As [`locate`].
+pub(super) fn find(
+    points: &Placed,
+    domain: &Placed,
+    seed: Seed,
+    control: &Control,
+) -> Result<(Vec<Found>, f64)> {
     let mesh = &points.cover.mesh;
     let walker = Walker { domain, most: MOST_STEPS };
     let mut found: Vec<Option<Found>> = vec![None; mesh.n_vertices()];
@@ -61,19 +75,19 @@ pub(super) fn locate(
             }
         }
     }
-    let places = found.into_iter().map(|found| found.map(|found| found.place));
-    let places: Option<Vec<Place>> = places.collect();
-    let places = places.ok_or_else(|| Error::Matching("the surface has several components".into()))?;
-    Ok((places, worst))
+    let found: Option<Vec<Found>> = found.into_iter().collect();
+    let found = found.ok_or_else(|| Error::Matching("the surface has several components".into()))?;
+    Ok((found, worst))
 }
 
+/// Where a vertex was found.
 #[derive(Debug, Clone, Copy)]
-struct Found {
-    place: Place,
+pub(super) struct Found {
+    pub place: Place,
     /// A half-edge of the face.
     near: HalfedgeId,
     /// The transformation that carries the vertex's own position into the opened domain.
-    copy: Motion<Twofold>,
+    pub copy: Motion<Twofold>,
     outside: f64,
 }
 
