@@ -144,8 +144,8 @@ impl<'a> Way<'a> {
             along[h.twin()] = along[h].inverse();
         }
         let at = self.places();
-        let (Some(&first), Some(&to)) = (self.marks[0].landmarks.first(), self.marks[1].landmarks.first())
-        else {
+        let first = |marks: &Marks| marks.landmarks.first().or(marks.corners.first()).copied();
+        let (Some(first), Some(to)) = (first(self.marks[0]), first(self.marks[1])) else {
             return Err(Error::Matching("no landmark to start from".into()));
         };
         let start = mesh.fan(first)[0];

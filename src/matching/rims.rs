@@ -96,9 +96,14 @@ impl Rims {
             let has_corners =
                 arcs.first().and_then(|arc| arc.first()).is_some_and(|&h| marks[0].corners.contains(&mesh.origin(h)));
             let own: Vec<HalfedgeId> = arcs.concat();
-            let mut at = Vec::with_capacity(own.len());
+            // Counted on around the loop.
+            let mut at: Vec<(usize, f64)> = Vec::with_capacity(own.len());
             for &h in &own {
-                at.push(target.put(old, &mut found[mesh.origin(h).index()])?);
+                let (mut k, share) = target.put(old, &mut found[mesh.origin(h).index()])?;
+                while at.last().is_some_and(|last| (k, share) < *last) {
+                    k += around.len();
+                }
+                at.push((k, share));
             }
             if has_corners {
                 let goals = target.between_corners(source, &arcs, (marks, &at))?;
@@ -107,6 +112,7 @@ impl Rims {
                 }
             } else {
                 for (&h, &(k, share)) in own.iter().zip(&at) {
+                    let k = k % around.len();
                     let to = target.before[k] + share * (target.before[k + 1] - target.before[k]);
                     rims.push(&target, new, (mesh.origin(h), k as i64, (k as i64, to)));
                 }
@@ -178,15 +184,10 @@ impl Loop<'_> {
             *next += arc.len();
             Some(start)
         });
-        // Where the corners are and where they go, counted on around the loop.
+        // Where the corners are and where they go.
         let (mut now, mut goals): (Vec<f64>, Vec<usize>) = (Vec::new(), Vec::new());
         for (start, arc) in starts.zip(arcs) {
-            let (k, share) = at[start];
-            let mut x = k as f64 + share;
-            if now.last().is_some_and(|last| x < *last) {
-                x += n as f64;
-            }
-            now.push(x);
+            now.push(at[start].0 as f64 + at[start].1);
             let corner = arc.first().and_then(|&h| marks[0].corners.iter().position(|&v| v == mesh.origin(h)));
             let partner = corner.map(|j| marks[1].corners[j]);
             let goal = self.around.iter().position(|&h| Some(self.mesh.origin(h)) == partner);
