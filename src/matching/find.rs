@@ -124,16 +124,15 @@ fn in_one_domain(
         return in_orbifold(surfaces, marks, options, control);
     }
     match (loops, landmarks, corners) {
-        (0, 0, 0) => on_sphere(surfaces, options, control),
-        (1, 0 | 1, 0) => {
-            let [first, second] = disk::corners(surfaces, &options.flow, control)?;
+        (0, 0..=2, 0) => on_sphere(surfaces, marks, options, control),
+        (1, 0 | 1, 0) | (1, 0, 1 | 2) => {
+            let [first, second] = disk::corners(surfaces, marks, &options.flow, control)?;
             let with = |s: usize, corners| Marks { corners, ..marks[s].clone() };
             let marks = [with(0, first), with(1, second)];
             in_orbifold(surfaces, [&marks[0], &marks[1]], options, control)
         }
         _ => Err(Error::Matching(format!(
-            "{landmarks} landmarks inside and {corners} on the boundary leave the map open on a surface of genus 0 with {loops} boundary loops: \
-             name none or at least three"
+            "{landmarks} landmarks inside and {corners} on the boundary leave the map open on a surface of genus 0 with {loops} boundary loops"
         ))),
     }
 }

@@ -25,6 +25,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+mod axis;
 mod balance;
 mod canonical;
 mod cover;

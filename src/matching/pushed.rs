@@ -9,8 +9,8 @@ use super::canonical::canonical_metric;
 use super::cover::{Cover, Placed, moved};
 use super::options::MatchOptions;
 use super::orbifold::Pair;
-use super::route::Marks;
 use super::rims::{Rims, straighten};
+use super::route::Marks;
 use super::slits::{Inside, Push, Slits, Start};
 use super::walk::{Found, Seed, find};
 use super::weights::mean_value_weights;
@@ -129,8 +129,7 @@ impl<'a> Way<'a> {
         }
         let slits = Slits::new([&pair.target, new], &pushes, &marks[1].loops)?;
         let rims = Rims::new(surface, (&pair.target, new), marks, (&mut found, &slits))?;
-        let inside =
-            found.iter().map(|f| Inside::new(&pair.target, f.place.face, f.place.weights)).collect();
+        let inside = found.iter().map(|f| Inside::new(&pair.target, f.place.face, f.place.weights)).collect();
         Ok(Way { pair, new, marks, found, landmark, inside, rims, slits })
     }
 
@@ -154,8 +153,7 @@ impl<'a> Way<'a> {
             let origin = mesh.origin(h);
             // Seen from a landmark the surface around it is not determined: from the other end it is.
             let is_turned = self.landmark[origin].is_some();
-            let (own, other) =
-                if is_turned { (mesh.next(h), h.twin()) } else { (h, mesh.next(h.twin())) };
+            let (own, other) = if is_turned { (mesh.next(h), h.twin()) } else { (h, mesh.next(h.twin())) };
             if mesh.is_outside(h.twin()) {
                 return None;
             }
@@ -166,10 +164,7 @@ impl<'a> Way<'a> {
         let at = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
             corners[cover.own(v)].compose(&at[v]).normalised()
         });
-        let seeds = [
-            Seed { vertex: first, near: self.new.cover.own(to) },
-            Seed { vertex: to, near: start },
-        ];
+        let seeds = [Seed { vertex: first, near: self.new.cover.own(to) }, Seed { vertex: to, near: start }];
         Ok((Placed { cover, at }, seeds))
     }
 
@@ -209,8 +204,7 @@ impl<'a> Way<'a> {
         let mut at = PerVertex::from_fn(self.found.len(), |v: VertexId| {
             let place = self.found[v.index()].place;
             let corners = self.new.face(place.face).map(|p| p.map(f64::from));
-            let [x, y, w] =
-                [0, 1, 2].map(|i| (0..3).map(|k| place.weights[k] * corners[k][i]).sum::<f64>());
+            let [x, y, w] = [0, 1, 2].map(|i| (0..3).map(|k| place.weights[k] * corners[k][i]).sum::<f64>());
             let size = ((w - x) * (w + x) - y * y).max(f64::MIN_POSITIVE).sqrt();
             Placed::frame(Space::H2, [x / size, y / size, w / size])
         });
@@ -243,7 +237,8 @@ impl<'a> Way<'a> {
             let closed = to_b.compose(&along[b]);
             // Landmarks stay where they are when the surface is turned about them.
             let tip = at[mesh.origin(c)].origin();
-            let [p, q] = [closed.apply(tip), to_c.apply(tip)].map(|p| at[mesh.origin(a)].inverse().apply(p).map(f64::from));
+            let [p, q] = [closed.apply(tip), to_c.apply(tip)]
+                .map(|p| at[mesh.origin(a)].inverse().apply(p).map(f64::from));
             let off = (0..2).map(|k| (p[k] - q[k]).abs() / p[2].abs().max(1.0)).fold(0.0, f64::max);
             if self.landmark[mesh.origin(b)].is_none() && !(off <= CLOSED) {
                 return Err(Error::Matching(format!(

@@ -93,8 +93,10 @@ impl Rims {
             let target = Loop { mesh: &new.cover.mesh, around, before, steps: slits.along_loop(around)? };
             let mesh = source.mesh();
             let arcs = arcs(mesh, own, &marks[0].corners);
-            let has_corners =
-                arcs.first().and_then(|arc| arc.first()).is_some_and(|&h| marks[0].corners.contains(&mesh.origin(h)));
+            let has_corners = arcs
+                .first()
+                .and_then(|arc| arc.first())
+                .is_some_and(|&h| marks[0].corners.contains(&mesh.origin(h)));
             let own: Vec<HalfedgeId> = arcs.concat();
             // Counted on around the loop.
             let mut at: Vec<(usize, f64)> = Vec::with_capacity(own.len());
@@ -188,7 +190,8 @@ impl Loop<'_> {
         let (mut now, mut goals): (Vec<f64>, Vec<usize>) = (Vec::new(), Vec::new());
         for (start, arc) in starts.zip(arcs) {
             now.push(at[start].0 as f64 + at[start].1);
-            let corner = arc.first().and_then(|&h| marks[0].corners.iter().position(|&v| v == mesh.origin(h)));
+            let corner =
+                arc.first().and_then(|&h| marks[0].corners.iter().position(|&v| v == mesh.origin(h)));
             let partner = corner.map(|j| marks[1].corners[j]);
             let goal = self.around.iter().position(|&h| Some(self.mesh.origin(h)) == partner);
             let Some(mut goal) = goal else {
@@ -199,7 +202,8 @@ impl Loop<'_> {
             }
             goals.push(goal);
         }
-        let off: f64 = now.iter().zip(&goals).map(|(x, y)| x - *y as f64).sum::<f64>() / now.len().max(1) as f64;
+        let off: f64 =
+            now.iter().zip(&goals).map(|(x, y)| x - *y as f64).sum::<f64>() / now.len().max(1) as f64;
         let laps = (off / n as f64).round() as i64;
         let total = self.before[n];
         let length = |k: usize| (k / n) as f64 * total + self.before[k % n];

@@ -129,6 +129,31 @@ impl<'a> Router<'a> {
         Some(path.iter().map(|h| self.lengths[h.edge()]).sum())
     }
 
+    /// What stands around a mark: other marks, and the paths beside it, by their numbers.
+    pub fn around(&self, mark: usize) -> (Vec<usize>, Vec<usize>) {
+        let mut reached = PerVertex::filled(self.mesh.n_vertices(), false);
+        let mut waiting = self.marks.vertices(self.mesh, mark);
+        let (mut marks, mut taken) = (Vec::new(), PerVertex::filled(self.mesh.n_vertices(), false));
+        while let Some(v) = waiting.pop() {
+            for h in self.mesh.outgoing(v) {
+                let tip = self.mesh.tip(h);
+                if std::mem::replace(&mut reached[tip], true) {
+                    continue;
+                }
+                match self.mark_of[tip] {
+                    Some(other) => marks.push(other as usize),
+                    None if self.is_taken[tip] => taken[tip] = true,
+                    None => waiting.push(tip),
+                }
+            }
+        }
+        marks.retain(|&other| other != mark);
+        marks.sort_unstable();
+        marks.dedup();
+        let meets = |path: &Vec<HalfedgeId>| path.iter().any(|&h| taken[self.mesh.origin(h)]);
+        (marks, (0..self.paths.len()).filter(|&k| meets(&self.paths[k])).collect())
+    }
+
     /// Which exits of a mark a path may use so that its place among those in use is the one in the order.
     fn sector(&self, mark: usize, number: usize, order: &[usize]) -> Vec<bool> {
         let n = self.exits[mark].len();

@@ -120,11 +120,7 @@ impl<'a> Slits<'a> {
     ///
     /// # Errors
     /// [`Error::Matching`] for landmarks that coincide or have no way beside each other, named.
-    pub fn new(
-        [old, new]: [&'a Placed; 2],
-        pushes: &[Push],
-        loops: &[Vec<HalfedgeId>],
-    ) -> Result<Slits<'a>> {
+    pub fn new([old, new]: [&'a Placed; 2], pushes: &[Push], loops: &[Vec<HalfedgeId>]) -> Result<Slits<'a>> {
         let mut growing = Growing::new(old);
         let add = |push: &Push| match push.start {
             Start::There(_) => Ok(push.to),
@@ -134,8 +130,7 @@ impl<'a> Slits<'a> {
         let Growing { n_vertices, origin, sides, corners, parts } = growing;
         let mesh = Mesh::assemble(n_vertices, origin, &sides)?;
         let paths = paths(&mesh, lengths(old.cover.space, &mesh, &corners), pushes, (&starts, loops))?;
-        let mut slits =
-            Slits { old, new, mesh, corners, parts, around: HashMap::new(), exits: Vec::new() };
+        let mut slits = Slits { old, new, mesh, corners, parts, around: HashMap::new(), exits: Vec::new() };
         for (push, path) in pushes.iter().zip(&paths) {
             let exit = match (push.start, path.first(), path.last()) {
                 (Start::There(h), ..) => (h, slits.from_vertex(h)?),
@@ -147,7 +142,7 @@ impl<'a> Slits<'a> {
                     }
                     (first, back.normalised())
                 }
-                _ => return Err(no_way(push)),
+                _ => return Err(no_way(pushes, slits.exits.len(), Vec::new())),
             };
             slits.exits.push(exit);
             slits.open(path)?;
@@ -217,9 +212,7 @@ impl<'a> Slits<'a> {
     pub fn between(&self, from: Inside, to: Precise) -> Result<Motion<Twofold>> {
         let start = match self.parts.get(&from.face) {
             None => Some(from.face),
-            Some(parts) => {
-                parts.iter().copied().find(|f| is_inside(&self.corners[f.index()], from.point))
-            }
+            Some(parts) => parts.iter().copied().find(|f| is_inside(&self.corners[f.index()], from.point)),
         };
         let start = start.ok_or_else(|| lost(from.face))?;
         self.walk((start, Motion::identity(self.new.cover.space)), [from.point, to])
@@ -298,16 +291,24 @@ fn paths(
     let landmarks = ends.iter().copied().chain(moves.iter().map(|&k| starts[k])).collect();
     let marks = Marks { landmarks, loops: loops.to_vec(), corners: Vec::new() };
     let mut router = Router::new(mesh, &lengths, &marks);
-    let mut order = Vec::with_capacity(moves.len());
-    for (j, &k) in moves.iter().enumerate() {
-        // How far each would go if it were alone.
-        let length = router.length([n + j, k]).ok_or_else(|| no_way(&pushes[k]))?;
-        order.push((length, j, k));
-    }
+    // How far each would go if it were alone; the last are those that have no way even then.
+    let length = |j: usize, k: usize| router.length([n + j, k]).unwrap_or(f64::INFINITY);
+    let mut order: Vec<_> = moves.iter().enumerate().map(|(j, &k)| (length(j, k), j, k)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut paths = vec![Vec::new(); n];
-    for (_, j, k) in order {
-        router.join([n + j, k], None).map_err(|_| no_way(&pushes[k]))?;
+    for (number, &(_, j, k)) in order.iter().enumerate() {
+        if router.join([n + j, k], None).is_err() {
+            let name = |mark: usize| match moves.get(mark.wrapping_sub(n)) {
+                Some(&moved) => Some(moved),
+                None => Some(mark).filter(|&mark| mark < n),
+            };
+            let mut others = Vec::new();
+            for (marks, paths) in [router.around(k), router.around(n + j)] {
+                others.extend(marks.into_iter().filter_map(name));
+                others.extend(paths.into_iter().filter(|&path| path < number).map(|path| order[path].2));
+            }
+            return Err(no_way(pushes, k, others));
+        }
         paths[k] = router.paths.last().cloned().unwrap_or_default();
     }
     Ok(paths)
@@ -335,10 +336,15 @@ fn is_inside(corners: &[Precise; 3], p: Precise) -> bool {
     (0..3).all(|k| is_left([corners[k], corners[(k + 1) % 3]], p))
 }
 
-fn no_way(push: &Push) -> Error {
+fn no_way(pushes: &[Push], k: usize, mut others: Vec<usize>) -> Error {
+    others.retain(|&other| other != k);
+    others.sort_unstable();
+    others.dedup();
+    let names: Vec<&str> = others.into_iter().map(|other| pushes[other].name.as_str()).collect();
     Error::Matching(format!(
-        "{} has no way to its goal beside the other landmarks, with which it is in conflict: refine the target there, or leave one of them out",
-        push.name
+        "{} has no way to its goal: it is in conflict with {}; refine the target there, or leave one of them out",
+        pushes[k].name,
+        names.join(", ")
     ))
 }
 

@@ -4,4 +4,5 @@
 mod corpus;
 mod errors;
 mod known;
+mod landmarks;
 mod samples;
