@@ -54,7 +54,8 @@ pub(super) fn corners(
     let starts = match (marks[0].corners.first(), marks[0].landmarks.first()) {
         (Some(_), _) => [0, 1].map(|s| disks[s].angle(marks[s].corners[0])),
         (None, Some(_)) => {
-            let turn = best_turn(&disks[0].around(), &disks[1].around());
+            let [from, to] = [0, 1].map(|s| disks[s].around(marks[s].landmarks[0]));
+            let turn = best_turn(&from, &to);
             return Ok(closest(surfaces, &disks, turn).map(|v| vec![v]));
         }
         (None, None) => by_factors(&disks),
@@ -118,9 +119,11 @@ impl Disk {
         y.atan2(x)
     }
 
-    fn around(&self) -> Vec<Around> {
+    /// The vertices about the centre, but for the landmark there, which has no direction.
+    fn around(&self, landmark: VertexId) -> Vec<Around> {
         let of = |(z, w): (&Complex, &f64)| (norm2(*z), z[1].atan2(z[0]), *w);
-        self.points.iter().zip(&self.weights).map(of).collect()
+        let all = self.points.iter().zip(&self.weights).enumerate();
+        all.filter(|(v, _)| *v != landmark.index()).map(|(_, zw)| of(zw)).collect()
     }
 
     /// Brings a landmark to the centre, or two corners to opposite points and the area between them to the middle.

@@ -21,6 +21,15 @@ pub struct Place {
     pub weights: [f64; 3],
 }
 
+impl Place {
+    /// A vertex of a mesh, as a corner of one of its faces.
+    pub fn at_vertex(mesh: &Mesh, v: VertexId) -> Place {
+        let first = mesh.outgoing(v).find_map(|h| mesh.corner(h));
+        let (face, corner) = first.unwrap_or((FaceId(0), 0));
+        Place { face, weights: std::array::from_fn(|k| f64::from(k == corner)) }
+    }
+}
+
 /// A map from the vertices of a surface to points of another one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceMap {

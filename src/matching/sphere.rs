@@ -158,7 +158,9 @@ fn about_landmarks(
     };
     let is_two = marks[0].landmarks.len() > 1;
     let about = |view: &View, s: usize| -> (f64, Vec<Around>) {
-        let seen = points[s].iter().zip(&weights[s]).filter_map(|(p, w)| Some((view.seen(*p)?, *w)));
+        // A landmark has no direction from itself.
+        let others = surfaces[s].mesh().vertices().filter(|v| !marks[s].landmarks.contains(v));
+        let seen = others.filter_map(|v| Some((view.seen(points[s][v.index()])?, weights[s][v.index()])));
         let seen: Vec<(f64, f64, f64)> = seen
             .map(|([x, y], w)| (x.hypot(y).ln(), y.atan2(x), w))
             .filter(|(size, ..)| size.is_finite())

@@ -4,6 +4,7 @@ mod args;
 mod command;
 mod files;
 mod found;
+mod marks;
 
 pub use args::{HELP, MatchArgs};
 pub use command::{execute, run};
