@@ -183,7 +183,7 @@ impl<'a> Way<'a> {
         let deck = deck.compose(&self.found[to.index()].copy.inverse()).normalised();
         let end = deck.apply(self.inside[to.index()].point);
         let motion = match self.landmark[from] {
-            Some(k) => self.slits.from_landmark(k as usize, end)?,
+            Some(k) => self.slits.landmark_to(k as usize, end)?,
             None => {
                 let motion = self.slits.between(self.inside[from.index()], end)?;
                 match self.rims.way(from) {
@@ -240,7 +240,7 @@ impl<'a> Way<'a> {
             let [p, q] = [closed.apply(tip), to_c.apply(tip)]
                 .map(|p| at[mesh.origin(a)].inverse().apply(p).map(f64::from));
             let off = (0..2).map(|k| (p[k] - q[k]).abs() / p[2].abs().max(1.0)).fold(0.0, f64::max);
-            if self.landmark[mesh.origin(b)].is_none() && !(off <= CLOSED) {
+            if self.landmark[mesh.origin(b)].is_none() && (off.is_nan() || off > CLOSED) {
                 return Err(Error::Matching(format!(
                     "the sides of face {f} of the source do not close in the target's domain (by {off:.1e}): the landmarks lie too close together"
                 )));

@@ -133,10 +133,10 @@ impl<'a> Slits<'a> {
         let mut slits = Slits { old, new, mesh, corners, parts, around: HashMap::new(), exits: Vec::new() };
         for (push, path) in pushes.iter().zip(&paths) {
             let exit = match (push.start, path.first(), path.last()) {
-                (Start::There(h), ..) => (h, slits.from_vertex(h)?),
+                (Start::There(h), ..) => (h, slits.vertex_to(h)?),
                 (_, Some(&first), Some(&last)) => {
                     // Along the left side of the slit, from its end.
-                    let mut back = slits.from_vertex(slits.mesh.next(last))?;
+                    let mut back = slits.vertex_to(slits.mesh.next(last))?;
                     for pair in path.windows(2).rev() {
                         back = back.compose(&slits.turn(pair[1], slits.mesh.next(pair[0]))?);
                     }
@@ -190,7 +190,7 @@ impl<'a> Slits<'a> {
     }
 
     /// From the place of a vertex of the target in the new domain to the face of a half-edge that leaves it.
-    fn from_vertex(&self, h: HalfedgeId) -> Result<Motion<Twofold>> {
+    fn vertex_to(&self, h: HalfedgeId) -> Result<Motion<Twofold>> {
         let own = self.new.cover.own(self.mesh.origin(h));
         self.turn(own, h)
     }
@@ -222,7 +222,7 @@ impl<'a> Slits<'a> {
     ///
     /// # Errors
     /// As [`Slits::between`].
-    pub fn from_landmark(&self, k: usize, mut to: Precise) -> Result<Motion<Twofold>> {
+    pub fn landmark_to(&self, k: usize, mut to: Precise) -> Result<Motion<Twofold>> {
         let (mut h, mut total) = self.exits[k];
         let first = h;
         loop {

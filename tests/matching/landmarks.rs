@@ -165,8 +165,8 @@ fn the_vertices_of_a_curve_go_to_the_partner_by_arc_length() {
         while path.len() < m {
             let v = path[path.len() - 1];
             let about = |u: VertexId| p[u.index()][1].atan2(p[u.index()][0]);
-            let next = s.mesh().outgoing(v).map(|h| s.mesh().tip(h));
-            let next = next.filter(|u| !path.contains(u) && (about(*u) - about(first)).abs() < 1e-9).next();
+            let mut tips = s.mesh().outgoing(v).map(|h| s.mesh().tip(h));
+            let next = tips.find(|u| !path.contains(u) && (about(*u) - about(first)).abs() < 1e-9);
             path.push(next.unwrap());
         }
         path.push(first);
