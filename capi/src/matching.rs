@@ -13,9 +13,10 @@ use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::flow::Options;
 use ricci::matching::{
-    MapQuality, MatchOptions, Matching, SurfaceMap, cycle_error, map_quality, match_surfaces,
+    MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap, cycle_error, map_quality,
+    match_surfaces,
 };
-use ricci::mesh::VertexId;
+use ricci::mesh::{FaceId, VertexId};
 
 pub struct ricci_matching {
     matching: Matching,
@@ -46,6 +47,15 @@ pub struct ricci_match_options {
     pub loops: *const u32,
     pub n_loops: usize,
     pub threads: usize,
+    pub point_faces: *const u32,
+    pub point_weights: *const f64,
+    pub n_points: usize,
+    pub curves: *const u32,
+    pub curve_sizes: *const u32,
+    pub n_curves: usize,
+    pub soft: *const u32,
+    pub soft_weights: *const f64,
+    pub n_soft: usize,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_match_options, "options");
@@ -103,6 +113,9 @@ pub unsafe extern "C" fn ricci_match(
         let pairs: Vec<[u32; 2]> = array("landmarks", given.landmarks.cast(), given.n_landmarks)?;
         let loops: Vec<u32> = array("loops", given.loops, given.n_loops)?;
         let options = MatchOptions {
+            points: points(&given)?,
+            curves: curves(&given)?,
+            soft: soft(&given)?,
             landmarks: pairs.into_iter().map(|pair| pair.map(VertexId)).collect(),
             loops: (!loops.is_empty()).then(|| loops.into_iter().map(|k| k as usize).collect()),
             flow: Options { threads: given.threads, ..Options::default() },
@@ -120,6 +133,33 @@ pub unsafe extern "C" fn ricci_match(
         let (source, target, threads) = (source.clone(), target.clone(), given.threads);
         Ok(ricci_matching { matching, source, target, quality, threads })
     })
+}
+
+/// Pairs of points by their faces and weights.
+fn points(given: &ricci_match_options) -> Outcome<Vec<[Place; 2]>> {
+    let n = given.n_points;
+    let faces: Vec<[u32; 2]> = array("point_faces", given.point_faces.cast(), n)?;
+    let weights: Vec<[[f64; 3]; 2]> = array("point_weights", given.point_weights.cast(), n)?;
+    let place = |face: u32, weights: [f64; 3]| Place { face: FaceId(face), weights };
+    let pair = |([f, g], [p, q]): ([u32; 2], [[f64; 3]; 2])| [place(f, p), place(g, q)];
+    Ok(faces.into_iter().zip(weights).map(pair).collect())
+}
+
+/// Landmarks with weights.
+fn soft(given: &ricci_match_options) -> Outcome<Vec<SoftLandmark>> {
+    let pairs: Vec<[u32; 2]> = array("soft", given.soft.cast(), given.n_soft)?;
+    let weights: Vec<f64> = array("soft_weights", given.soft_weights, given.n_soft)?;
+    let soft = |(pair, weight): ([u32; 2], f64)| SoftLandmark { pair: pair.map(VertexId), weight };
+    Ok(pairs.into_iter().zip(weights).map(soft).collect())
+}
+
+/// Pairs of curves, their vertices one after the other.
+fn curves(given: &ricci_match_options) -> Outcome<Vec<[Vec<VertexId>; 2]>> {
+    let sizes: Vec<[u32; 2]> = array("curve_sizes", given.curve_sizes.cast(), given.n_curves)?;
+    let total = sizes.iter().flatten().fold(0usize, |sum, &n| sum.saturating_add(n as usize));
+    let all: Vec<u32> = array("curves", given.curves, total)?;
+    let mut rest = all.into_iter().map(VertexId);
+    Ok(sizes.into_iter().map(|pair| pair.map(|n| rest.by_ref().take(n as usize).collect())).collect())
 }
 
 #[unsafe(no_mangle)]

@@ -35,7 +35,7 @@ typedef struct ricci_match_options {
     size_t size;
     /**
      * n_landmarks x 2 vertices, of the source and of the target, that correspond: both inside, or both on
-     * boundaries. A sphere takes none or at least three, a torus one, surfaces with more handles none.
+     * boundaries. Every surface takes any number of them.
      */
     const uint32_t *landmarks;
     /** Number of pairs. */
@@ -46,6 +46,30 @@ typedef struct ricci_match_options {
     size_t n_loops;
     /** Threads; 0 for one per core. The result does not depend on it. */
     size_t threads;
+    /** n_points x 2 faces, of the source and of the target, with points that correspond as landmarks do. */
+    const uint32_t *point_faces;
+    /** n_points x 2 x 3 barycentric coordinates in these faces, not negative, each three with the sum 1. */
+    const double *point_weights;
+    /** Number of pairs of points. */
+    size_t n_points;
+    /**
+     * Pairs of curves that correspond by shares of their lengths, of each pair first the vertices on the source,
+     * then those on the target: each joined to the next by an edge, closed if the last is the first.
+     */
+    const uint32_t *curves;
+    /** n_curves x 2 numbers of vertices, on the source and on the target. */
+    const uint32_t *curve_sizes;
+    /** Number of pairs of curves. */
+    size_t n_curves;
+    /** n_soft x 2 vertices inside the source and the target: landmarks that need not be met. */
+    const uint32_t *soft;
+    /**
+     * n_soft weights w, not negative: a landmark goes to the share w / (1 + w) of the way from where the map without
+     * it brings it.
+     */
+    const double *soft_weights;
+    /** Number of these landmarks. */
+    size_t n_soft;
 } ricci_match_options;
 
 /** Figures of a matching. */

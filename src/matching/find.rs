@@ -1,22 +1,25 @@
 //! One call for two surfaces.
 
 use super::balance::BalanceReport;
-use super::disk;
 use super::handles::with_handles;
+use super::marks::marks;
 use super::options::MatchOptions;
 use super::orbifold::{Pair, in_orbifold, shape};
 use super::overlay::CommonDomain;
 use super::place::SurfaceMap;
+use super::pushed::pushed;
 use super::route::Marks;
+use super::soft::{self, Approach, SoftLandmark};
 use super::sphere::on_sphere;
 use super::walk::locate;
+use super::{curves, disk};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Place, VertexId};
+use crate::mesh::{EdgeId, FaceId, Place, VertexId};
 use crate::metric::{Split, Surface};
 use crate::parallel::Pool;
-use crate::topology::check_vertex;
+use std::collections::HashSet;
 
 /// A map between two surfaces, with what certifies it.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +28,11 @@ pub struct Matching {
     pub forward: SurfaceMap,
     /// From the vertices of the target to the source: the inverse of the map that is linear, in the domain, on the faces of the source.
     pub backward: SurfaceMap,
+    /// Where the source's points of [`MatchOptions::points`], and after them the vertices of its curves that are no landmarks, go on the target, and where
+    /// they should go.
+    pub points: Vec<[Place; 2]>,
+    /// Per soft landmark the length that is left of its way on the target to its partner.
+    pub soft_left: Vec<f64>,
     /// Where the domain of the target lies.
     pub space: Space,
     /// Faces of the source that are not counterclockwise in the domain of the target, from positions with twice the digits of doubles. Without any,
@@ -59,37 +67,98 @@ pub fn match_surfaces(
 ) -> Result<Matching> {
     control.check()?;
     check_topology(source, target)?;
-    let splits = [without_chords(source)?, without_chords(target)?];
+    if options.soft.is_empty() {
+        return match_hard([source, target], options, control);
+    }
+    soft::check([source, target], &options.soft)?;
+    let hard = MatchOptions { soft: Vec::new(), ..options.clone() };
+    let first = match_hard([source, target], &hard, control)?;
+    let approach =
+        |s: &SoftLandmark| Approach::new(target, first.forward.places[s.pair[0].index()], s.pair[1], control);
+    let ways: Vec<Approach> = options.soft.iter().map(approach).collect::<Result<_>>()?;
+    let mut part = 1.0;
+    for last in (0..=MOST_HALVINGS).rev() {
+        let shares = options.soft.iter().map(|soft| part * soft.weight / (1.0 + soft.weight));
+        let shares: Vec<f64> = shares.collect();
+        let goal = |(k, soft): (usize, &SoftLandmark)| {
+            [Place::at_vertex(source.mesh(), soft.pair[0]), ways[k].at(target, shares[k])]
+        };
+        let goals = options.soft.iter().enumerate().map(goal);
+        let points = options.points.iter().copied().chain(goals).collect();
+        match match_hard([source, target], &MatchOptions { points, ..hard.clone() }, control) {
+            Ok(mut matching) => {
+                let soft = options.points.len()..options.points.len() + ways.len();
+                matching.points.drain(soft);
+                let left = ways.iter().zip(&shares).map(|(way, share)| (1.0 - share) * way.length);
+                matching.soft_left = left.collect();
+                return Ok(matching);
+            }
+            Err(why @ Error::Matching(_)) if last == 0 => return Err(why),
+            Err(Error::Matching(_)) => part *= 0.5,
+            Err(other) => return Err(other),
+        }
+    }
+    Ok(first)
+}
+
+/// Times that the ways of soft landmarks are halved where they are in conflict.
+const MOST_HALVINGS: usize = 4;
+
+/// [`match_surfaces`] without soft landmarks.
+fn match_hard(
+    [source, target]: [&Surface; 2],
+    options: &MatchOptions,
+    control: &Control,
+) -> Result<Matching> {
+    let mut points = curves::points([source, target], &options.curves, &options.landmarks)?;
+    points.splice(0..0, options.points.iter().copied());
+    let asked = (&options.landmarks[..], &points[..]);
+    let [(first, from), (second, to)] = [split(source, asked, 0)?, split(target, asked, 1)?];
+    let splits = [first, second];
     let surfaces = [splits[0].surface()?, splits[1].surface()?];
     let surfaces = [&surfaces[0], &surfaces[1]];
-    let marks = marks(surfaces, options)?;
+    let landmarks: Vec<[VertexId; 2]> = from.into_iter().zip(to).map(|(a, b)| [a, b]).collect();
+    let marks = marks(surfaces, &landmarks, options.loops.as_deref())?;
+    let added = landmarks[options.landmarks.len()..].iter().map(|pair| pair[0]);
+    let points: Vec<(VertexId, Place)> = added.zip(points.iter().map(|pair| pair[1])).collect();
     Pool::new(options.flow.threads)?.run(|| {
         let pair = in_one_domain(surfaces, [&marks[0], &marks[1]], options, control)?;
-        matching(pair, [&splits[0], &splits[1]], control)
+        matching(pair, [&splits[0], &splits[1]], &points, control)
     })
 }
 
-/// A surface with a vertex added on every inner edge that joins two vertices of the boundary: where that is straight, such an edge would lie on it.
-fn without_chords(surface: &Surface) -> Result<Split> {
-    let mesh = surface.mesh();
+/// A surface with its landmarks, those inside faces as vertices that are added, and a vertex added on every inner edge that joins two vertices of the
+/// boundary: where that is straight, such an edge would lie on it. On surfaces with handles, also on every edge that joins two landmarks, which hold it.
+fn split(
+    surface: &Surface,
+    (landmarks, points): (&[[VertexId; 2]], &[[Place; 2]]),
+    s: usize,
+) -> Result<(Split, Vec<VertexId>)> {
     let mut split = Split::new(surface);
-    let is_chord =
-        |e: &EdgeId| !mesh.is_boundary_edge(*e) && mesh.ends(*e).iter().all(|&v| mesh.is_boundary_vertex(v));
+    let mut landmarks: Vec<VertexId> = landmarks.iter().map(|pair| pair[s]).collect();
+    for pair in points {
+        landmarks.push(split.insert(pair[s].face, pair[s].weights)?);
+    }
+    let finer = split.surface()?;
+    let (mesh, marked) = (finer.mesh(), landmarks.iter().collect::<HashSet<_>>());
+    let has_handles = mesh.genus() > 0;
+    let is_chord = |e: &EdgeId| {
+        let ends = mesh.ends(*e);
+        !mesh.is_boundary_edge(*e)
+            && (ends.iter().all(|&v| mesh.is_boundary_vertex(v))
+                || (has_handles && ends.iter().all(|v| marked.contains(v))))
+    };
     for e in mesh.edges().filter(is_chord) {
         split.halve(e)?;
     }
-    Ok(split)
+    Ok((split, landmarks))
 }
 
-/// Places in the faces of a finer triangulation, of the first vertices, in the faces of the given one.
-fn on_given(places: Vec<Place>, from: &Split, to: &Split) -> SurfaceMap {
-    let n = from.given().mesh().n_vertices();
-    let back = |place: Place| {
-        let (face, corners) = to.place(place.face);
-        let weights = std::array::from_fn(|c| (0..3).map(|k| place.weights[k] * corners[k][c]).sum());
-        Place { face, weights }
-    };
-    SurfaceMap { places: places.into_iter().take(n).map(back).collect() }
+/// A place in a face of a finer triangulation, in the given face.
+fn on_given(place: Place, to: &Split) -> Place {
+    let (face, corners) = to.place(place.face);
+    let weights = std::array::from_fn(|c| (0..3).map(|k| place.weights[k] * corners[k][c]).sum());
+    Place { face, weights }
 }
 
 fn in_one_domain(
@@ -102,28 +171,42 @@ fn in_one_domain(
     let of = |marks: &Marks| (marks.loops.len(), marks.landmarks.len(), marks.corners.len());
     let (loops, landmarks, corners) = of(marks[0]);
     if genus > 0 {
-        return with_handles(surfaces, marks, options, control);
+        // One landmark of a torus without boundary is met by a shift; all others are pushed to their goals.
+        let is_flat = surfaces[0].mesh().euler() == 0;
+        let few = |marks: &Marks| Marks {
+            landmarks: marks.landmarks.iter().take(usize::from(is_flat)).copied().collect(),
+            loops: marks.loops.clone(),
+            corners: Vec::new(),
+        };
+        let bare = [few(marks[0]), few(marks[1])];
+        let pair = with_handles(surfaces, [&bare[0], &bare[1]], options, control)?;
+        let rest = landmarks - bare[0].landmarks.len() + corners;
+        return if rest == 0 { Ok(pair) } else { pushed(&pair, surfaces, marks, options, control) };
     }
     if shape(loops, landmarks, corners).is_some() {
         return in_orbifold(surfaces, marks, options, control);
     }
     match (loops, landmarks, corners) {
-        (0, 0, 0) => on_sphere(surfaces, options, control),
-        (1, 0 | 1, 0) => {
-            let [first, second] = disk::corners(surfaces, &options.flow, control)?;
+        (0, 0..=2, 0) => on_sphere(surfaces, marks, options, control),
+        (1, 0 | 1, 0) | (1, 0, 1 | 2) => {
+            let [first, second] = disk::corners(surfaces, marks, &options.flow, control)?;
             let with = |s: usize, corners| Marks { corners, ..marks[s].clone() };
             let marks = [with(0, first), with(1, second)];
             in_orbifold(surfaces, [&marks[0], &marks[1]], options, control)
         }
         _ => Err(Error::Matching(format!(
-            "{landmarks} landmarks inside and {corners} on the boundary leave the map open on a surface of genus 0 with {loops} boundary loops: \
-             name none or at least three"
+            "{landmarks} landmarks inside and {corners} on the boundary leave the map open on a surface of genus 0 with {loops} boundary loops"
         ))),
     }
 }
 
 /// The maps both ways of two triangulations in one domain.
-fn matching(pair: Pair, splits: [&Split; 2], control: &Control) -> Result<Matching> {
+fn matching(
+    pair: Pair,
+    splits: [&Split; 2],
+    points: &[(VertexId, Place)],
+    control: &Control,
+) -> Result<Matching> {
     let (flipped, target_flipped) = (pair.source.flipped(), pair.target.flipped());
     if !(flipped.is_empty() && target_flipped.is_empty()) {
         return Err(Error::Matching(format!(
@@ -135,9 +218,16 @@ fn matching(pair: Pair, splits: [&Split; 2], control: &Control) -> Result<Matchi
     }
     let (forward, ahead) = locate(&pair.source, &pair.target, pair.seeds[0], control)?;
     let (backward, back) = locate(&pair.target, &pair.source, pair.seeds[1], control)?;
+    let images = points.iter().map(|(v, goal)| [on_given(forward[v.index()], splits[1]), *goal]).collect();
+    let map = |places: Vec<Place>, from: usize| {
+        let n = splits[from].given().mesh().n_vertices();
+        SurfaceMap { places: places.into_iter().take(n).map(|p| on_given(p, splits[1 - from])).collect() }
+    };
     Ok(Matching {
-        forward: on_given(forward, splits[0], splits[1]),
-        backward: on_given(backward, splits[1], splits[0]),
+        forward: map(forward, 0),
+        backward: map(backward, 1),
+        points: images,
+        soft_left: Vec::new(),
         space: pair.source.cover.space,
         flipped,
         target_flipped,
@@ -163,107 +253,4 @@ fn check_topology(source: &Surface, target: &Surface) -> Result<()> {
         )));
     }
     Ok(())
-}
-
-/// Landmarks, corners and loops of both surfaces, in the same order.
-fn marks(surfaces: [&Surface; 2], options: &MatchOptions) -> Result<[Marks; 2]> {
-    check_landmarks(surfaces, &options.landmarks)?;
-    let loops = [0, 1].map(|s| loops(surfaces[s]));
-    let order = match &options.loops {
-        None => by_length(&loops),
-        Some(order) => {
-            let n = loops[0].len();
-            let mut seen = vec![false; n];
-            let is_permutation =
-                order.len() == n && order.iter().all(|&k| k < n && !std::mem::replace(&mut seen[k], true));
-            if !is_permutation {
-                return Err(Error::Matching(format!(
-                    "loops {order:?} do not name each of the {n} boundary loops of the target once"
-                )));
-            }
-            order.clone()
-        }
-    };
-    let [source, target] = loops.map(|all| all.into_iter().map(|(around, _)| around).collect::<Vec<_>>());
-    let target = order.into_iter().map(|k| target[k].clone()).collect();
-    let on_boundary = |s: usize, pair: &[VertexId; 2]| surfaces[s].mesh().is_boundary_vertex(pair[s]);
-    let of = |s: usize, outside: bool| -> Vec<VertexId> {
-        options.landmarks.iter().filter(|pair| on_boundary(s, pair) == outside).map(|pair| pair[s]).collect()
-    };
-    let marks = |s: usize, loops| Marks { landmarks: of(s, false), loops, corners: of(s, true) };
-    let marks = [marks(0, source), marks(1, target)];
-    check_corners(surfaces, &marks)?;
-    Ok(marks)
-}
-
-fn check_landmarks(surfaces: [&Surface; 2], landmarks: &[[VertexId; 2]]) -> Result<()> {
-    for (k, pair) in landmarks.iter().enumerate() {
-        for (s, name) in ["source", "target"].into_iter().enumerate() {
-            let v = pair[s];
-            check_vertex(surfaces[s].mesh(), v)?;
-            if let Some(j) = landmarks[..k].iter().position(|other| other[s] == v) {
-                return Err(Error::Matching(format!(
-                    "landmarks {j} and {k} conflict: both are vertex {v} of the {name}"
-                )));
-            }
-        }
-        let outside = [0, 1].map(|s| surfaces[s].mesh().is_boundary_vertex(pair[s]));
-        if outside[0] != outside[1] {
-            let [on, inside] = if outside[0] { ["source", "target"] } else { ["target", "source"] };
-            return Err(Error::Matching(format!(
-                "landmark {k} lies on the boundary of the {on} and inside the {inside}"
-            )));
-        }
-    }
-    Ok(())
-}
-
-/// Corners lie on corresponding loops, in the same order around them.
-fn check_corners(surfaces: [&Surface; 2], marks: &[Marks; 2]) -> Result<()> {
-    for k in 0..marks[0].loops.len() {
-        let along = |s: usize| -> Vec<usize> {
-            let mesh = surfaces[s].mesh();
-            let number = |h: &HalfedgeId| marks[s].corners.iter().position(|&v| v == mesh.origin(*h));
-            let mut found: Vec<usize> = marks[s].loops[k].iter().filter_map(number).collect();
-            if let Some(least) = (0..found.len()).min_by_key(|&i| found[i]) {
-                found.rotate_left(least);
-            }
-            found
-        };
-        let [first, second] = [along(0), along(1)];
-        if first != second {
-            let name = |numbers: &[usize]| {
-                numbers.iter().map(|&n| marks[0].corners[n].to_string()).collect::<Vec<_>>().join(", ")
-            };
-            return Err(Error::Matching(format!(
-                "landmarks on boundary loop {k} of the source conflict: around it come those at vertices {} of the source, around the loop of the \
-                 target that it goes to their partners come in the order of {}",
-                name(&first),
-                name(&second)
-            )));
-        }
-    }
-    Ok(())
-}
-
-/// The boundary loops with the surface on their left, and their lengths.
-fn loops(surface: &Surface) -> Vec<(Vec<HalfedgeId>, f64)> {
-    let (mesh, lengths) = (surface.mesh(), surface.lengths());
-    let of = |around: Vec<HalfedgeId>| {
-        let length = around.iter().map(|h| lengths[h.edge()]).sum();
-        (around.first().map_or(Vec::new(), |h| mesh.boundary_from(h.twin())), length)
-    };
-    mesh.boundary_loops().into_iter().map(of).collect()
-}
-
-/// The target's loop for each of the source's: by descending length.
-fn by_length(loops: &[Vec<(Vec<HalfedgeId>, f64)>; 2]) -> Vec<usize> {
-    let [first, second] = [0, 1].map(|s| {
-        let mut order: Vec<usize> = (0..loops[s].len()).collect();
-        order.sort_by(|&i, &j| loops[s][j].1.total_cmp(&loops[s][i].1).then(i.cmp(&j)));
-        order
-    });
-    let mut of = vec![0; first.len()];
-    first.into_iter().zip(second).for_each(|(i, j)| of[i] = j);
-    of
 }

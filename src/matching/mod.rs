@@ -5,8 +5,11 @@
 //! corners, straight sides. So wherever the Euler characteristic of this orbifold is not positive the domain is covered by the plane or the hyperbolic
 //! plane without cones, and a map that puts every vertex at the mean of its neighbours, with positive weights, is an embedding \[LWZ23\], \[AL16\]: landmarks
 //! are met exactly and no face folds. The weights are those with which the source is harmonic in its own canonical metric, so that an isometry or a discretely conformal
-//! map is found as it is. A sphere with fewer than three landmarks has no such metric: two of them without landmarks are turned until their conformal factors
-//! fit.
+//! map is found as it is. A sphere with fewer than three landmarks has no such metric: it goes to the other one by a rotation or a Möbius transformation that meets
+//! its landmarks, and by which the conformal factors fit.
+//!
+//! On surfaces with handles the map without landmarks is found first. Each landmark is then pushed along a short path to its partner, beside the paths
+//! of the others; that chooses the class of the map, and in the orbifold with cones at the landmarks the map of this class is an embedding again.
 //!
 //! Which homotopy class is meant is said by a tree of paths between the landmarks and loops of both surfaces, or by bases of their fundamental groups.
 //! Several are compared, and the one whose harmonic map has the least energy is taken.
@@ -25,21 +28,28 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+mod axis;
 mod balance;
 mod canonical;
 mod cover;
+mod curves;
 mod density;
 mod disk;
 mod find;
 mod generators;
 mod handles;
+mod marks;
 mod measure;
 mod options;
 mod orbifold;
 mod overlay;
 pub mod place;
+mod pushed;
 mod repair;
+mod rims;
 mod route;
+mod slits;
+mod soft;
 mod sphere;
 mod tree;
 mod turn;
@@ -53,3 +63,4 @@ pub use measure::{MapQuality, cycle_error, dilatations, map_quality, uncovered};
 pub use options::MatchOptions;
 pub use overlay::{CommonDomain, DomainTriangle};
 pub use place::SurfaceMap;
+pub use soft::SoftLandmark;

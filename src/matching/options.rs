@@ -1,14 +1,23 @@
 //! What a matching can be asked.
 
+use super::soft::SoftLandmark;
 use crate::flow::Options;
-use crate::mesh::VertexId;
+use crate::mesh::{Place, VertexId};
 
 /// Options of [`super::match_surfaces`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MatchOptions {
     /// Pairs of vertices, of the source and of the target, that correspond: the map brings the one to the other. Both lie inside, or both on
-    /// boundaries. Between those on boundaries these slide along each other; three of them or more mark the boundary of a disk.
+    /// boundaries. Between those on boundaries these slide along each other. On every surface there may be any number of them; on those with handles
+    /// each goes to its partner by a short way from where the map without landmarks has it, which chooses the class.
     pub landmarks: Vec<[VertexId; 2]>,
+    /// Pairs of points, of the source and of the target, that correspond as landmarks do: inside faces, on edges or at vertices.
+    pub points: Vec<[Place; 2]>,
+    /// Landmarks that need not be met.
+    pub soft: Vec<SoftLandmark>,
+    /// Pairs of curves, of the source and of the target, that correspond by shares of their lengths: vertices in order, each joined to the next by an edge,
+    /// closed if the last is the first. Each vertex of the source's curve is a landmark whose partner lies on the target's curve.
+    pub curves: Vec<[Vec<VertexId>; 2]>,
     /// Which boundary loop of the target each of the source's goes to, by their places in [`crate::mesh::Mesh::boundary_loops`]. Default: the
     /// longest to the longest, and so on.
     pub loops: Option<Vec<usize>>,

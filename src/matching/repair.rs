@@ -12,11 +12,16 @@ use crate::mesh::{FaceId, PerHalfedge, PerVertex, VertexId};
 const MOST_ROUNDS: usize = 9;
 
 /// Puts the vertices around folded faces at the means of their neighbours by positive weights, first those of the faces alone, then more and
-/// more rings, until no face is folded; the number of vertices that were moved.
+/// more rings, until no face is folded; those that are held stay. The number of vertices that were moved.
 ///
 /// # Errors
 /// [`Error::Matching`] where folds stay; those of [`balance`].
-pub(super) fn unfold(placed: &mut Placed, weights: &PerHalfedge<f64>, control: &Control) -> Result<usize> {
+pub(super) fn unfold(
+    placed: &mut Placed,
+    weights: &PerHalfedge<f64>,
+    held: &[VertexId],
+    control: &Control,
+) -> Result<usize> {
     let mesh = placed.cover.mesh.clone();
     let mut moved = vec![false; mesh.n_vertices()];
     let mut rings = 1;
@@ -27,7 +32,11 @@ pub(super) fn unfold(placed: &mut Placed, weights: &PerHalfedge<f64>, control: &
         }
         let is_free = around(placed, &folded, rings);
         let freedom = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
-            if is_free[v] && !mesh.is_boundary_vertex(v) { Freedom::Free } else { Freedom::Held }
+            if is_free[v] && !mesh.is_boundary_vertex(v) && !held.contains(&v) {
+                Freedom::Free
+            } else {
+                Freedom::Held
+            }
         });
         let before = placed.clone();
         match balance(placed, weights, &freedom, control) {

@@ -38,19 +38,14 @@ impl Marks {
     }
 }
 
-/// Half-edges that leave a mark, in their cyclic order: counterclockwise around a landmark, along a loop with the surface on the left.
-#[derive(Debug, Clone)]
-struct Exits {
-    halfedges: Vec<HalfedgeId>,
-}
-
 /// Paths that have been found, and what they leave free.
 pub(super) struct Router<'a> {
     mesh: &'a Mesh,
     lengths: &'a PerEdge<f64>,
     marks: &'a Marks,
-    exits: Vec<Exits>,
-    /// Per half-edge that leaves a mark: its mark and its place among the exits.
+    /// Per mark the half-edges that leave it, in their cyclic order: counterclockwise around a landmark, along a loop with the surface on the left.
+    exits: Vec<Vec<HalfedgeId>>,
+    /// Per vertex of a mark: the mark.
     mark_of: PerVertex<Option<u32>>,
     /// Vertices that no other path may pass or, on loops, end at.
     is_taken: PerVertex<bool>,
@@ -67,15 +62,9 @@ impl<'a> Router<'a> {
         for k in 0..marks.n() {
             marks.vertices(mesh, k).into_iter().for_each(|v| mark_of[v] = Some(k as u32));
         }
-        let exits = (0..marks.n()).map(|k| Exits {
-            halfedges: marks
-                .vertices(mesh, k)
-                .into_iter()
-                .flat_map(|v| mesh.fan(v))
-                .filter(|h| !mesh.is_boundary_edge(h.edge()))
-                .collect(),
-        });
-        let exits: Vec<Exits> = exits.collect();
+        let leaves = |k: usize| marks.vertices(mesh, k).into_iter().flat_map(|v| mesh.fan(v));
+        let exits = (0..marks.n()).map(|k| leaves(k).filter(|h| !mesh.is_boundary_edge(h.edge())).collect());
+        let exits: Vec<Vec<HalfedgeId>> = exits.collect();
         let mut is_taken = PerVertex::filled(n, false);
         // A corner has its place in the order around its loop, as the end of a path has, and no path ends there.
         let mut ends = vec![Vec::new(); marks.n()];
@@ -125,7 +114,7 @@ impl<'a> Router<'a> {
             let tip = self.mesh.tip(last);
             self.is_taken[tip] = self.is_taken[tip] || self.mesh.is_boundary_vertex(tip);
             for (mark, h) in [(a, first), (b, last.twin())] {
-                let place = self.exits[mark].halfedges.iter().position(|&exit| exit == h);
+                let place = self.exits[mark].iter().position(|&exit| exit == h);
                 self.ends[mark].push((place.unwrap_or(0), number));
             }
         }
@@ -133,9 +122,41 @@ impl<'a> Router<'a> {
         Ok(())
     }
 
+    /// Length of the shortest path from mark to mark beside those there are; `None` without any.
+    pub fn length(&self, [a, b]: [usize; 2]) -> Option<f64> {
+        let all = [a, b].map(|mark| vec![true; self.exits[mark].len()]);
+        let path = self.shortest(a, &all[0], b, &all[1])?;
+        Some(path.iter().map(|h| self.lengths[h.edge()]).sum())
+    }
+
+    /// What stands around a mark: other marks, and the paths beside it, by their numbers.
+    pub fn around(&self, mark: usize) -> (Vec<usize>, Vec<usize>) {
+        let mut reached = PerVertex::filled(self.mesh.n_vertices(), false);
+        let mut waiting = self.marks.vertices(self.mesh, mark);
+        let (mut marks, mut taken) = (Vec::new(), PerVertex::filled(self.mesh.n_vertices(), false));
+        while let Some(v) = waiting.pop() {
+            for h in self.mesh.outgoing(v) {
+                let tip = self.mesh.tip(h);
+                if std::mem::replace(&mut reached[tip], true) {
+                    continue;
+                }
+                match self.mark_of[tip] {
+                    Some(other) => marks.push(other as usize),
+                    None if self.is_taken[tip] => taken[tip] = true,
+                    None => waiting.push(tip),
+                }
+            }
+        }
+        marks.retain(|&other| other != mark);
+        marks.sort_unstable();
+        marks.dedup();
+        let meets = |path: &Vec<HalfedgeId>| path.iter().any(|&h| taken[self.mesh.origin(h)]);
+        (marks, (0..self.paths.len()).filter(|&k| meets(&self.paths[k])).collect())
+    }
+
     /// Which exits of a mark a path may use so that its place among those in use is the one in the order.
     fn sector(&self, mark: usize, number: usize, order: &[usize]) -> Vec<bool> {
-        let n = self.exits[mark].halfedges.len();
+        let n = self.exits[mark].len();
         let mut used = self.ends[mark].clone();
         used.sort_unstable();
         let mut allowed = vec![true; n];
@@ -162,14 +183,14 @@ impl<'a> Router<'a> {
         let mut distance = PerVertex::filled(n, f64::INFINITY);
         let mut parent: PerVertex<Option<HalfedgeId>> = PerVertex::filled(n, None);
         let mut is_end = std::collections::HashSet::new();
-        for (h, _) in self.exits[b].halfedges.iter().zip(ends).filter(|(_, allowed)| **allowed) {
+        for (h, _) in self.exits[b].iter().zip(ends).filter(|(_, allowed)| **allowed) {
             is_end.insert(h.twin());
         }
         let mut best: (f64, Option<HalfedgeId>) = (f64::INFINITY, None);
         let mut heap = BinaryHeap::new();
         let is_open = |v: VertexId| self.mark_of[v].is_none() && !self.is_taken[v];
         let is_free_end = |v: VertexId| !self.is_taken[v];
-        for (&h, _) in self.exits[a].halfedges.iter().zip(starts).filter(|(_, allowed)| **allowed) {
+        for (&h, _) in self.exits[a].iter().zip(starts).filter(|(_, allowed)| **allowed) {
             let (tip, length) = (mesh.tip(h), self.lengths[h.edge()]);
             if !is_free_end(mesh.origin(h)) {
                 continue;

@@ -76,6 +76,7 @@ pub(super) fn located(
     Ok((found, worst))
 }
 
+/// Where a vertex was found.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Found {
     pub place: Place,

@@ -1,4 +1,4 @@
-//! Surfaces with vertices added on their edges.
+//! Surfaces with vertices added on their edges and inside their faces.
 //!
 //! ```
 //! use ricci::{Surface, mesh::shapes, metric::Split};
@@ -15,7 +15,8 @@ use super::surface::Surface;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::flip::diagonal;
 use crate::geometry::triangle::{self, sine};
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, Point};
+use crate::geometry::vector::{cross, dot};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, Point, VertexId};
 
 /// A surface some of whose edges have been halved, the faces beside them with them: the same metric on a finer triangulation.
 ///
@@ -39,6 +40,18 @@ pub struct Split {
 
 /// Weights of a triangle's corners in that triangle.
 const CORNERS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// By how much weights may be negative or their sum may differ from 1.
+const WEIGHTS: f64 = 1e-9;
+/// Weight up to which a point counts as one on the opposite side, and at a corner.
+const AT_CORNER: f64 = 1e-12;
+
+/// Weights of a point as those of corners that are given by their own weights.
+fn weights_in(corners: [[f64; 3]; 3], point: [f64; 3]) -> [f64; 3] {
+    let [a, b, c] = corners;
+    let total = dot(a, cross(b, c));
+    [dot(point, cross(b, c)), dot(point, cross(c, a)), dot(point, cross(a, b))].map(|x| x / total)
+}
 
 impl Split {
     /// Nothing halved yet.
@@ -157,6 +170,59 @@ impl Split {
             }
         }
         Ok(EdgeId::from(other))
+    }
+
+    /// Add a point of a given face, with barycentric weights: on the line from a corner of the part that it lies in to the side across, at shares of
+    /// lengths. The vertex there; none is added where there is one.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a face that does not exist, and for weights that are negative or not finite or have not the sum 1; those of [`Split::part`].
+    pub fn insert(&mut self, face: FaceId, weights: [f64; 3]) -> Result<VertexId> {
+        if face.index() >= self.given.mesh().n_faces() {
+            return Err(Error::argument("face of a point", face, "an existing face"));
+        }
+        let sum: f64 = weights.iter().sum();
+        if !((sum - 1.0).abs() < WEIGHTS && weights.iter().all(|w| *w > -WEIGHTS)) {
+            return Err(Error::argument(
+                "weights of a point",
+                sum,
+                "three that are not negative, with the sum 1",
+            ));
+        }
+        let parts = (0..self.sides.len()).filter(|&f| self.parent[f] == face);
+        let local = parts.map(|f| (f, weights_in(self.corners[f], weights)));
+        let least = |w: &[f64; 3]| w.iter().copied().fold(f64::INFINITY, f64::min);
+        let Some((f, w)) = local.max_by(|a, b| least(&a.1).total_cmp(&least(&b.1))) else {
+            return Err(Error::argument("face of a point", face, "an existing face"));
+        };
+        // From the corner with the largest weight: the line from there is the best determined.
+        let first = (0..3).fold(0, |best, k| if w[k] > w[best] { k } else { best });
+        let [p, q, r] = [0, 1, 2].map(|k| w[(first + k) % 3].max(0.0));
+        let sides = [0, 1, 2].map(|k| self.sides[f][(first + k) % 3] as usize);
+        let corner = VertexId(self.origin[sides[0]]);
+        match (q > AT_CORNER, r > AT_CORNER) {
+            (false, false) => Ok(corner),
+            (true, false) => self.part_from(sides[0], q / (p + q)).map(|_| self.last()),
+            (false, true) => self.part_from(sides[2], p / (p + r)).map(|_| self.last()),
+            (true, true) => {
+                let line = self.part_from(sides[1], r / (q + r))?;
+                // It runs from the side to the corner.
+                self.part(line, p)?;
+                Ok(self.last())
+            }
+        }
+    }
+
+    /// The vertex that was added last.
+    fn last(&self) -> VertexId {
+        VertexId::from(self.n_vertices - 1)
+    }
+
+    /// Part an edge at this share of its length from the origin of a half-edge of a face; the edge that cuts this face, from the point to the corner.
+    fn part_from(&mut self, h: usize, share: f64) -> Result<EdgeId> {
+        let is_first = h & 1 == 0 || self.face[h ^ 1].is_none();
+        let other = self.part(EdgeId::from(h / 2), if h & 1 == 0 { share } else { 1.0 - share })?;
+        Ok(EdgeId::from(other.index() + if is_first { 1 } else { 2 }))
     }
 
     /// The face of a half-edge and its corner there.

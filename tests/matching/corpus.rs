@@ -6,7 +6,7 @@ use ricci::mesh::VertexId;
 use ricci::topology::farthest_vertices;
 use ricci::{Control, Surface};
 
-fn read(name: &str) -> Option<Surface> {
+pub fn read(name: &str) -> Option<Surface> {
     let Ok(folder) = std::env::var("RICCI_MESHES") else {
         eprintln!("RICCI_MESHES is not set: no real surfaces are matched");
         return None;

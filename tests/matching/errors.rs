@@ -23,14 +23,28 @@ fn surfaces_of_different_topology_and_landmarks_in_conflict_are_named() {
     refused(&ball, &torus, &[], &["genus 0", "1"]);
     refused(&disk, &annulus, &[], &["1 boundary loops", "2"]);
     refused(&ball, &ball, &[[0, 1], [2, 1]], &["landmarks 0 and 1", "vertex 1", "target"]);
-    refused(&ball, &ball, &[[0, 1], [2, 3]], &["2 landmarks", "three"]);
-    refused(&torus, &torus, &[[0, 0], [5, 5]], &["2 landmarks", "torus"]);
+    refused(&torus, &torus, &[[0, 0], [5, 6], [7, 6]], &["landmarks 1 and 2", "vertex 6"]);
     let edge = disk.mesh().vertices().find(|&v| disk.mesh().is_boundary_vertex(v)).unwrap();
     refused(&disk, &disk, &[[edge.0, 0]], &["landmark 0", "boundary of the source"]);
     let around: Vec<u32> =
         disk.mesh().vertices().filter(|&v| disk.mesh().is_boundary_vertex(v)).map(|v| v.0).collect();
     let [a, b, c, d] = [0, 1, 2, 3].map(|k| around[k * around.len() / 4]);
     refused(&disk, &disk, &[[a, a], [b, c], [c, b], [d, d]], &["boundary loop 0", "order"]);
+}
+
+#[test]
+fn landmarks_that_bar_the_way_of_another_one_are_named() {
+    let torus = surface(&shapes::torus(2.0, 0.8, 12, 8).unwrap());
+    let mesh = torus.mesh();
+    let n = mesh.n_vertices() as u32;
+    // The goal of the second landmark lies between the goals of others, which come from elsewhere.
+    let goal = VertexId(30);
+    let around: Vec<VertexId> = mesh.outgoing(goal).map(|h| mesh.tip(h)).collect();
+    let mut landmarks = vec![[0, 0], [70, goal.0]];
+    landmarks.extend(around.iter().enumerate().map(|(k, v)| [n - 1 - k as u32, v.0]));
+    let names: Vec<String> = (1..2 + around.len()).map(|k| format!("landmark {k} ")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    refused(&torus, &torus, &landmarks, &names);
 }
 
 #[test]

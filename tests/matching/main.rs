@@ -4,5 +4,6 @@
 mod corpus;
 mod errors;
 mod known;
+mod landmarks;
 mod overlay;
 mod samples;

@@ -18,8 +18,13 @@ landmarks and loops leave open one of low energy is taken. Boundaries slide alon
 turned until their conformal factors fit best.
 
 Files
-    --landmarks L.csv    rows source_vertex,target_vertex: pairs inside the surfaces, or on their boundaries. A sphere takes none or at least
-                         three; surfaces with handles take none, a torus one
+    --landmarks L.csv    rows source_vertex,target_vertex: pairs inside the surfaces, or on their boundaries, in any number. On surfaces with
+                         handles each goes to its partner by a short way from where the map without landmarks has it
+    --points P.csv       rows source_face,s0,s1,s2,target_face,t0,t1,t2: pairs of points inside faces, by barycentric coordinates
+    --soft S.csv         rows source_vertex,target_vertex,weight: landmarks that need not be met; one of weight w goes to the share w/(1 + w) of the
+                         way from where the map without it brings it
+    --curves K.csv       rows curve,surface,vertex: curves that correspond by shares of their lengths, the surface source or target, the vertices in
+                         order along edges; curves are numbered from 0
     --map M.csv          rows source_vertex,target_face,b0,b1,b2: where each vertex of the source goes, in barycentric coordinates
     --back B.csv         the same from the target to the source
     -o OUT.obj           the source's faces with its vertices where they go, .obj or .glb
@@ -54,6 +59,18 @@ pub struct MatchArgs {
     /// Pairs of vertices that correspond: rows source_vertex,target_vertex
     #[arg(long, value_name = "L.csv")]
     pub landmarks: Option<FileName>,
+    /// Pairs of points that correspond: rows source_face,s0,s1,s2,target_face,t0,t1,t2
+    #[arg(long, value_name = "P.csv")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<FileName>,
+    /// Landmarks that need not be met: rows source_vertex,target_vertex,weight
+    #[arg(long, value_name = "S.csv")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub soft: Option<FileName>,
+    /// Curves that correspond by shares of their lengths: rows curve,surface,vertex
+    #[arg(long, value_name = "K.csv")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub curves: Option<FileName>,
     /// For each boundary loop of the source the target's that it goes to, numbered from 0 [default: by descending length]
     #[arg(long, value_name = "K,K,…", value_delimiter = ',')]
     #[serde(skip_serializing_if = "Vec::is_empty")]

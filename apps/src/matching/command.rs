@@ -3,6 +3,7 @@
 use super::args::{MatchArgs, ShowChoice};
 use super::files::{write_carried, write_map, write_moved, write_overlay, write_places};
 use super::found::{Found, say};
+use super::marks;
 use super::pictures::draw;
 use crate::csv;
 use crate::delivery::Delivery;
@@ -37,8 +38,12 @@ pub fn execute(args: &MatchArgs, control: &Control) -> Result<Done<Found>, Failu
     let counts = [input.mesh().n_vertices(), target.mesh().n_vertices()];
     let landmarks =
         args.landmarks.as_deref().map_or(Ok(Vec::new()), |path| csv::read_landmarks(path, counts))?;
+    let meshes = [input.mesh(), target.mesh()];
     let options = MatchOptions {
         landmarks: landmarks.clone(),
+        points: args.points.as_deref().map_or(Ok(Vec::new()), |path| marks::read_points(path, meshes))?,
+        soft: args.soft.as_deref().map_or(Ok(Vec::new()), |path| marks::read_soft(path, meshes))?,
+        curves: args.curves.as_deref().map_or(Ok(Vec::new()), |path| marks::read_curves(path, meshes))?,
         loops: (!args.loops.is_empty()).then(|| args.loops.clone()),
         flow: flow::Options { threads: args.common.threads, ..flow::Options::default() },
     };
@@ -85,7 +90,15 @@ fn check_request(args: &MatchArgs) -> Result<(), Failure> {
         args.picture.picture.as_deref(),
         args.common.report.as_deref(),
     ];
-    check_outputs(&[Some(&args.source.mesh), Some(&args.target), args.landmarks.as_deref()], &files)
+    let inputs = [
+        Some(args.source.mesh.as_path()),
+        Some(args.target.as_path()),
+        args.landmarks.as_deref(),
+        args.points.as_deref(),
+        args.soft.as_deref(),
+        args.curves.as_deref(),
+    ];
+    check_outputs(&inputs, &files)
 }
 
 /// What can be refused once the surfaces are known.

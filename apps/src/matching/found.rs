@@ -4,7 +4,7 @@ use crate::input::Input;
 use crate::report::{Attempts, Checks, Done, Figures, Seconds};
 use crate::say;
 use ricci::geometry::vector::{diagonal, distance};
-use ricci::matching::{MapQuality, Matching, cycle_error, map_quality, uncovered};
+use ricci::matching::{MapQuality, Matching, Place, cycle_error, map_quality, uncovered};
 use ricci::mesh::VertexId;
 use ricci::metric::Overlay;
 
@@ -20,6 +20,8 @@ pub struct Found {
     pub matching: Matching,
     pub landmarks: Vec<[VertexId; 2]>,
     pub quality: MapQuality,
+    /// Largest distance between the image of a point that corresponds and its partner, as a share of the diagonal.
+    pub point_error: f64,
     /// Mean and largest distance of a vertex from where the map and its inverse bring it.
     pub cycle: [f64; 2],
     /// Per vertex the distance of its image from the target's vertex of the same number.
@@ -42,6 +44,12 @@ impl Found {
         let quality = map_quality(surfaces, &matching.forward, &landmarks)?;
         let cycle = cycle_error(surfaces, [&matching.forward, &matching.backward])?;
         let positions = target.positions().unwrap_or_default();
+        let place = |place: &Place| {
+            let corners = target.mesh().face_vertices(place.face).map(|v| positions[v.index()]);
+            std::array::from_fn(|i| (0..3).map(|k| place.weights[k] * corners[k][i]).sum())
+        };
+        let apart = matching.points.iter().map(|[image, goal]| distance(place(image), place(goal)));
+        let point_error = apart.fold(0.0, f64::max) / diagonal(positions).max(f64::MIN_POSITIVE);
         let partners = match same_numbering {
             false => None,
             true => {
@@ -57,6 +65,7 @@ impl Found {
             matching,
             landmarks,
             quality,
+            point_error,
             cycle,
             partners,
             overlay,
@@ -84,6 +93,9 @@ impl Found {
         let flipped = self.matching.flipped.len() + self.matching.target_flipped.len();
         checks.add("flipped_triangles", flipped as f64, 0.0);
         checks.add("landmark_error", self.quality.landmark_error, LANDMARK);
+        if !self.matching.points.is_empty() {
+            checks.add("point_error", self.point_error, LANDMARK);
+        }
         let places = [&self.matching.forward, &self.matching.backward];
         let off = places.iter().flat_map(|map| &map.places).map(|place| {
             let least = place.weights.iter().copied().fold(0.0, f64::min);
@@ -103,6 +115,9 @@ impl Found {
         Figures::default()
             .with("space", m.space.name())
             .with("landmarks", self.landmarks.len())
+            .if_some("points", Some(m.points.len()).filter(|n| *n > 0))
+            .if_some("point_error", Some(self.point_error).filter(|_| !m.points.is_empty()))
+            .if_some("soft_left", Some(m.soft_left.clone()).filter(|left| !left.is_empty()))
             .with("flipped_triangles", m.flipped.len() + m.target_flipped.len())
             .with("landmark_error", q.landmark_error)
             .with("qc_mean", q.qc_mean)

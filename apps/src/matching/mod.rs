@@ -4,6 +4,7 @@ mod args;
 mod command;
 mod files;
 mod found;
+mod marks;
 mod pictures;
 
 use crate::failure::Failure;

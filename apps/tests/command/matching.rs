@@ -102,6 +102,25 @@ fn the_parts_of_an_overlay_lie_where_their_file_says() {
 }
 
 #[test]
+fn points_curves_and_soft_landmarks_come_from_files() {
+    let place = Place::new();
+    place.expect(0, "make torus --big 2 --small 0.8 -n 24 -m 12 -o torus.obj");
+    place.put("P.csv", "source_face,s0,s1,s2,target_face,t0,t1,t2\n10,0.2,0.3,0.5,40,0.25,0.25,0.5\n");
+    place.put("S.csv", "source_vertex,target_vertex,weight\n150,160,1\n");
+    place.expect(0, "match torus.obj torus.obj --points P.csv --soft S.csv --report R.json");
+    let report = place.json("R.json");
+    assert_eq!(report["result"]["points"], 1);
+    assert!(report["result"]["point_error"].as_f64().unwrap() < 1e-8);
+    assert!(report["result"]["soft_left"][0].as_f64().unwrap() > 0.0);
+    place.put("K.csv", "curve,surface,vertex\n0,source,0\n0,elsewhere,1\n");
+    let said = place.expect(3, "match torus.obj torus.obj --curves K.csv");
+    assert!(said.err.contains("K.csv:3") && said.err.contains("elsewhere"), "{}", said.err);
+    place.put("K.csv", "0,source,0\n0,source,150\n0,target,0\n0,target,1\n");
+    let said = place.expect(3, "match torus.obj torus.obj --curves K.csv");
+    assert!(said.err.contains("curve 0") && said.err.contains("vertex 150"), "{}", said.err);
+}
+
+#[test]
 fn what_cannot_be_matched_is_refused_by_name() {
     let place = Place::new();
     place.expect(0, "make sphere -n 3 -o ball.obj");

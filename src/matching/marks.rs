@@ -1,0 +1,118 @@
+//! What corresponds on two surfaces, as it is asked for: checked, and brought into the same order.
+
+use super::route::Marks;
+use crate::error::{Error, Result};
+use crate::mesh::{HalfedgeId, VertexId};
+use crate::metric::Surface;
+use crate::topology::check_vertex;
+
+/// Landmarks, corners and loops of both surfaces, in the same order.
+///
+/// # Errors
+/// [`Error::Matching`] for landmarks that are no pairs of different vertices both inside or both on corresponding loops in the same order, and for loops
+/// that are no permutation; [`Error::Argument`] for a landmark that is no vertex.
+pub(super) fn marks(
+    surfaces: [&Surface; 2],
+    landmarks: &[[VertexId; 2]],
+    order: Option<&[usize]>,
+) -> Result<[Marks; 2]> {
+    check_landmarks(surfaces, landmarks)?;
+    let loops = [0, 1].map(|s| loops(surfaces[s]));
+    let order = match order {
+        None => by_length(&loops),
+        Some(order) => {
+            let n = loops[0].len();
+            let mut seen = vec![false; n];
+            let is_permutation =
+                order.len() == n && order.iter().all(|&k| k < n && !std::mem::replace(&mut seen[k], true));
+            if !is_permutation {
+                return Err(Error::Matching(format!(
+                    "loops {order:?} do not name each of the {n} boundary loops of the target once"
+                )));
+            }
+            order.to_vec()
+        }
+    };
+    let [source, target] = loops.map(|all| all.into_iter().map(|(around, _)| around).collect::<Vec<_>>());
+    let target = order.into_iter().map(|k| target[k].clone()).collect();
+    let on_boundary = |s: usize, pair: &[VertexId; 2]| surfaces[s].mesh().is_boundary_vertex(pair[s]);
+    let of = |s: usize, outside: bool| -> Vec<VertexId> {
+        landmarks.iter().filter(|pair| on_boundary(s, pair) == outside).map(|pair| pair[s]).collect()
+    };
+    let marks = |s: usize, loops| Marks { landmarks: of(s, false), loops, corners: of(s, true) };
+    let marks = [marks(0, source), marks(1, target)];
+    check_corners(surfaces, &marks)?;
+    Ok(marks)
+}
+
+fn check_landmarks(surfaces: [&Surface; 2], landmarks: &[[VertexId; 2]]) -> Result<()> {
+    for (k, pair) in landmarks.iter().enumerate() {
+        for (s, name) in ["source", "target"].into_iter().enumerate() {
+            let v = pair[s];
+            check_vertex(surfaces[s].mesh(), v)?;
+            if let Some(j) = landmarks[..k].iter().position(|other| other[s] == v) {
+                return Err(Error::Matching(format!(
+                    "landmarks {j} and {k} conflict: both are vertex {v} of the {name}"
+                )));
+            }
+        }
+        let outside = [0, 1].map(|s| surfaces[s].mesh().is_boundary_vertex(pair[s]));
+        if outside[0] != outside[1] {
+            let [on, inside] = if outside[0] { ["source", "target"] } else { ["target", "source"] };
+            return Err(Error::Matching(format!(
+                "landmark {k} lies on the boundary of the {on} and inside the {inside}"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Corners lie on corresponding loops, in the same order around them.
+fn check_corners(surfaces: [&Surface; 2], marks: &[Marks; 2]) -> Result<()> {
+    for k in 0..marks[0].loops.len() {
+        let along = |s: usize| -> Vec<usize> {
+            let mesh = surfaces[s].mesh();
+            let number = |h: &HalfedgeId| marks[s].corners.iter().position(|&v| v == mesh.origin(*h));
+            let mut found: Vec<usize> = marks[s].loops[k].iter().filter_map(number).collect();
+            if let Some(least) = (0..found.len()).min_by_key(|&i| found[i]) {
+                found.rotate_left(least);
+            }
+            found
+        };
+        let [first, second] = [along(0), along(1)];
+        if first != second {
+            let name = |numbers: &[usize]| {
+                numbers.iter().map(|&n| marks[0].corners[n].to_string()).collect::<Vec<_>>().join(", ")
+            };
+            return Err(Error::Matching(format!(
+                "landmarks on boundary loop {k} of the source conflict: around it come those at vertices {} of the source, around the loop of the \
+                 target that it goes to their partners come in the order of {}",
+                name(&first),
+                name(&second)
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The boundary loops with the surface on their left, and their lengths.
+fn loops(surface: &Surface) -> Vec<(Vec<HalfedgeId>, f64)> {
+    let (mesh, lengths) = (surface.mesh(), surface.lengths());
+    let of = |around: Vec<HalfedgeId>| {
+        let length = around.iter().map(|h| lengths[h.edge()]).sum();
+        (around.first().map_or(Vec::new(), |h| mesh.boundary_from(h.twin())), length)
+    };
+    mesh.boundary_loops().into_iter().map(of).collect()
+}
+
+/// The target's loop for each of the source's: by descending length.
+fn by_length(loops: &[Vec<(Vec<HalfedgeId>, f64)>; 2]) -> Vec<usize> {
+    let [first, second] = [0, 1].map(|s| {
+        let mut order: Vec<usize> = (0..loops[s].len()).collect();
+        order.sort_by(|&i, &j| loops[s][j].1.total_cmp(&loops[s][i].1).then(i.cmp(&j)));
+        order
+    });
+    let mut of = vec![0; first.len()];
+    first.into_iter().zip(second).for_each(|(i, j)| of[i] = j);
+    of
+}

@@ -1,0 +1,256 @@
+//! Landmarks on surfaces with handles: the harmonic map without them is found first, then they are pushed to their goals, which fixes the class of the
+//! map, and the map of that class is found in the target's metric with cones of angle π at the landmarks.
+//!
+//! As on surfaces of genus 0 ([`super::orbifold`]) this orbifold is covered by the hyperbolic plane without cones, and a map with positive weights
+//! that holds the landmarks is an embedding.
+
+use super::balance::{Freedom, relax, settle};
+use super::canonical::canonical_metric;
+use super::cover::{Cover, Placed, moved};
+use super::options::MatchOptions;
+use super::orbifold::Pair;
+use super::rims::{Rims, straighten};
+use super::route::Marks;
+use super::slits::{Inside, Push, Slits, Start};
+use super::walk::{Found, Seed, located};
+use super::weights::mean_value_weights;
+use crate::control::Control;
+use crate::embed::{UnrollOptions, unroll};
+use crate::error::{Error, Result};
+use crate::geometry::{Motion, Space, Twofold};
+use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
+use crate::metric::Surface;
+use crate::topology::{central_vertex, cut_graph};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Weight of a corner with which a point counts as that corner.
+const AT_CORNER: f64 = 1.0 - 1e-9;
+/// Largest distance from the identity of the transformations around a face together: rounding.
+const CLOSED: f64 = 1e-6;
+/// Distance from the identity below which a transformation is the identity up to rounding.
+const IDENTITY: f64 = 1e-12;
+
+/// The pair of a map without landmarks, with all landmarks where they should be.
+///
+/// # Errors
+/// [`Error::Matching`] for landmarks in conflict, named, and where a flow does not come to its target or no harmonic map is found; those of [`unroll`];
+/// [`Error::Cancelled`].
+pub(super) fn pushed(
+    pair: &Pair,
+    surfaces: [&Surface; 2],
+    marks: [&Marks; 2],
+    options: &MatchOptions,
+    control: &Control,
+) -> Result<Pair> {
+    let own = |s: usize| in_own_orbifold(surfaces[s], marks[s], options, control);
+    let [(source, first), (mut domain, second)] = [own(0)?, own(1)?];
+    let weights = [mean_value_weights(&source, surfaces[0]), mean_value_weights(&domain, surfaces[1])];
+    drop(source);
+    let freedom = [0, 1].map(|s| {
+        let mut freedom = Freedom::of(surfaces[s].mesh());
+        marks[s].landmarks.iter().chain(&marks[s].corners).for_each(|&v| freedom[v] = Freedom::Held);
+        freedom
+    });
+    straighten(&mut domain, marks[1]);
+    let target_relaxed = relax(&mut domain, &weights[1], &freedom[1], control)?;
+    let (mut image, seeds) = Way::new(pair, &domain, (surfaces[0], marks), control)?.image()?;
+    let relaxed = relax(&mut image, &weights[0], &freedom[0], control)?;
+    let reports = [
+        settle(&mut image, &weights[0], &freedom[0], relaxed, control)?,
+        settle(&mut domain, &weights[1], &freedom[1], target_relaxed, control)?,
+    ];
+    let flow_iterations = [first, second];
+    Ok(Pair { source: image, target: domain, seeds, reports, flow_iterations, markings: pair.markings })
+}
+
+/// A surface in its hyperbolic metric with cones of angle π at its landmarks and right angles at its corners, and the steps of the flow.
+fn in_own_orbifold(
+    surface: &Surface,
+    marks: &Marks,
+    options: &MatchOptions,
+    control: &Control,
+) -> Result<(Placed, usize)> {
+    let mesh = surface.mesh();
+    let mut curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
+    marks.landmarks.iter().for_each(|&v| curvature[v] = PI);
+    marks.corners.iter().for_each(|&v| curvature[v] = FRAC_PI_2);
+    let (metric, iterations) = canonical_metric(surface, Space::H2, curvature, &options.flow, control)?;
+    let cut = cut_graph(mesh, surface.lengths(), &marks.landmarks, control)?;
+    let unrolling = UnrollOptions {
+        cones: Some(marks.landmarks.clone()),
+        root: Some(central_vertex(mesh, surface.lengths(), control)?),
+        cut: Some(cut.clone()),
+        threads: options.flow.threads,
+        ..UnrollOptions::default()
+    };
+    let layout = unroll(&metric, &unrolling, control)?;
+    let pairings: Vec<_> = layout.seams.iter().map(|seam| seam.pairing).collect();
+    let cover = Cover::along_cut(mesh, Space::H2, (&cut, &pairings), &[])?;
+    Ok((Placed::of_layout(cover, &layout)?, iterations))
+}
+
+/// The source as it lies in the old domain of the target, and the new one.
+struct Way<'a> {
+    pair: &'a Pair,
+    new: &'a Placed,
+    marks: [&'a Marks; 2],
+    found: Vec<Found>,
+    /// Per vertex of the source: its landmark.
+    landmark: PerVertex<Option<u32>>,
+    /// Per vertex its place in the old domain.
+    inside: Vec<Inside>,
+    /// Of the vertices on the boundary: where they go in the new domain.
+    rims: Rims,
+    slits: Slits<'a>,
+}
+
+impl<'a> Way<'a> {
+    fn new(
+        pair: &'a Pair,
+        new: &'a Placed,
+        (surface, marks): (&Surface, [&'a Marks; 2]),
+        control: &Control,
+    ) -> Result<Way<'a>> {
+        let mesh = surface.mesh();
+        let (mut found, _) = located(&pair.source, &pair.target, pair.seeds[0], control)?;
+        let mut landmark = PerVertex::filled(mesh.n_vertices(), None);
+        let mut pushes = Vec::with_capacity(marks[0].landmarks.len());
+        for (k, (&from, &to)) in marks[0].landmarks.iter().zip(&marks[1].landmarks).enumerate() {
+            landmark[from] = Some(k as u32);
+            let place = found[from.index()].place;
+            let corners = new.cover.mesh.face_halfedges(place.face);
+            let there =
+                (0..3).find(|&c| place.weights[c] > AT_CORNER && new.cover.mesh.origin(corners[c]) == to);
+            let start = match there {
+                Some(c) => Start::There(corners[c]),
+                None => Start::At(Inside::new(&pair.target, place.face, place.weights)),
+            };
+            pushes.push(Push { start, to, name: format!("landmark {k} (vertices {from} and {to})") });
+        }
+        let slits = Slits::new([&pair.target, new], &pushes, &marks[1].loops)?;
+        let rims = Rims::new(surface, (&pair.target, new), marks, (&mut found, &slits))?;
+        let inside = found.iter().map(|f| Inside::new(&pair.target, f.place.face, f.place.weights)).collect();
+        Ok(Way { pair, new, marks, found, landmark, inside, rims, slits })
+    }
+
+    /// The source in the new domain, and where to look for it.
+    fn image(&self) -> Result<(Placed, [Seed; 2])> {
+        let mesh = &self.pair.source.cover.mesh;
+        let mut along = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(Space::H2));
+        for e in mesh.edges() {
+            let h = e.halfedge();
+            along[h] = self.along(h)?;
+            along[h.twin()] = along[h].inverse();
+        }
+        let at = self.places();
+        let first = |marks: &Marks| marks.landmarks.first().or(marks.corners.first()).copied();
+        let (Some(first), Some(to)) = (first(self.marks[0]), first(self.marks[1])) else {
+            return Err(Error::Matching("no landmark to start from".into()));
+        };
+        let start = mesh.fan(first)[0];
+        let corners = self.corners(mesh, &along, (start, &at))?;
+        let across = |h: HalfedgeId| {
+            let origin = mesh.origin(h);
+            // Seen from a landmark the surface around it is not determined: from the other end it is.
+            let is_turned = self.landmark[origin].is_some();
+            let (own, other) = if is_turned { (mesh.next(h), h.twin()) } else { (h, mesh.next(h.twin())) };
+            if mesh.is_outside(h.twin()) {
+                return None;
+            }
+            let motion = corners[own].compose(&corners[other].inverse()).normalised();
+            (motion.distance_from_identity() > IDENTITY).then_some(motion)
+        };
+        let cover = Cover::new(mesh, Space::H2, across, &[start])?;
+        let at = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
+            corners[cover.own(v)].compose(&at[v]).normalised()
+        });
+        let seeds = [Seed { vertex: first, near: self.new.cover.own(to) }, Seed { vertex: to, near: start }];
+        Ok((Placed { cover, at }, seeds))
+    }
+
+    /// The transformation of the new domain along a half-edge, from the place of its origin to that of its tip.
+    fn along(&self, h: HalfedgeId) -> Result<Motion<Twofold>> {
+        let cover = &self.pair.source.cover;
+        let [u, w] = [cover.mesh.origin(h), cover.mesh.tip(h)];
+        let reverse = self.landmark[w].is_some();
+        let (from, to, along) = match reverse {
+            true => (w, u, cover.along(h).map(|m| m.inverse())),
+            false => (u, w, cover.along(h)),
+        };
+        // From the place of the one to that of the other in the opened old domain.
+        let copy = self.found[from.index()].copy;
+        let deck = along.map_or(copy, |along| copy.compose(&along));
+        let deck = deck.compose(&self.found[to.index()].copy.inverse()).normalised();
+        let end = deck.apply(self.inside[to.index()].point);
+        let motion = match self.landmark[from] {
+            Some(k) => self.slits.landmark_to(k as usize, end)?,
+            None => {
+                let motion = self.slits.between(self.inside[from.index()], end)?;
+                match self.rims.way(from) {
+                    Some(way) => way.inverse().compose(&motion),
+                    None => motion,
+                }
+            }
+        };
+        let motion = match self.rims.way(to) {
+            Some(way) => motion.compose(way),
+            None => motion,
+        };
+        Ok(if reverse { motion.inverse() } else { motion })
+    }
+
+    /// Frames at the places of the vertices in the opened new domain: where they were in their faces.
+    fn places(&self) -> PerVertex<Motion<Twofold>> {
+        let mut at = PerVertex::from_fn(self.found.len(), |v: VertexId| {
+            let place = self.found[v.index()].place;
+            let corners = self.new.face(place.face).map(|p| p.map(f64::from));
+            let [x, y, w] = [0, 1, 2].map(|i| (0..3).map(|k| place.weights[k] * corners[k][i]).sum::<f64>());
+            let size = ((w - x) * (w + x) - y * y).max(f64::MIN_POSITIVE).sqrt();
+            Placed::frame(Space::H2, [x / size, y / size, w / size])
+        });
+        for (&from, &to) in self.marks[0].landmarks.iter().zip(&self.marks[1].landmarks) {
+            at[from] = self.new.at[to];
+        }
+        for (v, (x, ahead)) in &self.rims.places {
+            at[*v] = moved(&self.new.at[*x], [*ahead, 0.0]);
+        }
+        at
+    }
+
+    /// Per half-edge of a face the transformation from the place of its origin to where it lies in the face, as the source is opened: face by face, every one seen
+    /// from one of its corners that is no landmark. In the face of `start` a landmark lies at its place.
+    fn corners(
+        &self,
+        mesh: &Mesh,
+        along: &PerHalfedge<Motion<Twofold>>,
+        (start, at): (HalfedgeId, &PerVertex<Motion<Twofold>>),
+    ) -> Result<PerHalfedge<Motion<Twofold>>> {
+        let mut corners = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(Space::H2));
+        for f in mesh.faces() {
+            let sides = mesh.face_halfedges(f);
+            let is_free = |h: &HalfedgeId| self.landmark[mesh.origin(*h)].is_none();
+            let Some(base) = sides.iter().position(is_free) else {
+                return Err(Error::Matching(format!("face {f} of the source has three landmarks")));
+            };
+            let [a, b, c] = [0, 1, 2].map(|k| sides[(base + k) % 3]);
+            let (to_b, to_c) = (along[a], along[c].inverse());
+            let closed = to_b.compose(&along[b]);
+            // Landmarks stay where they are when the surface is turned about them.
+            let tip = at[mesh.origin(c)].origin();
+            let [p, q] = [closed.apply(tip), to_c.apply(tip)]
+                .map(|p| at[mesh.origin(a)].inverse().apply(p).map(f64::from));
+            let off = (0..2).map(|k| (p[k] - q[k]).abs() / p[2].abs().max(1.0)).fold(0.0, f64::max);
+            if self.landmark[mesh.origin(b)].is_none() && (off.is_nan() || off > CLOSED) {
+                return Err(Error::Matching(format!(
+                    "the sides of face {f} of the source do not close in the target's domain (by {off:.1e}): the landmarks lie too close together"
+                )));
+            }
+            (corners[b], corners[c]) = (to_b, to_c);
+            if sides.contains(&start) {
+                let back = corners[start].inverse();
+                sides.into_iter().for_each(|h| corners[h] = back.compose(&corners[h]));
+            }
+        }
+        Ok(corners)
+    }
+}
