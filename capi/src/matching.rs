@@ -11,7 +11,7 @@ use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::flow::Options;
-use ricci::matching::{MatchOptions, Matching, SurfaceMap, match_surfaces};
+use ricci::matching::{Boundary, MatchOptions, Matching, SurfaceMap, match_surfaces};
 use ricci::mesh::VertexId;
 
 pub struct ricci_matching {
@@ -27,6 +27,11 @@ enum Direction {
     Backward,
 }
 
+choices!(BOUNDARIES: Boundary = "correspondence of boundaries", [
+    RICCI_MATCH_SLIDES => Boundary::Slides,
+    RICCI_MATCH_ARC_LENGTH => Boundary::ArcLength,
+]);
+
 choices!(DIRECTIONS: Direction = "direction of a matching", [
     RICCI_MATCH_FORWARD => Direction::Forward,
     RICCI_MATCH_BACKWARD => Direction::Backward,
@@ -41,6 +46,8 @@ pub struct ricci_match_options {
     pub loops: *const u32,
     pub n_loops: usize,
     pub threads: usize,
+    pub boundary: u32,
+    pub reserved: u32,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_match_options, "options");
@@ -89,6 +96,7 @@ pub unsafe extern "C" fn ricci_match(
         let options = MatchOptions {
             landmarks: pairs.into_iter().map(|pair| pair.map(VertexId)).collect(),
             loops: (!loops.is_empty()).then(|| loops.into_iter().map(|k| k as usize).collect()),
+            boundary: BOUNDARIES.choose(given.boundary)?,
             flow: Options { threads: given.threads, ..Options::default() },
         };
         let (source, target) = (source.surface()?, target.surface()?);

@@ -82,6 +82,8 @@ pub struct Layout {
     pub area: f64,
     /// Lengths in the layout over lengths in the metric.
     pub scale: f64,
+    /// What the doubles of `points` miss of x and y at corners of final faces; none where no more is known.
+    pub(super) remainders: Vec<[f64; 2]>,
     pub(super) pieces: Pieces,
     /// The surface as it came and the cut on it, where the cut runs along its edges.
     pub(super) input: Option<(Arc<Mesh>, CutGraph)>,
@@ -189,6 +191,19 @@ impl Layout {
         let (input, on_input) = (&self.input.as_ref()?.0, self.on_input()?);
         let point = |h: HalfedgeId| on_input.coordinates[on_input.corner_index[h] as usize];
         Some(input.faces().map(|f| input.face_halfedges(f).map(point)).collect())
+    }
+
+    /// [`Layout::points`] number k with twice the digits, as far as the layout has them: in H² rounding to doubles moves a point by
+    /// e^distance ulp.
+    pub(crate) fn precise_point(&self, k: usize) -> [Twofold; 3] {
+        let [x, y] = self.remainders.get(k).copied().unwrap_or([0.0; 2]);
+        let point = precise_point(self.space, self.points[k]);
+        if [x, y] == [0.0; 2] || self.space == Space::S2 {
+            return point;
+        }
+        let [x, y] = [point[0].plus(x), point[1].plus(y)];
+        let one = Twofold::from(1.0);
+        [x, y, if self.space == Space::H2 { (one + x * x + y * y).sqrt() } else { one }]
     }
 
     /// On which side of which seam a half-edge lies: 0 if it is not cut, k + 1 on the left side of seam k, −(k + 1) on its right side.
@@ -309,8 +324,11 @@ impl Layout {
         if self.space != Space::E2 || motion.space != Space::E2 {
             return Err(Error::Layout(format!("a layout in {} stays about its base", self.space)));
         }
+        let moved = |k| motion.apply(self.precise_point(k));
+        let moved: Vec<[Twofold; 3]> = (0..self.points.len()).map(moved).collect();
         let place = |p: &[f64; 3]| motion.apply(precise_point(Space::E2, *p)).map(f64::from);
         self.points = self.points.iter().map(place).collect();
+        self.set_remainders(&moved);
         self.coordinates = self.points.iter().map(|&p| flat(Space::E2, p)).collect();
         self.seams.iter_mut().for_each(|seam| seam.pairing = seam.pairing.conjugated_by(motion));
         self.frames.iter_mut().for_each(|frame| *frame = motion.compose(frame));
@@ -328,7 +346,13 @@ impl Layout {
             return;
         }
         self.coordinates.as_flattened_mut().iter_mut().for_each(|x| *x *= factor);
+        let scaled = |k: usize| {
+            let [x, y, w] = self.precise_point(k);
+            [x * factor.into(), y * factor.into(), w]
+        };
+        let scaled: Vec<[Twofold; 3]> = (0..self.points.len()).map(scaled).collect();
         self.points.iter_mut().for_each(|[x, y, _]| (*x, *y) = (factor * *x, factor * *y));
+        self.set_remainders(&scaled);
         let pairings = self.seams.iter_mut().map(|seam| &mut seam.pairing);
         pairings.chain(&mut self.frames).for_each(|m| m.b = m.b.map(|x| x * factor.into()));
         self.disagreement *= factor;
@@ -336,6 +360,12 @@ impl Layout {
         self.diameter *= factor;
         self.scale *= factor;
         self.area *= factor * factor;
+    }
+
+    /// What the points miss of these ones.
+    fn set_remainders(&mut self, precise: &[[Twofold; 3]]) {
+        let rest = |(p, q): (&[Twofold; 3], &[f64; 3])| [0, 1].map(|k| p[k].plus(-q[k]).high);
+        self.remainders = precise.iter().zip(&self.points).map(rest).collect();
     }
 
     /// Finds the triangles that are flipped or degenerate.

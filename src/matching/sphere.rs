@@ -24,7 +24,8 @@ use crate::metric::Surface;
 /// [`Error::Matching`] where a flow does not come to its target or a fold cannot be opened; those of [`uniformize_sphere`]; [`Error::Cancelled`].
 pub(super) fn on_sphere(surfaces: [&Surface; 2], options: &MatchOptions, control: &Control) -> Result<Pair> {
     let own = |s: usize| in_own_sphere(surfaces[s], options, control);
-    let [(mut source, first), (target, second)] = [own(0)?, own(1)?];
+    let (source, target) = rayon::join(|| own(0), || own(1));
+    let ((mut source, first), (target, second)) = (source?, target?);
     let points = [&source, &target].map(positions);
     let densities = [0, 1].map(|s| density(surfaces[s], &points[s]));
     let mut best: Option<(f64, Placed, Seed)> = None;

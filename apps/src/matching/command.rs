@@ -39,6 +39,7 @@ pub fn execute(args: &MatchArgs, control: &Control) -> Result<Done<Found>, Failu
     let options = MatchOptions {
         landmarks: landmarks.clone(),
         loops: (!args.loops.is_empty()).then(|| args.loops.clone()),
+        boundary: args.boundary.into(),
         flow: flow::Options { threads: args.common.threads, ..flow::Options::default() },
     };
     let mut seconds = input.seconds;
