@@ -10,7 +10,8 @@ pub enum Boundary {
     #[default]
     Slides,
     /// By the share of the length from landmark to landmark. Where a loop has none it is counted from a corner that is found (of a disk), or from where the first
-    /// of the paths that mark the map ends.
+    /// of the paths that mark the map ends. In H² it holds at the vertices of both boundaries up to the difference between lengths and barycentric coordinates within
+    /// one edge.
     ArcLength,
 }
 
