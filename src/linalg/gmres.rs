@@ -11,6 +11,9 @@
 /// Share of the residual before a restart below which the one after it has to be.
 const PROGRESS: f64 = 0.9;
 
+/// Share of a product below which what is new in it is rounding.
+const ROUNDING: f64 = 1e-14;
+
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
@@ -70,6 +73,7 @@ fn cycle(
     for k in 0..most {
         let mut next = vec![0.0; rest.len()];
         apply(&basis[k], &mut next);
+        let whole = norm(&next);
         let mut column: Vec<f64> = Vec::with_capacity(k + 2);
         for v in &basis {
             let along = dot(v, &next);
@@ -82,7 +86,7 @@ fn cycle(
             (column[j], column[j + 1]) = (c * a + s * b, c * b - s * a);
         }
         let radius = column[k].hypot(size);
-        if !(radius > 0.0 && radius.is_finite()) {
+        if radius <= ROUNDING * whole || !radius.is_finite() {
             break;
         }
         let [c, s] = [column[k] / radius, size / radius];
