@@ -13,7 +13,7 @@ use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::flow::Options;
 use ricci::matching::{
-    MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap, cycle_error, map_quality,
+    Boundary, MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap, cycle_error, map_quality,
     match_surfaces,
 };
 use ricci::mesh::{FaceId, VertexId};
@@ -32,6 +32,11 @@ enum Direction {
     Forward,
     Backward,
 }
+
+choices!(BOUNDARIES: Boundary = "correspondence of boundaries", [
+    RICCI_MATCH_SLIDES => Boundary::Slides,
+    RICCI_MATCH_ARC_LENGTH => Boundary::ArcLength,
+]);
 
 choices!(DIRECTIONS: Direction = "direction of a matching", [
     RICCI_MATCH_FORWARD => Direction::Forward,
@@ -56,6 +61,8 @@ pub struct ricci_match_options {
     pub soft: *const u32,
     pub soft_weights: *const f64,
     pub n_soft: usize,
+    pub boundary: u32,
+    pub reserved: u32,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_match_options, "options");
@@ -118,6 +125,7 @@ pub unsafe extern "C" fn ricci_match(
             soft: soft(&given)?,
             landmarks: pairs.into_iter().map(|pair| pair.map(VertexId)).collect(),
             loops: (!loops.is_empty()).then(|| loops.into_iter().map(|k| k as usize).collect()),
+            boundary: BOUNDARIES.choose(given.boundary)?,
             flow: Options { threads: given.threads, ..Options::default() },
         };
         let (source, target) = (source.surface()?, target.surface()?);

@@ -29,6 +29,14 @@ enum {
     RICCI_MATCH_BACKWARD = 1
 };
 
+/** How boundaries go to each other, between landmarks on them. */
+enum {
+    /** They slide along each other until the map is harmonic. */
+    RICCI_MATCH_SLIDES = 0,
+    /** By shares of their length. */
+    RICCI_MATCH_ARC_LENGTH = 1
+};
+
 /** What ricci_match can be asked; zeros are the defaults. */
 typedef struct ricci_match_options {
     /** sizeof(ricci_match_options), by ricci_init. */
@@ -70,6 +78,10 @@ typedef struct ricci_match_options {
     const double *soft_weights;
     /** Number of these landmarks. */
     size_t n_soft;
+    /** How boundaries go to each other: RICCI_MATCH_SLIDES, RICCI_MATCH_ARC_LENGTH. */
+    uint32_t boundary;
+    /** 0. */
+    uint32_t reserved;
 } ricci_match_options;
 
 /** Figures of a matching. */

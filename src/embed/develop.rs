@@ -189,7 +189,16 @@ impl<'a, F: Frame> Development<'a, F> {
 
     /// Ambient coordinates per number of a corner: each from the first patch that has it; NaN for what was not reached.
     pub fn points(&self, corner: &PerHalfedge<u32>, n_corners: usize) -> Vec<[f64; 3]> {
-        let mut points = vec![[f64::NAN; 3]; n_corners];
+        self.points_and_remainders(corner, n_corners).0
+    }
+
+    /// [`Development::points`], and what their doubles miss of x and y at the corners of final faces.
+    pub fn points_and_remainders(
+        &self,
+        corner: &PerHalfedge<u32>,
+        n_corners: usize,
+    ) -> (Vec<[f64; 3]>, Vec<[f64; 2]>) {
+        let (mut points, mut remainders) = (vec![[f64::NAN; 3]; n_corners], vec![[0.0; 2]; n_corners]);
         for (placed, pieces) in (0..self.sides.len()).filter_map(|patch| self.placed(patch)) {
             for &f in pieces {
                 let halfedges = self.pieces.mesh().face_halfedges(f);
@@ -197,11 +206,12 @@ impl<'a, F: Frame> Development<'a, F> {
                     let point = &mut points[corner[h] as usize];
                     if point[0].is_nan() {
                         *point = placed.point(weights);
+                        remainders[corner[h] as usize] = placed.remainder(weights);
                     }
                 }
             }
         }
-        points
+        (points, remainders)
     }
 
     /// The two places of one frame, of a half-edge `h` on the cut: as the face on its left and as the face on its right has it. The

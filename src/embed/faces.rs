@@ -161,6 +161,11 @@ impl<'a, F: Frame> Placed<'a, F> {
         }
     }
 
+    /// What the doubles of [`Placed::point`] miss of x and y at a corner; elsewhere nothing more is known.
+    pub fn remainder(&self, weights: [f64; 3]) -> [f64; 2] {
+        corner_at(weights).map_or([0.0; 2], |corner| self.sides[corner].remainder())
+    }
+
     /// By how much a point misses the one with these weights, as [`Frame::miss`] has it: at a corner about the corner itself, since seen
     /// from elsewhere in a large face of H² the difference would be magnified.
     pub fn miss(&self, point: [f64; 3], weights: [f64; 3]) -> [f64; 2] {

@@ -39,6 +39,8 @@ pub(super) trait Frame: Copy + Send + Sync {
     fn distance_of_apex(&self, angle: Self::Angle, last: Self::Side) -> f64;
     /// Where the half-edge starts, in ambient coordinates.
     fn origin(&self) -> [f64; 3];
+    /// What the doubles of that miss of x and y.
+    fn remainder(&self) -> [f64; 2];
     /// Where it carries a point in ambient coordinates.
     fn apply(&self, p: [f64; 3]) -> [f64; 3];
     /// By how much a point misses the place where the frame carries `local`: a vector of the plane in E², elsewhere one at the frame's
@@ -101,6 +103,10 @@ impl Frame for PlaneFrame {
         [self.place[0].high, self.place[1].high, 1.0]
     }
 
+    fn remainder(&self) -> [f64; 2] {
+        self.place.map(|x| x.low)
+    }
+
     fn apply(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {
         let way = mul(self.direction, [x, y]);
         [self.place[0].plus(way[0]).high, self.place[1].plus(way[1]).high, 1.0]
@@ -156,6 +162,11 @@ impl Frame for Motion<Twofold> {
 
     fn origin(&self) -> [f64; 3] {
         Motion::origin(self).map(f64::from)
+    }
+
+    fn remainder(&self) -> [f64; 2] {
+        let [x, y, _] = Motion::origin(self);
+        [x.low, y.low]
     }
 
     fn apply(&self, p: [f64; 3]) -> [f64; 3] {

@@ -82,6 +82,8 @@ pub struct Layout {
     pub area: f64,
     /// Lengths in the layout over lengths in the metric.
     pub scale: f64,
+    /// What the doubles of `points` miss of x and y at corners of final faces; none where no more is known.
+    pub(super) remainders: Vec<[f64; 2]>,
     pub(super) pieces: Pieces,
     /// The surface as it came and the cut on it, where the cut runs along its edges.
     pub(super) input: Option<(Arc<Mesh>, CutGraph)>,
@@ -280,62 +282,6 @@ impl Layout {
         let mut periods = pairings.iter().map(|g| g.translation).filter(|&t| norm(t) > least);
         let first = periods.next()?;
         periods.find_map(|t| modulus([first, t]))
-    }
-
-    /// Scales a layout in E² so that its area is `area` (finite, positive); returns the factor on lengths.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] for an area that is not finite and positive; [`Error::Layout`] in another space, whose curvature fixes the scale.
-    pub fn scale_to_area(&mut self, area: f64) -> Result<f64> {
-        if self.space != Space::E2 {
-            return Err(Error::Layout(format!("a layout in {} has the scale of its space", self.space)));
-        }
-        let factor = (area / self.area).sqrt();
-        if !(factor.is_finite() && factor > 0.0) {
-            let need = "the layout's area and the one asked for must be finite and positive";
-            return Err(Error::Argument { what: "area", value: area.to_string(), need });
-        }
-        self.scale_by(factor);
-        self.area = area;
-        self.find_flat();
-        Ok(factor)
-    }
-
-    /// Moves a layout in E² by an isometry.
-    ///
-    /// # Errors
-    /// [`Error::Layout`] in another space.
-    pub fn move_by(&mut self, motion: &Motion<Twofold>) -> Result<()> {
-        if self.space != Space::E2 || motion.space != Space::E2 {
-            return Err(Error::Layout(format!("a layout in {} stays about its base", self.space)));
-        }
-        let place = |p: &[f64; 3]| motion.apply(precise_point(Space::E2, *p)).map(f64::from);
-        self.points = self.points.iter().map(place).collect();
-        self.coordinates = self.points.iter().map(|&p| flat(Space::E2, p)).collect();
-        self.seams.iter_mut().for_each(|seam| seam.pairing = seam.pairing.conjugated_by(motion));
-        self.frames.iter_mut().for_each(|frame| *frame = motion.compose(frame));
-        // Reported disagreements are relative to the diameter, which depends on the axes.
-        let diameter = bounding_diagonal(&self.coordinates);
-        self.seams.iter_mut().for_each(|seam| seam.residual *= self.diameter / diameter);
-        self.diameter = diameter;
-        self.radius = self.points.iter().map(|&p| distance_from_origin(Space::E2, p)).fold(0.0, f64::max);
-        self.find_flat();
-        Ok(())
-    }
-
-    pub(super) fn scale_by(&mut self, factor: f64) {
-        if factor == 1.0 {
-            return;
-        }
-        self.coordinates.as_flattened_mut().iter_mut().for_each(|x| *x *= factor);
-        self.points.iter_mut().for_each(|[x, y, _]| (*x, *y) = (factor * *x, factor * *y));
-        let pairings = self.seams.iter_mut().map(|seam| &mut seam.pairing);
-        pairings.chain(&mut self.frames).for_each(|m| m.b = m.b.map(|x| x * factor.into()));
-        self.disagreement *= factor;
-        self.radius *= factor;
-        self.diameter *= factor;
-        self.scale *= factor;
-        self.area *= factor * factor;
     }
 
     /// Finds the triangles that are flipped or degenerate.

@@ -15,6 +15,7 @@ mod faces;
 mod frame;
 pub mod layout;
 mod line;
+mod moving;
 pub mod overlap;
 pub mod pack;
 mod pieces;

@@ -109,7 +109,7 @@ impl<F: Frame> Development<'_, F> {
     fn layout(self, cut: CutGraph, control: &Control) -> Result<Layout> {
         let (mesh, faces, space) = (self.pieces.mesh(), self.faces, self.faces.space);
         let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
-        let points = self.points(&corner_index, n_corners);
+        let (points, remainders) = self.points_and_remainders(&corner_index, n_corners);
         let coordinates: Vec<[f64; 2]> = points.iter().map(|&p| flat(space, p)).collect();
         let diameter = bounding_diagonal(&coordinates);
         // The south pole of a sphere has no plane coordinates.
@@ -157,6 +157,7 @@ impl<F: Frame> Development<'_, F> {
             cut,
             corner_index,
             points,
+            remainders,
             coordinates,
         })
     }

@@ -61,6 +61,7 @@ impl Layout {
             frames: Vec::new(),
             patch: PerFace::from(Vec::new()),
             points,
+            remainders: Vec::new(),
             coordinates,
             pieces: Pieces::Refinement(refinement),
         };

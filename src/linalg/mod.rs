@@ -16,6 +16,7 @@
 
 pub mod cholesky;
 pub mod dense;
+pub mod gmres;
 pub mod lu;
 pub mod pattern;
 

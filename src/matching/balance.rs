@@ -1,11 +1,14 @@
 //! Harmonic maps of triangulations into flat and hyperbolic surfaces: every vertex at the mean of its neighbours.
 
 use super::cover::{Placed, moved};
+use super::matrices::{Factors, Rows, Solver};
+use super::options::Boundary;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::complex::{Complex, dot, scale};
-use crate::linalg::{Cholesky, Pattern, Symmetric, lu};
+use crate::linalg::gmres::{self, Limits};
+use crate::linalg::lu;
 use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -26,21 +29,32 @@ const MOST_STEPS: usize = 60;
 const LEAST_DECREASE: f64 = 1e-4;
 /// Halvings of a step before it counts as one that leads nowhere.
 const MOST_HALVINGS: usize = 40;
-/// The energy is at its minimum where a step would lower it by no more than this share: the balance by weights without symmetry starts there, and
-/// needs no better place.
-const ENERGY_TOLERANCE: f64 = 1e-12;
+/// The energy is near its minimum where a step would lower it by no more than this share: the balance by weights without symmetry starts there, and
+/// needs no better place. Half the step's slope more and the minimum itself is known to about the square of this.
+const ENERGY_TOLERANCE: f64 = 1e-4;
+/// The same where the balance was not found from there.
+const LEAST_ENERGY_TOLERANCE: f64 = 1e-12;
 /// A vertex is balanced where the mean of its neighbours is within this share of their mean distance.
 const BALANCED: f64 = 1e-12;
 /// Balance with which a map is taken where rounding lets Newton's method come no closer: far from the origin of H² positions lose digits.
 const NEARLY_BALANCED: f64 = 1e-7;
+/// Energy over the least one up to which the start of a map may be nearer to the balance than what has the least energy.
+const NEAR: f64 = 2.0;
+/// Residual of a linear solution, as a share of the right hand side, with the first Newton step to the balance, and the share of the vertices' own
+/// residual that later ones ask for.
+const LINEAR: [f64; 2] = [1e-2, 0.1];
+/// Residual of a linear solution that counts as one at all.
+const SOLVED: f64 = 0.5;
 /// Longest step of a vertex, in units of the space's curvature radius (H²).
 const LONGEST_STEP: f64 = 2.0;
 
 impl Freedom {
-    /// Of a surface whose boundary slides along itself.
-    pub fn of(mesh: &Mesh) -> PerVertex<Freedom> {
-        PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
-            if mesh.is_boundary_vertex(v) { Freedom::Slides } else { Freedom::Free }
+    /// Of a surface without marks.
+    pub fn of(mesh: &Mesh, boundary: Boundary) -> PerVertex<Freedom> {
+        PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| match (mesh.is_boundary_vertex(v), boundary) {
+            (false, _) => Freedom::Free,
+            (true, Boundary::Slides) => Freedom::Slides,
+            (true, Boundary::ArcLength) => Freedom::Held,
         })
     }
 }
@@ -87,8 +101,17 @@ pub(super) fn relax(
     control: &Control,
 ) -> Result<Relaxed> {
     let system = System::new(placed, weights, freedom);
-    let steps = if system.n > 0 { system.minimise(placed, control)? } else { 0 };
-    Ok((steps, system.energy(&placed.logarithms())))
+    if system.n == 0 {
+        return Ok((0, system.energy(&placed.logarithms())));
+    }
+    // An isometry starts in balance, the target nearly everywhere.
+    let start = placed.clone();
+    let off = [system.energy(&start.logarithms()), system.mean_residual(&start)];
+    let relaxed = system.minimise(placed, ENERGY_TOLERANCE, control)?;
+    if off[0] <= NEAR * relaxed.1 && off[1] <= system.mean_residual(placed) {
+        *placed = start;
+    }
+    Ok(relaxed)
 }
 
 /// From near the balance, where [`relax`] left it, to it by the weights themselves. With positive weights, in the class of a homeomorphism, the
@@ -108,7 +131,18 @@ pub(super) fn settle(
     if system.n == 0 {
         return Ok(report);
     }
-    (report.balance_steps, report.residual) = system.settle(placed, control)?;
+    let start = placed.clone();
+    (report.balance_steps, report.residual) = system.settle(placed, Solver::Products(None), control)?;
+    if report.residual > NEARLY_BALANCED {
+        // Once more, from the minimum of the energy and by factors of the matrix itself.
+        let mut other = start;
+        system.minimise(&mut other, LEAST_ENERGY_TOLERANCE, control)?;
+        let (steps, residual) = system.settle(&mut other, Solver::Factors, control)?;
+        report.balance_steps += steps;
+        if residual < report.residual {
+            (*placed, report.residual) = (other, residual);
+        }
+    }
     if report.residual > NEARLY_BALANCED {
         return Err(Error::Matching(format!(
             "the harmonic map was not found: after {} steps a vertex is {:.1e} of its edges away from the mean of its neighbours",
@@ -191,27 +225,25 @@ impl<'a> System<'a> {
         Linearised { force, entries }
     }
 
-    /// Lowers the energy with symmetric weights to its minimum; the number of steps.
-    fn minimise(&self, placed: &mut Placed, control: &Control) -> Result<usize> {
-        let mut solver: Option<(Pattern, Cholesky)> = None;
+    /// Lowers the energy with symmetric weights nearly to its minimum; the number of steps, and the minimum.
+    fn minimise(&self, placed: &mut Placed, tolerance: f64, control: &Control) -> Result<Relaxed> {
+        let mut solver: Option<Factors> = None;
         let mut logs = placed.logarithms();
         for step in 0..MOST_STEPS {
             control.step(Stage::Flow, step as f64 / MOST_STEPS as f64)?;
             let energy = self.energy(&logs);
             let at = self.linearise(placed, &logs, &self.even);
             let mut direction = at.force.clone();
-            if solver.is_none() {
-                let pairs: Vec<_> = at.entries.iter().map(|e| (e.0, e.1)).collect();
-                let pattern = Pattern::new(self.n, &pairs)?;
-                let cholesky = Cholesky::analyse(&pattern)?;
-                solver = Some((pattern, cholesky));
-            }
-            let Some((pattern, cholesky)) = &mut solver else { break };
-            solve_negative(pattern, cholesky, &at.entries, &mut direction)?;
+            let factors = match &mut solver {
+                Some(solver) => solver,
+                None => solver.insert(Factors::new(self.n, &at.entries)?),
+            };
+            factors.factor(&at.entries)?;
+            factors.solve(&mut direction);
             // The energy of each edge is counted once, its force at both ends: the decrease is that of a quadratic function.
             let slope: f64 = direction.iter().zip(&at.force).map(|(d, f)| d * f).sum();
-            if slope <= ENERGY_TOLERANCE * energy {
-                return Ok(step);
+            if slope <= tolerance * energy {
+                return Ok((step, energy - 0.5 * slope));
             }
             let mut length = 1.0;
             let mut found = None;
@@ -224,14 +256,14 @@ impl<'a> System<'a> {
                 }
                 length *= 0.5;
             }
-            let Some((next, next_logs)) = found else { return Ok(step) };
+            let Some((next, next_logs)) = found else { return Ok((step, energy)) };
             (*placed, logs) = (next, next_logs);
         }
-        Ok(MOST_STEPS)
+        Ok((MOST_STEPS, self.energy(&logs)))
     }
 
     /// Newton's method for the balance by the weights themselves; the number of steps and the residual at the end.
-    fn settle(&self, placed: &mut Placed, control: &Control) -> Result<(usize, f64)> {
+    fn settle(&self, placed: &mut Placed, mut solver: Solver, control: &Control) -> Result<(usize, f64)> {
         let mut logs = placed.logarithms();
         let mut residual = self.residual(placed, &logs);
         for step in 0..MOST_STEPS {
@@ -239,10 +271,8 @@ impl<'a> System<'a> {
             if residual <= BALANCED {
                 return Ok((step, residual));
             }
-            let Linearised { force, entries } = self.linearise(placed, &logs, self.weights);
-            let mut direction: Vec<f64> = force.iter().map(|f| -f).collect();
-            lu::solve(&entries, &mut direction)?;
-            drop(entries);
+            let tolerance = LINEAR[0].min(LINEAR[1] * residual).max(LINEAR[1] * BALANCED / residual);
+            let direction = self.newton(placed, &logs, (&mut solver, tolerance))?;
             let mut length = 1.0;
             let mut found = None;
             for _ in 0..MOST_HALVINGS {
@@ -261,6 +291,77 @@ impl<'a> System<'a> {
         Ok((MOST_STEPS, residual))
     }
 
+    /// The step that brings the forces by the weights themselves to 0.
+    fn newton(
+        &self,
+        placed: &Placed,
+        logs: &PerHalfedge<Complex>,
+        (solver, tolerance): (&mut Solver, f64),
+    ) -> Result<Vec<f64>> {
+        if let Solver::Products(kept) = solver {
+            let factors = match kept {
+                Some(factors) => factors,
+                None => {
+                    let Linearised { entries, .. } = self.linearise(placed, logs, &self.even);
+                    let mut first = Factors::new(self.n, &entries)?;
+                    first.factor(&entries)?;
+                    kept.insert(Box::new(first))
+                }
+            };
+            if let Some(step) = self.newton_by_products(placed, logs, (factors, tolerance)) {
+                return Ok(step);
+            }
+        }
+        let Linearised { force, entries } = self.linearise(placed, logs, self.weights);
+        let mut step: Vec<f64> = force.iter().map(|f| -f).collect();
+        lu::solve(&entries, &mut step)?;
+        Ok(step)
+    }
+
+    /// As [`System::newton`], with steps measured by the lengths of the edges about them; `None` where that leads nowhere.
+    fn newton_by_products(
+        &self,
+        placed: &Placed,
+        logs: &PerHalfedge<Complex>,
+        (factors, tolerance): (&mut Factors, f64),
+    ) -> Option<Vec<f64>> {
+        let Linearised { force, entries } = self.linearise(placed, logs, self.weights);
+        let rows = Rows::new(self.n, entries);
+        let sizes = self.sizes(placed, logs);
+        let mut side = force;
+        factors.solve(&mut side);
+        side.iter_mut().zip(&sizes).for_each(|(x, size)| *x /= size);
+        let (mut step, mut wide) = (vec![0.0; self.n], vec![0.0; self.n]);
+        let apply = |x: &[f64], y: &mut [f64]| {
+            wide.iter_mut().zip(x).zip(&sizes).for_each(|((w, x), size)| *w = x * size);
+            rows.apply(&wide, y);
+            factors.solve(y);
+            y.iter_mut().zip(&sizes).for_each(|(y, size)| *y /= -size);
+        };
+        let left = gmres::solve(apply, &side, &mut step, Limits::to(tolerance));
+        log::debug!("linear residual {left:.1e} of {tolerance:.1e}");
+        if left > SOLVED {
+            return None;
+        }
+        step.iter_mut().zip(&sizes).for_each(|(x, size)| *x *= size);
+        Some(step)
+    }
+
+    /// Per unknown, the mean length of the edges at its vertex.
+    fn sizes(&self, placed: &Placed, logs: &PerHalfedge<Complex>) -> Vec<f64> {
+        let mesh = &placed.cover.mesh;
+        let mut sizes = vec![1.0; self.n];
+        for v in mesh.vertices() {
+            let (mut sum, mut count) = (f64::MIN_POSITIVE, 0.0);
+            for h in mesh.outgoing(v) {
+                (sum, count) = (sum + logs[h][0].hypot(logs[h][1]), count + 1.0);
+            }
+            let first = self.first[v.index()] as usize;
+            sizes[first..first + dimension(self.freedom[v])].fill(sum / count);
+        }
+        sizes
+    }
+
     /// `½ Σ w r²` over the edges.
     fn energy(&self, logs: &PerHalfedge<Complex>) -> f64 {
         let of = |h: usize| {
@@ -271,6 +372,15 @@ impl<'a> System<'a> {
 
     /// The largest force of a vertex over the sum of the sizes of what it consists of.
     fn residual(&self, placed: &Placed, logs: &PerHalfedge<Complex>) -> f64 {
+        self.residuals(placed, logs).into_iter().fold(0.0, crate::geometry::worse)
+    }
+
+    fn mean_residual(&self, placed: &Placed) -> f64 {
+        let residuals = self.residuals(placed, &placed.logarithms());
+        residuals.iter().sum::<f64>() / residuals.len().max(1) as f64
+    }
+
+    fn residuals(&self, placed: &Placed, logs: &PerHalfedge<Complex>) -> Vec<f64> {
         let mesh = &placed.cover.mesh;
         let of = |v| {
             let (mut total, mut size) = ([0.0; 2], 0.0);
@@ -286,7 +396,7 @@ impl<'a> System<'a> {
             };
             if size > 0.0 { off / size } else { 0.0 }
         };
-        mesh.vertices().map(of).fold(0.0, crate::geometry::worse)
+        mesh.vertices().map(of).collect()
     }
 
     fn stepped(&self, placed: &Placed, direction: &[f64], length: f64) -> Placed {
@@ -331,26 +441,4 @@ fn growth(space: Space, r: f64) -> [f64; 2] {
 fn unit(v: Complex) -> Complex {
     let size = v[0].hypot(v[1]);
     if size > 0.0 { v.map(|x| x / size) } else { [FRAC_1_SQRT_2; 2] }
-}
-
-/// Solves `−A x = b` for the symmetric matrix with these entries, in place.
-fn solve_negative(
-    pattern: &Pattern,
-    cholesky: &mut Cholesky,
-    entries: &[(u32, u32, f64)],
-    x: &mut [f64],
-) -> Result<()> {
-    let mut values = vec![0.0; pattern.entries()];
-    for &(i, j, value) in entries.iter().filter(|(i, j, _)| i >= j) {
-        if let Some(k) = pattern.position(i as usize, j as usize) {
-            values[k] -= value;
-        }
-    }
-    let failed = |_| Error::Factorisation {
-        size: pattern.size(),
-        message: "not positive definite: an edge holds nothing".into(),
-    };
-    cholesky.factor(Symmetric { pattern, values: &values }).map_err(failed)?;
-    cholesky.solve(x);
-    Ok(())
 }

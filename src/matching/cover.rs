@@ -145,7 +145,11 @@ impl Placed {
         };
         let point = |v: VertexId| {
             let corner = on_input.corner_index[cover.own(v)] as usize;
-            Placed::frame(cover.space, layout.points[on_input.points[corner] as usize])
+            let k = on_input.points[corner] as usize;
+            match cover.space {
+                Space::S2 => Placed::frame(cover.space, layout.points[k]),
+                space => Motion::to_origin(space, layout.precise_point(k)).inverse(),
+            }
         };
         let at = PerVertex::from_fn(cover.mesh.n_vertices(), point);
         Ok(Placed { cover, at })
@@ -175,8 +179,13 @@ impl Placed {
         self.cover.corner(h).map_or(frame, |motion| motion.compose(&frame))
     }
 
+    /// The frames at the corners of a face in the opened surface.
+    pub fn face(&self, f: FaceId) -> [Motion<Twofold>; 3] {
+        self.cover.mesh.face_halfedges(f).map(|h| self.frame_at(h))
+    }
+
     /// The corners of a face in the opened surface.
-    pub fn face(&self, f: FaceId) -> [Precise; 3] {
+    pub fn corners(&self, f: FaceId) -> [Precise; 3] {
         self.cover.mesh.face_halfedges(f).map(|h| self.corner(h))
     }
 
@@ -186,9 +195,9 @@ impl Placed {
         let mut all = vec![[0.0; 2]; mesh.n_halfedges()];
         parallel::fill(&mut all, |h| {
             let h = HalfedgeId::from(h);
-            let tip = self.at[mesh.tip(h)].origin();
-            let tip = self.cover.along(h).map_or(tip, |motion| motion.apply(tip));
-            logarithm(self.cover.space, self.at[mesh.origin(h)].inverse().apply(tip))
+            let tip = self.at[mesh.tip(h)];
+            let tip = self.cover.along(h).map_or(tip, |motion| motion.compose(&tip));
+            logarithm(self.cover.space, seen_from(&self.at[mesh.origin(h)], &tip))
         });
         all.into()
     }
@@ -199,11 +208,17 @@ impl Placed {
         let mut kept = vec![false; mesh.n_faces()];
         parallel::fill(&mut kept, |f| {
             let f = FaceId::from(f);
-            let home = self.frame_at(mesh.face_halfedge(f)).inverse();
-            f64::from(determinant(self.face(f).map(|p| home.apply(p)))) > 0.0
+            let corners = self.face(f);
+            f64::from(determinant(corners.map(|corner| seen_from(&corners[0], &corner)))) > 0.0
         });
         mesh.faces().filter(|f| !kept[f.index()]).collect()
     }
+}
+
+/// The point of one frame in another one. At the distance d from the origin of H² it loses a factor e^d of the digits; coordinates of the point
+/// itself, carried back, would lose e^{2d}.
+pub(super) fn seen_from(home: &Motion<Twofold>, frame: &Motion<Twofold>) -> Precise {
+    home.inverse().compose(frame).origin()
 }
 
 /// `det(p, q, r)`: positive for a counterclockwise triangle.
@@ -224,8 +239,11 @@ pub(super) fn logarithm(space: Space, [x, y, w]: Precise) -> [f64; 2] {
     if far > 0.0 { [x, y].map(|c| c * (length / far)) } else { [0.0; 2] }
 }
 
+/// Steps to an axis: the first one leads there but for rounding.
+const AXIS_STEPS: usize = 3;
+
 /// The rotation about the origin that brings the x axis to a direction.
-fn turn_to(space: Space, [x, y]: [f64; 2]) -> Motion<Twofold> {
+pub(super) fn turn_to(space: Space, [x, y]: [f64; 2]) -> Motion<Twofold> {
     let half = 0.5 * y.atan2(x);
     Motion::rotation([half.cos(), half.sin()], space).precise()
 }
@@ -235,6 +253,26 @@ pub(super) fn aimed(space: Space, [from, to]: [Precise; 2]) -> (Motion<Twofold>,
     let frame = Motion::to_origin(space, from).inverse();
     let ahead = logarithm(space, frame.inverse().apply(to));
     (frame.compose(&turn_to(space, ahead)), ahead[0].hypot(ahead[1]))
+}
+
+/// The frame on the axis of a translation of H² that is nearest to another frame, its x axis along the axis.
+pub(super) fn on_axis(translation: &Motion<Twofold>, near: &Motion<Twofold>) -> Motion<Twofold> {
+    // Seen from a point at the distance d from the axis, Im a is ± sinh(d) sinh(l/2), and |b|² − (Im a)² is sinh²(l/2).
+    let seen = |frame: &Motion<Twofold>| {
+        let seen = translation.conjugated_by(&frame.inverse()).positive();
+        (f64::from(seen.a[1]), seen.b.map(f64::from))
+    };
+    let mut frame = *near;
+    for _ in 0..AXIS_STEPS {
+        let (turned, [x, y]) = seen(&frame);
+        let size = x.hypot(y);
+        let far = (turned / ((size - turned) * (size + turned)).max(f64::MIN_POSITIVE).sqrt()).asinh();
+        let sideways = |by: f64| moved(&frame, [-by * y / size, by * x / size]);
+        let both = [sideways(far), sideways(-far)];
+        let off = both.map(|frame| seen(&frame).0.abs());
+        frame = if off[0] <= off[1] { both[0] } else { both[1] };
+    }
+    frame.compose(&turn_to(frame.space, seen(&frame).1))
 }
 
 /// A frame moved along a vector in it, and carried along parallel.

@@ -40,7 +40,8 @@ pub struct Matching {
     pub flipped: Vec<FaceId>,
     /// Faces of the target that are not counterclockwise in its own domain.
     pub target_flipped: Vec<FaceId>,
-    /// Largest distance by which a vertex lies outside the other surface's domain, as a share of the nearest triangle: rounding at the boundary.
+    /// Largest distance by which a vertex lies outside the other surface's domain, or by which two ways to it across a cut differ, as a share of the nearest
+    /// triangle: rounding.
     pub outside: f64,
     /// How the source, and the target, came into the domain.
     pub balance: [BalanceReport; 2],

@@ -1,6 +1,7 @@
 //! Images of the generators of a fundamental group, and the moves from one choice of them to others.
 
 use crate::error::{Error, Result};
+use crate::geometry::complex::mul;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::topology::Word;
 
@@ -27,7 +28,75 @@ pub(super) enum Move {
     Swap(usize),
 }
 
+/// Distance of the relator from the identity, in the entries of a motion, up to which lifts fit together.
+const CLOSED: f64 = 1e-12;
+/// Most corrections of the relator: each leaves its square, and rounding.
+const CLOSINGS: usize = 8;
+
 impl Generators {
+    /// These motions, changed as little as their relator asks for to be the identity; `None` where they are so long that it stays off by more than
+    /// [`CLOSED`].
+    ///
+    /// The metric that they come from has curvature 0 at its vertices up to rounding, which what lies between them and the base magnifies. Lifts of a surface
+    /// fit together only where the relator holds.
+    pub fn closed(mut self) -> Option<Generators> {
+        if self.space == Space::E2 {
+            // Translations commute.
+            for motion in &mut self.motions {
+                *motion = Motion { b: mul(motion.a, motion.b), ..Motion::identity(self.space) };
+            }
+            return Some(self);
+        }
+        for _ in 0..CLOSINGS {
+            let (rest, mut rows) = self.relator();
+            let Some(step) = least_solution(&mut rows, rest.map(|x| -x)) else { break };
+            let mut next = self.clone();
+            for (motion, by) in next.motions.iter_mut().zip(step.chunks_exact(3)) {
+                let by = Motion { space: self.space, a: [1.0.into(), by[0]], b: [by[1], by[2]] };
+                *motion = motion.compose(&by.normalised()).normalised();
+            }
+            // As long as it comes nearer.
+            if size(next.relator().0) >= size(rest) {
+                break;
+            }
+            self.motions = next.motions;
+        }
+        (size(self.relator().0) <= CLOSED).then_some(self)
+    }
+
+    /// How far the relator is from the identity, Im a and b, and the derivative of these by the same numbers of small motions that act before each
+    /// generator, by rows.
+    fn relator(&self) -> ([Twofold; 3], [Vec<Twofold>; 3]) {
+        let mut letters = Vec::new();
+        for k in 0..self.genus {
+            let [a, b] = [2 * k, 2 * k + 1];
+            letters.extend([(a, false), (b, false), (a, true), (b, true)]);
+        }
+        letters.extend((2 * self.genus..self.motions.len()).map(|c| (c, false)));
+        let zero = Twofold::default();
+        let mut rows: [Vec<Twofold>; 3] = std::array::from_fn(|_| vec![zero; 3 * self.motions.len()]);
+        let mut product = Motion::identity(self.space);
+        for (k, is_inverse) in letters {
+            let motion = self.motions[k];
+            // (m e^ξ)⁻¹ = e^{−ξ} m⁻¹
+            let (before, next) = match is_inverse {
+                false => (product.compose(&motion), product.compose(&motion)),
+                true => (product, product.compose(&motion.inverse())),
+            };
+            for j in 0..3 {
+                let one = |i: usize| Twofold::from(f64::from(u8::from(i == j)));
+                let unit = Motion { space: self.space, a: [zero, one(0)], b: [one(1), one(2)] };
+                let moved = before.compose(&unit).compose(&before.inverse());
+                for (row, value) in rows.iter_mut().zip([moved.a[1], moved.b[0], moved.b[1]]) {
+                    row[3 * k + j] = if is_inverse { row[3 * k + j] - value } else { row[3 * k + j] + value };
+                }
+            }
+            product = next;
+        }
+        let rest = product.positive();
+        ([rest.a[1], rest.b[0], rest.b[1]], rows)
+    }
+
     /// The motion of a word.
     ///
     /// # Errors
@@ -108,6 +177,34 @@ impl Generators {
         }
         self
     }
+}
+
+fn size(rest: [Twofold; 3]) -> f64 {
+    rest.iter().map(|x| f64::from(*x).abs()).fold(0.0, f64::max)
+}
+
+/// The shortest solution of three equations, by orthogonalising their rows; `None` for rows that depend on each other.
+fn least_solution(rows: &mut [Vec<Twofold>; 3], mut side: [Twofold; 3]) -> Option<Vec<Twofold>> {
+    let dot =
+        |a: &[Twofold], b: &[Twofold]| a.iter().zip(b).fold(Twofold::default(), |sum, (x, y)| sum + *x * *y);
+    let n = rows[0].len();
+    let mut solution = vec![Twofold::default(); n];
+    for k in 0..3 {
+        let (done, rest) = rows.split_at_mut(k);
+        for (row, known) in done.iter().zip(side) {
+            let along = dot(row, &rest[0]);
+            rest[0].iter_mut().zip(row).for_each(|(x, y)| *x = *x - along * *y);
+            side[k] = side[k] - along * known;
+        }
+        let length = dot(&rest[0], &rest[0]).sqrt();
+        if !(f64::from(length) > 0.0 && f64::from(length).is_finite()) {
+            return None;
+        }
+        rest[0].iter_mut().for_each(|x| *x = *x / length);
+        side[k] = side[k] / length;
+        solution.iter_mut().zip(&rest[0]).for_each(|(x, y)| *x = *x + side[k] * *y);
+    }
+    Some(solution)
 }
 
 #[cfg(test)]

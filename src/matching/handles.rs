@@ -5,20 +5,21 @@
 
 use super::balance::{Freedom, Relaxed, relax, settle};
 use super::canonical::canonical_metric;
-use super::cover::{Cover, Placed, aimed, logarithm, moved};
+use super::cover::{Cover, Placed, logarithm, moved, on_axis, seen_from};
 use super::generators::Generators;
-use super::options::MatchOptions;
+use super::options::{Boundary, MatchOptions};
 use super::orbifold::Pair;
 use super::route::Marks;
 use super::walk::Seed;
 use super::weights::mean_value_weights;
 use crate::control::Control;
-use crate::embed::{Layout, UnrollOptions, unroll};
+use crate::embed::{UnrollOptions, unroll};
 use crate::error::{Error, Result};
 use crate::geometry::{Motion, Space, Twofold};
-use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex, VertexId};
+use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use crate::metric::Surface;
 use crate::topology::{CutGraph, FundamentalDomain, HomotopyBasis, crossed_halfedges, homotopy_basis};
+use std::sync::Arc;
 
 /// Most maps whose energies are compared.
 const MOST_TRIED: usize = 60;
@@ -31,9 +32,10 @@ const UNTWISTED: f64 = 1.05;
 struct Own {
     basis: HomotopyBasis,
     placed: Placed,
-    layout: Layout,
     domain: FundamentalDomain,
     weights: PerHalfedge<f64>,
+    /// The generators of its deck group, with the lines of its boundary, in its own order.
+    generators: Generators,
     iterations: usize,
 }
 
@@ -59,19 +61,20 @@ pub(super) fn with_handles(
     let space = if flat { Space::E2 } else { Space::H2 };
     let own =
         |s: usize| in_own_metric(surfaces[s], marks[s].landmarks.first().copied(), space, options, control);
-    let [source, target] = [own(0)?, own(1)?];
-    let generators = generators(&target, surfaces[1])?;
-    let generators = generators.reordered(&loop_order(surfaces, marks, [&source, &target]));
-    let search = Search { surfaces, source: &source, target: &target };
+    let (source, target) = rayon::join(|| own(0), || own(1));
+    let (source, target) = (source?, target?);
+    let generators = target.generators.clone().reordered(&loop_order(surfaces, marks, [&source, &target]));
+    let search = Search { surfaces, source: &source, target: &target, boundary: options.boundary };
     let freedom = [0, 1].map(|s| search.freedom(s, space));
     let mut domain = target.placed.clone();
-    search.straighten(&mut domain, &generators)?;
+    search.straighten(&mut domain)?;
     let second = relax(&mut domain, &target.weights, &freedom[1], control)?;
     let (mut image, first, tried) = search.least(generators, (&freedom[0], second.1), control)?;
-    let reports = [
-        settle(&mut image, &source.weights, &freedom[0], first, control)?,
-        settle(&mut domain, &target.weights, &freedom[1], second, control)?,
-    ];
+    let (first, second) = rayon::join(
+        || settle(&mut image, &source.weights, &freedom[0], first, control),
+        || settle(&mut domain, &target.weights, &freedom[1], second, control),
+    );
+    let reports = [first?, second?];
     let seed =
         |from: &Own, to: &Own| Seed { vertex: from.basis.base, near: to.placed.cover.own(to.basis.base) };
     let seeds = [seed(&source, &target), seed(&target, &source)];
@@ -102,31 +105,60 @@ fn in_own_metric(
     let layout = unroll(&metric, &unrolling, control)?;
     let pairings: Vec<_> = layout.seams.iter().map(|seam| seam.pairing).collect();
     let cover = Cover::along_cut(mesh, space, (&cut, &pairings), &[domain.base_corner])?;
-    let placed = Placed::of_layout(cover, &layout)?;
+    let mut placed = Placed::of_layout(cover, &layout)?;
+    let mut generators = generators(&basis, &domain, &placed, mesh)?;
+    if let Some(closed) = generators.clone().closed() {
+        placed.cover = cover_by_words(mesh, (&basis, &domain), &closed)?;
+        generators = closed;
+    }
+    lay_lines(&mut generators, &basis, &placed, mesh)?;
     let weights = mean_value_weights(&placed, surface);
-    Ok(Own { basis, placed, layout, domain, weights, iterations })
+    Ok(Own { basis, placed, domain, weights, generators, iterations })
 }
 
-/// The target's own generators as motions, and the lines of its boundary.
-fn generators(target: &Own, surface: &Surface) -> Result<Generators> {
-    let (mesh, space) = (surface.mesh(), target.layout.space);
-    let cover = &target.placed.cover;
-    let motion = |path: &Vec<HalfedgeId>| {
-        let crossed = crossed_halfedges(mesh, target.domain.base_corner, path)?;
-        let through = crossed.into_iter().filter_map(|h| cover.across(h));
-        Ok(through.fold(Motion::identity(space), |all, step| all.compose(step)).normalised())
-    };
-    let motions: Vec<Motion<Twofold>> = target.basis.loops.iter().map(motion).collect::<Result<_>>()?;
-    let mut all = Generators { space, genus: target.basis.group.genus, motions, lines: Vec::new() };
-    for (j, &rim) in target.basis.rims.iter().enumerate() {
-        let start = mesh.tip(rim);
-        let word = target.basis.corner_word(cover.own(start));
-        let tree = all.motion(&word)?.inverse();
-        let from = tree.apply(target.placed.at[start].origin());
-        let to = all.motions[2 * all.genus + j].apply(from);
-        all.lines.push(aimed(space, [from, to]).0);
+/// The cover of a surface that is opened along the cut of its homotopy basis, letters going to these motions.
+fn cover_by_words(
+    mesh: &Arc<Mesh>,
+    (basis, domain): (&HomotopyBasis, &FundamentalDomain),
+    generators: &Generators,
+) -> Result<Cover> {
+    let mut words: Vec<Option<Motion<Twofold>>> = vec![None; mesh.n_halfedges()];
+    for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
+        let word = basis.transition(mesh, h);
+        if !word.is_empty() {
+            words[h.index()] = Some(generators.motion(&word)?);
+        }
     }
-    Ok(all)
+    Cover::new(mesh, generators.space, |h| words[h.index()], &[domain.base_corner])
+}
+
+/// A surface's own generators as motions, without lines.
+fn generators(
+    basis: &HomotopyBasis,
+    domain: &FundamentalDomain,
+    placed: &Placed,
+    mesh: &Mesh,
+) -> Result<Generators> {
+    let cover = &placed.cover;
+    let motion = |path: &Vec<HalfedgeId>| {
+        let crossed = crossed_halfedges(mesh, domain.base_corner, path)?;
+        let through = crossed.into_iter().filter_map(|h| cover.across(h));
+        Ok(through.fold(Motion::identity(cover.space), |all, step| all.compose(step)).normalised())
+    };
+    let motions: Vec<Motion<Twofold>> = basis.loops.iter().map(motion).collect::<Result<_>>()?;
+    Ok(Generators { space: cover.space, genus: basis.group.genus, motions, lines: Vec::new() })
+}
+
+/// The lines of the boundary: the axes of its generators.
+fn lay_lines(generators: &mut Generators, basis: &HomotopyBasis, placed: &Placed, mesh: &Mesh) -> Result<()> {
+    for (j, &rim) in basis.rims.iter().enumerate() {
+        let start = mesh.tip(rim);
+        let tree = generators.motion(&basis.corner_word(placed.cover.own(start)))?.inverse();
+        let along = &generators.motions[2 * generators.genus + j];
+        let line = on_axis(along, &tree.compose(&placed.at[start]));
+        generators.lines.push(line);
+    }
+    Ok(())
 }
 
 /// For each letter of the source's boundary the number of the target's letter whose loop it goes to.
@@ -143,6 +175,7 @@ struct Search<'a> {
     surfaces: [&'a Surface; 2],
     source: &'a Own,
     target: &'a Own,
+    boundary: Boundary,
 }
 
 impl Search<'_> {
@@ -151,7 +184,7 @@ impl Search<'_> {
     }
 
     fn freedom(&self, s: usize, space: Space) -> PerVertex<Freedom> {
-        let mut freedom = Freedom::of(self.surfaces[s].mesh());
+        let mut freedom = Freedom::of(self.surfaces[s].mesh(), self.boundary);
         // A flat torus can be shifted: the base is held.
         if space == Space::E2 {
             freedom[self.own(s).basis.base] = Freedom::Held;
@@ -159,37 +192,43 @@ impl Search<'_> {
         freedom
     }
 
-    /// The boundary loops of a surface as they are run through from the tips of their rims, each vertex with the share of the length before it.
-    fn loops(&self, s: usize) -> Vec<Vec<(VertexId, f64)>> {
-        let (mesh, lengths) = (self.surfaces[s].mesh(), self.surfaces[s].lengths());
-        let around = |&rim: &HalfedgeId| {
-            let mut path = mesh.boundary_from(rim);
+    /// The boundary loops of a surface as they are run through from the tips of their rims, each vertex with where it lies along its line: in the
+    /// surface's own metric, or by the share of the length.
+    fn loops(&self, s: usize) -> Result<Vec<Vec<(VertexId, f64)>>> {
+        let (mesh, Own { basis, placed, .. }, own) =
+            (self.surfaces[s].mesh(), self.own(s), &self.own(s).generators);
+        let mut all = Vec::with_capacity(basis.rims.len());
+        for (rim, line) in basis.rims.iter().zip(&own.lines) {
+            let mut path = mesh.boundary_from(*rim);
             if !path.is_empty() {
                 path.rotate_left(1);
             }
+            let lengths = self.surfaces[s].lengths();
             let total: f64 = path.iter().map(|h| lengths[h.edge()]).sum();
-            let mut before = 0.0;
-            let place = |h: HalfedgeId| {
+            let (around, mut before) = (own.motions[2 * own.genus + all.len()].translation_length(), 0.0);
+            let along = |h: HalfedgeId| {
+                let v = mesh.origin(h);
                 let share = before / total;
                 before += lengths[h.edge()];
-                (mesh.origin(h), share)
+                if self.boundary == Boundary::ArcLength {
+                    return Ok((v, share * around));
+                }
+                let line = own.motion(&basis.corner_word(placed.cover.own(v)))?.compose(line);
+                let [x, _] = logarithm(own.space, seen_from(&line, &placed.at[v]));
+                Ok((v, x))
             };
-            path.into_iter().map(place).collect()
-        };
-        self.own(s).basis.rims.iter().map(around).collect()
+            all.push(path.into_iter().map(along).collect::<Result<_>>()?);
+        }
+        Ok(all)
     }
 
     /// Puts the target's boundary exactly on its lines, with frames along them.
-    fn straighten(&self, placed: &mut Placed, generators: &Generators) -> Result<()> {
-        let (basis, space) = (&self.target.basis, generators.space);
-        // Lines of the target's own letters, before they took the source's order.
-        let own = self::generators(self.target, self.surfaces[1])?;
-        for (j, around) in self.loops(1).into_iter().enumerate() {
-            for (v, _) in around {
+    fn straighten(&self, placed: &mut Placed) -> Result<()> {
+        let (basis, own) = (&self.target.basis, &self.target.generators);
+        for (line, around) in own.lines.iter().zip(self.loops(1)?) {
+            for (v, x) in around {
                 let corner = own.motion(&basis.corner_word(placed.cover.own(v)))?;
-                let line = corner.compose(&own.lines[j]);
-                let [x, _] = logarithm(space, line.inverse().apply(placed.at[v].origin()));
-                placed.at[v] = moved(&line, [x, 0.0]);
+                placed.at[v] = moved(&corner.compose(line), [x, 0.0]);
             }
         }
         Ok(())
@@ -203,14 +242,7 @@ impl Search<'_> {
         control: &Control,
     ) -> Result<(Placed, Relaxed)> {
         let (mesh, basis, space) = (self.surfaces[0].mesh(), &self.source.basis, generators.space);
-        let mut words: Vec<Option<Motion<Twofold>>> = vec![None; mesh.n_halfedges()];
-        for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
-            let word = basis.transition(mesh, h);
-            if !word.is_empty() {
-                words[h.index()] = Some(generators.motion(&word)?);
-            }
-        }
-        let cover = Cover::new(mesh, space, |h| words[h.index()], &[self.source.domain.base_corner])?;
+        let cover = cover_by_words(mesh, (basis, &self.source.domain), generators)?;
         // Positions of the source's own metric, its base where the target's is: a place to start from.
         let home = self.target.placed.at[self.target.basis.base]
             .compose(&self.source.placed.at[basis.base].inverse());
@@ -218,11 +250,12 @@ impl Search<'_> {
             home.compose(&self.source.placed.at[v]).normalised()
         });
         let mut placed = Placed { cover, at };
-        for (j, around) in self.loops(0).into_iter().enumerate() {
-            let length = generators.motions[2 * generators.genus + j].translation_length();
-            for (v, share) in around {
+        for (j, around) in self.loops(0)?.into_iter().enumerate() {
+            let length = |all: &Generators| all.motions[2 * all.genus + j].translation_length();
+            let longer = length(generators) / length(&self.source.generators).max(f64::MIN_POSITIVE);
+            for (v, x) in around {
                 let corner = generators.motion(&basis.corner_word(placed.cover.own(v)))?;
-                placed.at[v] = moved(&corner.compose(&generators.lines[j]), [share * length, 0.0]);
+                placed.at[v] = moved(&corner.compose(&generators.lines[j]), [longer * x, 0.0]);
             }
         }
         if space == Space::E2 {
@@ -248,7 +281,12 @@ impl Search<'_> {
                 }
                 let next = generators.moved(by);
                 tried += 1;
-                let (image, after) = self.image(&next, freedom, control)?;
+                let (image, after) = match self.image(&next, freedom, control) {
+                    Ok(image) => image,
+                    Err(Error::Cancelled) => return Err(Error::Cancelled),
+                    // Of this class there is nothing to compare.
+                    Err(_) => continue,
+                };
                 log::debug!("{by:?}: energy {} after {}", after.1, energy.1);
                 if after.1 < (1.0 - LOWER) * energy.1 {
                     (best, energy, generators) = (image, after, next);

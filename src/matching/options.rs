@@ -4,11 +4,23 @@ use super::soft::SoftLandmark;
 use crate::flow::Options;
 use crate::mesh::{Place, VertexId};
 
+/// How the boundaries of two surfaces go to each other, between vertices on them that are landmarks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Boundary {
+    /// They slide along each other until the map is harmonic up to the boundary too.
+    #[default]
+    Slides,
+    /// By the share of the length from landmark to landmark. Where a loop has none it is counted from a corner that is found (of a disk), or from where the first
+    /// of the paths that mark the map ends. In H² it holds at the vertices of both boundaries up to the difference between lengths and barycentric coordinates within
+    /// one edge.
+    ArcLength,
+}
+
 /// Options of [`super::match_surfaces`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MatchOptions {
     /// Pairs of vertices, of the source and of the target, that correspond: the map brings the one to the other. Both lie inside, or both on
-    /// boundaries. Between those on boundaries these slide along each other. On every surface there may be any number of them; on those with handles
+    /// boundaries. On every surface there may be any number of them; on those with handles
     /// each goes to its partner by a short way from where the map without landmarks has it, which chooses the class.
     pub landmarks: Vec<[VertexId; 2]>,
     /// Pairs of points, of the source and of the target, that correspond as landmarks do: inside faces, on edges or at vertices.
@@ -21,6 +33,8 @@ pub struct MatchOptions {
     /// Which boundary loop of the target each of the source's goes to, by their places in [`crate::mesh::Mesh::boundary_loops`]. Default: the
     /// longest to the longest, and so on.
     pub loops: Option<Vec<usize>>,
+    /// How boundaries correspond.
+    pub boundary: Boundary,
     /// Tolerance, steps and threads of the flows to the canonical metrics.
     pub flow: Options,
 }

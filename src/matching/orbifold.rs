@@ -6,8 +6,8 @@
 
 use super::balance::{BalanceReport, Freedom, Relaxed, relax, settle};
 use super::canonical::canonical_metric;
-use super::cover::{Cover, Placed, aimed, moved};
-use super::options::MatchOptions;
+use super::cover::{Cover, Placed, aimed, logarithm, moved, seen_from};
+use super::options::{Boundary, MatchOptions};
 use super::route::Marks;
 use super::tree::{Tree, distances, trees};
 use super::walk::Seed;
@@ -68,6 +68,7 @@ struct Problem<'a> {
     surfaces: [&'a Surface; 2],
     marks: [&'a Marks; 2],
     shape: Shape,
+    boundary: Boundary,
     threads: usize,
 }
 
@@ -123,15 +124,18 @@ pub(super) fn in_orbifold(
             "{loops} loops, {landmarks} landmarks and {corners} corners admit no flat or hyperbolic metric"
         )));
     };
-    let problem = Problem { surfaces, marks, shape, threads: options.flow.threads };
+    let (boundary, threads) = (options.boundary, options.flow.threads);
+    let problem = Problem { surfaces, marks, shape, boundary, threads };
     let canonical = |s: usize| canonical(surfaces[s], marks[s], shape, options, control);
-    let metrics = [canonical(0)?, canonical(1)?];
+    let (first, second) = rayon::join(|| canonical(0), || canonical(1));
+    let metrics = [first?, second?];
     let (mut marked, markings) = best_marking(problem, &metrics, control)?;
     let Marked { image, domain, weights, freedom, relaxed, .. } = &mut marked;
-    let reports = [
-        settle(image, &weights[0], &freedom[0], relaxed[0], control)?,
-        settle(domain, &weights[1], &freedom[1], relaxed[1], control)?,
-    ];
+    let (first, second) = rayon::join(
+        || settle(image, &weights[0], &freedom[0], relaxed[0], control),
+        || settle(domain, &weights[1], &freedom[1], relaxed[1], control),
+    );
+    let reports = [first?, second?];
     let start = |s: usize| -> Option<(VertexId, HalfedgeId)> {
         let tree = &marked.trees[s];
         let h = *tree.landmark_corners.first().or_else(|| tree.arcs.first()?.first())?;
@@ -191,23 +195,30 @@ fn marking(
     trees: [Tree; 2],
     control: &Control,
 ) -> Result<Marked> {
-    let Problem { surfaces, marks, shape, .. } = problem;
+    let Problem { surfaces, marks, .. } = problem;
     let own = |s: usize| opened(problem, s, &trees[s], &metrics[s], control);
-    let [source, target] = [own(0)?, own(1)?];
+    let (source, target) = rayon::join(|| own(0), || own(1));
+    let (source, target) = (source?, target?);
     let weights =
         [mean_value_weights(&source.placed, surfaces[0]), mean_value_weights(&target.placed, surfaces[1])];
-    let lines = lines(&target.placed, &trees[1]);
-    let freedom = [0, 1].map(|s| freedom(surfaces[s], marks[s], &trees[s], shape));
+    let lines = [lines(&source.placed, &trees[0]), lines(&target.placed, &trees[1])];
+    let freedom = [0, 1].map(|s| freedom(problem, s, &trees[s]));
     let mut domain = target.placed.clone();
-    slide(&mut domain, surfaces[1], &trees[1], &lines);
-    let second = relax(&mut domain, &weights[1], &freedom[1], control)?;
+    let along = [0, 1].map(|s| match problem.boundary {
+        Boundary::Slides => own_shares([&source, &target][s], &trees[s], &lines[s], &lines[1]),
+        Boundary::ArcLength => length_shares(surfaces[s], marks[s], &trees[s], &lines[1]),
+    });
+    slide(&mut domain, &trees[1], &lines[1], &along[1]);
     let mut image = brought(surfaces[0], &source.placed, &target, [&trees[0], &trees[1]])?;
     for (&from, &to) in marks[0].landmarks.iter().zip(&marks[1].landmarks) {
         image.at[from] = target.placed.at[to];
     }
-    slide(&mut image, surfaces[0], &trees[0], &lines);
-    let first = relax(&mut image, &weights[0], &freedom[0], control)?;
-    Ok(Marked { trees, domain, image, weights, freedom, relaxed: [first, second] })
+    slide(&mut image, &trees[0], &lines[1], &along[0]);
+    let (first, second) = rayon::join(
+        || relax(&mut image, &weights[0], &freedom[0], control),
+        || relax(&mut domain, &weights[1], &freedom[1], control),
+    );
+    Ok(Marked { trees, domain, image, weights, freedom, relaxed: [first?, second?] })
 }
 
 /// The metric with cones at the landmarks and straight boundaries between corners.
@@ -271,8 +282,11 @@ fn brought(surface: &Surface, source: &Placed, target: &Own, trees: [&Tree; 2]) 
     Ok(Placed { cover, at })
 }
 
+/// The frame at the start of an arc of the boundary, with the x axis along it, and the arc's length.
+type Line = (Motion<Twofold>, f64);
+
 /// The straight line of each arc of the boundary: the frame at its start, with the x axis along it, and its length.
-fn lines(target: &Placed, tree: &Tree) -> Vec<(Motion<Twofold>, f64)> {
+fn lines(target: &Placed, tree: &Tree) -> Vec<Line> {
     let space = target.cover.space;
     let line = |arc: &Vec<HalfedgeId>| {
         let ends = arc
@@ -284,22 +298,69 @@ fn lines(target: &Placed, tree: &Tree) -> Vec<(Motion<Twofold>, f64)> {
     tree.arcs.iter().map(line).collect()
 }
 
-/// Puts the vertices of the boundary on the lines of their arcs, by their share of the arc's length in the surface as it came.
-fn slide(placed: &mut Placed, surface: &Surface, tree: &Tree, lines: &[(Motion<Twofold>, f64)]) {
+/// Where the vertices of each arc go on its line in the target: by their share of the arc's length where the surface lies in its own metric.
+fn own_shares(own: &Own, tree: &Tree, lines: &[Line], target: &[Line]) -> Vec<Vec<f64>> {
+    let space = own.placed.cover.space;
+    let of = |((arc, (start, length)), to): ((&Vec<HalfedgeId>, &Line), &Line)| {
+        let longer = to.1 / length.max(f64::MIN_POSITIVE);
+        let along = |h: &HalfedgeId| {
+            let [x, _] = logarithm(space, seen_from(start, &own.placed.frame_at(*h)));
+            longer * x
+        };
+        let mut all: Vec<f64> = arc.iter().map(along).collect();
+        all.iter_mut().take(1).for_each(|x| *x = 0.0);
+        all
+    };
+    tree.arcs.iter().zip(lines).zip(target).map(of).collect()
+}
+
+/// The same by shares of the length in the surface as it came: from corner to corner, around a loop without any from the start of its first arc.
+fn length_shares(surface: &Surface, marks: &Marks, tree: &Tree, lines: &[Line]) -> Vec<Vec<f64>> {
     let (mesh, lengths) = (surface.mesh(), surface.lengths());
-    for (arc, (frame, length)) in tree.arcs.iter().zip(lines) {
-        let total: f64 = arc.iter().map(|h| lengths[h.edge()]).sum();
-        let mut before = 0.0;
-        for &h in arc {
-            placed.at[mesh.origin(h)] = moved(frame, [length * (before / total), 0.0]);
-            before += lengths[h.edge()];
+    let start = |k: usize| tree.arcs[k].first().map(|&h| mesh.origin(h));
+    let after = |k: usize| {
+        let end = tree.arcs[k].last().map(|&h| mesh.tip(h));
+        (0..tree.arcs.len()).find(|&j| start(j) == end)
+    };
+    let is_corner = |k: usize| start(k).is_some_and(|v| marks.corners.contains(&v));
+    let mut shares: Vec<Vec<f64>> = vec![Vec::new(); tree.arcs.len()];
+    let (corners, others): (Vec<usize>, Vec<usize>) = (0..tree.arcs.len()).partition(|&k| is_corner(k));
+    for first in corners.into_iter().chain(others) {
+        if !shares[first].is_empty() {
+            continue;
+        }
+        let mut side = vec![first];
+        while let Some(next) = side.last().and_then(|&k| after(k)).filter(|&k| k != first && !is_corner(k)) {
+            side.push(next);
+        }
+        let total: f64 = side.iter().flat_map(|&k| &tree.arcs[k]).map(|h| lengths[h.edge()]).sum();
+        let length: f64 = side.iter().map(|&k| lines[k].1).sum();
+        let (mut before, mut start) = (0.0, 0.0);
+        for k in side {
+            for h in &tree.arcs[k] {
+                shares[k].push(length * (before / total) - start);
+                before += lengths[h.edge()];
+            }
+            start += lines[k].1;
+        }
+    }
+    shares
+}
+
+/// Puts the vertices of each arc on its line, so far from its start.
+fn slide(placed: &mut Placed, tree: &Tree, lines: &[Line], along: &[Vec<f64>]) {
+    for ((arc, (start, _)), along) in tree.arcs.iter().zip(lines).zip(along) {
+        for (&h, &x) in arc.iter().zip(along) {
+            let v = placed.cover.mesh.origin(h);
+            placed.at[v] = moved(start, [x, 0.0]);
         }
     }
 }
 
-fn freedom(surface: &Surface, marks: &Marks, tree: &Tree, shape: Shape) -> PerVertex<Freedom> {
-    let mesh = surface.mesh();
-    let mut freedom = Freedom::of(mesh);
+fn freedom(problem: Problem, s: usize, tree: &Tree) -> PerVertex<Freedom> {
+    let Problem { surfaces, marks, shape, boundary, .. } = problem;
+    let (mesh, marks) = (surfaces[s].mesh(), marks[s]);
+    let mut freedom = Freedom::of(mesh, boundary);
     marks.landmarks.iter().for_each(|&v| freedom[v] = Freedom::Held);
     marks.corners.iter().for_each(|&v| freedom[v] = Freedom::Held);
     // A flat annulus can turn: the end of its path is held.

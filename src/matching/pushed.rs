@@ -47,7 +47,7 @@ pub(super) fn pushed(
     let weights = [mean_value_weights(&source, surfaces[0]), mean_value_weights(&domain, surfaces[1])];
     drop(source);
     let freedom = [0, 1].map(|s| {
-        let mut freedom = Freedom::of(surfaces[s].mesh());
+        let mut freedom = Freedom::of(surfaces[s].mesh(), options.boundary);
         marks[s].landmarks.iter().chain(&marks[s].corners).for_each(|&v| freedom[v] = Freedom::Held);
         freedom
     });
@@ -203,7 +203,7 @@ impl<'a> Way<'a> {
     fn places(&self) -> PerVertex<Motion<Twofold>> {
         let mut at = PerVertex::from_fn(self.found.len(), |v: VertexId| {
             let place = self.found[v.index()].place;
-            let corners = self.new.face(place.face).map(|p| p.map(f64::from));
+            let corners = self.new.corners(place.face).map(|p| p.map(f64::from));
             let [x, y, w] = [0, 1, 2].map(|i| (0..3).map(|k| place.weights[k] * corners[k][i]).sum::<f64>());
             let size = ((w - x) * (w + x) - y * y).max(f64::MIN_POSITIVE).sqrt();
             Placed::frame(Space::H2, [x / size, y / size, w / size])

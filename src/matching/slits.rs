@@ -32,7 +32,7 @@ impl Inside {
     pub fn new(old: &Placed, face: FaceId, weights: [f64; 3]) -> Inside {
         let weights = weights.map(|w| Twofold::from(w.max(LEAST_WEIGHT)));
         let total = weights[0] + weights[1] + weights[2];
-        let corners = old.face(face);
+        let corners = old.corners(face);
         let point = [0, 1, 2].map(|i| (0..3).fold(Twofold::from(0.0), |p, k| p + weights[k] * corners[k][i]));
         Inside { face, point: point.map(|x| x / total) }
     }
@@ -86,7 +86,7 @@ impl Growing {
             n_vertices: mesh.n_vertices(),
             origin: mesh.halfedges().map(|h| mesh.origin(h).0).collect(),
             sides: mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| h.0)).collect(),
-            corners: mesh.faces().map(|f| old.face(f)).collect(),
+            corners: mesh.faces().map(|f| old.corners(f)).collect(),
             parts: HashMap::new(),
         }
     }

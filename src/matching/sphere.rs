@@ -34,7 +34,8 @@ pub(super) fn on_sphere(
     control: &Control,
 ) -> Result<Pair> {
     let own = |s: usize| in_own_sphere(surfaces[s], options, control);
-    let [(mut source, first), (target, second)] = [own(0)?, own(1)?];
+    let (source, target) = rayon::join(|| own(0), || own(1));
+    let ((mut source, first), (target, second)) = (source?, target?);
     if !marks[0].landmarks.is_empty() {
         let source = about_landmarks(surfaces, marks, [&source, &target], control)?;
         return Ok(pair([source, target], [first, second]));

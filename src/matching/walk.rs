@@ -1,14 +1,18 @@
 //! In which triangle of a placed surface the vertices of another one lie: by walks from neighbour to neighbour in the universal cover.
 
-use super::cover::{Placed, Precise, determinant};
+use super::cover::{Placed, determinant, seen_from};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::{Motion, Twofold};
-use crate::mesh::{FaceId, HalfedgeId, Place, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, Mesh, Place, VertexId};
 use std::collections::{HashSet, VecDeque};
 
 /// Share of a triangle by which a point may lie outside it and still be taken to lie in it: rounding of positions at its sides.
 const OUTSIDE: f64 = 1e-13;
+/// Share of a triangle by which a point may lie outside the nearest one where none holds it.
+const NEARLY_INSIDE: f64 = 1e-6;
+/// Difference of barycentric coordinates up to which two ways to a vertex lead to the same place.
+const FITTING: f64 = 1e-3;
 /// Vertices located between two looks at the control.
 const VERTICES_PER_LOOK: usize = 1024;
 /// Steps of a walk before all faces around are looked at; neighbours are seldom more than some dozens of faces apart.
@@ -23,11 +27,11 @@ pub(super) struct Seed {
     pub near: HalfedgeId,
 }
 
-/// Per vertex of `points` its place in `domain`, and the largest distance by which one lies outside the domain, as a share of the triangle that
-/// is nearest. Both lie in the same space over one surface, with the same deck group.
+/// Per vertex of `points` its place in `domain`, and the largest distance by which one lies outside the domain, or by which two ways to it differ, as a
+/// share of the triangle that is nearest. Both lie in the same space over one surface, with the same deck group.
 ///
 /// # Errors
-/// [`Error::Matching`] for a walk that does not end; [`Error::Cancelled`].
+/// [`Error::Matching`] for a walk that does not end and where ways to a vertex lead to different places; [`Error::Cancelled`].
 pub(super) fn locate(
     points: &Placed,
     domain: &Placed,
@@ -46,11 +50,11 @@ pub(super) fn located(
     control: &Control,
 ) -> Result<(Vec<Found>, f64)> {
     let mesh = &points.cover.mesh;
-    let walker = Walker { domain, most: MOST_STEPS };
+    let walker = Walker { domain };
     let mut found: Vec<Option<Found>> = vec![None; mesh.n_vertices()];
     let mut waiting = VecDeque::new();
     let identity = Motion::identity(points.cover.space);
-    found[seed.vertex.index()] = Some(walker.walk(seed.near, identity, points.at[seed.vertex].origin())?);
+    found[seed.vertex.index()] = Some(walker.walk(seed.near, identity, points.at[seed.vertex])?);
     waiting.push_back(seed.vertex);
     let (mut worst, mut count) = (0.0, 0);
     while let Some(v) = waiting.pop_front() {
@@ -65,15 +69,25 @@ pub(super) fn located(
             if found[to.index()].is_none() {
                 let copy =
                     points.cover.along(h).map_or(from.copy, |along| from.copy.compose(&along).normalised());
-                let point = copy.apply(points.at[to].origin());
+                let point = copy.compose(&points.at[to]);
                 found[to.index()] = Some(walker.walk(from.near, copy, point)?);
                 waiting.push_back(to);
             }
         }
     }
+    worst = crate::geometry::worse(worst, walker.disagreement(points, &found)?);
     let found: Option<Vec<Found>> = found.into_iter().collect();
     let found = found.ok_or_else(|| Error::Matching("the surface has several components".into()))?;
     Ok((found, worst))
+}
+
+/// How far the barycentric coordinates of two places are from each other: 0 for one point of the side of two faces.
+fn apart(mesh: &Mesh, first: &Place, second: &Place) -> f64 {
+    let corners = [first, second].map(|place| mesh.face_vertices(place.face));
+    let mut rest: Vec<(VertexId, f64)> = corners[0].into_iter().zip(first.weights).collect();
+    rest.extend(corners[1].into_iter().zip(second.weights.map(|w| -w)));
+    let of = |v: VertexId| rest.iter().filter(|(u, _)| *u == v).map(|(_, w)| w).sum::<f64>().abs();
+    rest.iter().map(|&(v, _)| of(v)).fold(0.0, f64::max)
 }
 
 /// Where a vertex was found.
@@ -89,15 +103,39 @@ pub(super) struct Found {
 
 struct Walker<'a> {
     domain: &'a Placed,
-    /// Most steps of a walk.
-    most: usize,
 }
 
 impl Walker<'_> {
+    /// Largest difference between where a vertex was found and where it is found from a neighbour across the cut of the points, as a share of a face: lifts of
+    /// surfaces whose domains reach far out fit together only up to rounding.
+    ///
+    /// # Errors
+    /// [`Error::Matching`] where they do not fit.
+    fn disagreement(&self, points: &Placed, found: &[Option<Found>]) -> Result<f64> {
+        let mesh = &points.cover.mesh;
+        let mut worst = 0.0;
+        for h in mesh.halfedges() {
+            let Some(along) = points.cover.along(h) else { continue };
+            let [from, to] = [mesh.origin(h), mesh.tip(h)];
+            let (Some(start), Some(end)) = (found[from.index()], found[to.index()]) else { continue };
+            let copy = start.copy.compose(&along).normalised();
+            let other = self.walk(start.near, copy, copy.compose(&points.at[to]))?;
+            let apart = apart(&self.domain.cover.mesh, &end.place, &other.place);
+            if apart > FITTING {
+                return Err(Error::Matching(format!(
+                    "vertex {to} lies in face {} and, seen from vertex {from}, in face {}: positions have too few digits so far out",
+                    end.place.face, other.place.face
+                )));
+            }
+            worst = crate::geometry::worse(worst, apart);
+        }
+        Ok(worst)
+    }
+
     /// From the face of a half-edge to the face that a point lies in; of a point beyond the boundary, to one at the boundary.
-    fn walk(&self, near: HalfedgeId, copy: Motion<Twofold>, point: Precise) -> Result<Found> {
+    fn walk(&self, near: HalfedgeId, copy: Motion<Twofold>, point: Motion<Twofold>) -> Result<Found> {
         let mut at = Stand { near, copy, point };
-        for step in 0..self.most {
+        for step in 0..MOST_STEPS {
             let parts = self.parts(&at);
             let sides = self.sides(&at);
             // Turning the order of the sides keeps walks from going in circles.
@@ -116,9 +154,11 @@ impl Walker<'_> {
         })
     }
 
-    /// The face that holds a point, looked for in all faces around, ring by ring: among thin triangles walks go in circles.
+    /// The face that holds a point, looked for in all faces around, ring by ring: among thin triangles walks go in circles. Where lifts do not quite fit together
+    /// across the cut, no face may hold it; then the one that it is nearest to.
     fn around(&self, from: Stand) -> Option<Found> {
         let mesh = &self.domain.cover.mesh;
+        let mut nearest: Option<Found> = None;
         let mut seen = HashSet::from([mesh.face(from.near)?]);
         let mut waiting = VecDeque::from([from]);
         while let Some(at) = waiting.pop_front() {
@@ -126,13 +166,18 @@ impl Walker<'_> {
             if (0..3).all(|k| !parts.is_out(k)) && parts.total > 0.0 {
                 return Some(self.found(&at, &parts));
             }
+            let found = self.found(&at, &parts);
+            let is_near = parts.total > 0.0 && found.outside < NEARLY_INSIDE;
+            if is_near && nearest.is_none_or(|nearest| found.outside < nearest.outside) {
+                nearest = Some(found);
+            }
             for h in self.sides(&at).into_iter().filter(|&h| self.goes_on(h)) {
                 if mesh.face(h.twin()).is_some_and(|f| seen.len() < MOST_AROUND && seen.insert(f)) {
                     waiting.push_back(self.across(&at, h));
                 }
             }
         }
-        None
+        nearest
     }
 
     fn goes_on(&self, h: HalfedgeId) -> bool {
@@ -147,9 +192,9 @@ impl Walker<'_> {
 
     fn parts(&self, at: &Stand) -> Parts {
         // Seen from the first corner: coordinates of small triangles then differ in all their digits.
-        let home = self.domain.frame_at(at.near).inverse();
-        let corners = self.sides(at).map(|h| home.apply(self.domain.corner(h)));
-        let point = home.apply(at.point);
+        let frames = self.sides(at).map(|h| self.domain.frame_at(h));
+        let corners = frames.map(|frame| seen_from(&frames[0], &frame));
+        let point = seen_from(&frames[0], &at.point);
         let opposite = |k: usize| f64::from(determinant([point, corners[(k + 1) % 3], corners[(k + 2) % 3]]));
         let of = [0, 1, 2].map(opposite);
         let size = of.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
@@ -162,7 +207,7 @@ impl Walker<'_> {
         match self.domain.cover.across(h) {
             Some(across) => {
                 let back = across.inverse();
-                Stand { near, copy: back.compose(&at.copy), point: back.apply(at.point) }
+                Stand { near, copy: back.compose(&at.copy), point: back.compose(&at.point) }
             }
             None => Stand { near, ..*at },
         }
@@ -181,12 +226,12 @@ impl Walker<'_> {
     }
 }
 
-/// A point seen from a face: a half-edge of that, the transformation that has brought the point's own position into the opened domain, and where it is there.
+/// A point seen from a face: a half-edge of that, the transformation that has brought the point's own position into the opened domain, and the frame at it there.
 #[derive(Clone, Copy)]
 struct Stand {
     near: HalfedgeId,
     copy: Motion<Twofold>,
-    point: Precise,
+    point: Motion<Twofold>,
 }
 
 /// A point in a face: what is opposite each corner, positive inside.

@@ -1,6 +1,6 @@
 //! Mean value weights of a triangulation in its own canonical metric: positive, and every vertex is the mean of its neighbours by them.
 
-use super::cover::{Placed, determinant, logarithm};
+use super::cover::{Placed, determinant, logarithm, seen_from};
 use crate::geometry::complex::{cross, dot};
 use crate::geometry::{Space, triangle};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, VertexId};
@@ -72,16 +72,16 @@ fn is_whole(mesh: &Mesh, v: VertexId, shapes: &[Shape]) -> bool {
 /// A face as it lies in the canonical domain.
 fn shape_in_place(placed: &Placed, f: FaceId) -> Shape {
     let space = placed.cover.space;
-    let points = placed.face(f);
+    let frames = placed.face(f);
     let (mut angles, mut lengths) = ([0.0; 3], [0.0; 3]);
     for k in 0..3 {
-        let home = crate::geometry::Motion::to_origin(space, points[k]);
-        let [ahead, behind] = [1, 2].map(|j| logarithm(space, home.apply(points[(k + j) % 3])));
+        let [ahead, behind] = [1, 2].map(|j| logarithm(space, seen_from(&frames[k], &frames[(k + j) % 3])));
         angles[k] = cross(ahead, behind).atan2(dot(ahead, behind));
         lengths[k] = ahead[0].hypot(ahead[1]);
     }
     let longest = lengths.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     lengths.iter_mut().for_each(|l| *l = l.max(LEAST_LENGTH * longest));
+    let points = frames.map(|frame| seen_from(&frames[0], &frame));
     let is_left = f64::from(determinant(points)) > 0.0 && angles.iter().all(|a| *a > 0.0);
     Shape { angles, lengths, is_left }
 }

@@ -43,3 +43,15 @@ fn no_face_folds_between_two_meshes_of_genus_2() {
     let matching = match_surfaces(&source, &target, &MatchOptions::default(), &Control::new()).unwrap();
     check_map(&matching, &source, &target);
 }
+
+#[test]
+fn surfaces_with_far_and_with_tiny_parts_go_to_themselves_by_the_identity() {
+    // Disks of H² of radius 18 and 22, a torus with a part 1e-14 of its size, a long one with thin faces.
+    for name in ["couplingdown", "airplane_27b", "cow_oded_low", "trim_star"] {
+        let Some(surface) = read(name) else { return };
+        let matching = match_surfaces(&surface, &surface, &MatchOptions::default(), &Control::new()).unwrap();
+        check_map(&matching, &surface, &surface);
+        let apart = apart(&matching, &surface);
+        assert!(apart < 1e-8, "{name}: {apart:e}");
+    }
+}

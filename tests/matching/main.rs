@@ -1,6 +1,7 @@
 //! Maps between two surfaces, by theorem.
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
+mod boundary;
 mod corpus;
 mod errors;
 mod known;

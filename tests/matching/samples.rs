@@ -37,7 +37,7 @@ pub fn matched(source: &Surface, target: &Surface, landmarks: &[u32]) -> Matchin
     match_surfaces(source, target, &options, &Control::new()).unwrap()
 }
 
-fn distance(p: Point, q: Point) -> f64 {
+pub fn distance(p: Point, q: Point) -> f64 {
     (0..3).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum::<f64>().sqrt()
 }
 
@@ -52,15 +52,15 @@ fn size(surface: &Surface) -> f64 {
     (0..3).map(|k| (ends(k)[1] - ends(k)[0]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Largest distance between the image of a vertex and where it should be, as a share of the target's size.
-pub fn off(matching: &Matching, target: &Surface, wanted: impl Fn(usize) -> Point) -> f64 {
+/// Per vertex the distance between its image and where it should be, as a share of the target's size.
+pub fn apart_from(matching: &Matching, target: &Surface, wanted: impl Fn(usize) -> Point) -> Vec<f64> {
     let places = matching.forward.places.iter().enumerate();
-    places.map(|(v, place)| distance(image(place, target), wanted(v))).fold(0.0, f64::max) / size(target)
+    places.map(|(v, place)| distance(image(place, target), wanted(v)) / size(target)).collect()
 }
 
 /// The largest distance of a vertex from the target's vertex of the same number.
 pub fn apart(matching: &Matching, target: &Surface) -> f64 {
-    off(matching, target, |v| target.positions().unwrap()[v])
+    apart_from(matching, target, |v| target.positions().unwrap()[v]).into_iter().fold(0.0, f64::max)
 }
 
 /// What a homeomorphism has to fulfil: no face folds, weights of points, and every face of either surface meets the other one.

@@ -3,6 +3,7 @@
 use crate::options::{Common, FileName, MeshArgs};
 use crate::picture::PictureArgs;
 use clap::{Args, ValueEnum};
+use ricci::matching::Boundary;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -14,7 +15,8 @@ Example: a torus onto a thicker one, and the first in the shape of the second
 
 The two surfaces have the same genus and the same number of boundary loops. The target gets its metric of constant curvature, with cones at the
 landmarks and straight boundaries, and the source goes into it by a harmonic map with positive weights, which folds no face. Of the homotopy classes that
-landmarks and loops leave open one of low energy is taken. Boundaries slide along each other between landmarks on them. Spheres without landmarks are
+landmarks and loops leave open one of low energy is taken. Boundaries slide along each other between landmarks on them, or go to each other by
+shares of their length. Spheres without landmarks are
 turned until their conformal factors fit best.
 
 Files
@@ -49,6 +51,25 @@ pub enum ShowChoice {
     Heat,
 }
 
+/// How boundaries correspond.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum BoundaryName {
+    /// They slide along each other until the map is harmonic
+    Slides,
+    /// By shares of their length
+    ArcLength,
+}
+
+impl From<BoundaryName> for Boundary {
+    fn from(name: BoundaryName) -> Boundary {
+        match name {
+            BoundaryName::Slides => Boundary::Slides,
+            BoundaryName::ArcLength => Boundary::ArcLength,
+        }
+    }
+}
+
 #[derive(Args, Serialize, Debug)]
 pub struct MatchArgs {
     #[command(flatten)]
@@ -75,6 +96,9 @@ pub struct MatchArgs {
     #[arg(long, value_name = "K,K,…", value_delimiter = ',')]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub loops: Vec<usize>,
+    /// How boundaries correspond between landmarks on them
+    #[arg(long, value_enum, default_value = "slides")]
+    pub boundary: BoundaryName,
     /// Vertices with the same number correspond: the report says how far from its partner each comes to lie
     #[arg(long)]
     pub same_numbering: bool,

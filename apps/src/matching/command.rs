@@ -45,6 +45,7 @@ pub fn execute(args: &MatchArgs, control: &Control) -> Result<Done<Found>, Failu
         soft: args.soft.as_deref().map_or(Ok(Vec::new()), |path| marks::read_soft(path, meshes))?,
         curves: args.curves.as_deref().map_or(Ok(Vec::new()), |path| marks::read_curves(path, meshes))?,
         loops: (!args.loops.is_empty()).then(|| args.loops.clone()),
+        boundary: args.boundary.into(),
         flow: flow::Options { threads: args.common.threads, ..flow::Options::default() },
     };
     let mut seconds = input.seconds;

@@ -79,6 +79,13 @@ int main(void) {
     INIT(options);
     options.landmarks = pairs, options.n_landmarks = 5, options.threads = 1;
     check_identity(sphere, &options);
+    INIT(options);
+    options.boundary = RICCI_MATCH_ARC_LENGTH;
+    check_identity(disk, &options);
+    options.boundary = 2;
+    FAILS(ricci_match(disk, disk, &options, NULL, &matching), RICCI_ARGUMENT, "boundaries");
+    options.boundary = RICCI_MATCH_SLIDES;
+    options.landmarks = pairs, options.n_landmarks = 5, options.threads = 1;
     FAILS(ricci_match(sphere, torus, NULL, NULL, &matching), RICCI_MATCHING, "genus");
     options.landmarks = twice, options.n_landmarks = 3;
     FAILS(ricci_match(sphere, sphere, &options, NULL, &matching), RICCI_MATCHING, "conflict");

@@ -1,0 +1,92 @@
+//! Layouts that are scaled and moved, and their points with twice the digits.
+
+use super::layout::{Layout, bounding_diagonal, distance_from_origin, flat};
+use crate::error::{Error, Result};
+use crate::geometry::motion::precise_point;
+use crate::geometry::{Motion, Space, Twofold};
+
+impl Layout {
+    /// [`Layout::points`] number k with twice the digits, as far as the layout has them: in H² rounding to doubles moves a point by
+    /// e^distance ulp.
+    pub(crate) fn precise_point(&self, k: usize) -> [Twofold; 3] {
+        let [x, y] = self.remainders.get(k).copied().unwrap_or([0.0; 2]);
+        let point = precise_point(self.space, self.points[k]);
+        if [x, y] == [0.0; 2] || self.space == Space::S2 {
+            return point;
+        }
+        let [x, y] = [point[0].plus(x), point[1].plus(y)];
+        let one = Twofold::from(1.0);
+        [x, y, if self.space == Space::H2 { (one + x * x + y * y).sqrt() } else { one }]
+    }
+
+    /// Scales a layout in E² so that its area is `area` (finite, positive); returns the factor on lengths.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for an area that is not finite and positive; [`Error::Layout`] in another space, whose curvature fixes the scale.
+    pub fn scale_to_area(&mut self, area: f64) -> Result<f64> {
+        if self.space != Space::E2 {
+            return Err(Error::Layout(format!("a layout in {} has the scale of its space", self.space)));
+        }
+        let factor = (area / self.area).sqrt();
+        if !(factor.is_finite() && factor > 0.0) {
+            let need = "the layout's area and the one asked for must be finite and positive";
+            return Err(Error::Argument { what: "area", value: area.to_string(), need });
+        }
+        self.scale_by(factor);
+        self.area = area;
+        self.find_flat();
+        Ok(factor)
+    }
+
+    /// Moves a layout in E² by an isometry.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] in another space.
+    pub fn move_by(&mut self, motion: &Motion<Twofold>) -> Result<()> {
+        if self.space != Space::E2 || motion.space != Space::E2 {
+            return Err(Error::Layout(format!("a layout in {} stays about its base", self.space)));
+        }
+        let moved = |k| motion.apply(self.precise_point(k));
+        let moved: Vec<[Twofold; 3]> = (0..self.points.len()).map(moved).collect();
+        let place = |p: &[f64; 3]| motion.apply(precise_point(Space::E2, *p)).map(f64::from);
+        self.points = self.points.iter().map(place).collect();
+        self.set_remainders(&moved);
+        self.coordinates = self.points.iter().map(|&p| flat(Space::E2, p)).collect();
+        self.seams.iter_mut().for_each(|seam| seam.pairing = seam.pairing.conjugated_by(motion));
+        self.frames.iter_mut().for_each(|frame| *frame = motion.compose(frame));
+        // Reported disagreements are relative to the diameter, which depends on the axes.
+        let diameter = bounding_diagonal(&self.coordinates);
+        self.seams.iter_mut().for_each(|seam| seam.residual *= self.diameter / diameter);
+        self.diameter = diameter;
+        self.radius = self.points.iter().map(|&p| distance_from_origin(Space::E2, p)).fold(0.0, f64::max);
+        self.find_flat();
+        Ok(())
+    }
+
+    pub(super) fn scale_by(&mut self, factor: f64) {
+        if factor == 1.0 {
+            return;
+        }
+        self.coordinates.as_flattened_mut().iter_mut().for_each(|x| *x *= factor);
+        let scaled = |k: usize| {
+            let [x, y, w] = self.precise_point(k);
+            [x * factor.into(), y * factor.into(), w]
+        };
+        let scaled: Vec<[Twofold; 3]> = (0..self.points.len()).map(scaled).collect();
+        self.points.iter_mut().for_each(|[x, y, _]| (*x, *y) = (factor * *x, factor * *y));
+        self.set_remainders(&scaled);
+        let pairings = self.seams.iter_mut().map(|seam| &mut seam.pairing);
+        pairings.chain(&mut self.frames).for_each(|m| m.b = m.b.map(|x| x * factor.into()));
+        self.disagreement *= factor;
+        self.radius *= factor;
+        self.diameter *= factor;
+        self.scale *= factor;
+        self.area *= factor * factor;
+    }
+
+    /// What the points miss of these ones.
+    fn set_remainders(&mut self, precise: &[[Twofold; 3]]) {
+        let rest = |(p, q): (&[Twofold; 3], &[f64; 3])| [0, 1].map(|k| p[k].plus(-q[k]).high);
+        self.remainders = precise.iter().zip(&self.points).map(rest).collect();
+    }
+}
