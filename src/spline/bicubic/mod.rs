@@ -18,6 +18,7 @@ mod file;
 mod fit;
 mod net;
 mod outcome;
+mod patch_quad;
 mod quad;
 mod refine;
 mod sample;

@@ -1,33 +1,10 @@
-//! The three quadrilaterals of a triangle, and their coordinates.
-//!
-//! What stands below as s and t is a function of the grid's coordinates σ and τ, s = σ (1 + 3 σ)/4 and t likewise, but along sides at a singular vertex.
-//!
-//! ```text
-//!              C₂                 Quadrilateral k has the corners C_k, the middle of side k, the centroid, and the
-//!             /  \                middle of the side before; (s, t) is (0, 0), (1, 0), (1, 1), (0, 1) there.
-//!            / 2  \
-//!          M₂--G--M₁              In u, which is the chart's coordinate from C_k on, it is the Coons patch of its sides
-//!          / 0 | 1 \
-//!        C₀----M₀---C₁                u = s a(t) + t b(s) − s t D,   a(t) from M_k to G, b(s) from M_{k−1} to G, D = u(G)
-//! ```
-//!
-//! [Coo67], and bilinear in the chart. Around a singular vertex with the total angle 2πm the surface is smooth in w = z^{1/m}: there
-//! u = w, so that the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments. Where that patch
-//! turns over or leaves the triangle, M and G are chosen nearer to the vertex ([`super::split`]); where no choice helps, the place is the bilinear one
-//! times (s + t − s t)^{m−1}: the same on all four sides.
+//! The three quadrilaterals of each triangle of a surface, those that close it around a vertex at infinity among them.
 
-use super::split::{Division, divisions, root};
-use crate::geometry::complex::{Complex, add, conj, cross, mul, norm2, scale, sub, unit};
+use super::patch_quad::{PatchQuad, dense};
+use super::split::divisions;
 use crate::spline::cap::{CapTriangle, Triangle};
 use crate::spline::patch::Parameter;
 use crate::spline::surface::Spline;
-
-/// Cells along a side of the grid on which a Coons patch is looked at.
-const CELLS: u8 = 16;
-/// Share of a triangle by which a place on its side may lie outside: rounding.
-const INSIDE: f64 = 1e-12;
-/// The grid is 1 + DENSER times denser at a corner than it would be evenly: there, between the knots of a vertex, a spline bends most.
-const DENSER: f64 = 3.0;
 
 /// A quadrilateral of a triangle of the surface.
 #[derive(Debug, Clone)]
@@ -71,98 +48,4 @@ impl Quad {
         weights[(k + 2) % 3] += 0.5 * t * (1.0 - s);
         cap.place(weights)
     }
-}
-
-/// A quadrilateral of a patch.
-#[derive(Debug, Clone)]
-pub(super) struct PatchQuad {
-    patch: u32,
-    /// Where u = 0 lies in the chart.
-    corner: Complex,
-    /// What u = 1 is in the chart: a length and a direction.
-    frame: Complex,
-    /// m.
-    turns: i32,
-    /// From the corner to the middles of the side from it and of the side to it, and to the centroid, over `frame`.
-    ends: [Complex; 2],
-    centroid: Complex,
-    /// Whether the Coons patch in w is taken: it may turn over, or leave the triangle, where that has a wide angle at a singular vertex.
-    is_coons: bool,
-}
-
-impl PatchQuad {
-    /// The quadrilateral at corner k of a patch.
-    pub fn new(spline: &Spline, (patch, k): (usize, usize), division: &Division) -> PatchQuad {
-        let knots = &spline.space().patches()[patch].knots;
-        let [a, b, c] = [0, 1, 2].map(|j| knots[(k + j) % 3][0]);
-        let (next, last) = (sub(b, a), sub(c, a));
-        let turns = division.turns[k];
-        let frame = if turns == 1 { [1.0, 0.0] } else { unit(next) };
-        let over = |z: Complex| scale(1.0 / norm2(frame), mul(z, conj(frame)));
-        let [second, third] = [1, 2].map(|j| division.centre[(k + j) % 3]);
-        let centroid = over(add(scale(second, next), scale(third, last)));
-        let (from, to) = (division.middles[k], 1.0 - division.middles[(k + 2) % 3]);
-        let ends = [over(scale(from, next)), over(scale(to, last))];
-        let quad = PatchQuad { patch: patch as u32, corner: a, frame, turns, ends, centroid, is_coons: true };
-        let is_coons = turns == 1 || quad.is_sound(from, to);
-        PatchQuad { is_coons, ..quad }
-    }
-
-    /// Whether it is the Coons patch.
-    pub fn is_coons(&self) -> bool {
-        self.is_coons
-    }
-
-    /// The place of (s, t).
-    fn place(&self, at: [f64; 2]) -> Parameter {
-        let [x, y] = add(self.corner, mul(self.frame, self.local(at)));
-        Parameter { patch: self.patch, x, y }
-    }
-
-    /// The place of (s, t) from the corner, over the frame.
-    fn local(&self, at: [f64; 2]) -> Complex {
-        let [s, t] = self.dense(at);
-        if !self.is_coons {
-            let [a, b, d] = [
-                scale(s * (1.0 - t), self.ends[0]),
-                scale(t * (1.0 - s), self.ends[1]),
-                scale(s * t, self.centroid),
-            ];
-            return scale((s + t - s * t).powi(self.turns - 1), add(add(a, b), d));
-        }
-        let towards = |end: usize, x: f64| add(self.ends[end], scale(x, sub(self.centroid, self.ends[end])));
-        let [a, b, d] = [towards(0, t), towards(1, s), self.centroid].map(|z| root(z, self.turns));
-        let u = sub(add(scale(s, a), scale(t, b)), scale(s * t, d));
-        (1..self.turns).fold(u, |z, _| mul(z, u))
-    }
-
-    /// Whether the cells of a grid are counterclockwise and in the triangle, of whose sides the quadrilateral has these shares.
-    fn is_sound(&self, from: f64, to: f64) -> bool {
-        let at = |i: u8, j: u8| self.local([i, j].map(|k| f64::from(k) / f64::from(CELLS)));
-        let [next, last] = [scale(1.0 / from, self.ends[0]), scale(1.0 / to, self.ends[1])];
-        let whole = cross(next, last);
-        let is_inside = |z: Complex| {
-            let [p, q] = [cross(z, last), cross(next, z)].map(|x| x / whole);
-            p.min(q).min(1.0 - p - q) > -INSIDE
-        };
-        let is_upright = |i: u8, j: u8| {
-            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-            cross(sub(b, a), sub(d, a)) > 0.0 && cross(sub(d, c), sub(b, c)) > 0.0
-        };
-        (0..CELLS).all(|i| (0..CELLS).all(|j| is_upright(i, j) && is_inside(at(i + 1, j + 1))))
-    }
-
-    /// The grid's coordinates in the quadrilateral. Sides at a singular vertex stay even: |w| grows along them, whose powers would be lost beside the
-    /// corner's coordinates.
-    fn dense(&self, [s, t]: [f64; 2]) -> [f64; 2] {
-        if self.turns == 1 {
-            return [dense(s), dense(t)];
-        }
-        [(1.0 - t) * s + t * dense(s), (1.0 - s) * t + s * dense(t)]
-    }
-}
-
-/// A coordinate of the grid in the quadrilateral.
-fn dense(x: f64) -> f64 {
-    x * (1.0 + DENSER * x) / (1.0 + DENSER)
 }

@@ -4,7 +4,7 @@
 //! the middle of a side lies far out, and a triangle with a wide angle at the vertex has its opposite side bent towards it: the quadrilateral at
 //! the vertex would not be convex in w. Where one is not, all sides at that vertex are divided nearer to it, at the same share of |w|.
 
-use super::quad::PatchQuad;
+use super::patch_quad::{Division, PatchQuad, root};
 use crate::geometry::complex::{Complex, add, conj, distance, mul, norm, scale, sub, unit};
 use crate::spline::hole::Hole;
 use crate::spline::space::affine;
@@ -17,17 +17,6 @@ const SHARES: [f64; 5] = [0.8, 0.7, 0.6, 0.5, 0.4];
 const ONWARD: f64 = 1.0 / 3.0;
 /// A corner is the vertex of a hole where it is nearer to it than this share of its side: rounding.
 const AT_VERTEX: f64 = 1e-6;
-
-/// How a patch is divided.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Division {
-    /// Per side its share from its first corner on at which it is divided.
-    pub middles: [f64; 3],
-    /// Barycentric weights of the corner that all three quadrilaterals have.
-    pub centre: [f64; 3],
-    /// Per corner the total angle of its vertex in turns: m of a singular vertex, otherwise 1.
-    pub turns: [i32; 3],
-}
 
 /// Without singular vertices.
 const EVEN: Division = Division { middles: [0.5; 3], centre: [1.0 / 3.0; 3], turns: [1; 3] };
@@ -104,14 +93,4 @@ fn at_vertex(spline: &Spline, (patch, k): (usize, usize), share: f64, turns: i32
     division.centre = [0.5 * far; 3];
     division.centre[k] = 1.0 - far;
     Some(division)
-}
-
-/// z^{1/m}.
-pub(super) fn root(z: Complex, turns: i32) -> Complex {
-    if turns == 1 {
-        return z;
-    }
-    let share = 1.0 / f64::from(turns);
-    let (size, angle) = (norm(z).powf(share), share * z[1].atan2(z[0]));
-    [size * angle.cos(), size * angle.sin()]
 }
