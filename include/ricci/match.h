@@ -61,8 +61,8 @@ typedef struct ricci_match_options {
     /** Number of pairs of points. */
     size_t n_points;
     /**
-     * Pairs of curves that correspond by shares of their lengths, of each pair first the vertices on the source,
-     * then those on the target: each joined to the next by an edge, closed if the last is the first.
+     * Pairs of curves that correspond by shares of their lengths, of each pair first the vertices on the
+     * source, then those on the target: each joined to the next by an edge, closed if the last is the first.
      */
     const uint32_t *curves;
     /** n_curves x 2 numbers of vertices, on the source and on the target. */
@@ -72,8 +72,8 @@ typedef struct ricci_match_options {
     /** n_soft x 2 vertices inside the source and the target: landmarks that need not be met. */
     const uint32_t *soft;
     /**
-     * n_soft weights w, not negative: a landmark goes to the share w / (1 + w) of the way from where the map without
-     * it brings it.
+     * n_soft weights w, not negative: a landmark goes to the share w / (1 + w) of the way from where the map
+     * without it brings it.
      */
     const double *soft_weights;
     /** Number of these landmarks. */
