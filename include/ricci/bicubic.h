@@ -49,7 +49,7 @@ typedef struct ricci_bicubic_options {
     double tolerance;
     /**
      * Largest angle between the normals of neighbouring patches beyond that between the spline's own. Patches
-     * are refined for it, but never to more than 64 spans along a side: see normal_jump_max. 0: half a
+     * are refined for it, but never to more than 128 spans along a side: see normal_jump_max. 0: half a
      * degree.
      */
     double angle;
@@ -113,7 +113,7 @@ typedef struct ricci_bicubic_summary {
  * Bicubic patches within a tolerance of a spline, with as many spans as that takes, up to 64 along a side.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (tolerance or angle),
- *         RICCI_SPLINE (a patch that 64 spans do not bring within the tolerance: its number, as that of a
+ *         RICCI_SPLINE (a patch that 128 spans do not bring within the tolerance: its number, as that of a
  *         face; a side of more than two patches; a spline without patches), RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param spline   the spline.

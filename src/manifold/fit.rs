@@ -109,23 +109,18 @@ pub fn fit_surface(
         let need = "at least those of the surface, which come first";
         return Err(Error::argument("vertices of the flat metric", flat.mesh.n_vertices(), need));
     }
+    let plan = Plan::new(points, options);
+    let mut grade = Grade::new(surface, flat, plan.triangles, |turns| plan.inside(turns), control)?;
+    let fills: usize = grade.turns().map(|turns| plan.coefficients(turns)).sum();
+    let most = plan.most_control_points().saturating_sub(fills);
+    let count = vertices_for(most, flat, options.degree).saturating_sub(grade.added());
     let diagonal = diagonal(points);
-    let most = options.control_points.unwrap_or(mesh.n_vertices() / 4);
-    // Of a closed surface with many triangles there are n² control points per two of these.
-    let triangles = 2 * most / (options.degree * options.degree).max(1);
-    let inside = |turns: u32| vertices_inside(options.hole, turns, (mesh.n_vertices(), triangles));
-    let mut grade = Grade::new(surface, flat, triangles, inside, control)?;
-    let coefficients =
-        |turns: u32| Fill::blank((inside(turns) as f64 / POINTS) as usize).coefficients().len();
-    let fills: usize = grade.turns().map(coefficients).sum();
-    let plan = Plan { points, options, inside: &inside, coefficients: &coefficients };
-    let count = vertices_for(most.saturating_sub(fills), flat, options.degree).saturating_sub(grade.added());
     let singular = flat.singular()?;
     let mut best: Option<SurfaceFit> = None;
     let mut fairness = options.fairness;
     for round in 0..options.rounds.max(1) {
         let domain = grade.domain(count, control)?;
-        let found = Round::new(domain, &plan).and_then(|round| round.run(fairness, control));
+        let found = Round::new(domain, &plan, fairness, control);
         let found = match found {
             Ok(found) => found,
             // Another round has given a spline: this one cannot do better.
@@ -134,12 +129,11 @@ pub fn fit_surface(
         };
         let misses = found.measure(control)?;
         grade.adapt(mesh, &found.triangles(&misses), (found.space.patches().len(), options.degree));
-        let Some(spline) = found.spline else { continue };
         let squares: f64 = misses.iter().map(|miss| miss * miss).sum();
         let rms = (squares / points.len().max(1) as f64).sqrt() / diagonal;
         let max = misses.iter().copied().fold(0.0, f64::max) / diagonal;
         let rounds = round + 1;
-        let Round { domain, places, folds, .. } = found;
+        let Round { domain, places, spline, folds, .. } = found;
         let next = SurfaceFit { spline, domain, places, singular: singular.clone(), rms, max, folds, rounds };
         let is_done = next.miss(options.tolerance) <= 1.0 && next.folds.is_empty();
         if best.as_ref().is_none_or(|best| next.cost(options.tolerance) < best.cost(options.tolerance)) {
@@ -176,105 +170,106 @@ fn vertices_for(control_points: usize, flat: &Flat, degree: usize) -> usize {
     vertices.max(1) as usize
 }
 
-/// Vertices of a surface that the hole of a singular vertex with this number of turns covers: `hole` times the area of turns² triangles.
-fn vertices_inside(hole: f64, turns: u32, (vertices, triangles): (usize, usize)) -> usize {
-    let wanted = hole * f64::from(turns * turns) * vertices as f64 / triangles.max(1) as f64;
-    (wanted as usize).clamp(LEAST_INSIDE, LEAST_INSIDE.max((MOST_INSIDE * vertices as f64) as usize))
-}
-
 /// What all rounds have in common.
 struct Plan<'a> {
     points: &'a [Vector],
     options: &'a SurfaceFitOptions,
-    /// By the number of turns of a singular vertex, the vertices of the surface that its hole covers, and the coefficients of its filling.
-    inside: &'a dyn Fn(u32) -> usize,
-    coefficients: &'a dyn Fn(u32) -> usize,
+    /// Those of a closed surface with as many control points as are wanted: n² per two of them.
+    triangles: usize,
 }
 
-/// One domain, and what is fitted on it.
-struct Round<'a> {
-    domain: SurfaceDomain,
-    space: Arc<SplineSpace>,
-    plan: &'a Plan<'a>,
-    places: Vec<Parameter>,
-    /// Those around the singular vertices.
-    holes: Vec<Hole>,
-    spline: Option<Spline>,
-    /// Patches in which the spline folds.
-    folds: Vec<usize>,
-}
-
-impl<'a> Round<'a> {
-    fn new(domain: SurfaceDomain, plan: &'a Plan<'a>) -> Result<Round<'a>> {
-        let Plan { points, options, .. } = plan;
-        let space = Arc::new(domain.space(options.degree, options.spread)?);
-        let places = domain.places(points.len())?;
-        let (holes, folds) = (Vec::new(), Vec::new());
-        let mut round = Round { domain, space, plan, places, holes, spline: None, folds };
-        round.holes = match &round.domain.infinity {
-            Some(infinity) => vec![infinity.hole.clone().blank((plan.coefficients)(TURNS))],
-            None => round.domain.singular().into_iter().map(|v| round.hole(v)).collect::<Result<_>>()?,
-        };
-        Ok(round)
+impl<'a> Plan<'a> {
+    fn new(points: &'a [Vector], options: &'a SurfaceFitOptions) -> Plan<'a> {
+        let plan = Plan { points, options, triangles: 0 };
+        let triangles = 2 * plan.most_control_points() / (options.degree * options.degree).max(1);
+        Plan { triangles, ..plan }
     }
 
-    /// Fit, correct, and look for folds.
-    fn run(mut self, fairness: f64, control: &Control) -> Result<Round<'a>> {
-        for correction in 0..=self.plan.options.corrections {
-            if correction > 0 {
-                self.correct(control)?;
-            }
-            self.fit(fairness, control)?;
-        }
-        self.find_folds(control)?;
-        Ok(self)
+    fn most_control_points(&self) -> usize {
+        self.options.control_points.unwrap_or(self.points.len() / 4)
     }
 
-    fn find_folds(&mut self, control: &Control) -> Result<()> {
-        let Some(spline) = &self.spline else { return Ok(()) };
-        self.folds = self.domain.folds(spline, self.plan.options.threads, control)?;
-        Ok(())
+    /// Vertices of the surface that the hole of a singular vertex with this number of turns covers: [`SurfaceFitOptions::hole`] times the area of turns² triangles.
+    fn inside(&self, turns: u32) -> usize {
+        let vertices = self.points.len() as f64;
+        let wanted = self.options.hole * f64::from(turns * turns) * vertices / self.triangles.max(1) as f64;
+        (wanted as usize).clamp(LEAST_INSIDE, LEAST_INSIDE.max((MOST_INSIDE * vertices) as usize))
+    }
+
+    /// Coefficients of the filling of that hole.
+    fn coefficients(&self, turns: u32) -> usize {
+        Fill::blank((self.inside(turns) as f64 / POINTS) as usize).coefficients().len()
     }
 
     /// The hole around a singular vertex: the widest with no more vertices than wanted, so that triangles beyond it are small beside their distance from the vertex.
-    fn hole(&self, v: VertexId) -> Result<Hole> {
-        let mut hole = self.domain.hole(v)?;
-        let wanted = (self.plan.inside)(hole.turns.unsigned_abs());
+    fn hole(&self, domain: &SurfaceDomain, places: &[Parameter], v: VertexId) -> Result<Hole> {
+        let mut hole = domain.hole(v)?;
+        let wanted = self.inside(hole.turns.unsigned_abs());
         let growth = GROWTH.powi(hole.turns);
         loop {
-            let wider = self.domain.wide_hole(v, growth * hole.radius)?;
-            let inside = self.places.iter().filter(|&&at| wider.contains(at)).count();
+            let wider = domain.wide_hole(v, growth * hole.radius)?;
+            let inside = places.iter().filter(|&&at| wider.contains(at)).count();
             if wider.radius <= hole.radius || inside > wanted {
                 break;
             }
             hole = wider;
         }
-        let coefficients = (self.plan.coefficients)(hole.turns.unsigned_abs());
+        let coefficients = self.coefficients(hole.turns.unsigned_abs());
         Ok(hole.blank(coefficients))
+    }
+}
+
+/// One domain, and what is fitted on it.
+struct Round<'a> {
+    plan: &'a Plan<'a>,
+    domain: SurfaceDomain,
+    space: Arc<SplineSpace>,
+    places: Vec<Parameter>,
+    spline: Spline,
+    /// Patches in which the spline folds.
+    folds: Vec<usize>,
+}
+
+impl<'a> Round<'a> {
+    /// Fit, correct, and look for folds.
+    fn new(domain: SurfaceDomain, plan: &'a Plan<'a>, fairness: f64, control: &Control) -> Result<Round<'a>> {
+        let Plan { points, options, .. } = plan;
+        let space = Arc::new(domain.space(options.degree, options.spread)?);
+        let places = domain.places(points.len())?;
+        let holes: Vec<Hole> = match &domain.infinity {
+            Some(infinity) => vec![infinity.hole.clone().blank(plan.coefficients(TURNS))],
+            None => domain
+                .singular()
+                .into_iter()
+                .map(|v| plan.hole(&domain, &places, v))
+                .collect::<Result<_>>()?,
+        };
+        let fit_options = FitOptions { fairness, threads: options.threads };
+        let fit = |places: &[Parameter]| {
+            fit_filled((&space, &holes), (places, points), &fit_options, control).map(|fitted| fitted.spline)
+        };
+        let spline = fit(&places)?;
+        let mut round = Round { plan, domain, space: space.clone(), places, spline, folds: Vec::new() };
+        for _ in 0..options.corrections {
+            round.correct(control)?;
+            round.spline = fit(&round.places)?;
+        }
+        round.folds = round.domain.folds(&round.spline, options.threads, control)?;
+        Ok(round)
     }
 
     /// Whether the spline has no weight at a place.
     fn is_covered(&self, at: Parameter) -> bool {
-        self.holes.iter().any(|hole| hole.is_core(at))
-    }
-
-    /// The filled spline nearest to the points.
-    fn fit(&mut self, fairness: f64, control: &Control) -> Result<()> {
-        let options = FitOptions { fairness, threads: self.plan.options.threads };
-        let fitted =
-            fit_filled((&self.space, &self.holes), (&self.places, self.plan.points), &options, control)?;
-        self.spline = Some(fitted.spline);
-        Ok(())
+        self.spline.holes().iter().any(|hole| hole.is_core(at))
     }
 
     /// Move every place to where the spline is nearest to its vertex, by one step of Gauss and Newton.
     fn correct(&mut self, control: &Control) -> Result<()> {
-        let Some(spline) = &self.spline else { return Ok(()) };
-        let found = spline.evaluate(&self.places, 1, self.plan.options.threads, control)?;
+        let found = self.spline.evaluate(&self.places, 1, self.plan.options.threads, control)?;
         for (k, &point) in self.plan.points.iter().enumerate() {
             let (place, at) = (self.places[k], &found[k]);
             if let Some(inside) =
-                spline.holes().iter().find_map(|hole| hole.nearer(&self.space, place, point))
+                self.spline.holes().iter().find_map(|hole| hole.nearer(&self.space, place, point))
             {
                 self.places[k] = inside;
                 continue;
@@ -292,8 +287,7 @@ impl<'a> Round<'a> {
 
     /// Per vertex its distance from its place.
     fn measure(&self, control: &Control) -> Result<Vec<f64>> {
-        let Some(spline) = &self.spline else { return Ok(Vec::new()) };
-        let found = spline.evaluate(&self.places, 0, self.plan.options.threads, control)?;
+        let found = self.spline.evaluate(&self.places, 0, self.plan.options.threads, control)?;
         Ok(found.iter().zip(self.plan.points).map(|(at, point)| distance(at.point, *point)).collect())
     }
 

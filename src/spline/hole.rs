@@ -43,6 +43,8 @@ const MOST_TURNS: i32 = 1 << 16;
 pub(crate) const INFINITE: i32 = -1;
 /// Longest step of a place in w/ρ.
 const LONGEST_STEP: f64 = 0.1;
+/// A place is the vertex where it is nearer to it than this share of its distance from another one: rounding.
+const AT_VERTEX: f64 = 1e-6;
 /// Share of a triangle's area by which a place may lie outside it: rounding.
 const OUTSIDE: f64 = 1e-9;
 
@@ -178,6 +180,23 @@ impl Hole {
         all.filter_map(inside).max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, found)| found)
     }
 
+    /// w/ρ of the second of two places of a patch, the first of which is the vertex. None for an empty hole, in patches that it does not meet, and where the first
+    /// place is another one.
+    pub(super) fn spoke(&self, vertex: Parameter, at: Parameter) -> Option<Complex> {
+        self.fill.as_ref()?;
+        let here = self.sectors.iter().filter(|sector| sector.patch == at.patch);
+        let mut places = here.map(|sector| (sector, [vertex, at].map(|p| sector.local([p.x, p.y]))));
+        let (sector, [_, z]) = places.find(|(_, [v, z])| norm(*v) < AT_VERTEX * norm(*z))?;
+        Some(self.of_sector(sector, z))
+    }
+
+    /// w/ρ of a place that a sector gives.
+    fn of_sector(&self, sector: &Sector, z: Complex) -> Complex {
+        let share = 1.0 / f64::from(self.turns);
+        let angle = share * (sector.angle + z[1].atan2(z[0]));
+        scale((norm(z) / self.radius).powf(share), [angle.cos(), angle.sin()])
+    }
+
     /// w/ρ of a place in the chart of its patch, with first and second derivative there; at the vertex, where w has none, those of w/ρ itself.
     /// None in patches that the hole does not meet, and in charts of others.
     fn coordinate(&self, at: Parameter) -> Option<[Complex; 3]> {
@@ -190,8 +209,7 @@ impl Hole {
         let places = here.map(|sector| (sector, sector.local([at.x, at.y])));
         let (sector, z) = places.min_by(|(_, a), (_, b)| norm2(*a).total_cmp(&norm2(*b)))?;
         let share = 1.0 / f64::from(self.turns);
-        let angle = share * (sector.angle + z[1].atan2(z[0]));
-        let w = scale((norm(z) / self.radius).powf(share), [angle.cos(), angle.sin()]);
+        let w = self.of_sector(sector, z);
         if norm(z) <= VERTEX && !self.is_at_infinity() {
             return Some([[0.0; 2], [1.0, 0.0], [0.0; 2]]);
         }

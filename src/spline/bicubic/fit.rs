@@ -14,7 +14,7 @@ impl Spline {
     /// that takes.
     ///
     /// # Errors
-    /// [`Error::Argument`] for options out of range; [`Error::Spline`] for a patch that 64 spans along each side do not bring within the
+    /// [`Error::Argument`] for options out of range; [`Error::Spline`] for a patch that 128 spans along each side do not bring within the
     /// tolerance, for sides of more than two patches, and for a spline without patches; [`Error::Cancelled`].
     pub fn to_bicubic(&self, options: &BicubicOptions, control: &Control) -> Result<Bicubic> {
         let BicubicOptions { tolerance, angle, .. } = *options;

@@ -38,6 +38,17 @@ pub(super) struct Division {
     pub turns: [i32; 3],
 }
 
+/// Where the filling around a singular vertex alone is the surface.
+#[derive(Debug, Clone, Copy)]
+struct Filled {
+    /// The chart of its hole.
+    chart: u32,
+    /// The coordinate there over w of the quadrilateral.
+    scale: Complex,
+    /// Largest size of that coordinate.
+    inner: f64,
+}
+
 /// A quadrilateral of a patch.
 #[derive(Debug, Clone)]
 pub(super) struct PatchQuad {
@@ -48,6 +59,8 @@ pub(super) struct PatchQuad {
     frame: Complex,
     /// m.
     turns: i32,
+    /// Of a singular vertex with a filling.
+    filled: Option<Filled>,
     /// From the corner to the middles of the side from it and of the side to it, and to the centroid, over `frame`.
     ends: [Complex; 2],
     centroid: Complex,
@@ -68,7 +81,13 @@ impl PatchQuad {
         let centroid = over(add(scale(second, next), scale(third, last)));
         let (from, to) = (division.middles[k], 1.0 - division.middles[(k + 2) % 3]);
         let ends = [over(scale(from, next)), over(scale(to, last))];
-        let quad = PatchQuad { patch: patch as u32, corner: a, frame, turns, ends, centroid, is_coons: true };
+        let patch = patch as u32;
+        let filled = spline.holes().iter().filter(|_| turns > 1).find_map(|hole| {
+            let [p, q] = [a, add(a, frame)].map(|[x, y]| Parameter { patch, x, y });
+            let scale = hole.spoke(p, q)?;
+            Some(Filled { chart: hole.chart, scale, inner: hole.inner })
+        });
+        let quad = PatchQuad { patch, corner: a, frame, turns, filled, ends, centroid, is_coons: true };
         let is_coons = turns == 1 || quad.is_sound(from, to);
         PatchQuad { is_coons, ..quad }
     }
@@ -78,10 +97,20 @@ impl PatchQuad {
         self.is_coons
     }
 
-    /// The place of (s, t).
+    /// The place of (s, t): in the chart of the filling around a singular vertex, as far as that alone is the surface. There z = wᵐ is so small that its
+    /// digits would be lost beside the coordinates of the corner.
     pub fn place(&self, at: [f64; 2]) -> Parameter {
-        let [x, y] = add(self.corner, mul(self.frame, self.local(at)));
-        Parameter { patch: self.patch, x, y }
+        let local = self.local(at);
+        let in_filling = self.filled.map(|filled| (filled, mul(filled.scale, root(local, self.turns))));
+        match in_filling {
+            Some((Filled { chart, inner, .. }, w)) if norm(w) <= inner => {
+                Parameter { patch: chart, x: w[0], y: w[1] }
+            }
+            _ => {
+                let [x, y] = add(self.corner, mul(self.frame, local));
+                Parameter { patch: self.patch, x, y }
+            }
+        }
     }
 
     /// The place of (s, t) from the corner, over the frame.
@@ -117,8 +146,7 @@ impl PatchQuad {
         (0..CELLS).all(|i| (0..CELLS).all(|j| is_upright(i, j) && is_inside(at(i + 1, j + 1))))
     }
 
-    /// The grid's coordinates in the quadrilateral. Sides at a singular vertex stay even: |w| grows along them, whose powers would be lost beside the
-    /// corner's coordinates.
+    /// The grid's coordinates in the quadrilateral. Sides at a singular vertex stay even: no knots lie near it, its filling is as smooth as elsewhere.
     fn dense(&self, [s, t]: [f64; 2]) -> [f64; 2] {
         if self.turns == 1 {
             return [dense(s), dense(t)];
