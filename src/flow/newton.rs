@@ -38,17 +38,16 @@ const MAX_FLOOR: f64 = 1e-7;
 const PATIENCE: usize = 8;
 /// Radians. Below this residual convergence is quadratic.
 const QUADRATIC: f64 = 1e-8;
-/// Radians. Once converged, the last factor is reused to bring the error down to this, each step at least halving it; in H², whose
-/// layouts magnify errors by e^distance, as far as it goes.
-const POLISH_TO: f64 = 1e-13;
-/// Such steps at most: each costs a solution, and the error falls to rounding in one or two.
-const POLISH_STEPS: usize = 3;
-
 /// The linear residual of a step that is solved with the factor of an earlier matrix, as a share of what is left of the error if it falls
 /// quadratically at the rate of the last step \[EW96, choice 2\]: too little to slow that down.
 const FORCING: f64 = 0.1;
 /// Largest share of the right-hand side that such a step leaves.
 const MAX_FORCING: f64 = 0.01;
+/// Radians. No step leaves less than this of a linear residual, a tenth of the rounding of an angle of 1. It is far below the rounding of
+/// the curvature because u magnifies what is left over the whole surface.
+const LEAST_LEFT: f64 = 2e-17;
+/// Radians. Nor less than this at the vertex that is held, where what is left at all the others adds up: the rounding of a curvature.
+const LEAST_SUM: f64 = 4e-16;
 
 /// Steps over which it is seen how fast the steps still proposed become shorter: at needles by a share each, on the way to a far metric by
 /// about the length of those taken.
@@ -139,9 +138,8 @@ impl Flow {
         let is_solved = at.solved_at == Some(report.flips);
         let far = matches!(report.stop_reason, StopReason::IterationLimit | StopReason::OutOfReach { .. });
         if is_solved && !far && at.error > self.polished() {
-            let mut system = self.take_system(report)?;
-            self.polish(&mut system, &mut at, report, control)?;
-            self.system = Some(system);
+            let system = self.take_system(report)?;
+            self.system = Some(self.polish(system, &mut at, report, control)?);
         }
         if !at.state.is_measured() {
             // The last point that was tried was not taken: back to the triangulation of the one before.
@@ -325,13 +323,26 @@ impl Flow {
             return Ok(false);
         }
         let forcing = f64::min(FORCING * (at.error / at.last_error).powi(2), MAX_FORCING);
-        let left = f64::max(forcing * at.error, FORCING * POLISH_TO);
-        let goal = Goal { left, with_sum: self.free_scale() };
-        let seconds = &mut report.seconds.solve;
-        let found = timed(seconds, || system.solve_near(&at.residual, goal, &mut at.step, control))?;
+        let found = self.solve_near(system, at, forcing, (report, control))?;
         at.misses = if found { (0, 0) } else { (misses + 1, report.iterations + (2 << misses.min(8))) };
+        Ok(found)
+    }
+
+    /// `at.step` from `at.residual` with an earlier factor, up to this share of the error; false where that does not pay.
+    pub(super) fn solve_near(
+        &self,
+        system: &mut System,
+        at: &mut Iterate,
+        share: f64,
+        (report, control): (&mut Report, &Control),
+    ) -> Result<bool> {
+        let [left, sum] = [LEAST_LEFT, LEAST_SUM].map(|least| f64::max(share * at.error, least));
+        let goal = Goal { left, sum: if self.free_scale() { sum } else { f64::INFINITY } };
+        let Iterate { residual, step, .. } = at;
+        let seconds = &mut report.seconds.solve;
+        let found = timed(seconds, || system.solve_near(residual, goal, step, control))?;
         if found && self.free_scale() {
-            center(&mut at.step);
+            center(step);
         }
         Ok(found)
     }
@@ -384,55 +395,13 @@ impl Flow {
     }
 
     /// `at.step` from `at.residual` with the last factor; false where it is not finite.
-    fn solve_step(&self, system: &mut System, at: &mut Iterate, report: &mut Report) -> bool {
+    pub(super) fn solve_step(&self, system: &mut System, at: &mut Iterate, report: &mut Report) -> bool {
         let solved =
             timed(&mut report.seconds.solve, || system.solve(&at.residual, self.enough(), &mut at.step));
         if solved && self.free_scale() {
             center(&mut at.step);
         }
         solved
-    }
-
-    /// An error that needs no more polish.
-    fn polished(&self) -> f64 {
-        if self.metric.space == Space::H2 { 0.0 } else { POLISH_TO }
-    }
-
-    /// Steps with the last factor, as long as they at least halve the error and flip nothing: iterative refinement of the nonlinear
-    /// system at the price of a solve.
-    fn polish(
-        &mut self,
-        system: &mut System,
-        at: &mut Iterate,
-        report: &mut Report,
-        control: &Control,
-    ) -> Result<()> {
-        let broken = at.state.broken();
-        for _ in 0..POLISH_STEPS {
-            control.check()?;
-            at.state.residual(&self.target, &self.pinned, &mut at.residual);
-            if !self.solve_step(system, at, report) {
-                return Ok(());
-            }
-            let Iterate { state, trial, residual, step, error, .. } = at;
-            trial.set_step(state, 1.0, step);
-            state.hand_on(trial);
-            let flips = report.flips;
-            if !self.evaluate(trial, report, control)? {
-                return Ok(());
-            }
-            let now = trial.residual(&self.target, &self.pinned, residual);
-            if !(now < *error && trial.broken() <= broken) {
-                return Ok(());
-            }
-            std::mem::swap(state, trial);
-            let halved = now <= 0.5 * *error;
-            *error = now;
-            if !halved || now <= self.polished() || report.flips != flips {
-                return Ok(());
-            }
-        }
-        Ok(())
     }
 }
 
