@@ -228,11 +228,20 @@ fn one_vertex_torus_and_its_edges() {
     let face_edges = [[2, -3, 1], [-1, -2, 3]];
     let mesh = Mesh::from_gluing(1, &faces, &face_edges).unwrap();
     assert_eq!((mesh.n_vertices(), mesh.n_edges(), mesh.euler(), mesh.genus()), (1, 3, 0, 1));
-    assert!(!mesh.is_simplicial());
+    assert!(!mesh.is_simplicial() && !mesh.is_given_by_faces());
     assert_eq!(mesh.outgoing(ricci::mesh::VertexId(0)).count(), 6);
     for f in mesh.faces() {
         assert_eq!(mesh.face_edges(f), face_edges[f.index()]);
     }
+}
+
+#[test]
+fn faces_with_the_same_vertices_do_not_give_the_surface() {
+    let (pillow, _) = ricci::mesh::shapes::two_triangle_sphere().build().unwrap();
+    assert!(pillow.is_simplicial() && !pillow.is_given_by_faces());
+    assert!(Mesh::from_faces(3, &pillow.triangles()).is_err());
+    let tetrahedron = Mesh::from_faces(4, &TETRAHEDRON).unwrap();
+    assert!(tetrahedron.is_simplicial() && tetrahedron.is_given_by_faces());
 }
 
 #[test]
@@ -326,7 +335,7 @@ proptest! {
         // The gluing of a mesh rebuilds it exactly.
         let face_edges: Vec<_> = b.faces().map(|f| b.face_edges(f)).collect();
         prop_assert_eq!(&Mesh::from_gluing(v, &moved, &face_edges).unwrap(), &b);
-        prop_assert!(b.is_simplicial());
+        prop_assert!(b.is_simplicial() && b.is_given_by_faces());
     }
 
     #[test]

@@ -5,14 +5,14 @@ mod common;
 
 use common::flow::{attempt, converged, distance, euclidean, rigid, solve, surface};
 use ricci::control::Stage;
-use ricci::flow::{Gradient, Method, Options, StepRule, StopReason};
+use ricci::flow::{Flips, Gradient, Method, Options, StepRule, StopReason};
 use ricci::geometry::Space;
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes;
 use ricci::mesh::{PerEdge, PerVertex, VertexId};
 use ricci::metric::initial::{MixedClass, initial_mixed};
 use ricci::metric::{Scheme, initial_metric};
-use ricci::{Class, Control, Error, Flow, Target};
+use ricci::{Class, Control, Error, Flow, Surface, Target};
 use std::f64::consts::PI;
 
 #[test]
@@ -221,4 +221,31 @@ fn cancelling_from_another_thread_ends_a_running_flow() {
     });
     println!("{} vertices: {:?} after the cancellation", mesh.n_vertices(), control.since_cancel().unwrap());
     assert!(matches!(outcome, Err(Error::Cancelled)));
+}
+
+#[test]
+fn later_steps_take_the_first_factor_and_converge_quadratically_all_the_same() {
+    let mut soup = shapes::torus(2.0, 0.9, 80, 40).unwrap();
+    shapes::noise(&mut soup, 0.05, 1).unwrap();
+    let surface = Surface::from_soup(&soup).unwrap();
+    for scheme in [Scheme::Yamabe, Scheme::Inversive] {
+        for flips in [Flips::Never, Flips::Auto] {
+            let options = Options { flips, threads: 1, ..Options::default() };
+            let flow = |options: &Options| {
+                let class = Class::new(scheme, Space::E2);
+                ricci::flow::flow(surface.clone(), class, &Target::Uniform, options, &Control::new()).unwrap()
+            };
+            let solution = flow(&options);
+            let report = solution.report().unwrap();
+            converged(report);
+            assert!(report.iterations >= 3 && report.factorisations == 1, "{scheme}: {report:?}");
+            assert!(flips == Flips::Never || solution.flips() > 100, "{scheme}");
+            // The constant is below 1 in the first step; a linear rate would be off by orders of magnitude.
+            for pair in report.residuals.windows(2).filter(|pair| pair[1] > 1e-13) {
+                assert!(pair[1] < 2.0 * pair[0] * pair[0], "{scheme}: {:?}", report.residuals);
+            }
+            let two = flow(&Options { threads: 2, ..options });
+            assert_eq!(two.metric(), solution.metric(), "{scheme}: another number of threads");
+        }
+    }
 }

@@ -9,6 +9,7 @@ use ricci::embed::{Charts, Layout, OnInput, Quality, UnrollOptions, unroll};
 use ricci::flow::Solution;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, Point, VertexId};
 use ricci::metric::Refinement;
+use ricci::parallel::within;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -62,7 +63,8 @@ pub fn lay_out(input: &Input, solved: &mut Solved, control: &Control) -> ricci::
     };
     let laid = timed(&mut seconds.layout, || {
         let options = UnrollOptions { refinement, ..UnrollOptions::default() };
-        Laid::new(input, solved, unroll(solution, &options, control)?)
+        let layout = unroll(solution, &options, control)?;
+        within(solution.threads(), || Laid::new(input, solved, layout))
     });
     solved.seconds = seconds;
     laid

@@ -10,6 +10,7 @@ use ricci::geometry::Space;
 use ricci::geometry::triangle::angles;
 use ricci::mesh::check::Defect;
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
+use ricci::parallel::within;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
@@ -68,6 +69,10 @@ pub struct MetricFile<'a> {
 impl<'a> MetricFile<'a> {
     /// `target`: per vertex of the solution's triangulation.
     pub fn new(solution: &'a Solution, target: &'a PerVertex<f64>) -> ricci::Result<Self> {
+        within(solution.threads(), || MetricFile::in_pool(solution, target))
+    }
+
+    fn in_pool(solution: &'a Solution, target: &'a PerVertex<f64>) -> ricci::Result<Self> {
         let (mesh, metric) = (solution.mesh(), solution.metric());
         let lost = metric.length_remainders(mesh)?;
         Ok(MetricFile {
@@ -145,9 +150,7 @@ fn per_face(mesh: &Mesh, values: &PerEdge<f64>) -> Vec<[f64; 3]> {
 /// 1-based edge numbers with the direction as sign, where the faces' vertices alone do not give the surface: where edges
 /// are not determined by their ends, or two faces have the same vertices.
 fn face_edges_of(mesh: &Mesh) -> Option<Vec<[i32; 3]>> {
-    let faces = mesh.triangles();
-    let determined = mesh.is_simplicial() && Mesh::from_faces(mesh.n_vertices(), &faces).is_ok();
-    (!determined).then(|| mesh.faces().map(|f| mesh.face_edges(f)).collect())
+    (!mesh.is_given_by_faces()).then(|| mesh.faces().map(|f| mesh.face_edges(f)).collect())
 }
 
 /// What is read: `faces` and `lengths` suffice. `input_geometry` (default e2) says how the lengths are read. A conformal

@@ -8,6 +8,7 @@ use ricci::flow::Solution;
 use ricci::geometry::worse;
 use ricci::mesh::{PerEdge, PerVertex};
 use ricci::metric::{Curvature, Scheme};
+use ricci::parallel::within;
 use std::path::Path;
 
 /// Gauss–Bonnet must hold to this. Each of the 3F angles is off by a few ulp, which add up like a random walk: 1e-12 for a
@@ -46,10 +47,12 @@ impl Solved {
     ) -> Result<Solved, Failure> {
         let failed = |error: ricci::Error| Failure::Failed(error.to_string());
         let (mesh, metric) = (solution.mesh(), solution.metric());
+        let measured = || Ok((metric.lengths(mesh)?, metric.curvature(mesh)?));
+        let (lengths, curvature) = within(solution.threads(), measured).map_err(failed)?;
         Ok(Solved {
-            lengths: metric.lengths(mesh).map_err(failed)?,
+            lengths,
             scheme: solution.scheme().map_err(failed)?,
-            curvature: metric.curvature(mesh).map_err(failed)?,
+            curvature,
             target: target.unwrap_or_else(|| PerVertex::filled(mesh.n_vertices(), 0.0)),
             solution,
             failed: Attempts::default(),

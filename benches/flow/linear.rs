@@ -28,6 +28,11 @@ impl Linear {
     pub fn newton(&self, iterations: usize) -> f64 {
         iterations as f64 * (self.factor + self.solve) + self.analyse
     }
+
+    /// Seconds of what any Newton's method has to do once.
+    pub fn once(&self) -> f64 {
+        self.analyse + self.factor
+    }
 }
 
 /// ∂K/∂u with the first vertex held.

@@ -1,7 +1,7 @@
 //! The flow against the linear algebra it stands on: faer, CHOLMOD and Eigen on the same matrix, in one run.
 //!
 //! `cargo bench --bench flow [-- VERTICES… SCHEME…] > docs/results/bench.md` (default: 10000 50000 200000 850000 yamabe
-//! inversive). The target is a flat torus, from a torus of revolution of that size, noisy so that Newton has work to do. A
+//! inversive). Disks of the same sizes are flattened by the flow and by a linear conformal map. The target is a flat torus, from a torus of revolution of that size, noisy so that Newton has work to do. A
 //! round is one flow, then one analysis, factorisation and solve by each solver of ∂K/∂u at the solution; several rounds
 //! follow each other, so that what else the machine does hits all sides, and medians are printed.
 //!
@@ -14,6 +14,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod conformal;
 mod flips;
 mod flips_page;
 mod linear;
@@ -135,5 +136,6 @@ fn main() {
     }
     let rows: Vec<Row> =
         cases.into_iter().map(|(size, scheme)| measure(size, scheme, peers.as_ref().ok())).collect();
-    println!("{}", page::page(&rows, peers.map(|p| p.libraries()), [load, machine::load()]));
+    let disks: Vec<_> = sizes.into_iter().map(conformal::measure).collect();
+    println!("{}", page::page((&rows, &disks), peers.map(|p| p.libraries()), [load, machine::load()]));
 }

@@ -549,8 +549,8 @@ RICCI_API ricci_status ricci_mesh_read(const char *path, ricci_mesh **mesh);
 /**
  * Write a mesh in the format that the file's name says, with the attributes that the format has.
  *
- * OBJ and OFF are text with 17 significant digits, PLY is binary, and positions read back as they are; GLB
- * has 24 bits of the distance from the centre of the mesh, and writes a vertex with several texture
+ * OBJ and OFF are text with as many digits as are needed, PLY is binary, and positions read back as they are;
+ * GLB has 24 bits of the distance from the centre of the mesh, and writes a vertex with several texture
  * coordinates once for each. What the format has no place for (in PLY and OFF, several normals at a vertex;
  * in OFF, several texture coordinates) is left out, with a warning to the callback of ricci_log_set. A file
  * of that name is replaced only once the new one is complete.
@@ -1487,7 +1487,7 @@ RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, uint3
 RICCI_API ricci_status ricci_layout_mesh(const ricci_layout *layout, ricci_mesh **mesh);
 
 /**
- * Write a mesh with the layout as texture coordinates (`f v/vt`), as OBJ with 17 significant digits.
+ * Write a mesh with the layout as texture coordinates (`f v/vt`), as OBJ whose numbers read back as they are.
  *
  * On the input: its own vertices and faces, in order; seams run along its edges only. On the refinement the
  * `v` of the mesh come first, unchanged, then the crossings. A file of that name is replaced only once the

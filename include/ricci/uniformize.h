@@ -1104,8 +1104,8 @@ RICCI_API ricci_status ricci_atlas_corners(const ricci_atlas *atlas, uint32_t *c
 RICCI_API ricci_status ricci_atlas_motions(const ricci_atlas *atlas, double *motions, size_t capacity);
 
 /**
- * Write what is laid out with its charts as texture coordinates (`f v/vt`), as OBJ with 17 significant
- * digits.
+ * Write what is laid out with its charts as texture coordinates (`f v/vt`), as OBJ whose numbers read back
+ * as they are.
  *
  * A file of that name is replaced only once the new one is complete.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN,

@@ -67,7 +67,7 @@ impl Layout {
     /// # Errors
     /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the input lengths.
     pub fn quality(&self, input: &Mesh, lengths: &PerEdge<f64>) -> Result<Quality> {
-        let place = |f| (self.pieces.input_face(f), self.pieces.input_barycentric(f));
+        let place = (|f| self.pieces.input_face(f), |f| self.pieces.input_barycentric(f));
         Given::new(input, lengths)?.quality(self.mesh(), place, |f, from| {
             let to = self.face_uv(f).map(|p| p.map(|x| x / self.diameter));
             let dilatation =
@@ -83,7 +83,7 @@ impl Layout {
     /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the lengths.
     pub fn quality_on_input(&self, lengths: &PerEdge<f64>) -> Result<Option<Quality>> {
         let (Some((input, _)), Some(on_input)) = (&self.input, self.on_input()) else { return Ok(None) };
-        let place = |f| (f, CORNERS);
+        let place = (|f| f, |_| CORNERS);
         let quality = Given::new(input, lengths)?.quality(input, place, |f, from| {
             let face = input.face_halfedges(f);
             let points = face.map(|h| on_input.points[on_input.corner_index[h] as usize] as usize);
@@ -131,7 +131,7 @@ impl Quality {
         lengths: &PerEdge<f64>,
         corners: impl Fn(FaceId) -> [Point; 3] + Sync,
     ) -> Result<Quality> {
-        let place = |f| (refinement.input_face[f], refinement.input_barycentric(f));
+        let place = (|f| refinement.input_face[f], |f| refinement.input_barycentric(f));
         Given::new(input, lengths)?.quality(&refinement.mesh, place, |f, from| {
             let [a, b, c] = corners(f);
             let sides = [[b, c], [c, a], [a, b]].map(|[p, q]| vector::distance(p, q));
@@ -164,30 +164,29 @@ impl<'a> Given<'a> {
         (sides, PlaneTriangle::from_sides(sides))
     }
 
-    /// The quality of a map of pieces. `place`: the face of a piece, and the weights of the piece's corners in it. `image`: the dilatation of a piece that
+    /// The quality of a map of pieces. `source`: the face of a piece, and `weights`: those of the piece's corners in it. `image`: the dilatation of a piece that
     /// lies so in the plane, and the area of its image.
     fn quality(
         &self,
         pieces: &Mesh,
-        place: impl Fn(FaceId) -> (FaceId, [[f64; 3]; 3]) + Sync,
+        (source, weights): (impl Fn(FaceId) -> FaceId + Sync, impl Fn(FaceId) -> [[f64; 3]; 3] + Sync),
         image: impl Fn(FaceId, Triangle) -> (f64, f64) + Sync,
     ) -> Result<Quality> {
-        let need = pieces.faces().map(|f| place(f).0.index() + 1).fold(0, usize::max);
+        let need = pieces.faces().map(|f| source(f).index() + 1).fold(0, usize::max);
         check_size("input faces", self.mesh.n_faces().min(need), need)?;
         let (mut qc, mut areas) = (vec![DILATATION_CAP; pieces.n_faces()], vec![[0.0; 2]; pieces.n_faces()]);
+        let mut excess = vec![0.0; self.mesh.n_faces()];
+        parallel::fill(&mut excess, |f| self.triangle(f.into()).1.excess);
+        if let Some(face) = pieces.faces().map(&source).find(|f| excess[f.index()] > 0.0) {
+            return Err(Error::TriangleInequality { face: face.index(), excess: excess[face.index()] });
+        }
         parallel::fill_both(&mut qc, &mut areas, |f| {
-            let (face, weights) = place(f.into());
+            let (face, weights) = (source(f.into()), weights(f.into()));
             let (sides, triangle) = self.triangle(face);
             let from = in_plane(sides, &triangle, weights);
             let (dilatation, area) = image(f.into(), from);
             (dilatation, [0.5 * doubled_area(from).abs(), area])
         });
-        for (face, _) in pieces.faces().map(&place) {
-            let excess = self.triangle(face).1.excess;
-            if excess > 0.0 {
-                return Err(Error::TriangleInequality { face: face.index(), excess });
-            }
-        }
         Ok(summary(pieces, qc.into(), &areas.into()))
     }
 }

@@ -37,7 +37,7 @@ impl Flow {
             // Mirror images have an unknown each here, since rounding differs between them, and share one in a solve.
             let shared = self.mirror.is_some();
             let mut system = match self.system.take().filter(|_| !shared) {
-                Some(kept) => kept.flipped(&self.mesh, &fixed, None, 0)?,
+                Some(kept) => kept.flipped(&self.mesh, &fixed, None, 0)?.analysed(&self.mesh)?,
                 None => System::new(&self.mesh, &fixed, None)?,
             };
             system.jacobian.assemble(&self.mesh, &self.metric, &state);

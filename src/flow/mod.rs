@@ -24,6 +24,7 @@ mod newton;
 mod obstruction;
 pub mod options;
 mod origin;
+mod polish;
 pub mod report;
 mod seconds;
 mod solution;

@@ -1,4 +1,8 @@
 //! Newton's method on the convex energy (E², H²): full steps with a line search on the slope.
+//!
+//! The first matrix is factorised. Later ones differ little from it, since a conformal change of the metric hardly changes the cotangents:
+//! their steps come from conjugate gradients with that factor as preconditioner, as exactly as quadratic convergence asks. Flips change the
+//! pattern of the matrix but not its unknowns, so the factor serves on. Where it does not serve well the matrix is factorised anew.
 
 use super::Flow;
 use super::evaluate::State;
@@ -11,6 +15,7 @@ use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::twofold::MAX_EXPONENT;
 use crate::geometry::{Space, largest, worse};
+use crate::linalg::conjugate::Goal;
 use crate::metric::delaunay::boundary_fails;
 
 /// Relative change of the residual, at unchanged u, above which a failed line search is repeated: flipping an edge and back rounds η,
@@ -33,11 +38,16 @@ const MAX_FLOOR: f64 = 1e-7;
 const PATIENCE: usize = 8;
 /// Radians. Below this residual convergence is quadratic.
 const QUADRATIC: f64 = 1e-8;
-/// Radians. Once converged, the last factor is reused to bring the error down to this, each step at least halving it; in H², whose
-/// layouts magnify errors by e^distance, as far as it goes.
-const POLISH_TO: f64 = 1e-13;
-/// Such steps at most: each costs a solution, and the error falls to rounding in one or two.
-const POLISH_STEPS: usize = 3;
+/// The linear residual of a step that is solved with the factor of an earlier matrix, as a share of what is left of the error if it falls
+/// quadratically at the rate of the last step \[EW96, choice 2\]: too little to slow that down.
+const FORCING: f64 = 0.1;
+/// Largest share of the right-hand side that such a step leaves.
+const MAX_FORCING: f64 = 0.01;
+/// Radians. No step leaves less than this of a linear residual, a tenth of the rounding of an angle of 1. It is far below the rounding of
+/// the curvature because u magnifies what is left over the whole surface.
+const LEAST_LEFT: f64 = 2e-17;
+/// Radians. Nor less than this at the vertex that is held, where what is left at all the others adds up: the rounding of a curvature.
+const LEAST_SUM: f64 = 4e-16;
 
 /// Steps over which it is seen how fast the steps still proposed become shorter: at needles by a share each, on the way to a far metric by
 /// about the length of those taken.
@@ -60,8 +70,12 @@ pub(super) struct Iterate {
     since_best: usize,
     /// Length of the first in the present row of steps that were all too long for what is left, and their number.
     too_long: (f64, usize),
-    /// Flips in this solve when the last matrix was factored; none before the first one.
-    factored_at: Option<usize>,
+    /// Flips in this solve when the last direction was found; none before the first one, and where the last one was not found.
+    solved_at: Option<usize>,
+    /// The error before the last step.
+    last_error: f64,
+    /// Steps that an earlier factor has failed to solve in a row, and the iteration from which on it is tried again.
+    misses: (u32, usize),
 }
 
 /// What a solve does next.
@@ -77,8 +91,22 @@ impl Iterate {
         let [mut residual, step] = [(); 2].map(|()| vec![0.0; flow.mesh.n_vertices()]);
         let error = state.residual(&flow.target, &flow.pinned, &mut residual);
         let trial = State::new(&flow.start, &flow.start_low);
-        let (shift, best, since_best, too_long, factored_at) = (0.0, error, 0, (0.0, 0), None);
-        Iterate { state, trial, residual, step, error, shift, best, since_best, too_long, factored_at }
+        let (shift, best, since_best, too_long) = (0.0, error, 0, (0.0, 0));
+        let (solved_at, last_error, misses) = (None, error, (0, 0));
+        Iterate {
+            state,
+            trial,
+            residual,
+            step,
+            error,
+            shift,
+            best,
+            since_best,
+            too_long,
+            solved_at,
+            last_error,
+            misses,
+        }
     }
 
     /// Count the step that has led here: whether there have been too many without a better residual.
@@ -106,13 +134,12 @@ impl Flow {
         if begins_at_end && report.stop_reason == StopReason::Converged {
             self.direction(&mut at, report, control)?;
         }
-        // The factor of another triangulation has another pattern.
-        let factored = at.factored_at == Some(report.flips);
+        // The matrix of another triangulation has another pattern.
+        let is_solved = at.solved_at == Some(report.flips);
         let far = matches!(report.stop_reason, StopReason::IterationLimit | StopReason::OutOfReach { .. });
-        if factored && !far && at.error > self.polished() {
-            let mut system = self.take_system(report)?;
-            self.polish(&mut system, &mut at, report, control)?;
-            self.system = Some(system);
+        if is_solved && !far && at.error > self.polished() {
+            let system = self.take_system(report)?;
+            self.system = Some(self.polish(system, &mut at, report, control)?);
         }
         if !at.state.is_measured() {
             // The last point that was tried was not taken: back to the triangulation of the one before.
@@ -144,7 +171,7 @@ impl Flow {
                 Next::Leave => return Ok(None),
             }
             if self.is_lopsided(at) {
-                (self.mirror, self.system) = (None, None);
+                (self.mirror, self.system, at.solved_at) = (None, None, None);
             }
             if !self.direction(at, report, control)? {
                 return Ok(Some(StopReason::Stalled));
@@ -233,6 +260,7 @@ impl Flow {
             let now = real.then(|| trial.residual(&self.target, &self.pinned, &mut residual));
             if search.accepts(now, &residual) {
                 std::mem::swap(state, trial);
+                at.last_error = at.error;
                 (at.residual, at.error) = (residual, now.unwrap_or(f64::INFINITY));
                 return Ok(true);
             }
@@ -266,14 +294,57 @@ impl Flow {
         at.residual.iter().zip(mirror).map(even).fold(0.0, worse) < 0.5 * at.error
     }
 
-    /// The Newton direction into `at.step`, with the matrix at `at.state`, whose factor is kept; false where there is none.
+    /// The Newton direction into `at.step`, with the matrix at `at.state`; false where there is none.
     fn direction(&mut self, at: &mut Iterate, report: &mut Report, control: &Control) -> Result<bool> {
         let mut system = self.take_system(report)?;
         self.assemble(&mut system, &at.state, report);
-        let factored = self.direction_of(&mut system, at, report, control)?;
+        let mut found = self.direction_near(&mut system, at, report, control)?;
+        if !found {
+            system = self.analysed(system, report)?;
+            found = self.direction_of(&mut system, at, report, control)?;
+        }
         self.system = Some(system);
-        at.factored_at = factored.then_some(report.flips);
-        Ok(factored)
+        at.solved_at = found.then_some(report.flips);
+        Ok(found)
+    }
+
+    /// The Newton direction of a matrix that has been assembled, by the factor that an earlier step of this solve has left. False where that
+    /// does not pay; it is then not tried again for some steps, more and more of them.
+    fn direction_near(
+        &self,
+        system: &mut System,
+        at: &mut Iterate,
+        report: &mut Report,
+        control: &Control,
+    ) -> Result<bool> {
+        let (misses, from) = at.misses;
+        let is_sound = at.shift == 0.0 && at.state.broken() == 0;
+        if at.solved_at.is_none() || report.iterations < from || !is_sound {
+            return Ok(false);
+        }
+        let forcing = f64::min(FORCING * (at.error / at.last_error).powi(2), MAX_FORCING);
+        let found = self.solve_near(system, at, forcing, (report, control))?;
+        at.misses = if found { (0, 0) } else { (misses + 1, report.iterations + (2 << misses.min(8))) };
+        Ok(found)
+    }
+
+    /// `at.step` from `at.residual` with an earlier factor, up to this share of the error; false where that does not pay.
+    pub(super) fn solve_near(
+        &self,
+        system: &mut System,
+        at: &mut Iterate,
+        share: f64,
+        (report, control): (&mut Report, &Control),
+    ) -> Result<bool> {
+        let [left, sum] = [LEAST_LEFT, LEAST_SUM].map(|least| f64::max(share * at.error, least));
+        let goal = Goal { left, sum: if self.free_scale() { sum } else { f64::INFINITY } };
+        let Iterate { residual, step, .. } = at;
+        let seconds = &mut report.seconds.solve;
+        let found = timed(seconds, || system.solve_near(residual, goal, step, control))?;
+        if found && self.free_scale() {
+            center(step);
+        }
+        Ok(found)
     }
 
     /// The Newton direction of a matrix that has been assembled.
@@ -303,6 +374,7 @@ impl Flow {
         let mut last = f64::INFINITY;
         for _ in 0..SHIFTS {
             control.check()?;
+            report.factorisations += 1;
             let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
             if factored && self.solve_step(system, at, report) {
                 // A step that more shift does not shorten is not the loose vertices': the line search will cap it.
@@ -323,55 +395,13 @@ impl Flow {
     }
 
     /// `at.step` from `at.residual` with the last factor; false where it is not finite.
-    fn solve_step(&self, system: &mut System, at: &mut Iterate, report: &mut Report) -> bool {
+    pub(super) fn solve_step(&self, system: &mut System, at: &mut Iterate, report: &mut Report) -> bool {
         let solved =
             timed(&mut report.seconds.solve, || system.solve(&at.residual, self.enough(), &mut at.step));
         if solved && self.free_scale() {
             center(&mut at.step);
         }
         solved
-    }
-
-    /// An error that needs no more polish.
-    fn polished(&self) -> f64 {
-        if self.metric.space == Space::H2 { 0.0 } else { POLISH_TO }
-    }
-
-    /// Steps with the last factor, as long as they at least halve the error and flip nothing: iterative refinement of the nonlinear
-    /// system at the price of a solve.
-    fn polish(
-        &mut self,
-        system: &mut System,
-        at: &mut Iterate,
-        report: &mut Report,
-        control: &Control,
-    ) -> Result<()> {
-        let broken = at.state.broken();
-        for _ in 0..POLISH_STEPS {
-            control.check()?;
-            at.state.residual(&self.target, &self.pinned, &mut at.residual);
-            if !self.solve_step(system, at, report) {
-                return Ok(());
-            }
-            let Iterate { state, trial, residual, step, error, .. } = at;
-            trial.set_step(state, 1.0, step);
-            state.hand_on(trial);
-            let flips = report.flips;
-            if !self.evaluate(trial, report, control)? {
-                return Ok(());
-            }
-            let now = trial.residual(&self.target, &self.pinned, residual);
-            if !(now < *error && trial.broken() <= broken) {
-                return Ok(());
-            }
-            std::mem::swap(state, trial);
-            let halved = now <= 0.5 * *error;
-            *error = now;
-            if !halved || now <= self.polished() || report.flips != flips {
-                return Ok(());
-            }
-        }
-        Ok(())
     }
 }
 

@@ -140,6 +140,9 @@ pub struct Report {
     pub trace: Vec<TraceRow>,
     /// Newton matrices that had to be shifted to be positive definite.
     pub shifted: usize,
+    /// Numeric factorisations, also those that failed: Newton steps after the first take the factor of an earlier one where that is the
+    /// shorter way.
+    pub factorisations: usize,
     /// Unknowns of the linear system and entries of its Cholesky factor (0 for the gradient flow).
     pub unknowns: usize,
     /// Entries of the Cholesky factor.
@@ -166,6 +169,7 @@ impl Report {
             residuals: Vec::new(),
             trace: Vec::new(),
             shifted: 0,
+            factorisations: 0,
             unknowns: 0,
             factor_entries: 0,
             seconds: Seconds::default(),
@@ -212,6 +216,7 @@ impl Report {
             iterations: self.iterations + rest.iterations,
             flips: self.flips + rest.flips,
             shifted: self.shifted + rest.shifted,
+            factorisations: self.factorisations + rest.factorisations,
             residuals: self.residuals,
             seconds: self.seconds,
             ..rest

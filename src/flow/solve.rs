@@ -281,7 +281,8 @@ impl Flow {
         Ok(real)
     }
 
-    /// Take the system for the present unknowns and triangulation: analysed now, or kept. It is put back by the caller.
+    /// Take the system for the present unknowns and triangulation, new or kept; one that is kept may have the factor of another
+    /// triangulation ([`Flow::analysed`]). It is put back by the caller.
     pub(super) fn take_system(&mut self, report: &mut Report) -> Result<System> {
         let flips = std::mem::take(&mut self.unseen_flips);
         let system = match self.system.take() {
@@ -297,6 +298,16 @@ impl Flow {
             })?,
         };
         report.unknowns = system.unknowns();
+        report.factor_entries = system.factor_entries();
+        Ok(system)
+    }
+
+    /// A system that can be factorised.
+    pub(super) fn analysed(&self, system: System, report: &mut Report) -> Result<System> {
+        if system.is_analysed() {
+            return Ok(system);
+        }
+        let system = timed(&mut report.seconds.analyse, || system.analysed(&self.mesh))?;
         report.factor_entries = system.factor_entries();
         Ok(system)
     }

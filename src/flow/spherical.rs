@@ -42,7 +42,8 @@ impl Flow {
         let first = at.error;
         at.shift = MIN_DAMPING;
         report.residuals.push(at.error);
-        let mut system = self.take_system(report)?;
+        let system = self.take_system(report)?;
+        let mut system = self.analysed(system, report)?;
         report.stop_reason = loop {
             if at.error <= report.tolerance {
                 break StopReason::Converged;
@@ -83,6 +84,7 @@ impl Flow {
             system.jacobian.add_diagonal(|v| at.shift * mass[v]);
         });
         let enough = self.enough();
+        report.factorisations += 1;
         let solved = timed(&mut report.seconds.factor, || system.factor()).is_ok()
             && timed(&mut report.seconds.solve, || system.solve(&at.residual, enough, &mut at.step));
         if !solved || largest(&at.step) > self.options.max_step {

@@ -15,6 +15,7 @@
 //! ```
 
 pub mod cholesky;
+pub mod conjugate;
 pub mod dense;
 pub mod gmres;
 pub mod lu;

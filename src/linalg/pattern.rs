@@ -110,18 +110,35 @@ impl Symmetric<'_> {
         })
     }
 
+    /// `y = A x`.
+    ///
+    /// # Panics
+    ///
+    /// If an array does not have n entries.
+    pub fn product(&self, x: &[f64], y: &mut [f64]) {
+        let Pattern { column_start, row } = self.pattern;
+        assert!(x.len() == self.pattern.size() && y.len() == x.len(), "one entry per row");
+        y.fill(0.0);
+        for (j, &x_j) in x.iter().enumerate() {
+            let column = column_start[j] as usize..column_start[j + 1] as usize;
+            let (rows, values) = (&row[column.clone()], &self.values[column]);
+            // The diagonal comes first.
+            let mut sum = values[0] * x_j;
+            for (&i, a) in rows.iter().zip(values).skip(1) {
+                y[i as usize] += a * x_j;
+                sum += a * x[i as usize];
+            }
+            y[j] += sum;
+        }
+    }
+
     /// `y = b − A x`.
     ///
     /// # Panics
     ///
     /// If an array does not have n entries.
     pub fn residual(&self, x: &[f64], b: &[f64], y: &mut [f64]) {
-        y.copy_from_slice(b);
-        for (i, j, a) in self.entries() {
-            y[i] -= a * x[j];
-            if i != j {
-                y[j] -= a * x[i];
-            }
-        }
+        self.product(x, y);
+        y.iter_mut().zip(b).for_each(|(y, b)| *y = b - *y);
     }
 }

@@ -11,7 +11,7 @@
 
 use super::check::{Diagnosis, diagnose_gluing, diagnose_incidence, diagnose_positions};
 use super::halfedge::Mesh;
-use super::ids::{FaceId, HalfedgeId};
+use super::ids::{FaceId, HalfedgeId, VertexId};
 use super::incidence::{Incidence, NONE};
 use super::io::Soup;
 use crate::error::{Error, Result, check_size};
@@ -81,10 +81,22 @@ impl Mesh {
 
     /// Whether every edge is determined by its two different ends.
     pub fn is_simplicial(&self) -> bool {
-        let mut ends: Vec<_> =
-            self.edges().map(|e| self.ends(e)).map(|[a, b]| (a.min(b), a.max(b))).collect();
-        ends.sort_unstable();
-        ends.iter().all(|(a, b)| a != b) && ends.windows(2).all(|w| w[0] != w[1])
+        // Per vertex, the last one that was found beside it.
+        let mut beside = vec![NONE; self.n_vertices()];
+        let mut is_new =
+            |v: VertexId, tip: VertexId| tip != v && std::mem::replace(&mut beside[tip.index()], v.0) != v.0;
+        self.vertices().all(|v| self.outgoing(v).all(|h| is_new(v, self.tip(h))))
+    }
+
+    /// Whether the faces' vertices alone give the surface: [`Mesh::from_faces`] accepts them. Edges are then determined by their ends,
+    /// and no two faces have the same vertices.
+    pub fn is_given_by_faces(&self) -> bool {
+        // In a simplicial surface, faces with the same vertices have the same edges.
+        let has_double = |f: FaceId| {
+            let [h, _, ca] = self.face_halfedges(f);
+            self.face(h.twin()).is_some_and(|g| g != f) && self.origin(self.prev(h.twin())) == self.origin(ca)
+        };
+        self.is_simplicial() && !self.faces().any(has_double)
     }
 }
 

@@ -23,19 +23,32 @@ impl Incidence {
     pub fn new(n_vertices: usize, faces: &[[u32; 3]]) -> Incidence {
         let proper = |f: &[u32; 3]| f.iter().all(|&v| (v as usize) < n_vertices) && distinct(f);
         let triangle: Vec<bool> = faces.iter().map(proper).collect();
-        let mut keyed: Vec<(u64, u32)> = Vec::with_capacity(3 * faces.len());
-        for (f, corners) in faces.iter().enumerate().filter(|(f, _)| triangle[*f]) {
-            for k in 0..3 {
-                let (a, b) = (u64::from(corners[k]), u64::from(corners[(k + 1) % 3]));
-                keyed.push((a.min(b) << 32 | a.max(b), (3 * f + k) as u32));
+        let all_sides = || {
+            let side = |f: usize, k: usize| {
+                let (a, b) = (faces[f][k], faces[f][(k + 1) % 3]);
+                (a.min(b) as usize, (a.max(b), (3 * f + k) as u32))
+            };
+            (0..faces.len()).filter(|&f| triangle[f]).flat_map(move |f| (0..3).map(move |k| side(f, k)))
+        };
+        // Counted out by the smaller end; the few sides of each vertex are then sorted by the larger one.
+        let mut start = vec![0u32; n_vertices + 1];
+        all_sides().for_each(|(a, _)| start[a + 1] += 1);
+        (0..n_vertices).for_each(|v| start[v + 1] += start[v]);
+        let mut sorted = vec![(0u32, 0u32); start[n_vertices] as usize];
+        let mut end = start.clone();
+        for (a, side) in all_sides() {
+            sorted[end[a] as usize] = side;
+            end[a] += 1;
+        }
+        let mut group = vec![0];
+        for v in 0..n_vertices {
+            let own = &mut sorted[start[v] as usize..end[v] as usize];
+            own.sort_unstable();
+            for edge in own.chunk_by(|a, b| a.0 == b.0) {
+                group.push(group[group.len() - 1] + edge.len() as u32);
             }
         }
-        keyed.sort_unstable();
-        let mut group = vec![0];
-        for edge in keyed.chunk_by(|a, b| a.0 == b.0) {
-            group.push(group[group.len() - 1] + edge.len() as u32);
-        }
-        Incidence { n_vertices, triangle, sides: keyed.into_iter().map(|(_, side)| side).collect(), group }
+        Incidence { n_vertices, triangle, sides: sorted.into_iter().map(|(_, side)| side).collect(), group }
     }
 
     /// Whether the face has three different existing vertices.

@@ -64,12 +64,14 @@ fn curvature_of(
     space: Space,
     differences: impl Fn(FaceId) -> ([f64; 3], i32) + Sync,
 ) -> Curvature {
-    let mut angles = vec![Angles { at: [0.0; 3] }; mesh.n_faces()];
-    parallel::fill(&mut angles, |f| angles_from(space, differences(f.into()).0));
+    let (mut angles, mut areas) = (vec![Angles { at: [0.0; 3] }; mesh.n_faces()], vec![0.0; mesh.n_faces()]);
+    parallel::fill_both(&mut angles, &mut areas, |f| {
+        let (r, unit) = differences(f.into());
+        (angles_from(space, r), scaled(area_from(space, r), 2 * unit))
+    });
     let at = curvature_from_angles(mesh, angles.iter().map(|a| a.at));
     let broken = mesh.faces().filter(|f| angles[f.index()].broken()).collect();
-    let face_area = |(r, unit): ([f64; 3], i32)| scaled(area_from(space, r), 2 * unit);
-    let area = mesh.faces().map(|f| face_area(differences(f))).sum::<f64>();
+    let area = areas.iter().sum::<f64>();
     let gauss_bonnet = gauss_bonnet(mesh, space, &at, area);
     Curvature { at, broken, area, gauss_bonnet }
 }

@@ -87,7 +87,9 @@ impl Metric {
 
     /// The quantities of all vertices (V entries).
     pub fn vertices(&self) -> PerVertex<Vertex> {
-        PerVertex::from_fn(self.u.len(), |v| self.vertex(v))
+        let mut vertices = vec![Vertex::default(); self.u.len()];
+        parallel::fill(&mut vertices, |v| self.vertex(v.into()));
+        vertices.into()
     }
 
     /// The quantities of a vertex.

@@ -164,17 +164,21 @@ fn genus(euler: i64, boundary_loops: usize) -> Option<usize> {
 
 /// Faces with the same set of vertices as an earlier one.
 fn duplicates(faces: &[[u32; 3]], incidence: &Incidence, defects: &mut Vec<Defect>) {
-    let key = |f: u32| {
-        let mut v = faces[f as usize];
-        v.sort_unstable();
-        v
-    };
-    let mut order: Vec<u32> =
-        (0..faces.len() as u32).filter(|&f| incidence.is_triangle(f as usize)).collect();
-    order.sort_unstable_by_key(|&f| (key(f), f));
-    let mut found: Vec<(u32, u32)> = Vec::new();
-    for same in order.chunk_by(|&a, &b| key(a) == key(b)) {
-        found.extend(same[1..].iter().map(|&f| (f, same[0])));
+    // Such faces meet in the edge of their two smaller vertices.
+    let (mut beyond, mut found) = (Vec::new(), Vec::new());
+    for sides in incidence.edges().filter(|sides| sides.len() > 1) {
+        beyond.clear();
+        for &side in sides {
+            let (face, k) = (side / 3, side as usize % 3);
+            let [start, end, third] = [k, k + 1, k + 2].map(|k| faces[face as usize][k % 3]);
+            if third > start.max(end) {
+                beyond.push((third, face));
+            }
+        }
+        beyond.sort_unstable();
+        for same in beyond.chunk_by(|a, b| a.0 == b.0) {
+            found.extend(same[1..].iter().map(|&(_, face)| (face, same[0].1)));
+        }
     }
     found.sort_unstable();
     defects.extend(found.into_iter().map(|(face, first)| Defect::DuplicateFace { face, first }));

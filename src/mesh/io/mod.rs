@@ -25,6 +25,7 @@ mod off_extras;
 mod ply;
 mod polygon;
 mod scan;
+mod shortest;
 mod soup;
 mod stl;
 mod textured;
@@ -163,7 +164,7 @@ pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Res
     textured::with_textured(soup, |data| write_glb(path, data, Some(texture))).map(drop)
 }
 
-/// Write a mesh file, atomically, with the attributes that the format has: text with 17 significant digits, PLY binary, so that
+/// Write a mesh file, atomically, with the attributes that the format has: text with the fewest digits that read back, PLY binary, so that
 /// positions read back as they are; GLB has 24 bits, see [`write_glb`]. Returned is what was left out because the format has no
 /// place for it, by name: normals and texture coordinates with more than one value at a vertex, in PLY and OFF.
 ///

@@ -3,6 +3,7 @@
 use super::budget::Budget;
 use super::polygon::Polygons;
 use super::scan::{Location, Quoted};
+use super::shortest::Shortest;
 use super::soup::{NO_NORMAL, NO_TEXCOORD, WHITE};
 use super::{Attributes, Soup, Textured, write_atomically};
 use crate::error::Result;
@@ -182,7 +183,7 @@ fn corner(place: Location<'_>, token: &str, vertices: usize) -> Result<u32> {
     }
 }
 
-/// Write an OBJ file with 17 significant digits (which read back to the same doubles), atomically. With
+/// Write an OBJ file, its numbers with the fewest digits that read back to the same doubles, atomically. With
 /// [`Textured::texcoord_weights`] a comment on the first line says that the `vt` are homogeneous.
 ///
 /// # Errors
@@ -199,7 +200,7 @@ pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
             )?;
         }
         for (v, [x, y, z]) in data.positions.iter().enumerate() {
-            write!(out, "v {x:.16e} {y:.16e} {z:.16e}")?;
+            write!(out, "v {} {} {}", Shortest(*x), Shortest(*y), Shortest(*z))?;
             if let Some([r, g, b, a]) = data.colors.get(v) {
                 write!(out, " {r:.6} {g:.6} {b:.6}")?;
                 if *a != 1.0 {
@@ -210,12 +211,12 @@ pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
         }
         for (k, [s, t]) in data.texcoords.iter().enumerate() {
             match data.texcoord_weights.get(k) {
-                Some(q) => writeln!(out, "vt {:.16e} {:.16e} {q:.16e}", q * s, q * t)?,
-                None => writeln!(out, "vt {s:.16e} {t:.16e}")?,
+                Some(q) => writeln!(out, "vt {} {} {}", Shortest(q * s), Shortest(q * t), Shortest(*q))?,
+                None => writeln!(out, "vt {} {}", Shortest(*s), Shortest(*t))?,
             }
         }
         for [x, y, z] in data.normals {
-            writeln!(out, "vn {x:.16e} {y:.16e} {z:.16e}")?;
+            writeln!(out, "vn {} {} {}", Shortest(*x), Shortest(*y), Shortest(*z))?;
         }
         let normals = !data.normals.is_empty();
         for (f, corners) in data.faces.iter().enumerate() {

@@ -6,6 +6,7 @@ use super::off_binary::parse_off_binary;
 use super::off_extras::{Columns, Extras};
 use super::polygon::Polygons;
 use super::scan::{Location, Quoted, Tokens, tokens};
+use super::shortest::Shortest;
 use super::soup::{Attributes, Soup};
 use super::write_atomically;
 use crate::error::Result;
@@ -170,7 +171,7 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
     }
 }
 
-/// Write text OFF with 17 significant digits (which read back to the same doubles), with normals, colours (0 to 255) where there
+/// Write text OFF, its numbers with the fewest digits that read back to the same doubles, with normals, colours (0 to 255) where there
 /// are any, and texture coordinates where each vertex has a single pair; atomically. Returned is what was left out, by name: normals
 /// and texture coordinates that differ between the corners of a vertex.
 ///
@@ -190,16 +191,16 @@ pub fn write_off(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
         }
         writeln!(out, "OFF\n{} {} 0", positions.len(), faces.len())?;
         for (v, [x, y, z]) in positions.iter().enumerate() {
-            write!(out, "{x:.16e} {y:.16e} {z:.16e}")?;
+            write!(out, "{} {} {}", Shortest(*x), Shortest(*y), Shortest(*z))?;
             if let Some([x, y, z]) = normals.as_ref().map(|n| n[v]) {
-                write!(out, " {x:.16e} {y:.16e} {z:.16e}")?;
+                write!(out, " {} {} {}", Shortest(x), Shortest(y), Shortest(z))?;
             }
             if let Some(color) = colors.as_ref().map(|c| c[v]) {
                 let [r, g, b, a] = color.map(|x| (255.0 * x.clamp(0.0, 1.0)).round() as u8);
                 write!(out, " {r} {g} {b} {a}")?;
             }
             if let Some([s, t]) = texture.as_ref().map(|uv| uv[v]) {
-                write!(out, " {s:.16e} {t:.16e}")?;
+                write!(out, " {} {}", Shortest(s), Shortest(t))?;
             }
             writeln!(out)?;
         }
