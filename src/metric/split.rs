@@ -206,7 +206,7 @@ impl Split {
         if !((sum - 1.0).abs() < WEIGHTS && weights.iter().all(|w| *w > -WEIGHTS)) {
             return Err(Error::argument(
                 "weights of a point",
-                sum,
+                format!("{weights:?}"),
                 "three that are not negative, with the sum 1",
             ));
         }

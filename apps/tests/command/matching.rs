@@ -190,8 +190,8 @@ fn what_cannot_be_matched_is_refused_by_name() {
     let said = place.expect(3, "match disk.obj disk.obj --soft S.csv");
     assert!(said.err.contains("soft landmark 0 lies on the boundary"), "{}", said.err);
     place.put("P.csv", "0,0.5,0.75,-0.25,0,0.5,0.25,0.25\n");
-    let said = place.expect(3, "match disk.obj disk.obj --points P.csv");
-    assert!(said.err.contains("weights of a point"), "{}", said.err);
+    let said = place.expect(2, "match disk.obj disk.obj --points P.csv");
+    assert!(said.err.contains("weights of a point is [0.5, 0.75, -0.25]"), "{}", said.err);
     place.put("F.csv", "0,1\n3,100000\n");
     place.expect(3, "match ball.obj ball.obj --landmarks F.csv");
     place.expect(2, "match ball.obj torus.obj --same-numbering");
