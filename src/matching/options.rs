@@ -33,7 +33,8 @@ pub struct MatchOptions {
     pub curves: Vec<[Vec<VertexId>; 2]>,
     /// Pairs of closed edge paths, of the source and of the target, that name the homotopy class on surfaces with handles: the map brings each to its partner. They
     /// generate the fundamental groups of both, a basis of 2g loops of a closed surface for example, and 2g + b − 1 with b boundary loops; on each surface they
-    /// all start at one vertex, but on tori. Without any, a class of low energy is searched.
+    /// all start at one vertex, but on tori. Landmarks leave this class of the surface without them as it is, whatever the ways on
+    /// which they are pushed to their partners. Without any loops, a class of low energy is searched.
     pub basis: Vec<[Vec<HalfedgeId>; 2]>,
     /// Which boundary loop of the target each of the source's goes to, by their places in [`crate::mesh::Mesh::boundary_loops`]. Default: the
     /// longest to the longest, and so on.
