@@ -157,9 +157,10 @@ static void check_basis(const ricci_mesh *torus) {
     CHECK(summary_of(matching).n_markings == 1);
     ricci_matching_free(matching);
     matching = NULL;
-    /* b goes to b a. */
+    /* b goes to b a a. */
     memcpy(basis + 2 * a + 2 * b, edges, a * sizeof *basis);
-    sizes[3] = (uint32_t)(a + b);
+    memcpy(basis + 3 * a + 2 * b, edges, a * sizeof *basis);
+    sizes[3] = (uint32_t)(2 * a + b);
     OK(ricci_match(torus, torus, &options, NULL, &matching));
     CHECK(summary_of(matching).energy > 1.05 * energy && summary_of(matching).n_flipped == 0);
     ricci_matching_free(matching);
